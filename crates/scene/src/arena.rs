@@ -1,0 +1,174 @@
+//! A list whose items keep their index for as long as they live.
+//!
+//! The scene refers to its parts by [`Id`]: an index, which is also what the
+//! id buffers of a picture hold, and a generation, so that an id kept after its
+//! item was removed finds nothing instead of a stranger that took the place.
+
+use std::fmt;
+use std::hash::{Hash, Hasher};
+use std::marker::PhantomData;
+
+/// Names an item of an [`Arena`]. Copyable, and never confused with an id of
+/// another kind of item.
+pub struct Id<T> {
+    index: u32,
+    generation: u32,
+    kind: PhantomData<fn() -> T>,
+}
+
+impl<T> Id<T> {
+    /// The item's place in its arena; what an id buffer holds.
+    pub fn index(self) -> usize {
+        self.index as usize
+    }
+}
+
+impl<T> Clone for Id<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<T> Copy for Id<T> {}
+impl<T> PartialEq for Id<T> {
+    fn eq(&self, other: &Self) -> bool {
+        (self.index, self.generation) == (other.index, other.generation)
+    }
+}
+impl<T> Eq for Id<T> {}
+impl<T> Hash for Id<T> {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.index, self.generation).hash(state);
+    }
+}
+impl<T> PartialOrd for Id<T> {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl<T> Ord for Id<T> {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        (self.index, self.generation).cmp(&(other.index, other.generation))
+    }
+}
+impl<T> fmt::Debug for Id<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "#{}", self.index)?;
+        if self.generation > 0 { write!(f, "v{}", self.generation) } else { Ok(()) }
+    }
+}
+
+#[derive(Clone, Debug)]
+struct Slot<T> {
+    generation: u32,
+    item: Option<T>,
+}
+
+/// Items with stable indices. The place of a removed item is used again by a
+/// later one, under a new generation.
+#[derive(Clone, Debug)]
+pub struct Arena<T> {
+    slots: Vec<Slot<T>>,
+    free: Vec<u32>,
+}
+
+impl<T> Default for Arena<T> {
+    fn default() -> Self {
+        Self { slots: Vec::new(), free: Vec::new() }
+    }
+}
+
+impl<T> Arena<T> {
+    /// Adds an item.
+    ///
+    /// # Panics
+    /// With more than `u32::MAX - 1` items: the last value marks background in
+    /// id buffers.
+    pub fn insert(&mut self, item: T) -> Id<T> {
+        if let Some(index) = self.free.pop() {
+            let slot = &mut self.slots[index as usize];
+            slot.item = Some(item);
+            return Id { index, generation: slot.generation, kind: PhantomData };
+        }
+        let index = u32::try_from(self.slots.len()).ok().filter(|&index| index < u32::MAX);
+        let index = index.expect("an arena holds fewer than u32::MAX items");
+        self.slots.push(Slot { generation: 0, item: Some(item) });
+        Id { index, generation: 0, kind: PhantomData }
+    }
+
+    /// Takes an item out; `None` when it is already gone.
+    pub fn remove(&mut self, id: Id<T>) -> Option<T> {
+        let slot = self.slots.get_mut(id.index()).filter(|slot| slot.generation == id.generation)?;
+        let item = slot.item.take()?;
+        slot.generation = slot.generation.wrapping_add(1);
+        self.free.push(id.index);
+        Some(item)
+    }
+
+    /// The item, or `None` when it was removed.
+    pub fn get(&self, id: Id<T>) -> Option<&T> {
+        let slot = self.slots.get(id.index())?;
+        slot.item.as_ref().filter(|_| slot.generation == id.generation)
+    }
+
+    /// The item to change, or `None` when it was removed.
+    pub fn get_mut(&mut self, id: Id<T>) -> Option<&mut T> {
+        let slot = self.slots.get_mut(id.index())?;
+        let generation = slot.generation;
+        slot.item.as_mut().filter(|_| generation == id.generation)
+    }
+
+    /// The id of the living item at an index, as an id buffer holds it.
+    pub fn id_at(&self, index: usize) -> Option<Id<T>> {
+        let slot = self.slots.get(index).filter(|slot| slot.item.is_some())?;
+        Some(Id { index: u32::try_from(index).ok()?, generation: slot.generation, kind: PhantomData })
+    }
+
+    /// All items in the order of their indices.
+    pub fn iter(&self) -> impl Iterator<Item = (Id<T>, &T)> {
+        self.slots.iter().zip(0u32..).filter_map(|(slot, index)| {
+            let id = Id { index, generation: slot.generation, kind: PhantomData };
+            slot.item.as_ref().map(|item| (id, item))
+        })
+    }
+
+    /// All items to change, in the order of their indices.
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = (Id<T>, &mut T)> {
+        self.slots.iter_mut().zip(0u32..).filter_map(|(slot, index)| {
+            let id = Id { index, generation: slot.generation, kind: PhantomData };
+            slot.item.as_mut().map(|item| (id, item))
+        })
+    }
+
+    /// How many items there are.
+    pub fn len(&self) -> usize {
+        self.slots.len() - self.free.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// One more than the largest index in use: the length of a table by index.
+    pub fn index_bound(&self) -> usize {
+        self.slots.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Arena;
+
+    #[test]
+    fn an_id_outlives_its_item_without_finding_a_stranger() {
+        let mut arena = Arena::default();
+        let first = arena.insert("first");
+        assert_eq!(arena.remove(first), Some("first"), "it was there");
+        let second = arena.insert("second");
+        assert_eq!(second.index(), first.index(), "the place is used again");
+        assert_eq!(arena.get(first), None, "the old id is dead");
+        assert_eq!(arena.remove(first), None, "and stays dead");
+        assert_eq!(arena.get(second), Some(&"second"), "the new id lives");
+        assert_eq!(arena.len(), 1, "one item");
+    }
+}

@@ -1,0 +1,40 @@
+//! What is seen where nothing is drawn.
+
+use trigon_math::{Vec3, Vec4};
+
+/// What is seen where nothing is drawn. Colours are linear RGB.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Background {
+    /// One colour.
+    Color(Vec3),
+    /// From one colour at the top edge of the picture to another at the bottom.
+    Gradient {
+        /// At the upper edge.
+        top: Vec3,
+        /// At the lower edge.
+        bottom: Vec3,
+    },
+    /// Nothing: the picture's alpha is 0 there.
+    Transparent,
+}
+
+impl Default for Background {
+    /// A quiet grey-blue gradient on which light and dark models both stand out.
+    fn default() -> Self {
+        Self::Gradient { top: Vec3::new(0.16, 0.19, 0.24), bottom: Vec3::new(0.52, 0.55, 0.58) }
+    }
+}
+
+impl Background {
+    /// Premultiplied linear colour of a row, `y` of `height`.
+    pub(crate) fn row(&self, y: u32, height: u32) -> Vec4 {
+        match *self {
+            Self::Color(color) => color.extend(1.0),
+            Self::Gradient { top, bottom } => {
+                let down = (y as f32 + 0.5) / height as f32;
+                (top + (bottom - top) * down).extend(1.0)
+            }
+            Self::Transparent => Vec4::ZERO,
+        }
+    }
+}

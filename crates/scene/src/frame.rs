@@ -1,0 +1,62 @@
+//! A finished picture, owned, with what was asked for beside the colours.
+
+use crate::arena::Arena;
+use crate::node::Node;
+use crate::scene::NodeId;
+
+/// A finished picture. Rows run from the top, pixels from the left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Pixels.
+    pub width: u32,
+    /// Pixels.
+    pub height: u32,
+    /// Four bytes a pixel: sRGB and straight (not premultiplied) alpha.
+    pub color: Vec<u8>,
+    /// Distance from the camera along its view axis in metres, infinite where
+    /// nothing was drawn. Taken at the pixel's centre.
+    pub depth: Option<Vec<f32>>,
+    /// Index of the node, `u32::MAX` where nothing was drawn. Taken at the
+    /// pixel's centre, never mixed.
+    pub object_ids: Option<Vec<u32>>,
+    /// Index of the polygon in its mesh, `u32::MAX` where nothing was drawn.
+    pub face_ids: Option<Vec<u32>>,
+}
+
+/// What a pixel shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Hit {
+    /// The node.
+    pub node: NodeId,
+    /// Index of the polygon in the node's mesh; `None` for lines and points.
+    pub face: Option<usize>,
+}
+
+impl Frame {
+    /// Red, green, blue and alpha of a pixel.
+    ///
+    /// # Panics
+    /// Outside the picture.
+    pub fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
+        let at = 4 * self.index(x, y);
+        [self.color[at], self.color[at + 1], self.color[at + 2], self.color[at + 3]]
+    }
+
+    /// What a pixel shows, in constant time: `None` for background, outside
+    /// the picture, and when ids were not asked for.
+    pub fn hit(&self, nodes: &Arena<Node>, x: u32, y: u32) -> Option<Hit> {
+        if x >= self.width || y >= self.height {
+            return None;
+        }
+        let at = self.index(x, y);
+        let object = self.object_ids.as_ref()?[at];
+        let node = nodes.id_at(object as usize)?;
+        let face = self.face_ids.as_ref().map(|ids| ids[at]).filter(|&face| face != u32::MAX);
+        Some(Hit { node, face: face.map(|face| face as usize) })
+    }
+
+    fn index(&self, x: u32, y: u32) -> usize {
+        assert!(x < self.width && y < self.height, "pixel ({x}, {y}) is outside {}×{}", self.width, self.height);
+        y as usize * self.width as usize + x as usize
+    }
+}

@@ -1,0 +1,257 @@
+//! The scene: a forest of nodes over shared meshes, materials and textures.
+
+use std::sync::{Arc, OnceLock};
+
+use thiserror::Error;
+use trigon_camera::{Camera, Projection};
+use trigon_math::{Bounds3, DAffine3, DMat3, DQuat, DVec3};
+use trigon_mesh::{Mesh, RenderMesh};
+use trigon_raster::Texture;
+
+use crate::arena::{Arena, Id};
+use crate::material::Material;
+use crate::node::Node;
+
+/// Names a node.
+pub type NodeId = Id<Node>;
+/// Names a mesh.
+pub type MeshId = Id<MeshAsset>;
+/// Names a material.
+pub type MaterialId = Id<Material>;
+/// Names a texture.
+pub type TextureId = Id<TextureAsset>;
+
+/// A mesh as the scene shares it between nodes.
+#[derive(Clone, Debug)]
+pub struct MeshAsset {
+    /// For people; need not be unique.
+    pub name: String,
+    mesh: Arc<Mesh>,
+    render_mesh: OnceLock<Arc<RenderMesh>>,
+}
+
+impl MeshAsset {
+    /// The polygons.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// What is drawn of it; made at the first use.
+    pub fn render_mesh(&self) -> &RenderMesh {
+        self.render_mesh.get_or_init(|| Arc::new(RenderMesh::from_mesh(&self.mesh)))
+    }
+}
+
+/// A texture as the scene shares it between materials.
+#[derive(Clone, Debug)]
+pub struct TextureAsset {
+    /// For people; need not be unique.
+    pub name: String,
+    /// The picture.
+    pub texture: Arc<Texture>,
+}
+
+/// A change that would break the node forest.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+pub enum SceneError {
+    /// The node was removed, or belongs to another scene.
+    #[error("node {0:?} is not in the scene; it was removed, or belongs to another one")]
+    NoSuchNode(NodeId),
+    /// A node cannot hang on itself or on one of its descendants.
+    #[error("node {child:?} cannot hang on {parent:?}, which hangs on it; detach {parent:?} first")]
+    Cycle {
+        /// The node that was to be moved.
+        child: NodeId,
+        /// Where it was to hang.
+        parent: NodeId,
+    },
+}
+
+/// Everything that can be drawn: nodes, and the meshes, materials and textures
+/// that they share.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// Shared meshes.
+    meshes: Arena<MeshAsset>,
+    /// Shared materials.
+    pub materials: Arena<Material>,
+    /// Shared textures.
+    pub textures: Arena<TextureAsset>,
+    nodes: Arena<Node>,
+}
+
+impl Scene {
+    /// An empty scene.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a mesh, to be drawn by nodes.
+    pub fn add_mesh(&mut self, name: impl Into<String>, mesh: Mesh) -> MeshId {
+        self.meshes.insert(MeshAsset { name: name.into(), mesh: Arc::new(mesh), render_mesh: OnceLock::new() })
+    }
+
+    /// Changes a mesh for every node that draws it; `None` when it was removed.
+    pub fn replace_mesh(&mut self, id: MeshId, mesh: Mesh) -> Option<()> {
+        let asset = self.meshes.get_mut(id)?;
+        asset.mesh = Arc::new(mesh);
+        asset.render_mesh = OnceLock::new();
+        Some(())
+    }
+
+    /// All meshes.
+    pub fn meshes(&self) -> &Arena<MeshAsset> {
+        &self.meshes
+    }
+
+    /// Adds a material.
+    pub fn add_material(&mut self, material: Material) -> MaterialId {
+        self.materials.insert(material)
+    }
+
+    /// Adds a texture.
+    pub fn add_texture(&mut self, name: impl Into<String>, texture: Texture) -> TextureId {
+        self.textures.insert(TextureAsset { name: name.into(), texture: Arc::new(texture) })
+    }
+
+    /// Adds a node as a root.
+    pub fn add(&mut self, node: Node) -> NodeId {
+        self.nodes.insert(Node { parent: None, children: Vec::new(), ..node })
+    }
+
+    /// Adds a node that hangs on another one; `None` when that one is gone.
+    pub fn add_child(&mut self, parent: NodeId, node: Node) -> Option<NodeId> {
+        self.nodes.get(parent)?;
+        let child = self.nodes.insert(Node { parent: Some(parent), children: Vec::new(), ..node });
+        self.nodes.get_mut(parent)?.children.push(child);
+        Some(child)
+    }
+
+    /// Adds a mesh in a material as a new root: the short way to an object.
+    pub fn add_object(&mut self, name: impl Into<String>, mesh: Mesh, material: Material) -> NodeId {
+        let name = name.into();
+        let mesh = self.add_mesh(name.clone(), mesh);
+        let material = self.add_material(material);
+        self.add(Node::from_mesh(mesh, material).with_name(name))
+    }
+
+    /// All nodes, in the order of their indices.
+    pub fn nodes(&self) -> &Arena<Node> {
+        &self.nodes
+    }
+
+    /// A node, or `None` when it was removed.
+    pub fn node(&self, id: NodeId) -> Option<&Node> {
+        self.nodes.get(id)
+    }
+
+    /// A node to change, or `None` when it was removed.
+    pub fn node_mut(&mut self, id: NodeId) -> Option<&mut Node> {
+        self.nodes.get_mut(id)
+    }
+
+    /// All nodes to change, in the order of their indices.
+    pub fn nodes_mut(&mut self) -> impl Iterator<Item = (NodeId, &mut Node)> {
+        self.nodes.iter_mut()
+    }
+
+    /// Removes a node and everything that hangs on it. Meshes and materials
+    /// stay: others may share them. Returns how many nodes went.
+    pub fn remove(&mut self, id: NodeId) -> usize {
+        self.unhook(id);
+        let (mut waiting, mut removed) = (vec![id], 0);
+        while let Some(next) = waiting.pop() {
+            if let Some(node) = self.nodes.remove(next) {
+                waiting.extend(node.children);
+                removed += 1;
+            }
+        }
+        removed
+    }
+
+    /// Hangs a node on another one, or makes it a root. Its transform is kept
+    /// as it is, relative to the new parent.
+    ///
+    /// # Errors
+    /// When either is gone, or the node would hang on itself.
+    pub fn set_parent(&mut self, child: NodeId, parent: Option<NodeId>) -> Result<(), SceneError> {
+        self.nodes.get(child).ok_or(SceneError::NoSuchNode(child))?;
+        if let Some(parent) = parent {
+            self.nodes.get(parent).ok_or(SceneError::NoSuchNode(parent))?;
+            if self.ancestors(parent).any(|ancestor| ancestor == child) {
+                return Err(SceneError::Cycle { child, parent });
+            }
+        }
+        self.unhook(child);
+        if let Some(node) = self.nodes.get_mut(child) {
+            node.parent = parent;
+        }
+        if let Some(parent) = parent.and_then(|parent| self.nodes.get_mut(parent)) {
+            parent.children.push(child);
+        }
+        Ok(())
+    }
+
+    /// A node, its parent, and so on up to the root.
+    pub fn ancestors(&self, id: NodeId) -> impl Iterator<Item = NodeId> {
+        std::iter::successors(Some(id), |&id| self.nodes.get(id).and_then(|node| node.parent))
+    }
+
+    /// The map from a node's space into the world's; identity when it is gone.
+    pub fn world_transform(&self, id: NodeId) -> DAffine3 {
+        let local = |id| self.nodes.get(id).map_or(DAffine3::IDENTITY, |node| node.transform.to_affine());
+        self.ancestors(id).fold(DAffine3::IDENTITY, |inner, id| local(id) * inner)
+    }
+
+    /// For each node by index: its map into the world, or `None` when it, or
+    /// what it hangs on, is hidden or gone. One visit per node, whatever the depth.
+    pub fn visible_transforms(&self) -> Vec<Option<DAffine3>> {
+        let mut table = vec![None; self.nodes.index_bound()];
+        let roots = self.nodes.iter().filter(|(_, node)| node.parent.is_none());
+        let mut waiting: Vec<(NodeId, DAffine3)> = roots.map(|(id, _)| (id, DAffine3::IDENTITY)).collect();
+        while let Some((id, outer)) = waiting.pop() {
+            let Some(node) = self.nodes.get(id).filter(|node| node.visible) else { continue };
+            let world = outer * node.transform.to_affine();
+            table[id.index()] = Some(world);
+            waiting.extend(node.children.iter().map(|&child| (child, world)));
+        }
+        table
+    }
+
+    /// The smallest box around everything that is visible; empty when nothing is.
+    pub fn bounds(&self) -> Bounds3 {
+        let transforms = self.visible_transforms();
+        let mut mesh_bounds: Vec<Option<Bounds3>> = vec![None; self.meshes.index_bound()];
+        let mut bounds = Bounds3::EMPTY;
+        for (id, node) in self.nodes.iter() {
+            let (Some(world), Some(mesh)) = (transforms[id.index()], node.mesh) else { continue };
+            let Some(asset) = self.meshes.get(mesh) else { continue };
+            let local = *mesh_bounds[mesh.index()].get_or_insert_with(|| asset.mesh.bounds());
+            bounds = bounds.union(&local.transformed(&world));
+        }
+        bounds
+    }
+
+    /// The cameras that stand in the scene, in the order of their nodes: what
+    /// a viewer of the file can choose from. A camera's scale is ignored.
+    pub fn cameras(&self) -> Vec<(NodeId, Camera)> {
+        let holders = self.nodes.iter().filter_map(|(id, node)| Some((id, node.camera.clone()?)));
+        holders.map(|(id, projection)| (id, camera_at(&self.world_transform(id), projection))).collect()
+    }
+
+    fn unhook(&mut self, id: NodeId) {
+        let parent = self.nodes.get(id).and_then(|node| node.parent);
+        if let Some(parent) = parent.and_then(|parent| self.nodes.get_mut(parent)) {
+            parent.children.retain(|&child| child != id);
+        }
+    }
+}
+
+/// A camera at a node: the node's rotation without its scale.
+fn camera_at(world: &DAffine3, projection: Projection) -> Camera {
+    let back = world.transform_vector3(DVec3::Z).try_normalize().unwrap_or(DVec3::Z);
+    let up = world.transform_vector3(DVec3::Y);
+    let right = up.cross(back).try_normalize().unwrap_or_else(|| back.any_orthonormal_vector());
+    let rotation = DMat3::from_cols(right, back.cross(right), back);
+    Camera { position: world.translation, orientation: DQuat::from_mat3(&rotation).normalize(), projection }
+}

@@ -1,0 +1,97 @@
+//! What a picture is to hold and how it is drawn.
+
+use std::num::NonZeroUsize;
+
+use trigon_math::Vec3;
+
+use crate::background::Background;
+
+/// The largest width or height of a picture, in pixels.
+pub const MAX_SIZE: u32 = 16384;
+
+/// How surfaces and edges are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Style {
+    /// Filled faces.
+    #[default]
+    Surface,
+    /// Filled faces with the edges of the polygons on them.
+    SurfaceWithEdges,
+    /// The edges of the polygons alone, hidden ones too.
+    Wireframe,
+    /// The edges that no face hides.
+    HiddenLine,
+}
+
+/// Which lights a picture uses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Lighting {
+    /// The scene's own lights, or the studio lights when it has none.
+    #[default]
+    Automatic,
+    /// The scene's own lights only.
+    Scene,
+    /// A key, a fill and a rim light that move with the camera, and a little
+    /// ambient light; the scene's own lights are out.
+    Studio,
+}
+
+/// What a picture holds beside its colours. What is not asked for is not
+/// computed and not allocated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Outputs {
+    /// Distance along the view axis.
+    pub depth: bool,
+    /// The node and the polygon of each pixel.
+    pub ids: bool,
+}
+
+/// How a picture is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RenderSettings {
+    /// Pixels, 1 to [`MAX_SIZE`].
+    pub width: u32,
+    /// Pixels, 1 to [`MAX_SIZE`].
+    pub height: u32,
+    /// Anti-aliasing: this many samples along each side of a pixel, 1 to 4,
+    /// averaged in linear light.
+    pub samples_per_axis: u32,
+    /// Behind everything.
+    pub background: Background,
+    /// Faces, edges or both.
+    pub style: Style,
+    /// Width of edges and of loose lines, in pixels.
+    pub line_width: f32,
+    /// Linear RGB of the edges in all styles but [`Style::Surface`].
+    pub edge_color: Vec3,
+    /// Which lights.
+    pub lighting: Lighting,
+    /// Beside the colours.
+    pub outputs: Outputs,
+    /// At most this many threads; `None` for one per core. The picture does
+    /// not depend on it.
+    pub threads: Option<NonZeroUsize>,
+}
+
+impl RenderSettings {
+    /// A picture of a size, with 3×3 samples a pixel, and defaults elsewhere.
+    pub fn new(width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            samples_per_axis: 3,
+            background: Background::default(),
+            style: Style::default(),
+            line_width: 1.0,
+            edge_color: Vec3::splat(0.02),
+            lighting: Lighting::default(),
+            outputs: Outputs::default(),
+            threads: None,
+        }
+    }
+
+    /// Width over height.
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.width.max(1)) / f64::from(self.height.max(1))
+    }
+}
