@@ -1,1 +1,54 @@
-//! trigon-camera
+//! Cameras in double precision: where the eye is, how it sees, and how a hand
+//! turns it. In the pipeline this is what stands between a scene in world
+//! coordinates and a rasterizer in clip coordinates.
+//!
+//! Conventions, held by every function here:
+//! - World and camera space are right-handed. The camera looks along −Z, +Y is up.
+//! - Clip space: x and y in `[-w, w]`, y up. Depth is reversed: 1 on the near
+//!   plane, 0 on the far plane or at infinity.
+//! - Screen: origin in the top-left corner, y down, pixel `(i, j)` has its
+//!   centre at `(i + 0.5, j + 0.5)`.
+//! - Angles are radians, lengths are the world's (metres).
+//!
+//! What this crate never does: it knows no windows, no input devices, no
+//! meshes and no pixels' contents.
+//!
+//! ```
+//! use trigon_camera::{Camera, Projector, Viewport};
+//! use trigon_math::{DVec2, DVec3};
+//!
+//! let camera = Camera::look_at(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, DVec3::Y);
+//! let projector = Projector::new(&camera, Viewport { width: 10, height: 5 });
+//!
+//! // What the camera looks at lands in the middle of the picture …
+//! let (screen, depth) = projector.to_screen_and_depth(DVec3::ZERO).expect("in front of the eye");
+//! assert_eq!(screen, DVec2::new(5.0, 2.5));
+//! // … and comes back from there.
+//! let point = projector.unproject(screen, depth).expect("not at infinity");
+//! assert!(point.length() < 1e-12);
+//! // What is behind the eye is nowhere on the screen.
+//! assert_eq!(projector.to_screen(DVec3::new(0.0, 0.0, 6.0)), None);
+//! ```
+
+mod camera;
+mod clip_map;
+mod controller;
+mod error;
+mod fit;
+mod pinhole;
+mod projection;
+mod projector;
+mod ray;
+mod view;
+mod viewport;
+
+pub use camera::Camera;
+pub use controller::{AxisView, Orbit, OrbitStyle};
+pub use error::CameraError;
+pub use fit::{DEFAULT_MARGIN, Extent};
+pub use pinhole::PixelCenters;
+pub use projection::Projection;
+pub use projector::Projector;
+pub use ray::Ray;
+pub use view::orientation_looking;
+pub use viewport::Viewport;

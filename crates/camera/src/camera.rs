@@ -1,0 +1,107 @@
+//! A camera: an eye, a way it is turned, and a projection.
+
+use trigon_math::{DAffine3, DMat3, DMat4, DQuat, DVec3};
+
+use crate::{Projection, orientation_looking};
+
+/// Where the eye is and how it sees.
+///
+/// In camera space the eye is the origin, the line of sight is −Z, +X is right
+/// and +Y is up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// The eye, in world coordinates.
+    pub position: DVec3,
+    /// Turns camera space into world space. Has to have unit length.
+    pub orientation: DQuat,
+    /// The shape of what is visible.
+    pub projection: Projection,
+}
+
+impl Default for Camera {
+    /// At the origin, looking along −Z, with the default projection.
+    fn default() -> Self {
+        Self { position: DVec3::ZERO, orientation: DQuat::IDENTITY, projection: Projection::default() }
+    }
+}
+
+impl Camera {
+    /// A camera at `position` that looks at `target`, with `up` towards the
+    /// upper edge of the picture and the default projection.
+    ///
+    /// A target at the position itself counts as one along −Z; for an `up`
+    /// along the line of sight see [`orientation_looking`].
+    #[must_use]
+    pub fn look_at(position: DVec3, target: DVec3, up: DVec3) -> Self {
+        Self {
+            position,
+            orientation: orientation_looking(target - position, up),
+            projection: Projection::default(),
+        }
+    }
+
+    /// The same camera with another projection.
+    #[must_use]
+    pub fn with_projection(self, projection: Projection) -> Self {
+        Self { projection, ..self }
+    }
+
+    /// A camera from the extrinsic matrix of computer vision: `world_to_camera`
+    /// is `[R | t]` into axes x right, y down, z forward. The rotation has to
+    /// be one; scale or shear in it is dropped.
+    #[must_use]
+    pub fn from_opencv(world_to_camera: &DAffine3, projection: Projection) -> Self {
+        let rows = world_to_camera.matrix3.transpose();
+        let axes = DMat3::from_cols(rows.x_axis, -rows.y_axis, -rows.z_axis);
+        Self {
+            position: -(rows * world_to_camera.translation),
+            orientation: DQuat::from_mat3(&axes).normalize(),
+            projection,
+        }
+    }
+
+    /// World to camera space. Far from the origin prefer [`Camera::to_camera`],
+    /// which subtracts before it turns.
+    #[must_use]
+    pub fn view(&self) -> DAffine3 {
+        let turn = self.orientation.conjugate();
+        DAffine3::from_rotation_translation(turn, turn * -self.position)
+    }
+
+    /// World to clip space, for a picture of this aspect (width over height).
+    #[must_use]
+    pub fn view_projection(&self, aspect: f64) -> DMat4 {
+        self.projection.matrix(aspect) * DMat4::from(self.view())
+    }
+
+    /// A point of the world in camera space. The eye is subtracted first, so
+    /// the result is as good at 10⁷ metres from the origin as at it.
+    #[must_use]
+    pub fn to_camera(&self, point: DVec3) -> DVec3 {
+        self.orientation.conjugate() * (point - self.position)
+    }
+
+    /// A point of camera space in the world.
+    #[must_use]
+    pub fn to_world(&self, point: DVec3) -> DVec3 {
+        self.orientation * point + self.position
+    }
+
+    /// The line of sight, unit length, in the world.
+    #[must_use]
+    pub fn forward(&self) -> DVec3 {
+        self.orientation * DVec3::NEG_Z
+    }
+
+    /// Towards the right edge of the picture, unit length, in the world.
+    #[must_use]
+    pub fn right(&self) -> DVec3 {
+        self.orientation * DVec3::X
+    }
+
+    /// Towards the upper edge of the picture, unit length, in the world.
+    #[must_use]
+    pub fn up(&self) -> DVec3 {
+        self.orientation * DVec3::Y
+    }
+}

@@ -1,0 +1,70 @@
+//! What can be wrong with the numbers that describe a camera: which number,
+//! what it was, and what would have been accepted.
+
+/// A camera cannot be built from these numbers.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CameraError {
+    /// One number is outside its range (or is not a number).
+    #[error("{what} is {value}, but has to be {allowed}")]
+    OutOfRange {
+        /// The name of the number, as the constructor calls it.
+        what: &'static str,
+        /// What it was.
+        value: f64,
+        /// The range that is accepted, in words.
+        allowed: &'static str,
+    },
+    /// Two numbers that bound something are equal, in the wrong order, or so
+    /// close together that nothing fits between them.
+    #[error(
+        "{low_name} is {low} and {high_name} is {high}, but {low_name} has to be clearly less than {high_name}"
+    )]
+    Unordered {
+        /// The name of the number that has to be less.
+        low_name: &'static str,
+        /// What it was.
+        low: f64,
+        /// The name of the number that has to be greater.
+        high_name: &'static str,
+        /// What it was.
+        high: f64,
+    },
+}
+
+impl CameraError {
+    /// Checks that `value` is finite.
+    pub(crate) fn check_finite(what: &'static str, value: f64) -> Result<(), Self> {
+        Self::check(what, value, value.is_finite(), "a finite number")
+    }
+
+    /// Checks that `value` is finite and greater than zero.
+    pub(crate) fn check_positive(what: &'static str, value: f64) -> Result<(), Self> {
+        Self::check(what, value, value.is_finite() && value > 0.0, "a finite number greater than 0")
+    }
+
+    /// Fails with this number and range unless `good`.
+    pub(crate) fn check(
+        what: &'static str,
+        value: f64,
+        good: bool,
+        allowed: &'static str,
+    ) -> Result<(), Self> {
+        if good { Ok(()) } else { Err(Self::OutOfRange { what, value, allowed }) }
+    }
+
+    /// Checks that `low < high` and that their difference can be divided by.
+    pub(crate) fn check_ordered(
+        (low_name, low): (&'static str, f64),
+        (high_name, high): (&'static str, f64),
+    ) -> Result<(), Self> {
+        Self::check_finite(low_name, low)?;
+        Self::check_finite(high_name, high)?;
+        let width = high - low;
+        if width > 0.0 && width.is_finite() && width.recip().is_finite() {
+            Ok(())
+        } else {
+            Err(Self::Unordered { low_name, low, high_name, high })
+        }
+    }
+}

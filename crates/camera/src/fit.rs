@@ -1,0 +1,195 @@
+//! Placing a camera so that a model fills the picture, and placing the near
+//! and far planes around it.
+//!
+//! The box is fitted by its eight corners as they are projected, not by its
+//! bounding sphere: a tall tower fills the height of the picture. The target
+//! stays the box's centre, so that a camera that orbits it does not wobble.
+//! Everything scales with the box: a model of 10⁻⁶ and one of 10²⁰ give the
+//! same picture.
+
+use trigon_math::{Bounds3, DQuat, DVec2, DVec3};
+
+use crate::clip_map::Kind;
+use crate::{Camera, Projection, orientation_looking};
+
+/// The part of the picture that stays empty around a fitted model: 10 %.
+pub const DEFAULT_MARGIN: f64 = 0.1;
+
+/// More than this fraction of empty picture is refused: nothing would be left.
+const LARGEST_MARGIN: f64 = 0.95;
+
+/// Half the size that stands in for a box without any.
+const UNIT_RADIUS: f64 = 0.5;
+
+/// A box smaller than this fraction of its distance from the origin counts as
+/// this large: below, f64 could not move an eye around it smoothly.
+const SMALLEST_RELATIVE_RADIUS: f64 = 1e-12;
+
+/// Boxes beyond this count as unusable: squares of lengths would overflow.
+const LARGEST_COORDINATE: f64 = 1e150;
+
+/// The eye keeps at least this fraction of the radius away from the box.
+const CLEARANCE: f64 = 0.05;
+
+/// The near plane is never nearer than this fraction of the farthest point.
+/// Reversed depth would bear less; this keeps depths comparable between frames.
+const NEAREST: f64 = 1e-5;
+
+/// Planes keep this fraction of the depth range away from the box.
+const SLACK: f64 = 0.01;
+
+/// A box as cameras see it: always usable, whatever the bounds were.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    center: DVec3,
+    half: DVec3,
+    radius: f64,
+}
+
+impl Extent {
+    /// The extent of these bounds. Empty or unusable bounds (not finite, or
+    /// beyond 10¹⁵⁰) count as a box of size 1 about the origin, and a single
+    /// point as a small neighbourhood of it.
+    #[must_use]
+    pub fn new(bounds: &Bounds3) -> Self {
+        let usable = |v: DVec3| v.is_finite() && v.abs().max_element() < LARGEST_COORDINATE;
+        let ordered = bounds.min.cmple(bounds.max).all();
+        if !ordered || !usable(bounds.min) || !usable(bounds.max) {
+            return Self { center: DVec3::ZERO, half: DVec3::splat(UNIT_RADIUS), radius: UNIT_RADIUS };
+        }
+        let center = bounds.min * 0.5 + bounds.max * 0.5;
+        let half = (bounds.max - bounds.min) * 0.5;
+        let smallest = center.abs().max_element() * SMALLEST_RELATIVE_RADIUS;
+        let radius = match half.length() {
+            radius if radius > smallest && radius > f64::MIN_POSITIVE => radius,
+            _ if smallest > f64::MIN_POSITIVE => smallest,
+            _ => UNIT_RADIUS,
+        };
+        Self { center, half, radius }
+    }
+
+    /// The middle of the box.
+    #[must_use]
+    pub fn center(&self) -> DVec3 {
+        self.center
+    }
+
+    /// Half of the diagonal; always greater than 0.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// The eight corners, relative to the centre.
+    fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|i| {
+            let sign = |bit: usize| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
+            self.half * DVec3::new(sign(0), sign(1), sign(2))
+        })
+    }
+
+    /// How far before and behind the plane through the eye the box reaches,
+    /// along `forward`: (nearest, farthest).
+    fn depth_range(&self, eye: DVec3, forward: DVec3) -> (f64, f64) {
+        let middle = (self.center - eye).dot(forward);
+        let reach = forward.abs().dot(self.half);
+        (middle - reach, middle + reach)
+    }
+}
+
+impl Camera {
+    /// A camera with this one's projection that looks along `direction` at the
+    /// middle of `bounds`, from just so far away that the whole box is in the
+    /// picture and `margin` of the picture's width or height stays empty (0.1
+    /// is a tenth; clamped to 0 … 0.95). A parallel projection gets the height
+    /// that does so. The near and far planes are set around the box.
+    ///
+    /// Degenerate input has a picture too: see [`Extent::new`] for bounds and
+    /// [`orientation_looking`] for `direction` and `up`.
+    #[must_use]
+    pub fn fit(&self, bounds: &Bounds3, direction: DVec3, up: DVec3, aspect: f64, margin: f64) -> Self {
+        let extent = Extent::new(bounds);
+        let orientation = orientation_looking(direction, up);
+        let fitted = fit_distance(&self.projection, orientation, &extent, aspect, margin);
+        let (projection, away) = match self.projection {
+            // What is fitted is the height; the eye just stands clear of the box.
+            Projection::Orthographic { near, far, .. } => {
+                (Projection::Orthographic { height: fitted, near, far }, 2.0 * extent.radius)
+            }
+            other => (other, fitted),
+        };
+        let position = extent.center - orientation * sight(&projection, away);
+        Self { position, orientation, projection }.with_clip_planes(bounds)
+    }
+
+    /// The same camera with its near and far planes just around these bounds,
+    /// so that they cut nothing of them that is before the eye. An infinite far
+    /// plane stays infinite. The near plane of a perspective is at least 10⁻⁵
+    /// of the distance to the farthest point.
+    #[must_use]
+    pub fn with_clip_planes(&self, bounds: &Bounds3) -> Self {
+        let extent = Extent::new(bounds);
+        let (nearest, farthest) = extent.depth_range(self.position, self.forward());
+        let slack = SLACK * (farthest - nearest) + SLACK * extent.radius + 1e-9 * farthest.abs();
+        let planes = if self.projection.is_orthographic() {
+            self.projection.with_planes(nearest - slack, Some(farthest + slack))
+        } else {
+            // With everything behind the eye, any planes will do.
+            let far = if farthest > 0.0 { farthest + slack } else { extent.radius };
+            let near = larger(nearest - slack, far * NEAREST);
+            self.projection.with_planes(near, self.projection.far().map(|_| far))
+        };
+        Self { projection: planes.unwrap_or(self.projection), ..*self }
+    }
+}
+
+/// The distance from the box's centre along the line of sight at which the box
+/// just fills the picture; the height of the window for a parallel projection.
+pub(crate) fn fit_distance(
+    projection: &Projection,
+    orientation: DQuat,
+    extent: &Extent,
+    aspect: f64,
+    margin: f64,
+) -> f64 {
+    let fill = 1.0 - if margin > 0.0 { smaller(margin, LARGEST_MARGIN) } else { 0.0 };
+    let map = projection.clip_map(aspect);
+    let (half, middle) = (fill / map.scale, map.shift / map.scale);
+    let turn = orientation.conjugate();
+    let corners = extent.corners().map(|corner| turn * corner);
+    match map.kind {
+        // |x + middle·z| <= half·(distance - z) for every corner, per axis.
+        Kind::Perspective => corners.iter().fold(0.0, |distance, corner| {
+            let off = (corner.truncate() + middle * corner.z).abs() / half;
+            let clear = corner.z + CLEARANCE * extent.radius;
+            larger(distance, larger(clear, corner.z + larger(off.x, off.y)))
+        }),
+        // `half` is half of the window's size at the current height.
+        Kind::Parallel => {
+            let reach = corners.iter().fold(0.0, |reach, corner| {
+                let off = corner.truncate().abs() / half;
+                larger(reach, larger(off.x, off.y))
+            });
+            let height = reach * projection.height_at(1.0);
+            if height > 0.0 { height } else { 2.0 * extent.radius / fill }
+        }
+    }
+}
+
+/// The point in camera space that is drawn in the middle of the picture, at
+/// this distance: straight ahead, but for off-centre windows.
+pub(crate) fn sight(projection: &Projection, distance: f64) -> DVec3 {
+    // Only projections with an aspect of their own are off centre.
+    const ANY_ASPECT: f64 = 1.0;
+    projection.clip_map(ANY_ASPECT).at_distance(DVec2::ZERO, distance)
+}
+
+/// The greater one; `b` if they cannot be compared.
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The lesser one; `b` if they cannot be compared.
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
