@@ -1,0 +1,169 @@
+//! What a pass records: triangles, lines and points, each with its pipeline.
+
+use crate::EdgeFlags;
+
+/// Which triangles are dropped by the side that they show.
+///
+/// The front is the side from which the corners wind counter-clockwise. A
+/// triangle without area on the screen is always dropped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Culling {
+    /// Both sides are drawn.
+    None,
+    /// Only fronts are drawn.
+    #[default]
+    Back,
+    /// Only backs are drawn.
+    Front,
+}
+
+/// How a draw meets what lies behind it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Surface {
+    /// Hides what is behind; the pipeline's alpha goes to the output as it is.
+    #[default]
+    Opaque,
+    /// Hides what is behind, wherever [`Pipeline::mask`](crate::Pipeline::mask)
+    /// says that there is something.
+    Masked,
+    /// Laid over what is behind, by alpha. Fragments of all translucent draws
+    /// are ordered per sample, whatever order they were recorded in. They write
+    /// no depth and no ids.
+    Translucent,
+}
+
+/// Indexed triangles.
+pub struct Draw<'a, P> {
+    /// Vertices and colours.
+    pub pipeline: &'a P,
+    /// Indices into the pipeline's vertices.
+    pub triangles: &'a [[u32; 3]],
+    /// For each triangle the face that it belongs to, for ids and for the
+    /// order of equal depths. Without it (or beyond its end) a triangle is a
+    /// face of its own, numbered by its index.
+    pub faces: Option<&'a [u32]>,
+    /// For each triangle which of its edges are edges of the face. Without it
+    /// (or beyond its end) all are.
+    pub edge_flags: Option<&'a [EdgeFlags]>,
+    /// The object id; `u32::MAX` means background and should not be used.
+    pub object: u32,
+    /// Which sides are dropped.
+    pub culling: Culling,
+    /// Opaque, masked or translucent.
+    pub surface: Surface,
+}
+
+impl<'a, P> Draw<'a, P> {
+    /// Opaque triangles of object 0, back faces dropped, each triangle a face.
+    pub fn new(pipeline: &'a P, triangles: &'a [[u32; 3]]) -> Self {
+        Self {
+            pipeline,
+            triangles,
+            faces: None,
+            edge_flags: None,
+            object: 0,
+            culling: Culling::default(),
+            surface: Surface::default(),
+        }
+    }
+}
+
+/// Straight segments.
+///
+/// A segment is x-major if it is at least as wide as high on the screen, else
+/// y-major. It covers the parallelogram that its width spans across the minor
+/// direction, prolonged at both ends by half the width: exact, and the same
+/// from either end. Without supersampling, a width of 1 pixel or less draws
+/// exactly one pixel per step of the major direction, both ends included.
+/// Where segments that share a vertex overlap, only one of them paints a
+/// sample: the nearer one, or for translucent lines the later one; so a
+/// polyline draws each joint once. Varyings run along the segment, and depth is
+/// constant across it.
+pub struct Lines<'a, P> {
+    /// Vertices and colours.
+    pub pipeline: &'a P,
+    /// Pairs of indices into the pipeline's vertices.
+    pub segments: &'a [[u32; 2]],
+    /// For each segment its id, given out as the face id. Without it (or beyond
+    /// its end) the segment's index.
+    pub ids: Option<&'a [u32]>,
+    /// The object id.
+    pub object: u32,
+    /// Width in output pixels, whatever the supersampling; below 1 counts as 1,
+    /// above 4096 as 4096.
+    pub width: f32,
+    /// A share of the distance by which the line is drawn nearer to the eye
+    /// than it is, so that it shows on the surface that it lies in; 0 for a
+    /// line that is tested as it is. The depth is multiplied by one plus this
+    /// and held to 1: with a perspective, 0.001 moves the line by a thousandth
+    /// of its distance. Clamped to `0..=1`.
+    pub toward_eye: f32,
+    /// Opaque, masked or translucent.
+    pub surface: Surface,
+}
+
+impl<'a, P> Lines<'a, P> {
+    /// Opaque lines of object 0, one pixel wide, tested at their own depth.
+    pub fn new(pipeline: &'a P, segments: &'a [[u32; 2]]) -> Self {
+        Self {
+            pipeline,
+            segments,
+            ids: None,
+            object: 0,
+            width: 1.0,
+            toward_eye: 0.0,
+            surface: Surface::default(),
+        }
+    }
+}
+
+/// The outline of a point on the screen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PointShape {
+    /// A disc.
+    #[default]
+    Round,
+    /// An axis-aligned square.
+    Square,
+}
+
+/// Points of a size in pixels.
+///
+/// A point that lies behind the near plane, or further than its size outside
+/// the guard band, draws nothing. Its depth is the same all over it.
+pub struct Points<'a, P> {
+    /// Vertices and colours.
+    pub pipeline: &'a P,
+    /// Indices into the pipeline's vertices.
+    pub points: &'a [u32],
+    /// For each point its id, given out as the face id. Without it (or beyond
+    /// its end) the point's index.
+    pub ids: Option<&'a [u32]>,
+    /// The object id.
+    pub object: u32,
+    /// Diameter or edge in output pixels; below 1 counts as 1, above 4096 as
+    /// 4096.
+    pub size: f32,
+    /// Round or square.
+    pub shape: PointShape,
+    /// As [`Lines::toward_eye`].
+    pub toward_eye: f32,
+    /// Opaque, masked or translucent.
+    pub surface: Surface,
+}
+
+impl<'a, P> Points<'a, P> {
+    /// Opaque round points of object 0, tested at their own depth.
+    pub fn new(pipeline: &'a P, points: &'a [u32], size: f32) -> Self {
+        Self {
+            pipeline,
+            points,
+            ids: None,
+            object: 0,
+            size,
+            shape: PointShape::default(),
+            toward_eye: 0.0,
+            surface: Surface::default(),
+        }
+    }
+}

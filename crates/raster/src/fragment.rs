@@ -1,0 +1,87 @@
+//! What a pipeline knows when it shades one sample.
+
+use trigon_math::{UVec2, Vec2};
+
+/// One visible sample of one triangle or line, to be shaded.
+///
+/// Everything here is a function of the triangle and the sample alone: no
+/// neighbour, tile or thread takes part.
+#[derive(Clone, Copy, Debug)]
+pub struct Fragment<V> {
+    /// The interpolated varyings, perspective-correct, within the range of the
+    /// vertices' values.
+    pub varyings: V,
+    /// The analytic derivative of the varyings to the right, per sample step
+    /// (one pixel when [`samples_per_axis`](crate::Target::samples_per_axis) is
+    /// 1, half a pixel when it is 2): what a texture look-up needs.
+    pub ddx: V,
+    /// The same downwards.
+    pub ddy: V,
+    /// The pixel, from the top left.
+    pub pixel: UVec2,
+    /// The sample's position in pixels, x to the right, y down; the centre of
+    /// the first pixel is (0.5, 0.5).
+    pub position: Vec2,
+    /// Reversed depth: 1 at the near plane, 0 at the far plane or infinity.
+    pub depth: f32,
+    /// 1/w, interpolated; > 0.
+    pub inverse_w: f32,
+    /// The index of the triangle, segment or point in its draw.
+    pub triangle: u32,
+    /// The face id that the draw gives to this triangle.
+    pub face: u32,
+    /// Whether the triangle's corners wind counter-clockwise on the screen.
+    /// Lines and points are always front-facing.
+    pub front_facing: bool,
+    /// Distances in pixels, >= 0, to the lines through the triangle's edges:
+    /// `[i]` to the edge from corner `i` to corner `i + 1 (mod 3)`, as the
+    /// draw's index triple numbers them. Cut by no clip plane. Infinite for
+    /// lines and points.
+    pub edge_distances: [f32; 3],
+    /// Which of the three edges are edges of the face, from
+    /// [`Draw::edge_flags`](crate::Draw::edge_flags).
+    pub edge_flags: EdgeFlags,
+}
+
+impl<V> Fragment<V> {
+    /// The distance in pixels to the nearest edge that is flagged as an edge
+    /// of the face; infinite if none is.
+    ///
+    /// Painting a fragment dark where this is below half a line width draws a
+    /// wireframe that can never fight with its own surface.
+    #[inline]
+    pub fn nearest_edge(&self) -> f32 {
+        let mut nearest = f32::INFINITY;
+        for (i, &distance) in self.edge_distances.iter().enumerate() {
+            if self.edge_flags.contains(i) && distance < nearest {
+                nearest = distance;
+            }
+        }
+        nearest
+    }
+}
+
+/// Which edges of a triangle are edges of the face that it belongs to, and
+/// which are only diagonals of its triangulation.
+///
+/// Edge `i` runs from corner `i` to corner `i + 1 (mod 3)` of the triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct EdgeFlags(u8);
+
+impl EdgeFlags {
+    /// No edge is a real one.
+    pub const NONE: Self = Self(0);
+    /// All three are.
+    pub const ALL: Self = Self(0b111);
+
+    /// Flags from one truth value for each edge.
+    pub const fn new(edges: [bool; 3]) -> Self {
+        Self(edges[0] as u8 | (edges[1] as u8) << 1 | (edges[2] as u8) << 2)
+    }
+
+    /// Whether edge `edge` (0, 1 or 2) is flagged.
+    #[inline]
+    pub const fn contains(self, edge: usize) -> bool {
+        edge < 3 && self.0 >> edge & 1 != 0
+    }
+}
