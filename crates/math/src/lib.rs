@@ -1,1 +1,49 @@
-//! trigon-math
+//! Exact and reproducible mathematics for graphics: [`glam`] and what glam
+//! lacks.
+//!
+//! Every function gives the same bits on every machine. Where a decision
+//! depends on a sign (which side, inside or outside), the sign is exact or the
+//! documentation states the bound. The crate never knows pixels, meshes or
+//! files.
+//!
+//! # Conventions
+//! - Clip space is reversed-Z: `x` and `y` in `[-w, w]` (`y` up), `z` from `w`
+//!   at the near plane to `0` at the far plane or at infinity.
+//! - The screen has its origin at the top left, `y` down.
+//! - Angles are radians. Matrices act on column vectors.
+//!
+//! # Example
+//! A screen coordinate becomes a fixed-point one, and three of them have an
+//! exact orientation:
+//!
+//! ```
+//! use trigon_math::{Fixed, FixedPoint, orientation_fixed};
+//!
+//! let point = |x, y| {
+//!     Some(FixedPoint { x: Fixed::from_f32(x)?, y: Fixed::from_f32(y)? })
+//! };
+//! let (a, b, c) = (point(0.0, 0.0), point(2.0, 0.0), point(2.0, 1.0));
+//! let area = orientation_fixed(a.unwrap(), b.unwrap(), c.unwrap());
+//! // Twice the area, in units of (1/256 px)²; y points down, so the positive
+//! // sign means clockwise as seen on the screen.
+//! assert_eq!(area, 2 * 256 * 256);
+//! assert_eq!(Fixed::from_f32(f32::NAN), None);
+//! ```
+
+mod bounds;
+pub mod color;
+pub mod elementary;
+mod fixed;
+mod plane;
+mod predicates;
+
+pub use glam;
+pub use glam::{
+    DAffine3, DMat3, DMat4, DQuat, DVec2, DVec3, DVec4, IVec2, Mat3, Mat4, Quat, UVec2, Vec2, Vec3, Vec4,
+};
+
+pub use fixed::{Fixed, FixedPoint};
+pub use predicates::{Orientation, orientation, orientation_fixed};
+
+pub use bounds::Bounds3;
+pub use plane::Plane;
