@@ -1,1 +1,3 @@
 //! The workspace tests, one module per subject.
+
+mod camera;

@@ -1,0 +1,126 @@
+//! Fitting: the whole model is in the picture, with the margin asked for.
+
+use proptest::prelude::*;
+use trigon_camera::{Camera, PixelCenters, Projection, Projector, Viewport};
+use trigon_math::{Bounds3, DVec2, DVec3};
+
+const PICTURE: Viewport = Viewport { width: 300, height: 200 };
+
+fn corners(bounds: &Bounds3) -> impl Iterator<Item = DVec3> {
+    let (a, b) = (bounds.min, bounds.max);
+    (0..8)
+        .map(move |i| DVec3::select(trigon_math::glam::BVec3::new(i & 1 == 0, i & 2 == 0, i & 4 == 0), a, b))
+}
+
+/// Fits, and asserts that every corner is inside the margin and between the
+/// planes. Returns the greatest distance from the middle, 1 at the margin.
+fn check(projection: Projection, bounds: &Bounds3, direction: DVec3, margin: f64) -> f64 {
+    let camera = Camera::default().with_projection(projection);
+    let camera = camera.fit(bounds, direction, DVec3::Y, PICTURE.aspect(), margin);
+    let projector = Projector::new(&camera, PICTURE);
+    // The eye is rounded to the grid of f64 where it stands.
+    let grid = camera.position.length() * f64::EPSILON / (bounds.max - bounds.min).length();
+    let mut reach: f64 = 0.0;
+    for corner in corners(bounds) {
+        let (screen, depth) = projector.to_screen_and_depth(corner).expect("before the eye");
+        let ndc = PICTURE.to_ndc(screen).abs() / (1.0 - margin);
+        assert!(
+            ndc.max_element() < 1.0 + 1e-9 + 4.0 * grid,
+            "corner {corner} is at {ndc}, beyond the margin"
+        );
+        assert!((0.0..=1.0).contains(&depth), "corner {corner} has depth {depth}");
+        reach = reach.max(ndc.max_element());
+    }
+    reach
+}
+
+fn projections() -> [Projection; 5] {
+    let k = Projection::pinhole(
+        DVec2::new(250.0, 260.0),
+        DVec2::new(170.0, 80.0),
+        PICTURE,
+        PixelCenters::AtHalves,
+        0.1,
+    );
+    [
+        Projection::default(),
+        Projection::perspective(2.0, 0.1, Some(100.0)).expect("valid"),
+        Projection::orthographic(1.0, 0.1, 100.0).expect("valid"),
+        Projection::frustum(-0.02, 0.1, -0.05, 0.03, 0.1, None).expect("valid"),
+        k.expect("valid"),
+    ]
+}
+
+proptest! {
+    #[test]
+    fn the_whole_box_is_in_the_picture(
+        which in 0usize..5,
+        size in prop::array::uniform3(0.01f64..1.0),
+        exponent in -6i32..=20,
+        offset in prop::array::uniform3(-1.0f64..1.0),
+        direction in prop::array::uniform3(-1.0f64..1.0),
+        margin in 0.0f64..0.5,
+    ) {
+        let scale = 10f64.powi(exponent);
+        let center = DVec3::from(offset) * scale * 10.0;
+        let half = DVec3::from(size) * scale;
+        let bounds = Bounds3 { min: center - half, max: center + half };
+        let reach = check(projections()[which], &bounds, DVec3::from(direction), margin);
+        // Only the clearance of very wide views may leave more room than asked for.
+        prop_assert!(reach > 0.999 || which == 1, "the box reaches only {reach} of the margin");
+    }
+}
+
+#[test]
+fn tiny_models_far_from_the_origin_are_fitted() {
+    let center = DVec3::new(1e7, -1e7, 1e7);
+    let bounds = Bounds3 { min: center, max: center + DVec3::splat(1e-3) };
+    for projection in projections() {
+        check(projection, &bounds, DVec3::new(-1.0, -0.5, -1.0), 0.1);
+    }
+}
+
+#[test]
+fn bounds_without_size_have_a_camera() {
+    let point = |p: DVec3| Bounds3 { min: p, max: p };
+    let line = Bounds3 { min: DVec3::new(0.0, 0.0, -1.0), max: DVec3::new(0.0, 0.0, 1.0) };
+    let nan = Bounds3 { min: DVec3::NAN, max: DVec3::ONE };
+    let infinite = Bounds3 { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
+    let all = [
+        point(DVec3::ZERO),
+        point(DVec3::splat(1e7)),
+        point(DVec3::splat(1e20)),
+        line,
+        Bounds3::EMPTY,
+        nan,
+        infinite,
+    ];
+    for bounds in all {
+        for projection in projections() {
+            for direction in [DVec3::NEG_Z, DVec3::NEG_Y, DVec3::ZERO, DVec3::NAN] {
+                let camera = Camera::default().with_projection(projection);
+                let camera = camera.fit(&bounds, direction, DVec3::Y, PICTURE.aspect(), 0.1);
+                let middle = if bounds.min.is_finite() && bounds.max.is_finite() && bounds != Bounds3::EMPTY {
+                    (bounds.min + bounds.max) * 0.5
+                } else {
+                    DVec3::ZERO
+                };
+                assert_ne!(camera.position, middle, "{bounds:?}: the eye is in the model");
+                let (screen, depth) = Projector::new(&camera, PICTURE)
+                    .to_screen_and_depth(middle)
+                    .unwrap_or_else(|| panic!("{bounds:?} is behind the eye of {camera:?}"));
+                assert!(screen.distance(DVec2::new(150.0, 100.0)) < 1.0, "{bounds:?} is at {screen}");
+                assert!((0.0..=1.0).contains(&depth), "{bounds:?} has depth {depth}");
+            }
+        }
+    }
+}
+
+#[test]
+fn planes_follow_a_camera_inside_the_bounds() {
+    let bounds = Bounds3 { min: DVec3::splat(-1.0), max: DVec3::splat(1.0) };
+    let inside = Camera::look_at(DVec3::ZERO, DVec3::X, DVec3::Y).with_clip_planes(&bounds);
+    assert!(inside.projection.near() < 1e-4, "near plane at {}", inside.projection.near());
+    let away = Camera::look_at(DVec3::X * 5.0, DVec3::X * 6.0, DVec3::Y).with_clip_planes(&bounds);
+    assert!(away.projection.near() > 0.0, "a camera that looks away keeps a near plane");
+}
