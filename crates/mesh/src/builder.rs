@@ -1,0 +1,193 @@
+//! Building a mesh element by element, with every index checked once.
+
+use trigon_math::Vec3;
+
+use crate::edges::find_edges;
+use crate::mesh::Parts;
+use crate::{Attributes, Mesh, MeshError};
+
+/// The most corners, faces and loose edges together that a mesh can have:
+/// `u32::MAX` itself means "none" in buffers.
+const LIMIT: u32 = u32::MAX - 1;
+
+/// Collects vertices, faces, loose edges and loose points, then builds a
+/// [`Mesh`].
+///
+/// ```
+/// use trigon_math::Vec3;
+/// use trigon_mesh::MeshBuilder;
+///
+/// let mut builder = MeshBuilder::new();
+/// let corners = [Vec3::ZERO, Vec3::X, Vec3::Y].map(|position| builder.push_vertex(position));
+/// builder.push_face(&corners)?;
+/// let triangle = builder.build();
+/// assert_eq!(triangle.edge_count(), 3);
+/// # Ok::<(), trigon_mesh::MeshError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct MeshBuilder {
+    positions: Vec<Vec3>,
+    face_starts: Vec<u32>,
+    corner_vertices: Vec<u32>,
+    next_vertices: Vec<u32>,
+    loose_edges: Vec<[u32; 2]>,
+    loose_points: Vec<u32>,
+}
+
+impl Default for MeshBuilder {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl MeshBuilder {
+    /// A builder with nothing in it.
+    pub fn new() -> Self {
+        Self::with_capacity(0, 0, 0)
+    }
+
+    /// A builder with room for so many vertices, faces and corners.
+    pub fn with_capacity(vertices: usize, faces: usize, corners: usize) -> Self {
+        let mut face_starts = Vec::with_capacity(faces + 1);
+        face_starts.push(0);
+        Self {
+            positions: Vec::with_capacity(vertices),
+            face_starts,
+            corner_vertices: Vec::with_capacity(corners),
+            next_vertices: Vec::with_capacity(corners),
+            loose_edges: Vec::new(),
+            loose_points: Vec::new(),
+        }
+    }
+
+    /// How many vertices have been pushed.
+    pub fn vertex_count(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// How many faces have been accepted.
+    pub fn face_count(&self) -> usize {
+        self.face_starts.len() - 1
+    }
+
+    /// How many corners the accepted faces have: the length that per-corner
+    /// attributes will need.
+    pub fn corner_count(&self) -> usize {
+        self.corner_vertices.len()
+    }
+
+    /// Adds a vertex and returns its index. Positions are in metres; any value
+    /// is kept, also one that is not finite.
+    ///
+    /// # Panics
+    ///
+    /// When there are `u32::MAX` vertices already, 48 GiB of them: importers
+    /// limit their input long before.
+    pub fn push_vertex(&mut self, position: Vec3) -> u32 {
+        let index = self.positions.len() as u32;
+        assert!(index < u32::MAX, "vertex indices have 32 bits");
+        self.positions.push(position);
+        index
+    }
+
+    /// Adds a polygon and returns its index. The vertices go round it
+    /// counter-clockwise seen from outside. Vertices may repeat (an outline
+    /// with holes goes along a bridge twice), and faces may repeat or share
+    /// an edge with any number of others.
+    ///
+    /// # Errors
+    ///
+    /// Fewer than three distinct vertices, a vertex that does not exist, or
+    /// more corners than indices can name. Nothing has been added then.
+    pub fn push_face(&mut self, vertices: &[u32]) -> Result<u32, MeshError> {
+        let face = self.face_count();
+        self.check_vertices("face", face, vertices)?;
+        let distinct = distinct_up_to_3(vertices);
+        if distinct < 3 {
+            return Err(MeshError::TooFewVertices { face, distinct });
+        }
+        self.check_room(vertices.len())?;
+        self.corner_vertices.extend_from_slice(vertices);
+        self.next_vertices.extend_from_slice(&vertices[1..]);
+        self.next_vertices.push(vertices[0]);
+        self.face_starts.push(self.corner_vertices.len() as u32);
+        Ok(face as u32)
+    }
+
+    /// Adds an edge that need not belong to a face. One that a face has too
+    /// is the face's edge, not a loose one.
+    ///
+    /// # Errors
+    ///
+    /// Both ends are the same vertex, a vertex does not exist, or there are
+    /// more edges than indices can name. Nothing has been added then.
+    pub fn push_loose_edge(&mut self, from: u32, to: u32) -> Result<(), MeshError> {
+        let index = self.loose_edges.len();
+        self.check_vertices("loose edge", index, &[from, to])?;
+        if from == to {
+            let vertex = from;
+            return Err(MeshError::EdgeWithoutLength { index, vertex });
+        }
+        self.check_room(1)?;
+        self.loose_edges.push([from, to]);
+        Ok(())
+    }
+
+    /// Marks a vertex as a point that is to be shown for itself.
+    ///
+    /// # Errors
+    ///
+    /// The vertex does not exist.
+    pub fn push_loose_point(&mut self, vertex: u32) -> Result<(), MeshError> {
+        self.check_vertices("loose point", self.loose_points.len(), &[vertex])?;
+        self.loose_points.push(vertex);
+        Ok(())
+    }
+
+    /// Finds the edges and makes the mesh, without attributes yet (see
+    /// [`Mesh::set_attributes`]).
+    pub fn build(mut self) -> Mesh {
+        let edges =
+            find_edges(self.positions.len(), &self.corner_vertices, &self.next_vertices, &self.loose_edges);
+        let mut seen = vec![false; self.positions.len()];
+        self.loose_points.retain(|&point| !std::mem::replace(&mut seen[point as usize], true));
+        Mesh::from_parts(Parts {
+            positions: self.positions,
+            face_starts: self.face_starts,
+            corner_vertices: self.corner_vertices,
+            edges,
+            loose_points: self.loose_points,
+            attributes: Attributes::default(),
+        })
+    }
+
+    fn check_vertices(&self, element: &'static str, index: usize, vertices: &[u32]) -> Result<(), MeshError> {
+        let vertex_count = self.positions.len();
+        match vertices.iter().find(|&&v| v as usize >= vertex_count) {
+            None => Ok(()),
+            Some(&vertex) => Err(MeshError::VertexOutOfRange { element, index, vertex, vertex_count }),
+        }
+    }
+
+    /// Half-edges (corners and loose edges) are numbered together while edges
+    /// are searched, so one limit holds for both; faces are fewer.
+    fn check_room(&self, more: usize) -> Result<(), MeshError> {
+        let used = self.corner_vertices.len() + self.loose_edges.len();
+        if used + more > LIMIT as usize {
+            return Err(MeshError::TooMany { what: "corners and loose edges", limit: LIMIT });
+        }
+        Ok(())
+    }
+}
+
+/// Counts distinct vertices, but stops at three.
+fn distinct_up_to_3(vertices: &[u32]) -> usize {
+    let Some(&a) = vertices.first() else { return 0 };
+    let Some(&b) = vertices.iter().find(|&&v| v != a) else {
+        return 1;
+    };
+    match vertices.iter().any(|&v| v != a && v != b) {
+        true => 3,
+        false => 2,
+    }
+}

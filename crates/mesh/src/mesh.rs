@@ -1,0 +1,204 @@
+//! The mesh itself: vertices, edges and faces as they were modelled.
+//!
+//! Everything that a renderer needs is derived from it (the triangulation,
+//! the welded [`RenderMesh`](crate::RenderMesh)); nothing of that is stored
+//! here, so it cannot go stale.
+
+use std::ops::Range;
+
+use trigon_math::{Bounds3, Vec3};
+
+use crate::edges::{Edges, NO_EDGE};
+use crate::{Attributes, MeshBuilder, MeshError};
+
+/// A polygon mesh with explicit vertices, edges and faces.
+///
+/// Faces are polygons with any number of corners, counter-clockwise seen from
+/// outside. A *corner* is one vertex of one face; the corners of all faces are
+/// numbered consecutively, and each knows the edge that leads from it to the
+/// face's next corner. Edges that belong to no face and points that are to be
+/// shown for themselves are kept. Any number of faces may share an edge.
+///
+/// One type serves for a wire object (points and edges: a mesh without faces)
+/// and for a surface object (which adds faces): a surface can always be shown
+/// as its wires, and those are the solid's own edges, never the diagonals of
+/// a triangulation.
+///
+/// Built by [`MeshBuilder`]; see there for an example.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    positions: Vec<Vec3>,
+    /// The first corner of each face, and the corner count at the end.
+    face_starts: Vec<u32>,
+    corner_vertices: Vec<u32>,
+    corner_edges: Vec<u32>,
+    edges: Vec<[u32; 2]>,
+    face_edge_count: usize,
+    loose_points: Vec<u32>,
+    attributes: Attributes,
+}
+
+/// What a builder hands over, already checked.
+pub(crate) struct Parts {
+    pub(crate) positions: Vec<Vec3>,
+    pub(crate) face_starts: Vec<u32>,
+    pub(crate) corner_vertices: Vec<u32>,
+    pub(crate) edges: Edges,
+    pub(crate) loose_points: Vec<u32>,
+    pub(crate) attributes: Attributes,
+}
+
+impl Default for Mesh {
+    /// A mesh with nothing in it.
+    fn default() -> Self {
+        MeshBuilder::new().build()
+    }
+}
+
+impl Mesh {
+    pub(crate) fn from_parts(parts: Parts) -> Self {
+        Self {
+            positions: parts.positions,
+            face_starts: parts.face_starts,
+            corner_vertices: parts.corner_vertices,
+            corner_edges: parts.edges.corner_edges,
+            edges: parts.edges.edges,
+            face_edge_count: parts.edges.face_edge_count,
+            loose_points: parts.loose_points,
+            attributes: parts.attributes,
+        }
+    }
+
+    /// The position of each vertex, in metres.
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
+    /// The positions, to be moved. Corner normals do not follow: use
+    /// [`Mesh::transform`] for a transform.
+    pub fn positions_mut(&mut self) -> &mut [Vec3] {
+        &mut self.positions
+    }
+
+    /// How many vertices there are, used or not.
+    pub fn vertex_count(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// How many polygons there are.
+    pub fn face_count(&self) -> usize {
+        self.face_starts.len() - 1
+    }
+
+    /// How many edges there are, loose ones included.
+    pub fn edge_count(&self) -> usize {
+        self.edges.len()
+    }
+
+    /// How many corners all faces have together.
+    pub fn corner_count(&self) -> usize {
+        self.corner_vertices.len()
+    }
+
+    /// The vertices of a face, counter-clockwise seen from outside.
+    ///
+    /// # Panics
+    ///
+    /// When there is no such face.
+    pub fn face_vertices(&self, face: usize) -> &[u32] {
+        &self.corner_vertices[self.face_corners(face)]
+    }
+
+    /// The corners of a face: where its values are in per-corner attributes.
+    ///
+    /// # Panics
+    ///
+    /// When there is no such face.
+    pub fn face_corners(&self, face: usize) -> Range<usize> {
+        self.face_starts[face] as usize..self.face_starts[face + 1] as usize
+    }
+
+    /// The corners of every face, in order.
+    pub fn faces(&self) -> impl ExactSizeIterator<Item = Range<usize>> + Clone + '_ {
+        let starts = self.face_starts.windows(2);
+        starts.map(|ends| ends[0] as usize..ends[1] as usize)
+    }
+
+    /// The vertex at each corner of every face.
+    pub fn corner_vertices(&self) -> &[u32] {
+        &self.corner_vertices
+    }
+
+    /// The edge from a corner to the next corner of its face. None when both
+    /// are at the same vertex (a repeated vertex in a face).
+    ///
+    /// # Panics
+    ///
+    /// When there is no such corner.
+    pub fn corner_edge(&self, corner: usize) -> Option<u32> {
+        Some(self.corner_edges[corner]).filter(|&edge| edge != NO_EDGE)
+    }
+
+    /// Every edge once, its smaller vertex first. The faces' edges come
+    /// first, in the order in which the faces show them, then the loose ones.
+    pub fn edges(&self) -> &[[u32; 2]] {
+        &self.edges
+    }
+
+    /// How many of the edges belong to faces.
+    pub fn face_edge_count(&self) -> usize {
+        self.face_edge_count
+    }
+
+    /// The edges that belong to no face.
+    pub fn loose_edges(&self) -> &[[u32; 2]] {
+        &self.edges[self.face_edge_count..]
+    }
+
+    /// The vertices that are to be shown as points, each once.
+    pub fn loose_points(&self) -> &[u32] {
+        &self.loose_points
+    }
+
+    /// The box around all vertices, used or not. Empty without vertices.
+    pub fn bounds(&self) -> Bounds3 {
+        Bounds3::from_points(self.positions.iter().map(|p| p.as_dvec3()))
+    }
+
+    /// The values on corners and faces.
+    pub fn attributes(&self) -> &Attributes {
+        &self.attributes
+    }
+
+    /// Replaces all values on corners and faces.
+    ///
+    /// # Errors
+    ///
+    /// A list that has not one value per corner or face. The mesh keeps what
+    /// it had.
+    pub fn set_attributes(&mut self, attributes: Attributes) -> Result<(), MeshError> {
+        attributes.check(self.corner_count(), self.face_count())?;
+        self.attributes = attributes;
+        Ok(())
+    }
+
+    /// For changes that keep the lengths.
+    pub(crate) fn attributes_mut(&mut self) -> &mut Attributes {
+        &mut self.attributes
+    }
+
+    /// Turns every face over: its first corner stays first, the others follow
+    /// in the opposite direction with all their values. Edges keep their
+    /// numbers. Corner normals are moved, not negated.
+    pub fn flip_faces(&mut self) {
+        let mut order: Vec<u32> = (0..self.corner_count() as u32).collect();
+        for ends in self.face_starts.windows(2) {
+            let corners = &mut order[ends[0] as usize..ends[1] as usize];
+            corners[1..].reverse();
+            self.corner_edges[ends[0] as usize..ends[1] as usize].reverse();
+        }
+        let old = std::mem::take(&mut self.corner_vertices);
+        self.corner_vertices = order.iter().map(|&from| old[from as usize]).collect();
+        self.attributes.reorder_corners(&order);
+    }
+}

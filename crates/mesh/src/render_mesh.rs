@@ -1,0 +1,68 @@
+//! What a renderer draws: vertices with all their values, and triangles.
+//!
+//! A mesh keeps values on corners; a renderer wants each vertex with one
+//! value of everything, as few of them as possible. So corners of a vertex
+//! that agree in all values, to the bit, are welded.
+
+use trigon_math::{Vec2, Vec3, Vec4};
+
+use crate::weld::weld;
+use crate::{Mesh, Triangulation};
+
+/// A mesh as triangles over welded corners. All lists of vertex values have
+/// the same length, all lists of triangles too.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RenderMesh {
+    /// Metres.
+    pub positions: Vec<Vec3>,
+    /// Of unit length.
+    pub normals: Vec<Vec3>,
+    /// One list per set of texture coordinates.
+    pub uv_sets: Vec<Vec<Vec2>>,
+    /// Linear light, straight alpha.
+    pub colors: Option<Vec<Vec4>>,
+    /// Vertices, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// The polygon that each triangle is a part of.
+    pub triangle_faces: Vec<u32>,
+    /// The material slot of each triangle, 0 where the mesh has none.
+    pub triangle_materials: Vec<u32>,
+}
+
+impl RenderMesh {
+    /// Derives triangles and welded vertices from a mesh.
+    ///
+    /// Vertices are numbered in the order in which the corners show them;
+    /// corners that no triangle uses (of faces without area) still count.
+    /// Vertices that no face uses are left out, as are loose edges and points.
+    /// The normals are those of [`Mesh::shading_normals`].
+    pub fn from_mesh(mesh: &Mesh) -> RenderMesh {
+        let Triangulation { mut triangles, triangle_faces } = mesh.triangulation();
+        let attributes = mesh.attributes();
+        let normals = mesh.shading_normals();
+        let welded = weld(mesh, &normals);
+        for triangle in &mut triangles {
+            *triangle = triangle.map(|corner| welded.vertex_of_corner[corner as usize]);
+        }
+        let corners = &welded.corner_of_vertex;
+        let position = |&corner: &u32| {
+            let vertex = mesh.corner_vertices()[corner as usize];
+            mesh.positions()[vertex as usize]
+        };
+        let slots = attributes.face_materials.as_deref();
+        let slot = |&face: &u32| slots.map_or(0, |slots| slots[face as usize]);
+        RenderMesh {
+            positions: corners.iter().map(position).collect(),
+            normals: pick(&normals, corners),
+            uv_sets: attributes.uv_sets.iter().map(|set| pick(set, corners)).collect(),
+            colors: attributes.corner_colors.as_ref().map(|c| pick(c, corners)),
+            triangle_materials: triangle_faces.iter().map(slot).collect(),
+            triangles,
+            triangle_faces,
+        }
+    }
+}
+
+fn pick<T: Copy>(values: &[T], corners: &[u32]) -> Vec<T> {
+    corners.iter().map(|&corner| values[corner as usize]).collect()
+}

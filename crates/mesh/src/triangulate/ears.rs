@@ -1,0 +1,269 @@
+//! Cutting ears off a polygon in the plane, by exact orientation.
+//!
+//! The classical method (Meisters 1975; the treatment of touching corners
+//! follows the questions that Held's FIST, 2001, asks): an ear is a convex
+//! corner whose triangle nothing else of the polygon enters. Two things are
+//! particular here. Corners that lie on the new diagonal block an ear, so a
+//! corner in the middle of a straight side is kept and used. And an outline
+//! may touch itself (bridges to holes): at a corner in the same place as one
+//! of the ear's, it is the direction of the two sides there that decides.
+//!
+//! Corners wait in a queue and come up again only when a neighbour of theirs
+//! went, so ears go all round the polygon in turns (which gives well-shaped
+//! triangles on convex polygons) and there are at most three tests per corner.
+
+use std::collections::VecDeque;
+
+use trigon_math::{DVec2, Orientation, orientation};
+
+use super::grid::Grid;
+
+/// After so many rounds in which everything was tested afresh, a polygon
+/// counts as one that crosses itself.
+const MOST_ROUNDS: usize = 8;
+
+/// Whether a, b, c turn left (y up): exact.
+pub(super) fn is_left_turn(a: DVec2, b: DVec2, c: DVec2) -> bool {
+    turn(a, b, c) > 0
+}
+
+/// 1 if a, b, c turn left (y up), −1 if right, 0 if they are in one line:
+/// exact.
+fn turn(a: DVec2, b: DVec2, c: DVec2) -> i32 {
+    match orientation(a, b, c) {
+        Orientation::CounterClockwise => 1,
+        Orientation::Clockwise => -1,
+        Orientation::Collinear => 0,
+    }
+}
+
+/// What is left of the polygon: a ring of corners, and its buffers.
+#[derive(Default)]
+pub(super) struct EarCutter {
+    previous: Vec<u32>,
+    next: Vec<u32>,
+    /// Whether a corner is still in the ring.
+    present: Vec<bool>,
+    left: usize,
+    /// Corners that may be ears, and how often their neighbours had changed
+    /// when they were queued: entries with an older count are skipped.
+    queue: VecDeque<(u32, u32)>,
+    changes: Vec<u32>,
+    /// Corners that can be in the way: not convex at first, or not alone in
+    /// their place. Cutting ears makes no corner less convex.
+    blockers: Vec<u32>,
+    by_place: Vec<u32>,
+    grid: Grid,
+}
+
+/// What to do about the corner in the middle of three.
+enum Verdict {
+    /// Cut its triangle off.
+    Ear,
+    /// Leave it out: nothing is between it and its neighbours.
+    Needless,
+    Keep,
+}
+
+impl EarCutter {
+    /// Appends the triangles of a polygon that is counter-clockwise (y up).
+    pub(super) fn cut(&mut self, points: &[DVec2], triangles: &mut Vec<[u32; 3]>) {
+        self.start(points);
+        for _ in 0..MOST_ROUNDS {
+            let before = self.left;
+            self.queue_all();
+            self.cut_queued(points, triangles, Self::verdict);
+            if self.left < 3 || self.left == before {
+                break;
+            }
+        }
+        if self.left >= 3 {
+            self.queue_all();
+            self.cut_queued(points, triangles, Self::verdict_when_crossing);
+        }
+    }
+
+    fn start(&mut self, points: &[DVec2]) {
+        let count = points.len() as u32;
+        self.left = points.len();
+        refill(&mut self.previous, (0..count).map(|i| (i + count - 1) % count));
+        refill(&mut self.next, (0..count).map(|i| (i + 1) % count));
+        refill(&mut self.present, (0..count).map(|_| true));
+        refill(&mut self.changes, (0..count).map(|_| 0));
+        self.find_blockers(points);
+        self.grid.fill(points, &self.blockers);
+    }
+
+    fn find_blockers(&mut self, points: &[DVec2]) {
+        let place = |i: u32| points[i as usize];
+        refill(&mut self.by_place, 0..points.len() as u32);
+        self.by_place.sort_unstable_by(|&i, &j| {
+            let (a, b) = (place(i), place(j));
+            let by_x = a.x.partial_cmp(&b.x);
+            let by_y = a.y.partial_cmp(&b.y);
+            let finite = "the caller has checked that points are finite";
+            by_x.expect(finite).then(by_y.expect(finite)).then(i.cmp(&j))
+        });
+        let by_place = &self.by_place;
+        let not_alone = by_place.iter().enumerate().filter(|&(rank, &i)| {
+            let like = |other: Option<&u32>| other.is_some_and(|&j| place(j) == place(i));
+            like(by_place.get(rank + 1)) || (rank > 0 && like(by_place.get(rank - 1)))
+        });
+        refill(&mut self.blockers, not_alone.map(|(_, &i)| i));
+        self.blockers.sort_unstable();
+        let alone = self.blockers.len();
+        for i in 0..points.len() as u32 {
+            let (a, c) = (self.previous[i as usize], self.next[i as usize]);
+            let convex = is_left_turn(place(a), place(i), place(c));
+            if !convex && self.blockers[..alone].binary_search(&i).is_err() {
+                self.blockers.push(i);
+            }
+        }
+    }
+
+    /// Queues what is left of the ring, once round.
+    fn queue_all(&mut self) {
+        self.queue.clear();
+        for corner in 0..self.next.len() {
+            if self.present[corner] {
+                self.queue.push_back((corner as u32, self.changes[corner]));
+            }
+        }
+    }
+
+    fn cut_queued(
+        &mut self,
+        points: &[DVec2],
+        triangles: &mut Vec<[u32; 3]>,
+        verdict: impl Fn(&Self, &[DVec2], [u32; 3]) -> Verdict,
+    ) {
+        while self.left >= 3
+            && let Some((corner, changes)) = self.queue.pop_front()
+        {
+            if !self.present[corner as usize] || self.changes[corner as usize] != changes {
+                continue;
+            }
+            let before = self.previous[corner as usize];
+            let after = self.next[corner as usize];
+            match verdict(self, points, [before, corner, after]) {
+                Verdict::Ear => {
+                    triangles.push([before, corner, after]);
+                    self.remove(corner);
+                }
+                Verdict::Needless => self.remove(corner),
+                Verdict::Keep => {}
+            }
+        }
+    }
+
+    /// Takes a corner out of the ring and queues its neighbours again.
+    fn remove(&mut self, corner: u32) {
+        let before = self.previous[corner as usize];
+        let after = self.next[corner as usize];
+        self.next[before as usize] = after;
+        self.previous[after as usize] = before;
+        self.present[corner as usize] = false;
+        self.left -= 1;
+        for neighbour in [before, after] {
+            let changes = &mut self.changes[neighbour as usize];
+            *changes += 1;
+            self.queue.push_back((neighbour, *changes));
+        }
+    }
+
+    fn verdict(&self, points: &[DVec2], ear: [u32; 3]) -> Verdict {
+        let [a, b, c] = ear.map(|i| points[i as usize]);
+        match turn(a, b, c) {
+            1 if self.is_free(points, ear) => Verdict::Ear,
+            0 if is_spike(a, b, c) => Verdict::Needless,
+            _ => Verdict::Keep,
+        }
+    }
+
+    /// For what is left of a polygon that crosses itself: whatever turns left
+    /// is an ear, whatever lies in between.
+    fn verdict_when_crossing(&self, points: &[DVec2], ear: [u32; 3]) -> Verdict {
+        let [a, b, c] = ear.map(|i| points[i as usize]);
+        match turn(a, b, c) {
+            1 => Verdict::Ear,
+            0 => Verdict::Needless,
+            _ => Verdict::Keep,
+        }
+    }
+
+    /// Whether nothing of the polygon enters the triangle of an ear or touches
+    /// its third side.
+    fn is_free(&self, points: &[DVec2], ear: [u32; 3]) -> bool {
+        let place = |i: u32| points[i as usize];
+        let triangle = Triangle(ear.map(place));
+        let before = place(self.previous[ear[0] as usize]);
+        let after = place(self.next[ear[2] as usize]);
+        if triangle.is_entered_towards(before, AT_FIRST_CORNER)
+            || triangle.is_entered_towards(after, AT_LAST_CORNER)
+        {
+            return false;
+        }
+        let (low, high) = triangle.bounds();
+        !self.grid.any(low, high, |i| {
+            let around = [self.previous[i as usize], self.next[i as usize]];
+            let point = place(i);
+            self.present[i as usize]
+                && !ear.contains(&i)
+                && low.cmple(point).all()
+                && high.cmpge(point).all()
+                && triangle.is_entered_at(point, around.map(place))
+        })
+    }
+}
+
+/// On which side of each of a triangle's sides a point is, see [`turn`].
+type Sides = [i32; 3];
+
+const AT_FIRST_CORNER: Sides = [0, 1, 0];
+const AT_LAST_CORNER: Sides = [1, 0, 0];
+
+/// A counter-clockwise triangle: its sides are ab, bc and the diagonal ca.
+struct Triangle([DVec2; 3]);
+
+impl Triangle {
+    fn bounds(&self) -> (DVec2, DVec2) {
+        let [a, b, c] = self.0;
+        (a.min(b).min(c), a.max(b).max(c))
+    }
+
+    fn sides(&self, point: DVec2) -> Sides {
+        let [a, b, c] = self.0;
+        [turn(a, b, point), turn(b, c, point), turn(c, a, point)]
+    }
+
+    /// Whether a corner of the polygon at this point, with its neighbours on
+    /// the outline, keeps the triangle from being an ear.
+    fn is_entered_at(&self, point: DVec2, neighbours: [DVec2; 2]) -> bool {
+        match self.sides(point) {
+            [.., -1] | [_, -1, _] | [-1, ..] => false,
+            // Inside, or within the third side.
+            [1, 1, _] => true,
+            // At a corner or within one of the other sides, which are the
+            // polygon's own: what counts is where the outline goes from here.
+            at => neighbours.iter().any(|&to| self.is_entered_towards(to, at)),
+        }
+    }
+
+    /// Whether the way from a point of the outline, whose sides are given,
+    /// towards another leads into the inside of the triangle.
+    fn is_entered_towards(&self, to: DVec2, at: Sides) -> bool {
+        let sides = self.sides(to);
+        (0..3).all(|i| at[i] > 0 || sides[i] > 0)
+    }
+}
+
+/// Of three points in one line: whether the last one is not ahead of the
+/// middle one, so that the two sides lie on each other.
+fn is_spike(a: DVec2, b: DVec2, c: DVec2) -> bool {
+    (b - a).dot(c - b) <= 0.0
+}
+
+fn refill<T>(buffer: &mut Vec<T>, values: impl Iterator<Item = T>) {
+    buffer.clear();
+    buffer.extend(values);
+}

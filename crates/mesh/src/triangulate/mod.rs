@@ -1,0 +1,88 @@
+//! Polygons to triangles.
+//!
+//! A face of a model may be anything: concave, with holes that are joined to
+//! the outline by bridge edges, with collinear or repeated corners, not
+//! planar, crossing itself. The polygon is projected along the axis in which
+//! its area vector is longest, which is exact (a coordinate is dropped), and
+//! cut into ears there by exact orientation tests.
+//!
+//! What holds for every polygon whose projection does not cross itself:
+//! exactly n − 2 triangles (less one for each corner that repeats the one
+//! before it or ends a spike of no width), none turned over, none outside, and **every
+//! corner is used**, also one in the middle of a straight side, so that a
+//! neighbouring face that shares this corner leaves no crack.
+//!
+//! The last point, and a time bound that hostile input cannot break, are why
+//! this is not the `earcut` crate: that drops collinear corners, and searches
+//! diagonals in cubic time once a polygon crosses itself. The tests hold our
+//! areas against it.
+
+mod ears;
+mod grid;
+mod project;
+mod quad;
+
+use trigon_math::{DVec2, Vec3};
+
+pub(crate) use project::area_vector;
+
+use ears::EarCutter;
+
+/// Cuts a polygon into triangles: indices into `positions`, counter-clockwise
+/// seen from the side from which the polygon is.
+///
+/// - A triangle is itself, even without area. Any other polygon without area
+///   has no triangles.
+/// - A quad is cut along its shorter diagonal, the first one (0–2) if there is
+///   no clear difference; if one half would be turned over (a concave or
+///   folded quad), along the other diagonal.
+/// - A polygon that crosses itself has no triangulation over its own corners:
+///   it gets at most n − 2 triangles inside its convex hull.
+/// - Fewer than three positions give nothing. With a coordinate that is not
+///   finite nothing is known about the shape: it becomes a fan.
+///
+/// ```
+/// use trigon_math::Vec3;
+/// use trigon_mesh::triangulate_polygon;
+///
+/// // An arrow head. The diagonal from 0 to 2 is inside, the other is not.
+/// let outline = [(0.0, 0.0), (3.0, -1.0), (1.0, 0.0), (3.0, 1.0)];
+/// let corners = outline.map(|(x, y)| Vec3::new(x, y, 0.0));
+/// assert_eq!(triangulate_polygon(&corners), [[0, 1, 2], [0, 2, 3]]);
+/// ```
+pub fn triangulate_polygon(positions: &[Vec3]) -> Vec<[u32; 3]> {
+    let mut triangles = Vec::with_capacity(positions.len().saturating_sub(2));
+    Triangulator::default().polygon(positions, &mut triangles);
+    triangles
+}
+
+/// Buffers that are reused from polygon to polygon.
+#[derive(Default)]
+pub(crate) struct Triangulator {
+    projected: Vec<DVec2>,
+    cutter: EarCutter,
+}
+
+impl Triangulator {
+    /// Appends a polygon's triangles, as indices into `positions`.
+    pub(crate) fn polygon(&mut self, positions: &[Vec3], triangles: &mut Vec<[u32; 3]>) {
+        match *positions {
+            [] | [_] | [_, _] => {}
+            [_, _, _] => triangles.push([0, 1, 2]),
+            [a, b, c, d] => match quad::split([a, b, c, d]) {
+                Some(halves) => triangles.extend(halves),
+                None => self.any(positions, triangles),
+            },
+            _ => self.any(positions, triangles),
+        }
+    }
+
+    fn any(&mut self, positions: &[Vec3], triangles: &mut Vec<[u32; 3]>) {
+        if positions.iter().all(|position| position.is_finite()) {
+            project::project(positions, &mut self.projected);
+            self.cutter.cut(&self.projected, triangles);
+        } else {
+            triangles.extend((2..positions.len() as u32).map(|i| [0, i - 1, i]));
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Which corners of a mesh are one vertex to a renderer.
+
+use std::cmp::Ordering;
+
+use trigon_math::{Vec2, Vec3, Vec4};
+
+use crate::Mesh;
+use crate::groups::Groups;
+
+/// Groups of up to so many corners are compared one with another; larger ones
+/// (the middle of a large fan, the pole of a fine sphere) are sorted, so that
+/// no mesh takes quadratic time.
+const SMALL_GROUP: usize = 24;
+
+/// The result of welding, both ways.
+pub(crate) struct Welded {
+    /// The first corner that shows each welded vertex.
+    pub(crate) corner_of_vertex: Vec<u32>,
+    /// The welded vertex of each corner.
+    pub(crate) vertex_of_corner: Vec<u32>,
+}
+
+/// Welds corners at the same vertex whose values agree, with
+/// these normals in place of the mesh's own.
+pub(crate) fn weld(mesh: &Mesh, normals: &[Vec3]) -> Welded {
+    let compare = Comparison::new(mesh, normals);
+    let corners = mesh.corner_vertices().iter().copied().zip(0u32..);
+    let mut groups = Groups::new(mesh.vertex_count(), corners);
+    let mut first_alike = vec![0u32; mesh.corner_count()];
+    for group in groups.iter_mut() {
+        match group.len() {
+            0..=SMALL_GROUP => link_small(group, &compare, &mut first_alike),
+            _ => link_large(group, &compare, &mut first_alike),
+        }
+    }
+    number(first_alike)
+}
+
+/// Turns "the first corner like me" into numbers in first-seen order.
+fn number(mut first_alike: Vec<u32>) -> Welded {
+    let mut corner_of_vertex = Vec::new();
+    for corner in 0..first_alike.len() {
+        let first = first_alike[corner] as usize;
+        first_alike[corner] = if first == corner {
+            corner_of_vertex.push(corner as u32);
+            corner_of_vertex.len() as u32 - 1
+        } else {
+            // An earlier corner, which has its number already.
+            first_alike[first]
+        };
+    }
+    Welded { corner_of_vertex, vertex_of_corner: first_alike }
+}
+
+fn link_small(group: &mut [u32], compare: &Comparison, first_alike: &mut [u32]) {
+    let mut distinct = 0;
+    for i in 0..group.len() {
+        let corner = group[i];
+        let known = group[..distinct].iter().find(|&&other| compare.equal(corner, other));
+        first_alike[corner as usize] = match known {
+            Some(&first) => first,
+            None => {
+                // Corners behind `i` are still to come; those before it that
+                // are not distinct are done with.
+                group[distinct] = corner;
+                distinct += 1;
+                corner
+            }
+        };
+    }
+}
+
+fn link_large(group: &mut [u32], compare: &Comparison, first_alike: &mut [u32]) {
+    group.sort_unstable_by(|&a, &b| compare.order(a, b).then(a.cmp(&b)));
+    for alike in group.chunk_by(|&a, &b| compare.equal(a, b)) {
+        for &corner in alike {
+            first_alike[corner as usize] = alike[0];
+        }
+    }
+}
+
+/// All values of all corners, compared by their bits (NaN is like itself and
+/// the two zeros are one).
+struct Comparison<'a> {
+    normals: &'a [Vec3],
+    uv_sets: &'a [Vec<Vec2>],
+    colors: &'a [Vec4],
+}
+
+impl<'a> Comparison<'a> {
+    fn new(mesh: &'a Mesh, normals: &'a [Vec3]) -> Self {
+        let attributes = mesh.attributes();
+        Self {
+            normals,
+            uv_sets: &attributes.uv_sets,
+            colors: attributes.corner_colors.as_deref().unwrap_or(&[]),
+        }
+    }
+
+    fn equal(&self, a: u32, b: u32) -> bool {
+        self.order(a, b) == Ordering::Equal
+    }
+
+    /// Some total order in which only corners that agree are equal.
+    fn order(&self, a: u32, b: u32) -> Ordering {
+        let [a, b] = [a as usize, b as usize];
+        let mut order = by_bits(self.normals[a].to_array(), self.normals[b].to_array());
+        for set in self.uv_sets {
+            order = order.then_with(|| by_bits(set[a].to_array(), set[b].to_array()));
+        }
+        if !self.colors.is_empty() {
+            let [a, b] = [self.colors[a], self.colors[b]];
+            order = order.then_with(|| by_bits(a.to_array(), b.to_array()));
+        }
+        order
+    }
+}
+
+fn by_bits<const N: usize>(a: [f32; N], b: [f32; N]) -> Ordering {
+    // Adding zero turns -0 into +0 and changes nothing else.
+    let bits = |values: [f32; N]| values.map(|value| (value + 0.0).to_bits());
+    bits(a).cmp(&bits(b))
+}
