@@ -4,7 +4,7 @@
 
 use proptest::prelude::*;
 use trigon_camera::{Camera, PixelCenters, Projection, Projector, Viewport, orientation_looking};
-use trigon_math::{DMat3, DVec2, DVec3};
+use trigon_math::{DMat3, DVec2, DVec3, elementary};
 
 const PICTURE: Viewport = Viewport { width: 1920, height: 1080 };
 
@@ -15,7 +15,7 @@ fn any_projection() -> impl Strategy<Value = Projection> {
     let near = -4i32..2;
     let far = prop::option::of(1.5f64..1e6);
     (0u8..4, near, far, prop::array::uniform4(0.1f64..1.0)).prop_map(|(kind, near, far, n)| {
-        let near = 10f64.powi(near);
+        let near = elementary::pow(10.0, f64::from(near));
         let far = far.map(|ratio| near * ratio);
         let made = match kind {
             0 => Projection::perspective(3.0 * n[0], near, far),
@@ -151,7 +151,7 @@ proptest! {
 
     #[test]
     fn every_direction_gives_a_rotation(direction in any_point(1.0), up in any_point(1.0), scale in -200i32..200) {
-        let turned = orientation_looking(direction * 10f64.powi(scale), up);
+        let turned = orientation_looking(direction * elementary::pow(10.0, f64::from(scale)), up);
         let axes = DMat3::from_quat(turned);
         prop_assert!((axes.determinant() - 1.0).abs() < 1e-12, "not a rotation: {axes}");
         let forward = turned * DVec3::NEG_Z;

@@ -1,4 +1,5 @@
 //! Prints where the corners of a cube land in a picture of 80 by 40, and draws them.
+#![expect(clippy::print_stdout, reason = "an example that prints")]
 
 use trigon_camera::{AxisView, DEFAULT_MARGIN, Orbit, Projector, Viewport};
 use trigon_math::{Bounds3, DVec3};

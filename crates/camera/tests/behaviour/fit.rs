@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use trigon_camera::{Camera, PixelCenters, Projection, Projector, Viewport};
-use trigon_math::{Bounds3, DVec2, DVec3};
+use trigon_math::{Bounds3, DVec2, DVec3, elementary};
 
 const PICTURE: Viewport = Viewport { width: 300, height: 200 };
 
@@ -61,7 +61,7 @@ proptest! {
         direction in prop::array::uniform3(-1.0f64..1.0),
         margin in 0.0f64..0.5,
     ) {
-        let scale = 10f64.powi(exponent);
+        let scale = elementary::pow(10.0, f64::from(exponent));
         let center = DVec3::from(offset) * scale * 10.0;
         let half = DVec3::from(size) * scale;
         let bounds = Bounds3 { min: center - half, max: center + half };
