@@ -56,7 +56,12 @@ impl Frame {
     }
 
     fn index(&self, x: u32, y: u32) -> usize {
-        assert!(x < self.width && y < self.height, "pixel ({x}, {y}) is outside {}×{}", self.width, self.height);
+        assert!(
+            x < self.width && y < self.height,
+            "pixel ({x}, {y}) is outside {}×{}",
+            self.width,
+            self.height
+        );
         y as usize * self.width as usize + x as usize
     }
 }

@@ -25,4 +25,4 @@ pub use render::{RenderError, Renderer, render};
 pub use scene::{MaterialId, MeshAsset, MeshId, NodeId, Scene, SceneError, TextureAsset, TextureId};
 pub use settings::{Lighting, MAX_SIZE, Outputs, RenderSettings, Style};
 pub use transform::Transform;
-pub use trigon_raster::{Filter, Sampler, Texture, Wrap};
+pub use trigon_raster::{Filter, MipFilter, Sampler, Stats, Texture, TextureError, TextureFormat, Wrap};

@@ -99,7 +99,11 @@ impl Material {
 
     /// The default plastic with a texture on its first UV set.
     pub fn from_texture(texture: TextureId) -> Self {
-        Self { base_color: Vec4::ONE, base_color_texture: Some(TextureBinding::new(texture)), ..Self::default() }
+        Self {
+            base_color: Vec4::ONE,
+            base_color_texture: Some(TextureBinding::new(texture)),
+            ..Self::default()
+        }
     }
 
     /// The same material under another name.

@@ -5,12 +5,13 @@ use std::sync::{Arc, OnceLock};
 use thiserror::Error;
 use trigon_camera::{Camera, Projection};
 use trigon_math::{Bounds3, DAffine3, DMat3, DQuat, DVec3};
-use trigon_mesh::{Mesh, RenderMesh};
+use trigon_mesh::Mesh;
 use trigon_raster::Texture;
 
 use crate::arena::{Arena, Id};
 use crate::material::Material;
 use crate::node::Node;
+use crate::render::Geometry;
 
 /// Names a node.
 pub type NodeId = Id<Node>;
@@ -27,7 +28,7 @@ pub struct MeshAsset {
     /// For people; need not be unique.
     pub name: String,
     mesh: Arc<Mesh>,
-    render_mesh: OnceLock<Arc<RenderMesh>>,
+    geometry: OnceLock<Arc<Geometry>>,
 }
 
 impl MeshAsset {
@@ -37,8 +38,8 @@ impl MeshAsset {
     }
 
     /// What is drawn of it; made at the first use.
-    pub fn render_mesh(&self) -> &RenderMesh {
-        self.render_mesh.get_or_init(|| Arc::new(RenderMesh::from_mesh(&self.mesh)))
+    pub(crate) fn geometry(&self) -> &Geometry {
+        self.geometry.get_or_init(|| Arc::new(Geometry::new(&self.mesh)))
     }
 }
 
@@ -88,14 +89,14 @@ impl Scene {
 
     /// Adds a mesh, to be drawn by nodes.
     pub fn add_mesh(&mut self, name: impl Into<String>, mesh: Mesh) -> MeshId {
-        self.meshes.insert(MeshAsset { name: name.into(), mesh: Arc::new(mesh), render_mesh: OnceLock::new() })
+        self.meshes.insert(MeshAsset { name: name.into(), mesh: Arc::new(mesh), geometry: OnceLock::new() })
     }
 
     /// Changes a mesh for every node that draws it; `None` when it was removed.
     pub fn replace_mesh(&mut self, id: MeshId, mesh: Mesh) -> Option<()> {
         let asset = self.meshes.get_mut(id)?;
         asset.mesh = Arc::new(mesh);
-        asset.render_mesh = OnceLock::new();
+        asset.geometry = OnceLock::new();
         Some(())
     }
 
@@ -227,7 +228,7 @@ impl Scene {
             let (Some(world), Some(mesh)) = (transforms[id.index()], node.mesh) else { continue };
             let Some(asset) = self.meshes.get(mesh) else { continue };
             let local = *mesh_bounds[mesh.index()].get_or_insert_with(|| asset.mesh.bounds());
-            bounds = bounds.union(&local.transformed(&world));
+            bounds = bounds.union(local.transformed(&world));
         }
         bounds
     }
@@ -235,7 +236,7 @@ impl Scene {
     /// The cameras that stand in the scene, in the order of their nodes: what
     /// a viewer of the file can choose from. A camera's scale is ignored.
     pub fn cameras(&self) -> Vec<(NodeId, Camera)> {
-        let holders = self.nodes.iter().filter_map(|(id, node)| Some((id, node.camera.clone()?)));
+        let holders = self.nodes.iter().filter_map(|(id, node)| Some((id, node.camera?)));
         holders.map(|(id, projection)| (id, camera_at(&self.world_transform(id), projection))).collect()
     }
 

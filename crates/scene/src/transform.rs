@@ -26,7 +26,8 @@ pub enum Transform {
 
 impl Transform {
     /// The node coincides with its parent.
-    pub const IDENTITY: Self = Self::Decomposed { translation: DVec3::ZERO, rotation: DQuat::IDENTITY, scale: DVec3::ONE };
+    pub const IDENTITY: Self =
+        Self::Decomposed { translation: DVec3::ZERO, rotation: DQuat::IDENTITY, scale: DVec3::ONE };
 
     /// A translation alone.
     pub fn from_translation(translation: DVec3) -> Self {
@@ -42,7 +43,9 @@ impl Transform {
     /// The map from the node's space into its parent's.
     pub fn to_affine(&self) -> DAffine3 {
         match *self {
-            Self::Decomposed { translation, rotation, scale } => DAffine3::from_scale_rotation_translation(scale, rotation, translation),
+            Self::Decomposed { translation, rotation, scale } => {
+                DAffine3::from_scale_rotation_translation(scale, rotation, translation)
+            }
             Self::Affine(affine) => affine,
         }
     }

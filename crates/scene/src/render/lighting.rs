@@ -5,6 +5,7 @@
 
 use trigon_math::{DAffine3, DVec3, Vec3, elementary};
 
+use super::placement::Eye;
 use crate::light::{Light, LightKind};
 use crate::material::Shading;
 use crate::scene::Scene;
@@ -33,13 +34,18 @@ pub(super) struct Lights {
 
 impl Lights {
     /// The lights that the settings and the scene call for. `transforms` is
-    /// the scene's table of visible nodes, `view` the map into camera space.
-    pub(super) fn gather(scene: &Scene, transforms: &[Option<DAffine3>], view: &DAffine3, lighting: Lighting) -> Self {
+    /// the scene's table of visible nodes.
+    pub(super) fn gather(
+        scene: &Scene,
+        transforms: &[Option<DAffine3>],
+        eye: &Eye,
+        lighting: Lighting,
+    ) -> Self {
         let mut lights = Self::default();
         if lighting != Lighting::Studio {
             for (id, node) in scene.nodes().iter() {
                 if let (Some(light), Some(world)) = (&node.light, &transforms[id.index()]) {
-                    lights.add(light, &(*view * *world));
+                    lights.add(light, &eye.to_camera(world));
                 }
             }
         }
@@ -60,7 +66,11 @@ impl Lights {
         };
         Self {
             ambient: Vec3::splat(0.16),
-            directional: vec![light(-0.45, 0.65, 0.62, 0.68), light(0.85, 0.05, 0.5, 0.22), light(0.25, 0.75, -0.6, 0.25)],
+            directional: vec![
+                light(-0.45, 0.65, 0.62, 0.68),
+                light(0.85, 0.05, 0.5, 0.22),
+                light(0.25, 0.75, -0.6, 0.25),
+            ],
             point: Vec::new(),
         }
     }
@@ -73,7 +83,9 @@ impl Lights {
                 let towards = to_camera.transform_vector3(DVec3::Z).normalize_or_zero().as_vec3();
                 self.directional.push(Directional { towards, radiance });
             }
-            LightKind::Point => self.point.push(Point { position: to_camera.translation.as_vec3(), radiance }),
+            LightKind::Point => {
+                self.point.push(Point { position: to_camera.translation.as_vec3(), radiance })
+            }
         }
     }
 
@@ -142,14 +154,22 @@ mod tests {
         assert_eq!(lights.shade(&facing(), Vec3::ONE, &Shading::Lambert), Vec3::splat(0.5), "directional");
         let mut lights = Lights::default();
         lights.add(&Light::point(1.0), &DAffine3::IDENTITY);
-        assert_eq!(lights.shade(&facing(), Vec3::ONE, &Shading::Lambert), Vec3::splat(0.25), "a quarter at two metres");
+        assert_eq!(
+            lights.shade(&facing(), Vec3::ONE, &Shading::Lambert),
+            Vec3::splat(0.25),
+            "a quarter at two metres"
+        );
     }
 
     #[test]
     fn a_light_on_the_surface_gives_no_nan() {
         let mut lights = Lights::default();
         lights.add(&Light::point(1.0), &DAffine3::from_translation(DVec3::new(0.0, 0.0, -2.0)));
-        assert_eq!(lights.shade(&facing(), Vec3::ONE, &Shading::Lambert), Vec3::ZERO, "no direction, no light");
+        assert_eq!(
+            lights.shade(&facing(), Vec3::ONE, &Shading::Lambert),
+            Vec3::ZERO,
+            "no direction, no light"
+        );
     }
 
     #[test]

@@ -45,10 +45,12 @@ pub(super) struct EdgeOverlay {
 pub(super) trait LightPart: Sync {
     type Varyings: Varyings;
     fn vertex(&self, position: Vec3, index: usize) -> Self::Varyings;
-    fn shade(&self, albedo: Vec3, fragment: &Self::Varyings, side: Side) -> Vec3;
+    /// `facing` is the side that winds counter-clockwise on the screen when the
+    /// object is not mirrored.
+    fn shade(&self, albedo: Vec3, fragment: &Self::Varyings, facing: Side) -> Vec3;
 }
 
-/// Which side of a face the camera sees, as its node is placed.
+/// A side of a face.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Side {
     Front,
@@ -72,6 +74,8 @@ pub(super) struct Lit<'a> {
     pub(super) rays: Rays,
     pub(super) lights: &'a Lights,
     pub(super) shading: Shading,
+    /// The side that a counter-clockwise triangle shows; see `Placement`.
+    pub(super) front: Side,
 }
 
 /// How rays of view run.
@@ -92,9 +96,9 @@ impl LightPart for Lit<'_> {
         (self.to_camera.transform_point3(position), normal)
     }
 
-    fn shade(&self, albedo: Vec3, &(position, normal): &Self::Varyings, side: Side) -> Vec3 {
+    fn shade(&self, albedo: Vec3, &(position, normal): &Self::Varyings, facing: Side) -> Vec3 {
         let normal = normal.normalize_or_zero();
-        let normal = if side == Side::Front { normal } else { -normal };
+        let normal = if facing == self.front { normal } else { -normal };
         let view = match self.rays {
             Rays::Meeting => (-position).normalize_or_zero(),
             Rays::Parallel => Vec3::Z,
@@ -187,17 +191,18 @@ impl<L: LightPart, T: TexturePart, C: ColorPart> Pipeline for Surface<'_, L, T, 
 
     fn vertex(&self, index: usize) -> VertexOutput<Self::Varyings> {
         let position = self.positions[index];
-        let varyings = (self.light.vertex(position, index), self.texture.vertex(index), self.color.vertex(index));
+        let varyings =
+            (self.light.vertex(position, index), self.texture.vertex(index), self.color.vertex(index));
         VertexOutput { position: self.to_clip * position.extend(1.0), varyings }
     }
 
     fn fragment(&self, fragment: &Fragment<Self::Varyings>) -> Vec4 {
         let albedo = self.albedo(fragment);
-        let side = if fragment.front_facing { Side::Front } else { Side::Back };
-        let shaded = self.light.shade(albedo.truncate(), &fragment.varyings.0, side) + self.emissive;
+        let facing = if fragment.front_facing { Side::Front } else { Side::Back };
+        let shaded = self.light.shade(albedo.truncate(), &fragment.varyings.0, facing) + self.emissive;
         let alpha = if self.coverage == Coverage::Opaque { 1.0 } else { albedo.w.clamp(0.0, 1.0) };
         let color = (shaded * alpha).extend(alpha);
-        self.edges.map_or(color, |edges| edges.over(color, fragment.edge_distance))
+        self.edges.map_or(color, |edges| edges.over(color, fragment.nearest_edge()))
     }
 
     fn mask(&self, fragment: &Fragment<Self::Varyings>) -> bool {
@@ -207,7 +212,7 @@ impl<L: LightPart, T: TexturePart, C: ColorPart> Pipeline for Surface<'_, L, T, 
 
 impl EdgeOverlay {
     /// The edge's colour over the surface's, fading out over one pixel.
-    fn over(&self, color: Vec4, distance: f32) -> Vec4 {
+    pub(super) fn over(&self, color: Vec4, distance: f32) -> Vec4 {
         let edge = (self.half_width + 0.5 - distance).clamp(0.0, 1.0);
         color * (1.0 - edge) + self.color.extend(1.0) * edge
     }

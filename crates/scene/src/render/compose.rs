@@ -1,0 +1,295 @@
+//! Which draws a picture needs, each with the pipeline that its material and
+//! mesh call for and no more.
+
+use std::ops::Range;
+
+use trigon_camera::Camera;
+use trigon_math::{DAffine3, Vec3};
+use trigon_raster::{Culling, Draw, EdgeFlags, Lines, Pass, Pipeline, Points};
+
+use super::geometry::{Geometry, Run};
+use super::lighting::Lights;
+use super::placement::{Eye, Placement};
+use super::surface::{
+    ColorPart, Colored, Coverage, EdgeOverlay, LightPart, Lit, Rays, Surface, TexturePart, Textured,
+};
+use super::wire::{HiddenLine, Wire};
+use crate::material::{AlphaMode, Material, Shading, TextureBinding};
+use crate::node::Node;
+use crate::scene::{MeshAsset, Scene};
+use crate::settings::{RenderSettings, Style};
+
+/// A draw that owns its pipeline, and can be recorded whatever that is.
+pub(super) trait Record {
+    fn record<'a>(&'a self, pass: &mut Pass<'a>);
+}
+
+/// Size of loose points, in line widths.
+const POINT_TO_LINE: f32 = 3.0;
+
+/// Everything that all draws of a picture share.
+pub(super) struct Composer<'s> {
+    scene: &'s Scene,
+    settings: &'s RenderSettings,
+    transforms: Vec<Option<DAffine3>>,
+    eye: Eye,
+    rays: Rays,
+    lights: Lights,
+    default_material: Material,
+}
+
+/// One mesh at one node.
+struct Object<'s> {
+    index: u32,
+    node: &'s Node,
+    asset: &'s MeshAsset,
+    geometry: &'s Geometry,
+    place: Placement,
+}
+
+impl<'s> Composer<'s> {
+    pub(super) fn new(scene: &'s Scene, camera: &Camera, settings: &'s RenderSettings) -> Self {
+        let transforms = scene.visible_transforms();
+        let eye = Eye::new(camera, settings.aspect());
+        let lights = Lights::gather(scene, &transforms, &eye, settings.lighting);
+        let rays = if camera.projection.is_orthographic() { Rays::Parallel } else { Rays::Meeting };
+        Self { scene, settings, transforms, eye, rays, lights, default_material: Material::default() }
+    }
+
+    /// All draws of the picture.
+    pub(super) fn draws(&self) -> Vec<Box<dyn Record + '_>> {
+        let mut draws: Vec<Box<dyn Record>> = Vec::new();
+        for (id, node) in self.scene.nodes().iter() {
+            let (Some(world), Some(mesh)) = (&self.transforms[id.index()], node.mesh) else { continue };
+            let Some(asset) = self.scene.meshes().get(mesh) else { continue };
+            let (index, place) = (id.index() as u32, self.eye.place(world));
+            self.object(&Object { index, node, asset, geometry: asset.geometry(), place }, &mut draws);
+        }
+        draws
+    }
+
+    fn object<'c>(&'c self, object: &Object<'s>, draws: &mut Vec<Box<dyn Record + 'c>>) {
+        match self.settings.style {
+            Style::Surface | Style::SurfaceWithEdges => {
+                let runs = object.geometry.runs.iter();
+                draws.extend(runs.map(|run| self.surface(object, run)));
+            }
+            Style::HiddenLine => draws.push(self.hidden_line(object)),
+            Style::Wireframe => {
+                let edges = &object.asset.mesh().edges()[..object.asset.mesh().face_edge_count()];
+                draws.extend(self.segments(object, edges, self.settings.edge_color));
+            }
+        }
+        let color = self.material(object, 0).base_color.truncate();
+        draws.extend(self.segments(object, object.asset.mesh().loose_edges(), color));
+        draws.extend(self.points(object, color));
+    }
+
+    /// The material of a slot; the default where there is none.
+    fn material(&self, object: &Object<'s>, slot: u32) -> &Material {
+        let id = object.node.materials.get(slot as usize);
+        id.and_then(|&id| self.scene.materials.get(id)).unwrap_or(&self.default_material)
+    }
+
+    /// The triangles of one slot, with the parts that its material calls for.
+    fn surface<'c>(&'c self, object: &Object<'s>, run: &Run) -> Box<dyn Record + 'c> {
+        let material = self.material(object, run.slot);
+        let part = Part { composer: self, material, run: run.triangles.clone() };
+        if material.shading == Shading::Unlit {
+            return part.with_texture(object, ());
+        }
+        let lit = Lit {
+            normals: &object.geometry.mesh.normals,
+            to_camera: object.place.to_camera,
+            normal_to_camera: object.place.normal_to_camera,
+            rays: self.rays,
+            lights: &self.lights,
+            shading: material.shading,
+            front: object.place.front,
+        };
+        part.with_texture(object, lit)
+    }
+
+    fn edge_overlay(&self) -> EdgeOverlay {
+        EdgeOverlay { color: self.settings.edge_color, half_width: self.settings.line_width * 0.5 }
+    }
+
+    fn hidden_line<'c>(&'c self, object: &Object<'s>) -> Box<dyn Record + 'c> {
+        let mesh = &object.geometry.mesh;
+        let pipeline = HiddenLine {
+            positions: &mesh.positions,
+            to_clip: object.place.to_clip,
+            background: self.settings.background,
+            height: self.settings.height,
+            edges: self.edge_overlay(),
+        };
+        let flags = object.geometry.edge_flags(object.asset.mesh());
+        Box::new(Triangles {
+            pipeline,
+            triangles: &mesh.triangles,
+            faces: &mesh.triangle_faces,
+            edge_flags: Some(flags),
+            object: object.index,
+            culling: Culling::None,
+            surface: trigon_raster::Surface::Opaque,
+        })
+    }
+
+    fn wire(&self, object: &Object<'s>, color: Vec3) -> Wire<'s> {
+        Wire { positions: object.asset.mesh().positions(), to_clip: object.place.to_clip, color }
+    }
+
+    fn segments<'c>(
+        &'c self,
+        object: &Object<'s>,
+        segments: &'s [[u32; 2]],
+        color: Vec3,
+    ) -> Option<Box<dyn Record + 'c>> {
+        let (pipeline, object, width) = (self.wire(object, color), object.index, self.settings.line_width);
+        (!segments.is_empty())
+            .then(|| Box::new(Segments { pipeline, segments, object, width }) as Box<dyn Record>)
+    }
+
+    fn points<'c>(&'c self, object: &Object<'s>, color: Vec3) -> Option<Box<dyn Record + 'c>> {
+        let points = object.asset.mesh().loose_points();
+        let size = self.settings.line_width * POINT_TO_LINE;
+        let (pipeline, object) = (self.wire(object, color), object.index);
+        (!points.is_empty()).then(|| Box::new(Dots { pipeline, points, object, size }) as Box<dyn Record>)
+    }
+}
+
+/// The triangles of one slot while their pipeline is being composed, one
+/// optional part after the other.
+struct Part<'c, 's> {
+    composer: &'c Composer<'s>,
+    material: &'c Material,
+    run: Range<usize>,
+}
+
+impl<'c> Part<'c, '_> {
+    fn with_texture<'s: 'c>(&self, object: &Object<'s>, light: impl LightPart + 'c) -> Box<dyn Record + 'c> {
+        let textured = self.material.base_color_texture.as_ref().and_then(|binding| {
+            let asset = self.composer.scene.textures.get(binding.texture)?;
+            let uvs = object.geometry.mesh.uv_sets.get(binding.uv_set)?;
+            Some(self.textured(uvs, &asset.texture, binding))
+        });
+        match textured {
+            Some(texture) => self.with_color(object, light, texture),
+            None => self.with_color(object, light, ()),
+        }
+    }
+
+    fn textured(
+        &self,
+        uvs: &'c [trigon_math::Vec2],
+        texture: &'c trigon_raster::Texture,
+        binding: &'c TextureBinding,
+    ) -> Textured<'c> {
+        Textured { uvs, texture, binding }
+    }
+
+    fn with_color<'s: 'c>(
+        &self,
+        object: &Object<'s>,
+        light: impl LightPart + 'c,
+        texture: impl TexturePart + 'c,
+    ) -> Box<dyn Record + 'c> {
+        match &object.geometry.mesh.colors {
+            Some(colors) => self.complete(object, light, texture, Colored(colors)),
+            None => self.complete(object, light, texture, ()),
+        }
+    }
+
+    fn complete<'s: 'c>(
+        &self,
+        object: &Object<'s>,
+        light: impl LightPart + 'c,
+        texture: impl TexturePart + 'c,
+        color: impl ColorPart + 'c,
+    ) -> Box<dyn Record + 'c> {
+        let (mesh, material) = (&object.geometry.mesh, self.material);
+        let (surface, coverage, cutoff) = answer_to_alpha(material.alpha_mode);
+        let show_edges = self.composer.settings.style == Style::SurfaceWithEdges;
+        let pipeline = Surface {
+            positions: &mesh.positions,
+            to_clip: object.place.to_clip,
+            light,
+            texture,
+            color,
+            base_color: material.base_color,
+            emissive: material.emissive,
+            cutoff,
+            coverage,
+            edges: show_edges.then(|| self.composer.edge_overlay()),
+        };
+        let flags = show_edges.then(|| &object.geometry.edge_flags(object.asset.mesh())[self.run.clone()]);
+        Box::new(Triangles {
+            pipeline,
+            triangles: &mesh.triangles[self.run.clone()],
+            faces: &mesh.triangle_faces[self.run.clone()],
+            edge_flags: flags,
+            object: object.index,
+            culling: if material.double_sided { Culling::None } else { object.place.cull_back },
+            surface,
+        })
+    }
+}
+
+/// How the rasterizer and the pipeline treat an alpha mode.
+fn answer_to_alpha(mode: AlphaMode) -> (trigon_raster::Surface, Coverage, f32) {
+    match mode {
+        AlphaMode::Opaque => (trigon_raster::Surface::Opaque, Coverage::Opaque, 0.0),
+        AlphaMode::Mask { cutoff } => (trigon_raster::Surface::Masked, Coverage::Opaque, cutoff),
+        AlphaMode::Blend => (trigon_raster::Surface::Translucent, Coverage::Translucent, 0.0),
+    }
+}
+
+struct Triangles<'s, P> {
+    pipeline: P,
+    triangles: &'s [[u32; 3]],
+    faces: &'s [u32],
+    edge_flags: Option<&'s [EdgeFlags]>,
+    object: u32,
+    culling: Culling,
+    surface: trigon_raster::Surface,
+}
+
+impl<P: Pipeline> Record for Triangles<'_, P> {
+    fn record<'a>(&'a self, pass: &mut Pass<'a>) {
+        pass.triangles(Draw {
+            faces: Some(self.faces),
+            edge_flags: self.edge_flags,
+            object: self.object,
+            culling: self.culling,
+            surface: self.surface,
+            ..Draw::new(&self.pipeline, self.triangles)
+        });
+    }
+}
+
+struct Segments<'s> {
+    pipeline: Wire<'s>,
+    segments: &'s [[u32; 2]],
+    object: u32,
+    width: f32,
+}
+
+impl Record for Segments<'_> {
+    fn record<'a>(&'a self, pass: &mut Pass<'a>) {
+        let lines = Lines::new(&self.pipeline, self.segments);
+        pass.lines(Lines { object: self.object, width: self.width, ..lines });
+    }
+}
+
+struct Dots<'s> {
+    pipeline: Wire<'s>,
+    points: &'s [u32],
+    object: u32,
+    size: f32,
+}
+
+impl Record for Dots<'_> {
+    fn record<'a>(&'a self, pass: &mut Pass<'a>) {
+        pass.points(Points { object: self.object, ..Points::new(&self.pipeline, self.points, self.size) });
+    }
+}

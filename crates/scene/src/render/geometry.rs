@@ -1,0 +1,118 @@
+//! A mesh as it is drawn: triangles grouped by material slot.
+//!
+//! Made once per mesh, at its first picture, and shared by all nodes that draw
+//! the mesh.
+
+use std::ops::Range;
+use std::sync::OnceLock;
+
+use trigon_mesh::{Mesh, RenderMesh};
+use trigon_raster::EdgeFlags;
+
+/// A mesh as it is drawn.
+#[derive(Debug)]
+pub(crate) struct Geometry {
+    /// Its triangles are ordered by material slot.
+    pub(crate) mesh: RenderMesh,
+    /// The triangles of each slot, in the order of the slots.
+    pub(crate) runs: Vec<Run>,
+    /// Where each triangle was in the triangulation; `None` when in place.
+    order: Option<Vec<u32>>,
+    edge_flags: OnceLock<Vec<EdgeFlags>>,
+}
+
+/// Triangles that share a material slot.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Run {
+    pub(crate) slot: u32,
+    pub(crate) triangles: Range<usize>,
+}
+
+impl Geometry {
+    pub(crate) fn new(source: &Mesh) -> Self {
+        let mut mesh = RenderMesh::from_mesh(source);
+        let order = sorted_by_slot(&mesh.triangle_materials);
+        if let Some(order) = &order {
+            permute(&mut mesh.triangles, order);
+            permute(&mut mesh.triangle_faces, order);
+            permute(&mut mesh.triangle_materials, order);
+        }
+        let runs = runs(&mesh.triangle_materials);
+        Self { mesh, runs, order, edge_flags: OnceLock::new() }
+    }
+
+    /// For each triangle, which of its edges are edges of its polygon. Only
+    /// pictures that show edges ask for it.
+    pub(crate) fn edge_flags(&self, source: &Mesh) -> &[EdgeFlags] {
+        self.edge_flags.get_or_init(|| {
+            let mut flags = polygon_edges(source);
+            if let Some(order) = &self.order {
+                permute(&mut flags, order);
+            }
+            flags
+        })
+    }
+}
+
+/// The order that groups triangles by slot and keeps their order within one;
+/// `None` when they are in that order already.
+fn sorted_by_slot(slots: &[u32]) -> Option<Vec<u32>> {
+    if slots.is_sorted() {
+        return None;
+    }
+    let mut order: Vec<u32> = (0..slots.len() as u32).collect();
+    order.sort_by_key(|&triangle| slots[triangle as usize]);
+    Some(order)
+}
+
+fn permute<T: Copy>(items: &mut Vec<T>, order: &[u32]) {
+    *items = order.iter().map(|&from| items[from as usize]).collect();
+}
+
+fn runs(slots: &[u32]) -> Vec<Run> {
+    let mut start = 0;
+    let run = |chunk: &[u32]| {
+        let triangles = start..start + chunk.len();
+        start = triangles.end;
+        Run { slot: chunk[0], triangles }
+    };
+    slots.chunk_by(|a, b| a == b).map(run).collect()
+}
+
+/// An edge of a triangle is an edge of its polygon when it joins neighbouring
+/// corners; all others are diagonals of the triangulation.
+fn polygon_edges(source: &Mesh) -> Vec<EdgeFlags> {
+    let triangulation = source.triangulation();
+    let pairs = triangulation.triangles.iter().zip(&triangulation.triangle_faces);
+    let flags = pairs.map(|(&[a, b, c], &face)| {
+        let corners = source.face_corners(face as usize);
+        let (first, last) = (corners.start as u32, corners.end as u32 - 1);
+        let neighbours = |from: u32, to: u32| to == if from == last { first } else { from + 1 };
+        EdgeFlags::new([(a, b), (b, c), (c, a)].map(|(from, to)| neighbours(from, to)))
+    });
+    flags.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triangles_are_grouped_by_slot_in_stable_order() {
+        assert_eq!(sorted_by_slot(&[0, 0, 1]), None, "in order already");
+        let order = sorted_by_slot(&[2, 0, 2, 1, 0]).expect("out of order");
+        assert_eq!(order, [1, 4, 3, 0, 2], "grouped, and stable within a slot");
+        let grouped = runs(&[0, 0, 1, 2, 2]);
+        let expected = [(0, 0..2), (1, 2..3), (2, 3..5)].map(|(slot, triangles)| Run { slot, triangles });
+        assert_eq!(grouped, expected, "one run a slot");
+    }
+
+    #[test]
+    fn a_cube_shows_twelve_edges_and_no_diagonal() {
+        let cube = trigon_mesh::primitives::cube(1.0);
+        let flags = polygon_edges(&cube);
+        let shown: usize =
+            flags.iter().map(|flags| (0..3).filter(|&edge| flags.contains(edge)).count()).sum();
+        assert_eq!((flags.len(), shown), (12, 24), "each edge is seen from its two faces");
+    }
+}

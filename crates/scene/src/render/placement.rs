@@ -1,0 +1,155 @@
+//! The maps of one node: computed once per node in f64, cast once to f32.
+
+use trigon_camera::{Camera, Projection};
+use trigon_math::{DAffine3, DMat3, DMat4, DVec3, Mat3, Mat4};
+use trigon_raster::Culling;
+
+use super::surface::Side;
+
+/// The maps of one node, ready for the vertex stage.
+#[derive(Clone, Copy)]
+pub(super) struct Placement {
+    pub(super) to_clip: Mat4,
+    pub(super) to_camera: Mat4,
+    /// Turns normals; the result has any length.
+    pub(super) normal_to_camera: Mat3,
+    /// The side to drop so that backs are: a mirroring placement turns the
+    /// winding over.
+    pub(super) cull_back: Culling,
+    /// The side that a triangle shows when it winds counter-clockwise on the
+    /// screen.
+    pub(super) front: Side,
+}
+
+/// Everything about the camera that placements need.
+pub(super) struct Eye {
+    position: DVec3,
+    /// The rotation alone: the eye is subtracted before it is applied.
+    turn: DMat3,
+    projection: DMat4,
+}
+
+impl Eye {
+    pub(super) fn new(camera: &Camera, aspect: f64) -> Self {
+        let turn = DMat3::from_quat(camera.orientation.conjugate());
+        Self { position: camera.position, turn, projection: camera.projection.matrix(aspect) }
+    }
+
+    /// A map of the world in camera space. Large translations cancel before
+    /// anything is rounded to f32.
+    pub(super) fn to_camera(&self, world: &DAffine3) -> DAffine3 {
+        DAffine3 {
+            matrix3: self.turn * world.matrix3,
+            translation: self.turn * (world.translation - self.position),
+        }
+    }
+
+    pub(super) fn place(&self, world: &DAffine3) -> Placement {
+        let to_camera = self.to_camera(world);
+        let mirrored = to_camera.matrix3.determinant() < 0.0;
+        Placement {
+            to_clip: (self.projection * DMat4::from(to_camera)).as_mat4(),
+            to_camera: DMat4::from(to_camera).as_mat4(),
+            normal_to_camera: normal_matrix(&to_camera.matrix3),
+            cull_back: if mirrored { Culling::Front } else { Culling::Back },
+            front: if mirrored { Side::Back } else { Side::Front },
+        }
+    }
+}
+
+/// The cofactor matrix, with the sign that keeps normals pointing outwards
+/// under mirroring, scaled so that its largest entry is 1: then neither tiny
+/// nor huge objects leave the range of f32. Unlike the inverse transpose it
+/// exists for flattened objects, too.
+fn normal_matrix(matrix: &DMat3) -> Mat3 {
+    let largest = largest_entry(matrix);
+    // Made safe to multiply first: entries of 1e200 would overflow when squared.
+    let safe = if largest > 0.0 && largest.is_finite() { *matrix * (1.0 / largest) } else { DMat3::IDENTITY };
+    let cofactor = DMat3::from_cols(
+        safe.y_axis.cross(safe.z_axis),
+        safe.z_axis.cross(safe.x_axis),
+        safe.x_axis.cross(safe.y_axis),
+    );
+    let sign = if safe.determinant() < 0.0 { -1.0 } else { 1.0 };
+    let largest = largest_entry(&cofactor);
+    let scale = if largest > 0.0 { sign / largest } else { sign };
+    (cofactor * scale).as_mat3()
+}
+
+fn largest_entry(matrix: &DMat3) -> f64 {
+    let entries = matrix.to_cols_array();
+    entries.iter().fold(0.0, |largest, entry| if entry.abs() > largest { entry.abs() } else { largest })
+}
+
+/// From the depth that the rasterizer stores back to metres.
+pub(super) struct DepthToDistance {
+    /// z_clip = a·z + b and w_clip = c·z + d for a point at z in camera space.
+    a: f64,
+    b: f64,
+    c: f64,
+    d: f64,
+}
+
+impl DepthToDistance {
+    pub(super) fn new(projection: &Projection, aspect: f64) -> Self {
+        let matrix = projection.matrix(aspect);
+        Self { a: matrix.z_axis.z, b: matrix.w_axis.z, c: matrix.z_axis.w, d: matrix.w_axis.w }
+    }
+
+    /// Metres along the view axis; infinite for depth 0, the background.
+    pub(super) fn at(&self, depth: f32) -> f32 {
+        if depth == 0.0 {
+            return f32::INFINITY;
+        }
+        let depth = f64::from(depth);
+        // depth = (a·z + b) / (c·z + d), solved for z; the camera looks along −z.
+        (-((self.b - depth * self.d) / (depth * self.c - self.a))) as f32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trigon_math::Vec3;
+
+    #[test]
+    fn normals_of_a_flattened_object_point_along_the_flattened_axis() {
+        let flat = DMat3::from_diagonal(DVec3::new(2.0, 0.0, 2.0));
+        let normal = normal_matrix(&flat) * Vec3::new(1.0, 1.0, 0.0);
+        assert_eq!(normal.normalize(), Vec3::Y, "only the flattened axis is left");
+    }
+
+    #[test]
+    fn normals_survive_mirroring_and_extreme_scales() {
+        for scale in [1e-150, 1e-9, 1.0, 1e9, 1e150] {
+            for mirror in [1.0, -1.0] {
+                let matrix = DMat3::from_diagonal(DVec3::new(mirror * scale, scale, 2.0 * scale));
+                let normal = normal_matrix(&matrix) * Vec3::Y;
+                assert_eq!(normal.normalize(), Vec3::Y, "scale {scale}, mirror {mirror}");
+            }
+        }
+    }
+
+    #[test]
+    fn depth_goes_back_to_metres() {
+        let projections = [
+            Projection::perspective(1.0, 0.1, Some(100.0)),
+            Projection::perspective(1.0, 0.1, None),
+            Projection::orthographic(2.0, 0.1, 100.0),
+        ];
+        for projection in projections.map(|projection| projection.expect("valid")) {
+            let matrix = projection.matrix(1.5);
+            for distance in [0.2, 1.0, 50.0] {
+                let clip = matrix * DVec3::new(0.0, 0.0, -distance).extend(1.0);
+                let depth = (clip.z / clip.w) as f32;
+                let back = f64::from(DepthToDistance::new(&projection, 1.5).at(depth));
+                // f32 depth has a relative error of 2⁻²⁴; the slope of the inverse
+                // magnifies it by at most distance/near (finite far: and by far/(far−z)).
+                let bound = distance * f64::from(f32::EPSILON) / 2.0
+                    * (distance / 0.1).max(100.0 / (100.0 - distance))
+                    * 2.0;
+                assert!((back - distance).abs() <= bound, "{distance} came back as {back}");
+            }
+        }
+    }
+}
