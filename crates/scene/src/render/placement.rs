@@ -132,22 +132,24 @@ mod tests {
 
     #[test]
     fn depth_goes_back_to_metres() {
-        let projections = [
-            Projection::perspective(1.0, 0.1, Some(100.0)),
-            Projection::perspective(1.0, 0.1, None),
-            Projection::orthographic(2.0, 0.1, 100.0),
+        let (near, far) = (0.1, 100.0);
+        // How many metres a unit of depth is worth at a distance z.
+        let cases: [(_, fn(f64) -> f64); 3] = [
+            (Projection::perspective(1.0, near, Some(far)), |z| z * z * 99.9 / (0.1 * 100.0)),
+            (Projection::perspective(1.0, near, None), |z| z * z / 0.1),
+            (Projection::orthographic(2.0, near, far), |_| 99.9),
         ];
-        for projection in projections.map(|projection| projection.expect("valid")) {
+        for (projection, metres_per_depth) in cases {
+            let projection = projection.expect("valid");
             let matrix = projection.matrix(1.5);
             for distance in [0.2, 1.0, 50.0] {
                 let clip = matrix * DVec3::new(0.0, 0.0, -distance).extend(1.0);
-                let depth = (clip.z / clip.w) as f32;
-                let back = f64::from(DepthToDistance::new(&projection, 1.5).at(depth));
-                // f32 depth has a relative error of 2⁻²⁴; the slope of the inverse
-                // magnifies it by at most distance/near (finite far: and by far/(far−z)).
-                let bound = distance * f64::from(f32::EPSILON) / 2.0
-                    * (distance / 0.1).max(100.0 / (100.0 - distance))
-                    * 2.0;
+                let depth = clip.z / clip.w;
+                let back = f64::from(DepthToDistance::new(&projection, 1.5).at(depth as f32));
+                // Depth and result are rounded to f32, each by at most 2⁻²⁴ of itself;
+                // 1 % more for the curvature and the roundings in f64.
+                let half_ulp = f64::from(f32::EPSILON) / 2.0;
+                let bound = 1.01 * half_ulp * (metres_per_depth(distance) * depth + distance);
                 assert!((back - distance).abs() <= bound, "{distance} came back as {back}");
             }
         }
