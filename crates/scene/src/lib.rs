@@ -3,6 +3,27 @@
 //! The scene is plain data; [`render`] is a pure function of scene, camera and
 //! settings, and the same input gives the same bytes on every machine and at
 //! every thread count. This crate reads no files and opens no windows.
+//!
+//! ```
+//! use trigon_scene::mesh::primitives;
+//! use trigon_scene::{Light, Material, Node, Outputs, RenderSettings, Scene, render};
+//! use trigon_scene::math::Vec3;
+//!
+//! let mut scene = Scene::new();
+//! let ball = scene.add_object("ball", primitives::icosphere(1.0, 2), Material::from_color(Vec3::X));
+//! scene.add(Node::from_light(Light::ambient(1.0)));
+//!
+//! let outputs = Outputs { ids: true, ..Outputs::default() };
+//! let settings = RenderSettings { outputs, ..RenderSettings::new(9, 9) };
+//! let frame = render(&scene, &scene.overview(settings.aspect()), &settings)?;
+//!
+//! // A red ball in the middle of the picture, and we know which one it is.
+//! let [red, green, blue, alpha] = frame.pixel(4, 4);
+//! assert!(red > 200 && green < 10 && blue < 10 && alpha == 255);
+//! assert_eq!(frame.hit(scene.nodes(), 4, 4).map(|hit| hit.node), Some(ball));
+//! assert_eq!(frame.hit(scene.nodes(), 0, 0), None, "the corner is background");
+//! # Ok::<(), trigon_scene::RenderError>(())
+//! ```
 
 mod arena;
 mod background;
@@ -14,6 +35,7 @@ mod render;
 mod scene;
 mod settings;
 mod transform;
+mod views;
 
 pub use arena::{Arena, Id};
 pub use background::Background;
@@ -26,3 +48,6 @@ pub use scene::{MaterialId, MeshAsset, MeshId, NodeId, Scene, SceneError, Textur
 pub use settings::{Lighting, MAX_SIZE, Outputs, RenderSettings, Style};
 pub use transform::Transform;
 pub use trigon_raster::{Filter, MipFilter, Sampler, Stats, Texture, TextureError, TextureFormat, Wrap};
+pub use views::OVERVIEW_DIRECTION;
+/// The crates below, so that a user of scenes needs no others.
+pub use {trigon_camera as camera, trigon_math as math, trigon_mesh as mesh};
