@@ -1,1 +1,61 @@
-//! trigon-io
+//! Model and picture files for trigon: OBJ with MTL, glTF and GLB, PNG and JPEG
+//! in; PNG out.
+//!
+//! A file becomes a [`Scene`](trigon_scene::Scene) and a list of warnings. What
+//! cannot be used is an error. Both name the file, the place in it, and what to
+//! do, in one line. Files are data from strangers: nothing outside the model's
+//! folder is opened, every claim is checked before memory is allocated for it,
+//! and no file makes the loader panic. This crate never draws and never prints.
+//!
+//! ```
+//! use trigon_io::{LoadOptions, load_from_slice};
+//!
+//! let obj = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 2\n";
+//! let loaded = load_from_slice("square.obj", obj, &LoadOptions::default())?;
+//! let (_, mesh) = loaded.scene.meshes().iter().next().expect("the file has faces");
+//! assert_eq!(mesh.mesh().face_count(), 1, "a square is one polygon");
+//! assert_eq!(
+//!     loaded.warnings[0].to_string(),
+//!     "square.obj, line 6: a face has fewer than 3 vertices and is left out; \
+//!      remove it, or write edges with `l` and points with `p`"
+//! );
+//!
+//! let error = load_from_slice("square.obj", b"v 0 0 0\nf 1 2 3\n", &LoadOptions::default()).unwrap_err();
+//! assert_eq!(
+//!     error.to_string(),
+//!     "square.obj, line 2: face index \"2\" leads nowhere; there are 1 vertices; \
+//!      export the model again, or mend the line"
+//! );
+//! # Ok::<(), trigon_io::LoadError>(())
+//! ```
+//!
+//! # Conventions
+//! Right-handed, +Y up, metres, counter-clockwise faces: what glTF and OBJ have
+//! already. Texture coordinates count v downwards from the upper left. Colours
+//! are linear light. Positions far from the origin are rebased, and the offset
+//! goes into the node. One node of the file is one node of the scene.
+
+mod error;
+mod folder;
+mod format;
+mod gltf;
+mod import;
+mod limits;
+mod load;
+mod obj;
+mod options;
+mod picture;
+mod png;
+mod rebase;
+mod textures;
+mod uri;
+mod warning;
+
+pub use load::{Loaded, load, load_from_slice};
+pub use options::{LoadOptions, Progress, ProgressHook, Stage};
+pub use limits::Limits;
+pub use warning::Warning;
+pub use error::{LoadError, LoadErrorKind, Place};
+pub use format::{Format, Reader, readers};
+pub use picture::{Picture, load_image};
+pub use png::{Pixels, WriteError, encode_png, write_png};

@@ -1,0 +1,145 @@
+//! What stops a load: which file, where in it, what is wrong, and what to do.
+//!
+//! A message is one line for people: `cube.obj, line 12: face index 9 …; …`.
+//! Names that come out of files are made printable first, so that no file can
+//! write escape sequences to a terminal or break the line.
+
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// Where in a file something was found.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Place {
+    /// The file as a whole.
+    #[default]
+    Whole,
+    /// A line of text, counted from 1 as editors do.
+    Line(u64),
+    /// An offset from the start of the file.
+    Byte(u64),
+    /// A numbered object of a glTF file, counted from 0 as the format does:
+    /// `accessor 3`.
+    Item(&'static str, usize),
+    /// Anything else that has a name: `material "wood"`, `mesh 2, primitive 0`.
+    Named(String),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Whole => Ok(()),
+            Self::Line(line) => write!(f, ", line {line}"),
+            Self::Byte(byte) => write!(f, ", byte {byte}"),
+            Self::Item(kind, index) => write!(f, ", {kind} {index}"),
+            Self::Named(name) => write!(f, ", {name}"),
+        }
+    }
+}
+
+/// The kinds of failure, for programs that treat them differently.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum LoadErrorKind {
+    /// The file, or a file that it cannot do without, could not be read.
+    Read,
+    /// The file is of a format, or needs an extension, that is not supported.
+    Unsupported,
+    /// The contents contradict their format.
+    Malformed,
+    /// A reference leads out of the model's folder, or to something that is
+    /// not a regular file.
+    Forbidden,
+    /// More than the limits allow.
+    Limit,
+    /// A correct file with nothing in it that could be drawn.
+    Empty,
+    /// The progress callback asked to stop.
+    Cancelled,
+}
+
+/// Why a file could not be loaded. Its `Display` is one line: the file, the
+/// place in it, what is wrong, and the remedy.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{}{place}: {what}; {remedy}", printable(&file.display().to_string()))]
+pub struct LoadError {
+    /// The kind of failure.
+    pub kind: LoadErrorKind,
+    /// The file that is to blame, as the caller or the model named it.
+    pub file: PathBuf,
+    /// Where in that file.
+    pub place: Place,
+    /// What is wrong.
+    pub what: String,
+    /// What a person can do about it.
+    pub remedy: String,
+}
+
+impl LoadError {
+    pub(crate) fn new(kind: LoadErrorKind, file: &Path, what: impl Into<String>, remedy: impl Into<String>) -> Self {
+        let (what, remedy) = (printable(&what.into()), printable(&remedy.into()));
+        Self { kind, file: file.to_owned(), place: Place::Whole, what, remedy }
+    }
+
+    pub(crate) fn malformed(file: &Path, what: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::new(LoadErrorKind::Malformed, file, what, remedy)
+    }
+
+    pub(crate) fn limit(file: &Path, what: impl Into<String>) -> Self {
+        Self::new(LoadErrorKind::Limit, file, what, "raise the limit if you trust the file")
+    }
+
+    pub(crate) fn read(file: &Path, error: &io::Error) -> Self {
+        let remedy = match error.kind() {
+            io::ErrorKind::NotFound => "check the name and the folder",
+            io::ErrorKind::PermissionDenied => "allow reading it",
+            _ => "check the disk or the connection and try again",
+        };
+        Self::new(LoadErrorKind::Read, file, format!("cannot be read ({error})"), remedy)
+    }
+
+    pub(crate) fn cancelled(file: &Path) -> Self {
+        Self::new(LoadErrorKind::Cancelled, file, "loading was cancelled", "load it again when you want it")
+    }
+
+    pub(crate) fn at(self, place: Place) -> Self {
+        Self { place, ..self }
+    }
+}
+
+/// The longest piece of a file that a message quotes.
+const QUOTE_LIMIT: usize = 400;
+
+/// The text on one line, without control characters, shortened in the middle
+/// of nowhere when it is absurdly long.
+pub(crate) fn printable(text: &str) -> String {
+    let mut clean: String = text.chars().take(QUOTE_LIMIT).map(|c| if is_unprintable(c) { '\u{fffd}' } else { c }).collect();
+    if text.chars().nth(QUOTE_LIMIT).is_some() {
+        clean.push('…');
+    }
+    clean
+}
+
+/// Control characters, and the invisible ones that reorder or break lines.
+fn is_unprintable(c: char) -> bool {
+    c.is_control() || matches!(c, '\u{2028}' | '\u{2029}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_is_one_line_with_file_place_and_remedy() {
+        let error = LoadError::malformed(Path::new("a\nb.obj"), "bad\u{1b}[31m name", "mend it").at(Place::Line(3));
+        assert_eq!(error.to_string(), "a\u{fffd}b.obj, line 3: bad\u{fffd}[31m name; mend it", "no control characters");
+    }
+
+    #[test]
+    fn a_quoted_megabyte_is_shortened() {
+        let error = LoadError::malformed(Path::new("a.obj"), "x".repeat(1 << 20), "mend it");
+        assert!(error.to_string().len() < 1000, "{} bytes", error.to_string().len());
+    }
+}

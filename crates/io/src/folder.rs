@@ -1,0 +1,327 @@
+//! The model's folder: the only place from which other files are opened.
+//!
+//! A model names its buffers, materials and textures. Those names come from
+//! strangers: `../../etc/passwd`, `/dev/zero`, `file:///…`, a symbolic link
+//! that leads away. A name is resolved inside the model's folder and the
+//! result, with links followed, must still lie in it and be a regular file;
+//! reading stops at a limit.
+
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Component, Path, PathBuf};
+
+use thiserror::Error;
+
+use crate::limits::Limits;
+
+/// Why a name was not opened.
+#[derive(Debug, Error)]
+pub(crate) enum Refusal {
+    #[error("it has a scheme, and only files in the model's folder and data: URIs are opened")]
+    Scheme,
+    #[error("it is an absolute path, and only files in the model's folder are opened")]
+    Absolute,
+    #[error("it leads out of the model's folder")]
+    Outside,
+    #[error("it is not a regular file")]
+    NotAFile,
+    #[error("it is no valid file name")]
+    BadName,
+    #[error("there is no such file")]
+    Missing,
+    #[error("the model came without a folder")]
+    NoFolder,
+    #[error("it has {0} bytes, more than the limit of {1}")]
+    TooLarge(u64, u64),
+    #[error("it cannot be read ({0})")]
+    Read(io::Error),
+}
+
+impl Refusal {
+    pub(crate) fn is_forbidden(&self) -> bool {
+        matches!(self, Self::Scheme | Self::Absolute | Self::Outside | Self::NotAFile | Self::BadName)
+    }
+
+    pub(crate) fn remedy(&self) -> &'static str {
+        match self {
+            Self::Missing => "put the file there, or export the model again with it",
+            Self::NoFolder => "load the model from a file instead of a stream, or embed everything in a GLB",
+            Self::TooLarge(..) => "use a smaller file, or raise the limit",
+            Self::Read(_) => "check that the file can be read",
+            _ => "put the file beside the model and name it by its relative path",
+        }
+    }
+}
+
+/// How exactly a name must match.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Lookup {
+    /// As written: for buffers, whose bytes become geometry.
+    Exact,
+    /// As written, else with `\` as `/`, another case, or only its last part:
+    /// for textures and material libraries named on another machine.
+    Forgiving,
+}
+
+/// A file that was found and read.
+#[derive(Debug)]
+pub(crate) struct Found {
+    pub(crate) bytes: Vec<u8>,
+    pub(crate) path: PathBuf,
+    /// Whether another spelling than the model's was used.
+    pub(crate) respelled: bool,
+}
+
+/// A folder to read from, and a record of what was read.
+#[derive(Debug)]
+pub(crate) struct Folder {
+    /// Canonical; `None` when the model came from a stream.
+    root: Option<PathBuf>,
+    limits: Limits,
+    total: u64,
+    read: Vec<PathBuf>,
+}
+
+impl Folder {
+    /// The folder that holds a model.
+    pub(crate) fn of(model: &Path, limits: &Limits) -> io::Result<Self> {
+        let parent = model.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Ok(Self { root: Some(fs::canonicalize(parent)?), ..Self::none(limits) })
+    }
+
+    /// No folder: every name is refused.
+    pub(crate) fn none(limits: &Limits) -> Self {
+        Self { root: None, limits: limits.clone(), total: 0, read: Vec::new() }
+    }
+
+    /// Every file that was read, in order, without repetition.
+    pub(crate) fn into_files(self) -> Vec<PathBuf> {
+        self.read
+    }
+
+    /// Reads the file that the user named: the one path that is not confined.
+    pub(crate) fn read_model(&mut self, path: &Path) -> Result<Vec<u8>, Refusal> {
+        let bytes = self.read_regular(path)?;
+        self.note(path.to_owned());
+        Ok(bytes)
+    }
+
+    /// Reads a file beside the model, below `within` (a folder relative to
+    /// the model's; empty for the model's own).
+    pub(crate) fn read(&mut self, within: &Path, name: &str, lookup: Lookup) -> Result<Found, Refusal> {
+        let mut refusal = match self.read_exact(within, name) {
+            Ok(found) => return Ok(found),
+            Err(refusal) => refusal,
+        };
+        if lookup == Lookup::Exact || matches!(refusal, Refusal::TooLarge(..) | Refusal::NoFolder) {
+            return Err(refusal);
+        }
+        for (within, spelling) in self.other_spellings(within, name) {
+            match self.read_exact(&within, &spelling) {
+                Ok(found) => return Ok(Found { respelled: true, ..found }),
+                Err(found_but @ (Refusal::TooLarge(..) | Refusal::Read(_))) => refusal = found_but,
+                Err(_) => {}
+            }
+        }
+        Err(refusal)
+    }
+
+    /// The folder of a file that was read, relative to the model's.
+    pub(crate) fn relative_folder(&self, file: &Path) -> PathBuf {
+        let inside = self.root.as_ref().and_then(|root| file.strip_prefix(root).ok());
+        inside.and_then(Path::parent).unwrap_or(Path::new("")).to_owned()
+    }
+
+    /// Counts bytes that did not come from a file of their own.
+    pub(crate) fn account(&mut self, bytes: u64) -> Result<(), Refusal> {
+        self.total = self.total.saturating_add(bytes);
+        if self.total > self.limits.total_bytes { Err(Refusal::TooLarge(self.total, self.limits.total_bytes)) } else { Ok(()) }
+    }
+
+    fn read_exact(&mut self, within: &Path, name: &str) -> Result<Found, Refusal> {
+        let root = self.root.as_ref().ok_or(Refusal::NoFolder)?;
+        let relative = within.join(relative_path(name)?);
+        let path = fs::canonicalize(root.join(&relative)).map_err(missing_or_read)?;
+        if !path.starts_with(root) {
+            return Err(Refusal::Outside);
+        }
+        let bytes = self.read_regular(&path)?;
+        self.note(path.clone());
+        Ok(Found { bytes, path, respelled: false })
+    }
+
+    fn read_regular(&mut self, path: &Path) -> Result<Vec<u8>, Refusal> {
+        // Before opening: opening a FIFO would wait for a writer.
+        if !fs::metadata(path).map_err(missing_or_read)?.is_file() {
+            return Err(Refusal::NotAFile);
+        }
+        let file = File::open(path).map_err(missing_or_read)?;
+        let length = file.metadata().map_err(Refusal::Read)?.len();
+        let limit = self.limits.file_bytes.min(self.limits.total_bytes.saturating_sub(self.total));
+        if length > limit {
+            return Err(Refusal::TooLarge(length, limit));
+        }
+        let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
+        // One more than the limit, to notice a file that grew.
+        file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(Refusal::Read)?;
+        if bytes.len() as u64 > limit {
+            return Err(Refusal::TooLarge(bytes.len() as u64, limit));
+        }
+        self.total += bytes.len() as u64;
+        Ok(bytes)
+    }
+
+    fn note(&mut self, path: PathBuf) {
+        if !self.read.contains(&path) {
+            self.read.push(path);
+        }
+    }
+
+    /// What the author may have meant. Every result is confined like the
+    /// original.
+    fn other_spellings(&self, within: &Path, name: &str) -> Vec<(PathBuf, String)> {
+        let slashed = name.replace('\\', "/");
+        let last = slashed.rsplit('/').next().unwrap_or_default().to_owned();
+        let mut list = vec![(within.to_owned(), slashed.clone())];
+        list.extend(self.other_case(within, &slashed).map(|found| (PathBuf::new(), found)));
+        list.push((within.to_owned(), last.clone()));
+        list.extend(self.other_case(within, &last).map(|found| (PathBuf::new(), found)));
+        list
+    }
+
+    /// The path below the root that differs from the name only in the case of
+    /// its letters.
+    fn other_case(&self, within: &Path, name: &str) -> Option<String> {
+        let root = self.root.as_ref()?;
+        let mut found = within.to_owned();
+        for part in relative_path(name).ok()?.components() {
+            let part = part.as_os_str().to_str()?.to_lowercase();
+            // A folder with more entries than this is not searched.
+            let entries = fs::read_dir(root.join(&found)).ok()?.take(100_000).flatten();
+            let mut names: Vec<_> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+            names.retain(|entry| entry.to_lowercase() == part);
+            names.sort();
+            found.push(names.first()?);
+        }
+        Some(found.to_str()?.to_owned())
+    }
+}
+
+fn missing_or_read(error: io::Error) -> Refusal {
+    match error.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => Refusal::Missing,
+        io::ErrorKind::InvalidInput | io::ErrorKind::InvalidFilename => Refusal::BadName,
+        _ => Refusal::Read(error),
+    }
+}
+
+/// The name as a path that goes down only.
+fn relative_path(name: &str) -> Result<PathBuf, Refusal> {
+    if name.trim().is_empty() || name.contains('\0') {
+        return Err(Refusal::BadName);
+    }
+    if has_drive(name) || name.starts_with(['/', '\\']) {
+        return Err(Refusal::Absolute);
+    }
+    if has_scheme(name) {
+        return Err(Refusal::Scheme);
+    }
+    let mut path = PathBuf::new();
+    for component in Path::new(name).components() {
+        match component {
+            Component::Normal(part) => path.push(part),
+            Component::CurDir => {}
+            Component::ParentDir => return Err(Refusal::Outside),
+            Component::RootDir | Component::Prefix(_) => return Err(Refusal::Absolute),
+        }
+    }
+    if path.as_os_str().is_empty() { Err(Refusal::BadName) } else { Ok(path) }
+}
+
+/// `C:` as Windows writes it; a drive is one letter, a scheme at least two.
+fn has_drive(name: &str) -> bool {
+    let mut chars = name.chars();
+    chars.next().is_some_and(|c| c.is_ascii_alphabetic()) && chars.next() == Some(':')
+}
+
+/// `scheme:` as RFC 3986, section 3.1 writes it.
+fn has_scheme(name: &str) -> bool {
+    name.split_once(':').is_some_and(|(scheme, _)| {
+        scheme.starts_with(|c: char| c.is_ascii_alphabetic())
+            && scheme.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '+' | '-' | '.'))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder_with(files: &[&str]) -> (tempfile::TempDir, Folder) {
+        let dir = tempfile::tempdir().expect("a temporary folder");
+        for file in files {
+            let path = dir.path().join(file);
+            fs::create_dir_all(path.parent().expect("below the folder")).expect("a folder");
+            fs::write(path, file).expect("a file");
+        }
+        let folder = Folder::of(&dir.path().join("model.obj"), &Limits::default()).expect("it exists");
+        (dir, folder)
+    }
+
+    fn read(folder: &mut Folder, name: &str, lookup: Lookup) -> Result<Found, Refusal> {
+        folder.read(Path::new(""), name, lookup)
+    }
+
+    #[test]
+    fn names_that_lead_away_are_refused() {
+        let (_dir, mut folder) = folder_with(&["a.png"]);
+        for name in ["/etc/passwd", "../a.png", "x/../../a.png", "C:\\a.txt", "file:///etc/passwd", "http://x/a", "", " ", "a\0b", "\\\\host\\a"] {
+            let refusal = read(&mut folder, name, Lookup::Exact).expect_err("refused");
+            assert!(refusal.is_forbidden(), "{name:?}: {refusal}");
+        }
+    }
+
+    #[test]
+    fn the_same_names_do_not_get_out_through_forgiveness() {
+        let (_dir, mut folder) = folder_with(&["a.png"]);
+        for name in ["/etc/passwd", "../../etc/passwd", "..\\..\\etc\\passwd", "file:///etc/passwd", "/dev/zero"] {
+            read(&mut folder, name, Lookup::Forgiving).expect_err(name);
+        }
+    }
+
+    #[test]
+    fn other_spellings_are_found_inside() {
+        let (_dir, mut folder) = folder_with(&["textures/Wood.PNG", "plain.jpg"]);
+        for name in ["textures\\Wood.PNG", "Textures/wood.png", "C:\\models\\plain.jpg", "/home/x/PLAIN.jpg"] {
+            let found = read(&mut folder, name, Lookup::Forgiving).expect(name);
+            assert!(found.respelled, "{name} is not as written");
+        }
+        read(&mut folder, "textures/wood.png", Lookup::Exact).expect_err("exact means exact");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_out_devices_and_folders_are_refused() {
+        let (dir, mut folder) = folder_with(&["sub/a.png"]);
+        std::os::unix::fs::symlink("/etc", dir.path().join("out")).expect("a link");
+        std::os::unix::fs::symlink("/dev/zero", dir.path().join("zero")).expect("a link");
+        std::os::unix::fs::symlink("sub/a.png", dir.path().join("inside.png")).expect("a link");
+        assert!(matches!(read(&mut folder, "out/hostname", Lookup::Exact), Err(Refusal::Outside | Refusal::Missing)), "link to a folder");
+        assert!(matches!(read(&mut folder, "zero", Lookup::Exact), Err(Refusal::Outside)), "link to a device");
+        assert!(matches!(read(&mut folder, "sub", Lookup::Exact), Err(Refusal::NotAFile)), "a folder");
+        assert_eq!(read(&mut folder, "inside.png", Lookup::Exact).expect("stays inside").bytes, b"sub/a.png", "its target");
+        assert!(matches!(folder.read_model(Path::new("/dev/zero")), Err(Refusal::NotAFile)), "the model itself is a device");
+    }
+
+    #[test]
+    fn reading_stops_at_the_limits() {
+        let dir = tempfile::tempdir().expect("a temporary folder");
+        fs::write(dir.path().join("a"), [0; 100]).expect("a file");
+        let limits = Limits { file_bytes: 99, ..Limits::default() };
+        let mut folder = Folder::of(&dir.path().join("m"), &limits).expect("it exists");
+        assert!(matches!(read(&mut folder, "a", Lookup::Exact), Err(Refusal::TooLarge(100, 99))), "one file");
+        let limits = Limits { total_bytes: 150, ..Limits::default() };
+        let mut folder = Folder::of(&dir.path().join("m"), &limits).expect("it exists");
+        read(&mut folder, "a", Lookup::Exact).expect("the first fits");
+        read(&mut folder, "a", Lookup::Exact).expect_err("the second does not");
+    }
+}

@@ -1,0 +1,19 @@
+//! What every importer works on: one model on its way into a scene.
+
+use std::path::Path;
+
+use trigon_scene::Scene;
+
+use crate::folder::Folder;
+use crate::options::LoadOptions;
+use crate::warning::Warnings;
+
+/// A load in progress.
+pub(crate) struct Import<'a> {
+    /// The model's own file, as the caller named it.
+    pub(crate) path: &'a Path,
+    pub(crate) options: &'a LoadOptions<'a>,
+    pub(crate) folder: Folder,
+    pub(crate) warnings: Warnings,
+    pub(crate) scene: Scene,
+}

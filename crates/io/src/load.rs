@@ -1,0 +1,85 @@
+//! The front door: a file or a stream in, a scene and warnings out.
+
+use std::path::{Path, PathBuf};
+
+use trigon_scene::Scene;
+
+use crate::error::{LoadError, LoadErrorKind};
+use crate::folder::{Folder, Refusal};
+use crate::format::{Format, detect_format, supported};
+use crate::import::Import;
+use crate::options::{LoadOptions, Stage};
+use crate::warning::{Warning, Warnings};
+
+/// A model that was loaded.
+#[derive(Debug)]
+pub struct Loaded {
+    /// What the file holds.
+    pub scene: Scene,
+    /// What is missing from it, and why.
+    pub warnings: Vec<Warning>,
+    /// Every file that was read, the model first: what to watch for changes.
+    pub files: Vec<PathBuf>,
+    /// The format that was found.
+    pub format: Format,
+}
+
+/// Loads a model file and what it refers to, nothing outside its folder.
+///
+/// The format follows from the name, or from the contents when the name says
+/// nothing. Problems that leave something to draw are warnings.
+///
+/// # Errors
+/// When the file cannot be read, is of no supported format, is broken beyond
+/// use, asks for more than the limits, or has nothing in it to draw.
+pub fn load(path: impl AsRef<Path>, options: &LoadOptions<'_>) -> Result<Loaded, LoadError> {
+    let path = path.as_ref();
+    options.report(path, Stage::Reading, 0.0)?;
+    if path.is_dir() {
+        return Err(LoadError::new(LoadErrorKind::Read, path, "it is a folder", "name a file in it"));
+    }
+    let mut folder = Folder::of(path, &options.limits).map_err(|error| LoadError::read(path, &error))?;
+    let bytes = folder.read_model(path).map_err(|refusal| refused(path, &refusal))?;
+    options.report(path, Stage::Reading, 1.0)?;
+    import(path, &bytes, folder, options)
+}
+
+/// Loads a model from memory, such as what came through standard input. It
+/// can refer to no files: a GLB or an OBJ without materials is what works best.
+/// `name` stands for the file in messages, and its ending may tell the format.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_from_slice(name: impl AsRef<Path>, bytes: &[u8], options: &LoadOptions<'_>) -> Result<Loaded, LoadError> {
+    let name = name.as_ref();
+    let (length, limit) = (bytes.len() as u64, options.limits.file_bytes);
+    if length > limit {
+        return Err(refused(name, &Refusal::TooLarge(length, limit)));
+    }
+    options.report(name, Stage::Reading, 1.0)?;
+    import(name, bytes, Folder::none(&options.limits), options)
+}
+
+fn import(path: &Path, bytes: &[u8], folder: Folder, options: &LoadOptions<'_>) -> Result<Loaded, LoadError> {
+    let format = detect_format(path, bytes)
+        .map_err(|what| LoadError::new(LoadErrorKind::Unsupported, path, what, format!("convert it; {}", supported())))?;
+    let mut import = Import { path, options, folder, warnings: Warnings::about(path), scene: Scene::new() };
+    match format {
+        Format::Obj => crate::obj::import_obj(&mut import, bytes)?,
+        Format::Gltf => crate::gltf::import_gltf(&mut import, bytes)?,
+        Format::Glb => crate::gltf::import_glb(&mut import, bytes)?,
+    }
+    options.report(path, Stage::Textures, 1.0)?;
+    let Import { folder, warnings, scene, .. } = import;
+    Ok(Loaded { scene, warnings: warnings.into_list(), files: folder.into_files(), format })
+}
+
+/// The error for a file that the user named and that was not read.
+pub(crate) fn refused(path: &Path, refusal: &Refusal) -> LoadError {
+    match refusal {
+        Refusal::Read(error) => LoadError::read(path, error),
+        Refusal::TooLarge(..) => LoadError::new(LoadErrorKind::Limit, path, refusal.to_string(), "raise the limit if you trust the file"),
+        Refusal::Missing => LoadError::new(LoadErrorKind::Read, path, "there is no such file", "check the name and the folder"),
+        other => LoadError::new(LoadErrorKind::Forbidden, path, other.to_string(), "name a regular file; pipe streams through `-`"),
+    }
+}

@@ -1,0 +1,154 @@
+//! OBJ and MTL text as logical lines: any line ending, continuations joined.
+//!
+//! Works on bytes, so that a stray Latin-1 letter in a comment breaks nothing.
+//! Every line knows its number in the file.
+
+use std::borrow::Cow;
+
+/// The logical lines of a text, with their numbers, counted from 1.
+pub(crate) struct Lines<'a> {
+    text: &'a [u8],
+    at: usize,
+    number: u64,
+}
+
+impl<'a> Lines<'a> {
+    pub(crate) fn new(text: &'a [u8]) -> Self {
+        Self { text, at: 0, number: 0 }
+    }
+
+    /// How many bytes have been passed.
+    pub(crate) fn position(&self) -> usize {
+        self.at
+    }
+
+    /// The next physical line without its ending: `\n`, `\r\n` or `\r`.
+    fn physical(&mut self) -> Option<&'a [u8]> {
+        let rest = self.text.get(self.at..).filter(|rest| !rest.is_empty())?;
+        self.number += 1;
+        let Some(end) = rest.iter().position(|&byte| byte == b'\n' || byte == b'\r') else {
+            self.at = self.text.len();
+            return Some(rest);
+        };
+        let ending = if rest[end..].starts_with(b"\r\n") { 2 } else { 1 };
+        self.at += end + ending;
+        Some(&rest[..end])
+    }
+
+    /// The rest of a line that ended in a backslash.
+    fn continued(&mut self, first: &[u8]) -> Vec<u8> {
+        let mut joined = first.to_vec();
+        while let Some(next) = self.physical() {
+            joined.push(b' ');
+            match continues(next) {
+                Some(start) => joined.extend_from_slice(start),
+                None => {
+                    joined.extend_from_slice(next);
+                    break;
+                }
+            }
+        }
+        joined
+    }
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = (u64, Cow<'a, [u8]>);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let line = self.physical()?;
+        let number = self.number;
+        Some(match continues(line) {
+            Some(start) => (number, Cow::Owned(self.continued(start))),
+            None => (number, Cow::Borrowed(line)),
+        })
+    }
+}
+
+/// The line without its backslash, when it ends in one.
+fn continues(line: &[u8]) -> Option<&[u8]> {
+    match line.last() {
+        Some(b'\\') => Some(&line[..line.len() - 1]),
+        Some(b' ' | b'\t') => line.trim_ascii_end().strip_suffix(b"\\"),
+        _ => None,
+    }
+}
+
+/// The first word of a line and what follows it; `None` for blank lines and
+/// comments.
+pub(crate) fn split_keyword(line: &[u8]) -> Option<(&[u8], &[u8])> {
+    let line = line.trim_ascii_start();
+    if line.is_empty() || line[0] == b'#' {
+        return None;
+    }
+    let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
+    Some((&line[..end], &line[end..]))
+}
+
+/// The words up to a comment.
+pub(crate) fn words(rest: &[u8]) -> impl Iterator<Item = &[u8]> {
+    rest.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).take_while(|word| word[0] != b'#')
+}
+
+/// A name as text: UTF-8, or Latin-1 where it is not.
+pub(crate) fn decode_name(bytes: &[u8]) -> String {
+    let bytes = bytes.trim_ascii();
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) => bytes.iter().copied().map(char::from).collect(),
+    }
+}
+
+/// The text as bytes of an ASCII superset without byte order mark, or why it
+/// is no text.
+pub(crate) fn plain_bytes(bytes: &[u8]) -> Result<Cow<'_, [u8]>, &'static str> {
+    if let Some(rest) = bytes.strip_prefix(b"\xef\xbb\xbf") {
+        return Ok(Cow::Borrowed(rest));
+    }
+    let from_units = |read: fn([u8; 2]) -> u16| {
+        let units = bytes[2..].chunks_exact(2).map(|pair| read([pair[0], pair[1]]));
+        let text: String = char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
+        Cow::Owned(text.into_bytes())
+    };
+    if bytes.starts_with(b"\xff\xfe") {
+        return Ok(from_units(u16::from_le_bytes));
+    }
+    if bytes.starts_with(b"\xfe\xff") {
+        return Ok(from_units(u16::from_be_bytes));
+    }
+    if bytes.starts_with(b"version https://git-lfs") {
+        return Err("the file is a Git LFS pointer, not a model");
+    }
+    Ok(Cow::Borrowed(bytes))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lines(text: &str) -> Vec<(u64, String)> {
+        Lines::new(text.as_bytes()).map(|(number, line)| (number, String::from_utf8_lossy(&line).into_owned())).collect()
+    }
+
+    #[test]
+    fn every_line_ending_ends_a_line() {
+        let expected = [(1, "a".to_owned()), (2, String::new()), (3, "b".to_owned())];
+        for text in ["a\n\nb", "a\r\n\r\nb\r\n", "a\r\rb\r"] {
+            assert_eq!(lines(text), expected, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn continuations_are_joined_and_numbers_go_on() {
+        assert_eq!(lines("f 1 \\\n 2 \\ \r\n3\nv"), [(1, "f 1   2  3".to_owned()), (4, "v".to_owned())], "joined");
+        assert_eq!(lines("f\\"), [(1, "f".to_owned())], "a backslash at the end of the file");
+    }
+
+    #[test]
+    fn text_in_other_encodings_is_read() {
+        let utf16: Vec<u8> = "\u{feff}v 1".encode_utf16().flat_map(u16::to_le_bytes).collect();
+        assert_eq!(&*plain_bytes(&utf16).expect("text"), b"v 1", "UTF-16 with its mark");
+        assert_eq!(&*plain_bytes(b"\xef\xbb\xbfv").expect("text"), b"v", "UTF-8 with its mark");
+        assert_eq!(decode_name(b" caf\xe9 "), "café", "Latin-1");
+    }
+}

@@ -1,0 +1,61 @@
+//! Wavefront OBJ and MTL.
+//!
+//! `lines` → `feed` (checks, `index`, `numbers`, `record`) → tobj (`parse`) →
+//! `build` (polygons, one node for each object or group). Materials come from
+//! `mtl`, by way of `library`.
+
+mod build;
+mod feed;
+mod index;
+mod library;
+mod lines;
+mod map_options;
+mod mtl;
+mod numbers;
+mod parse;
+mod record;
+mod smoothing;
+
+use trigon_scene::{Material, MaterialId, Node, Transform};
+
+use crate::error::LoadError;
+use crate::import::Import;
+use crate::options::Stage;
+
+/// Reads an OBJ into the scene.
+pub(crate) fn import_obj(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), LoadError> {
+    let parsed = parse::parse(import.path, bytes, import.options, &mut import.warnings)?;
+    let (parts, offset) = build::build_parts(&parsed, &mut import.warnings);
+    import.options.report(import.path, Stage::Geometry, 1.0)?;
+    let has_colors = !parsed.mesh.vertex_color.is_empty();
+    let record = parsed.record;
+    let materials = library::add_materials(import, &record)?;
+    let mut plain = PlainMaterial { id: None, has_colors };
+    let transform = Transform::from_translation(offset);
+    for part in parts {
+        let ids = part.materials.iter().map(|material| material.and_then(|index| materials[index as usize]));
+        let materials = ids.map(|id| id.unwrap_or_else(|| plain.id(import))).collect();
+        let mesh = import.scene.add_mesh(part.name.clone(), part.mesh);
+        let mut node = Node::default().with_name(part.name).with_transform(transform);
+        (node.mesh, node.materials) = (Some(mesh), materials);
+        import.scene.add(node);
+    }
+    Ok(())
+}
+
+/// The material of faces that have none, made when the first asks.
+struct PlainMaterial {
+    id: Option<MaterialId>,
+    has_colors: bool,
+}
+
+impl PlainMaterial {
+    fn id(&mut self, import: &mut Import<'_>) -> MaterialId {
+        let mut material = Material::default().with_name("default");
+        if self.has_colors {
+            // Vertex colours are to be seen as they are.
+            material.base_color = trigon_math::Vec4::ONE;
+        }
+        *self.id.get_or_insert_with(|| import.scene.add_material(material))
+    }
+}

@@ -1,0 +1,265 @@
+//! Material libraries: MTL text to materials of the scene.
+//!
+//! tobj reads the values; the text is cleaned for it first, because it gives
+//! up at a malformed statement, and panics at a short colour. Colours are taken
+//! as sRGB, as they look in the programs that write them.
+
+use std::path::{Path, PathBuf};
+
+use trigon_math::color::srgb_to_linear;
+use trigon_math::{Vec3, Vec4};
+use trigon_scene::{AlphaMode, Material, Shading};
+
+use super::lines::{Lines, decode_name, plain_bytes, split_keyword, words};
+use super::map_options::{MapStatement, parse_map};
+use crate::error::Place;
+use crate::warning::Warnings;
+
+/// A material as a library describes it, its texture not yet read.
+#[derive(Clone, Debug)]
+pub(crate) struct MtlMaterial {
+    pub(crate) material: Material,
+    /// The diffuse texture, and the line that names it.
+    pub(crate) texture: Option<(u64, MapStatement)>,
+    /// The library.
+    pub(crate) file: PathBuf,
+}
+
+/// What tobj is not told about a material.
+#[derive(Clone, Debug, Default)]
+struct Aside {
+    texture: Option<(u64, MapStatement)>,
+    transparency: Option<(u64, f32)>,
+}
+
+/// Reads a library. What is malformed in it becomes a warning.
+pub(crate) fn parse_mtl(file: &Path, bytes: &[u8], warnings: &mut Warnings) -> Vec<MtlMaterial> {
+    let text = match plain_bytes(bytes) {
+        Ok(text) => text,
+        Err(what) => {
+            warnings.push_about(file, Place::Whole, what, "fetch the real file with `git lfs pull`");
+            return Vec::new();
+        }
+    };
+    let mut cleaner = Cleaner { file, warnings, out: String::new(), asides: Vec::new(), skipping: true };
+    for (number, line) in Lines::new(&text) {
+        if let Some((keyword, rest)) = split_keyword(&line) {
+            cleaner.statement(number, &decode_name(keyword), rest);
+        }
+    }
+    let Cleaner { out, asides, .. } = cleaner;
+    let (materials, _) = tobj::load_mtl_buf(&mut out.as_bytes()).expect("the cleaned text has only statements that tobj reads");
+    materials.into_iter().zip(asides).map(|(material, aside)| convert(file, material, aside, warnings)).collect()
+}
+
+struct Cleaner<'a> {
+    file: &'a Path,
+    warnings: &'a mut Warnings,
+    out: String,
+    asides: Vec<Aside>,
+    /// Whether the statements belong to no material.
+    skipping: bool,
+}
+
+impl Cleaner<'_> {
+    fn statement(&mut self, line: u64, keyword: &str, rest: &[u8]) {
+        if keyword == "newmtl" {
+            return self.start_material(line, rest);
+        }
+        if self.skipping {
+            return;
+        }
+        match keyword {
+            "Kd" | "Ks" | "Ke" => self.color(line, keyword, rest),
+            "Ns" | "d" => self.number(line, keyword, rest),
+            "Tr" => {
+                let value = numbers(rest).first().copied();
+                self.aside().transparency = value.map(|value| (line, value));
+            }
+            "illum" => match words(rest).next().map(decode_name).and_then(|word| word.parse::<u8>().ok()) {
+                Some(model) => self.out.push_str(&format!("illum {model}\n")),
+                None => self.warn(line, "illum has no number"),
+            },
+            "map_Kd" | "map_kd" => self.diffuse_map(line, rest),
+            _ => self.other_map(line, keyword, rest),
+        }
+    }
+
+    fn start_material(&mut self, line: u64, rest: &[u8]) {
+        let name = decode_name(rest);
+        self.skipping = name.is_empty();
+        if self.skipping {
+            return self.warn(line, "a material has no name and is left out");
+        }
+        self.out.push_str(&format!("newmtl {name}\n"));
+        self.asides.push(Aside::default());
+    }
+
+    /// One grey value or three channels.
+    fn color(&mut self, line: u64, keyword: &str, rest: &[u8]) {
+        match *numbers(rest).as_slice() {
+            [red, green, blue, ..] => self.out.push_str(&format!("{keyword} {red} {green} {blue}\n")),
+            [grey] => self.out.push_str(&format!("{keyword} {grey} {grey} {grey}\n")),
+            _ => self.warn(line, &format!("{keyword} has no three numbers and is ignored")),
+        }
+    }
+
+    fn number(&mut self, line: u64, keyword: &str, rest: &[u8]) {
+        // `d -halo 0.5` fades with the angle; trigon does not.
+        let value = words(rest).filter_map(number).next();
+        match value {
+            Some(value) => self.out.push_str(&format!("{keyword} {value}\n")),
+            None => self.warn(line, &format!("{keyword} has no number and is ignored")),
+        }
+    }
+
+    fn diffuse_map(&mut self, line: u64, rest: &[u8]) {
+        let map = parse_map(&decode_name(rest));
+        if map.file.is_empty() {
+            return self.warn(line, "map_Kd names no file and is ignored");
+        }
+        if !map.ignored.is_empty() {
+            let what = format!("the options {} of texture \"{}\" are not followed", map.ignored.join(", "), map.file);
+            self.warn(line, &what);
+        }
+        self.aside().texture = Some((line, map));
+    }
+
+    /// Textures that are not drawn yet are named; other statements are not.
+    fn other_map(&mut self, line: u64, keyword: &str, rest: &[u8]) {
+        let lower = keyword.to_ascii_lowercase();
+        if lower.starts_with("map_") || matches!(lower.as_str(), "bump" | "norm" | "disp" | "decal" | "refl") {
+            let file = parse_map(&decode_name(rest)).file;
+            let what = format!("{keyword} \"{file}\" is not drawn yet");
+            self.warnings.push_about(self.file, Place::Line(line), what, "only map_Kd is; bake the effect into it");
+        }
+    }
+
+    fn aside(&mut self) -> &mut Aside {
+        self.asides.last_mut().expect("a statement is only read after newmtl")
+    }
+
+    fn warn(&mut self, line: u64, what: &str) {
+        self.warnings.push_about(self.file, Place::Line(line), what, "mend the line, or export the material again");
+    }
+}
+
+/// The finite numbers at the start of a statement.
+fn numbers(rest: &[u8]) -> Vec<f32> {
+    words(rest).map_while(number).collect()
+}
+
+fn number(word: &[u8]) -> Option<f32> {
+    std::str::from_utf8(word).ok()?.parse().ok().filter(|value: &f32| value.is_finite())
+}
+
+fn convert(file: &Path, from: tobj::Material, aside: Aside, warnings: &mut Warnings) -> MtlMaterial {
+    let textured = aside.texture.is_some();
+    let diffuse = from.diffuse.map(to_linear);
+    // Many exporters write black beside a texture that they do not mean to darken.
+    let base = match diffuse {
+        Some(color) if !textured || color != Vec3::ZERO => color,
+        _ if textured => Vec3::ONE,
+        _ => Material::default().base_color.truncate(),
+    };
+    let alpha = from.dissolve.map_or_else(|| alpha_from(file, &aside, warnings), |alpha| alpha.clamp(0.0, 1.0) as f32);
+    let material = Material {
+        name: from.name,
+        base_color: Vec4::from((base, alpha)),
+        shading: shading(from.illumination_model, from.specular.map(to_linear), from.shininess),
+        emissive: from.emissive.map_or(Vec3::ZERO, to_linear),
+        alpha_mode: if alpha < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque },
+        // OBJ does not say which side counts, and many a file has it mixed up.
+        double_sided: true,
+        ..Material::default()
+    };
+    MtlMaterial { material, texture: aside.texture, file: file.to_owned() }
+}
+
+/// `Tr` is 1 − d. Some exporters write 1 for opaque: nobody means a material
+/// that cannot be seen.
+fn alpha_from(file: &Path, aside: &Aside, warnings: &mut Warnings) -> f32 {
+    match aside.transparency {
+        Some((line, value)) if value >= 1.0 => {
+            warnings.push_about(file, Place::Line(line), "Tr 1 would be invisible and is taken as opaque", "write d instead of Tr");
+            1.0
+        }
+        Some((_, value)) => 1.0 - value.max(0.0),
+        None => 1.0,
+    }
+}
+
+/// Illumination models 0 and 1 have no highlight.
+fn shading(model: Option<u8>, specular: Option<Vec3>, shininess: Option<f64>) -> Shading {
+    // The format's own range of Ns.
+    const MOST: f64 = 1000.0;
+    match specular {
+        Some(specular) if specular != Vec3::ZERO && !matches!(model, Some(0 | 1)) => {
+            Shading::BlinnPhong { specular, shininess: shininess.unwrap_or(30.0).clamp(0.0, MOST) as f32 }
+        }
+        _ => Shading::Lambert,
+    }
+}
+
+fn to_linear(color: [f64; 3]) -> Vec3 {
+    let channel = |value: f64| srgb_to_linear(value.clamp(0.0, 1.0) as f32);
+    Vec3::from(color.map(channel))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> (Vec<MtlMaterial>, Vec<String>) {
+        let mut warnings = Warnings::about(Path::new("a.obj"));
+        let materials = parse_mtl(Path::new("a.mtl"), text.as_bytes(), &mut warnings);
+        (materials, warnings.into_list().iter().map(ToString::to_string).collect())
+    }
+
+    #[test]
+    fn values_arrive() {
+        let (materials, warnings) = parse("newmtl my wood\nKd 1 0 0\nKs 1 1 1\nNs 50\nd 0.5\nillum 2\nmap_Kd -s 2 2 1 a b.png\n");
+        assert_eq!(warnings, [""; 0], "nothing to warn of");
+        let MtlMaterial { material, texture, .. } = &materials[0];
+        assert_eq!(material.name, "my wood", "spaces stay");
+        assert_eq!(material.base_color, Vec4::new(1.0, 0.0, 0.0, 0.5), "colour and alpha");
+        assert_eq!(material.alpha_mode, AlphaMode::Blend, "d below 1");
+        assert_eq!(material.shading, Shading::BlinnPhong { specular: Vec3::ONE, shininess: 50.0 }, "highlight");
+        assert_eq!(texture.as_ref().expect("a texture").1.file, "a b.png", "the name");
+    }
+
+    #[test]
+    fn malformed_statements_are_warnings_with_lines() {
+        let (materials, warnings) = parse("newmtl \nKs 0\nnewmtl a\nKd 0.5\nKs x\nNs\nillum two\nKd 1 2\n");
+        assert_eq!(materials.len(), 1, "the named one");
+        for line in [1, 5, 6, 7, 8] {
+            assert!(warnings.iter().any(|warning| warning.starts_with(&format!("a.mtl, line {line}: "))), "line {line}: {warnings:?}");
+        }
+        assert_eq!(materials[0].material.base_color.x, srgb_to_linear(0.5), "one number is grey");
+    }
+
+    #[test]
+    fn transparency_has_two_spellings() {
+        let alpha = |text: &str| parse(&format!("newmtl a\n{text}\n")).0[0].material.base_color.w;
+        assert_eq!(alpha("Tr 0.25"), 0.75, "Tr");
+        assert_eq!(alpha("Tr 1"), 1.0, "taken as opaque");
+        assert_eq!(alpha("d 0.5\nTr 0.9"), 0.5, "d wins");
+        assert_eq!(alpha("d -halo 0.5"), 0.5, "options are skipped");
+        assert_eq!(alpha("d nan"), 1.0, "not finite");
+    }
+
+    #[test]
+    fn textures_not_drawn_yet_are_named() {
+        let (_, warnings) = parse("newmtl a\nmap_Bump -bm 1 bump.jpg\nnorm n.png\nmap_d /dev/zero\nmap_Kd\n");
+        for name in ["bump.jpg", "n.png", "/dev/zero", "map_Kd"] {
+            assert!(warnings.iter().any(|warning| warning.contains(name)), "{name}: {warnings:?}");
+        }
+    }
+
+    #[test]
+    fn a_black_colour_beside_a_texture_is_white() {
+        let (materials, _) = parse("newmtl a\nKd 0 0 0\nmap_Kd a.png\nnewmtl b\nKd 0 0 0\n");
+        assert_eq!(materials[0].material.base_color, Vec4::ONE, "the texture as it is");
+        assert_eq!(materials[1].material.base_color, Vec4::new(0.0, 0.0, 0.0, 1.0), "black");
+    }
+}

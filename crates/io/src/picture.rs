@@ -1,0 +1,133 @@
+//! Pictures in: PNG and JPEG to 8-bit RGBA, within limits.
+//!
+//! What a picture is, its first bytes decide, never its name or what a model
+//! claims about it.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use image::{ImageError, ImageFormat, ImageReader};
+
+use crate::error::{LoadError, LoadErrorKind};
+use crate::folder::Folder;
+use crate::limits::Limits;
+
+/// A picture in memory: sRGB colours with straight alpha.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// Pixels.
+    pub width: u32,
+    /// Pixels.
+    pub height: u32,
+    /// Four bytes a pixel (red, green, blue, alpha), rows from the top.
+    pub rgba: Vec<u8>,
+}
+
+/// Reads a PNG or JPEG file. 16-bit channels are rounded to 8, grey is
+/// spread to three channels, a missing alpha is opaque.
+///
+/// # Errors
+/// When the file cannot be read, is of another format, is broken, or is
+/// larger than the limits.
+pub fn load_image(path: impl AsRef<Path>, limits: &Limits) -> Result<Picture, LoadError> {
+    let path = path.as_ref();
+    let bytes = Folder::none(limits).read_model(path).map_err(|refusal| crate::load::refused(path, &refusal))?;
+    decode_picture(&bytes, limits).map_err(|why| LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as PNG or JPEG"))
+}
+
+/// Decodes a picture, or says why it cannot be.
+pub(crate) fn decode_picture(bytes: &[u8], limits: &Limits) -> Result<Picture, String> {
+    let format = picture_format(bytes)?;
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.limits(decoder_limits(limits));
+    let (width, height) = reader.into_dimensions().map_err(|error| reason(&error))?;
+    let pixels = u64::from(width) * u64::from(height);
+    if width == 0 || height == 0 {
+        return Err(format!("the picture has no pixels ({width}×{height})"));
+    }
+    if width.max(height) > limits.image_side || pixels > limits.image_pixels {
+        let (side, most) = (limits.image_side, limits.image_pixels);
+        return Err(format!("the picture claims {width}×{height} pixels; the limit is {side} a side and {most} in all"));
+    }
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.limits(decoder_limits(limits));
+    let rgba = reader.decode().map_err(|error| reason(&error))?.into_rgba8().into_raw();
+    Ok(Picture { width, height, rgba })
+}
+
+/// A picture that says from afar that the real one is missing: magenta and
+/// grey squares.
+pub(crate) fn placeholder() -> Picture {
+    const SIDE: u32 = 16;
+    const SQUARE: u32 = 4;
+    let pixel = |index: u32| {
+        let (x, y) = (index % SIDE / SQUARE, index / SIDE / SQUARE);
+        if (x + y) % 2 == 0 { [255, 0, 255, 255] } else { [96, 96, 96, 255] }
+    };
+    Picture { width: SIDE, height: SIDE, rgba: (0..SIDE * SIDE).flat_map(pixel).collect() }
+}
+
+/// The format by the first bytes.
+fn picture_format(bytes: &[u8]) -> Result<ImageFormat, String> {
+    match image::guess_format(bytes) {
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => Ok(format),
+        Ok(format) => Err(format!("pictures of the format {format:?} are not supported yet, only PNG and JPEG are")),
+        Err(_) if bytes.is_empty() => Err("the picture is an empty file".to_owned()),
+        Err(_) if bytes.starts_with(b"\xabKTX 20\xbb\r\n\x1a\n") => Err("KTX2 pictures are not supported yet, only PNG and JPEG are".to_owned()),
+        Err(_) if bytes.starts_with(b"version https://git-lfs") => Err("the picture is a Git LFS pointer; run `git lfs pull`".to_owned()),
+        Err(_) => Err("its first bytes are those of no known picture format".to_owned()),
+    }
+}
+
+fn decoder_limits(limits: &Limits) -> image::Limits {
+    // 16-bit RGBA is the widest that the decoders make, and one more copy.
+    const BYTES_PER_PIXEL: u64 = 16;
+    let mut decoder = image::Limits::default();
+    decoder.max_image_width = Some(limits.image_side);
+    decoder.max_image_height = Some(limits.image_side);
+    decoder.max_alloc = Some(limits.image_pixels.saturating_mul(BYTES_PER_PIXEL));
+    decoder
+}
+
+fn reason(error: &ImageError) -> String {
+    match error {
+        ImageError::Limits(limit) => format!("the picture is too large ({limit})"),
+        ImageError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => "the picture ends too early".to_owned(),
+        other => format!("the picture is broken ({other})"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::png::{Pixels, encode_png};
+
+    #[test]
+    fn a_png_comes_back_as_it_was() {
+        let rgba: Vec<u8> = (0..4 * 6).collect();
+        let mut bytes = Vec::new();
+        encode_png(&mut bytes, 3, 2, Pixels::Rgba8(&rgba)).expect("memory takes it");
+        let picture = decode_picture(&bytes, &Limits::default()).expect("it is a PNG");
+        assert_eq!(picture, Picture { width: 3, height: 2, rgba }, "the same pixels");
+    }
+
+    #[test]
+    fn broken_and_foreign_pictures_say_why() {
+        let mut png = Vec::new();
+        encode_png(&mut png, 64, 64, Pixels::Rgba8(&[7; 64 * 64 * 4])).expect("memory takes it");
+        let half = &png[..png.len() / 2];
+        for (bytes, word) in [(&b""[..], "empty"), (b"hello, world", "no known"), (b"RIFF\x10\0\0\0WEBPVP8 ", "WebP"), (half, "picture")] {
+            let why = decode_picture(bytes, &Limits::default()).expect_err("no picture");
+            assert!(why.contains(word), "{why:?} names {word:?}");
+        }
+    }
+
+    #[test]
+    fn a_claim_beyond_the_limits_allocates_nothing() {
+        let mut png = Vec::new();
+        encode_png(&mut png, 64, 64, Pixels::Rgba8(&[7; 64 * 64 * 4])).expect("memory takes it");
+        let limits = Limits { image_pixels: 64 * 63, ..Limits::default() };
+        let why = decode_picture(&png, &limits).expect_err("one row too many");
+        assert!(why.contains("limit"), "{why}");
+    }
+}

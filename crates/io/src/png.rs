@@ -1,0 +1,169 @@
+//! PNG out: to any writer, or to a file that is there whole or not at all.
+
+use std::fs;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+use thiserror::Error;
+
+/// The pixels of a picture to write, rows from the top.
+#[derive(Clone, Copy, Debug)]
+pub enum Pixels<'a> {
+    /// Red, green, blue, straight alpha; sRGB.
+    Rgba8(&'a [u8]),
+    /// Red, green, blue; sRGB.
+    Rgb8(&'a [u8]),
+    /// One value a pixel, such as a depth; 65535 is white.
+    Gray16(&'a [u16]),
+}
+
+/// Why a picture was not written.
+#[derive(Debug, Error)]
+pub enum WriteError {
+    /// The sizes do not fit each other, or are zero.
+    #[error("a picture of {width}×{height} pixels does not fit {length} values; pass width × height pixels")]
+    Size {
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+        /// What was passed.
+        length: usize,
+    },
+    /// The folder or the disk said no.
+    #[error("{}: cannot be written ({source}); check that the folder exists, is writable and has room", path.display())]
+    File {
+        /// The file that was to be.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The writer said no.
+    #[error("the picture cannot be written ({0}); check that the other end still listens")]
+    Stream(#[from] io::Error),
+}
+
+/// Writes a PNG file. The bytes go to a temporary file in the same folder,
+/// reach the disk, and then take the name: whoever looks finds the old file
+/// or the new one, never half of it.
+///
+/// # Errors
+/// When the sizes do not fit, or the file cannot be written; an old file of
+/// that name is then untouched.
+pub fn write_png(path: impl AsRef<Path>, width: u32, height: u32, pixels: Pixels<'_>) -> Result<(), WriteError> {
+    let path = path.as_ref();
+    check_size(width, height, pixels)?;
+    write_atomically(path, |file| encode(file, width, height, pixels)).map_err(|source| WriteError::File { path: path.to_owned(), source })
+}
+
+/// Writes a PNG to a writer, such as standard output.
+///
+/// # Errors
+/// When the sizes do not fit, or the writer fails.
+pub fn encode_png(writer: impl Write, width: u32, height: u32, pixels: Pixels<'_>) -> Result<(), WriteError> {
+    check_size(width, height, pixels)?;
+    let mut writer = BufWriter::new(writer);
+    encode(&mut writer, width, height, pixels)?;
+    Ok(writer.flush()?)
+}
+
+fn check_size(width: u32, height: u32, pixels: Pixels<'_>) -> Result<(), WriteError> {
+    let (length, per_pixel) = match pixels {
+        Pixels::Rgba8(values) => (values.len(), 4),
+        Pixels::Rgb8(values) => (values.len(), 3),
+        Pixels::Gray16(values) => (values.len(), 1),
+    };
+    let fits = u128::from(width) * u128::from(height) * per_pixel == length as u128;
+    if fits && length > 0 { Ok(()) } else { Err(WriteError::Size { width, height, length }) }
+}
+
+fn encode(writer: &mut dyn Write, width: u32, height: u32, pixels: Pixels<'_>) -> io::Result<()> {
+    let encoder = PngEncoder::new_with_quality(writer, CompressionType::Fast, FilterType::Adaptive);
+    let written = match pixels {
+        Pixels::Rgba8(values) => encoder.write_image(values, width, height, ExtendedColorType::Rgba8),
+        Pixels::Rgb8(values) => encoder.write_image(values, width, height, ExtendedColorType::Rgb8),
+        // The encoder takes samples in the machine's order and turns them.
+        Pixels::Gray16(values) => {
+            let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_ne_bytes()).collect();
+            encoder.write_image(&bytes, width, height, ExtendedColorType::L16)
+        }
+    };
+    written.map_err(|error| match error {
+        image::ImageError::IoError(error) => error,
+        other => io::Error::other(other),
+    })
+}
+
+/// Runs `write` on a new file that takes the name `path` when all went well.
+fn write_atomically(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".trigon-").suffix(".part");
+    // Temporary files are private by default; a picture has the rights of any new file.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let temporary = builder.tempfile_in(folder)?;
+    let mut writer = BufWriter::new(temporary.as_file());
+    write(&mut writer)?;
+    writer.flush()?;
+    drop(writer);
+    temporary.as_file().sync_all()?;
+    temporary.persist(path).map_err(|error| error.error)?;
+    sync_folder(folder)
+}
+
+/// Makes the new name itself durable, where the system can.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    if cfg!(unix) { fs::File::open(folder)?.sync_all() } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_written_whole_and_nothing_stays_beside_it() {
+        let dir = tempfile::tempdir().expect("a temporary folder");
+        let path = dir.path().join("a.png");
+        fs::write(&path, "old").expect("a file");
+        write_png(&path, 2, 1, Pixels::Rgb8(&[1, 2, 3, 4, 5, 6])).expect("written");
+        let picture = crate::load_image(&path, &crate::Limits::default()).expect("a picture");
+        assert_eq!(picture.rgba, [1, 2, 3, 255, 4, 5, 6, 255], "the pixels");
+        assert_eq!(fs::read_dir(dir.path()).expect("a folder").count(), 1, "no temporary file");
+    }
+
+    #[test]
+    fn a_failure_leaves_the_old_file() {
+        let dir = tempfile::tempdir().expect("a temporary folder");
+        let path = dir.path().join("a.png");
+        fs::write(&path, "old").expect("a file");
+        let failed = write_atomically(&path, |_| Err(io::Error::other("the disk is full")));
+        failed.expect_err("reported");
+        assert_eq!(fs::read(&path).expect("a file"), b"old", "untouched");
+        assert_eq!(fs::read_dir(dir.path()).expect("a folder").count(), 1, "no temporary file");
+    }
+
+    #[test]
+    fn sizes_must_fit() {
+        for (width, height, length) in [(0, 0, 0), (2, 2, 15), (u32::MAX, u32::MAX, 4)] {
+            let result = encode_png(Vec::new(), width, height, Pixels::Rgba8(&vec![0; length]));
+            assert!(matches!(result, Err(WriteError::Size { .. })), "{width}×{height} with {length}");
+        }
+    }
+
+    #[test]
+    fn sixteen_bit_grey_keeps_its_values() {
+        let mut bytes = Vec::new();
+        encode_png(&mut bytes, 3, 1, Pixels::Gray16(&[0, 0x1234, 0xffff])).expect("memory takes it");
+        let picture = image::load_from_memory(&bytes).expect("a PNG").into_luma16();
+        assert_eq!(picture.into_raw(), [0, 0x1234, 0xffff], "every bit");
+    }
+
+    #[test]
+    fn the_error_names_the_file() {
+        let error = write_png("/nowhere/at/all.png", 1, 1, Pixels::Rgb8(&[0; 3])).expect_err("no such folder");
+        assert!(error.to_string().starts_with("/nowhere/at/all.png: "), "{error}");
+    }
+}

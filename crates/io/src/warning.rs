@@ -1,0 +1,116 @@
+//! What a load could not keep: data for the caller, never printed here.
+//!
+//! A file with a million bad faces gives one warning that counts them, so the
+//! collector folds warnings of the same file and the same wording together.
+
+use std::collections::HashMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use crate::error::{Place, printable};
+
+/// Something in a file that is missing, wrong or not drawn yet. Its `Display`
+/// is one line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// The file that is to blame.
+    pub file: PathBuf,
+    /// Where it was seen first.
+    pub place: Place,
+    /// What was seen.
+    pub what: String,
+    /// What a person can do about it.
+    pub remedy: String,
+    /// How many more of the same there were.
+    pub more: usize,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let file = printable(&self.file.display().to_string());
+        write!(f, "{file}{}: {}", self.place, self.what)?;
+        if self.more > 0 {
+            write!(f, " … and {} more", self.more)?;
+        }
+        write!(f, "; {}", self.remedy)
+    }
+}
+
+/// How many different warnings are kept; a hostile file can make every one
+/// different.
+const MOST_WARNINGS: usize = 200;
+
+/// Collects warnings about one model and the files beside it.
+#[derive(Debug)]
+pub(crate) struct Warnings {
+    file: PathBuf,
+    list: Vec<Warning>,
+    known: HashMap<(PathBuf, String), usize>,
+}
+
+impl Warnings {
+    pub(crate) fn about(file: &Path) -> Self {
+        Self { file: file.to_owned(), list: Vec::new(), known: HashMap::new() }
+    }
+
+    /// A warning about the model's own file.
+    pub(crate) fn push(&mut self, place: Place, what: impl Into<String>, remedy: impl Into<String>) {
+        let file = self.file.clone();
+        self.push_about(&file, place, what, remedy);
+    }
+
+    /// A warning about a file beside it.
+    pub(crate) fn push_about(&mut self, file: &Path, place: Place, what: impl Into<String>, remedy: impl Into<String>) {
+        let (what, remedy) = (printable(&what.into()), printable(&remedy.into()));
+        let key = (file.to_owned(), what.clone());
+        if let Some(&index) = self.known.get(&key) {
+            self.list[index].more += 1;
+        } else if self.list.len() < MOST_WARNINGS {
+            self.known.insert(key, self.list.len());
+            self.list.push(Warning { file: file.to_owned(), place, what, remedy, more: 0 });
+        } else if let Some(last) = self.list.last_mut() {
+            last.more += 1;
+        }
+    }
+
+    /// A warning of which `count` were seen, the first at `place`.
+    pub(crate) fn push_counted(&mut self, count: usize, place: Place, what: impl Into<String>, remedy: impl Into<String>) {
+        if count == 0 {
+            return;
+        }
+        let before = self.list.len();
+        self.push(place, what, remedy);
+        if self.list.len() > before {
+            self.list[before].more += count - 1;
+        }
+    }
+
+    pub(crate) fn into_list(self) -> Vec<Warning> {
+        self.list
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn repeated_warnings_are_counted() {
+        let mut warnings = Warnings::about(Path::new("a.obj"));
+        for line in 5..47 {
+            warnings.push(Place::Line(line), "a face was dropped", "mend it");
+        }
+        let list = warnings.into_list();
+        assert_eq!(list.len(), 1, "folded");
+        assert_eq!(list[0].to_string(), "a.obj, line 5: a face was dropped … and 41 more; mend it", "counted");
+    }
+
+    #[test]
+    fn a_flood_of_different_warnings_is_bounded() {
+        let mut warnings = Warnings::about(Path::new("a.obj"));
+        for line in 0..10_000 {
+            warnings.push(Place::Whole, format!("warning {line}"), "mend it");
+        }
+        assert_eq!(warnings.into_list().len(), MOST_WARNINGS, "bounded");
+    }
+}
