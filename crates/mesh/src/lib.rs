@@ -10,6 +10,8 @@ mod mesh;
 mod normals;
 pub mod primitives;
 mod render_mesh;
+mod smooth;
+mod topology;
 mod transform;
 mod triangulate;
 mod triangulation;

@@ -1,8 +1,8 @@
 //! The cube: 8 vertices, 12 edges, 6 quads.
 
-use trigon_math::{Vec2, Vec3};
+use trigon_math::Vec3;
 
-use super::solid::{Solid, length};
+use super::solid::{SQUARE, Solid, length};
 use crate::Mesh;
 
 /// The vertex number has one bit per axis: 1 for x, 2 for y, 4 for z. Each
@@ -24,7 +24,3 @@ pub fn cube(edge: f32) -> Mesh {
     }
     solid.build()
 }
-
-/// The picture's corners, counter-clockwise from the lower left one.
-const SQUARE: [Vec2; 4] =
-    [Vec2::new(0.0, 1.0), Vec2::new(1.0, 1.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 0.0)];

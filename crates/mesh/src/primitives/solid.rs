@@ -10,9 +10,21 @@ use crate::{Attributes, Mesh, MeshBuilder};
 /// million faces for the largest grid.
 pub(super) const MOST_PIECES: u32 = 2048;
 
+/// The picture's corners, counter-clockwise from the lower left one.
+pub(super) const SQUARE: [Vec2; 4] =
+    [Vec2::new(0.0, 1.0), Vec2::new(1.0, 1.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 0.0)];
+
 /// A length in metres as the functions of this module take it.
 pub(super) fn length(length: f32) -> f32 {
     if length.is_finite() && length > 0.0 { length } else { 1.0 }
+}
+
+/// A corner of a face of a curved surface, with the surface's normal there.
+#[derive(Clone, Copy)]
+pub(super) struct Corner {
+    pub(super) vertex: u32,
+    pub(super) uv: Vec2,
+    pub(super) normal: Vec3,
 }
 
 /// A mesh in the making.
@@ -49,10 +61,10 @@ impl Solid {
         self.smooth.push(false);
     }
 
-    /// A face of a curved surface, with the surface's normals at its corners.
-    pub(super) fn curved_face(&mut self, vertices: &[u32], uvs: &[Vec2], normals: &[Vec3]) {
-        self.push(vertices, uvs);
-        self.normals.extend_from_slice(normals);
+    /// A face of a curved surface.
+    pub(super) fn curved_face<const N: usize>(&mut self, corners: [Corner; N]) {
+        self.push(&corners.map(|corner| corner.vertex), &corners.map(|corner| corner.uv));
+        self.normals.extend(corners.map(|corner| corner.normal));
         self.smooth.push(true);
     }
 

@@ -1,0 +1,47 @@
+//! Level rectangles, in one piece or in many.
+
+use trigon_math::{DVec2, DVec3, Vec2};
+
+use super::solid::{MOST_PIECES, SQUARE, Solid, length};
+use crate::Mesh;
+
+/// A level rectangle that faces up: `width` metres along X, `depth` metres
+/// along Z. One quad with the whole picture, whose top is at −Z.
+pub fn plane(width: f32, depth: f32) -> Mesh {
+    let mut solid = Solid::with_capacity(4, 1, 4);
+    let half = DVec2::new(f64::from(length(width)), f64::from(length(depth))) / 2.0;
+    for uv in SQUARE {
+        let [u, v] = [uv.x, uv.y].map(|t| 2.0 * f64::from(t) - 1.0);
+        solid.vertex(DVec3::new(u * half.x, 0.0, v * half.y).as_vec3());
+    }
+    solid.face(&[0, 1, 2, 3], &SQUARE);
+    solid.build()
+}
+
+/// The rectangle of [`plane`] as `columns` by `rows` quads, 1 to 2048 each,
+/// with the picture over all of it. Vertices and faces are numbered row by row
+/// from −Z, each row from −X.
+pub fn grid(width: f32, depth: f32, columns: u32, rows: u32) -> Mesh {
+    let [columns, rows] = [columns, rows].map(|count| count.clamp(1, MOST_PIECES));
+    let size = DVec2::new(f64::from(length(width)), f64::from(length(depth)));
+    let (vertices, faces) = ((columns + 1) * (rows + 1), columns * rows);
+    let mut solid = Solid::with_capacity(vertices as usize, faces as usize, 4 * faces as usize);
+    let uv = |column, row| {
+        let u = f64::from(column) / f64::from(columns);
+        DVec2::new(u, f64::from(row) / f64::from(rows))
+    };
+    for row in 0..=rows {
+        for column in 0..=columns {
+            let place = (uv(column, row) - 0.5) * size;
+            solid.vertex(DVec3::new(place.x, 0.0, place.y).as_vec3());
+        }
+    }
+    for row in 0..rows {
+        for column in 0..columns {
+            let corners = [(column, row + 1), (column + 1, row + 1), (column + 1, row), (column, row)];
+            let uvs: [Vec2; 4] = corners.map(|(c, r)| uv(c, r).as_vec2());
+            solid.face(&corners.map(|(c, r)| r * (columns + 1) + c), &uvs);
+        }
+    }
+    solid.build()
+}
