@@ -31,9 +31,11 @@
 //! ```
 
 mod bounds;
+pub mod clip;
 pub mod color;
 pub mod elementary;
 mod fixed;
+mod frustum;
 mod plane;
 mod predicates;
 
@@ -46,4 +48,7 @@ pub use fixed::{Fixed, FixedPoint};
 pub use predicates::{Orientation, orientation, orientation_fixed};
 
 pub use bounds::Bounds3;
+pub use clip::{Band, ClipPolygon, ClipVertex, ClipVolume, HalfSpace, Outcode, clip_segment, clip_triangle};
+
+pub use frustum::{Frustum, FrustumSide};
 pub use plane::Plane;

@@ -1,0 +1,57 @@
+//! Homogeneous clipping of triangles and segments, before the division by `w`.
+//!
+//! The scheme is that of I. Sutherland and G. Hodgman, "Reentrant Polygon
+//! Clipping" (1974), in homogeneous coordinates (J. Blinn and M. Newell,
+//! "Clipping Using Homogeneous Coordinates", 1978): one half-space after the
+//! other, always in the order of [`ClipVolume`]. Positions are linear in the
+//! corners' weights, so every vertex carries the weights of the original
+//! triangle and attributes need no clipping.
+//!
+//! # What holds
+//! Exactly, whatever the input:
+//! 1. Every vertex that comes out is inside every half-space of the volume.
+//!    Vertices at distance zero are inside, too.
+//! 2. A shared edge is cut at the same bits, whichever triangle asks, in
+//!    whichever direction, from whichever first vertex; and a segment is cut
+//!    where the edge of a triangle is.
+//! 3. Corners that are inside come out as they went in.
+//! 4. A triangle gets at most one vertex more per half-space.
+//! 5. A coordinate or weight that is equal at both ends of an edge stays so, and
+//!    none leaves the range of the corners', except where a plane sets it.
+//!
+//! Within bounds: weights are in `[0, 1]` and sum to 1 within 2⁻²³. A vertex is
+//! where its weights say within `2⁻²²·m + 2⁻⁴⁴·(m + b·w)`, with `m` the largest
+//! magnitude of that coordinate and `w` that of `w` among the corners, and `b`
+//! the largest [`Band`] (1 for depth).
+//!
+//! # Why
+//! All arithmetic is in `f64`, the cast to `f32` comes once, at the end. A cut
+//! goes from the vertex inside to the vertex outside, `p = s·inside +
+//! t·outside`, and then the coordinate that the plane fixes is set: `w` to its
+//! minimum, `z` to `w` or 0, `x` or `y` to a band times `w`. With the same `s`
+//! and `t >= 0` for all coordinates, and as rounding is monotone, `z <= w` at
+//! both ends gives `z <= w` at the cut; as bands are powers of two, the same
+//! holds for `x` against `b·w`; and the cast keeps both. So a cut never pushes
+//! a vertex out of a half-space that is done, and never to a side of a later
+//! one on which no end of its edge is. Setting `w` to its minimum could, by
+//! rounding, so there the side is restored. Of the corners of a triangle at
+//! most two neighbouring pairs differ in side; cuts add none, and so property
+//! 4 needs no tolerance.
+//!
+//! Inputs of more than three corners are not offered: a rounded quadrilateral
+//! is rarely planar, and its triangles can be clipped instead; their shared
+//! diagonal is an edge as any other.
+
+mod cut;
+mod half_space;
+mod polygon;
+mod segment;
+mod volume;
+
+pub use half_space::{Band, HalfSpace};
+pub use polygon::{ClipPolygon, ClipVertex, clip_triangle};
+pub use segment::clip_segment;
+pub use volume::{ClipVolume, Outcode};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,94 @@
+//! The one place where an edge meets a half-space.
+
+use glam::Vec4;
+
+use super::{ClipVertex, ClipVolume, HalfSpace};
+
+/// A vertex under way: in `f64`, so that several cuts do not add up roundings.
+#[derive(Clone, Copy)]
+pub(super) struct Vertex<const CORNERS: usize> {
+    pub(super) position: [f64; 4],
+    weights: [f64; CORNERS],
+}
+
+impl<const CORNERS: usize> Vertex<CORNERS> {
+    /// A corner of the original shape.
+    pub(super) fn corner(index: usize, position: Vec4) -> Self {
+        let mut weights = [0.0; CORNERS];
+        weights[index] = 1.0;
+        Self { position: position.to_array().map(f64::from), weights }
+    }
+
+    /// The vertex as it leaves the clipper: the only rounding to `f32`.
+    pub(super) fn rounded(self) -> ClipVertex<CORNERS> {
+        // A coordinate set to a band times `w` may exceed f32 by rounding.
+        const LARGEST: f64 = f32::MAX as f64;
+        let round = |value: f64| value.clamp(-LARGEST, LARGEST) as f32;
+        ClipVertex { position: Vec4::from_array(self.position.map(round)), weights: self.weights.map(round) }
+    }
+}
+
+/// Where the edge from `inside` to `outside` meets the border of a half-space.
+///
+/// The roles are fixed by the sides and not by the direction of an edge, so
+/// every triangle at the edge gets the same bits. `inside` must be at a positive
+/// distance and `outside` at a negative one.
+pub(super) fn cut<const CORNERS: usize>(
+    inside: &Vertex<CORNERS>,
+    outside: &Vertex<CORNERS>,
+    half_space: HalfSpace,
+    volume: &ClipVolume,
+) -> Vertex<CORNERS> {
+    let (depth, excess) = (half_space.distance(inside.position), -half_space.distance(outside.position));
+    let total = depth + excess;
+    let mix = Mix { inside: excess / total, outside: depth / total };
+    let mut position = mix.each(inside.position, outside.position);
+    half_space.land(&mut position);
+    keep_sides(&mut position, inside, outside, volume.after(half_space));
+    Vertex { position, weights: mix.each(inside.weights, outside.weights) }
+}
+
+/// Puts a cut point onto the border of each half-space which rounding has made
+/// it cross alone: neither end of its edge is on that side.
+fn keep_sides<const CORNERS: usize>(
+    position: &mut [f64; 4],
+    inside: &Vertex<CORNERS>,
+    outside: &Vertex<CORNERS>,
+    half_spaces: impl Iterator<Item = HalfSpace>,
+) {
+    for half_space in half_spaces {
+        let ends = [inside, outside].map(|end| half_space.distance(end.position));
+        let here = half_space.distance(*position);
+        let left_inside = here < 0.0 && ends.iter().all(|&end| end >= 0.0);
+        let left_outside = here > 0.0 && ends.iter().all(|&end| end <= 0.0);
+        if left_inside || left_outside {
+            half_space.land(position);
+        }
+    }
+}
+
+/// The shares of two ends in a point between them; not negative.
+struct Mix {
+    inside: f64,
+    outside: f64,
+}
+
+impl Mix {
+    fn each<const N: usize>(&self, inside: [f64; N], outside: [f64; N]) -> [f64; N] {
+        std::array::from_fn(|index| self.of(inside[index], outside[index]))
+    }
+
+    /// Clamped to the ends, as the shares sum to 1 only up to rounding.
+    /// Monotone in both ends, with rounding.
+    fn of(&self, inside: f64, outside: f64) -> f64 {
+        let (low, high) = if inside < outside { (inside, outside) } else { (outside, inside) };
+        let value = inside * self.inside + outside * self.outside;
+        if value < low {
+            low
+        } else if value > high {
+            high
+        } else {
+            value
+        }
+    }
+}
