@@ -34,6 +34,7 @@ mod node;
 mod render;
 mod scene;
 mod settings;
+mod showcase;
 mod transform;
 mod views;
 
@@ -46,6 +47,7 @@ pub use node::Node;
 pub use render::{RenderError, Renderer, render};
 pub use scene::{MaterialId, MeshAsset, MeshId, NodeId, Scene, SceneError, TextureAsset, TextureId};
 pub use settings::{Lighting, MAX_SIZE, Outputs, RenderSettings, Style};
+pub use showcase::showcase;
 pub use transform::Transform;
 pub use trigon_raster::{Filter, MipFilter, Sampler, Stats, Texture, TextureError, TextureFormat, Wrap};
 pub use views::OVERVIEW_DIRECTION;

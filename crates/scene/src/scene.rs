@@ -1,5 +1,7 @@
 //! The scene: a forest of nodes over shared meshes, materials and textures.
 
+mod append;
+
 use std::sync::{Arc, OnceLock};
 
 use thiserror::Error;

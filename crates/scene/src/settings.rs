@@ -66,6 +66,8 @@ pub struct RenderSettings {
     pub edge_color: Vec3,
     /// Which lights.
     pub lighting: Lighting,
+    /// Factor for every light, the studio's too; 1 leaves them as they are.
+    pub light_intensity: f32,
     /// Beside the colours.
     pub outputs: Outputs,
     /// At most this many threads; `None` for one per core. The picture does
@@ -85,6 +87,7 @@ impl RenderSettings {
             line_width: 1.0,
             edge_color: Vec3::splat(0.02),
             lighting: Lighting::default(),
+            light_intensity: 1.0,
             outputs: Outputs::default(),
             threads: None,
         }

@@ -51,7 +51,8 @@ impl<'s> Composer<'s> {
     pub(super) fn new(scene: &'s Scene, camera: &Camera, settings: &'s RenderSettings) -> Self {
         let transforms = scene.visible_transforms();
         let eye = Eye::new(camera, settings.aspect());
-        let lights = Lights::gather(scene, &transforms, &eye, settings.lighting);
+        let lights =
+            Lights::gather(scene, &transforms, &eye, settings.lighting).scaled(settings.light_intensity);
         let rays = if camera.projection.is_orthographic() { Rays::Parallel } else { Rays::Meeting };
         Self { scene, settings, transforms, eye, rays, lights, default_material: Material::default() }
     }

@@ -75,6 +75,16 @@ impl Lights {
         }
     }
 
+    /// Every light this many times as bright; a factor that is no positive
+    /// number puts them out.
+    pub(super) fn scaled(mut self, factor: f32) -> Self {
+        let factor = if factor > 0.0 && factor.is_finite() { factor } else { 0.0 };
+        self.ambient *= factor;
+        self.directional.iter_mut().for_each(|light| light.radiance *= factor);
+        self.point.iter_mut().for_each(|light| light.radiance *= factor);
+        self
+    }
+
     fn add(&mut self, light: &Light, to_camera: &DAffine3) {
         let radiance = light.radiance();
         match light.kind {
@@ -159,6 +169,13 @@ mod tests {
             Vec3::splat(0.25),
             "a quarter at two metres"
         );
+    }
+
+    #[test]
+    fn intensity_is_a_factor_for_every_light() {
+        let shown = |factor| Lights::studio().scaled(factor).shade(&facing(), Vec3::ONE, &Shading::Lambert);
+        assert_eq!(shown(2.0), shown(1.0) * 2.0, "twice as bright");
+        assert_eq!(shown(f32::NAN), Vec3::ZERO, "no number, no light");
     }
 
     #[test]
