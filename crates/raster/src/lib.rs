@@ -8,24 +8,36 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "tests may"))]
 
+mod bin;
+mod blend;
+mod clip;
 mod draw;
 mod fragment;
+mod frame;
+mod geometry;
+mod line;
 mod pass;
 mod pipeline;
+mod point;
+mod pool;
+mod resolve;
 mod settings;
+mod setup;
+mod shade;
 mod stats;
 mod target;
 mod texture;
+mod tile;
 mod varyings;
+mod vertex;
+mod viewport;
 
-pub use pipeline::{Pipeline, VertexOutput};
-pub use varyings::Varyings;
-pub use fragment::{EdgeFlags, Fragment};
 pub use draw::{Culling, Draw, Lines, PointShape, Points, Surface};
+pub use fragment::{EdgeFlags, Fragment};
 pub use pass::{Background, Pass};
+pub use pipeline::{Pipeline, VertexOutput};
 pub use settings::{ExecuteSettings, TileSize};
-pub use target::{MAX_SAMPLES_PER_AXIS, MAX_TARGET_SIZE, Output, Pictures, Target, TargetError};
 pub use stats::Stats;
-pub use texture::{
-    Filter, MAX_TEXTURE_SIZE, MipFilter, Sampler, Texture, TextureError, TextureFormat, Wrap,
-};
+pub use target::{MAX_SAMPLES_PER_AXIS, MAX_TARGET_SIZE, Output, Pictures, Target, TargetError};
+pub use texture::{Filter, MAX_TEXTURE_SIZE, MipFilter, Sampler, Texture, TextureError, TextureFormat, Wrap};
+pub use varyings::Varyings;

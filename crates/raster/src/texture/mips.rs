@@ -83,9 +83,7 @@ mod tests {
     use super::*;
 
     fn level(width: u32, height: u32, value: impl Fn(u32, u32) -> u8) -> Level {
-        let texels = (0..width * height)
-            .map(|i| [value(i % width, i / width), 0, 0, 255])
-            .collect();
+        let texels = (0..width * height).map(|i| [value(i % width, i / width), 0, 0, 255]).collect();
         Level { width, height, texels }
     }
 

@@ -70,7 +70,12 @@ impl Texture {
     ///
     /// # Errors
     /// [`TextureError`] if a side is out of range or the number of texels wrong.
-    pub fn new(width: u32, height: u32, texels: Vec<[u8; 4]>, format: TextureFormat) -> Result<Self, TextureError> {
+    pub fn new(
+        width: u32,
+        height: u32,
+        texels: Vec<[u8; 4]>,
+        format: TextureFormat,
+    ) -> Result<Self, TextureError> {
         let sides = 1..=MAX_TEXTURE_SIZE;
         if !sides.contains(&width) || !sides.contains(&height) {
             return Err(TextureError::Size { width, height });

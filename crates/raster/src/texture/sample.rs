@@ -180,12 +180,8 @@ mod tests {
     }
 
     fn nearest(texture: &Texture, u: f32, wrap: Wrap) -> u32 {
-        let sampler = Sampler {
-            wrap_u: wrap,
-            wrap_v: wrap,
-            magnification: Filter::Nearest,
-            ..Sampler::default()
-        };
+        let sampler =
+            Sampler { wrap_u: wrap, wrap_v: wrap, magnification: Filter::Nearest, ..Sampler::default() };
         let value = texture.sample(Vec2::new(u, 0.5), Vec2::ZERO, Vec2::ZERO, &sampler);
         (value.x * 25.5).round() as u32
     }
@@ -231,7 +227,8 @@ mod tests {
     fn logarithm_is_close_enough() {
         for i in 1..20_000 {
             let x = i as f32 * 0.01;
-            let error = f64::from(log2(x)) - trigon_math::elementary::ln(f64::from(x)) / std::f64::consts::LN_2;
+            let error =
+                f64::from(log2(x)) - trigon_math::elementary::ln(f64::from(x)) / std::f64::consts::LN_2;
             assert!(error.abs() < 5e-5, "log2({x}) is off by {error}");
         }
         assert!(log2(0.0) < -100.0, "0 selects the base level");

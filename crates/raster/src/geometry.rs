@@ -1,0 +1,94 @@
+//! What was recorded, without the pipeline: indices and ids.
+
+use crate::{Culling, EdgeFlags, PointShape, Surface};
+
+/// The primitives of one draw.
+pub(crate) enum Shape<'a> {
+    Triangles { triangles: &'a [[u32; 3]], edge_flags: Option<&'a [EdgeFlags]>, culling: Culling },
+    Lines { segments: &'a [[u32; 2]], width: f32, toward_eye: f32 },
+    Points { points: &'a [u32], size: f32, shape: PointShape, toward_eye: f32 },
+}
+
+/// One draw's primitives with what identifies them.
+pub(crate) struct Geometry<'a> {
+    pub(crate) shape: Shape<'a>,
+    /// For each primitive its face id; the index where there is none.
+    pub(crate) faces: Option<&'a [u32]>,
+    pub(crate) object: u32,
+    pub(crate) surface: Surface,
+}
+
+impl Geometry<'_> {
+    /// How many primitives there are.
+    pub(crate) fn len(&self) -> usize {
+        match self.shape {
+            Shape::Triangles { triangles, .. } => triangles.len(),
+            Shape::Lines { segments, .. } => segments.len(),
+            Shape::Points { points, .. } => points.len(),
+        }
+    }
+
+    /// The vertices of a primitive; a segment's second and a point's only one
+    /// are repeated.
+    #[inline]
+    pub(crate) fn corners(&self, primitive: u32) -> [u32; 3] {
+        let index = primitive as usize;
+        match self.shape {
+            Shape::Triangles { triangles, .. } => triangles[index],
+            Shape::Lines { segments, .. } => {
+                let [from, to] = segments[index];
+                [from, to, to]
+            }
+            Shape::Points { points, .. } => [points[index]; 3],
+        }
+    }
+
+    /// The face id of a primitive.
+    #[inline]
+    pub(crate) fn face(&self, primitive: u32) -> u32 {
+        let listed = self.faces.and_then(|faces| faces.get(primitive as usize));
+        listed.copied().unwrap_or(primitive)
+    }
+
+    /// Which edges of a primitive are a face's.
+    #[inline]
+    pub(crate) fn edge_flags(&self, primitive: u32) -> EdgeFlags {
+        match self.shape {
+            Shape::Triangles { edge_flags, .. } => {
+                let listed = edge_flags.and_then(|flags| flags.get(primitive as usize));
+                listed.copied().unwrap_or(EdgeFlags::ALL)
+            }
+            Shape::Lines { .. } | Shape::Points { .. } => EdgeFlags::NONE,
+        }
+    }
+
+    /// Whether two segments of a draw of lines meet in a vertex.
+    pub(crate) fn segments_meet(&self, a: u32, b: u32) -> bool {
+        match self.shape {
+            Shape::Lines { segments, .. } => {
+                let other = segments[b as usize];
+                segments[a as usize].iter().any(|end| other.contains(end))
+            }
+            Shape::Triangles { .. } | Shape::Points { .. } => false,
+        }
+    }
+
+    /// The vertices that are used: from the least to one beyond the greatest
+    /// index, of those below `count`. Empty if there are none.
+    pub(crate) fn used_vertices(&self, count: usize) -> std::ops::Range<usize> {
+        let (mut least, mut beyond) = (usize::MAX, 0);
+        let mut include = |index: u32| {
+            let index = index as usize;
+            if index < count {
+                least = least.min(index);
+                beyond = beyond.max(index + 1);
+            }
+        };
+        match self.shape {
+            Shape::Triangles { triangles, .. } => triangles.iter().flatten().for_each(|&i| include(i)),
+            Shape::Lines { segments, .. } => segments.iter().flatten().for_each(|&i| include(i)),
+            Shape::Points { points, .. } => points.iter().for_each(|&i| include(i)),
+        }
+        least.min(beyond)..beyond
+    }
+}

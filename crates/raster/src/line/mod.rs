@@ -1,0 +1,137 @@
+//! Segments become parallelograms: two triangles each, covered by the same
+//! exact rule.
+//!
+//! The parallelogram spans the width across the minor direction and is closed
+//! by cuts along it, so that a line one pixel wide has one pixel in each step
+//! of its major direction, as in Direct3D and OpenGL.
+
+use crate::clip::{self, CutVertex};
+use crate::setup::{Candidate, CutWeights, Kind, ScreenVertex, Setup};
+use crate::vertex::nearer;
+use std::num::NonZeroU32;
+use trigon_math::{Fixed, FixedPoint};
+
+/// The widest line and largest point in pixels.
+pub(crate) const SIZE_MAX: f32 = 4096.0;
+
+/// A width or size that can be drawn: within 1 and [`SIZE_MAX`] pixels.
+pub(crate) fn drawable_size(size: f32) -> f32 {
+    if size > SIZE_MAX {
+        SIZE_MAX
+    } else if size > 1.0 {
+        size
+    } else {
+        1.0
+    }
+}
+
+/// How a draw's segments look.
+#[derive(Clone, Copy)]
+pub(crate) struct LineStyle {
+    /// Half the width, in units of the grid.
+    half_width: f64,
+    /// Whether each step of the major direction gets exactly one pixel.
+    single: bool,
+    toward_eye: f32,
+}
+
+impl LineStyle {
+    pub(crate) fn new(width: f32, toward_eye: f32, samples_per_axis: NonZeroU32) -> Self {
+        let width = drawable_size(width);
+        let half_width = f64::from(width) * f64::from(samples_per_axis.get()) * 128.0;
+        Self { half_width, single: width == 1.0 && samples_per_axis.get() == 1, toward_eye }
+    }
+}
+
+impl Setup<'_> {
+    /// One segment of a draw of lines.
+    pub(crate) fn segment(&mut self, primitive: u32, indices: [u32; 2], style: LineStyle) {
+        self.batch.stats.primitives += 1;
+        let [Some(a), Some(b)] = indices.map(|index| self.vertices.outcode(index)) else {
+            self.batch.stats.invalid += 1;
+            return;
+        };
+        let planes = a.union(b);
+        if planes.is_invalid() {
+            self.batch.stats.invalid += 1;
+        } else if a.intersection(b).hides_wide() {
+            self.batch.stats.outside += 1;
+        } else if planes.cuts() {
+            self.batch.stats.clipped += 1;
+            let positions = indices.map(|index| self.vertices.position(index));
+            let ends = clip::cut_segment(positions, planes, self.viewport.guard());
+            let screen =
+                |end: CutVertex| Some((ScreenVertex::new(end.position, self.viewport)?, end.weights));
+            match ends.map(|[a, b]| (screen(a), screen(b))) {
+                Some((Some(a), Some(b))) => self.parallelogram(primitive, [a, b], style),
+                _ => self.batch.stats.outside += 1,
+            }
+        } else {
+            let [a, b] = indices.map(|index| self.vertices.screen(index));
+            self.parallelogram(primitive, [(a, [1.0, 0.0, 0.0]), (b, [0.0, 1.0, 0.0])], style);
+        }
+    }
+
+    /// The two triangles around a segment.
+    fn parallelogram(&mut self, primitive: u32, mut ends: [(ScreenVertex, [f32; 3]); 2], style: LineStyle) {
+        // From the upper end to the lower: then nothing below depends on which
+        // end was given first.
+        ends.sort_by_key(|(end, _)| (end.point.y.raw(), end.point.x.raw()));
+        // Columns of the weights in the order of the ends, too.
+        let swapped = ends[0].1[0] < ends[1].1[0];
+        let corners = if swapped { [1, 0, 0] } else { [0, 1, 1] };
+        let weights = ends.map(|(_, [a, b, _])| if swapped { [b, a, 0.0] } else { [a, b, 0.0] });
+        let Some(outline) = outline(ends.map(|(end, _)| end.point), style) else {
+            self.batch.stats.outside += 1;
+            return;
+        };
+        let vertex = |end: usize, side: usize| ScreenVertex {
+            point: outline[end][side],
+            depth: nearer(ends[end].0.depth, style.toward_eye),
+            ..ends[end].0
+        };
+        for [a, b, c] in [[(0, 0), (0, 1), (1, 1)], [(0, 0), (1, 1), (1, 0)]] {
+            let candidate = Candidate {
+                vertices: [a, b, c].map(|(end, side)| vertex(end, side)),
+                primitive,
+                corners,
+                kind: Kind::Line,
+                front_facing: true,
+            };
+            let shares: CutWeights = [a, b, c].map(|(end, _): (usize, usize)| weights[end]);
+            self.push(candidate, Some(shares));
+        }
+    }
+}
+
+/// The corners of the parallelogram around a segment: for each end the one
+/// before and the one behind it across the minor direction. `None` if one has
+/// no place on the grid.
+fn outline(ends: [FixedPoint; 2], style: LineStyle) -> Option<[[FixedPoint; 2]; 2]> {
+    let [from, to] = ends.map(|end| [end.x.raw(), end.y.raw()]);
+    let span = [to[0] - from[0], to[1] - from[1]].map(f64::from);
+    let major = if span[0].abs() >= span[1].abs() { 0 } else { 1 };
+    let minor = 1 - major;
+    let length = (span[0] * span[0] + span[1] * span[1]).sqrt();
+    let degenerate = length == 0.0;
+    let slope = if degenerate { 0.0 } else { span[minor] / span[major] };
+    // How far the cut ends lie from the middle, and how far the segment is
+    // prolonged, so that its corners meet those of a segment at a right angle.
+    let across = if style.single || degenerate {
+        style.half_width
+    } else {
+        style.half_width * length / span[major].abs()
+    };
+    let along = if span[major] < 0.0 { -style.half_width } else { style.half_width };
+    let corner = |end: [i32; 2], along: f64, across: f64| {
+        let mut point = [0.0; 2];
+        point[major] = f64::from(end[major]) + along;
+        point[minor] = f64::from(end[minor]) + along * slope + across;
+        let fixed = |raw: f64| Fixed::from_f64(raw / 256.0);
+        Some(FixedPoint::new(fixed(point[0])?, fixed(point[1])?))
+    };
+    Some([
+        [corner(from, -along, -across)?, corner(from, -along, across)?],
+        [corner(to, along, -across)?, corner(to, along, across)?],
+    ])
+}

@@ -1,0 +1,68 @@
+//! Points become squares: two triangles each; for a disc the tile looks at the
+//! distance from the centre, too.
+
+use crate::PointShape;
+use crate::line::drawable_size;
+use crate::setup::{Candidate, Kind, ScreenVertex, Setup};
+use crate::vertex::nearer;
+use std::num::NonZeroU32;
+use trigon_math::{Fixed, FixedPoint};
+
+/// How a draw's points look.
+#[derive(Clone, Copy)]
+pub(crate) struct PointStyle {
+    /// Half the size, in units of the grid.
+    half: i32,
+    kind: Kind,
+    toward_eye: f32,
+}
+
+impl PointStyle {
+    pub(crate) fn new(size: f32, shape: PointShape, toward_eye: f32, samples_per_axis: NonZeroU32) -> Self {
+        let half = f64::from(drawable_size(size)) * f64::from(samples_per_axis.get()) * 128.0;
+        let kind = match shape {
+            PointShape::Round => Kind::RoundPoint,
+            PointShape::Square => Kind::SquarePoint,
+        };
+        Self { half: half.round() as i32, kind, toward_eye }
+    }
+}
+
+impl Setup<'_> {
+    /// One point of a draw of points.
+    pub(crate) fn point(&mut self, primitive: u32, index: u32, style: PointStyle) {
+        self.batch.stats.primitives += 1;
+        let Some(outcode) = self.vertices.outcode(index) else {
+            self.batch.stats.invalid += 1;
+            return;
+        };
+        if outcode.is_invalid() {
+            self.batch.stats.invalid += 1;
+        } else if outcode.cuts() || outcode.hides_wide() {
+            self.batch.stats.outside += 1;
+        } else {
+            self.square(primitive, self.vertices.screen(index), style);
+        }
+    }
+
+    fn square(&mut self, primitive: u32, centre: ScreenVertex, style: PointStyle) {
+        let depth = nearer(centre.depth, style.toward_eye);
+        // Within the guard band and the largest size, nothing leaves the grid.
+        let moved = |fixed: Fixed, by: i32| Fixed::from_raw(fixed.raw() + by);
+        let vertex = |x: i32, y: i32| {
+            let x = moved(centre.point.x, x * style.half);
+            let y = moved(centre.point.y, y * style.half);
+            ScreenVertex { point: FixedPoint::new(x, y), depth, ..centre }
+        };
+        for other in [vertex(1, -1), vertex(-1, 1)] {
+            let candidate = Candidate {
+                vertices: [vertex(-1, -1), other, vertex(1, 1)],
+                primitive,
+                corners: [0, 0, 0],
+                kind: style.kind,
+                front_facing: true,
+            };
+            self.push(candidate, None);
+        }
+    }
+}

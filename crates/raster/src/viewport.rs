@@ -1,0 +1,53 @@
+//! From clip space to the sample grid.
+//!
+//! Inside the rasterizer a "pixel" is a sample: with several samples per axis
+//! everything happens on a finer grid, and only the resolve knows better.
+
+use trigon_math::{Fixed, FixedPoint, Vec4};
+
+/// How far from the viewport's centre, in samples, geometry goes unclipped.
+pub(crate) const GUARD_BAND: f64 = 32768.0;
+
+/// The sample grid of a frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Viewport {
+    /// Width in samples.
+    pub(crate) width: u32,
+    /// Height in samples.
+    pub(crate) height: u32,
+}
+
+impl Viewport {
+    /// The largest |x / w| and |y / w| within the guard band.
+    pub(crate) fn guard(self) -> [f32; 2] {
+        // At least 1, as no side has more than 65536 samples.
+        [self.width, self.height].map(|side| (2.0 * GUARD_BAND / f64::from(side)) as f32)
+    }
+
+    /// The point on the sub-sample grid where a clip-space position with w > 0
+    /// lies; `None` if it is out of the grid's range.
+    ///
+    /// In f64, so that the only rounding that matters is the one to the grid.
+    #[inline]
+    pub(crate) fn snap(self, position: Vec4) -> Option<FixedPoint> {
+        let w = f64::from(position.w);
+        let x = (f64::from(position.x) / w * 0.5 + 0.5) * f64::from(self.width);
+        let y = (0.5 - f64::from(position.y) / w * 0.5) * f64::from(self.height);
+        Some(FixedPoint::new(Fixed::from_f64(x)?, Fixed::from_f64(y)?))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_of_clip_space_are_corners_of_the_grid() {
+        let viewport = Viewport { width: 640, height: 480 };
+        let at = |x, y| viewport.snap(Vec4::new(x, y, 0.0, 2.0)).map(|p| (p.x.raw(), p.y.raw()));
+        assert_eq!(at(-2.0, 2.0), Some((0, 0)), "y points up in clip space, down on the grid");
+        assert_eq!(at(2.0, -2.0), Some((640 * 256, 480 * 256)), "the far corner");
+        assert_eq!(at(1e30, 0.0), None, "out of range");
+        assert_eq!(at(f32::NAN, 0.0), None, "nowhere");
+    }
+}
