@@ -36,6 +36,8 @@ pub mod color;
 pub mod elementary;
 mod fixed;
 mod frustum;
+mod homogeneous;
+mod matrix;
 mod plane;
 mod predicates;
 
@@ -52,3 +54,6 @@ pub use clip::{Band, ClipPolygon, ClipVertex, ClipVolume, HalfSpace, Outcode, cl
 
 pub use frustum::{Frustum, FrustumSide};
 pub use plane::Plane;
+
+pub use homogeneous::HomogeneousPoint;
+pub use matrix::Matrix;
