@@ -11,10 +11,14 @@ use super::solid::Solid;
 use super::teapot_table::{Across, BODY, HANDLE, LID, Round, SPOUT};
 use crate::Mesh;
 
+/// Handle and spout are two patches round: with one piece each they would be
+/// flat.
+const FEWEST_SUBDIVISIONS: u32 = 2;
+
 /// The highest number of pieces along a patch: 131 072 faces.
 const MOST_SUBDIVISIONS: u32 = 64;
 
-/// The Utah teapot with `subdivisions` by `subdivisions` quads per patch (1 to
+/// The Utah teapot with `subdivisions` by `subdivisions` quads per patch (2 to
 /// 64; triangles round the tip of the lid and the middle of the bottom). Its
 /// spout points to +X, it stands on y = 0 with the middle of its bottom in the
 /// origin, and is as large as its published numbers: 3.15 high, the rim 2.8
@@ -30,7 +34,7 @@ const MOST_SUBDIVISIONS: u32 = 64;
 /// (The real pot was a third higher: the numbers are those that were handed
 /// on.)
 pub fn teapot(subdivisions: u32) -> Mesh {
-    let pieces = subdivisions.clamp(1, MOST_SUBDIVISIONS);
+    let pieces = subdivisions.clamp(FEWEST_SUBDIVISIONS, MOST_SUBDIVISIONS);
     let faces = 32 * (pieces * pieces) as usize;
     let mut solid = Solid::with_capacity(faces + 16 * pieces as usize, faces, 4 * faces);
     for part in parts() {

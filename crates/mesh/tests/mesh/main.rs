@@ -1,0 +1,10 @@
+//! Tests of trigon-mesh by its public face, one module per subject.
+
+mod building;
+mod normals;
+mod outlines;
+mod primitives;
+mod rendering;
+mod teapot;
+mod transform;
+mod triangulation;
