@@ -85,6 +85,11 @@ impl Warnings {
         }
     }
 
+    /// The warning that came first.
+    pub(crate) fn first(&self) -> Option<&Warning> {
+        self.list.first()
+    }
+
     pub(crate) fn into_list(self) -> Vec<Warning> {
         self.list
     }

@@ -1,12 +1,101 @@
 //! glTF 2.0 and GLB.
+//!
+//! `container` (the GLB) → `document` (JSON) → `extensions`, `references`,
+//! `hierarchy` (all checks) → `mesh` with `accessor` and `buffers` →
+//! `materials` with `images` → nodes. Nothing is followed that was not checked,
+//! and nothing is recursive.
+
+mod accessor;
+mod buffers;
+mod cameras;
+mod container;
+mod document;
+mod extensions;
+mod hierarchy;
+mod images;
+mod lights;
+mod materials;
+mod mesh;
+mod nodes;
+mod primitive;
+mod references;
+
+use std::collections::BTreeSet;
+
+use accessor::Accessors;
+use buffers::Buffers;
+use document::Document;
+use hierarchy::Hierarchy;
+use mesh::BuiltMesh;
 
 use crate::error::{LoadError, LoadErrorKind};
 use crate::import::Import;
+use crate::options::Stage;
 
-pub(crate) fn import_glb(import: &mut Import<'_>, _bytes: &[u8]) -> Result<(), LoadError> {
-    Err(LoadError::new(LoadErrorKind::Unsupported, import.path, "not yet", "soon"))
+/// Reads a binary glTF into the scene.
+pub(crate) fn import_glb(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), LoadError> {
+    let container = container::open_glb(import.path, bytes, &mut import.warnings)?;
+    import_parts(import, container.json, container.binary)
 }
 
+/// Reads a glTF that is plain JSON into the scene.
 pub(crate) fn import_gltf(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), LoadError> {
-    import_glb(import, bytes)
+    import_parts(import, bytes, None)
+}
+
+fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<&[u8]>) -> Result<(), LoadError> {
+    let document = document::parse_document(import.path, json)?;
+    let root = &document.root;
+    extensions::check_extensions(import.path, root, &mut import.warnings)?;
+    references::check_references(import.path, root)?;
+    let hierarchy = hierarchy::find_hierarchy(import.path, root, &import.options.limits)?;
+    extensions::warn_of_undrawn(root, &mut import.warnings);
+    let mut buffers = Buffers::new(root, binary);
+    let meshes = build_meshes(import, &document, &hierarchy, &mut buffers)?;
+    let used: BTreeSet<Option<usize>> = meshes.iter().flatten().flat_map(|mesh| mesh.materials.iter().copied()).collect();
+    let used: Vec<Option<usize>> = used.into_iter().collect();
+    let materials = materials::add_materials(import, root, &mut buffers, &used)?;
+    nodes::add_nodes(import, &document, &hierarchy, meshes, &materials);
+    Ok(())
+}
+
+/// The meshes that the nodes use, by their index in the document.
+fn build_meshes(
+    import: &mut Import<'_>,
+    document: &Document,
+    hierarchy: &Hierarchy,
+    buffers: &mut Buffers<'_>,
+) -> Result<Vec<Option<BuiltMesh>>, LoadError> {
+    let root = &document.root;
+    let mut meshes: Vec<Option<BuiltMesh>> = root.meshes.iter().map(|_| None).collect();
+    let used: BTreeSet<usize> = hierarchy.order.iter().filter_map(|&node| Some(root.nodes[node].mesh?.value())).collect();
+    let limits = &import.options.limits;
+    let (mut corners, mut drawable) = (0, false);
+    for (done, &index) in used.iter().enumerate() {
+        import.options.report(import.path, Stage::Geometry, done as f32 / used.len() as f32)?;
+        let most = limits.vertices.max(limits.corners);
+        let mut accessors = Accessors { root, buffers, folder: &mut import.folder, most };
+        let sets = |material| materials::texture_set(root, material);
+        let built = mesh::build_mesh(&mut accessors, index, &sets, &mut import.warnings).map_err(|unplaced| unplaced.into_error(import.path))?;
+        let mesh = &built.mesh;
+        corners += mesh.corner_count();
+        if mesh.vertex_count() > limits.vertices || corners > limits.corners {
+            return Err(LoadError::limit(import.path, format!("the meshes have more than {} vertices or {} corners", limits.vertices, limits.corners)));
+        }
+        drawable |= mesh.face_count() + mesh.loose_edges().len() + mesh.loose_points().len() > 0;
+        meshes[index] = Some(built);
+    }
+    if drawable { Ok(meshes) } else { Err(nothing(import, root, used.len())) }
+}
+
+/// Why there is nothing to draw: the first warning is usually the reason.
+fn nothing(import: &Import<'_>, root: &gltf_json::Root, used: usize) -> LoadError {
+    let reason = match (root.meshes.len(), used, import.warnings.first()) {
+        (0, ..) => "the file has no meshes".to_owned(),
+        (count, 0, _) => format!("no node of its scene places one of its {count} meshes"),
+        (.., Some(warning)) => format!("its meshes are empty{}: {}", warning.place, warning.what),
+        (.., None) => "its meshes are empty".to_owned(),
+    };
+    let what = format!("there is nothing to draw: {reason}");
+    LoadError::new(LoadErrorKind::Empty, import.path, what, "export the model with visible meshes")
 }

@@ -1,0 +1,231 @@
+//! Accessors: typed numbers in a buffer, decoded with checked arithmetic.
+//!
+//! Every claim (count, offset, stride) is compared with the bytes that exist
+//! before anything is allocated, so memory stays proportional to the file.
+//! Normalized integers follow the glTF 2.0 specification, section 3.6.2.2:
+//! c / 255, max(c / 127, −1), and so on.
+
+use gltf_json::Root;
+use gltf_json::accessor::{ComponentType, Type};
+use gltf_json::validation::Checked;
+
+use super::buffers::{Buffers, Unplaced, Unread};
+use crate::error::{LoadErrorKind, Place};
+use crate::folder::Folder;
+
+/// The most elements of an accessor that has no bytes: such elements are zero,
+/// and nothing else bounds them.
+const MOST_ZEROS: usize = 1 << 20;
+
+/// Reads accessors of one document.
+pub(crate) struct Accessors<'a, 'b> {
+    pub(crate) root: &'a Root,
+    pub(crate) buffers: &'a mut Buffers<'b>,
+    pub(crate) folder: &'a mut Folder,
+    /// The most elements that one accessor may have.
+    pub(crate) most: usize,
+}
+
+/// Where the elements of an accessor lie in the bytes of a view.
+#[derive(Clone, Copy)]
+struct Layout {
+    count: usize,
+    /// Bytes from one element to the next.
+    stride: usize,
+    start: usize,
+    component: ComponentType,
+    components: usize,
+    normalized: bool,
+}
+
+impl Accessors<'_, '_> {
+    /// How many elements an accessor claims.
+    pub(crate) fn count(&self, index: usize) -> u64 {
+        self.root.accessors[index].count.0
+    }
+
+    /// Decodes an accessor of a vector type to f32. `allowed` are the types
+    /// that the use allows; `N` is the size of the largest. Components that the
+    /// type does not have are 1, as an alpha is.
+    pub(crate) fn vectors<const N: usize>(&mut self, index: usize, allowed: &[Type]) -> Result<Vec<[f32; N]>, Unplaced> {
+        let (mut layout, bytes) = self.open(index, allowed)?;
+        let (count, components) = (layout.count, layout.components);
+        let mut elements = vec![[0.0; N]; count];
+        for element in &mut elements {
+            element[components..].fill(1.0);
+        }
+        if let Some((buffer, range)) = bytes {
+            read_vectors(&buffer[range], &layout, elements.iter_mut());
+        }
+        if let Some((targets, start, values)) = self.sparse(index, &layout)? {
+            (layout.stride, layout.start) = (layout.component.size() * components, start);
+            let mut at = values.1.start + layout.start;
+            for target in targets {
+                let one = &values.0[at..at + layout.stride];
+                read_vectors(one, &Layout { count: 1, start: 0, ..layout }, std::iter::once(&mut elements[target]));
+                at += layout.stride;
+            }
+        }
+        Ok(elements)
+    }
+
+    /// Decodes an accessor of indices.
+    pub(crate) fn indices(&mut self, index: usize) -> Result<Vec<u32>, Unplaced> {
+        let (layout, bytes) = self.open(index, &[Type::Scalar])?;
+        if !matches!(layout.component, ComponentType::U8 | ComponentType::U16 | ComponentType::U32) {
+            return Err(malformed(index, "indices must be unsigned integers".to_owned()));
+        }
+        let mut indices = match &bytes {
+            Some((buffer, range)) => read_indices(&buffer[range.clone()], &layout),
+            None => vec![0; layout.count],
+        };
+        if let Some((targets, start, values)) = self.sparse(index, &layout)? {
+            let tight = Layout { count: targets.len(), stride: layout.component.size(), start, ..layout };
+            for (target, value) in targets.into_iter().zip(read_indices(&values.0[values.1], &tight)) {
+                indices[target] = value;
+            }
+        }
+        Ok(indices)
+    }
+
+    /// Checks an accessor against its view; the bytes are `None` when it has
+    /// no view and so is all zero.
+    fn open(&mut self, index: usize, allowed: &[Type]) -> Result<(Layout, Option<Bytes>), Unplaced> {
+        let accessor = &self.root.accessors[index];
+        let type_ = valid(&accessor.type_).filter(|type_| allowed.contains(type_));
+        let type_ = type_.ok_or_else(|| malformed(index, format!("its type is not one of {allowed:?}")))?;
+        let component = valid(&accessor.component_type).ok_or_else(|| malformed(index, "its componentType is unknown".to_owned()))?.0;
+        let components = components_of(type_);
+        let count = self.checked_count(index)?;
+        let size = component.size() * components;
+        let layout = |start, stride| Layout { count, stride, start, component, components, normalized: accessor.normalized };
+        let Some(view) = accessor.buffer_view.map(|view| view.value()) else {
+            if count > MOST_ZEROS {
+                let what = format!("{count} elements and no bufferView; at most {MOST_ZEROS} may be all zero");
+                return Err(malformed(index, what));
+            }
+            return Ok((layout(0, size), None));
+        };
+        let stride = self.root.buffer_views[view].byte_stride.map_or(size, |stride| stride.0);
+        let start = accessor.byte_offset.map_or(0, |offset| offset.0);
+        let length = self.root.buffer_views[view].byte_length.0;
+        if stride < size {
+            return Err(malformed(index, format!("elements of {size} bytes are only {stride} bytes apart")));
+        }
+        let needed = (count as u64 - 1).checked_mul(stride as u64).and_then(|bytes| bytes.checked_add(size as u64)).and_then(|bytes| bytes.checked_add(start));
+        if needed.is_none_or(|needed| needed > length) {
+            let what = format!("{count} elements from byte {start}, {stride} bytes apart, lie outside bufferView {view}, which has {length} bytes");
+            return Err(malformed(index, what));
+        }
+        let bytes = self.buffers.view(self.root, view, self.folder)?;
+        Ok((layout(start as usize, stride), Some(bytes)))
+    }
+
+    fn checked_count(&self, index: usize) -> Result<usize, Unplaced> {
+        let count = self.count(index);
+        let count = usize::try_from(count).ok().filter(|&count| count <= self.most);
+        match count {
+            Some(0) => Err(malformed(index, "its count is 0".to_owned())),
+            Some(count) => Ok(count),
+            None => {
+                let what = format!("{} elements are more than the limit of {}", self.count(index), self.most);
+                let remedy = "raise the limit if you trust the file";
+                Err(Unplaced(Place::Item("accessor", index), Unread { kind: LoadErrorKind::Limit, what, remedy }))
+            }
+        }
+    }
+
+    /// The elements that sparse storage replaces, where in the bytes their
+    /// values start, and those bytes.
+    fn sparse(&mut self, index: usize, layout: &Layout) -> Result<Option<(Vec<usize>, usize, Bytes)>, Unplaced> {
+        let Some(sparse) = &self.root.accessors[index].sparse else { return Ok(None) };
+        let count = usize::try_from(sparse.count.0).ok().filter(|&count| count <= layout.count);
+        let count = count.ok_or_else(|| malformed(index, "it replaces more sparse elements than it has".to_owned()))?;
+        let component = valid(&sparse.indices.component_type);
+        let component = component.ok_or_else(|| malformed(index, "its sparse componentType is unknown".to_owned()))?.0;
+        let indices = self.range(index, sparse.indices.buffer_view.value(), sparse.indices.byte_offset.0, count, component.size())?;
+        let tight = Layout { count, stride: component.size(), start: sparse.indices.byte_offset.0 as usize, component, components: 1, normalized: false };
+        let targets: Vec<usize> = read_indices(&indices.0[indices.1], &tight).into_iter().map(|target| target as usize).collect();
+        if let Some(target) = targets.iter().find(|&&target| target >= layout.count) {
+            return Err(malformed(index, format!("its sparse index {target} is not below its count {}", layout.count)));
+        }
+        let size = layout.component.size() * layout.components;
+        let values = self.range(index, sparse.values.buffer_view.value(), sparse.values.byte_offset.0, count, size)?;
+        Ok(Some((targets, sparse.values.byte_offset.0 as usize, values)))
+    }
+
+    /// A view that holds `count` tight elements from an offset.
+    fn range(&mut self, index: usize, view: usize, offset: u64, count: usize, size: usize) -> Result<Bytes, Unplaced> {
+        let length = self.root.buffer_views[view].byte_length.0;
+        let needed = (count as u64).checked_mul(size as u64).and_then(|bytes| bytes.checked_add(offset));
+        if needed.is_none_or(|needed| needed > length) {
+            return Err(malformed(index, format!("its {count} sparse elements lie outside bufferView {view}, which has {length} bytes")));
+        }
+        self.buffers.view(self.root, view, self.folder)
+    }
+}
+
+/// A buffer and the range of a view in it.
+type Bytes = (std::sync::Arc<[u8]>, std::ops::Range<usize>);
+
+fn malformed(index: usize, what: String) -> Unplaced {
+    Unplaced(Place::Item("accessor", index), Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again" })
+}
+
+pub(super) fn valid<T: Copy>(checked: &Checked<T>) -> Option<T> {
+    match checked {
+        Checked::Valid(value) => Some(*value),
+        Checked::Invalid => None,
+    }
+}
+
+fn components_of(type_: Type) -> usize {
+    match type_ {
+        Type::Scalar => 1,
+        Type::Vec2 => 2,
+        Type::Vec3 => 3,
+        Type::Vec4 | Type::Mat2 => 4,
+        Type::Mat3 => 9,
+        Type::Mat4 => 16,
+    }
+}
+
+fn read_vectors<'e, const N: usize>(bytes: &[u8], layout: &Layout, elements: impl Iterator<Item = &'e mut [f32; N]>) {
+    let size = layout.component.size();
+    for (index, element) in elements.enumerate() {
+        let start = layout.start + index * layout.stride;
+        let parts = bytes[start..start + size * layout.components].chunks_exact(size);
+        for (value, part) in element.iter_mut().zip(parts) {
+            *value = component(part, layout.component, layout.normalized);
+        }
+    }
+}
+
+fn read_indices(bytes: &[u8], layout: &Layout) -> Vec<u32> {
+    let size = layout.component.size();
+    let one = |index: usize| {
+        let start = layout.start + index * layout.stride;
+        bytes[start..start + size].iter().rev().fold(0, |value, &byte| value << 8 | u32::from(byte))
+    };
+    (0..layout.count).map(one).collect()
+}
+
+fn component(part: &[u8], kind: ComponentType, normalized: bool) -> f32 {
+    let fit = || <[u8; 2]>::try_from(part).expect("a component of two bytes");
+    let fit4 = || <[u8; 4]>::try_from(part).expect("a component of four bytes");
+    let (value, largest) = match kind {
+        ComponentType::I8 => (f32::from(part[0] as i8), 127.0),
+        ComponentType::U8 => (f32::from(part[0]), 255.0),
+        ComponentType::I16 => (f32::from(i16::from_le_bytes(fit())), 32767.0),
+        ComponentType::U16 => (f32::from(u16::from_le_bytes(fit())), 65535.0),
+        ComponentType::U32 => return u32::from_le_bytes(fit4()) as f32,
+        ComponentType::F32 => return f32::from_le_bytes(fit4()),
+    };
+    if !normalized {
+        value
+    } else if value < -largest {
+        -1.0
+    } else {
+        value / largest
+    }
+}

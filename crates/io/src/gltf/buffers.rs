@@ -1,0 +1,97 @@
+//! The bytes behind a document: from the GLB, from data URIs, from files in
+//! the model's folder. Each buffer is read when the first accessor or image
+//! needs it.
+
+use std::sync::Arc;
+
+use gltf_json::Root;
+
+use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::folder::{Folder, Lookup};
+use crate::uri::{Reference, parse_reference, quotable};
+
+/// What went wrong with a reference, before it has a place.
+pub(crate) struct Unread {
+    pub(crate) kind: LoadErrorKind,
+    pub(crate) what: String,
+    pub(crate) remedy: &'static str,
+}
+
+pub(crate) struct Buffers<'a> {
+    binary: Option<&'a [u8]>,
+    read: Vec<Option<Arc<[u8]>>>,
+}
+
+impl<'a> Buffers<'a> {
+    pub(crate) fn new(root: &Root, binary: Option<&'a [u8]>) -> Self {
+        Self { binary, read: vec![None; root.buffers.len()] }
+    }
+
+    /// The bytes of a buffer view, at a checked index. At least as long as the
+    /// view claims.
+    pub(crate) fn view(&mut self, root: &Root, index: usize, folder: &mut Folder) -> Result<(Arc<[u8]>, std::ops::Range<usize>), Unplaced> {
+        let view = &root.buffer_views[index];
+        let buffer = self.buffer(root, view.buffer.value(), folder)?;
+        let start = view.byte_offset.map_or(0, |offset| offset.0) as usize;
+        // Checked against the buffer's claim, and the claim against its bytes.
+        Ok((buffer, start..start + view.byte_length.0 as usize))
+    }
+
+    fn buffer(&mut self, root: &Root, index: usize, folder: &mut Folder) -> Result<Arc<[u8]>, Unplaced> {
+        if let Some(bytes) = &self.read[index] {
+            return Ok(bytes.clone());
+        }
+        let place = Place::Item("buffer", index);
+        let claim = root.buffers[index].byte_length.0;
+        let bytes: Arc<[u8]> = match (&root.buffers[index].uri, self.binary) {
+            (Some(uri), _) => read_reference(uri, folder, Lookup::Exact).map_err(|unread| Unplaced(place.clone(), unread))?.0.into(),
+            (None, Some(binary)) if index == 0 => binary.into(),
+            (None, _) => {
+                let what = "the buffer has no data".to_owned();
+                return Err(Unplaced(place, Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again, as GLB" }));
+            }
+        };
+        if (bytes.len() as u64) < claim {
+            let what = format!("the buffer has {} bytes and should have {claim}", bytes.len());
+            return Err(Unplaced(place, Unread { kind: LoadErrorKind::Malformed, what, remedy: "export or download the model again" }));
+        }
+        self.read[index] = Some(bytes.clone());
+        Ok(bytes)
+    }
+}
+
+/// Something unread, with its place in the document.
+pub(crate) struct Unplaced(pub(crate) Place, pub(crate) Unread);
+
+impl Unplaced {
+    pub(crate) fn into_error(self, path: &std::path::Path) -> LoadError {
+        LoadError::new(self.1.kind, path, self.1.what, self.1.remedy).at(self.0)
+    }
+}
+
+/// Reads what a URI leads to; the second value tells of another spelling that
+/// was used for a file.
+pub(crate) fn read_reference(uri: &str, folder: &mut Folder, lookup: Lookup) -> Result<(Vec<u8>, Option<String>), Unread> {
+    let quoted = quotable(uri);
+    let unread = |kind, why: &dyn std::fmt::Display, remedy| Unread { kind, what: format!("{quoted} is not read: {why}"), remedy };
+    match parse_reference(uri) {
+        Err(why) => Err(unread(LoadErrorKind::Malformed, &why, "export the model again")),
+        Ok(Reference::Data(bytes)) => {
+            folder.account(bytes.len() as u64).map_err(|refusal| unread(LoadErrorKind::Limit, &refusal, refusal.remedy()))?;
+            Ok((bytes, None))
+        }
+        Ok(Reference::Path(name)) => match folder.read(std::path::Path::new(""), &name, lookup) {
+            Ok(found) => Ok((found.bytes, found.respelled.then(|| found.path.display().to_string()))),
+            // Some exporters write names as they are, percent signs and all.
+            Err(refusal) if name != uri => match folder.read(std::path::Path::new(""), uri, lookup) {
+                Ok(found) => Ok((found.bytes, None)),
+                Err(_) => Err(unread(kind_of(&refusal), &refusal, refusal.remedy())),
+            },
+            Err(refusal) => Err(unread(kind_of(&refusal), &refusal, refusal.remedy())),
+        },
+    }
+}
+
+fn kind_of(refusal: &crate::folder::Refusal) -> LoadErrorKind {
+    if refusal.is_forbidden() { LoadErrorKind::Forbidden } else { LoadErrorKind::Read }
+}

@@ -1,0 +1,135 @@
+//! The JSON of a glTF file: parsed by gltf-json, without its validation
+//! (which panics on some files), with node transforms read again as f64.
+
+use std::path::Path;
+
+use gltf_json::Root;
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::error::{LoadError, LoadErrorKind, Place};
+
+/// A parsed document.
+pub(crate) struct Document {
+    pub(crate) root: Root,
+    /// The transforms of the nodes: gltf-json rounds them to f32.
+    pub(crate) transforms: Vec<RawTransform>,
+}
+
+/// A node's transform as the file has it.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default)]
+pub(crate) struct RawTransform {
+    pub(crate) matrix: Option<[f64; 16]>,
+    pub(crate) translation: Option<[f64; 3]>,
+    pub(crate) rotation: Option<[f64; 4]>,
+    pub(crate) scale: Option<[f64; 3]>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct RawNodes {
+    nodes: Vec<RawTransform>,
+}
+
+/// What can be said of a file before all of it is understood.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Preview {
+    asset: Option<RawAsset>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+struct RawAsset {
+    version: Option<String>,
+    min_version: Option<String>,
+}
+
+/// Parses the JSON and checks that it is glTF 2.
+pub(crate) fn parse_document(path: &Path, json: &[u8]) -> Result<Document, LoadError> {
+    let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
+    if json.starts_with(b"version https://git-lfs") {
+        return Err(LoadError::malformed(path, "the file is a Git LFS pointer, not a model", "fetch the real file with `git lfs pull`"));
+    }
+    let preview: Preview = serde_json::from_slice(json).map_err(|error| json_error(path, &error))?;
+    check_version(path, &preview)?;
+    let root = match serde_json::from_slice(json) {
+        Ok(root) => root,
+        // The first error has the line; the second try has legal oddities mended.
+        Err(error) => parse_mended(json).ok_or_else(|| json_error(path, &error))?,
+    };
+    let raw: RawNodes = serde_json::from_slice(json).map_err(|error| json_error(path, &error))?;
+    Ok(Document { root, transforms: raw.nodes })
+}
+
+fn json_error(path: &Path, error: &serde_json::Error) -> LoadError {
+    let what = format!("this is not the JSON of a glTF file: {error}");
+    LoadError::malformed(path, what, "export the model again").at(Place::Line(error.line() as u64))
+}
+
+fn check_version(path: &Path, preview: &Preview) -> Result<(), LoadError> {
+    let asset = preview.asset.as_ref();
+    let Some(version) = asset.and_then(|asset| asset.version.as_deref()) else {
+        return Err(LoadError::malformed(path, "asset.version is missing", "export the model as glTF 2.0"));
+    };
+    let needed = asset.and_then(|asset| asset.min_version.as_deref()).unwrap_or(version);
+    let is_too_new = asset.is_some_and(|asset| asset.min_version.is_some()) && needed != "2.0";
+    if version.split('.').next() != Some("2") || is_too_new {
+        let what = format!("asset.version '{needed}' is not supported, only glTF 2.0 is");
+        return Err(LoadError::new(LoadErrorKind::Unsupported, path, what, "export the model as glTF 2.0"));
+    }
+    Ok(())
+}
+
+/// Parses once more without `extras` (which may be anything, where gltf-json
+/// wants objects) and with the lists that may be absent.
+fn parse_mended(json: &[u8]) -> Option<Root> {
+    let mut value: Value = serde_json::from_slice(json).ok()?;
+    let mut waiting = vec![&mut value];
+    while let Some(next) = waiting.pop() {
+        match next {
+            Value::Object(map) => {
+                map.remove("extras");
+                waiting.extend(map.values_mut());
+            }
+            Value::Array(list) => waiting.extend(list),
+            _ => {}
+        }
+    }
+    for scene in value.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten() {
+        scene.as_object_mut()?.entry("nodes").or_insert(Value::Array(Vec::new()));
+    }
+    serde_json::from_value(value).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(json: &str) -> Result<Document, LoadError> {
+        parse_document(Path::new("a.gltf"), json.as_bytes())
+    }
+
+    #[test]
+    fn transforms_keep_all_their_digits() {
+        let document = parse(r#"{"asset":{"version":"2.0"},"nodes":[{"translation":[10000000.001,0.1,0]}]}"#).expect("glTF");
+        assert_eq!(document.transforms[0].translation, Some([10000000.001, 0.1, 0.0]), "f64");
+    }
+
+    #[test]
+    fn legal_oddities_are_read() {
+        parse(r#"{"asset":{"version":"2.1","extras":5},"scenes":[{"name":"empty"}],"extras":null}"#).expect("legal");
+    }
+
+    #[test]
+    fn other_versions_and_broken_json_are_named() {
+        let message = |json: &str| parse(json).err().expect("an error").to_string();
+        assert!(message(r#"{"asset":{"version":"1.0"},"meshes":{}}"#).contains("'1.0'"), "an old version");
+        assert!(message(r#"{"asset":{"version":"2.1","minVersion":"2.1"}}"#).contains("'2.1'"), "too new");
+        assert!(message("{}").contains("asset.version"), "no version");
+        assert!(message("{\"asset\":{\"version\":\"2.0\"},\n\"nodes\":[{\"mesh\":-1}]}").starts_with("a.gltf, line 2: "), "the line");
+        message("");
+        message(&"[".repeat(100_000));
+    }
+}

@@ -1,0 +1,87 @@
+//! The node tree: checked without recursion, at any depth.
+//!
+//! A node may have one parent and no loop. Files that break this are refused:
+//! drawing them could mean 2³⁰ copies.
+
+use std::path::Path;
+
+use gltf_json::Root;
+
+use crate::error::{LoadError, Place};
+use crate::limits::Limits;
+
+/// The nodes to load, and how they hang together.
+pub(crate) struct Hierarchy {
+    /// For each node of the document: whether its scene reaches it.
+    pub(crate) included: Vec<bool>,
+    /// For each node its parent, unless the scene does not reach that.
+    pub(crate) parents: Vec<Option<usize>>,
+    /// The reached nodes, parents before children.
+    pub(crate) order: Vec<usize>,
+}
+
+pub(crate) fn find_hierarchy(path: &Path, root: &Root, limits: &Limits) -> Result<Hierarchy, LoadError> {
+    let count = root.nodes.len();
+    if count > limits.nodes {
+        return Err(LoadError::limit(path, format!("it has {count} nodes; the limit is {}", limits.nodes)));
+    }
+    let error = |node: usize, what: String| LoadError::malformed(path, what, "export the model again").at(Place::Item("node", node));
+    let mut parents = vec![None; count];
+    for (parent, child) in links(root) {
+        if let Some(other) = parents[child].replace(parent) {
+            return Err(error(child, format!("it is a child twice, of node {other} and of node {parent}")));
+        }
+    }
+    let depths = find_depths(root, &parents);
+    if let Some(node) = depths.iter().position(Option::is_none) {
+        return Err(error(node, "it hangs on itself: the nodes form a loop (cycle)".to_owned()));
+    }
+    if let Some(node) = depths.iter().position(|&depth| depth > Some(limits.depth)) {
+        return Err(error(node, format!("nodes hang on each other more than {} deep; the limit is there to bound work", limits.depth)));
+    }
+    let (included, order) = reach(root, scene_roots(root, &parents));
+    for parent in &mut parents {
+        *parent = parent.filter(|&parent| included[parent]);
+    }
+    Ok(Hierarchy { included, parents, order })
+}
+
+fn links(root: &Root) -> impl Iterator<Item = (usize, usize)> {
+    let children = |node: &gltf_json::Node| node.children.clone().unwrap_or_default();
+    root.nodes.iter().enumerate().flat_map(move |(parent, node)| children(node).into_iter().map(move |child| (parent, child.value())))
+}
+
+/// How deep each node hangs below its root; `None` for nodes in or below a loop.
+fn find_depths(root: &Root, parents: &[Option<usize>]) -> Vec<Option<usize>> {
+    let mut depths = vec![None; parents.len()];
+    let mut waiting: Vec<(usize, usize)> = (0..parents.len()).filter(|&node| parents[node].is_none()).map(|node| (node, 0)).collect();
+    while let Some((node, depth)) = waiting.pop() {
+        depths[node] = Some(depth);
+        waiting.extend(root.nodes[node].children.iter().flatten().map(|child| (child.value(), depth + 1)));
+    }
+    depths
+}
+
+/// The roots of the default scene, or of the first; all roots when the file
+/// has no scenes.
+fn scene_roots(root: &Root, parents: &[Option<usize>]) -> Vec<usize> {
+    let scene = root.scene.map_or(0, |scene| scene.value());
+    match root.scenes.get(scene) {
+        Some(scene) => scene.nodes.iter().map(|node| node.value()).collect(),
+        None => (0..parents.len()).filter(|&node| parents[node].is_none()).collect(),
+    }
+}
+
+fn reach(root: &Root, roots: Vec<usize>) -> (Vec<bool>, Vec<usize>) {
+    let mut included = vec![false; root.nodes.len()];
+    let (mut waiting, mut order) = (roots, Vec::new());
+    waiting.reverse();
+    while let Some(node) = waiting.pop() {
+        // A scene may list a node twice, or one that hangs below another.
+        if !std::mem::replace(&mut included[node], true) {
+            order.push(node);
+            waiting.extend(root.nodes[node].children.iter().flatten().rev().map(|child| child.value()));
+        }
+    }
+    (included, order)
+}

@@ -1,0 +1,137 @@
+//! Images of the document, for the textures that materials use.
+
+use std::path::Path;
+
+use gltf_json::Root;
+use gltf_json::texture::{MagFilter, MinFilter, WrappingMode};
+use serde_json::Value;
+use trigon_raster::{Filter, MipFilter, Sampler, Wrap};
+use trigon_scene::TextureId;
+
+use super::accessor::valid;
+use super::buffers::{Buffers, Unread, read_reference};
+use super::references::source_of;
+use crate::error::{LoadError, Place};
+use crate::folder::Lookup;
+use crate::import::Import;
+use crate::textures::{Request, add_textures};
+
+/// For each image of the document its texture, if it is used and was found.
+pub(crate) struct Images {
+    ids: Vec<Option<TextureId>>,
+}
+
+impl Images {
+    /// Reads and decodes the images behind some textures, each once.
+    pub(crate) fn read(import: &mut Import<'_>, root: &Root, buffers: &mut Buffers<'_>, textures: &[usize]) -> Result<Self, LoadError> {
+        let mut wanted = vec![false; root.images.len()];
+        for &texture in textures {
+            match image_of(root, texture) {
+                Some(image) => wanted[image] = true,
+                None => import.warnings.push(Place::Item("texture", texture), "it has no image and is not drawn", "export the model again"),
+            }
+        }
+        let (mut requests, mut images) = (Vec::new(), Vec::new());
+        for image in (0..wanted.len()).filter(|&image| wanted[image]) {
+            if let Some(bytes) = read_image(import, root, buffers, image) {
+                let (name, place) = (image_name(root, image), Place::Item("image", image));
+                requests.push(Request { name, file: import.path.to_owned(), place, bytes });
+                images.push(image);
+            }
+        }
+        let mut ids = vec![None; root.images.len()];
+        for (image, id) in images.into_iter().zip(add_textures(import, &requests)?) {
+            ids[image] = Some(id);
+        }
+        Ok(Self { ids })
+    }
+
+    /// The texture of the scene for a texture of the document.
+    pub(crate) fn get(&self, root: &Root, texture: usize) -> Option<TextureId> {
+        self.ids[image_of(root, texture)?]
+    }
+}
+
+/// The image that a texture shows: the plain one, else one in a format that an
+/// extension adds. The picture itself then says what it is.
+fn image_of(root: &Root, texture: usize) -> Option<usize> {
+    let texture = &root.textures[texture];
+    if let Some(source) = source_of(texture) {
+        return Some(source);
+    }
+    let others = &texture.extensions.as_ref()?.others;
+    let sources = others.values().filter_map(|extension| extension.get("source").and_then(Value::as_u64));
+    let mut images = sources.filter_map(|source| usize::try_from(source).ok());
+    images.find(|&image| image < root.images.len())
+}
+
+fn image_name(root: &Root, image: usize) -> String {
+    let from = &root.images[image];
+    let file = from.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
+    file.or(from.name.as_deref()).map_or_else(|| format!("image {image}"), str::to_owned)
+}
+
+fn read_image(import: &mut Import<'_>, root: &Root, buffers: &mut Buffers<'_>, image: usize) -> Option<Vec<u8>> {
+    let place = Place::Item("image", image);
+    let from = &root.images[image];
+    let result = match (&from.uri, from.buffer_view) {
+        (Some(uri), _) => read_reference(uri, &mut import.folder, Lookup::Forgiving),
+        (None, Some(view)) => match buffers.view(root, view.value(), &mut import.folder) {
+            Ok((buffer, range)) => Ok((buffer[range].to_vec(), None)),
+            Err(unplaced) => Err(unplaced.1),
+        },
+        (None, None) => {
+            import.warnings.push(place, "it has neither a URI nor a bufferView and is not drawn", "export the model again");
+            return None;
+        }
+    };
+    match result {
+        Ok((bytes, respelled)) => {
+            if let Some(path) = respelled {
+                let what = format!("\"{}\" was not found; \"{}\" is used instead", image_name(root, image), Path::new(&path).display());
+                import.warnings.push(place, what, "correct the name in the model");
+            }
+            Some(bytes)
+        }
+        Err(Unread { what, remedy, .. }) => {
+            import.warnings.push(place, format!("the picture is not drawn: {what}"), remedy);
+            None
+        }
+    }
+}
+
+/// How a texture is sampled; the specification's defaults where it says nothing.
+pub(crate) fn convert_sampler(root: &Root, texture: usize) -> Sampler {
+    let Some(index) = root.textures[texture].sampler else { return Sampler::default() };
+    let from = &root.samplers[index.value()];
+    let (minification, mip) = from.min_filter.as_ref().and_then(valid).map_or_else(|| (Filter::Linear, MipFilter::Linear), minification);
+    Sampler {
+        wrap_u: valid(&from.wrap_s).map_or(Wrap::Repeat, wrap),
+        wrap_v: valid(&from.wrap_t).map_or(Wrap::Repeat, wrap),
+        magnification: match from.mag_filter.as_ref().and_then(valid) {
+            Some(MagFilter::Nearest) => Filter::Nearest,
+            _ => Filter::Linear,
+        },
+        minification,
+        mip,
+    }
+}
+
+fn wrap(mode: WrappingMode) -> Wrap {
+    match mode {
+        WrappingMode::ClampToEdge => Wrap::ClampToEdge,
+        WrappingMode::MirroredRepeat => Wrap::MirroredRepeat,
+        WrappingMode::Repeat => Wrap::Repeat,
+    }
+}
+
+fn minification(filter: MinFilter) -> (Filter, MipFilter) {
+    match filter {
+        MinFilter::Nearest => (Filter::Nearest, MipFilter::None),
+        MinFilter::Linear => (Filter::Linear, MipFilter::None),
+        MinFilter::NearestMipmapNearest => (Filter::Nearest, MipFilter::Nearest),
+        MinFilter::LinearMipmapNearest => (Filter::Linear, MipFilter::Nearest),
+        MinFilter::NearestMipmapLinear => (Filter::Nearest, MipFilter::Linear),
+        MinFilter::LinearMipmapLinear => (Filter::Linear, MipFilter::Linear),
+    }
+}

@@ -1,0 +1,84 @@
+//! Nodes of the document to nodes of the scene, in the document's order: when
+//! the scene shows all nodes, an object id is the node's index in the file.
+
+use std::collections::BTreeMap;
+
+use trigon_math::{DAffine3, DMat4, DQuat, DVec3};
+use trigon_scene::{MaterialId, MeshId, Node, NodeId, Transform};
+
+use super::cameras::convert_camera;
+use super::document::{Document, RawTransform};
+use super::hierarchy::Hierarchy;
+use super::lights::convert_light;
+use super::mesh::BuiltMesh;
+use crate::error::Place;
+use crate::import::Import;
+use crate::warning::Warnings;
+
+/// What a node needs of its mesh.
+type PlacedMesh = (MeshId, Vec<MaterialId>);
+
+pub(crate) fn add_nodes(
+    import: &mut Import<'_>,
+    document: &Document,
+    hierarchy: &Hierarchy,
+    meshes: Vec<Option<BuiltMesh>>,
+    materials: &BTreeMap<Option<usize>, MaterialId>,
+) {
+    let meshes: Vec<Option<PlacedMesh>> = meshes.into_iter().enumerate().map(|(index, built)| {
+        let name = document.root.meshes[index].name.clone().unwrap_or_default();
+        built.map(|built| {
+            let slots = built.materials.iter().map(|material| materials[material]).collect();
+            (import.scene.add_mesh(name, built.mesh), slots)
+        })
+    }).collect();
+    let included = (0..document.root.nodes.len()).filter(|&node| hierarchy.included[node]);
+    let mut ids: Vec<Option<NodeId>> = vec![None; document.root.nodes.len()];
+    for index in included {
+        let node = convert_node(import, document, index, &meshes);
+        ids[index] = Some(import.scene.add(node));
+    }
+    hang_up(import, document, hierarchy, &ids);
+}
+
+/// Hangs children on their parents, the deepest first: every parent is then
+/// still a root, and the check for loops takes one step.
+fn hang_up(import: &mut Import<'_>, document: &Document, hierarchy: &Hierarchy, ids: &[Option<NodeId>]) {
+    for &parent in hierarchy.order.iter().rev() {
+        for child in document.root.nodes[parent].children.iter().flatten().map(|child| child.value()) {
+            if let (Some(child), Some(_)) = (ids[child], hierarchy.parents[child]) {
+                import.scene.set_parent(child, ids[parent]).expect("the hierarchy was checked for loops");
+            }
+        }
+    }
+}
+
+fn convert_node(import: &mut Import<'_>, document: &Document, index: usize, meshes: &[Option<PlacedMesh>]) -> Node {
+    let from = &document.root.nodes[index];
+    let raw = document.transforms.get(index).cloned().unwrap_or_default();
+    let transform = convert_transform(&raw, index, &mut import.warnings);
+    let name = from.name.clone().unwrap_or_else(|| format!("node {index}"));
+    let mut node = Node::default().with_name(name).with_transform(transform);
+    if let Some((mesh, materials)) = from.mesh.and_then(|mesh| meshes[mesh.value()].clone()) {
+        (node.mesh, node.materials) = (Some(mesh), materials);
+    }
+    node.light = convert_light(&document.root, from, &mut import.warnings);
+    node.camera = convert_camera(&document.root, from, &mut import.warnings);
+    node
+}
+
+fn convert_transform(raw: &RawTransform, index: usize, warnings: &mut Warnings) -> Transform {
+    if let Some(matrix) = &raw.matrix {
+        let matrix = DMat4::from_cols_array(matrix);
+        if matrix.row(3).to_array() != [0.0, 0.0, 0.0, 1.0] {
+            warnings.push(Place::Item("node", index), "the last row of its matrix is not 0 0 0 1 and is ignored", "export the model again");
+        }
+        return Transform::Affine(DAffine3::from_mat4(matrix));
+    }
+    let rotation = raw.rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
+    if rotation.length_squared() == 0.0 {
+        warnings.push(Place::Item("node", index), "its rotation has no length and counts as none", "export the model again");
+    }
+    let scale = raw.scale.map_or(DVec3::ONE, DVec3::from);
+    Transform::from_scale_rotation_translation(scale, rotation, raw.translation.map_or(DVec3::ZERO, DVec3::from))
+}

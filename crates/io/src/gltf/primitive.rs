@@ -1,0 +1,82 @@
+//! A primitive's elements: indices, or none, and a mode become triangles,
+//! edges and points.
+
+use gltf_json::mesh::Mode;
+
+/// What a primitive draws, as indices into its own attributes.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(crate) struct Elements {
+    pub(crate) triangles: Vec<[u32; 3]>,
+    pub(crate) edges: Vec<[u32; 2]>,
+    pub(crate) points: Vec<u32>,
+    /// How many indices at the end make no whole element.
+    pub(crate) left_over: usize,
+}
+
+/// Sorts indices into elements. Strips turn every second triangle round, so
+/// that all face the same way.
+pub(crate) fn elements(mode: Mode, indices: &[u32]) -> Elements {
+    let mut elements = Elements::default();
+    match mode {
+        Mode::Points => elements.points = indices.to_vec(),
+        Mode::Lines => {
+            elements.edges = indices.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
+            elements.left_over = indices.len() % 2;
+        }
+        Mode::LineStrip => elements.edges = strip_edges(indices),
+        Mode::LineLoop => {
+            elements.edges = strip_edges(indices);
+            if let (&[first, _, ..], Some(&last)) = (indices, indices.last()) {
+                elements.edges.push([last, first]);
+            }
+        }
+        Mode::Triangles => {
+            elements.triangles = indices.chunks_exact(3).map(|corner| [corner[0], corner[1], corner[2]]).collect();
+            elements.left_over = indices.len() % 3;
+        }
+        Mode::TriangleStrip => {
+            let turned = |(index, corner): (usize, &[u32])| {
+                if index % 2 == 0 { [corner[0], corner[1], corner[2]] } else { [corner[1], corner[0], corner[2]] }
+            };
+            elements.triangles = indices.windows(3).enumerate().map(turned).collect();
+        }
+        Mode::TriangleFan => {
+            let rest = indices.get(1..).unwrap_or_default();
+            elements.triangles = rest.windows(2).map(|pair| [indices[0], pair[0], pair[1]]).collect();
+        }
+    }
+    elements
+}
+
+fn strip_edges(indices: &[u32]) -> Vec<[u32; 2]> {
+    indices.windows(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_mode_becomes_elements() {
+        let indices = [0, 1, 2, 3, 4];
+        assert_eq!(elements(Mode::Points, &indices).points, indices, "points");
+        assert_eq!(elements(Mode::Lines, &indices).edges, [[0, 1], [2, 3]], "lines");
+        assert_eq!(elements(Mode::Lines, &indices).left_over, 1, "one left over");
+        assert_eq!(elements(Mode::LineStrip, &indices).edges, [[0, 1], [1, 2], [2, 3], [3, 4]], "strip");
+        assert_eq!(elements(Mode::LineLoop, &indices[..3]).edges, [[0, 1], [1, 2], [2, 0]], "loop");
+        assert_eq!(elements(Mode::Triangles, &indices).triangles, [[0, 1, 2]], "triangles");
+        assert_eq!(elements(Mode::TriangleStrip, &indices).triangles, [[0, 1, 2], [2, 1, 3], [2, 3, 4]], "all the same way round");
+        assert_eq!(elements(Mode::TriangleFan, &indices).triangles, [[0, 1, 2], [0, 2, 3], [0, 3, 4]], "fan");
+    }
+
+    #[test]
+    fn few_indices_make_nothing() {
+        let modes = [Mode::Lines, Mode::LineStrip, Mode::LineLoop, Mode::Triangles, Mode::TriangleStrip, Mode::TriangleFan];
+        for mode in modes {
+            for indices in [&[][..], &[0]] {
+                let found = elements(mode, indices);
+                assert!(found.triangles.is_empty() && found.edges.is_empty(), "{mode:?} of {indices:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Checks every index and every byte range of a document before anything
+//! follows it: afterwards, indexing a list of the document cannot fail.
+
+use std::path::Path;
+
+use gltf_json::validation::USize64;
+use gltf_json::{Root, buffer};
+
+use crate::error::{LoadError, Place};
+
+/// The texture index that gltf-json uses for "none".
+const NO_SOURCE: usize = u32::MAX as usize;
+
+pub(crate) fn check_references(path: &Path, root: &Root) -> Result<(), LoadError> {
+    check(root).map_err(|(place, what)| LoadError::malformed(path, what, "export the model again").at(place))
+}
+
+type Fault = (Place, String);
+
+fn check(root: &Root) -> Result<(), Fault> {
+    for (index, view) in root.buffer_views.iter().enumerate() {
+        check_view(root, view, Place::Item("bufferView", index))?;
+    }
+    for (index, accessor) in root.accessors.iter().enumerate() {
+        let place = || Place::Item("accessor", index);
+        let views = root.buffer_views.len();
+        within(place, "bufferView", accessor.buffer_view.map(|view| view.value()), views)?;
+        if let Some(sparse) = &accessor.sparse {
+            within(place, "bufferView", Some(sparse.indices.buffer_view.value()), views)?;
+            within(place, "bufferView", Some(sparse.values.buffer_view.value()), views)?;
+        }
+    }
+    check_meshes(root)?;
+    check_nodes(root)?;
+    check_appearance(root)
+}
+
+fn within(place: impl Fn() -> Place, kind: &str, index: Option<usize>, length: usize) -> Result<(), Fault> {
+    match index {
+        Some(index) if index >= length => Err((place(), format!("{kind} {index} does not exist; there are {length}"))),
+        _ => Ok(()),
+    }
+}
+
+fn check_view(root: &Root, view: &buffer::View, place: Place) -> Result<(), Fault> {
+    within(|| place.clone(), "buffer", Some(view.buffer.value()), root.buffers.len())?;
+    let buffer = &root.buffers[view.buffer.value()];
+    let (offset, length) = (view.byte_offset.unwrap_or(USize64(0)).0, view.byte_length.0);
+    let end = offset.checked_add(length);
+    if end.is_none_or(|end| end > buffer.byte_length.0) {
+        let (number, has) = (view.buffer.value(), buffer.byte_length.0);
+        return Err((place, format!("{length} bytes from byte {offset} lie outside buffer {number}, which has {has}")));
+    }
+    Ok(())
+}
+
+fn check_meshes(root: &Root) -> Result<(), Fault> {
+    for (mesh_index, mesh) in root.meshes.iter().enumerate() {
+        for (index, primitive) in mesh.primitives.iter().enumerate() {
+            let place = || Place::Named(format!("mesh {mesh_index}, primitive {index}"));
+            let accessors = root.accessors.len();
+            let attributes = primitive.attributes.values().map(|accessor| accessor.value());
+            for accessor in attributes.chain(primitive.indices.map(|indices| indices.value())) {
+                within(place, "accessor", Some(accessor), accessors)?;
+            }
+            within(place, "material", primitive.material.map(|material| material.value()), root.materials.len())?;
+        }
+    }
+    Ok(())
+}
+
+fn check_nodes(root: &Root) -> Result<(), Fault> {
+    for (index, node) in root.nodes.iter().enumerate() {
+        let place = || Place::Item("node", index);
+        within(place, "mesh", node.mesh.map(|mesh| mesh.value()), root.meshes.len())?;
+        within(place, "camera", node.camera.map(|camera| camera.value()), root.cameras.len())?;
+        within(place, "light", super::lights::light_index(node), super::lights::light_count(root))?;
+        for child in node.children.iter().flatten() {
+            within(place, "node", Some(child.value()), root.nodes.len())?;
+        }
+    }
+    for (index, scene) in root.scenes.iter().enumerate() {
+        for node in &scene.nodes {
+            within(|| Place::Item("scene", index), "node", Some(node.value()), root.nodes.len())?;
+        }
+    }
+    within(|| Place::Whole, "scene", root.scene.map(|scene| scene.value()), root.scenes.len())
+}
+
+fn check_appearance(root: &Root) -> Result<(), Fault> {
+    for (index, material) in root.materials.iter().enumerate() {
+        let texture = material.pbr_metallic_roughness.base_color_texture.as_ref();
+        within(|| Place::Item("material", index), "texture", texture.map(|info| info.index.value()), root.textures.len())?;
+    }
+    for (index, texture) in root.textures.iter().enumerate() {
+        let place = || Place::Item("texture", index);
+        let source = Some(texture.source.value()).filter(|&source| source != NO_SOURCE);
+        within(place, "image", source, root.images.len())?;
+        within(place, "sampler", texture.sampler.map(|sampler| sampler.value()), root.samplers.len())?;
+    }
+    for (index, image) in root.images.iter().enumerate() {
+        let view = image.buffer_view.map(|view| view.value());
+        within(|| Place::Item("image", index), "bufferView", view, root.buffer_views.len())?;
+    }
+    Ok(())
+}
+
+/// The image of a texture, when it names one itself.
+pub(crate) fn source_of(texture: &gltf_json::Texture) -> Option<usize> {
+    Some(texture.source.value()).filter(|&source| source != NO_SOURCE)
+}
