@@ -1,3 +1,4 @@
 //! The workspace tests, one module per subject.
 
 mod camera;
+mod clipping;

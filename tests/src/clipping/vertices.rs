@@ -1,0 +1,78 @@
+//! Every vertex that comes out: inside, convex weights, where its weights say.
+
+use num_traits::{Signed, Zero};
+use proptest::prelude::*;
+use trigon_math::{ClipPolygon, Vec4};
+
+use super::exact::rational;
+use super::{check, input};
+
+/// The documented bound: `2⁻²²·m` for rounding position and weights to `f32`
+/// (2⁻²⁴ of the position, three times 2⁻²⁵ of a corner) and `2⁻⁴⁴·(m + b·w)` for
+/// the cuts in `f64`. One cut makes at most 16 roundings of 2⁻⁵³, relative to a
+/// coordinate and the band times `w`; there are up to seven cuts.
+fn positions_follow_weights(triangle: [Vec4; 3], band: f64, polygon: &ClipPolygon) {
+    let largest = |axis: usize| {
+        triangle.iter().fold(0.0_f64, |largest, corner| largest.max(f64::from(corner[axis].abs())))
+    };
+    for vertex in polygon.vertices() {
+        for axis in 0..4 {
+            let weighted = triangle
+                .iter()
+                .zip(vertex.weights)
+                .fold(num_rational::BigRational::zero(), |sum, (corner, weight)| {
+                    sum + rational(corner[axis]) * rational(weight)
+                });
+            let bound = 2.0_f64.powi(-22) * largest(axis)
+                + 2.0_f64.powi(-44) * (largest(axis) + band * largest(3))
+                // Positions and weights below the normal range of f32.
+                + 2.0_f64.powi(-149) * (1.0 + largest(axis));
+            let error = (rational(vertex.position[axis]) - weighted).abs();
+            assert!(
+                error <= rational(bound),
+                "axis {axis} of {vertex:?} is not where its weights say; {triangle:?}"
+            );
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+    #[test]
+    fn vertices_are_inside_and_convex(triangle in input::triangle(), planes in input::planes()) {
+        check::clip(triangle, &planes);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1_000))]
+
+    #[test]
+    fn vertices_are_where_their_weights_say(triangle in input::triangle(), planes in input::planes()) {
+        let polygon = check::clip(triangle, &planes);
+        let band = planes.horizontal.unwrap_or(1.0).max(planes.vertical.unwrap_or(1.0));
+        positions_follow_weights(triangle, f64::from(band), &polygon);
+    }
+
+    /// Hard case 23: what is equal at all corners is equal at all vertices.
+    #[test]
+    fn constant_coordinates_stay_constant(triangle in input::ordinary_triangle(), y in -0.5..0.5_f32) {
+        let planes = input::Planes { vertical: None, ..input::Planes::VIEW };
+        let flat = triangle.map(|corner| corner.with_y(y));
+        for vertex in check::clip(flat, &planes).vertices() {
+            prop_assert_eq!(vertex.position.y.to_bits(), y.to_bits());
+        }
+    }
+
+    /// Hard case 20.
+    #[test]
+    fn what_is_not_finite_is_dropped(
+        triangle in input::triangle(), planes in input::planes(), corner in 0..3_usize, axis in 0..4_usize,
+        bad in prop::sample::select(&[f32::NAN, f32::INFINITY, f32::NEG_INFINITY][..]),
+    ) {
+        let mut triangle = triangle;
+        triangle[corner][axis] = bad;
+        prop_assert!(trigon_math::clip_triangle(triangle, &planes.volume()).is_empty());
+    }
+}
