@@ -1,1 +1,61 @@
-//! trigon-window
+//! A window on a scene.
+//!
+//! [`Application`] is the ready one: create objects, run. Mouse and keys turn
+//! the camera and the selected object, and nothing runs while nothing changes.
+//! Programs that want more implement [`Handler`], which sees and may change
+//! everything on the [`Stage`]: scene, camera, settings, keys, texts.
+//!
+//! In the pipeline this is the last step: [`trigon_scene`] draws pictures, this
+//! crate decides when and how well, and brings them onto the screen. It knows no
+//! files, and nothing about editing.
+//!
+//! An event takes this way: winit → `input` (what it means, in our words) →
+//! `session` (what it does) → `pacing` (when to draw, how well) → `compose`
+//! (what is written over it) → `present` (softbuffer). Only `shell`, `present`
+//! and `input::translate` know the window system; all the rest is tested
+//! without a display.
+//!
+//! ```no_run
+//! use trigon_mesh::primitives;
+//! use trigon_scene::Material;
+//! use trigon_window::{Animation, Application};
+//! use trigon_math::DVec3;
+//!
+//! # fn main() -> Result<(), trigon_window::WindowError> {
+//! let mut application = Application::new("A turning cube");
+//! let cube = application.stage.scene.add_object("cube", primitives::cube(1.0), Material::default());
+//! application.animate(move |stage, tick| {
+//!     if let Some(node) = stage.scene.node_mut(cube) {
+//!         node.transform.rotate(DVec3::Y, tick.delta.as_secs_f64());
+//!     }
+//!     Animation::Running
+//! });
+//! application.run()
+//! # }
+//! ```
+
+mod application;
+mod canvas;
+mod commands;
+mod compose;
+mod error;
+mod handler;
+mod input;
+mod keymap;
+mod motion;
+mod overlay;
+mod pacing;
+mod present;
+mod session;
+mod shell;
+mod stage;
+mod waker;
+
+pub use application::Application;
+pub use error::WindowError;
+pub use handler::{Animation, Handler, Tick};
+pub use input::{Chord, Key, Modifiers, PointerButton};
+pub use keymap::{Action, Binding, CameraMotion, DragAction, DragBinding, Keymap, Motion, ObjectMotion};
+pub use overlay::{Corner, Overlay};
+pub use stage::{FrameReport, Stage, Visibility};
+pub use waker::Waker;

@@ -1,0 +1,109 @@
+//! What the window's own keys do, apart from those that are held.
+
+use trigon_camera::OrbitStyle;
+use trigon_scene::{NodeId, Style};
+
+use crate::keymap::Action;
+use crate::pacing::Change;
+use crate::stage::{Stage, Visibility};
+
+/// Does it. Held keys and the application's commands are not for this function.
+pub(crate) fn act(stage: &mut Stage, action: Action) {
+    match action {
+        Action::View(view) => stage.orbit.set_view(view),
+        Action::Elevate(angle) => stage.orbit.orbit(0.0, angle),
+        Action::Roll(angle) => stage.orbit.roll(angle),
+        Action::ResetView => stage.reset_view(),
+        Action::ToggleOrthographic => stage.orbit.toggle_orthographic(),
+        Action::ToggleOrbitStyle => toggle_orbit_style(stage),
+        Action::ToggleEdges => toggle_edges(stage),
+        Action::CycleWireframe => cycle_wireframe(stage),
+        Action::CycleSamples => cycle_samples(stage),
+        Action::ToggleCheatSheet => stage.cheat_sheet = stage.cheat_sheet.toggled(),
+        Action::ToggleFrameTime => stage.frame_time = stage.frame_time.toggled(),
+        Action::SelectNext => select(stage, Direction::Forward),
+        Action::SelectPrevious => select(stage, Direction::Backward),
+        Action::Dismiss if stage.cheat_sheet == Visibility::Shown => stage.cheat_sheet = Visibility::Hidden,
+        Action::Dismiss => stage.selection = None,
+        Action::Quit => stage.exit(),
+        Action::Hold(_) | Action::Command => {}
+    }
+}
+
+/// What an action changes.
+pub(crate) fn change_of(action: Action) -> Change {
+    match action {
+        Action::ToggleCheatSheet
+        | Action::ToggleFrameTime
+        | Action::SelectNext
+        | Action::SelectPrevious
+        | Action::Dismiss
+        | Action::Quit => Change::Overlay,
+        _ => Change::Settled,
+    }
+}
+
+/// Tells which object was selected.
+pub(crate) fn announce_selection(stage: &mut Stage) {
+    let Some(node) = stage.selection.and_then(|id| stage.scene.node(id)) else { return };
+    let name = if node.name.is_empty() { "an object without a name" } else { node.name.as_str() };
+    let text = format!("Selected: {name}");
+    stage.overlay.notify(text);
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Direction {
+    Forward,
+    Backward,
+}
+
+/// Selects the next visible object, in the order of their indices.
+fn select(stage: &mut Stage, direction: Direction) {
+    let nodes = stage.scene.nodes().iter();
+    let objects: Vec<NodeId> =
+        nodes.filter(|(_, node)| node.visible && node.mesh.is_some()).map(|(id, _)| id).collect();
+    let count = objects.len();
+    let current = objects.iter().position(|&id| Some(id) == stage.selection);
+    let next = match (current, direction) {
+        (Some(i), Direction::Forward) => (i + 1) % count,
+        (Some(i), Direction::Backward) => (i + count - 1) % count,
+        (None, Direction::Forward) => 0,
+        (None, Direction::Backward) => count.saturating_sub(1),
+    };
+    stage.selection = objects.get(next).copied();
+    announce_selection(stage);
+}
+
+fn toggle_orbit_style(stage: &mut Stage) {
+    let (style, name) = match stage.orbit.style() {
+        OrbitStyle::Turntable => (OrbitStyle::Trackball, "Trackball"),
+        OrbitStyle::Trackball => (OrbitStyle::Turntable, "Turntable"),
+    };
+    stage.orbit.set_style(style);
+    stage.overlay.notify(name);
+}
+
+fn toggle_edges(stage: &mut Stage) {
+    stage.settings.style = match stage.settings.style {
+        Style::Surface => Style::SurfaceWithEdges,
+        _ => Style::Surface,
+    };
+}
+
+fn cycle_wireframe(stage: &mut Stage) {
+    let (style, name) = match stage.settings.style {
+        Style::Wireframe => (Style::HiddenLine, "Hidden lines"),
+        Style::HiddenLine => (Style::Surface, "Surface"),
+        Style::Surface | Style::SurfaceWithEdges => (Style::Wireframe, "Wireframe"),
+    };
+    stage.settings.style = style;
+    stage.overlay.notify(name);
+}
+
+fn cycle_samples(stage: &mut Stage) {
+    /// The most that the renderer takes, along each side of a pixel.
+    const MOST: u32 = 4;
+    let next = stage.settings.samples_per_axis % MOST + 1;
+    stage.settings.samples_per_axis = next;
+    stage.overlay.notify(format!("{} samples per pixel", next * next));
+}

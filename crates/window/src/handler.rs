@@ -1,0 +1,75 @@
+//! What an application adds to a window: everything here has a default that
+//! does nothing.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use trigon_scene::Frame;
+
+use crate::Stage;
+use crate::input::Modifiers;
+
+/// The moment of a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Tick {
+    /// Since the window opened.
+    pub time: Duration,
+    /// Since the last frame of the animation; a sixtieth of a second for its
+    /// first one.
+    pub delta: Duration,
+}
+
+/// Whether more frames are wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Animation {
+    /// Go on, at about 60 frames a second.
+    Running,
+    /// Nothing moves by itself any more. [`Stage::animate`] starts it again.
+    Resting,
+}
+
+/// The application's part. All methods are called on the window's thread, and
+/// may change whatever is on the stage: it is drawn again after each of them.
+pub trait Handler {
+    /// The window has opened. [`Stage::reset_view`] follows, so what is added to
+    /// the scene here is in the picture.
+    fn start(&mut self, stage: &mut Stage) {
+        let _ = stage;
+    }
+
+    /// A frame is about to be drawn. Called once in the beginning, and then for
+    /// as long as the answer is [`Animation::Running`].
+    fn frame(&mut self, stage: &mut Stage, tick: Tick) -> Animation {
+        let _ = (stage, tick);
+        Animation::Resting
+    }
+
+    /// A key was pressed that is bound to [`crate::Action::Command`] under this name.
+    fn command(&mut self, stage: &mut Stage, name: &str) {
+        let _ = (stage, name);
+    }
+
+    /// Files or folders were dropped onto the window, all of one drop together.
+    fn dropped(&mut self, stage: &mut Stage, paths: Vec<PathBuf>, modifiers: Modifiers) {
+        let _ = (stage, paths, modifiers);
+    }
+
+    /// A picture that [`Stage::request_picture`] asked for.
+    fn picture(&mut self, stage: &mut Stage, frame: Frame) {
+        let _ = (stage, frame);
+    }
+
+    /// [`crate::Waker::wake`] was called, once or more often.
+    fn woken(&mut self, stage: &mut Stage) {
+        let _ = stage;
+    }
+}
+
+/// An application that is only an animation.
+pub(crate) struct Animated<F>(pub(crate) F);
+
+impl<F: FnMut(&mut Stage, Tick) -> Animation> Handler for Animated<F> {
+    fn frame(&mut self, stage: &mut Stage, tick: Tick) -> Animation {
+        self.0(stage, tick)
+    }
+}

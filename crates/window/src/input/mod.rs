@@ -1,0 +1,15 @@
+//! What hands do, in terms that know no window system: keys, pointer, wheel.
+//! `translate` is the only file here that knows winit.
+
+mod event;
+mod held;
+mod key;
+mod pointer;
+pub(crate) mod translate;
+mod wheel;
+
+pub(crate) use event::{InputEvent, KeyCode, KeyPress, Press};
+pub(crate) use held::HeldKeys;
+pub use key::{Chord, Key, Modifiers, PointerButton};
+pub(crate) use pointer::{Gesture, Pointer};
+pub(crate) use wheel::{WheelDelta, wheel_lines};

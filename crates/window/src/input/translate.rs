@@ -1,0 +1,178 @@
+//! From winit's events to ours. Nothing is decided here.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use trigon_math::DVec2;
+use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
+use winit::keyboard::{self, ModifiersState, NamedKey, PhysicalKey};
+use winit::platform::modifier_supplement::KeyEventExtModifierSupplement;
+
+use super::{InputEvent, Key, KeyCode, KeyPress, Modifiers, PointerButton, Press, WheelDelta, wheel_lines};
+
+/// Our event for one of winit's; `None` for those that mean nothing to us.
+/// `scale` is physical pixels per logical one.
+pub(crate) fn translate(event: &WindowEvent, scale: f64) -> Option<InputEvent> {
+    Some(match event {
+        WindowEvent::CursorMoved { position, .. } => {
+            InputEvent::PointerMoved(DVec2::new(position.x, position.y))
+        }
+        WindowEvent::MouseInput { state, button, .. } => {
+            InputEvent::Button(pointer_button(*button)?, press(*state))
+        }
+        WindowEvent::MouseWheel { delta, .. } => InputEvent::Wheel(wheel_lines(wheel_delta(*delta), scale)),
+        WindowEvent::PinchGesture { delta, .. } if delta.is_finite() => InputEvent::Pinch(*delta),
+        WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => key_event(event)?,
+        WindowEvent::KeyboardInput { event, .. } if event.state == ElementState::Released => {
+            key_event(event)?
+        }
+        WindowEvent::ModifiersChanged(modifiers) => InputEvent::Modifiers(modifier_set(modifiers.state())),
+        WindowEvent::Focused(false) => InputEvent::FocusLost,
+        WindowEvent::DroppedFile(path) => InputEvent::FileDropped(path.clone()),
+        WindowEvent::Resized(size) => InputEvent::Resized { width: size.width, height: size.height },
+        WindowEvent::ScaleFactorChanged { scale_factor, .. } => InputEvent::Scaled(*scale_factor),
+        WindowEvent::Occluded(true) => InputEvent::Hidden,
+        WindowEvent::Occluded(false) => InputEvent::Shown,
+        WindowEvent::CloseRequested => InputEvent::CloseRequested,
+        _ => return None,
+    })
+}
+
+fn press(state: ElementState) -> Press {
+    match state {
+        ElementState::Pressed => Press::Down,
+        ElementState::Released => Press::Up,
+    }
+}
+
+fn pointer_button(button: MouseButton) -> Option<PointerButton> {
+    Some(match button {
+        MouseButton::Left => PointerButton::Left,
+        MouseButton::Right => PointerButton::Right,
+        MouseButton::Middle => PointerButton::Middle,
+        _ => return None,
+    })
+}
+
+fn wheel_delta(delta: MouseScrollDelta) -> WheelDelta {
+    match delta {
+        MouseScrollDelta::LineDelta(x, y) => WheelDelta::Lines(DVec2::new(f64::from(x), f64::from(y))),
+        MouseScrollDelta::PixelDelta(pixels) => WheelDelta::Pixels(DVec2::new(pixels.x, pixels.y)),
+    }
+}
+
+fn modifier_set(state: ModifiersState) -> Modifiers {
+    let control = if cfg!(target_os = "macos") { ModifiersState::SUPER } else { ModifiersState::CONTROL };
+    [
+        (control, Modifiers::CTRL),
+        (ModifiersState::ALT, Modifiers::ALT),
+        (ModifiersState::SHIFT, Modifiers::SHIFT),
+    ]
+    .into_iter()
+    .filter(|&(theirs, _)| state.contains(theirs))
+    .fold(Modifiers::NONE, |all, (_, ours)| all | ours)
+}
+
+fn key_event(event: &KeyEvent) -> Option<InputEvent> {
+    let mut hasher = DefaultHasher::new();
+    event.physical_key.hash(&mut hasher);
+    let code = KeyCode(hasher.finish());
+    match event.state {
+        ElementState::Released => Some(InputEvent::KeyUp(code)),
+        // Keys that act while they are down have a clock of their own.
+        ElementState::Pressed if event.repeat => None,
+        ElementState::Pressed => Some(InputEvent::KeyDown(KeyPress {
+            code,
+            logical: logical_key(&event.key_without_modifiers()),
+            physical: physical_digit(event.physical_key),
+        })),
+    }
+}
+
+fn logical_key(key: &keyboard::Key) -> Option<Key> {
+    match key {
+        keyboard::Key::Named(named) => named_key(*named),
+        keyboard::Key::Character(text) => {
+            let mut lower = text.chars().flat_map(char::to_lowercase);
+            let only = lower.next()?;
+            lower.next().is_none().then_some(Key::Character(only))
+        }
+        _ => None,
+    }
+}
+
+fn named_key(key: NamedKey) -> Option<Key> {
+    Some(match key {
+        NamedKey::Enter => Key::Enter,
+        NamedKey::Escape => Key::Escape,
+        NamedKey::Tab => Key::Tab,
+        NamedKey::Space => Key::Space,
+        NamedKey::Backspace => Key::Backspace,
+        NamedKey::Delete => Key::Delete,
+        NamedKey::Home => Key::Home,
+        NamedKey::End => Key::End,
+        NamedKey::PageUp => Key::PageUp,
+        NamedKey::PageDown => Key::PageDown,
+        NamedKey::ArrowLeft => Key::Left,
+        NamedKey::ArrowRight => Key::Right,
+        NamedKey::ArrowUp => Key::Up,
+        NamedKey::ArrowDown => Key::Down,
+        function => return function_key(function),
+    })
+}
+
+fn function_key(key: NamedKey) -> Option<Key> {
+    const KEYS: [NamedKey; 12] = [
+        NamedKey::F1,
+        NamedKey::F2,
+        NamedKey::F3,
+        NamedKey::F4,
+        NamedKey::F5,
+        NamedKey::F6,
+        NamedKey::F7,
+        NamedKey::F8,
+        NamedKey::F9,
+        NamedKey::F10,
+        NamedKey::F11,
+        NamedKey::F12,
+    ];
+    (1u8..).zip(KEYS).find(|&(_, known)| known == key).map(|(number, _)| Key::Function(number))
+}
+
+fn physical_digit(key: PhysicalKey) -> Option<Key> {
+    use keyboard::KeyCode as Code;
+    const DIGITS: [(Code, Code); 10] = [
+        (Code::Digit0, Code::Numpad0),
+        (Code::Digit1, Code::Numpad1),
+        (Code::Digit2, Code::Numpad2),
+        (Code::Digit3, Code::Numpad3),
+        (Code::Digit4, Code::Numpad4),
+        (Code::Digit5, Code::Numpad5),
+        (Code::Digit6, Code::Numpad6),
+        (Code::Digit7, Code::Numpad7),
+        (Code::Digit8, Code::Numpad8),
+        (Code::Digit9, Code::Numpad9),
+    ];
+    let PhysicalKey::Code(code) = key else { return None };
+    let digit = ('0'..='9').zip(DIGITS).find(|&(_, (row, pad))| code == row || code == pad);
+    digit.map(|(digit, _)| Key::Character(digit))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn characters_are_lower_case_and_single() {
+        let character = |text: &str| logical_key(&keyboard::Key::Character(text.into()));
+        assert_eq!(character("H"), Some(Key::Character('h')), "shortcuts know no case");
+        assert_eq!(character("ff"), None, "a key that types two characters is no shortcut");
+        assert_eq!(logical_key(&keyboard::Key::Named(NamedKey::F12)), Some(Key::Function(12)), "F12");
+    }
+
+    #[test]
+    fn digits_are_found_by_place() {
+        let five = Some(Key::Character('5'));
+        assert_eq!(physical_digit(PhysicalKey::Code(keyboard::KeyCode::Digit5)), five, "in the row");
+        assert_eq!(physical_digit(PhysicalKey::Code(keyboard::KeyCode::Numpad5)), five, "and on the pad");
+    }
+}

@@ -1,0 +1,105 @@
+//! Tables of bindings, to be read, searched and added to.
+
+use std::borrow::Cow;
+
+use super::action::{Action, DragAction};
+use super::defaults;
+use crate::input::{Chord, Modifiers, PointerButton};
+
+/// A key and what it does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Binding {
+    /// Names the action for configuration and for [`crate::Handler::command`].
+    pub name: Cow<'static, str>,
+    /// What is pressed.
+    pub chord: Chord,
+    /// What it does.
+    pub action: Action,
+    /// What the cheat sheet says. Neighbours with the same text share a line.
+    pub description: Cow<'static, str>,
+}
+
+/// A drag and what it does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DragBinding {
+    /// The button that is held.
+    pub button: PointerButton,
+    /// The modifiers that were down when it was pressed.
+    pub modifiers: Modifiers,
+    /// What it does.
+    pub action: DragAction,
+    /// What the cheat sheet says.
+    pub description: Cow<'static, str>,
+}
+
+/// All bindings of a window. The default ones follow F3D; those for objects
+/// are on Alt, where F3D has none.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Keymap {
+    bindings: Vec<Binding>,
+    drags: Vec<DragBinding>,
+}
+
+impl Default for Keymap {
+    fn default() -> Self {
+        Self { bindings: defaults::bindings(), drags: defaults::drags() }
+    }
+}
+
+impl Keymap {
+    /// No binding at all.
+    #[must_use]
+    pub fn empty() -> Self {
+        Self { bindings: Vec::new(), drags: Vec::new() }
+    }
+
+    /// Binds a key; whatever was on it is unbound.
+    pub fn bind(
+        &mut self,
+        chord: impl Into<Chord>,
+        name: impl Into<Cow<'static, str>>,
+        action: Action,
+        description: impl Into<Cow<'static, str>>,
+    ) {
+        let chord = chord.into();
+        self.unbind(chord);
+        self.bindings.push(Binding { name: name.into(), chord, action, description: description.into() });
+    }
+
+    /// Frees a key.
+    pub fn unbind(&mut self, chord: impl Into<Chord>) {
+        let chord = chord.into();
+        self.bindings.retain(|binding| binding.chord != chord);
+    }
+
+    /// Binds a drag; whatever was on it is unbound.
+    pub fn bind_drag(&mut self, drag: DragBinding) {
+        self.drags.retain(|other| (other.button, other.modifiers) != (drag.button, drag.modifiers));
+        self.drags.push(drag);
+    }
+
+    /// All keys, in the order of the cheat sheet.
+    #[must_use]
+    pub fn bindings(&self) -> &[Binding] {
+        &self.bindings
+    }
+
+    /// All drags, in the order of the cheat sheet.
+    #[must_use]
+    pub fn drags(&self) -> &[DragBinding] {
+        &self.drags
+    }
+
+    /// What a key does.
+    #[must_use]
+    pub fn find(&self, chord: Chord) -> Option<&Binding> {
+        self.bindings.iter().find(|binding| binding.chord == chord)
+    }
+
+    /// What a drag does.
+    #[must_use]
+    pub fn find_drag(&self, button: PointerButton, modifiers: Modifiers) -> Option<DragAction> {
+        let drag = self.drags.iter().find(|drag| drag.button == button && drag.modifiers == modifiers);
+        drag.map(|drag| drag.action)
+    }
+}

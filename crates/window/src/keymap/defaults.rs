@@ -1,0 +1,170 @@
+//! The bindings that every window begins with. Letters, digits and mouse are
+//! those of F3D (`interactor_impl.cxx`); what is ours alone is on keys that F3D
+//! leaves free.
+
+use std::f64::consts::FRAC_PI_2;
+
+use trigon_camera::AxisView;
+use trigon_math::DVec3;
+
+use super::action::{Action, CameraMotion, DragAction, Motion, ObjectMotion};
+use super::binding::{Binding, DragBinding};
+use crate::input::{Chord, Key, Modifiers, PointerButton};
+
+/// Radians per second: a turn in four seconds.
+const TURN: f64 = FRAC_PI_2;
+/// Heights of the picture per second.
+const SHIFT: f64 = 0.5;
+/// Logarithm of the magnification per second: twice as large in 0.7 s.
+const ZOOM: f64 = 1.0;
+
+/// The four arrows, and where each points.
+const ARROWS: [(Key, f64, f64); 4] =
+    [(Key::Left, -1.0, 0.0), (Key::Right, 1.0, 0.0), (Key::Up, 0.0, 1.0), (Key::Down, 0.0, -1.0)];
+
+pub(super) fn bindings() -> Vec<Binding> {
+    let mut all = views();
+    all.extend(display());
+    all.extend(camera());
+    all.extend(objects());
+    all.extend([
+        bind('h', "cheat_sheet", Action::ToggleCheatSheet, "this list"),
+        bind(Key::Escape, "dismiss", Action::Dismiss, "hide this list, select nothing"),
+        bind(Chord::new(Modifiers::CTRL, Key::Character('q')), "quit", Action::Quit, "quit"),
+    ]);
+    all
+}
+
+fn bind(chord: impl Into<Chord>, name: &'static str, action: Action, description: &'static str) -> Binding {
+    Binding { name: name.into(), chord: chord.into(), action, description: description.into() }
+}
+
+fn views() -> Vec<Binding> {
+    let mut all = Vec::new();
+    for (digit, name, opposite, view) in [
+        ('1', "view.front", "view.back", AxisView::Front),
+        ('3', "view.right", "view.left", AxisView::Right),
+        ('7', "view.top", "view.bottom", AxisView::Top),
+    ] {
+        all.push(bind(digit, name, Action::View(view), "front, right, top view"));
+        let chord = Chord::new(Modifiers::CTRL, Key::Character(digit));
+        all.push(bind(chord, opposite, Action::View(view.opposite()), "back, left, bottom view"));
+    }
+    all.sort_by(|a, b| b.description.cmp(&a.description));
+    all.extend([
+        bind('9', "view.isometric", Action::View(AxisView::Isometric), "isometric view"),
+        bind('5', "orthographic", Action::ToggleOrthographic, "perspective / orthographic"),
+        bind('2', "elevation.down", Action::Elevate(-FRAC_PI_2), "turn by 90 degrees down, up"),
+        bind('8', "elevation.up", Action::Elevate(FRAC_PI_2), "turn by 90 degrees down, up"),
+        bind('4', "roll.clockwise", Action::Roll(-FRAC_PI_2), "roll by 90 degrees"),
+        bind('6', "roll.counter_clockwise", Action::Roll(FRAC_PI_2), "roll by 90 degrees"),
+        bind(Key::Enter, "reset_view", Action::ResetView, "reset the view"),
+    ]);
+    all
+}
+
+fn display() -> [Binding; 5] {
+    let wireframe = Chord::new(Modifiers::SHIFT, Key::Character('e'));
+    [
+        bind('e', "edges", Action::ToggleEdges, "edges on surfaces"),
+        bind(wireframe, "wireframe", Action::CycleWireframe, "surface / wireframe / hidden lines"),
+        bind('a', "samples", Action::CycleSamples, "samples per pixel"),
+        bind('z', "frame_time", Action::ToggleFrameTime, "frame time"),
+        bind('k', "orbit_style", Action::ToggleOrbitStyle, "turntable / trackball"),
+    ]
+}
+
+fn camera() -> Vec<Binding> {
+    let mut all = Vec::new();
+    let mut arrows = |modifiers, name, description, motion: fn(f64, f64) -> CameraMotion| {
+        all.extend(ARROWS.map(|(key, x, y)| {
+            bind(Chord::new(modifiers, key), name, Action::Hold(Motion::Camera(motion(x, y))), description)
+        }));
+    };
+    arrows(Modifiers::NONE, "orbit", "orbit", |x, y| CameraMotion::Orbit(x * TURN, y * TURN));
+    arrows(Modifiers::SHIFT, "orbit", "orbit", |x, y| CameraMotion::Orbit(x * TURN, y * TURN));
+    arrows(Modifiers::CTRL | Modifiers::SHIFT, "pan", "pan", |x, y| CameraMotion::Pan(x * SHIFT, y * SHIFT));
+    for (key, sign) in [(Key::PageUp, 1.0), (Key::PageDown, -1.0)] {
+        let zoom = Action::Hold(Motion::Camera(CameraMotion::Zoom(sign * ZOOM)));
+        all.push(bind(key, "zoom", zoom, "zoom in, out"));
+    }
+    all
+}
+
+fn objects() -> Vec<Binding> {
+    let shifted = Modifiers::ALT | Modifiers::SHIFT;
+    let mut all = vec![
+        bind(Key::Tab, "select.next", Action::SelectNext, "select the next, previous object"),
+        bind(
+            Chord::new(Modifiers::SHIFT, Key::Tab),
+            "select.previous",
+            Action::SelectPrevious,
+            "select the next, previous object",
+        ),
+    ];
+    let mut object = |modifiers, key, name, description, motion| {
+        all.push(bind(Chord::new(modifiers, key), name, Action::Hold(Motion::Object(motion)), description));
+    };
+    for (key, x, y) in ARROWS {
+        let motion = ObjectMotion::Move(DVec3::new(x, y, 0.0) * SHIFT);
+        object(Modifiers::ALT, key, "object.move", "move the selected object", motion);
+    }
+    for (key, z) in [(Key::PageUp, -1.0), (Key::PageDown, 1.0)] {
+        let motion = ObjectMotion::Move(DVec3::Z * z * SHIFT);
+        object(Modifiers::ALT, key, "object.move", "move the selected object", motion);
+    }
+    for (key, x, y) in ARROWS {
+        // To the right is about the upward axis, up is backwards about the right one.
+        let motion = ObjectMotion::Turn(DVec3::new(-y, x, 0.0) * TURN);
+        object(shifted, key, "object.turn", "turn the selected object", motion);
+    }
+    for (key, z) in [(Key::PageUp, 1.0), (Key::PageDown, -1.0)] {
+        let motion = ObjectMotion::Turn(DVec3::Z * z * TURN);
+        object(shifted, key, "object.turn", "turn the selected object", motion);
+    }
+    all
+}
+
+pub(super) fn drags() -> Vec<DragBinding> {
+    let drag = |button, modifiers, action, description: &'static str| DragBinding {
+        button,
+        modifiers,
+        action,
+        description: description.into(),
+    };
+    vec![
+        drag(PointerButton::Left, Modifiers::NONE, DragAction::Orbit, "orbit"),
+        drag(PointerButton::Left, Modifiers::SHIFT, DragAction::Pan, "pan"),
+        drag(PointerButton::Middle, Modifiers::NONE, DragAction::Pan, "pan"),
+        drag(PointerButton::Left, Modifiers::CTRL, DragAction::Roll, "roll"),
+        drag(PointerButton::Right, Modifiers::NONE, DragAction::Zoom, "zoom"),
+        drag(PointerButton::Right, Modifiers::CTRL, DragAction::ZoomToPointer, "zoom to the pointer"),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_bindings_share_a_key() {
+        let all = bindings();
+        for (i, binding) in all.iter().enumerate() {
+            let twin = all[..i].iter().find(|other| other.chord == binding.chord);
+            assert_eq!(twin, None, "{} is bound twice", binding.chord);
+        }
+        let all = drags();
+        for (i, drag) in all.iter().enumerate() {
+            let twin = all[..i].iter().any(|o| (o.button, o.modifiers) == (drag.button, drag.modifiers));
+            assert!(!twin, "{drag:?} is bound twice");
+        }
+    }
+
+    #[test]
+    fn object_keys_stay_clear_of_f3d() {
+        for binding in objects() {
+            let free = binding.chord.modifiers.contains(Modifiers::ALT) || binding.chord.key == Key::Tab;
+            assert!(free, "{} may mean something to F3D's users", binding.chord);
+        }
+    }
+}

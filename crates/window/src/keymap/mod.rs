@@ -1,0 +1,11 @@
+//! What keys and buttons do, as data: a name, what is pressed, what it does,
+//! and what the cheat sheet says about it.
+
+mod action;
+mod binding;
+mod defaults;
+mod sheet;
+
+pub use action::{Action, CameraMotion, DragAction, Motion, ObjectMotion};
+pub use binding::{Binding, DragBinding, Keymap};
+pub(crate) use sheet::{SheetRow, sheet};

@@ -1,0 +1,94 @@
+//! A box drawn by its twelve edges: the mark of the selected object.
+
+use trigon_camera::Projector;
+use trigon_math::{Bounds3, DVec2, DVec3};
+
+use crate::canvas::{Area, Canvas};
+
+const COLOR: [u8; 3] = [255, 176, 64];
+const ALPHA: u8 = 200;
+
+/// Draws the edges of a box that are before the eye, `width` pixels wide.
+pub(crate) fn draw_box(canvas: &mut Canvas, projector: &Projector, bounds: &Bounds3, width: i32) {
+    for (from, to) in edges(bounds) {
+        if let (Some(from), Some(to)) = (projector.to_screen(from), projector.to_screen(to)) {
+            draw_line(canvas, from, to, width);
+        }
+    }
+}
+
+/// The twelve edges: from every corner along each axis on whose lower side it is.
+fn edges(bounds: &Bounds3) -> impl Iterator<Item = (DVec3, DVec3)> {
+    let (low, high) = (bounds.min, bounds.max);
+    let corner = move |i: usize| {
+        let side = |axis: usize| if i >> axis & 1 == 0 { low[axis] } else { high[axis] };
+        DVec3::new(side(0), side(1), side(2))
+    };
+    (0..8usize).flat_map(move |i| {
+        (0..3).filter(move |axis| i >> axis & 1 == 0).map(move |axis| (corner(i), corner(i | 1 << axis)))
+    })
+}
+
+/// A straight line by steps along its longer axis. Only what is within the
+/// canvas is walked, however long the line is.
+fn draw_line(canvas: &mut Canvas, from: DVec2, to: DVec2, width: i32) {
+    let Some((from, to)) = clip(from, to, DVec2::new(canvas.width().into(), canvas.height().into())) else {
+        return;
+    };
+    let steps = (to - from).abs().max_element().ceil().max(1.0) as u32;
+    for step in 0..=steps {
+        let at = from + (to - from) * (f64::from(step) / f64::from(steps));
+        let dot = Area { x: at.x as i32 - width / 2, y: at.y as i32 - width / 2, width, height: width };
+        canvas.fill(dot, COLOR, ALPHA);
+    }
+}
+
+/// The part of a line within `0..size` (Liang and Barsky, "A New Concept and
+/// Method for Line Clipping", 1984).
+fn clip(from: DVec2, to: DVec2, size: DVec2) -> Option<(DVec2, DVec2)> {
+    let way = to - from;
+    let (mut enter, mut leave) = (0.0, 1.0);
+    for axis in 0..2 {
+        for (speed, room) in [(-way[axis], from[axis]), (way[axis], size[axis] - from[axis])] {
+            let at = room / speed;
+            if speed < 0.0 && at > enter {
+                enter = at;
+            } else if speed > 0.0 && at < leave {
+                leave = at;
+            } else if speed == 0.0 && room < 0.0 {
+                return None;
+            }
+        }
+    }
+    (enter <= leave).then(|| (from + way * enter, from + way * leave))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_has_twelve_different_edges() {
+        let all: Vec<_> = edges(&Bounds3 { min: DVec3::ZERO, max: DVec3::ONE }).collect();
+        assert_eq!(all.len(), 12, "{all:?}");
+        for (i, (from, to)) in all.iter().enumerate() {
+            assert_eq!(from.distance(*to), 1.0, "an edge changes one coordinate");
+            assert!(!all[..i].contains(&(*from, *to)), "({from}, {to}) is there twice");
+        }
+    }
+
+    #[test]
+    fn lines_are_cut_at_the_edges() {
+        let size = DVec2::new(10.0, 10.0);
+        let through = clip(DVec2::new(-1e9, 5.0), DVec2::new(1e9, 5.0), size);
+        let (from, to) = through.expect("it crosses the canvas");
+        assert!(
+            from.distance(DVec2::new(0.0, 5.0)) < 1e-3 && to.distance(DVec2::new(10.0, 5.0)) < 1e-3,
+            "{from}, {to}"
+        );
+        assert_eq!(clip(DVec2::new(-1.0, 5.0), DVec2::new(-1.0, 8.0), size), None, "left of it");
+        assert_eq!(clip(DVec2::new(-5.0, 2.0), DVec2::new(2.0, -5.0), size), None, "past its corner");
+        let inside = (DVec2::new(1.0, 2.0), DVec2::new(3.0, 4.0));
+        assert_eq!(clip(inside.0, inside.1, size), Some(inside), "as it is");
+    }
+}

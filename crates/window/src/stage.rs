@@ -1,0 +1,272 @@
+//! What a window shows, in one place for the application and for the window:
+//! scene, camera, settings, keys, and what is written over the picture.
+
+use std::time::Duration;
+
+use trigon_camera::{Camera, DEFAULT_MARGIN, Orbit, Projector, Viewport};
+use trigon_math::{Bounds3, DVec2, DVec3};
+use trigon_scene::{Frame, Hit, NodeId, Outputs, RenderError, RenderSettings, Renderer, Scene};
+
+use crate::keymap::Keymap;
+use crate::overlay::Overlay;
+use crate::pacing::Quality;
+use crate::waker::Waker;
+
+/// Size of a new window in logical pixels, as in F3D.
+const DEFAULT_SIZE: Viewport = Viewport { width: 1000, height: 600 };
+
+/// From the right, above and before, as in F3D.
+const DEFAULT_DIRECTION: DVec3 = DVec3::new(-1.0, -0.5, -1.0);
+
+/// What the last frame took.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct FrameReport {
+    /// From the scene to colours.
+    pub render: Duration,
+    /// Conversion, overlay, and handing it to the window system.
+    pub present: Duration,
+}
+
+/// Whether something is to be seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Visibility {
+    /// It is not.
+    #[default]
+    Hidden,
+    /// It is.
+    Shown,
+}
+
+impl Visibility {
+    /// The other one.
+    #[must_use]
+    pub fn toggled(self) -> Self {
+        match self {
+            Self::Hidden => Self::Shown,
+            Self::Shown => Self::Hidden,
+        }
+    }
+}
+
+/// The view to begin with, and to return to.
+#[derive(Debug, Clone)]
+enum Home {
+    /// The whole scene, seen along this direction.
+    Fit(DVec3),
+    /// As it was set.
+    Fixed(Orbit),
+}
+
+/// Everything that a window shows. It may be changed before the window opens
+/// and from every method of [`crate::Handler`].
+pub struct Stage {
+    /// What is drawn.
+    pub scene: Scene,
+    /// The camera. A window begins with [`Stage::reset_view`].
+    pub orbit: Orbit,
+    /// How it is drawn. Width, height and outputs are the window's business;
+    /// the line width counts in logical pixels.
+    pub settings: RenderSettings,
+    /// What is written over it.
+    pub overlay: Overlay,
+    /// What keys and drags do.
+    pub keymap: Keymap,
+    /// The object that keys move and turn.
+    pub selection: Option<NodeId>,
+    /// Whether the list of keys is shown.
+    pub cheat_sheet: Visibility,
+    /// Whether the time of a frame is shown.
+    pub frame_time: Visibility,
+    title: String,
+    home: Home,
+    renderer: Renderer,
+    waker: Waker,
+    viewport: Viewport,
+    scale: f64,
+    report: FrameReport,
+    wishes: Wishes,
+}
+
+/// What the application has asked for and the window has not done yet.
+#[derive(Debug, Default)]
+pub(crate) struct Wishes {
+    pub(crate) exit: bool,
+    pub(crate) animate: bool,
+    pub(crate) pictures: Vec<RenderSettings>,
+}
+
+impl Stage {
+    /// An empty scene, seen from the right, above and before.
+    #[must_use]
+    pub fn new(title: impl Into<String>) -> Self {
+        Self {
+            scene: Scene::new(),
+            orbit: Orbit::new(DVec3::Y),
+            settings: RenderSettings::new(DEFAULT_SIZE.width, DEFAULT_SIZE.height),
+            overlay: Overlay::default(),
+            keymap: Keymap::default(),
+            selection: None,
+            cheat_sheet: Visibility::Hidden,
+            frame_time: Visibility::Hidden,
+            title: title.into(),
+            home: Home::Fit(DEFAULT_DIRECTION),
+            renderer: Renderer::new(),
+            waker: Waker::default(),
+            viewport: DEFAULT_SIZE,
+            scale: 1.0,
+            report: FrameReport::default(),
+            wishes: Wishes::default(),
+        }
+    }
+
+    /// What is written on the window.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// Writes something else on the window.
+    pub fn set_title(&mut self, title: impl Into<String>) {
+        self.title = title.into();
+    }
+
+    /// Size of the picture in physical pixels; 0 while the window is minimised.
+    #[must_use]
+    pub fn viewport(&self) -> Viewport {
+        self.viewport
+    }
+
+    /// Physical pixels per logical one.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// What the last frame took.
+    #[must_use]
+    pub fn report(&self) -> FrameReport {
+        self.report
+    }
+
+    /// The camera of this moment, its planes around the scene.
+    #[must_use]
+    pub fn camera(&self) -> Camera {
+        self.orbit.camera(&self.scene.bounds())
+    }
+
+    /// Makes this the view to begin with and to return to: the whole scene,
+    /// seen along `direction`.
+    pub fn set_home_direction(&mut self, direction: DVec3) {
+        self.home = Home::Fit(direction);
+    }
+
+    /// Makes this the view to begin with and to return to.
+    pub fn set_home(&mut self, view: Orbit) {
+        self.home = Home::Fixed(view);
+    }
+
+    /// Goes to the view to begin with: the one set as home, or the whole scene.
+    pub fn reset_view(&mut self) {
+        match self.home {
+            Home::Fixed(view) => self.orbit = view,
+            Home::Fit(direction) => {
+                self.orbit.look_along(direction);
+                self.fit_view();
+            }
+        }
+    }
+
+    /// Takes the whole scene into the picture, seen from the same side.
+    pub fn fit_view(&mut self) {
+        self.orbit.fit(&self.scene.bounds(), self.viewport.aspect(), DEFAULT_MARGIN);
+    }
+
+    /// What a pixel shows, and where in the world. Draws the ids once for it.
+    pub fn pick(&mut self, at: DVec2) -> Option<(Hit, DVec3)> {
+        let camera = self.camera();
+        let outputs = Outputs { depth: true, ids: true };
+        let mut settings = RenderSettings { outputs, samples_per_axis: 1, ..self.settings.clone() };
+        (settings.width, settings.height) = (self.viewport.width, self.viewport.height);
+        let frame = self.renderer.render(&self.scene, &camera, &settings).ok()?;
+        if at.x < 0.0 || at.y < 0.0 {
+            return None;
+        }
+        let (x, y) = (at.x as u32, at.y as u32);
+        let hit = frame.hit(self.scene.nodes(), x, y)?;
+        let distance = frame.depth.as_ref()?[(y * frame.width + x) as usize];
+        let point = Projector::new(&camera, self.viewport).at_distance(at, distance.into())?;
+        Some((hit, point))
+    }
+
+    /// The box around the selected object in the world.
+    #[must_use]
+    pub fn selection_bounds(&self) -> Option<Bounds3> {
+        let id = self.selection?;
+        let mesh = self.scene.meshes().get(self.scene.node(id)?.mesh?)?;
+        Some(mesh.mesh().bounds().transformed(&self.scene.world_transform(id)))
+    }
+
+    /// Asks for a picture with these settings, which [`crate::Handler::picture`]
+    /// gets when the current call is over. For a picture of what is on the
+    /// screen, use [`Stage::settings`] with [`Stage::viewport`] for its size.
+    pub fn request_picture(&mut self, settings: RenderSettings) {
+        self.wishes.pictures.push(settings);
+    }
+
+    /// Starts calling [`crate::Handler::frame`] again.
+    pub fn animate(&mut self) {
+        self.wishes.animate = true;
+    }
+
+    /// Closes the window when the current call is over.
+    pub fn exit(&mut self) {
+        self.wishes.exit = true;
+    }
+
+    /// What wakes this window from other threads.
+    #[must_use]
+    pub fn waker(&self) -> Waker {
+        self.waker.clone()
+    }
+
+    pub(crate) fn wishes(&mut self) -> &mut Wishes {
+        &mut self.wishes
+    }
+
+    pub(crate) fn resize(&mut self, viewport: Viewport) {
+        self.viewport = viewport;
+    }
+
+    pub(crate) fn rescale(&mut self, scale: f64) {
+        if scale.is_finite() && scale > 0.0 {
+            self.scale = scale;
+        }
+    }
+
+    pub(crate) fn set_report(&mut self, report: FrameReport) {
+        self.report = report;
+    }
+
+    /// Draws the scene as the window shows it.
+    pub(crate) fn render(&mut self, camera: &Camera, quality: Quality) -> Result<Frame, RenderError> {
+        let mut settings = self.settings.clone();
+        settings.outputs = Outputs::default();
+        let shrink = match quality {
+            Quality::Full => 1,
+            Quality::Draft { shrink } => {
+                settings.samples_per_axis = 1;
+                shrink
+            }
+        };
+        settings.line_width *= (self.scale / f64::from(shrink)) as f32;
+        let smaller = |size: u32| (size / shrink).clamp(1, trigon_scene::MAX_SIZE);
+        (settings.width, settings.height) = (smaller(self.viewport.width), smaller(self.viewport.height));
+        self.renderer.render(&self.scene, camera, &settings)
+    }
+
+    /// Draws a picture that was asked for.
+    pub(crate) fn render_picture(&mut self, settings: &RenderSettings) -> Result<Frame, RenderError> {
+        let camera = self.camera();
+        self.renderer.render(&self.scene, &camera, settings)
+    }
+}
