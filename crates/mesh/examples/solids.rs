@@ -1,6 +1,8 @@
 //! Prints the standard objects with their vertices, edges and faces, and what
 //! Euler's polyhedron formula makes of them.
 
+#![expect(clippy::print_stdout, reason = "what it prints is what it is for")]
+
 use trigon_mesh::{Mesh, RenderMesh, primitives};
 
 fn main() {

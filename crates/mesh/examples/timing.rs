@@ -1,8 +1,11 @@
 //! Measures what happens to a million triangles between a file and a renderer.
 
+#![expect(clippy::print_stdout, reason = "what it prints is what it is for")]
+
+use std::f64::consts::TAU;
 use std::time::Instant;
 
-use trigon_math::Vec3;
+use trigon_math::{DVec3, Vec3, elementary};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder, RenderMesh, primitives, triangulate_polygon};
 
 fn timed<T>(what: &str, work: impl FnOnce() -> T) -> T {
@@ -37,18 +40,36 @@ fn main() {
     let (positions, triangles) = million();
     let mut mesh = timed("mesh of a million triangles", || build(&positions, &triangles));
     timed("  its triangulation", || mesh.triangulation());
+    timed("  its face normals", || mesh.face_normals());
+    timed("  its flat normals", || mesh.shading_normals());
     let flat = timed("  its render mesh, flat", || RenderMesh::from_mesh(&mesh));
     let faces = mesh.face_count();
     let attributes = Attributes { face_smooth: Some(vec![true; faces]), ..Attributes::default() };
     mesh.set_attributes(attributes).expect("one flag per face");
+    timed("  its smooth normals", || mesh.shading_normals());
     let smooth = timed("  its render mesh, smooth", || RenderMesh::from_mesh(&mesh));
     println!("  vertices: {} flat, {} smooth", flat.positions.len(), smooth.positions.len());
     timed("  smooth by angle", || mesh.smooth_by_angle(0.5));
-    let star: Vec<Vec3> = primitives::disc(1000.0, 2048)
-        .positions()
-        .iter()
-        .enumerate()
-        .map(|(i, &p)| if i % 2 == 0 { p } else { p * 0.4 })
-        .collect();
-    timed("a star of 2048 corners", || triangulate_polygon(&star));
+    timed("a star of 20 000 corners", || triangulate_polygon(&star(1)));
+    timed("a star of 20 000 corners on 2000 sides", || triangulate_polygon(&star(10)));
+    timed("a comb of 20 000 corners", || triangulate_polygon(&comb()));
+}
+
+/// A star of 20 000 corners with so many on each side.
+fn star(per_side: usize) -> Vec<Vec3> {
+    let sides = 20_000 / per_side;
+    let tip = |i: usize| {
+        let (sin, cos) = elementary::sin_cos(TAU * (i % sides) as f64 / sides as f64);
+        DVec3::new(cos, sin, 0.0) * if i.is_multiple_of(2) { 1000.0 } else { 400.0 }
+    };
+    let on_side =
+        |i: usize| tip(i / per_side).lerp(tip(i / per_side + 1), (i % per_side) as f64 / per_side as f64);
+    (0..20_000).map(|i| on_side(i).as_vec3()).collect()
+}
+
+/// Long thin teeth: every box is as wide as the polygon.
+fn comb() -> Vec<Vec3> {
+    let teeth = (0..9_999).flat_map(|i| [(1000.0, 2.0 * i as f32), (0.0, 2.0 * i as f32 + 1.0)]);
+    let back = [(-1.0, 20_000.0), (-1.0, -1.0)];
+    teeth.chain(back).map(|(x, y)| Vec3::new(x, y, 0.0)).collect()
 }

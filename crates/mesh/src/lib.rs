@@ -1,5 +1,49 @@
-//! Polygon meshes: faces and edges as they were modelled, what they carry,
-//! the standard objects, and what a renderer needs of them.
+//! Polygon meshes: vertices, edges and faces as they were modelled, what they
+//! carry, the standard objects, and what a renderer needs of them.
+//!
+//! A [`Mesh`] keeps polygons and edges as the modeller made them; triangles
+//! and welded vertices are derived from it when they are needed
+//! ([`Triangulation`], [`RenderMesh`]). So a cube shows its own 12 edges as
+//! wires, a face id means the file's face, and saving a mesh writes what was
+//! loaded.
+//!
+//! This crate never knows cameras, materials or pixels, reads no files, and
+//! gives the same bits on every machine.
+//!
+//! # Conventions
+//! Metres, right-handed, +Y up; faces are counter-clockwise seen from outside;
+//! texture coordinates have (0, 0) in the upper left corner of the picture.
+//!
+//! # Example
+//! A square with a square hole, in one face: the outline goes in along a bridge
+//! and out again. Its triangles leave the hole open, which the picture shows:
+//!
+//! ```
+//! use trigon_math::Vec3;
+//! use trigon_mesh::MeshBuilder;
+//!
+//! let mut builder = MeshBuilder::new();
+//! for (x, y) in [(0, 0), (8, 0), (8, 4), (0, 4), (2, 1), (2, 3), (6, 3), (6, 1)] {
+//!     builder.push_vertex(Vec3::new(x as f32, y as f32, 0.0));
+//! }
+//! builder.push_face(&[0, 1, 2, 3, 0, 4, 5, 6, 7, 4])?;
+//! let mesh = builder.build();
+//! assert_eq!((mesh.vertex_count(), mesh.edge_count(), mesh.face_count()), (8, 9, 1));
+//!
+//! let corner = |corner: u32| mesh.positions()[mesh.corner_vertices()[corner as usize] as usize];
+//! let triangles = mesh.triangulation().triangles;
+//! let covers = |point: Vec3, triangle: &[u32; 3]| {
+//!     let [a, b, c] = triangle.map(|i| corner(i) - point);
+//!     a.cross(b).z > 0.0 && b.cross(c).z > 0.0 && c.cross(a).z > 0.0
+//! };
+//! let picture = [0, 1, 2, 3].map(|row| -> String {
+//!     let pixel = |column| Vec3::new(column as f32 + 0.45, row as f32 + 0.55, 0.0);
+//!     let is_covered = |column| triangles.iter().any(|t| covers(pixel(column), t));
+//!     (0..8).map(|column| if is_covered(column) { '#' } else { '.' }).collect()
+//! });
+//! assert_eq!(picture, ["########", "##....##", "##....##", "########"]);
+//! # Ok::<(), trigon_mesh::MeshError>(())
+//! ```
 
 mod attributes;
 mod builder;

@@ -1,7 +1,9 @@
 //! Normals: of faces by their area vector, of vertices as the mean of their
 //! faces weighted by angle, and of corners as a renderer needs them.
 
-use trigon_math::{DVec3, Vec3, elementary};
+use std::f64::consts::PI;
+
+use trigon_math::{DVec3, Vec3};
 
 use crate::Mesh;
 use crate::triangulate::area_vector;
@@ -41,38 +43,40 @@ impl Mesh {
     /// the smooth faces if the face is smooth, else the face's. Where even
     /// that has no direction, straight up: such a face has no area.
     pub fn shading_normals(&self) -> Vec<Vec3> {
-        let attributes = self.attributes();
-        if let Some(given) = &attributes.corner_normals {
-            let units: Vec<Vec3> = given.iter().map(|&n| unit_keeping(n)).collect();
-            if units.iter().all(|&n| n != Vec3::ZERO) {
-                return units;
+        let Some(given) = &self.attributes().corner_normals else {
+            return self.computed_normals();
+        };
+        let mut normals: Vec<Vec3> = given.iter().map(|&normal| unit_keeping(normal)).collect();
+        if normals.contains(&Vec3::ZERO) {
+            for (normal, computed) in normals.iter_mut().zip(self.computed_normals()) {
+                if *normal == Vec3::ZERO {
+                    *normal = computed;
+                }
             }
-            return self.computed_normals(|corner| units[corner]);
         }
-        self.computed_normals(|_| Vec3::ZERO)
+        normals
     }
 
-    /// Shading normals from the faces where the given one is zero.
-    fn computed_normals(&self, given: impl Fn(usize) -> Vec3) -> Vec<Vec3> {
-        let face_normals = self.face_normals();
-        let flags = self.attributes().face_smooth.as_deref();
-        let is_smooth = |face: usize| flags.is_some_and(|flags| flags[face]);
-        let vertex_normals = match flags {
-            Some(flags) if flags.contains(&true) => self.sum_normals(&face_normals, is_smooth),
-            _ => Vec::new(),
-        };
-        let vertex_normals: Vec<Vec3> =
-            vertex_normals.into_iter().map(|n| unit_or_zero(n).as_vec3()).collect();
+    /// Shading normals by the faces alone.
+    fn computed_normals(&self) -> Vec<Vec3> {
+        let mut face_normals = self.face_normals();
+        let smooth = self.attributes().face_smooth.as_deref().filter(|flags| flags.contains(&true));
+        let vertex_normals = smooth.map(|flags| {
+            let sums = self.sum_normals(&face_normals, |face| flags[face]);
+            sums.into_iter().map(|n| unit_or_zero(n).as_vec3()).collect::<Vec<_>>()
+        });
+        for normal in &mut face_normals {
+            *normal = or_if_zero(*normal, Vec3::Y);
+        }
         let mut normals = Vec::with_capacity(self.corner_count());
         for (face, corners) in self.faces().enumerate() {
-            let smooth = is_smooth(face);
-            let of_face = first_with_direction([face_normals[face], Vec3::Y]);
-            for corner in corners {
-                let of_vertex = match smooth {
-                    true => vertex_normals[self.corner_vertices()[corner] as usize],
-                    false => Vec3::ZERO,
-                };
-                normals.push(first_with_direction([given(corner), of_vertex, of_face]));
+            let of_face = face_normals[face];
+            match (&vertex_normals, smooth) {
+                (Some(of_vertices), Some(flags)) if flags[face] => {
+                    let vertices = self.corner_vertices()[corners].iter();
+                    normals.extend(vertices.map(|&v| or_if_zero(of_vertices[v as usize], of_face)));
+                }
+                _ => normals.resize(corners.end, of_face),
             }
         }
         normals
@@ -120,11 +124,20 @@ impl Mesh {
     }
 }
 
-/// The angle between two vectors in radians, 0 if one of them is zero. Taken
-/// from the cosine: weights need no more than its precision.
+/// The angle between two vectors in radians, 0 if one of them is zero; within
+/// 10⁻⁴ of the exact one, which is plenty for a weight and several times
+/// faster (M. Abramowitz and I. Stegun, "Handbook of Mathematical Functions",
+/// 1964, 4.4.45).
 fn angle(a: DVec3, b: DVec3) -> f64 {
     let squares = a.length_squared() * b.length_squared();
-    if squares > 0.0 { elementary::acos((a.dot(b) / squares.sqrt()).clamp(-1.0, 1.0)) } else { 0.0 }
+    if squares <= 0.0 {
+        return 0.0;
+    }
+    let cosine = a.dot(b) / squares.sqrt();
+    let x = cosine.abs().min(1.0);
+    let polynomial = 1.5707288 + x * (-0.2121144 + x * (0.0742610 - x * 0.0187293));
+    let acute = (1.0 - x).sqrt() * polynomial;
+    if cosine < 0.0 { PI - acute } else { acute }
 }
 
 /// The direction of a vector, the zero vector if it has none.
@@ -143,7 +156,23 @@ fn unit_keeping(normal: Vec3) -> Vec3 {
     if (wide.length_squared() - 1.0).abs() <= UNIT_TOLERANCE { normal } else { unit_or_zero(wide).as_vec3() }
 }
 
-fn first_with_direction<const N: usize>(candidates: [Vec3; N]) -> Vec3 {
-    let mut found = candidates.into_iter().filter(|&n| n != Vec3::ZERO);
-    found.next().unwrap_or(Vec3::Y)
+fn or_if_zero(normal: Vec3, other: Vec3) -> Vec3 {
+    if normal == Vec3::ZERO { other } else { normal }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trigon_math::elementary;
+
+    #[test]
+    fn angles_are_as_close_as_they_say() {
+        for step in 0..=1000 {
+            let exact = PI * f64::from(step) / 1000.0;
+            let (sin, cos) = elementary::sin_cos(exact);
+            let found = angle(DVec3::X * 3.0, DVec3::new(cos, sin, 0.0) * 0.1);
+            assert!((found - exact).abs() < 1e-4, "{found} for {exact}");
+        }
+        assert_eq!(angle(DVec3::ZERO, DVec3::X), 0.0, "no direction, no weight");
+    }
 }

@@ -98,7 +98,10 @@ impl<'a> Comparison<'a> {
     }
 
     fn equal(&self, a: u32, b: u32) -> bool {
-        self.order(a, b) == Ordering::Equal
+        let [a, b] = [a as usize, b as usize];
+        bits(self.normals[a].to_array()) == bits(self.normals[b].to_array())
+            && self.uv_sets.iter().all(|set| bits(set[a].to_array()) == bits(set[b].to_array()))
+            && (self.colors.is_empty() || bits(self.colors[a].to_array()) == bits(self.colors[b].to_array()))
     }
 
     /// Some total order in which only corners that agree are equal.
@@ -117,7 +120,10 @@ impl<'a> Comparison<'a> {
 }
 
 fn by_bits<const N: usize>(a: [f32; N], b: [f32; N]) -> Ordering {
-    // Adding zero turns -0 into +0 and changes nothing else.
-    let bits = |values: [f32; N]| values.map(|value| (value + 0.0).to_bits());
     bits(a).cmp(&bits(b))
+}
+
+fn bits<const N: usize>(values: [f32; N]) -> [u32; N] {
+    // Adding zero turns -0 into +0 and changes nothing else.
+    values.map(|value| (value + 0.0).to_bits())
 }
