@@ -2,6 +2,7 @@
 
 use crate::Surface;
 use crate::bin::{Bins, Grid};
+use crate::clip;
 use crate::geometry::{Geometry, Shape};
 use crate::line::LineStyle;
 use crate::pass::{Background, Recorded};
@@ -162,7 +163,8 @@ fn set_up(
     let viewport: Viewport = settings.grid.viewport;
     let samples = settings.samples_per_axis;
     let batch = SetupBatch::default();
-    let mut setup = Setup { viewport, vertices, draw, culling: Culling::None, batch };
+    let volume = &clip::volume(viewport);
+    let mut setup = Setup { viewport, volume, vertices, draw, culling: Culling::None, batch };
     match geometry.shape {
         Shape::Triangles { triangles, culling, .. } => {
             setup.culling = culling;

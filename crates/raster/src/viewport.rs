@@ -3,7 +3,7 @@
 //! Inside the rasterizer a "pixel" is a sample: with several samples per axis
 //! everything happens on a finer grid, and only the resolve knows better.
 
-use trigon_math::{Fixed, FixedPoint, Vec4};
+use trigon_math::{Band, Fixed, FixedPoint, Vec4};
 
 /// How far from the viewport's centre, in samples, geometry goes unclipped.
 pub(crate) const GUARD_BAND: f64 = 32768.0;
@@ -18,10 +18,12 @@ pub(crate) struct Viewport {
 }
 
 impl Viewport {
-    /// The largest |x / w| and |y / w| within the guard band.
-    pub(crate) fn guard(self) -> [f32; 2] {
+    /// The largest |x / w| and |y / w| within the guard band: the largest powers
+    /// of two that keep to it.
+    pub(crate) fn guard(self) -> [Band; 2] {
         // At least 1, as no side has more than 65536 samples.
-        [self.width, self.height].map(|side| (2.0 * GUARD_BAND / f64::from(side)) as f32)
+        let widest = |side: u32| Band::at_most((2.0 * GUARD_BAND / f64::from(side)) as f32);
+        [self.width, self.height].map(|side| widest(side).unwrap_or(Band::VIEW))
     }
 
     /// The point on the sub-sample grid where a clip-space position with w > 0

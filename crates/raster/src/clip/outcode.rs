@@ -1,7 +1,7 @@
 //! Which planes a vertex lies beyond: decides without arithmetic what is
 //! dropped, kept whole, or cut.
 
-use trigon_math::Vec4;
+use trigon_math::{Band, Vec4};
 
 /// The least w that is drawn. Every perspective with a near plane above this
 /// is cut by the near plane first; the bound keeps 1/w and all that is
@@ -32,10 +32,9 @@ impl Outcode {
     /// their width.
     const HIDING_WIDE: u16 = 0b0111_1000_0111;
 
-    /// The planes that `position` lies beyond. Exact but for the guard band,
-    /// which is rounded.
+    /// The planes that `position` lies beyond, exactly.
     #[inline]
-    pub(crate) fn new(position: Vec4, guard: [f32; 2]) -> Self {
+    pub(crate) fn new(position: Vec4, guard: [Band; 2]) -> Self {
         let Vec4 { x, y, z, w } = position;
         // False for NaN, too.
         let valid = |v: f32| v.abs() <= COORDINATE_MAX;
@@ -43,7 +42,8 @@ impl Outcode {
             return Self::INVALID;
         }
         let bit = |beyond: bool, bit: u16| if beyond { bit } else { 0 };
-        let (guard_x, guard_y) = (guard[0] * w, guard[1] * w);
+        // Exact, as bands are powers of two.
+        let [guard_x, guard_y] = guard.map(|band| band.factor() * w);
         Self(
             bit(w < W_MIN, Self::W.0)
                 | bit(z > w, Self::NEAR.0)

@@ -5,11 +5,10 @@
 //! by cuts along it, so that a line one pixel wide has one pixel in each step
 //! of its major direction, as in Direct3D and OpenGL.
 
-use crate::clip::{self, CutVertex};
 use crate::setup::{Candidate, CutWeights, Kind, ScreenVertex, Setup};
 use crate::vertex::nearer;
 use std::num::NonZeroU32;
-use trigon_math::{Fixed, FixedPoint};
+use trigon_math::{ClipVertex, Fixed, FixedPoint, clip_segment};
 
 /// The widest line and largest point in pixels.
 pub(crate) const SIZE_MAX: f32 = 4096.0;
@@ -59,28 +58,28 @@ impl Setup<'_> {
         } else if planes.cuts() {
             self.batch.stats.clipped += 1;
             let positions = indices.map(|index| self.vertices.position(index));
-            let ends = clip::cut_segment(positions, planes, self.viewport.guard());
+            let ends = clip_segment(positions, self.volume);
             let screen =
-                |end: CutVertex| Some((ScreenVertex::new(end.position, self.viewport)?, end.weights));
+                |end: ClipVertex<2>| Some((ScreenVertex::new(end.position, self.viewport)?, end.weights));
             match ends.map(|[a, b]| (screen(a), screen(b))) {
                 Some((Some(a), Some(b))) => self.parallelogram(primitive, [a, b], style),
                 _ => self.batch.stats.outside += 1,
             }
         } else {
             let [a, b] = indices.map(|index| self.vertices.screen(index));
-            self.parallelogram(primitive, [(a, [1.0, 0.0, 0.0]), (b, [0.0, 1.0, 0.0])], style);
+            self.parallelogram(primitive, [(a, [1.0, 0.0]), (b, [0.0, 1.0])], style);
         }
     }
 
     /// The two triangles around a segment.
-    fn parallelogram(&mut self, primitive: u32, mut ends: [(ScreenVertex, [f32; 3]); 2], style: LineStyle) {
+    fn parallelogram(&mut self, primitive: u32, mut ends: [(ScreenVertex, [f32; 2]); 2], style: LineStyle) {
         // From the upper end to the lower: then nothing below depends on which
         // end was given first.
         ends.sort_by_key(|(end, _)| (end.point.y.raw(), end.point.x.raw()));
         // Columns of the weights in the order of the ends, too.
         let swapped = ends[0].1[0] < ends[1].1[0];
         let corners = if swapped { [1, 0, 0] } else { [0, 1, 1] };
-        let weights = ends.map(|(_, [a, b, _])| if swapped { [b, a, 0.0] } else { [a, b, 0.0] });
+        let weights = ends.map(|(_, [a, b])| if swapped { [b, a, 0.0] } else { [a, b, 0.0] });
         let Some(outline) = outline(ends.map(|(end, _)| end.point), style) else {
             self.batch.stats.outside += 1;
             return;

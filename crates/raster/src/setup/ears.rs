@@ -6,10 +6,6 @@
 
 use trigon_math::{FixedPoint, orientation_fixed};
 
-/// The most vertices that a triangle can have after it was cut by the planes of
-/// [`Outcode`](crate::clip::Outcode): three, and one for each of six.
-pub(crate) const MAX_VERTICES: usize = 9;
-
 /// Twice the signed area of a closed polygon, exactly.
 pub(crate) fn doubled_area(points: &[FixedPoint]) -> i64 {
     let Some((&first, rest)) = points.split_first() else {
@@ -22,7 +18,6 @@ pub(crate) fn doubled_area(points: &[FixedPoint]) -> i64 {
 /// polygon's own winding; together they cover it once. Triangles without area
 /// are left out.
 pub(crate) fn cut_ears(points: &[FixedPoint], mut ear: impl FnMut([usize; 3])) {
-    debug_assert!(points.len() <= MAX_VERTICES, "more vertices than planes can make");
     let sign = doubled_area(points).signum();
     if sign == 0 {
         return;

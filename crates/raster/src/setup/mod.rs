@@ -4,15 +4,14 @@
 mod ears;
 mod triangle;
 
-#[cfg(test)]
-pub(crate) use ears::MAX_VERTICES;
 pub(crate) use ears::{cut_ears, doubled_area};
 pub(crate) use triangle::{Corners, Kind, SampleBounds, ScreenVertex, SetupTriangle};
 
-use crate::clip::{self, CutVertex, Outcode};
+use crate::clip;
 use crate::vertex::VertexStore;
 use crate::viewport::Viewport;
 use crate::{Culling, Stats};
+use trigon_math::{ClipVertex, ClipVolume};
 
 /// The weights of a primitive's corners at the vertices of a cut triangle:
 /// `[vertex][corner]`.
@@ -44,6 +43,7 @@ impl SetupBatch {
 /// Sets up the primitives of one draw.
 pub(crate) struct Setup<'a> {
     pub(crate) viewport: Viewport,
+    pub(crate) volume: &'a ClipVolume,
     pub(crate) vertices: &'a VertexStore,
     pub(crate) draw: u32,
     pub(crate) culling: Culling,
@@ -73,7 +73,7 @@ impl Setup<'_> {
         } else if a.intersection(b).intersection(c).hides() {
             self.batch.stats.outside += 1;
         } else if any.cuts() {
-            self.cut_triangle(primitive, indices, any);
+            self.cut_triangle(primitive, indices);
         } else {
             self.whole_triangle(primitive, indices);
         }
@@ -94,17 +94,18 @@ impl Setup<'_> {
         self.push(candidate, None);
     }
 
-    fn cut_triangle(&mut self, primitive: u32, indices: [u32; 3], planes: Outcode) {
+    fn cut_triangle(&mut self, primitive: u32, indices: [u32; 3]) {
         let positions = indices.map(|index| self.vertices.position(index));
-        let polygon = clip::cut_triangle(positions, planes, self.viewport.guard());
+        let cut = clip::cut_triangle(positions, self.volume);
+        let vertices = cut.polygon.vertices();
         self.batch.stats.clipped += 1;
-        let Some(screen) = self.snap(&polygon.vertices) else {
+        let Some(screen) = self.snap(vertices) else {
             self.batch.stats.outside += 1;
             return;
         };
         let points: Vec<_> = screen.iter().map(|v| v.point).collect();
         // Sorting the corners may have turned the triangle over.
-        let area = doubled_area(&points) * polygon.winding;
+        let area = doubled_area(&points) * cut.winding;
         if self.is_culled(area) {
             self.batch.stats.culled += 1;
             return;
@@ -113,17 +114,17 @@ impl Setup<'_> {
             let candidate = Candidate {
                 vertices: ear.map(|i| screen[i]),
                 primitive,
-                corners: polygon.order,
+                corners: cut.order,
                 kind: Kind::Triangle,
                 front_facing: area < 0,
             };
-            self.push(candidate, Some(ear.map(|i| polygon.vertices[i].weights)));
+            self.push(candidate, Some(ear.map(|i| vertices[i].weights)));
         });
     }
 
     /// `None` if nothing is left, or a vertex has no place on the grid.
-    fn snap(&self, vertices: &[CutVertex]) -> Option<Vec<ScreenVertex>> {
-        let screen = |v: &CutVertex| ScreenVertex::new(v.position, self.viewport);
+    fn snap(&self, vertices: &[ClipVertex]) -> Option<Vec<ScreenVertex>> {
+        let screen = |v: &ClipVertex| ScreenVertex::new(v.position, self.viewport);
         (vertices.len() >= 3).then(|| vertices.iter().map(screen).collect())?
     }
 

@@ -4,7 +4,7 @@
 use crate::clip::Outcode;
 use crate::setup::ScreenVertex;
 use crate::viewport::Viewport;
-use trigon_math::Vec4;
+use trigon_math::{Band, Vec4};
 
 impl ScreenVertex {
     /// Where a position with w >= [`W_MIN`](crate::clip::W_MIN) lies; `None` if
@@ -80,7 +80,7 @@ impl VertexStore {
 
 impl Processed {
     #[inline]
-    fn new(position: Vec4, viewport: Viewport, guard: [f32; 2]) -> Self {
+    fn new(position: Vec4, viewport: Viewport, guard: [Band; 2]) -> Self {
         let outcode = Outcode::new(position, guard);
         if outcode.is_invalid() || outcode.cuts() {
             return Self { screen: ScreenVertex::default(), outcode };
