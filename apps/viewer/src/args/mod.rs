@@ -1,0 +1,11 @@
+//! The command line, in two steps: [`RawArgs`] is what was typed, flag by flag;
+//! [`Request`] is what it means as a whole.
+
+mod output;
+mod raw;
+mod request;
+mod values;
+
+pub(crate) use output::{Destination, Template};
+pub(crate) use raw::RawArgs;
+pub(crate) use request::{Grouping, Mode, Request};

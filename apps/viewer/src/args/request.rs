@@ -1,0 +1,307 @@
+//! What the command line asks for, as a whole and checked.
+
+use std::path::PathBuf;
+
+use trigon_camera::AxisView;
+use trigon_scene::{Background, RenderSettings, Style};
+
+use super::output::Destination;
+use super::raw::{AntiAliasing, BackfaceType, DrawStyle, MultiFileMode, RawArgs, View};
+use crate::framing::{Eye, Framing};
+use crate::look::{Backfaces, Look};
+use crate::report::Level;
+
+/// What the command line asks for.
+#[derive(Clone, Debug)]
+pub(crate) struct Request {
+    /// What to do.
+    pub(crate) mode: Mode,
+    /// The models; none is the built-in scene.
+    pub(crate) files: Vec<PathBuf>,
+    /// How several models are shown.
+    pub(crate) grouping: Grouping,
+    /// Larger files are refused.
+    pub(crate) max_bytes: Option<u64>,
+    /// Where the camera stands.
+    pub(crate) framing: Framing,
+    /// What is changed about the model.
+    pub(crate) look: Look,
+    /// How it is drawn.
+    pub(crate) settings: RenderSettings,
+    /// How much is said.
+    pub(crate) level: Level,
+    /// Flags that were accepted and do nothing.
+    pub(crate) ignored: Vec<&'static str>,
+}
+
+/// What to do.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Mode {
+    /// Write pictures.
+    Picture(Destination),
+    /// Open a window.
+    Window,
+    /// Load the models and say what is in them.
+    Inspect,
+    /// List the formats that can be read.
+    ListReaders,
+    /// List the keys of the window.
+    ListBindings,
+}
+
+/// How several models are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Grouping {
+    /// One after the other.
+    OneByOne,
+    /// In one scene.
+    Together,
+}
+
+impl Request {
+    /// Puts the flags together, or says why they do not fit each other.
+    pub(crate) fn new(raw: RawArgs) -> Result<Self, String> {
+        let files: Vec<PathBuf> = raw.files.iter().chain(&raw.input).cloned().collect();
+        let grouping = match raw.multi_file_mode {
+            MultiFileMode::Single => Grouping::OneByOne,
+            MultiFileMode::All => Grouping::Together,
+        };
+        let mode = mode(&raw);
+        check_output(&mode, files.len(), grouping)?;
+        Ok(Self {
+            mode,
+            files,
+            grouping,
+            max_bytes: raw.max_size,
+            framing: framing(&raw)?,
+            look: look(&raw),
+            settings: settings(&raw)?,
+            level: raw.verbose,
+            ignored: raw.gpu_only.given(),
+        })
+    }
+}
+
+fn mode(raw: &RawArgs) -> Mode {
+    match &raw.output {
+        _ if raw.list_readers => Mode::ListReaders,
+        _ if raw.list_bindings => Mode::ListBindings,
+        _ if raw.no_render == Some(true) => Mode::Inspect,
+        Some(destination) => Mode::Picture(destination.clone()),
+        None => Mode::Window,
+    }
+}
+
+/// Several pictures need several names. F3D draws the first model and only
+/// warns about the rest, which scripts do not notice.
+fn check_output(mode: &Mode, files: usize, grouping: Grouping) -> Result<(), String> {
+    let Mode::Picture(destination) = mode else { return Ok(()) };
+    if files < 2 || grouping == Grouping::Together {
+        return Ok(());
+    }
+    match destination {
+        Destination::File(template) if template.tells_models_apart() => Ok(()),
+        Destination::File(_) => Err(format!(
+            "{files} files make {files} pictures, but --output has one name; write {{model}} or {{n}} in it (--output '{{model}}.png'), or draw them in one scene with --multi-file-mode=all"
+        )),
+        Destination::Stdout => Err(format!(
+            "{files} files make {files} pictures, but standard output takes one; draw them in one scene with --multi-file-mode=all, or write files with --output '{{model}}.png'"
+        )),
+    }
+}
+
+fn framing(raw: &RawArgs) -> Result<Framing, String> {
+    if raw.camera_position.is_some() && raw.camera_position == raw.camera_focal_point {
+        return Err(
+            "--camera-position and --camera-focal-point are the same point, so the camera looks nowhere; move one of them".to_owned()
+        );
+    }
+    let scene_camera = raw.camera_index.and_then(|index| usize::try_from(index).ok());
+    let eye = match (raw.camera_position, raw.camera_direction, raw.view, scene_camera) {
+        (Some(position), ..) => Eye::Position(position),
+        (None, Some(direction), ..) => Eye::Direction(direction),
+        (None, None, Some(view), _) => Eye::Side(axis_view(view)),
+        (None, None, None, Some(index)) => Eye::SceneCamera(index),
+        (None, None, None, None) => Eye::Default,
+    };
+    Ok(Framing {
+        eye,
+        up: raw.up,
+        view_up: raw.camera_view_up,
+        focal_point: raw.camera_focal_point,
+        view_angle: raw.camera_view_angle,
+        zoom: raw.camera_zoom_factor,
+        azimuth: raw.camera_azimuth_angle,
+        elevation: raw.camera_elevation_angle,
+        orthographic: raw.camera_orthographic.unwrap_or(false),
+    })
+}
+
+fn axis_view(view: View) -> AxisView {
+    match view {
+        View::Front => AxisView::Front,
+        View::Back => AxisView::Back,
+        View::Left => AxisView::Left,
+        View::Right => AxisView::Right,
+        View::Top => AxisView::Top,
+        View::Bottom => AxisView::Bottom,
+        View::Iso => AxisView::Isometric,
+    }
+}
+
+fn look(raw: &RawArgs) -> Look {
+    Look {
+        color: raw.color,
+        opacity: raw.opacity,
+        unlit: raw.unlit.unwrap_or(false),
+        backfaces: match raw.backface_type {
+            BackfaceType::Default => None,
+            BackfaceType::Visible => Some(Backfaces::Visible),
+            BackfaceType::Hidden => Some(Backfaces::Hidden),
+        },
+    }
+}
+
+fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
+    let mut settings = RenderSettings::new(raw.resolution.width, raw.resolution.height);
+    settings.samples_per_axis = match (raw.anti_aliasing, raw.samples) {
+        (AntiAliasing::None, None | Some(1)) => 1,
+        (AntiAliasing::None, Some(samples)) => {
+            return Err(format!(
+                "--anti-aliasing=none means one sample per pixel, but --samples={samples} asks for more; leave one of them out"
+            ));
+        }
+        (AntiAliasing::Ssaa, samples) => samples.unwrap_or(settings.samples_per_axis),
+    };
+    if raw.no_background == Some(true) {
+        settings.background = Background::Transparent;
+    } else if let Some(color) = raw.background_color {
+        settings.background = Background::Color(color);
+    }
+    settings.style = match (raw.style, raw.edges) {
+        (Some(DrawStyle::Edges), _) | (None, Some(true)) => Style::SurfaceWithEdges,
+        (Some(DrawStyle::Wireframe), _) => Style::Wireframe,
+        (Some(DrawStyle::HiddenLine), _) => Style::HiddenLine,
+        (Some(DrawStyle::Surface), _) | (None, _) => Style::Surface,
+    };
+    settings.line_width = raw.line_width;
+    settings.light_intensity = raw.light_intensity;
+    settings.threads = raw.threads;
+    Ok(settings)
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{CommandFactory, Parser};
+    use trigon_math::DVec3;
+
+    use super::*;
+
+    /// The request of a command line, or the message about it.
+    fn request(flags: &str) -> Result<Request, String> {
+        let words = std::iter::once("trigon-viewer").chain(flags.split_whitespace());
+        let raw = RawArgs::try_parse_from(words).map_err(|error| error.to_string())?;
+        Request::new(raw)
+    }
+
+    fn refusal(flags: &str) -> String {
+        request(flags).expect_err("refused")
+    }
+
+    #[test]
+    fn the_flags_are_consistent() {
+        RawArgs::command().debug_assert();
+    }
+
+    #[test]
+    fn without_flags_there_is_a_window_with_the_built_in_scene() {
+        let request = request("").expect("fine");
+        assert_eq!(request.mode, Mode::Window, "a window");
+        assert!(request.files.is_empty(), "no file");
+        assert_eq!((request.settings.width, request.settings.height), (1000, 600), "F3D's size");
+        assert_eq!(request.settings.samples_per_axis, 3, "smooth outlines");
+        assert_eq!(request.framing.eye, Eye::Default, "the default view");
+        assert_eq!(request.look, Look::default(), "as the file has it");
+    }
+
+    #[test]
+    fn values_that_begin_with_a_sign_need_no_equals_sign() {
+        let request =
+            request("a.obj --up -Z --camera-direction -1,0,0.5 --camera-azimuth-angle -30").expect("fine");
+        assert_eq!(request.framing.up, DVec3::NEG_Z, "an axis");
+        assert_eq!(request.framing.eye, Eye::Direction(DVec3::new(-1.0, 0.0, 0.5)), "numbers");
+        assert!((request.framing.azimuth.to_degrees() + 30.0).abs() < 1e-12, "an angle");
+    }
+
+    #[test]
+    fn switches_can_be_on_and_off_and_the_last_one_wins() {
+        for (flags, expected) in [
+            ("-e", Style::SurfaceWithEdges),
+            ("--edges=on", Style::SurfaceWithEdges),
+            ("--edges --edges=0", Style::Surface),
+            ("--style=wireframe", Style::Wireframe),
+            ("--style=hidden-line", Style::HiddenLine),
+        ] {
+            assert_eq!(request(flags).expect("fine").settings.style, expected, "{flags}");
+        }
+        // A switch does not swallow the file behind it.
+        assert_eq!(request("-e model.obj").expect("fine").files, [PathBuf::from("model.obj")], "the file");
+        assert_eq!(
+            request("-a --verbose model.obj").expect("fine").files,
+            [PathBuf::from("model.obj")],
+            "the file"
+        );
+    }
+
+    #[test]
+    fn several_files_need_several_names_or_one_scene() {
+        assert!(refusal("a.obj b.obj --output o.png").contains("{model}"), "says how");
+        assert!(refusal("a.obj b.obj --output -").contains("--multi-file-mode=all"), "says how");
+        request("a.obj b.obj --output {model}.png").expect("a name each");
+        request("a.obj b.obj --output {n:3}.png").expect("a number each");
+        request("a.obj b.obj --output o.png --multi-file-mode=all").expect("one scene");
+        request("a.obj b.obj").expect("a window");
+    }
+
+    #[test]
+    fn a_camera_that_looks_nowhere_is_refused() {
+        assert!(
+            refusal("--camera-position 1,2,3 --camera-focal-point 1,2,3").contains("same point"),
+            "explained"
+        );
+        assert!(refusal("--camera-position nan,0,0").contains("three numbers"), "explained");
+        assert!(refusal("--camera-direction 0,0,0").contains("no direction"), "explained");
+        assert!(refusal("--camera-view-angle 180").contains("179"), "explained");
+        assert!(refusal("--camera-index 0 --view=top").contains("cannot be used with"), "explained");
+    }
+
+    #[test]
+    fn anti_aliasing_and_samples_agree() {
+        for (flags, samples) in
+            [("-a", 3), ("--anti-aliasing=none", 1), ("--samples 4", 4), ("-a=none --samples=1", 1)]
+        {
+            assert_eq!(request(flags).expect("fine").settings.samples_per_axis, samples, "{flags}");
+        }
+        assert!(refusal("--anti-aliasing=none --samples=2").contains("one sample"), "explained");
+        assert!(refusal("--samples=5").contains("1..=4"), "explained");
+    }
+
+    #[test]
+    fn flags_of_a_gpu_do_nothing_and_say_so() {
+        let request =
+            request("--rendering-backend egl --raytracing --raytracing-samples 4 --volume=true a.obj")
+                .expect("fine");
+        assert_eq!(
+            request.ignored,
+            ["--rendering-backend", "--raytracing", "--raytracing-samples", "--volume"],
+            "named"
+        );
+        assert_eq!(request.files, [PathBuf::from("a.obj")], "the file");
+    }
+
+    #[test]
+    fn a_typing_error_gets_a_proposal() {
+        assert!(refusal("--resolutoin 10,10").contains("--resolution"), "did you mean");
+        assert!(refusal("--output picture.jpg").contains(".png"), "the remedy");
+    }
+}

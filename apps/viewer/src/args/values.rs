@@ -1,0 +1,240 @@
+//! From the text of a flag's value to what it means. Every message says what
+//! would have been accepted.
+
+use std::num::NonZeroUsize;
+
+use trigon_camera::Viewport;
+use trigon_math::{DVec3, Vec3, color};
+use trigon_scene::MAX_SIZE;
+
+/// A switch: `--edges`, `--edges=false` and their spellings.
+pub(crate) fn switch(text: &str) -> Result<bool, String> {
+    match text.to_ascii_lowercase().as_str() {
+        "true" | "on" | "yes" | "1" => Ok(true),
+        "false" | "off" | "no" | "0" => Ok(false),
+        _ => Err("write true or false (also on, off, yes, no, 1, 0)".to_owned()),
+    }
+}
+
+/// A size in pixels: `1000,600` or `1000x600`.
+pub(crate) fn size(text: &str) -> Result<Viewport, String> {
+    let (width, height) = text
+        .split_once([',', 'x', 'X', '×'])
+        .ok_or("write width and height with a comma between them, such as 1000,600")?;
+    Ok(Viewport { width: side("width", width)?, height: side("height", height)? })
+}
+
+fn side(what: &str, text: &str) -> Result<u32, String> {
+    let number = text.trim().parse::<u32>().ok().filter(|side| (1..=MAX_SIZE).contains(side));
+    number.ok_or_else(|| {
+        format!("the {what} has to be a whole number from 1 to {MAX_SIZE}, not {:?}", text.trim())
+    })
+}
+
+/// A colour, written in sRGB, as linear RGB.
+pub(crate) fn color(text: &str) -> Result<Vec3, String> {
+    const FORMS: &str = "write R,G,B with numbers from 0 to 1, #rgb, #rrggbb or a CSS name such as orange";
+    if let Some(channels) = three_numbers(text) {
+        let inside = channels.cmpge(DVec3::ZERO).all() && channels.cmple(DVec3::ONE).all();
+        return if inside { Ok(to_linear(channels.as_vec3())) } else { Err(FORMS.to_owned()) };
+    }
+    let parsed = csscolorparser::parse(text).map_err(|_| FORMS)?;
+    if parsed.a < 1.0 {
+        return Err(
+            "the colour is translucent; use --opacity for a model, --no-background for none".to_owned()
+        );
+    }
+    Ok(to_linear(Vec3::new(parsed.r, parsed.g, parsed.b).clamp(Vec3::ZERO, Vec3::ONE)))
+}
+
+fn to_linear(srgb: Vec3) -> Vec3 {
+    Vec3::new(color::srgb_to_linear(srgb.x), color::srgb_to_linear(srgb.y), color::srgb_to_linear(srgb.z))
+}
+
+/// A direction: signed axes such as `+X` or `-y+z`, or three numbers. Never
+/// zero, always finite; not normalised.
+pub(crate) fn direction(text: &str) -> Result<DVec3, String> {
+    const FORMS: &str = "write axes such as +X or -y+z, or three numbers such as 1,0,-0.5";
+    let found = three_numbers(text).or_else(|| signed_axes(text)).ok_or(FORMS)?;
+    if found == DVec3::ZERO { Err("all zero is no direction".to_owned()) } else { Ok(found) }
+}
+
+/// `+X`, `x`, `-y+z`: every axis at most once, a sign before all but the first.
+fn signed_axes(text: &str) -> Option<DVec3> {
+    let (mut sum, mut used, mut sign) = (DVec3::ZERO, [false; 3], Some(1.0));
+    let mut signed = false;
+    for character in text.trim().chars() {
+        match (character.to_ascii_lowercase(), sign) {
+            ('+', _) if !signed => (sign, signed) = (Some(1.0), true),
+            ('-', _) if !signed => (sign, signed) = (Some(-1.0), true),
+            (axis @ 'x'..='z', Some(value)) => {
+                let index = axis as usize - 'x' as usize;
+                if std::mem::replace(&mut used[index], true) {
+                    return None;
+                }
+                sum[index] = value;
+                (sign, signed) = (None, false);
+            }
+            _ => return None,
+        }
+    }
+    (sign.is_none() && !signed).then_some(sum)
+}
+
+/// A point: three finite numbers.
+pub(crate) fn point(text: &str) -> Result<DVec3, String> {
+    three_numbers(text).ok_or_else(|| "write three numbers such as 1,2.5,-3".to_owned())
+}
+
+/// Three finite numbers with commas between them.
+fn three_numbers(text: &str) -> Option<DVec3> {
+    let mut numbers =
+        text.split(',').map(|number| number.trim().parse::<f64>().ok().filter(|n| n.is_finite()));
+    let vector = DVec3::new(numbers.next()??, numbers.next()??, numbers.next()??);
+    numbers.next().is_none().then_some(vector)
+}
+
+/// An angle in degrees, as radians.
+pub(crate) fn angle(text: &str) -> Result<f64, String> {
+    finite(text).map(f64::to_radians).ok_or_else(|| "write an angle in degrees, such as 45".to_owned())
+}
+
+/// An opening angle in degrees, as radians.
+pub(crate) fn view_angle(text: &str) -> Result<f64, String> {
+    let degrees = finite(text).filter(|degrees| (0.01..=179.0).contains(degrees));
+    degrees.map(f64::to_radians).ok_or_else(|| "write an angle from 0.01 to 179 degrees".to_owned())
+}
+
+/// A zoom factor.
+pub(crate) fn zoom(text: &str) -> Result<f64, String> {
+    ratio(text)
+        .filter(|factor| (1e-6..=1e6).contains(factor))
+        .ok_or_else(|| "write a number greater than 0, such as 0.9".to_owned())
+}
+
+/// A number from 0 to 1.
+pub(crate) fn unit_ratio(text: &str) -> Result<f32, String> {
+    let inside = ratio(text).filter(|value| (0.0..=1.0).contains(value));
+    inside.map(|value| value as f32).ok_or_else(|| "write a number from 0 to 1, or 50%, or 1/2".to_owned())
+}
+
+/// A factor for light.
+pub(crate) fn intensity(text: &str) -> Result<f32, String> {
+    let inside = ratio(text).filter(|value| (0.0..=1e6).contains(value));
+    inside.map(|value| value as f32).ok_or_else(|| "write a number from 0 up, such as 1.5 or 150%".to_owned())
+}
+
+/// A width in pixels.
+pub(crate) fn line_width(text: &str) -> Result<f32, String> {
+    const WIDEST: f64 = 1000.0;
+    let inside = finite(text).filter(|width| *width > 0.0 && *width <= WIDEST);
+    inside
+        .map(|width| width as f32)
+        .ok_or_else(|| format!("write a number of pixels greater than 0, up to {WIDEST}"))
+}
+
+/// A number of MiB, as bytes.
+pub(crate) fn mebibytes(text: &str) -> Result<u64, String> {
+    const MIB: f64 = 1_048_576.0;
+    // Float to integer saturates: more than any file can be.
+    finite(text)
+        .filter(|mib| *mib >= 0.0)
+        .map(|mib| (mib * MIB) as u64)
+        .ok_or_else(|| "write a number of MiB, such as 100".to_owned())
+}
+
+/// A number of threads.
+pub(crate) fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    text.parse().map_err(|_| "write a whole number from 1 up".to_owned())
+}
+
+fn finite(text: &str) -> Option<f64> {
+    text.trim().parse::<f64>().ok().filter(|number| number.is_finite())
+}
+
+/// `0.5`, `50%`, `1:2` or `1/2`.
+fn ratio(text: &str) -> Option<f64> {
+    if let Some(percent) = text.trim().strip_suffix('%') {
+        return finite(percent).map(|percent| percent / 100.0);
+    }
+    let Some((above, below)) = text.split_once([':', '/']) else { return finite(text) };
+    Some(finite(above)? / finite(below)?).filter(|ratio| ratio.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn srgb(text: &str) -> Option<[u8; 3]> {
+        color(text).ok().map(|c| [c.x, c.y, c.z].map(color::linear_to_srgb8))
+    }
+
+    #[test]
+    fn colors_come_in_every_form() {
+        for text in ["1,0.5019608,0", "#ff8000", "#FF8000", "rgb(255,128,0)", " #ff8000 "] {
+            assert_eq!(srgb(text), Some([255, 128, 0]), "{text}");
+        }
+        assert_eq!(srgb("#f80"), Some([255, 136, 0]), "short");
+        assert_eq!(srgb("Orange"), Some([255, 165, 0]), "a name in any case");
+        for text in [
+            "",
+            "1,2,3",
+            "1,0",
+            "0,0,0,0",
+            "nan,0,0",
+            "#ff80",
+            "#12345",
+            "orangish",
+            "transparent",
+            "#ff800080",
+        ] {
+            assert!(color(text).is_err(), "{text:?} is no opaque colour");
+        }
+    }
+
+    #[test]
+    fn sizes_have_two_sides() {
+        let expected = Viewport { width: 1000, height: 600 };
+        for text in ["1000,600", "1000x600", "1000X600", "1000, 600"] {
+            assert_eq!(size(text), Ok(expected), "{text}");
+        }
+        for text in ["", "1000", "0,600", "1000,-1", "1e3,600", "1000,600,2", "99999,1"] {
+            assert!(size(text).is_err(), "{text:?} is no size");
+        }
+    }
+
+    #[test]
+    fn directions_are_axes_or_numbers() {
+        let cases = [
+            ("+X", DVec3::X),
+            ("x", DVec3::X),
+            ("-Z", DVec3::NEG_Z),
+            ("-y+z", DVec3::new(0.0, -1.0, 1.0)),
+            ("+X-Y+Z", DVec3::new(1.0, -1.0, 1.0)),
+            ("1,0,-0.5", DVec3::new(1.0, 0.0, -0.5)),
+        ];
+        for (text, expected) in cases {
+            assert_eq!(direction(text), Ok(expected), "{text}");
+        }
+        for text in ["", "+", "--x", "+x+x", "xy", "x+", "w", "0,0,0", "1,2", "nan,0,1", "inf,0,0"] {
+            assert!(direction(text).is_err(), "{text:?} is no direction");
+        }
+    }
+
+    #[test]
+    fn ratios_are_fractions_too() {
+        for text in ["0.5", "50%", "1:2", "1/2", " 0.5 "] {
+            assert_eq!(unit_ratio(text), Ok(0.5), "{text}");
+        }
+        for text in ["", "1.5", "-1", "150%", "1/0", "nan", "half"] {
+            assert!(unit_ratio(text).is_err(), "{text:?} is no ratio");
+        }
+    }
+
+    #[test]
+    fn switches_have_many_spellings() {
+        assert!(["true", "on", "1", "YES"].iter().all(|text| switch(text) == Ok(true)), "on");
+        assert!(["false", "off", "0", "no"].iter().all(|text| switch(text) == Ok(false)), "off");
+        assert!(switch("maybe").is_err(), "neither");
+    }
+}

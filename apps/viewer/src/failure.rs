@@ -1,0 +1,29 @@
+//! Why a command ended early, sorted by exit code.
+
+use thiserror::Error;
+
+/// Why a command ended early.
+#[derive(Debug, Error)]
+pub(crate) enum Failure {
+    /// The flags make no sense for this model: exit code 2.
+    #[error("{0}")]
+    Usage(String),
+    /// Something could not be done: exit code 1.
+    #[error("{0}")]
+    Work(Box<dyn std::error::Error + Send + Sync>),
+}
+
+impl Failure {
+    /// Something could not be done; `what` says which file, why, and the remedy.
+    pub(crate) fn work(what: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Self {
+        Self::Work(what.into())
+    }
+
+    /// The exit code that `--help` promises.
+    pub(crate) fn exit_code(&self) -> u8 {
+        match self {
+            Self::Work(_) => 1,
+            Self::Usage(_) => 2,
+        }
+    }
+}

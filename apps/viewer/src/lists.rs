@@ -1,0 +1,60 @@
+//! What goes to standard output as text: lists of formats and keys, and what
+//! is in a file.
+
+use std::io::{self, Write};
+
+use crate::args::Request;
+use crate::loading;
+use crate::model::Source;
+use crate::report::Reporter;
+
+/// `--list-readers`: one line per format.
+pub(crate) fn readers() -> u8 {
+    let line = |reader: &trigon_io::Reader| {
+        let endings: Vec<String> = reader.extensions.iter().map(|ending| format!(".{ending}")).collect();
+        format!("{:12} {:24} {}", endings.join(" "), reader.name, reader.reads)
+    };
+    print_lines(trigon_io::readers().iter().map(line))
+}
+
+/// `--list-bindings`: one line per key.
+pub(crate) fn bindings(reporter: Reporter) -> u8 {
+    #[cfg(feature = "window")]
+    {
+        let _ = reporter;
+        print_lines(crate::window::bindings())
+    }
+    #[cfg(not(feature = "window"))]
+    {
+        reporter.error("this trigon-viewer was built without its window, so there are no keys; build it with the feature `window`");
+        1
+    }
+}
+
+/// `--no-render`: what is in each file.
+pub(crate) fn inspect(request: &Request, reporter: Reporter) -> u8 {
+    let mut worst = 0;
+    for source in Source::all(request) {
+        let outcome = loading::load_aloud(&source, request, reporter).map(|model| {
+            let facts = model.summary().lines().into_iter().map(|fact| format!("  {fact}"));
+            print_lines(std::iter::once(source.title()).chain(facts))
+        });
+        let code = outcome.unwrap_or_else(|failure| {
+            reporter.error(&failure);
+            failure.exit_code()
+        });
+        worst = worst.max(code);
+    }
+    worst
+}
+
+/// Writes lines to standard output; whoever closes it early wanted no more.
+fn print_lines(lines: impl IntoIterator<Item = String>) -> u8 {
+    let mut stdout = io::stdout().lock();
+    let outcome = lines.into_iter().try_for_each(|line| writeln!(stdout, "{line}"));
+    match outcome {
+        Ok(()) => 0,
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,
+        Err(_) => 1,
+    }
+}

@@ -1,0 +1,92 @@
+//! Files to models: guards, progress, warnings.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use trigon_io::{LoadOptions, Loaded, Warning};
+use trigon_scene::Scene;
+
+use crate::args::Request;
+use crate::failure::Failure;
+use crate::model::{Model, Source};
+use crate::report::Reporter;
+
+/// Quick loads flash no bar.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Called now and then with how far a load is, 0 to 1; `Break` cancels it.
+pub(crate) type Progress<'a> = &'a (dyn Fn(f32) -> ControlFlow<()> + Sync);
+
+/// Loads what a source names, and what was odd about it.
+pub(crate) fn load(
+    source: &Source,
+    request: &Request,
+    progress: Progress<'_>,
+) -> Result<(Model, Vec<Warning>), Failure> {
+    let (mut scene, mut warnings) = (Scene::new(), Vec::new());
+    match source {
+        Source::BuiltIn => scene = trigon_scene::showcase(),
+        Source::Files(files) => {
+            for (file, before) in files.iter().zip(0u16..) {
+                let part = |fraction| progress((f32::from(before) + fraction) / files.len() as f32);
+                let loaded = load_file(file, request.max_bytes, &part)?;
+                warnings.extend(loaded.warnings);
+                scene.append(&loaded.scene);
+            }
+        }
+    }
+    Ok((Model::new(scene, source.clone(), request)?, warnings))
+}
+
+/// Loads with a progress bar when it takes long and standard error is a
+/// terminal, and reports the warnings.
+pub(crate) fn load_aloud(source: &Source, request: &Request, reporter: Reporter) -> Result<Model, Failure> {
+    let started = Instant::now();
+    let bar = hidden_bar(source.title());
+    let loaded = load(source, request, &|fraction| {
+        if bar.is_hidden() && started.elapsed() > PATIENCE {
+            // Draws nothing unless standard error is a terminal.
+            bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        bar.set_position((f64::from(fraction) * BAR_STEPS as f64) as u64);
+        ControlFlow::Continue(())
+    });
+    bar.finish_and_clear();
+    let (model, warnings) = loaded?;
+    warnings.iter().for_each(|warning| reporter.warning(warning));
+    let seconds = started.elapsed().as_secs_f64();
+    reporter.debug(format_args!("loaded {} in {seconds:.3} s", model.source.title()));
+    Ok(model)
+}
+
+const BAR_STEPS: u64 = 1000;
+
+fn hidden_bar(what: String) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(BAR_STEPS), ProgressDrawTarget::hidden());
+    let style = ProgressStyle::with_template("{msg} {wide_bar} {percent} %");
+    bar.set_style(style.expect("the template is well-formed"));
+    bar.set_message(what);
+    bar
+}
+
+fn load_file(path: &Path, max_bytes: Option<u64>, progress: Progress<'_>) -> Result<Loaded, Failure> {
+    check_size(path, max_bytes)?;
+    let follow = |at: trigon_io::Progress| progress(at.fraction);
+    let options = LoadOptions { progress: Some(&follow), ..LoadOptions::default() };
+    trigon_io::load(path, &options).map_err(Failure::work)
+}
+
+fn check_size(path: &Path, max_bytes: Option<u64>) -> Result<(), Failure> {
+    const MIB: f64 = 1_048_576.0;
+    let (Some(most), Ok(metadata)) = (max_bytes, path.metadata()) else { return Ok(()) };
+    if metadata.len() <= most {
+        return Ok(());
+    }
+    let (size, most) = (metadata.len() as f64 / MIB, most as f64 / MIB);
+    Err(Failure::work(format!(
+        "{}: is {size:.1} MiB, more than --max-size={most} allows; raise it if you want this file",
+        path.display()
+    )))
+}

@@ -1,0 +1,171 @@
+//! What is shown at one time: a scene from one file, from several, or the
+//! built-in one, with the flags' changes applied.
+
+use std::path::{Path, PathBuf};
+
+use trigon_math::{Bounds3, DVec3};
+use trigon_scene::Scene;
+
+use crate::args::{Grouping, Request};
+use crate::failure::Failure;
+use crate::framing::{Eye, Framing, Shot};
+
+/// Where a scene comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// The scene that is shown without a file.
+    BuiltIn,
+    /// Files that are drawn together; at least one.
+    Files(Vec<PathBuf>),
+}
+
+impl Source {
+    /// What the command line names, in the order in which it is shown.
+    pub(crate) fn all(request: &Request) -> Vec<Self> {
+        match request.grouping {
+            _ if request.files.is_empty() => vec![Self::BuiltIn],
+            Grouping::Together => vec![Self::Files(request.files.clone())],
+            Grouping::OneByOne => request.files.iter().map(|file| Self::Files(vec![file.clone()])).collect(),
+        }
+    }
+
+    /// The first file: it names pictures and windows.
+    pub(crate) fn first_file(&self) -> Option<&Path> {
+        match self {
+            Self::BuiltIn => None,
+            Self::Files(files) => files.first().map(PathBuf::as_path),
+        }
+    }
+
+    /// For titles and lists.
+    pub(crate) fn title(&self) -> String {
+        let Self::Files(files) = self else { return "built-in scene".to_owned() };
+        let name =
+            |file: &PathBuf| file.file_name().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
+        match files.as_slice() {
+            [file] => name(file),
+            [file, rest @ ..] => format!("{} and {} more", name(file), rest.len()),
+            [] => String::new(),
+        }
+    }
+}
+
+/// A scene that has something to draw.
+pub(crate) struct Model {
+    pub(crate) scene: Scene,
+    pub(crate) source: Source,
+    bounds: Bounds3,
+}
+
+impl Model {
+    /// The model, or an error when nothing in it can be drawn.
+    pub(crate) fn new(mut scene: Scene, source: Source, request: &Request) -> Result<Self, Failure> {
+        request.look.apply(&mut scene);
+        let bounds = scene.bounds();
+        if bounds.is_empty() {
+            return Err(Failure::work(format!(
+                "{}: nothing to draw: there is no face, line or point in it; check that the right file was exported, with its meshes",
+                source.title()
+            )));
+        }
+        Ok(Self { scene, source, bounds })
+    }
+
+    /// The model of a scene that is shown already.
+    #[cfg(feature = "window")]
+    pub(crate) fn shown(scene: Scene, source: Source) -> Self {
+        Self { bounds: scene.bounds(), scene, source }
+    }
+
+    /// The camera that the flags ask for. The built-in scene is composed for
+    /// its own camera.
+    pub(crate) fn shot(&self, framing: &Framing, aspect: f64) -> Result<Shot, Failure> {
+        let composed = Framing { eye: Eye::SceneCamera(0), ..framing.clone() };
+        let own = self.source == Source::BuiltIn && framing.eye == Eye::Default;
+        if own { &composed } else { framing }.shot(&self.scene, &self.bounds, aspect)
+    }
+
+    /// Counts and sizes of what is visible.
+    pub(crate) fn summary(&self) -> Summary {
+        let visible = self.scene.visible_transforms();
+        let drawn = self.scene.nodes().iter().filter(|(id, _)| visible[id.index()].is_some());
+        let meshes =
+            drawn.filter_map(|(_, node)| self.scene.meshes().get(node.mesh?)).map(|asset| asset.mesh());
+        let mut summary = Summary {
+            vertices: 0,
+            edges: 0,
+            faces: 0,
+            nodes: self.scene.nodes().len(),
+            materials: self.scene.materials.len(),
+            textures: self.scene.textures.len(),
+            size: self.bounds.max - self.bounds.min,
+        };
+        for mesh in meshes {
+            summary.vertices += mesh.vertex_count();
+            summary.edges += mesh.edge_count();
+            summary.faces += mesh.face_count();
+        }
+        summary
+    }
+}
+
+/// Counts and sizes of a model; what several nodes share is counted for each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Summary {
+    pub(crate) vertices: usize,
+    pub(crate) edges: usize,
+    pub(crate) faces: usize,
+    pub(crate) nodes: usize,
+    pub(crate) materials: usize,
+    pub(crate) textures: usize,
+    /// Along X, Y and Z.
+    pub(crate) size: DVec3,
+}
+
+impl Summary {
+    /// One line per fact.
+    pub(crate) fn lines(&self) -> Vec<String> {
+        let DVec3 { x, y, z } = self.size;
+        let facts = [
+            ("vertices", self.vertices.to_string()),
+            ("edges", self.edges.to_string()),
+            ("faces", self.faces.to_string()),
+            ("nodes", self.nodes.to_string()),
+            ("materials", self.materials.to_string()),
+            ("textures", self.textures.to_string()),
+            ("size", format!("{} × {} × {}", short(x), short(y), short(z))),
+        ];
+        facts.map(|(name, value)| format!("{name:9} {value}")).to_vec()
+    }
+}
+
+/// A length to a ten-thousandth of itself, without needless zeros.
+fn short(length: f64) -> String {
+    if length != 0.0 && !(1e-3..1e7).contains(&length) {
+        return format!("{length:.3e}");
+    }
+    let decimals = [1000.0, 100.0, 10.0, 1.0, 0.1, 0.01].iter().take_while(|&&bound| length < bound).count();
+    let text = format!("{length:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn lengths_are_short_and_true() {
+        let cases = [
+            (0.0, "0"),
+            (1.0, "1"),
+            (0.1 + 0.2, "0.3"),
+            (12.3456, "12.35"),
+            (123_456.7, "123457"),
+            (0.001234, "0.001234"),
+            (1e-9, "1.000e-9"),
+        ];
+        for (length, expected) in cases {
+            assert_eq!(short(length), expected, "{length}");
+        }
+    }
+}

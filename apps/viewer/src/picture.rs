@@ -1,0 +1,96 @@
+//! Picture mode: models in, PNG files or a PNG stream out. No display needed.
+
+use std::collections::HashSet;
+use std::io::{self, IsTerminal};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use trigon_io::{Pixels, encode_png, write_png};
+use trigon_scene::{Frame, render};
+
+use crate::args::{Destination, Request, Template};
+use crate::failure::Failure;
+use crate::loading;
+use crate::model::{Model, Source};
+use crate::report::Reporter;
+
+/// Draws and writes a picture of every source. A source that fails does not
+/// keep the others from being drawn; the worst exit code is returned.
+pub(crate) fn run(request: &Request, destination: &Destination, reporter: Reporter) -> u8 {
+    let mut written = HashSet::new();
+    let mut worst = 0;
+    for source in Source::all(request) {
+        if let Err(failure) = draw_one(&source, request, destination, &mut written, reporter) {
+            reporter.error(&failure);
+            worst = worst.max(failure.exit_code());
+        }
+    }
+    worst
+}
+
+fn draw_one(
+    source: &Source,
+    request: &Request,
+    destination: &Destination,
+    written: &mut HashSet<PathBuf>,
+    reporter: Reporter,
+) -> Result<(), Failure> {
+    refuse_terminal(destination)?;
+    let model = loading::load_aloud(source, request, reporter)?;
+    let frame = draw(&model, request, reporter)?;
+    match destination {
+        Destination::Stdout => write_stream(&frame),
+        Destination::File(template) => {
+            let path = new_name(template, source.first_file(), written)?;
+            write_file(&path, &frame)?;
+            reporter.info(format_args!("wrote {} ({}×{})", path.display(), frame.width, frame.height));
+            Ok(())
+        }
+    }
+}
+
+fn draw(model: &Model, request: &Request, reporter: Reporter) -> Result<Frame, Failure> {
+    let started = Instant::now();
+    let shot = model.shot(&request.framing, request.settings.aspect())?;
+    let frame = render(&model.scene, &shot.camera, &request.settings).map_err(Failure::work)?;
+    let (milliseconds, faces) = (started.elapsed().as_secs_f64() * 1e3, model.summary().faces);
+    reporter.debug(format_args!("drew {} ({faces} faces) in {milliseconds:.1} ms", model.source.title()));
+    Ok(frame)
+}
+
+/// Bytes of a picture would only garble a terminal.
+fn refuse_terminal(destination: &Destination) -> Result<(), Failure> {
+    if *destination == Destination::Stdout && io::stdout().is_terminal() {
+        return Err(Failure::Usage(
+            "--output - writes a picture to standard output, which is a terminal; redirect it (> picture.png) or name a file (--output picture.png)".to_owned(),
+        ));
+    }
+    Ok(())
+}
+
+fn write_stream(frame: &Frame) -> Result<(), Failure> {
+    encode_png(io::stdout().lock(), frame.width, frame.height, Pixels::Rgba8(&frame.color))
+        .map_err(Failure::work)
+}
+
+/// Writes a picture; an old file of that name is replaced at once or not at all.
+pub(crate) fn write_file(path: &Path, frame: &Frame) -> Result<(), Failure> {
+    write_png(path, frame.width, frame.height, Pixels::Rgba8(&frame.color)).map_err(Failure::work)
+}
+
+/// The name of the next picture. Models of the same name in different folders
+/// must not replace each other's pictures.
+fn new_name(
+    template: &Template,
+    model: Option<&Path>,
+    written: &mut HashSet<PathBuf>,
+) -> Result<PathBuf, Failure> {
+    let path = template.unused(model);
+    if written.insert(path.clone()) {
+        return Ok(path);
+    }
+    Err(Failure::Usage(format!(
+        "{}: two models would be written to it; write {{n}} in the name of --output (--output '{{model}}_{{n}}.png')",
+        path.display()
+    )))
+}

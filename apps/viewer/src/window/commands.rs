@@ -1,0 +1,111 @@
+//! The viewer's own keys: those of F3D that concern files.
+
+use std::str::FromStr;
+
+use trigon_window::{Action, Chord, Key, Keymap, Modifiers};
+
+/// What the viewer's own keys do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Command {
+    PreviousFile,
+    NextFile,
+    PreviousFileSameView,
+    NextFileSameView,
+    Reload,
+    ResetView,
+    ToggleName,
+    ToggleMetadata,
+    Brighter,
+    Darker,
+    UpY,
+    UpZ,
+    Screenshot,
+    ScreenshotWithoutBackground,
+}
+
+impl Command {
+    const ALL: [Self; 14] = [
+        Self::PreviousFile,
+        Self::NextFile,
+        Self::PreviousFileSameView,
+        Self::NextFileSameView,
+        Self::Reload,
+        Self::ResetView,
+        Self::ToggleName,
+        Self::ToggleMetadata,
+        Self::Brighter,
+        Self::Darker,
+        Self::UpY,
+        Self::UpZ,
+        Self::Screenshot,
+        Self::ScreenshotWithoutBackground,
+    ];
+
+    /// Its name in the keymap, its key, and what the cheat sheet says.
+    fn binding(self) -> (&'static str, Chord, &'static str) {
+        let ctrl = |key| Chord::new(Modifiers::CTRL, key);
+        let shift_l = Chord::new(Modifiers::SHIFT, Key::Character('l'));
+        match self {
+            Self::PreviousFile => ("file.previous", Key::Left.into(), "previous, next file"),
+            Self::NextFile => ("file.next", Key::Right.into(), "previous, next file"),
+            Self::PreviousFileSameView => {
+                ("file.previous.same_view", ctrl(Key::Left), "the same, keeping the view")
+            }
+            Self::NextFileSameView => ("file.next.same_view", ctrl(Key::Right), "the same, keeping the view"),
+            Self::Reload => ("file.reload", Key::Up.into(), "load the file again"),
+            Self::ResetView => ("reset_view", Key::Enter.into(), "reset the view"),
+            Self::ToggleName => ("file.name", 'n'.into(), "name of the file"),
+            Self::ToggleMetadata => ("metadata", 'm'.into(), "counts and sizes"),
+            Self::Brighter => ("light.brighter", 'l'.into(), "brighter, darker light"),
+            Self::Darker => ("light.darker", shift_l, "brighter, darker light"),
+            Self::UpY => ("up.y", ctrl(Key::Character('y')), "+Y up, +Z up"),
+            Self::UpZ => ("up.z", ctrl(Key::Character('z')), "+Y up, +Z up"),
+            Self::Screenshot => ("screenshot", Key::Function(12).into(), "screenshot"),
+            Self::ScreenshotWithoutBackground => {
+                ("screenshot.no_background", ctrl(Key::Function(12)), "screenshot without background")
+            }
+        }
+    }
+}
+
+impl FromStr for Command {
+    type Err = ();
+
+    fn from_str(name: &str) -> Result<Self, ()> {
+        Self::ALL.into_iter().find(|command| command.binding().0 == name).ok_or(())
+    }
+}
+
+/// The window's keys and the viewer's own. The left, right and up arrows
+/// belong to files, as in F3D; the down arrow alone would orbit to one side.
+pub(super) fn keymap() -> Keymap {
+    let mut keymap = Keymap::default();
+    keymap.unbind(Key::Down);
+    for command in Command::ALL {
+        let (name, chord, description) = command.binding();
+        keymap.bind(chord, name, Action::Command, description);
+    }
+    keymap
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_command_is_found_by_its_key_and_its_name() {
+        let keymap = keymap();
+        for command in Command::ALL {
+            let (name, chord, _) = command.binding();
+            assert_eq!(name.parse(), Ok(command), "{name}");
+            let bound = keymap.find(chord).map(|binding| binding.name.as_ref());
+            assert_eq!(bound, Some(name), "{chord}");
+        }
+    }
+
+    #[test]
+    fn orbiting_by_keys_is_still_possible() {
+        let chord = Chord::new(Modifiers::SHIFT, Key::Left);
+        assert!(keymap().find(chord).is_some(), "Shift and an arrow orbit");
+    }
+}

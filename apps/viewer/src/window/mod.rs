@@ -1,0 +1,71 @@
+//! Window mode: the models of the command line in a window, one at a time.
+
+mod background;
+mod commands;
+mod screenshot;
+mod viewer;
+
+use trigon_window::{Application, Keymap, WindowError};
+
+use crate::args::Request;
+use crate::model::Source;
+use crate::report::Reporter;
+use viewer::Viewer;
+
+/// Opens a window and returns the exit code when it is closed.
+pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
+    if !display_is_named() {
+        reporter.error(no_display(request));
+        return 1;
+    }
+    let sources = Source::all(request);
+    let mut application = Application::new(title(&sources[0]));
+    application.stage.settings = request.settings.clone();
+    application.stage.keymap = commands::keymap();
+    let mut viewer = Viewer::new(request.clone(), sources, reporter);
+    match application.run_with(&mut viewer) {
+        Ok(()) => viewer.exit_code(),
+        Err(WindowError::NoDisplay { .. }) => {
+            reporter.error(no_display(request));
+            1
+        }
+        Err(error) => {
+            reporter.error(format_args!("{error}; write a picture instead with --output picture.png"));
+            1
+        }
+    }
+}
+
+/// `--list-bindings`: the mouse, then the keys.
+pub(crate) fn bindings() -> Vec<String> {
+    let keymap: Keymap = commands::keymap();
+    let line = |keys: String, does: &str| format!("{keys:24} {does}");
+    let drags = keymap
+        .drags()
+        .iter()
+        .map(|drag| line(format!("{}{} drag", drag.modifiers, drag.button), &drag.description));
+    let keys = keymap.bindings().iter().map(|binding| line(binding.chord.to_string(), &binding.description));
+    drags.chain([line("Wheel".to_owned(), "zoom")]).chain(keys).collect()
+}
+
+/// What is written on the window.
+fn title(source: &Source) -> String {
+    format!("{} - trigon", source.title())
+}
+
+/// Loading a large model only to find that it cannot be shown is no fun, so
+/// this is asked first. Other systems always have a display, or say so later.
+fn display_is_named() -> bool {
+    let named = |variable| std::env::var_os(variable).is_some_and(|value| !value.is_empty());
+    !cfg!(target_os = "linux") || named("DISPLAY") || named("WAYLAND_DISPLAY")
+}
+
+fn no_display(request: &Request) -> String {
+    let file = match request.files.first() {
+        None => String::new(),
+        Some(file) => format!(" {}", file.display()),
+    };
+    format!(
+        "there is no display to open a window on; write a picture instead: trigon-viewer{file} --output picture.png"
+    )
+}

@@ -1,0 +1,29 @@
+//! Where screenshots go: a folder of their own among the user's pictures, or
+//! the working folder where there are none.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use trigon_scene::Frame;
+
+use crate::args::Template;
+use crate::failure::Failure;
+use crate::picture::write_file;
+
+/// Writes a screenshot of a model (`None` for the built-in scene) under a name
+/// that is not in use, and returns the name.
+pub(super) fn save(frame: &Frame, model: Option<&Path>) -> Result<PathBuf, Failure> {
+    let template = Template::parse("{model}_{n}.png").expect("the template is well-formed");
+    let folder = folder();
+    let path = template.unused_in(&folder, model);
+    write_file(&path, frame)?;
+    Ok(path)
+}
+
+/// `~/Pictures/trigon-viewer` if there is a folder for pictures.
+fn folder() -> PathBuf {
+    let pictures =
+        std::env::home_dir().map(|home| home.join("Pictures")).filter(|pictures| pictures.is_dir());
+    let own = pictures.map(|pictures| pictures.join("trigon-viewer"));
+    own.filter(|own| fs::create_dir_all(own).is_ok()).unwrap_or_default()
+}
