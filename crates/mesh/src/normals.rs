@@ -124,10 +124,23 @@ impl Mesh {
     }
 }
 
-/// The angle between two vectors in radians, 0 if one of them is zero; within
-/// 10⁻⁴ of the exact one, which is plenty for a weight and several times
-/// faster (M. Abramowitz and I. Stegun, "Handbook of Mathematical Functions",
-/// 1964, 4.4.45).
+/// acos(x) / √(1 − x) for x from 0 to 1, by powers of x: within 2·10⁻⁸
+/// (M. Abramowitz and I. Stegun, "Handbook of Mathematical Functions", 1964,
+/// 4.4.46).
+const ARC_COSINE: [f64; 8] = [
+    1.570_796_305_0,
+    -0.214_598_801_6,
+    0.088_978_987_4,
+    -0.050_174_304_6,
+    0.030_891_881_0,
+    -0.017_088_125_6,
+    0.006_670_090_1,
+    -0.001_262_491_1,
+];
+
+/// The angle between two vectors in radians, 0 if one of them is zero. Within
+/// 10⁻⁷ away from 0 and π, which is plenty for a weight, and several times
+/// faster than the exact one.
 fn angle(a: DVec3, b: DVec3) -> f64 {
     let squares = a.length_squared() * b.length_squared();
     if squares <= 0.0 {
@@ -135,8 +148,8 @@ fn angle(a: DVec3, b: DVec3) -> f64 {
     }
     let cosine = a.dot(b) / squares.sqrt();
     let x = cosine.abs().min(1.0);
-    let polynomial = 1.5707288 + x * (-0.2121144 + x * (0.0742610 - x * 0.0187293));
-    let acute = (1.0 - x).sqrt() * polynomial;
+    let series = ARC_COSINE.iter().rev().fold(0.0, |sum, factor| sum * x + factor);
+    let acute = (1.0 - x).sqrt() * series;
     if cosine < 0.0 { PI - acute } else { acute }
 }
 
@@ -171,7 +184,7 @@ mod tests {
             let exact = PI * f64::from(step) / 1000.0;
             let (sin, cos) = elementary::sin_cos(exact);
             let found = angle(DVec3::X * 3.0, DVec3::new(cos, sin, 0.0) * 0.1);
-            assert!((found - exact).abs() < 1e-4, "{found} for {exact}");
+            assert!((found - exact).abs() < 1e-7, "{found} for {exact}");
         }
         assert_eq!(angle(DVec3::ZERO, DVec3::X), 0.0, "no direction, no weight");
     }

@@ -40,11 +40,14 @@ fn check_close(what: &str, found: f64, expected: f64, relative: f64) {
     assert!((found - expected).abs() <= relative * expected, "{what} is {found}, not {expected}");
 }
 
+/// Name, constructor, (vertices, edges, faces), corners of a face, area, volume.
+type Known = (&'static str, fn(f32) -> Mesh, [usize; 3], usize, f64, f64);
+
 #[test]
 fn the_platonic_solids() {
     // Counts, surface and volume for edge 1, from any table.
     let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
-    let table: [(&str, fn(f32) -> Mesh, [usize; 3], usize, f64, f64); 5] = [
+    let table: [Known; 5] = [
         ("tetrahedron", primitives::tetrahedron, [4, 6, 4], 3, 3.0_f64.sqrt(), SQRT_2 / 12.0),
         ("cube", primitives::cube, [8, 12, 6], 4, 6.0, 1.0),
         ("octahedron", primitives::octahedron, [6, 12, 8], 3, 2.0 * 3.0_f64.sqrt(), SQRT_2 / 3.0),
