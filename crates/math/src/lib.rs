@@ -57,3 +57,8 @@ pub use plane::Plane;
 
 pub use homogeneous::HomogeneousPoint;
 pub use matrix::Matrix;
+
+/// Runs the README's example as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -50,11 +50,14 @@ fn value(at_corners: &[BigRational; 3], point: &Point) -> BigRational {
     terms.map(|(value, weight)| value * weight).sum()
 }
 
-/// What is on either side of a line, given a linear function at the corners:
-/// (not negative, not positive).
+/// What is on either side of a line, given a linear function at the corners: not
+/// negative, and negative with its border. What lies on the line is inside only.
 pub(super) fn split(polygon: &[Point], at_corners: &[BigRational; 3]) -> (Vec<Point>, Vec<Point>) {
-    let (mut inside, mut outside) = (Vec::new(), Vec::new());
     let values: Vec<BigRational> = polygon.iter().map(|p| value(at_corners, p)).collect();
+    if !values.iter().any(Signed::is_negative) {
+        return (polygon.to_vec(), Vec::new());
+    }
+    let (mut inside, mut outside) = (Vec::new(), Vec::new());
     for (index, (p, from)) in polygon.iter().zip(&values).enumerate() {
         let next = (index + 1) % polygon.len();
         let (q, to) = (&polygon[next], &values[next]);

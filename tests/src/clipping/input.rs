@@ -125,7 +125,7 @@ fn triangle_of(coordinate: impl Fn() -> BoxedStrategy<f32>) -> impl Strategy<Val
 
 /// All three corners within a unit or two in the last place of planes: here
 /// rounding decides the sides.
-fn nearly_in_a_plane() -> impl Strategy<Value = [Vec4; 3]> {
+pub(super) fn nearly_in_a_plane() -> impl Strategy<Value = [Vec4; 3]> {
     let ulps = |value: f32, steps: i32| {
         (0..steps.abs()).fold(value, |value, _| if steps < 0 { value.next_down() } else { value.next_up() })
     };

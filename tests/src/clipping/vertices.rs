@@ -36,6 +36,16 @@ fn positions_follow_weights(triangle: [Vec4; 3], band: f64, polygon: &ClipPolygo
     }
 }
 
+/// Corners on the near plane, some `nudged` by it to one side, before the eye
+/// and behind it.
+fn triangles_at_the_near_plane(nudged: fn(f32) -> f32) -> impl Strategy<Value = [Vec4; 3]> {
+    let corner = move || {
+        (-4.0..4.0_f32, -4.0..4.0_f32, -4.0..4.0_f32, any::<bool>())
+            .prop_map(move |(x, y, w, off)| Vec4::new(x, y, if off { nudged(w) } else { w }, w))
+    };
+    [corner(), corner(), corner()]
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(20_000))]
 
@@ -62,6 +72,31 @@ proptest! {
         let flat = triangle.map(|corner| corner.with_y(y));
         for vertex in check::clip(flat, &planes).vertices() {
             prop_assert_eq!(vertex.position.y.to_bits(), y.to_bits());
+        }
+    }
+
+    /// A plane that no corner is outside of must not be made to cut by the
+    /// rounding of earlier cuts: neighbours which it does cut would disagree. No
+    /// far plane here, as restoring the near side moves `z` by that rounding.
+    #[test]
+    fn a_plane_with_all_corners_inside_cuts_nothing(
+        triangle in triangles_at_the_near_plane(f32::next_down), planes in input::planes(),
+    ) {
+        let [with, without] = [true, false].map(|near| {
+            let polygon = check::clip(triangle, &input::Planes { near, far: false, ..planes });
+            polygon.vertices().iter().map(|vertex| vertex.weights).collect::<Vec<_>>()
+        });
+        prop_assert_eq!(with, without);
+    }
+
+    /// Nor may rounding leave anything but the border where no corner is inside.
+    #[test]
+    fn a_plane_with_no_corner_inside_leaves_at_most_its_border(
+        triangle in triangles_at_the_near_plane(f32::next_up), planes in input::planes(),
+    ) {
+        let polygon = check::clip(triangle, &input::Planes { near: true, far: false, ..planes });
+        for vertex in polygon.vertices() {
+            prop_assert_eq!(vertex.position.z, vertex.position.w);
         }
     }
 
