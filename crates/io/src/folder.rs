@@ -77,6 +77,8 @@ pub(crate) struct Found {
 pub(crate) struct Folder {
     /// Canonical; `None` when the model came from a stream.
     root: Option<PathBuf>,
+    /// The same folder as the caller named it, for messages and lists.
+    shown: PathBuf,
     limits: Limits,
     total: u64,
     read: Vec<PathBuf>,
@@ -86,12 +88,12 @@ impl Folder {
     /// The folder that holds a model.
     pub(crate) fn of(model: &Path, limits: &Limits) -> io::Result<Self> {
         let parent = model.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        Ok(Self { root: Some(fs::canonicalize(parent)?), ..Self::none(limits) })
+        Ok(Self { root: Some(fs::canonicalize(parent)?), shown: model.parent().unwrap_or(parent).to_owned(), ..Self::none(limits) })
     }
 
     /// No folder: every name is refused.
     pub(crate) fn none(limits: &Limits) -> Self {
-        Self { root: None, limits: limits.clone(), total: 0, read: Vec::new() }
+        Self { root: None, shown: PathBuf::new(), limits: limits.clone(), total: 0, read: Vec::new() }
     }
 
     /// Every file that was read, in order, without repetition.
@@ -128,8 +130,13 @@ impl Folder {
 
     /// The folder of a file that was read, relative to the model's.
     pub(crate) fn relative_folder(&self, file: &Path) -> PathBuf {
-        let inside = self.root.as_ref().and_then(|root| file.strip_prefix(root).ok());
-        inside.and_then(Path::parent).unwrap_or(Path::new("")).to_owned()
+        let inside = file.strip_prefix(&self.shown).unwrap_or(Path::new(""));
+        inside.parent().unwrap_or(Path::new("")).to_owned()
+    }
+
+    /// Where a name would be looked for.
+    pub(crate) fn would_be(&self, within: &Path, name: &str) -> PathBuf {
+        self.shown.join(within).join(name)
     }
 
     /// Counts bytes that did not come from a file of their own.
@@ -142,12 +149,11 @@ impl Folder {
         let root = self.root.as_ref().ok_or(Refusal::NoFolder)?;
         let relative = within.join(relative_path(name)?);
         let path = fs::canonicalize(root.join(&relative)).map_err(missing_or_read)?;
-        if !path.starts_with(root) {
-            return Err(Refusal::Outside);
-        }
+        let inside = path.strip_prefix(root).map_err(|_| Refusal::Outside)?;
+        let shown = self.shown.join(inside);
         let bytes = self.read_regular(&path)?;
-        self.note(path.clone());
-        Ok(Found { bytes, path, respelled: false })
+        self.note(shown.clone());
+        Ok(Found { bytes, path: shown, respelled: false })
     }
 
     fn read_regular(&mut self, path: &Path) -> Result<Vec<u8>, Refusal> {

@@ -64,7 +64,10 @@ pub(crate) fn parse_document(path: &Path, json: &[u8]) -> Result<Document, LoadE
 }
 
 fn json_error(path: &Path, error: &serde_json::Error) -> LoadError {
-    let what = format!("this is not the JSON of a glTF file: {error}");
+    let text = error.to_string();
+    // The place is said once, at the front.
+    let text = text.split(" at line ").next().unwrap_or_default();
+    let what = format!("this is not the JSON of a glTF file: {text} (column {})", error.column());
     LoadError::malformed(path, what, "export the model again").at(Place::Line(error.line() as u64))
 }
 

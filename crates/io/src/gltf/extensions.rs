@@ -30,7 +30,7 @@ pub(crate) fn check_extensions(path: &Path, root: &Root, warnings: &mut Warnings
     for name in &root.extensions_used {
         let known = [READ, PICTURES, INVISIBLE].iter().any(|list| list.contains(&name.as_str()));
         if !known {
-            warnings.push(Place::Whole, format!("the extension {name} is not drawn yet"), "nothing to do; the rest of the model is drawn");
+            warnings.push(Place::Whole, format!("the extension {name} is not drawn yet"), "nothing to do: the rest of the model is drawn");
         }
     }
     Ok(())
@@ -51,16 +51,17 @@ fn remedy(missing: &[&str]) -> &'static str {
 
 /// Says once each what the file has and trigon does not draw yet.
 pub(crate) fn warn_of_undrawn(root: &Root, warnings: &mut Warnings) {
-    let remedy = "nothing to do; the rest of the model is drawn";
-    let mut warn = |count: usize, what: &str| {
+    let remedy = "nothing to do: the rest of the model is drawn";
+    let mut warn = |count: usize, kind: &str, what: &str| {
         if count > 0 {
             let plural = if count == 1 { "" } else { "s" };
-            warnings.push(Place::Whole, format!("{count} {what}{plural} not drawn yet"), remedy);
+            warnings.push(Place::Whole, format!("{count} {kind}{plural} {what}"), remedy);
         }
     };
     let primitives = || root.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let is_morphed = |primitive: &&gltf_json::mesh::Primitive| primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty());
-    warn(root.animations.len(), "animation");
-    warn(root.nodes.iter().filter(|node| node.skin.is_some()).count(), "skinned mesh is shown in its bind pose: the skin is");
-    warn(primitives().filter(is_morphed).count(), "morphed primitive is shown in its base shape: the morph target is");
+    let skinned = root.nodes.iter().filter(|node| node.skin.is_some()).count();
+    warn(root.animations.len(), "animation", "not played yet: the rest pose is shown");
+    warn(skinned, "skin", "not followed yet: the bind pose is shown");
+    warn(primitives().filter(is_morphed).count(), "set", "of morph targets not drawn yet: the base shape is shown");
 }

@@ -92,7 +92,7 @@ fn warn_of_textures(from: &gltf_json::Material, warnings: &mut Warnings) {
     ];
     for (name, _) in textures.iter().filter(|(_, is_there)| *is_there) {
         let place = Place::Named(format!("material \"{}\"", from.name.as_deref().unwrap_or_default()));
-        warnings.push(place, format!("a {name} texture is not drawn yet"), "nothing to do; the base colour is drawn");
+        warnings.push(place, format!("a {name} texture is not drawn yet"), "nothing to do: the base colour is drawn");
     }
 }
 

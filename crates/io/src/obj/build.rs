@@ -39,6 +39,8 @@ pub(crate) fn build_parts(parsed: &Parsed, warnings: &mut Warnings) -> (Vec<Part
     let parts = names.iter().zip(&spans).map(cut).collect();
     let place = parsed.non_finite_line.map_or(Place::Whole, Place::Line);
     warnings.push_counted(dropped.non_finite, place, "a face has a vertex that is not finite and is left out", "export the model again");
+    let colors = parsed.mesh.vertex_color.chunks_exact(3).filter(|color| !color.iter().all(|channel| channel.is_finite())).count();
+    warnings.push_counted(colors, Place::Whole, "a vertex has a colour that is not finite; it is white there", "export the model again");
     warnings.push_counted(dropped.flat, Place::Whole, "a face has fewer than 3 different vertices and is left out", "clean the model up");
     (parts, offset)
 }

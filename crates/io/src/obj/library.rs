@@ -69,12 +69,13 @@ fn read_libraries(import: &mut Import<'_>, record: &Record) -> (HashMap<String, 
                 Ok(found) => found,
                 Err(refusal) => {
                     any_missing = true;
-                    let what = format!("material library {name} is not used, the default material is: {refusal}");
+                    let tried = import.folder.would_be(Path::new(""), &name);
+                    let what = format!("material library \"{}\" is not read ({refusal}), the default material is used", tried.display());
                     import.warnings.push(Place::Line(*line), what, refusal.remedy());
                     continue;
                 }
             };
-            note_respelled(import, &name, &found, Place::Line(*line));
+            note_respelled(import, &format!("material library \"{name}\""), &found, Place::Line(*line));
             for material in parse_mtl(&found.path, &found.bytes, &mut import.warnings) {
                 materials.insert(material.material.name.clone(), material);
             }
@@ -93,10 +94,13 @@ fn find_libraries(import: &mut Import<'_>, names: &str) -> Vec<(String, Result<F
     let escaped = names.replace("\\ ", &ESCAPED.to_string());
     let each: Vec<String> = escaped.split_whitespace().map(|name| name.replace(ESCAPED, " ")).collect();
     if whole.is_ok() || each.len() < 2 {
-        return vec![(format!("\"{names}\""), whole)];
+        return vec![(names.to_owned(), whole)];
     }
-    let found = each.iter().map(|name| (format!("\"{name}\""), import.folder.read(here, name, Lookup::Forgiving)));
-    found.collect()
+    let mut read = |name: String| {
+        let result = import.folder.read(here, &name, Lookup::Forgiving);
+        (name, result)
+    };
+    each.into_iter().map(&mut read).collect()
 }
 
 fn note_respelled(import: &mut Import<'_>, name: &str, found: &Found, place: Place) {

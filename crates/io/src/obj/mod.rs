@@ -32,7 +32,11 @@ pub(crate) fn import_obj(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), Lo
     let materials = library::add_materials(import, &record)?;
     let mut plain = PlainMaterial { id: None, has_colors };
     let transform = Transform::from_translation(offset);
-    for part in parts {
+    let stem = import.path.file_stem().map_or_else(|| "object".to_owned(), |stem| stem.to_string_lossy().into_owned());
+    for mut part in parts {
+        if part.name.is_empty() {
+            part.name.clone_from(&stem);
+        }
         let ids = part.materials.iter().map(|material| material.and_then(|index| materials[index as usize]));
         let materials = ids.map(|id| id.unwrap_or_else(|| plain.id(import))).collect();
         let mesh = import.scene.add_mesh(part.name.clone(), part.mesh);

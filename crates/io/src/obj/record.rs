@@ -79,7 +79,12 @@ impl Record {
     }
 
     pub(crate) fn set_material(&mut self, line: u64, rest: &[u8]) {
-        let index = self.materials.index(decode_name(rest));
+        let name = decode_name(rest);
+        if name.is_empty() {
+            self.material = None;
+            return;
+        }
+        let index = self.materials.index(name);
         if index as usize == self.material_lines.len() {
             self.material_lines.push(line);
         }

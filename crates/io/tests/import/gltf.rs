@@ -1,0 +1,344 @@
+//! glTF: accessors of every kind, primitives, nodes, cameras, lights, and what
+//! is refused.
+
+use serde_json::{Value, json};
+use trigon_camera::Projection;
+use trigon_io::Loaded;
+use trigon_math::{DVec3, Vec2, Vec3, Vec4};
+use trigon_scene::{AlphaMode, LightKind, Shading};
+
+use crate::{loaded, meshes, refused, warnings, warns_once};
+
+/// A document under construction: JSON and the bytes of its only buffer.
+pub(crate) struct Doc {
+    pub(crate) json: Value,
+    pub(crate) bytes: Vec<u8>,
+}
+
+impl Doc {
+    /// Two triangles of a square, as four points and six indices, in one node.
+    pub(crate) fn square() -> Self {
+        let mut doc = Self { json: json!({"asset": {"version": "2.0"}, "accessors": [], "bufferViews": []}), bytes: Vec::new() };
+        let position = doc.floats("VEC3", &[0., 0., 0., 1., 0., 0., 1., 1., 0., 0., 1., 0.]);
+        let indices = doc.accessor(5121, "SCALAR", 6, &[0, 1, 2, 0, 2, 3]);
+        doc.json["meshes"] = json!([{"primitives": [{"attributes": {"POSITION": position}, "indices": indices}]}]);
+        doc.json["nodes"] = json!([{"mesh": 0}]);
+        doc
+    }
+
+    pub(crate) fn floats(&mut self, kind: &str, values: &[f32]) -> usize {
+        let width = match kind {
+            "VEC2" => 2,
+            "VEC3" => 3,
+            _ => 4,
+        };
+        let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        self.accessor(5126, kind, values.len() / width, &bytes)
+    }
+
+    fn accessor(&mut self, component: u32, kind: &str, count: usize, data: &[u8]) -> usize {
+        let view = self.view(data);
+        push(&mut self.json["accessors"], json!({"bufferView": view, "componentType": component, "type": kind, "count": count}))
+    }
+
+    pub(crate) fn view(&mut self, data: &[u8]) -> usize {
+        while !self.bytes.len().is_multiple_of(4) {
+            self.bytes.push(0);
+        }
+        let offset = self.bytes.len();
+        self.bytes.extend(data);
+        push(&mut self.json["bufferViews"], json!({"buffer": 0, "byteOffset": offset, "byteLength": data.len()}))
+    }
+
+    fn primitive(&mut self) -> &mut Value {
+        &mut self.json["meshes"][0]["primitives"][0]
+    }
+
+    /// The document as a GLB.
+    pub(crate) fn glb(&self) -> Vec<u8> {
+        let mut document = self.json.clone();
+        document["buffers"] = json!([{"byteLength": self.bytes.len()}]);
+        let mut text = serde_json::to_vec(&document).expect("JSON");
+        text.resize(text.len().next_multiple_of(4), b' ');
+        let mut binary = self.bytes.clone();
+        binary.resize(binary.len().next_multiple_of(4), 0);
+        let total = 12 + 8 + text.len() + 8 + binary.len();
+        let words = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
+        let parts = [words(&[0x4654_6c67, 2, total as u32, text.len() as u32, 0x4e4f_534a]), text, words(&[binary.len() as u32, 0x004e_4942]), binary];
+        parts.concat()
+    }
+
+    pub(crate) fn load(&self) -> Loaded {
+        loaded("a.glb", &self.glb())
+    }
+
+    fn refused(&self) -> String {
+        refused("a.glb", &self.glb())
+    }
+}
+
+fn push(list: &mut Value, item: Value) -> usize {
+    if list.is_null() {
+        *list = json!([]);
+    }
+    let list = list.as_array_mut().expect("a list");
+    list.push(item);
+    list.len() - 1
+}
+
+#[test]
+fn a_square_arrives() {
+    let loaded = Doc::square().load();
+    let mesh = meshes(&loaded)[0];
+    assert_eq!((mesh.vertex_count(), mesh.edge_count(), mesh.face_count()), (4, 5, 2), "welded along the diagonal");
+    assert_eq!(warnings(&loaded), [""; 0], "nothing to warn of");
+    let (_, material) = loaded.scene.materials.iter().next().expect("the default material");
+    assert_eq!((material.base_color, material.shading), (Vec4::ONE, Shading::Lambert), "white and matt");
+}
+
+#[test]
+fn equal_places_are_one_vertex_and_corners_keep_the_split() {
+    let mut doc = Doc::square();
+    let six = doc.floats("VEC3", &[0., 0., 0., 1., 0., 0., 1., 1., 0., -0., 0., 0., 1., 1., 0., 0., 1., 0.]);
+    let uv = doc.floats("VEC2", &[0., 0., 1., 0., 1., 1., 5., 5., 6., 6., 5., 6.]);
+    *doc.primitive() = json!({"attributes": {"POSITION": six, "TEXCOORD_0": uv}});
+    let loaded = doc.load();
+    let mesh = meshes(&loaded)[0];
+    assert_eq!((mesh.vertex_count(), mesh.edge_count()), (4, 5), "the two triangles share an edge");
+    assert_eq!(mesh.attributes().uv_sets[0][3], Vec2::splat(5.0), "and keep their own coordinates");
+}
+
+#[test]
+fn primitives_are_slots_of_one_mesh() {
+    let mut doc = Doc::square();
+    let first = doc.primitive().clone();
+    let mut second = first.clone();
+    second["material"] = json!(0);
+    doc.json["materials"] = json!([{"name": "red", "alphaMode": "MASK", "alphaCutoff": 0.25, "doubleSided": true,
+        "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 0.5]}, "extensions": {"KHR_materials_unlit": {}}}]);
+    doc.json["meshes"][0]["primitives"] = json!([first, second]);
+    doc.json["nodes"] = json!([{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b"}]);
+    let loaded = doc.load();
+    assert_eq!(loaded.scene.meshes().len(), 1, "two nodes share a mesh");
+    let slots = meshes(&loaded)[0].attributes().face_materials.clone();
+    assert_eq!(slots, Some(vec![0, 0, 1, 1]), "a slot for each primitive");
+    let (_, node) = loaded.scene.nodes().iter().nth(1).expect("the second node");
+    let red = loaded.scene.materials.get(node.materials[1]).expect("a material");
+    assert_eq!((red.base_color, red.shading), (Vec4::new(1.0, 0.0, 0.0, 0.5), Shading::Unlit), "colour and shading");
+    assert_eq!((red.alpha_mode, red.double_sided), (AlphaMode::Mask { cutoff: 0.25 }, true), "alpha and sides");
+}
+
+#[test]
+fn integers_of_every_kind_are_positions_too() {
+    // KHR_mesh_quantization: the same three points in all types.
+    let cases: [(u32, bool, Vec<u8>, Vec3); 5] = [
+        (5120, false, vec![0, 0, 0, 0, 127, 0, 0, 0, 0, 129, 0, 0], Vec3::new(127.0, 0.0, 0.0)),
+        (5120, true, vec![0, 0, 0, 0, 127, 0, 0, 0, 0, 128, 0, 0], Vec3::X),
+        (5121, true, vec![0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0, 0], Vec3::X),
+        (5122, true, [0i16, 0, 0, 0, 32767, 0, 0, 0, 0, -32768, 0, 0].iter().flat_map(|v| v.to_le_bytes()).collect(), Vec3::X),
+        (5123, false, [0u16, 0, 0, 0, 65535, 0, 0, 0, 0, 9, 0, 0].iter().flat_map(|v| v.to_le_bytes()).collect(), Vec3::X * 65535.0),
+    ];
+    for (component, normalized, bytes, second) in cases {
+        let mut doc = Doc::square();
+        let accessor = doc.accessor(component, "VEC3", 3, &bytes);
+        let view = doc.json["accessors"][accessor]["bufferView"].as_u64().expect("a view") as usize;
+        doc.json["bufferViews"][view]["byteStride"] = json!(bytes.len() / 3);
+        doc.json["accessors"][accessor]["normalized"] = json!(normalized);
+        doc.json["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
+        *doc.primitive() = json!({"attributes": {"POSITION": accessor}});
+        let loaded = doc.load();
+        assert_eq!(meshes(&loaded)[0].positions()[1], second, "component {component}, normalized {normalized}");
+    }
+}
+
+#[test]
+fn sparse_values_replace_and_absent_views_are_zero() {
+    let mut doc = Doc::square();
+    let (indices, values) = (doc.view(&[1, 0, 2, 0]), doc.view(&[2.0f32, 0., 0., 0., 3., 0.].iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<_>>()));
+    let sparse = json!({"count": 2, "indices": {"bufferView": indices, "componentType": 5123}, "values": {"bufferView": values}});
+    let accessor = push(&mut doc.json["accessors"], json!({"componentType": 5126, "type": "VEC3", "count": 3, "sparse": sparse}));
+    *doc.primitive() = json!({"attributes": {"POSITION": accessor}});
+    let loaded = doc.load();
+    assert_eq!(meshes(&loaded)[0].positions(), [Vec3::ZERO, Vec3::X * 2.0, Vec3::Y * 3.0], "zeros and replacements");
+    doc.json["accessors"][accessor]["sparse"]["count"] = json!(4);
+    assert!(doc.refused().contains("sparse"), "more than there are");
+    doc.json["accessors"][accessor]["sparse"]["count"] = json!(2);
+    doc.json["accessors"][accessor]["count"] = json!(2);
+    assert!(doc.refused().contains("sparse index 2"), "out of range");
+}
+
+#[test]
+fn claims_beyond_the_bytes_are_refused() {
+    let position = |key: &str, value: Value| {
+        let mut doc = Doc::square();
+        doc.json["accessors"][0][key] = value;
+        doc.refused()
+    };
+    for count in [0u64, 5, 1 << 32, (1 << 62) + 1, u64::MAX] {
+        assert!(position("count", json!(count)).contains("accessor 0"), "count {count}");
+    }
+    for offset in [1u64, 1 << 32, u64::MAX - 7, u64::MAX] {
+        assert!(position("byteOffset", json!(offset)).contains("accessor 0"), "offset {offset}");
+    }
+    assert!(position("type", json!("VEC2")).contains("type"), "a type that is none of POSITION's");
+    assert!(position("max", json!([1, 1])).contains("max"), "bounds of another size");
+    let view = |key: &str, value: Value| {
+        let mut doc = Doc::square();
+        doc.json["bufferViews"][0][key] = value;
+        doc.refused()
+    };
+    for value in [49u64, 4_000_000_000, u64::MAX] {
+        view("byteStride", json!(value));
+        view("byteLength", json!(value.saturating_add(30)));
+        view("byteOffset", json!(value.saturating_add(30)));
+    }
+    assert!(view("byteStride", json!(4)).contains("4 bytes apart"), "elements that overlap");
+    assert!(view("buffer", json!(1)).contains("buffer 1"), "no such buffer");
+}
+
+#[test]
+fn indices_are_checked() {
+    for (component, bytes) in [(5121, vec![0, 1, 4]), (5125, [0u32, 1, u32::MAX].iter().flat_map(|v| v.to_le_bytes()).collect())] {
+        let mut doc = Doc::square();
+        let accessor = doc.accessor(component, "SCALAR", 3, &bytes);
+        doc.primitive()["indices"] = json!(accessor);
+        assert!(doc.refused().contains("leads nowhere; there are 4 vertices"), "component {component}");
+    }
+    let mut doc = Doc::square();
+    doc.primitive()["indices"] = json!(0);
+    assert!(doc.refused().contains("accessor 0"), "positions are no indices");
+}
+
+#[test]
+fn optional_attributes_that_do_not_fit_are_ignored() {
+    let mut doc = Doc::square();
+    let normal = doc.floats("VEC3", &[0., 0., 1.]);
+    let color = doc.floats("VEC3", &[f32::NAN, 0., 0., 0.5, 0.5, 0.5, 2., 0., 0., 1., 1., 1.]);
+    doc.primitive()["attributes"]["NORMAL"] = json!(normal);
+    doc.primitive()["attributes"]["COLOR_0"] = json!(color);
+    let loaded = doc.load();
+    warns_once(&loaded, "NORMAL has 1 values for 4 vertices");
+    let colors = meshes(&loaded)[0].attributes().corner_colors.clone().expect("colours");
+    assert_eq!(colors[..3], [Vec4::ONE, Vec4::new(0.5, 0.5, 0.5, 1.0), Vec4::new(1.0, 0.0, 0.0, 1.0)], "clean, opaque");
+}
+
+#[test]
+fn nodes_hang_together_in_f64() {
+    let mut doc = Doc::square();
+    doc.json["nodes"] = json!([
+        {"children": [2, 1], "translation": [10_000_000.001, 0, 0]},
+        {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.1, 0, 0, 1]},
+        {"mesh": 0, "rotation": [0, 0, 0, 0], "name": "turned"},
+        {"mesh": 0, "name": "elsewhere"}]);
+    doc.json["scenes"] = json!([{"nodes": [3]}, {"nodes": [0]}]);
+    doc.json["scene"] = json!(1);
+    let loaded = doc.load();
+    let scene = &loaded.scene;
+    let ids: Vec<_> = scene.nodes().iter().map(|(id, _)| id).collect();
+    assert_eq!(ids.len(), 3, "the default scene only");
+    assert_eq!(scene.node(ids[0]).expect("a node").children(), [ids[2], ids[1]], "in the file's order");
+    assert_eq!(scene.world_transform(ids[1]).translation, DVec3::new(10_000_000.001 + 0.1, 0.0, 0.0), "all digits");
+    warns_once(&loaded, "rotation has no length");
+}
+
+#[test]
+fn broken_node_trees_are_refused() {
+    for nodes in [json!([{"mesh": 0, "children": [0]}]), json!([{"mesh": 0}, {"children": [2]}, {"children": [1]}]), json!([{"children": [1, 1]}, {"mesh": 0}]), json!([{"children": [2]}, {"children": [2]}, {"mesh": 0}]), json!([{"mesh": 0, "children": [9]}]), json!([{"mesh": 9}])] {
+        let mut doc = Doc::square();
+        doc.json["nodes"] = nodes.clone();
+        assert!(doc.refused().contains("node"), "{nodes}");
+    }
+}
+
+#[test]
+fn a_chain_of_nodes_may_be_deep_but_not_endless() {
+    let chain = |depth: usize| {
+        let mut doc = Doc::square();
+        let link = |index: usize| if index + 1 < depth { json!({"children": [index + 1]}) } else { json!({"mesh": 0}) };
+        doc.json["nodes"] = (0..depth).map(link).collect();
+        doc
+    };
+    let loaded = chain(50_000).load();
+    assert!(!loaded.scene.bounds().is_empty(), "the square hangs at the end");
+    assert!(chain(100_002).refused().contains("deep"), "beyond the limit");
+}
+
+#[test]
+fn cameras_and_lights_stand_on_nodes() {
+    let mut doc = Doc::square();
+    doc.json["cameras"] = json!([
+        {"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.25}},
+        {"type": "orthographic", "orthographic": {"xmag": 2, "ymag": 3, "znear": 0, "zfar": 8}},
+        {"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0}}]);
+    doc.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [
+        {"type": "directional", "intensity": std::f32::consts::PI, "color": [1, 0, 0]}, {"type": "spot", "spot": {}}]}});
+    doc.json["nodes"] = json!([{"mesh": 0}, {"camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}},
+        {"camera": 1, "extensions": {"KHR_lights_punctual": {"light": 1}}}, {"camera": 2}]);
+    let loaded = doc.load();
+    let nodes: Vec<_> = loaded.scene.nodes().iter().map(|(_, node)| node).collect();
+    assert_eq!(nodes[1].camera, Projection::perspective(0.5, 0.25, None).ok(), "no far plane");
+    assert_eq!(nodes[2].camera, Projection::orthographic(6.0, 0.0, 8.0).ok(), "half extents");
+    assert_eq!(nodes[3].camera, None, "a camera at no distance sees nothing");
+    warns_once(&loaded, "camera 2");
+    let light = nodes[1].light.expect("a light");
+    assert_eq!((light.kind, light.color), (LightKind::Directional, Vec3::X), "the sun");
+    assert!((light.intensity - 1.0).abs() < 1e-6, "π lux show white: {}", light.intensity);
+    assert_eq!(nodes[2].light.expect("a light").kind, LightKind::Point, "a spot shines all round");
+    warns_once(&loaded, "spot");
+}
+
+#[test]
+fn extensions_that_are_required_are_named() {
+    for (name, word) in [("KHR_draco_mesh_compression", "Draco"), ("EXT_meshopt_compression", "meshopt"), ("EXT_not_real", "re-export")] {
+        let mut doc = Doc::square();
+        doc.json["extensionsRequired"] = json!([name]);
+        let message = doc.refused();
+        assert!(message.contains(name) && message.contains(word), "{message}");
+    }
+    let mut doc = Doc::square();
+    doc.json["extensionsUsed"] = json!(["EXT_not_real", "KHR_materials_unlit"]);
+    warns_once(&doc.load(), "EXT_not_real");
+}
+
+#[test]
+fn what_is_not_drawn_yet_is_said() {
+    let mut doc = Doc::square();
+    doc.json["animations"] = json!([{"channels": [], "samplers": []}]);
+    doc.json["skins"] = json!([{"joints": [0]}]);
+    doc.json["nodes"][0]["skin"] = json!(0);
+    doc.primitive()["targets"] = json!([{"POSITION": 0}]);
+    doc.primitive()["material"] = json!(0);
+    doc.json["textures"] = json!([{}]);
+    doc.json["materials"] = json!([{"name": "m", "normalTexture": {"index": 0}, "emissiveTexture": {"index": 0}, "emissiveFactor": [1, 1, 1]}]);
+    let loaded = doc.load();
+    for word in ["animation", "skin", "morph", "normal texture", "emissive texture"] {
+        warns_once(&loaded, word);
+    }
+    let (_, material) = loaded.scene.materials.iter().next().expect("a material");
+    assert_eq!(material.emissive, Vec3::ZERO, "a glow without its picture would be everywhere");
+}
+
+#[test]
+fn data_uris_are_buffers_and_other_uris_are_not_followed() {
+    let mut doc = Doc::square();
+    let with_uri = |doc: &mut Doc, uri: &str| {
+        doc.json["buffers"] = json!([{"byteLength": doc.bytes.len(), "uri": uri}]);
+        serde_json::to_vec(&doc.json).expect("JSON")
+    };
+    let hex: String = doc.bytes.iter().map(|byte| format!("%{byte:02x}")).collect();
+    let text = with_uri(&mut doc, &format!("data:application/octet-stream,{hex}"));
+    assert_eq!(meshes(&loaded("a.gltf", &text))[0].face_count(), 2, "from the URI itself");
+    let dir = tempfile::tempdir().expect("a folder");
+    let path = dir.path().join("model.gltf");
+    for uri in ["/etc/passwd", "../x.bin", "%2e%2e/x.bin", "file:///etc/passwd", "http://example.invalid/x.bin", "gone.bin", "", "/dev/zero"] {
+        std::fs::write(&path, with_uri(&mut doc, uri)).expect("a file");
+        let error = trigon_io::load(&path, &trigon_io::LoadOptions::default()).map(|_| ()).expect_err("not followed");
+        assert!(error.to_string().contains("buffer 0"), "{uri}: {error}");
+    }
+    std::fs::write(dir.path().join("a b.bin"), &doc.bytes).expect("a file");
+    for uri in ["a b.bin", "a%20b.bin", "./a%20b.bin"] {
+        std::fs::write(&path, with_uri(&mut doc, uri)).expect("a file");
+        let loaded = trigon_io::load(&path, &trigon_io::LoadOptions::default()).unwrap_or_else(|error| panic!("{uri}: {error}"));
+        assert_eq!(loaded.files, [path.clone(), dir.path().join("a b.bin")], "{uri}: what was read");
+    }
+}

@@ -1,0 +1,121 @@
+//! Textures: which pixel ends up where, and what stands in for broken ones.
+
+use serde_json::json;
+use trigon_io::{Loaded, Pixels, encode_png, write_png};
+use trigon_math::{Vec2, Vec3};
+use trigon_scene::{TextureBinding, Wrap};
+
+use crate::gltf::Doc;
+use crate::{warnings, warns_once};
+
+/// Red, green above; blue, white below.
+const PIXELS: [u8; 12] = [255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255];
+
+fn png() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    encode_png(&mut bytes, 2, 2, Pixels::Rgb8(&PIXELS)).expect("memory takes it");
+    bytes
+}
+
+fn binding(loaded: &Loaded) -> TextureBinding {
+    let (_, material) = loaded.scene.materials.iter().next().expect("a material");
+    material.base_color_texture.unwrap_or_else(|| panic!("a texture: {:#?}", warnings(loaded)))
+}
+
+/// The colour of the first texture at a coordinate of the mesh.
+fn color_at(loaded: &Loaded, uv: Vec2) -> Vec3 {
+    let binding = binding(loaded);
+    let texture = &loaded.scene.textures.get(binding.texture).expect("in the scene").texture;
+    let mut sampler = binding.sampler;
+    sampler.magnification = trigon_scene::Filter::Nearest;
+    texture.sample(binding.transform.transform_point2(uv), Vec2::ZERO, Vec2::ZERO, &sampler).truncate()
+}
+
+fn textured_square() -> Doc {
+    let mut doc = Doc::square();
+    let uv = doc.floats("VEC2", &[0., 1., 1., 1., 1., 0., 0., 0.]);
+    let view = doc.view(&png());
+    doc.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uv);
+    doc.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+    doc.json["materials"] = json!([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]);
+    doc.json["textures"] = json!([{"source": 0, "sampler": 0}]);
+    doc.json["samplers"] = json!([{"wrapS": 33071, "wrapT": 33648}]);
+    doc.json["images"] = json!([{"bufferView": view, "mimeType": "image/jpeg"}]);
+    doc
+}
+
+#[test]
+fn obj_and_gltf_agree_which_way_is_up() {
+    let dir = tempfile::tempdir().expect("a folder");
+    std::fs::create_dir(dir.path().join("lib")).expect("a folder");
+    write_png(dir.path().join("lib/my tex.png"), 2, 2, Pixels::Rgb8(&PIXELS)).expect("a picture");
+    std::fs::write(dir.path().join("lib/m.mtl"), "newmtl m\nmap_Kd -bm 1 my tex.png\n").expect("a file");
+    let obj = "mtllib lib/m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0.75\nvt 1 0\nvt 0 0\nusemtl m\nf 1/1 2/2 3/3\n";
+    std::fs::write(dir.path().join("a.obj"), obj).expect("a file");
+    let from_obj = trigon_io::load(dir.path().join("a.obj"), &trigon_io::LoadOptions::default()).expect("a model");
+    let (_, mesh) = from_obj.scene.meshes().iter().next().expect("a mesh");
+    let uv = mesh.mesh().attributes().uv_sets[0][0];
+    assert_eq!(color_at(&from_obj, uv), Vec3::X, "three quarters up, a quarter right is the upper left: red");
+    assert_eq!(color_at(&textured_square().load(), Vec2::splat(0.25)), Vec3::X, "glTF counts from the upper left");
+    assert_eq!(from_obj.files.len(), 3, "the model, the library, the picture: {:?}", from_obj.files);
+}
+
+#[test]
+fn obj_scale_and_offset_count_from_below() {
+    let dir = tempfile::tempdir().expect("a folder");
+    write_png(dir.path().join("t.png"), 2, 2, Pixels::Rgb8(&PIXELS)).expect("a picture");
+    std::fs::write(dir.path().join("m.mtl"), "newmtl m\nmap_Kd -s 0.5 0.5 -o 0 0.5 t.png\n").expect("a file");
+    let obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.5\nusemtl m\nf 1/1 2/1 3/1\n";
+    std::fs::write(dir.path().join("a.obj"), obj).expect("a file");
+    let loaded = trigon_io::load(dir.path().join("a.obj"), &trigon_io::LoadOptions::default()).expect("a model");
+    // 0.5 · 0.5 + 0.5 = 0.75 up, 0.25 right.
+    assert_eq!(color_at(&loaded, Vec2::splat(0.5)), Vec3::X, "the upper left");
+}
+
+#[test]
+fn samplers_and_texture_transforms_arrive() {
+    let mut doc = textured_square();
+    let binding_of = |doc: &Doc| binding(&doc.load());
+    assert_eq!((binding_of(&doc).sampler.wrap_u, binding_of(&doc).sampler.wrap_v), (Wrap::ClampToEdge, Wrap::MirroredRepeat), "wrap");
+    doc.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] =
+        json!({"KHR_texture_transform": {"offset": [0.5, 0], "rotation": std::f64::consts::FRAC_PI_2, "scale": [2, 4]}});
+    let moved = binding_of(&doc).transform.transform_point2(Vec2::new(0.25, 0.5));
+    // Scaled to (0.5, 2), a quarter turn counter-clockwise with v down to (2, −0.5), moved by (0.5, 0).
+    assert!(moved.distance(Vec2::new(2.5, -0.5)) < 1e-6, "scale, turn, move: {moved}");
+}
+
+#[test]
+fn broken_and_foreign_pictures_become_a_checkerboard() {
+    for (bytes, word) in [(b"RIFF\x10\0\0\0WEBPVP8 ".to_vec(), "WebP"), (b"\xabKTX 20\xbb\r\n\x1a\n".to_vec(), "KTX2"), (png()[..40].to_vec(), "picture")] {
+        let mut doc = textured_square();
+        let view = doc.view(&bytes);
+        doc.json["images"] = json!([{"bufferView": view, "name": "the image"}]);
+        doc.json["textures"] = json!([{"extensions": {"EXT_texture_webp": {"source": 0}}}]);
+        doc.json["extensionsRequired"] = json!(["EXT_texture_webp"]);
+        let loaded = doc.load();
+        warns_once(&loaded, word);
+        warns_once(&loaded, "\"the image\"");
+        assert_eq!(color_at(&loaded, Vec2::splat(0.01)), Vec3::new(1.0, 0.0, 1.0), "magenta");
+    }
+}
+
+#[test]
+fn missing_pictures_are_warnings_and_unused_ones_are_not_read() {
+    let mut doc = textured_square();
+    doc.json["images"] = json!([{"uri": "../gone.png"}, {"uri": "data:image/png;base64,broken"}]);
+    let loaded = doc.load();
+    warns_once(&loaded, "gone.png");
+    assert_eq!(loaded.scene.textures.len(), 0, "no texture");
+    assert_eq!(loaded.warnings.len(), 1, "the unused picture is nobody's business: {:#?}", warnings(&loaded));
+}
+
+#[test]
+fn a_set_that_is_missing_is_replaced() {
+    let mut doc = textured_square();
+    doc.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = json!(1);
+    let loaded = doc.load();
+    warns_once(&loaded, "TEXCOORD_1");
+    let (_, mesh) = loaded.scene.meshes().iter().next().expect("a mesh");
+    let sets = &mesh.mesh().attributes().uv_sets;
+    assert_eq!(sets[1], sets[0], "the first set stands in");
+}
