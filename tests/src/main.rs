@@ -1,13 +1,13 @@
 //! The workspace tests, one module per subject.
 
 mod camera;
-mod goldens;
-mod scene;
 mod clipping;
-mod triangulation;
+mod corpus;
 mod coverage;
 mod coverage_support;
 mod depth;
+mod goldens;
 mod interpolation;
 mod same_bytes;
-mod corpus;
+mod scene;
+mod triangulation;

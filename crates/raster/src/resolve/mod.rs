@@ -90,13 +90,12 @@ fn sample_indices([x, y]: [usize; 2], samples: usize) -> impl Iterator<Item = us
 /// Writes all outputs of a tile.
 pub(crate) fn resolve(frame: &Frame<'_>, scratch: &Scratch, rows: &mut TileRows<'_>) {
     let samples = frame.samples_per_axis.get() as usize;
-    let share = 1.0 / (samples * samples) as f32;
     let middle = (samples / 2) * STRIDE + samples / 2;
     for y in 0..rows.rect.height as usize {
         for x in 0..rows.rect.width as usize {
             store(rows, [x, y], || match samples {
                 1 => scratch.color[y * STRIDE + x],
-                _ => mean(&scratch.color, [x, y], samples) * share,
+                _ => mean(&scratch.color, [x, y], samples),
             });
             let sample = (y * STRIDE + x) * samples + middle;
             if let Some(row) = rows.depth.get_mut(y) {
@@ -108,8 +107,17 @@ pub(crate) fn resolve(frame: &Frame<'_>, scratch: &Scratch, rows: &mut TileRows<
     }
 }
 
+/// The mean of a pixel's samples. Equal ones are not rounded, so that a pixel
+/// that shows only the background is the same in a tile that shows more.
 fn mean(colors: &[Vec4], pixel: [usize; 2], samples: usize) -> Vec4 {
-    sample_indices(pixel, samples).fold(Vec4::ZERO, |sum, sample| sum + colors[sample])
+    let mut indices = sample_indices(pixel, samples);
+    let first = indices.next().map_or(Vec4::ZERO, |sample| colors[sample]);
+    let (mut sum, mut equal) = (first, true);
+    for sample in indices {
+        sum += colors[sample];
+        equal &= colors[sample] == first;
+    }
+    if equal { first } else { sum * (1.0 / (samples * samples) as f32) }
 }
 
 #[inline]

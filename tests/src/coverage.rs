@@ -1,0 +1,271 @@
+//! Which pixels a triangle covers, against an oracle in exact integers; and that
+//! meshes leave no gaps and cover nothing twice. Hard cases 1 to 9, 14, 15, 18.
+
+use crate::coverage_support::{Raw, SIDE, Values, clip_position, count, draw, pixel};
+use proptest::prelude::*;
+use trigon_math::glam::camera::rh::proj::directx::perspective_infinite_reverse;
+use trigon_math::{Mat4, Vec4, elementary};
+use trigon_raster::{Culling, Draw, Pass};
+
+/// The oracle: whether a triangle covers the centre of a pixel.
+///
+/// The top-left rule says that a centre on an edge counts as if it lay a little
+/// to the right, and on a horizontal one as if a little below. So the centre is
+/// moved to the right by 1/K and down by 1/K² for a K so large that no edge is
+/// crossed on the way, everything times K², and no case is left open.
+pub(crate) fn covers(triangle: [Raw; 3], [x, y]: [i32; 2]) -> bool {
+    const K: i128 = 1 << 27;
+    let centre = |v: i32| i128::from(256 * v + 128) * K * K;
+    let (px, py) = (centre(x) + K, centre(y) + 1);
+    let [a, b, c] = triangle.map(|[x, y]| [i128::from(x) * K * K, i128::from(y) * K * K]);
+    let turn = |[ax, ay]: [i128; 2], [bx, by]: [i128; 2]| {
+        // Differences of vertices are multiples of K².
+        let (dx, dy) = ((bx - ax) / (K * K), (by - ay) / (K * K));
+        (dx * (py - ay) - dy * (px - ax)).signum()
+    };
+    let turns = [turn(a, b), turn(b, c), turn(c, a)];
+    turns == [1; 3] || turns == [-1; 3]
+}
+
+/// Points that meet pixel centres and each other often, anywhere in and around
+/// the picture, or far out in the guard band.
+fn point() -> impl Strategy<Value = Raw> {
+    let near = -20 * 256..(SIDE + 20) * 256;
+    let half = (-8..2 * SIDE + 8).prop_map(|v| v * 128);
+    let far = (-32700 * 256)..(32700 * 256);
+    prop_oneof![
+        3 => [near.clone(), near],
+        2 => [half.clone(), half],
+        1 => [far.clone(), far],
+    ]
+}
+
+/// Any three points, or two and a third within a few units of the line through
+/// them.
+fn triangle() -> impl Strategy<Value = [Raw; 3]> {
+    let sliver = (point(), point(), 0..=1000_i64, [-3..=3_i32, -3..=3]).prop_map(|(a, b, t, jitter)| {
+        let along = |i: usize| {
+            let (from, to) = (i64::from(a[i]), i64::from(b[i]));
+            (from + (to - from) * t / 1000) as i32 + jitter[i]
+        };
+        [a, b, [along(0), along(1)]]
+    });
+    prop_oneof![2 => [point(), point(), point()], 1 => sliver]
+}
+
+fn check_against_oracle(points: [Raw; 3]) {
+    let pipeline = Values::on_grid(&points);
+    let counts = count(&pipeline, &[[0, 1, 2]]);
+    let mut pass = Pass::new();
+    pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &[[0, 1, 2]]) });
+    let seen = draw(&pass).triangles.expect("asked for");
+    for (index, (&count, &id)) in counts.iter().zip(&seen).enumerate() {
+        let expected = covers(points, pixel(index));
+        assert_eq!(count, u32::from(expected), "translucent {points:?} at {:?}", pixel(index));
+        assert_eq!(id == 0, expected, "opaque {points:?} at {:?}", pixel(index));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn a_triangle_covers_what_exact_arithmetic_says(points in triangle()) {
+        check_against_oracle(points);
+    }
+
+    #[test]
+    fn two_triangles_share_the_pixels_on_their_edge(a in point(), b in point(), c in point(), d in point()) {
+        let side = |p: Raw| {
+            let [ab, ap] = [b, p].map(|q| [i128::from(q[0] - a[0]), i128::from(q[1] - a[1])]);
+            (ab[0] * ap[1] - ab[1] * ap[0]).signum()
+        };
+        prop_assume!(side(c) * side(d) < 0);
+        let triangles = [[0, 1, 2], [0, 1, 3]];
+        let counts = count(&Values::on_grid(&[a, b, c, d]), &triangles);
+        for (index, &count) in counts.iter().enumerate() {
+            let expected = u32::from(covers([a, b, c], pixel(index))) + u32::from(covers([a, b, d], pixel(index)));
+            prop_assert_eq!(count, expected);
+            prop_assert!(count <= 1, "covered twice at {:?}", pixel(index));
+        }
+    }
+
+    #[test]
+    fn the_order_and_winding_of_corners_change_nothing(points in triangle(), depths in [0.0_f32..1.0, 0.0..1.0, 0.0..1.0]) {
+        let vertices = [0, 1, 2].map(|i| (clip_position(points[i], depths[i]), depths[i] * 7.0));
+        let pipeline = Values { vertices: vertices.to_vec() };
+        let pictures = [[0, 1, 2], [1, 2, 0], [2, 1, 0]].map(|corners| {
+            let triangles = [corners];
+            let mut pass = Pass::new();
+            pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &triangles) });
+            draw(&pass)
+        });
+        prop_assert!(pictures[0] == pictures[1], "rotated");
+        prop_assert!(pictures[0] == pictures[2], "reversed");
+    }
+
+    #[test]
+    fn whole_pixels_move_the_picture_exactly(points in triangle(), dx in -20..20_i32, dy in -20..20_i32) {
+        let moved = points.map(|[x, y]| [x + 256 * dx, y + 256 * dy]);
+        let [before, after] = [points, moved].map(|points| count(&Values::on_grid(&points), &[[0, 1, 2]]));
+        for (index, &count) in before.iter().enumerate() {
+            let [x, y] = pixel(index);
+            if (0..SIDE).contains(&(x + dx)) && (0..SIDE).contains(&(y + dy)) {
+                prop_assert_eq!(count, after[((y + dy) * SIDE + x + dx) as usize]);
+            }
+        }
+    }
+
+    /// A square tiled by a jittered grid, its cells split along either
+    /// diagonal, in either winding.
+    #[test]
+    fn a_tiled_square_is_covered_once(
+        cells in 1..24_i32,
+        corner in [128..2000_i32, 128..2000],
+        side in 3000..12000_i32,
+        seed in any::<u64>(),
+    ) {
+        let mut random = Random(seed);
+        let step = |i: i32| side * i / cells;
+        let inner = |i: i32| 0 < i && i < cells;
+        let mut points = Vec::new();
+        for j in 0..=cells {
+            for i in 0..=cells {
+                let reach = side / cells / 5;
+                let jitter = [inner(i), inner(j)].map(|free| if free { random.within(reach) } else { 0 });
+                points.push([corner[0] + step(i) + jitter[0], corner[1] + step(j) + jitter[1]]);
+            }
+        }
+        let triangles = grid_triangles(cells as u32, &mut random);
+        let counts = count(&Values::on_grid(&points), &triangles);
+        for (index, &count) in counts.iter().enumerate() {
+            let inside = [0, 1].map(|axis| {
+                let centre = 256 * pixel(index)[axis] + 128;
+                (corner[axis]..corner[axis] + side).contains(&centre)
+            });
+            prop_assert_eq!(count, u32::from(inside == [true; 2]), "at {:?}", pixel(index));
+        }
+    }
+
+    /// Hard cases 15 and 18: the ground below the camera, most of its triangles
+    /// cut by the near plane or behind the eye.
+    #[test]
+    fn the_ground_ends_at_the_horizon(
+        height in 0.01_f32..3.0,
+        turn in -3.0_f32..3.0,
+        cells in 1..12_u32,
+        near in 0.001_f32..0.1,
+        seed in any::<u64>(),
+    ) {
+        let mut random = Random(seed);
+        let projection = perspective_infinite_reverse(1.2, 1.0, near);
+        let view = projection * Mat4::from_rotation_y(turn);
+        let reach = 1e6;
+        let mut positions = Vec::new();
+        for j in 0..=cells {
+            for i in 0..=cells {
+                let along = |k: u32| (k as f32 / cells as f32 * 2.0 - 1.0) * reach;
+                positions.push(view * Vec4::new(along(i), -height, along(j), 1.0));
+            }
+        }
+        let counts = count(&Values::ones(positions), &grid_triangles(cells, &mut random));
+        // The lowest row that the near plane leaves: the ground at its distance.
+        let tangent = elementary::tan(0.6);
+        let lowest = f64::from(SIDE) / 2.0 * (1.0 + f64::from(height) / (f64::from(near) * tangent));
+        for (index, &count) in counts.iter().enumerate() {
+            let y = f64::from(pixel(index)[1]);
+            prop_assert!(count <= 1, "covered twice at {:?}", pixel(index));
+            if y + 0.5 > f64::from(SIDE) / 2.0 + 0.1 && y + 0.5 < lowest - 0.1 {
+                prop_assert_eq!(count, 1, "a hole at {:?}", pixel(index));
+            }
+            if y < f64::from(SIDE) / 2.0 - 1.0 {
+                prop_assert_eq!(count, 0, "ground in the sky at {:?}", pixel(index));
+            }
+        }
+    }
+
+    /// Triangles that reach beyond the guard band on any side, as a fan around a
+    /// point that is seen.
+    #[test]
+    fn a_fan_beyond_the_guard_band_has_no_gaps(
+        centre in [0..SIDE * 256, 0..SIDE * 256],
+        radius in 100.0_f64..1e7,
+        count_of_triangles in 3..40_u32,
+        turn in 0.0_f64..7.0,
+    ) {
+        let mut positions = vec![clip_position(centre, 0.5)];
+        for i in 0..count_of_triangles {
+            let angle = turn + std::f64::consts::TAU * f64::from(i) / f64::from(count_of_triangles);
+            let (sine, cosine) = elementary::sin_cos(angle);
+            positions.push(Vec4::new((cosine * radius) as f32, (sine * radius) as f32, 0.5, 1.0));
+        }
+        let counts = count(&Values::ones(positions), &fan_triangles(count_of_triangles));
+        prop_assert!(counts.iter().all(|&count| count == 1), "every pixel exactly once");
+    }
+}
+
+/// Hard cases 2 and 5: fans around a pixel's centre.
+#[test]
+fn a_fan_covers_its_centre_once() {
+    for count_of_triangles in (3..=16).chain([2000]) {
+        let centre = [SIDE * 128 + 128; 2];
+        let mut points = vec![centre];
+        for i in 0..count_of_triangles {
+            let angle = std::f64::consts::TAU * f64::from(i) / f64::from(count_of_triangles);
+            let (sine, cosine) = elementary::sin_cos(angle);
+            points.push([cosine, sine].map(|v| centre[0] + (v * 25.0 * 256.0) as i32));
+        }
+        let counts = count(&Values::on_grid(&points), &fan_triangles(count_of_triangles));
+        let middle = (SIDE / 2 * SIDE + SIDE / 2) as usize;
+        assert_eq!(counts[middle], 1, "the centre of {count_of_triangles} triangles");
+        assert!(counts.iter().all(|&count| count <= 1), "no pixel twice");
+        for (index, &count) in counts.iter().enumerate() {
+            let [x, y] = pixel(index).map(|v| v - SIDE / 2);
+            // The inner circle of a triangle with this circumference.
+            if x * x + y * y < 12 * 12 {
+                assert_eq!(count, 1, "a hole at {:?} among {count_of_triangles}", pixel(index));
+            }
+        }
+    }
+}
+
+/// Hard case 7.
+#[test]
+fn triangles_without_area_cover_nothing() {
+    let points = [[1000, 1000], [9000, 1000], [1000, 1000], [5000, 1000], [1000, 9000]];
+    for corners in [[0, 1, 3], [0, 2, 4], [0, 0, 0], [0, 1, 1]] {
+        let counts = count(&Values::on_grid(&points), &[corners]);
+        assert!(counts.iter().all(|&count| count == 0), "corners {corners:?}");
+    }
+}
+
+fn fan_triangles(count: u32) -> Vec<[u32; 3]> {
+    (0..count).map(|i| [0, 1 + i, 1 + (i + 1) % count]).collect()
+}
+
+/// Two triangles for each cell of a square grid, split and wound at random.
+fn grid_triangles(cells: u32, random: &mut Random) -> Vec<[u32; 3]> {
+    let mut triangles = Vec::new();
+    for cell in 0..cells * cells {
+        let a = cell / cells * (cells + 1) + cell % cells;
+        let [a, b, c, d] = [a, a + 1, a + cells + 2, a + cells + 1];
+        let halves = if random.within(1) == 0 { [[a, b, c], [a, c, d]] } else { [[b, c, d], [d, a, b]] };
+        for [a, b, c] in halves {
+            triangles.push(if random.within(1) == 0 { [a, b, c] } else { [a, c, b] });
+        }
+    }
+    triangles
+}
+
+/// A small generator (Knuth's linear congruential one), so that a failing case
+/// is small to print.
+struct Random(u64);
+
+impl Random {
+    /// A number from `-reach` to `reach`.
+    fn within(&mut self, reach: i32) -> i32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let span = 2 * reach as u64 + 1;
+        ((self.0 >> 33) % span) as i32 - reach
+    }
+}

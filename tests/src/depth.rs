@@ -1,0 +1,138 @@
+//! Who is in front: exact ties, surfaces that cross, and how near depth comes to
+//! exact arithmetic. Hard cases 24 to 26.
+
+use crate::coverage_support::{Raw, SIDE, Values, clip_position, draw, pixel};
+use proptest::prelude::*;
+use trigon_raster::{Culling, Draw, Pass, Pictures, Surface};
+
+const QUAD: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
+
+fn quad(depth: f32) -> Values {
+    let corners = [[1000, 1000], [1000, 9000], [9000, 9000], [9000, 1000]];
+    Values { vertices: corners.map(|corner| (clip_position(corner, depth), 1.0)).to_vec() }
+}
+
+/// Draws the same quad once for each (object, face), in the order given.
+fn coincident(keys: &[(u32, u32)], surface: Surface) -> Pictures {
+    let pipelines: Vec<_> = keys.iter().map(|_| quad(0.25)).collect();
+    let faces: Vec<_> = keys.iter().map(|&(_, face)| [face; 2]).collect();
+    let mut pass = Pass::new();
+    for ((pipeline, faces), &(object, _)) in pipelines.iter().zip(&faces).zip(keys) {
+        let draw = Draw {
+            object,
+            faces: Some(faces),
+            surface,
+            culling: Culling::None,
+            ..Draw::new(pipeline, &QUAD)
+        };
+        pass.triangles(draw);
+    }
+    draw(&pass)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    /// Hard case 25.
+    #[test]
+    fn equal_depths_go_to_the_smaller_object_and_face(
+        keys in proptest::collection::hash_set((0..5_u32, 0..5_u32), 1..8),
+        masked in any::<bool>(),
+    ) {
+        let keys: Vec<_> = keys.into_iter().collect();
+        let surface = if masked { Surface::Masked } else { Surface::Opaque };
+        let pictures = coincident(&keys, surface);
+        let least = keys.iter().min().expect("at least one");
+        let inside = (20 * SIDE + 20) as usize;
+        let objects = pictures.objects.expect("asked for");
+        let faces = pictures.faces.expect("asked for");
+        prop_assert_eq!((objects[inside], faces[inside]), *least);
+        let seen = objects.iter().zip(&faces).filter(|(object, _)| **object != u32::MAX);
+        prop_assert!(seen.clone().all(|(&object, &face)| (object, face) == *least), "one winner all over");
+    }
+
+    /// Two triangles in random planes against exact depths in f64.
+    #[test]
+    fn crossing_triangles_show_the_nearer(
+        points in [any_point(), any_point(), any_point(), any_point(), any_point(), any_point()],
+        depths in [0.01_f32..1.0, 0.01..1.0, 0.01..1.0, 0.01..1.0, 0.01..1.0, 0.01..1.0],
+    ) {
+        let vertices = (0..6).map(|i| (clip_position(points[i], depths[i]), 1.0)).collect();
+        let pipeline = Values { vertices };
+        let mut pass = Pass::new();
+        pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &[[0, 1, 2], [3, 4, 5]]) });
+        let pictures = draw(&pass);
+        let (depth, ids) = (pictures.depth.expect("asked for"), pictures.triangles.expect("asked for"));
+        for index in 0..depth.len() {
+            let planes = [0, 3].map(|first| {
+                let corner = |i: usize| (points[first + i], f64::from(depths[first + i]));
+                exact_depth([corner(0), corner(1), corner(2)], pixel(index))
+            });
+            // Weights are right within four roundings and sum up what is at
+            // most 1.
+            let bound = 6.0 * f64::from(f32::EPSILON);
+            match planes {
+                [Some(a), Some(b)] if (a - b).abs() > 2.0 * bound => {
+                    prop_assert_eq!(ids[index], u32::from(b > a), "{} and {} at {:?}", a, b, pixel(index));
+                }
+                [Some(only), None] | [None, Some(only)] => {
+                    prop_assert_eq!(ids[index], u32::from(planes[1].is_some()));
+                    let error = f64::from(depth[index]) - only;
+                    prop_assert!(error.abs() <= bound * only, "depth is off by {error}");
+                }
+                [None, None] => prop_assert_eq!((ids[index], depth[index]), (u32::MAX, 0.0)),
+                [Some(_), Some(_)] => {}
+            }
+        }
+    }
+
+    /// Equal depths at the corners are that depth everywhere; and no depth
+    /// leaves the range of the corners'.
+    #[test]
+    fn depth_stays_within_the_corners(
+        points in [any_point(), any_point(), any_point()],
+        depths in [0.0_f32..1.0, 0.0..1.0, 0.0..1.0],
+        flat in any::<bool>(),
+    ) {
+        let depths = if flat { [depths[0]; 3] } else { depths };
+        let pipeline = Values { vertices: (0..3).map(|i| (clip_position(points[i], depths[i]), 1.0)).collect() };
+        let mut pass = Pass::new();
+        pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &[[0, 1, 2]]) });
+        let pictures = draw(&pass);
+        let low = depths.iter().copied().fold(1.0, f32::min);
+        let high = depths.iter().copied().fold(0.0, f32::max);
+        for (depth, id) in pictures.depth.iter().flatten().zip(pictures.triangles.iter().flatten()) {
+            prop_assert!(*id == u32::MAX || (low <= *depth && *depth <= high), "{depth} of {depths:?}");
+        }
+    }
+}
+
+/// Behind the far plane nothing is drawn, on it everything.
+#[test]
+fn the_far_plane_belongs_to_the_view() {
+    for (depth, expected) in
+        [(0.0, 0), (f32::MIN_POSITIVE, 0), (-1e-6, u32::MAX), (1.0, 0), (1.000_001, u32::MAX)]
+    {
+        let pipeline = quad(depth);
+        let mut pass = Pass::new();
+        pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &QUAD) });
+        let objects = draw(&pass).objects.expect("asked for");
+        assert_eq!(objects[(20 * SIDE + 20) as usize], expected, "at depth {depth}");
+    }
+}
+
+fn any_point() -> impl Strategy<Value = Raw> {
+    [-30 * 256..(SIDE + 30) * 256, -30 * 256..(SIDE + 30) * 256]
+}
+
+/// The depth of a triangle at a pixel's centre, if it covers that.
+fn exact_depth(corners: [(Raw, f64); 3], pixel: [i32; 2]) -> Option<f64> {
+    let centre = pixel.map(|v| i64::from(256 * v + 128));
+    let relative =
+        corners.map(|(point, _)| [i64::from(point[0]) - centre[0], i64::from(point[1]) - centre[1]]);
+    let cross = |i: usize, j: usize| relative[i][0] * relative[j][1] - relative[i][1] * relative[j][0];
+    let edges = [cross(1, 2), cross(2, 0), cross(0, 1)];
+    let area: i64 = edges.iter().sum();
+    let covered = crate::coverage::covers(corners.map(|(point, _)| point), pixel);
+    covered.then(|| (0..3).map(|i| edges[i] as f64 / area as f64 * corners[i].1).sum())
+}

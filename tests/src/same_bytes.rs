@@ -1,0 +1,235 @@
+//! The same picture, to the byte, with any number of threads, any size of tiles
+//! and any order of draws; and hostile vertices harm nobody else. Hard cases 6,
+//! 12, 17, 20, 43.
+
+use crate::coverage_support::draw_sized;
+use proptest::prelude::*;
+use std::num::NonZeroUsize;
+use trigon_math::{UVec2, Vec3, Vec4};
+use trigon_raster::{
+    Background, Culling, Draw, ExecuteSettings, Fragment, Lines, Output, Pass, Pictures, Pipeline,
+    PointShape, Points, Surface, Target, TileSize, VertexOutput,
+};
+
+/// Coloured vertices; a fragment shows the colour, by its alpha, with dark
+/// edges, and the mask has holes.
+#[derive(Clone, Debug)]
+struct Coloured {
+    vertices: Vec<(Vec4, Vec4)>,
+}
+
+impl Pipeline for Coloured {
+    type Varyings = Vec4;
+
+    fn vertex_count(&self) -> usize {
+        self.vertices.len()
+    }
+
+    fn vertex(&self, index: usize) -> VertexOutput<Vec4> {
+        let (position, varyings) = self.vertices[index];
+        VertexOutput { position, varyings }
+    }
+
+    fn fragment(&self, fragment: &Fragment<Vec4>) -> Vec4 {
+        let straight = fragment.varyings;
+        let shade = if fragment.nearest_edge() < 1.0 { 0.2 } else { 1.0 };
+        (straight.truncate() * (straight.w * shade)).extend(straight.w)
+    }
+
+    fn mask(&self, fragment: &Fragment<Vec4>) -> bool {
+        let cell = fragment.varyings.truncate() * 8.0;
+        (cell.x as i32 + cell.y as i32) % 2 == 0
+    }
+}
+
+/// A pipeline with its triangles, lines and points, and the face of each.
+#[derive(Clone, Debug)]
+struct Soup {
+    object: u32,
+    surface: Surface,
+    pipeline: Coloured,
+    triangles: Vec<[u32; 3]>,
+    segments: Vec<[u32; 2]>,
+    points: Vec<u32>,
+    faces: Vec<u32>,
+}
+
+fn vertex() -> impl Strategy<Value = (Vec4, Vec4)> {
+    let position = (-1.5_f32..1.5, -1.5_f32..1.5, 0.0_f32..1.2, -0.3_f32..3.0)
+        .prop_map(|(x, y, z, w)| Vec4::new(x * w, y * w, z, w));
+    let color = (0.0_f32..1.0, 0.0_f32..1.0, 0.0_f32..1.0, 0.2_f32..1.0).prop_map(Vec4::from);
+    (position, color)
+}
+
+fn soup() -> impl Strategy<Value = Soup> {
+    let surface = prop_oneof![Just(Surface::Opaque), Just(Surface::Masked), Just(Surface::Translucent)];
+    (proptest::collection::vec(vertex(), 3..30), surface).prop_map(|(vertices, surface)| {
+        let count = vertices.len() as u32;
+        let triangles: Vec<_> = (0..count).map(|i| [i, (i + 1) % count, (i + 7) % count]).collect();
+        Soup {
+            object: 0,
+            surface,
+            pipeline: Coloured { vertices },
+            faces: (0..count).collect(),
+            triangles,
+            segments: (1..count).map(|i| [i - 1, i]).collect(),
+            points: (0..count).collect(),
+        }
+    })
+}
+
+fn soups() -> impl Strategy<Value = Vec<Soup>> {
+    proptest::collection::vec(soup(), 1..4).prop_map(|mut soups| {
+        for (object, soup) in soups.iter_mut().enumerate() {
+            soup.object = 10 * object as u32;
+        }
+        soups
+    })
+}
+
+fn record<'a>(pass: &mut Pass<'a>, soup: &'a Soup) {
+    let Soup { object, surface, pipeline, faces, .. } = soup;
+    let (object, surface) = (*object, *surface);
+    pass.triangles(Draw {
+        object,
+        surface,
+        faces: Some(faces),
+        culling: Culling::None,
+        ..Draw::new(pipeline, &soup.triangles)
+    });
+    pass.lines(Lines { object: object + 1, surface, width: 2.5, ..Lines::new(pipeline, &soup.segments) });
+    let shape = if object == 0 { PointShape::Round } else { PointShape::Square };
+    pass.points(Points { object: object + 2, surface, shape, ..Points::new(pipeline, &soup.points, 9.0) });
+}
+
+fn picture(
+    soups: &[Soup],
+    [width, height, samples_per_axis]: [u32; 3],
+    settings: &ExecuteSettings,
+) -> Pictures {
+    let outputs =
+        [Output::Srgb8, Output::Linear, Output::Depth, Output::Object, Output::Face, Output::Triangle];
+    let target = Target::new(width, height, &outputs).expect("the size is in range");
+    let mut target = target.with_samples_per_axis(samples_per_axis).expect("the number is in range");
+    let background = |pixel: UVec2| {
+        Vec3::new(pixel.x as f32 / width as f32, pixel.y as f32 / height as f32, 0.5).extend(1.0)
+    };
+    let mut pass = Pass::new();
+    pass.background(Background::PerPixel(&background));
+    for soup in soups {
+        record(&mut pass, soup);
+    }
+    pass.execute(&mut target, settings);
+    target.into_pictures()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(3))]
+
+    #[test]
+    fn threads_and_tiles_change_nothing(soups in soups(), samples in 2..5_u32) {
+        // Large enough to be shared among threads.
+        let size = [300, 200, samples];
+        let reference = picture(&soups, size, &ExecuteSettings::default());
+        for threads in [1, 2, 3, 8] {
+            for tile_size in [TileSize::Samples8, TileSize::Samples16, TileSize::Samples32, TileSize::Samples64] {
+                let settings = ExecuteSettings { threads: NonZeroUsize::new(threads), tile_size };
+                prop_assert!(picture(&soups, size, &settings) == reference, "{settings:?}");
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn the_order_of_draws_and_triangles_changes_nothing(soups in soups(), samples in 1..3_u32) {
+        let settings = ExecuteSettings::default();
+        let mut reference = picture(&soups, [160, 120, samples], &settings);
+        let mut turned = soups;
+        turned.reverse();
+        for soup in &mut turned {
+            soup.triangles.reverse();
+            soup.faces.reverse();
+        }
+        let mut other = picture(&turned, [160, 120, samples], &settings);
+        // The index of a triangle in its draw is what has changed.
+        reference.triangles = None;
+        other.triangles = None;
+        prop_assert!(reference == other);
+    }
+
+    /// Hard cases 17 and 20.
+    #[test]
+    fn hostile_vertices_harm_nobody_else(soups in soups(), hostile in proptest::collection::vec(hostile(), 3..12)) {
+        let settings = ExecuteSettings::default();
+        let reference = picture(&soups, [160, 120, 1], &settings);
+        let count = hostile.len() as u32;
+        let hostile = Soup {
+            object: 500,
+            surface: Surface::Translucent,
+            pipeline: Coloured { vertices: hostile },
+            triangles: (0..count).map(|i| [i, (i + 1) % count, (i + 2) % count]).chain([[0, 1, 4_000_000_000]]).collect(),
+            segments: (0..count).map(|i| [i, (i + 1) % count]).chain([[0, u32::MAX]]).collect(),
+            points: (0..count).chain([count]).collect(),
+            faces: Vec::new(),
+        };
+        let all: Vec<_> = soups.iter().cloned().chain([hostile]).collect();
+        let pictures = picture(&all, [160, 120, 1], &settings);
+        prop_assert!(pictures.linear.iter().flatten().all(|color| color.is_finite()), "a colour is not finite");
+        prop_assert!(pictures.depth.iter().flatten().all(|depth| (0.0..=1.0).contains(depth)), "a depth is not one");
+        // Translucent, so it changes no id and no depth.
+        prop_assert!(pictures.objects == reference.objects && pictures.depth == reference.depth);
+    }
+}
+
+/// Anything that four floats can hold, and what is worst.
+fn hostile() -> impl Strategy<Value = (Vec4, Vec4)> {
+    let coordinate = prop_oneof![
+        any::<f32>(),
+        -2.0_f32..2.0,
+        Just(0.0),
+        Just(-0.0),
+        Just(f32::NAN),
+        Just(f32::INFINITY),
+        Just(1e38),
+        Just(-1e38),
+        Just(1e-38),
+        Just(f32::from_bits(1)),
+        Just(1e29),
+    ];
+    [coordinate.clone(), coordinate.clone(), coordinate.clone(), coordinate]
+        .prop_map(|position| (Vec4::from_array(position), Vec4::splat(0.5)))
+}
+
+/// Hard case 43.
+#[test]
+fn layers_blend_in_depth_order_whatever_the_order_of_draws() {
+    let layer = |depth: f32, color: Vec4| Coloured {
+        vertices: [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+            .map(|[x, y]| (Vec4::new(x, y, depth, 1.0), color))
+            .to_vec(),
+    };
+    let triangles = [[0, 1, 2], [0, 2, 3]];
+    let layers: Vec<_> =
+        (0..40).map(|i| layer(0.1 + 0.02 * i as f32, Vec4::new(i as f32 / 40.0, 0.5, 0.25, 0.1))).collect();
+    let draw = |order: &mut dyn Iterator<Item = usize>| {
+        let mut pass = Pass::new();
+        for i in order {
+            let surface = Surface::Translucent;
+            pass.triangles(Draw { surface, object: i as u32, ..Draw::new(&layers[i], &triangles) });
+        }
+        draw_sized(&pass, [16, 16], &ExecuteSettings::default())
+    };
+    let forward = draw(&mut (0..40));
+    assert!(forward == draw(&mut (0..40).rev()), "the reverse order");
+    assert!(forward == draw(&mut (0..40).map(|i| i * 7 % 40)), "a shuffled order");
+    let mut expected = Vec4::ZERO;
+    for i in 0..40 {
+        let color = Vec4::new(i as f32 / 40.0, 0.5, 0.25, 0.1);
+        expected = (color.truncate() * 0.1).extend(0.1) + expected * 0.9;
+    }
+    let middle = forward.linear.expect("asked for")[8 * 16 + 4];
+    assert!((middle - expected).abs().max_element() < 1e-6, "{middle} instead of {expected}");
+}
