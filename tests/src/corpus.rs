@@ -18,11 +18,23 @@ fn folder() -> PathBuf {
 
 /// The models in the folder, by their path below it.
 fn models() -> Vec<String> {
-    let is_model = |path: &Path| path.extension().is_some_and(|ending| ["obj", "gltf", "glb"].iter().any(|known| ending == *known));
+    let is_model = |path: &Path| {
+        path.extension().is_some_and(|ending| ["obj", "gltf", "glb"].iter().any(|known| ending == *known))
+    };
     let mut models = Vec::new();
-    for sub in std::fs::read_dir(folder()).expect("the corpus folder").flatten().filter(|entry| entry.path().is_dir()) {
-        for file in std::fs::read_dir(sub.path()).expect("a folder").flatten().filter(|entry| is_model(&entry.path())) {
-            models.push(format!("{}/{}", sub.file_name().to_string_lossy(), file.file_name().to_string_lossy()));
+    for sub in std::fs::read_dir(folder())
+        .expect("the corpus folder")
+        .flatten()
+        .filter(|entry| entry.path().is_dir())
+    {
+        for file in
+            std::fs::read_dir(sub.path()).expect("a folder").flatten().filter(|entry| is_model(&entry.path()))
+        {
+            models.push(format!(
+                "{}/{}",
+                sub.file_name().to_string_lossy(),
+                file.file_name().to_string_lossy()
+            ));
         }
     }
     models.sort();
@@ -33,10 +45,18 @@ fn models() -> Vec<String> {
 #[test]
 fn every_file_does_what_is_expected() {
     let expected = std::fs::read_to_string(folder().join("expected.txt")).expect("the expectations");
-    let rows: Vec<Vec<&str>> = expected.lines().filter(|line| !line.starts_with('#')).map(|line| line.split_whitespace().collect()).collect();
+    let rows: Vec<Vec<&str>> = expected
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .map(|line| line.split_whitespace().collect())
+        .collect();
     let listed: BTreeSet<&str> = rows.iter().map(|row| row[1]).collect();
     let found = models();
-    assert_eq!(listed, found.iter().map(String::as_str).collect(), "every model has a row, and every row a model");
+    assert_eq!(
+        listed,
+        found.iter().map(String::as_str).collect(),
+        "every model has a row, and every row a model"
+    );
     for row in rows {
         check(row[0], row[1], &row[2..].join(" "));
     }
@@ -50,11 +70,17 @@ fn check(outcome: &str, model: &str, words: &str) {
         ("refused", Err(error)) => {
             let message = error.to_string();
             let name = model.rsplit('/').next().expect("a name");
-            assert!(message.contains(name) && message.contains(words) && !message.contains('\n'), "{model}: {message}");
+            assert!(
+                message.contains(name) && message.contains(words) && !message.contains('\n'),
+                "{model}: {message}"
+            );
         }
         ("warned", Ok(loaded)) => {
             let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
-            assert!(warnings.iter().any(|warning| warning.contains(words)), "{model} says {words:?}: {warnings:#?}");
+            assert!(
+                warnings.iter().any(|warning| warning.contains(words)),
+                "{model} says {words:?}: {warnings:#?}"
+            );
             check_scene(model, &loaded);
         }
         ("clean", Ok(loaded)) => {
@@ -71,19 +97,34 @@ fn check_scene(model: &str, loaded: &Loaded) {
     for (_, asset) in loaded.scene.meshes().iter() {
         let mesh = asset.mesh();
         let count = mesh.vertex_count();
-        assert!(mesh.positions().iter().all(|position| position.is_finite()), "{model}: positions are finite");
+        assert!(
+            mesh.positions().iter().all(|position| position.is_finite()),
+            "{model}: positions are finite"
+        );
         for face in 0..mesh.face_count() {
             let corners = mesh.face_vertices(face);
-            assert!(corners.len() >= 3 && corners.iter().all(|&vertex| (vertex as usize) < count), "{model}: face {face}");
+            assert!(
+                corners.len() >= 3 && corners.iter().all(|&vertex| (vertex as usize) < count),
+                "{model}: face {face}"
+            );
         }
     }
     for (_, node) in loaded.scene.nodes().iter() {
-        assert!(node.mesh.is_none_or(|mesh| loaded.scene.meshes().get(mesh).is_some()), "{model}: meshes exist");
-        assert!(node.materials.iter().all(|&material| loaded.scene.materials.get(material).is_some()), "{model}: materials exist");
+        assert!(
+            node.mesh.is_none_or(|mesh| loaded.scene.meshes().get(mesh).is_some()),
+            "{model}: meshes exist"
+        );
+        assert!(
+            node.materials.iter().all(|&material| loaded.scene.materials.get(material).is_some()),
+            "{model}: materials exist"
+        );
     }
     for (_, material) in loaded.scene.materials.iter() {
         let texture = material.base_color_texture.map(|binding| binding.texture);
-        assert!(texture.is_none_or(|texture| loaded.scene.textures.get(texture).is_some()), "{model}: textures exist");
+        assert!(
+            texture.is_none_or(|texture| loaded.scene.textures.get(texture).is_some()),
+            "{model}: textures exist"
+        );
     }
 }
 
@@ -113,7 +154,8 @@ enum Mutation {
 fn mutation() -> impl Strategy<Value = Mutation> {
     prop_oneof![
         (any::<usize>(), 0..8u8).prop_map(|(at, bit)| Mutation::Flip(at, bit)),
-        (any::<usize>(), prop::sample::select(vec![0, 0xff, 0x7f, 0x80, b' ', b'\n', b'/', b'-'])).prop_map(|(at, value)| Mutation::Set(at, value)),
+        (any::<usize>(), prop::sample::select(vec![0, 0xff, 0x7f, 0x80, b' ', b'\n', b'/', b'-']))
+            .prop_map(|(at, value)| Mutation::Set(at, value)),
         any::<usize>().prop_map(Mutation::Cut),
         (any::<usize>(), 1..16usize).prop_map(|(at, length)| Mutation::Remove(at, length)),
         (any::<usize>(), 1..64usize).prop_map(|(at, length)| Mutation::Repeat(at, length)),

@@ -1,11 +1,13 @@
 //! A finished picture, owned, with what was asked for beside the colours.
 
+use std::fmt;
+
 use crate::arena::Arena;
 use crate::node::Node;
 use crate::scene::NodeId;
 
 /// A finished picture. Rows run from the top, pixels from the left.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Frame {
     /// Pixels.
     pub width: u32,
@@ -30,6 +32,18 @@ pub struct Hit {
     pub node: NodeId,
     /// Index of the polygon in the node's mesh; `None` for lines and points.
     pub face: Option<usize>,
+}
+
+impl fmt::Debug for Frame {
+    /// The size and what there is, not a million numbers.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Frame")
+            .field("width", &self.width)
+            .field("height", &self.height)
+            .field("depth", &self.depth.is_some())
+            .field("ids", &self.object_ids.is_some())
+            .finish_non_exhaustive()
+    }
 }
 
 impl Frame {

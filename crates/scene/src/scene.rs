@@ -30,6 +30,7 @@ pub struct MeshAsset {
     /// For people; need not be unique.
     pub name: String,
     mesh: Arc<Mesh>,
+    bounds: OnceLock<Bounds3>,
     geometry: OnceLock<Arc<Geometry>>,
 }
 
@@ -37,6 +38,15 @@ impl MeshAsset {
     /// The polygons.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
+    }
+
+    /// The smallest box around the vertices that faces, edges or points use.
+    pub fn bounds(&self) -> Bounds3 {
+        *self.bounds.get_or_init(|| {
+            // Stray vertices of a file must not push the model out of the picture.
+            let used = self.mesh.edges().as_flattened().iter().chain(self.mesh.loose_points());
+            Bounds3::from_points(used.map(|&vertex| self.mesh.positions()[vertex as usize].as_dvec3()))
+        })
     }
 
     /// What is drawn of it; made at the first use.
@@ -91,13 +101,19 @@ impl Scene {
 
     /// Adds a mesh, to be drawn by nodes.
     pub fn add_mesh(&mut self, name: impl Into<String>, mesh: Mesh) -> MeshId {
-        self.meshes.insert(MeshAsset { name: name.into(), mesh: Arc::new(mesh), geometry: OnceLock::new() })
+        self.meshes.insert(MeshAsset {
+            name: name.into(),
+            mesh: Arc::new(mesh),
+            bounds: OnceLock::new(),
+            geometry: OnceLock::new(),
+        })
     }
 
     /// Changes a mesh for every node that draws it; `None` when it was removed.
     pub fn replace_mesh(&mut self, id: MeshId, mesh: Mesh) -> Option<()> {
         let asset = self.meshes.get_mut(id)?;
         asset.mesh = Arc::new(mesh);
+        asset.bounds = OnceLock::new();
         asset.geometry = OnceLock::new();
         Some(())
     }
@@ -224,13 +240,11 @@ impl Scene {
     /// The smallest box around everything that is visible; empty when nothing is.
     pub fn bounds(&self) -> Bounds3 {
         let transforms = self.visible_transforms();
-        let mut mesh_bounds: Vec<Option<Bounds3>> = vec![None; self.meshes.index_bound()];
         let mut bounds = Bounds3::EMPTY;
         for (id, node) in self.nodes.iter() {
             let (Some(world), Some(mesh)) = (transforms[id.index()], node.mesh) else { continue };
             let Some(asset) = self.meshes.get(mesh) else { continue };
-            let local = *mesh_bounds[mesh.index()].get_or_insert_with(|| asset.mesh.bounds());
-            bounds = bounds.union(local.transformed(&world));
+            bounds = bounds.union(asset.bounds().transformed(&world));
         }
         bounds
     }

@@ -63,10 +63,21 @@ impl<'s> Composer<'s> {
         for (id, node) in self.scene.nodes().iter() {
             let (Some(world), Some(mesh)) = (&self.transforms[id.index()], node.mesh) else { continue };
             let Some(asset) = self.scene.meshes().get(mesh) else { continue };
+            if !self.may_show(asset, world) {
+                continue;
+            }
             let (index, place) = (id.index() as u32, self.eye.place(world));
             self.object(&Object { index, node, asset, geometry: asset.geometry(), place }, &mut draws);
         }
         draws
+    }
+
+    /// What is out of view is not prepared. Lines and points reach beyond their
+    /// vertices by their width, so only plain surfaces are left out.
+    fn may_show(&self, asset: &MeshAsset, world: &DAffine3) -> bool {
+        let mesh = asset.mesh();
+        let wires = !mesh.loose_edges().is_empty() || !mesh.loose_points().is_empty();
+        wires || self.settings.style != Style::Surface || self.eye.may_see(&asset.bounds(), world)
     }
 
     fn object<'c>(&'c self, object: &Object<'s>, draws: &mut Vec<Box<dyn Record + 'c>>) {
@@ -76,10 +87,13 @@ impl<'s> Composer<'s> {
                 draws.extend(runs.map(|run| self.surface(object, run)));
             }
             Style::HiddenLine => draws.push(self.hidden_line(object)),
-            Style::Wireframe => {
-                let edges = &object.asset.mesh().edges()[..object.asset.mesh().face_edge_count()];
-                draws.extend(self.segments(object, edges, self.settings.edge_color));
-            }
+            Style::Wireframe => {}
+        }
+        if self.settings.style != Style::Surface {
+            // On a surface these fill up what a face cannot paint by itself: the
+            // outer half of an edge on the silhouette.
+            let edges = &object.asset.mesh().edges()[..object.asset.mesh().face_edge_count()];
+            draws.extend(self.segments(object, edges, self.settings.edge_color));
         }
         let color = self.material(object, 0).base_color.truncate();
         draws.extend(self.segments(object, object.asset.mesh().loose_edges(), color));
@@ -147,15 +161,18 @@ impl<'s> Composer<'s> {
         color: Vec3,
     ) -> Option<Box<dyn Record + 'c>> {
         let (pipeline, object, width) = (self.wire(object, color), object.index, self.settings.line_width);
+        let no_face = vec![u32::MAX; segments.len()];
         (!segments.is_empty())
-            .then(|| Box::new(Segments { pipeline, segments, object, width }) as Box<dyn Record>)
+            .then(|| Box::new(Segments { pipeline, segments, no_face, object, width }) as Box<dyn Record>)
     }
 
     fn points<'c>(&'c self, object: &Object<'s>, color: Vec3) -> Option<Box<dyn Record + 'c>> {
         let points = object.asset.mesh().loose_points();
         let size = self.settings.line_width * POINT_TO_LINE;
         let (pipeline, object) = (self.wire(object, color), object.index);
-        (!points.is_empty()).then(|| Box::new(Dots { pipeline, points, object, size }) as Box<dyn Record>)
+        let no_face = vec![u32::MAX; points.len()];
+        (!points.is_empty())
+            .then(|| Box::new(Dots { pipeline, points, no_face, object, size }) as Box<dyn Record>)
     }
 }
 
@@ -271,6 +288,7 @@ impl<P: Pipeline> Record for Triangles<'_, P> {
 struct Segments<'s> {
     pipeline: Wire<'s>,
     segments: &'s [[u32; 2]],
+    no_face: Vec<u32>,
     object: u32,
     width: f32,
 }
@@ -278,19 +296,21 @@ struct Segments<'s> {
 impl Record for Segments<'_> {
     fn record<'a>(&'a self, pass: &mut Pass<'a>) {
         let lines = Lines::new(&self.pipeline, self.segments);
-        pass.lines(Lines { object: self.object, width: self.width, ..lines });
+        pass.lines(Lines { ids: Some(&self.no_face), object: self.object, width: self.width, ..lines });
     }
 }
 
 struct Dots<'s> {
     pipeline: Wire<'s>,
     points: &'s [u32],
+    no_face: Vec<u32>,
     object: u32,
     size: f32,
 }
 
 impl Record for Dots<'_> {
     fn record<'a>(&'a self, pass: &mut Pass<'a>) {
-        pass.points(Points { object: self.object, ..Points::new(&self.pipeline, self.points, self.size) });
+        let points = Points::new(&self.pipeline, self.points, self.size);
+        pass.points(Points { ids: Some(&self.no_face), object: self.object, ..points });
     }
 }

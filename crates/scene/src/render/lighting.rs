@@ -94,7 +94,7 @@ impl Lights {
                 self.directional.push(Directional { towards, radiance });
             }
             LightKind::Point => {
-                self.point.push(Point { position: to_camera.translation.as_vec3(), radiance })
+                self.point.push(Point { position: to_camera.translation.as_vec3(), radiance });
             }
         }
     }

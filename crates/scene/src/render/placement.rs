@@ -1,7 +1,7 @@
 //! The maps of one node: computed once per node in f64, cast once to f32.
 
 use trigon_camera::{Camera, Projection};
-use trigon_math::{DAffine3, DMat3, DMat4, DVec3, Mat3, Mat4};
+use trigon_math::{Bounds3, DAffine3, DMat3, DMat4, DVec3, Frustum, Mat3, Mat4};
 use trigon_raster::Culling;
 
 use super::surface::Side;
@@ -27,12 +27,22 @@ pub(super) struct Eye {
     /// The rotation alone: the eye is subtracted before it is applied.
     turn: DMat3,
     projection: DMat4,
+    /// What the camera sees, in camera space.
+    frustum: Frustum,
 }
 
 impl Eye {
     pub(super) fn new(camera: &Camera, aspect: f64) -> Self {
         let turn = DMat3::from_quat(camera.orientation.conjugate());
-        Self { position: camera.position, turn, projection: camera.projection.matrix(aspect) }
+        let projection = camera.projection.matrix(aspect);
+        let frustum = Frustum::from_clip_matrix(&projection);
+        Self { position: camera.position, turn, projection, frustum }
+    }
+
+    /// Whether a box at a place of the world may be in view; `false` is a proof
+    /// that nothing in it is.
+    pub(super) fn may_see(&self, bounds: &Bounds3, world: &DAffine3) -> bool {
+        self.frustum.intersects(&bounds.transformed(&self.to_camera(world)))
     }
 
     /// A map of the world in camera space. Large translations cancel before
@@ -134,7 +144,8 @@ mod tests {
     fn depth_goes_back_to_metres() {
         let (near, far) = (0.1, 100.0);
         // How many metres a unit of depth is worth at a distance z.
-        let cases: [(_, fn(f64) -> f64); 3] = [
+        type MetresPerDepth = fn(f64) -> f64;
+        let cases: [(_, MetresPerDepth); 3] = [
             (Projection::perspective(1.0, near, Some(far)), |z| z * z * 99.9 / (0.1 * 100.0)),
             (Projection::perspective(1.0, near, None), |z| z * z / 0.1),
             (Projection::orthographic(2.0, near, far), |_| 99.9),

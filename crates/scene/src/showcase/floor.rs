@@ -37,7 +37,8 @@ fn wood(place: Vec2) -> Vec3 {
     let seed = column * 8 + row;
     // Fibres: noise that is stretched along the grain, and bent by slower noise.
     let bend = noise(along * Vec2::new(1.5, 3.0), seed) * 1.4;
-    let rings = noise(Vec2::new(along.x * 0.8, along.y * 7.0 + bend), seed + 100);
+    // Two steps aside, for the bend is at most 1.4 to either side and noise wants no negative places.
+    let rings = noise(Vec2::new(along.x * 0.8, along.y * 7.0 + bend + 2.0), seed + 100);
     let fibres = noise(along * Vec2::new(6.0, 70.0), seed + 200);
     let shade = 0.9 + 0.16 * rings + 0.07 * fibres + 0.05 * noise(Vec2::ZERO, seed + 300);
     let edge = smaller(smaller(within.x, 1.0 - within.x), smaller(within.y, 1.0 - within.y));
@@ -48,13 +49,16 @@ fn wood(place: Vec2) -> Vec3 {
 /// Texels along each side of a spot's picture.
 const SPOT_SIDE: u32 = 64;
 
+/// The part of a spot's radius that is wholly black.
+const DARKEST: f32 = 0.35;
+
 /// Black that fades out from the middle: what ambient light does not reach
 /// under an object.
 pub(super) fn spot() -> Texture {
     let texel = |index: u32| {
         let place = Vec2::new((index % SPOT_SIDE) as f32 + 0.5, (index / SPOT_SIDE) as f32 + 0.5);
         let out = (place * (2.0 / SPOT_SIDE as f32) - Vec2::ONE).length().clamp(0.0, 1.0);
-        let alpha = smooth(1.0 - out);
+        let alpha = smooth(((1.0 - out) / (1.0 - DARKEST)).clamp(0.0, 1.0));
         [0, 0, 0, (alpha * 255.0 + 0.5) as u8]
     };
     let texels = (0..SPOT_SIDE * SPOT_SIDE).map(texel).collect();
@@ -67,7 +71,7 @@ fn opaque(srgb: Vec3) -> [u8; 4] {
 }
 
 /// Smooth noise, −1 to 1, with a feature per unit: bilinear between hashed
-/// lattice points, eased (Perlin's value noise).
+/// lattice points, eased (Perlin's value noise). Both coordinates are at least 0.
 fn noise(at: Vec2, seed: u32) -> f32 {
     let (x, y) = (at.x as u32, at.y as u32);
     let (u, v) = (smooth(at.x - x as f32), smooth(at.y - y as f32));

@@ -68,7 +68,7 @@ fn exhibits() -> Vec<Exhibit> {
             turn: 24.0,
             color: [214, 92, 58],
             shading: glossy(0.6, 80.0),
-            spot: Vec2::new(1.1, 1.1),
+            spot: Vec2::new(1.25, 1.25),
         },
         Exhibit {
             name: "sphere",
@@ -77,7 +77,7 @@ fn exhibits() -> Vec<Exhibit> {
             turn: 0.0,
             color: [38, 74, 150],
             shading: glossy(1.2, 250.0),
-            spot: Vec2::new(0.62, 0.62),
+            spot: Vec2::new(0.7, 0.7),
         },
         Exhibit {
             name: "icosahedron",
@@ -86,7 +86,7 @@ fn exhibits() -> Vec<Exhibit> {
             turn: 10.0,
             color: [28, 140, 138],
             shading: glossy(0.25, 30.0),
-            spot: Vec2::new(0.85, 0.85),
+            spot: Vec2::new(1.0, 1.0),
         },
         Exhibit {
             name: "dodecahedron",
@@ -95,7 +95,7 @@ fn exhibits() -> Vec<Exhibit> {
             turn: 32.0,
             color: [226, 164, 52],
             shading: Shading::Lambert,
-            spot: Vec2::new(0.62, 0.62),
+            spot: Vec2::new(0.7, 0.7),
         },
         Exhibit {
             name: "torus knot",
@@ -113,7 +113,7 @@ fn exhibits() -> Vec<Exhibit> {
             turn: 0.0,
             color: [122, 158, 88],
             shading: Shading::Lambert,
-            spot: Vec2::new(0.62, 0.62),
+            spot: Vec2::new(0.7, 0.7),
         },
         Exhibit {
             name: "torus",
@@ -226,6 +226,7 @@ fn linear(srgb: [u8; 3]) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{RenderSettings, render};
 
     #[test]
     fn every_exhibit_stands_on_the_floor() {
@@ -239,6 +240,20 @@ mod tests {
             standing += 1;
         }
         assert!(standing > 10, "exhibits, their spots and the floor, not {standing}");
+    }
+
+    #[test]
+    fn spots_darken_the_floor_and_nothing_else() {
+        let mut scene = showcase();
+        let camera = scene.cameras()[0].1;
+        let settings = RenderSettings::new(100, 60);
+        let with = render(&scene, &camera, &settings).expect("drawn");
+        scene.nodes_mut().filter(|(_, node)| node.name == "spot").for_each(|(_, node)| node.visible = false);
+        let without = render(&scene, &camera, &settings).expect("drawn");
+        let pairs = || with.color.iter().zip(&without.color);
+        assert!(pairs().all(|(with, without)| with <= without), "nothing is brighter");
+        let darker = pairs().filter(|(with, without)| with < without).count();
+        assert!(darker > 1000, "{darker} bytes are darker");
     }
 
     #[test]
