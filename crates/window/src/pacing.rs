@@ -13,6 +13,10 @@ const FRAME: Duration = Duration::from_micros(16_667);
 /// After this long without a movement, the picture is refined.
 const REST: Duration = Duration::from_millis(150);
 
+/// Where a full frame takes long, it waits for as long as it will take, so that
+/// a hand that only pauses is not held up; but no longer than this.
+const LONGEST_REST: Duration = Duration::from_millis(600);
+
 /// A draft that takes longer than this makes the next one smaller: below 25
 /// frames a second a hand notices.
 const SLOW: Duration = Duration::from_millis(40);
@@ -85,11 +89,12 @@ pub(crate) struct Pacing {
     /// When the last frame began.
     drawn: Option<Duration>,
     shrink: u32,
+    rest: Duration,
 }
 
 impl Pacing {
     pub(crate) fn new() -> Self {
-        Self { shown: Shown::Old, moved: None, drawn: None, shrink: 1 }
+        Self { shown: Shown::Old, moved: None, drawn: None, shrink: 1, rest: REST }
     }
 
     /// Something has changed.
@@ -116,7 +121,7 @@ impl Pacing {
         let paced = self.drawn.map_or(now, |drawn| drawn + FRAME);
         let due = match (self.shown, animated) {
             (Shown::Old | Shown::OldOverlay, _) | (_, Frames::Wanted) => Some(paced),
-            (Shown::Draft, Frames::None) => Some(self.moved.map_or(now, |moved| moved + REST)),
+            (Shown::Draft, Frames::None) => Some(self.moved.map_or(now, |moved| moved + self.rest)),
             (Shown::Full, Frames::None) => None,
         };
         let due = match (due, expiry) {
@@ -133,7 +138,7 @@ impl Pacing {
     /// A frame begins: what it has to do.
     pub(crate) fn begin(&mut self, now: Duration, animated: Frames) -> Work {
         self.drawn = Some(now);
-        let moving = animated == Frames::Wanted || self.moved.is_some_and(|moved| now < moved + REST);
+        let moving = animated == Frames::Wanted || self.moved.is_some_and(|moved| now < moved + self.rest);
         let work = match self.shown {
             Shown::Full | Shown::OldOverlay if animated == Frames::None => Work::Compose,
             _ if moving => Work::Render(Quality::Draft { shrink: self.shrink }),
@@ -143,14 +148,13 @@ impl Pacing {
         work
     }
 
-    /// The frame took this long: what that means for the size of drafts.
+    /// The frame took this long: what that means for the ones to come.
     pub(crate) fn took(&mut self, quality: Quality, time: Duration) {
-        if let Quality::Draft { .. } = quality {
-            if time > SLOW {
-                self.shrink = (self.shrink * 2).min(MOST_SHRINK);
-            } else if time < QUICK {
-                self.shrink = (self.shrink / 2).max(1);
-            }
+        match quality {
+            Quality::Full => self.rest = time.clamp(REST, LONGEST_REST),
+            Quality::Draft { .. } if time > SLOW => self.shrink = (self.shrink * 2).min(MOST_SHRINK),
+            Quality::Draft { .. } if time < QUICK => self.shrink = (self.shrink / 2).max(1),
+            Quality::Draft { .. } => {}
         }
     }
 }
@@ -275,5 +279,17 @@ mod tests {
         }
         pacing.took(Quality::Full, ms(900));
         assert_eq!(pacing.shrink, 1, "full frames may take their time");
+    }
+
+    #[test]
+    fn an_expensive_refinement_waits_longer() {
+        for (took, rest) in [(5, 150), (400, 400), (5000, 600)] {
+            let mut pacing = Pacing::new();
+            pacing.begin(ms(0), Frames::None);
+            pacing.took(Quality::Full, ms(took));
+            pacing.changed(Change::Moving, ms(1000));
+            let drawn = run(&mut pacing, ms(1000), ms(9000), Frames::None);
+            assert_eq!(drawn, [(ms(1000), DRAFT), (ms(1000 + rest), FULL)], "a full frame takes {took} ms");
+        }
     }
 }

@@ -22,6 +22,8 @@ struct Open {
     presenter: Presenter,
     window: Arc<Window>,
     title: String,
+    /// When it was last asked.
+    minimised: bool,
 }
 
 /// An application between its start and its end.
@@ -60,7 +62,7 @@ impl<'a> Shell<'a> {
         let size = window.inner_size();
         self.session.event(InputEvent::Resized { width: size.width, height: size.height }, now);
         self.session.start(now);
-        self.open = Some(Open { presenter, window, title });
+        self.open = Some(Open { presenter, window, title, minimised: false });
         Ok(())
     }
 
@@ -68,6 +70,13 @@ impl<'a> Shell<'a> {
     fn draw(&mut self) -> Result<(), WindowError> {
         let now = self.now();
         let Some(open) = &mut self.open else { return Ok(()) };
+        // Not every system tells of a window that is minimised, but each asks
+        // for a frame when it is seen again.
+        let minimised = open.window.is_minimized() == Some(true);
+        if minimised != std::mem::replace(&mut open.minimised, minimised) {
+            let event = if minimised { InputEvent::Hidden } else { InputEvent::Shown };
+            self.session.event(event, now);
+        }
         let Some(canvas) = self.session.draw(now, &|| self.started.elapsed()) else { return Ok(()) };
         open.presenter.present(&open.window, canvas)?;
         self.session.presented(self.started.elapsed());

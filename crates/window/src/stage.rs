@@ -183,14 +183,15 @@ impl Stage {
 
     /// What a pixel shows, and where in the world. Draws the ids once for it.
     pub fn pick(&mut self, at: DVec2) -> Option<(Hit, DVec3)> {
+        let size = self.viewport.size();
+        if !at.cmpge(DVec2::ZERO).all() || !at.cmplt(size).all() {
+            return None;
+        }
         let camera = self.camera();
         let outputs = Outputs { depth: true, ids: true };
         let mut settings = RenderSettings { outputs, samples_per_axis: 1, ..self.settings.clone() };
         (settings.width, settings.height) = (self.viewport.width, self.viewport.height);
         let frame = self.renderer.render(&self.scene, &camera, &settings).ok()?;
-        if at.x < 0.0 || at.y < 0.0 {
-            return None;
-        }
         let (x, y) = (at.x as u32, at.y as u32);
         let hit = frame.hit(self.scene.nodes(), x, y)?;
         let distance = frame.depth.as_ref()?[(y * frame.width + x) as usize];

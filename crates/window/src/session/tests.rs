@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::input::{Key, Press};
+use crate::keymap::Keymap;
+use proptest::prelude::*;
 use trigon_camera::AxisView;
 use trigon_mesh::primitives;
 use trigon_scene::{Frame, Material, RenderSettings};
@@ -305,5 +307,61 @@ fn a_new_size_and_scale_are_followed() {
     for nonsense in [0.0, -1.0, f64::NAN] {
         session.event(InputEvent::Scaled(nonsense), ms(30));
         assert_eq!(session.stage.scale(), 2.0, "{nonsense} is no scale");
+    }
+}
+
+fn any_event() -> impl Strategy<Value = InputEvent> {
+    let place = (-10.0..110.0, -10.0..80.0).prop_map(|(x, y)| DVec2::new(x, y));
+    let button = prop::sample::select(vec![PointerButton::Left, PointerButton::Middle, PointerButton::Right]);
+    let modifiers = prop::sample::select(vec![
+        Modifiers::NONE,
+        Modifiers::CTRL,
+        Modifiers::SHIFT,
+        Modifiers::ALT,
+        Modifiers::ALT | Modifiers::SHIFT,
+    ]);
+    let keys = Keymap::default().bindings().to_vec();
+    let sizes = prop::sample::select(vec![(0, 0), (1, 1), (40, 0), (SIZE.width, SIZE.height)]);
+    prop_oneof![
+        4 => place.prop_map(InputEvent::PointerMoved),
+        4 => (button, any::<bool>())
+            .prop_map(|(button, down)| InputEvent::Button(button, if down { Press::Down } else { Press::Up })),
+        1 => (-10.0..10.0).prop_map(InputEvent::Wheel),
+        1 => (-3.0..3.0).prop_map(InputEvent::Pinch),
+        4 => (0u64..4, prop::sample::select(keys)).prop_map(|(code, binding)| key_down(code, binding.chord.key)),
+        2 => (0u64..4).prop_map(|code| InputEvent::KeyUp(KeyCode(code))),
+        2 => modifiers.prop_map(InputEvent::Modifiers),
+        1 => Just(InputEvent::FocusLost),
+        1 => sizes.prop_map(|(width, height)| InputEvent::Resized { width, height }),
+        1 => prop_oneof![Just(InputEvent::Hidden), Just(InputEvent::Shown)],
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn whatever_happens_it_comes_to_rest_and_can_be_seen(events in prop::collection::vec(any_event(), 1..60)) {
+        let mut handler = Recorder::default();
+        let mut session = begun(&mut handler);
+        for (event, now) in events.into_iter().zip((1000..).step_by(7).map(ms)) {
+            session.event(event, now);
+            if session.next(now) == Wake::Now {
+                draw(&mut session, now);
+            }
+        }
+        for event in [
+            InputEvent::FocusLost,
+            InputEvent::Shown,
+            InputEvent::Resized { width: SIZE.width, height: SIZE.height },
+            key_down(9, Key::Enter),
+        ] {
+            session.event(event, ms(5000));
+        }
+        run(&mut session, ms(5000));
+        prop_assert_eq!(session.next(ms(60_000)), Wake::Never, "at rest");
+        let bounds = session.stage.scene.bounds();
+        prop_assert!(bounds.min.is_finite() && bounds.max.is_finite(), "objects are somewhere: {:?}", bounds);
+        prop_assert!(session.stage.camera().position.is_finite(), "and so is the camera");
     }
 }
