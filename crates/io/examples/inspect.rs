@@ -1,6 +1,8 @@
 //! Prints what is in model files, without drawing them:
 //! `cargo run -p trigon-io --example inspect -- model.glb …`
 
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "printing is what this example is for")]
+
 use std::process::ExitCode;
 
 use trigon_io::{LoadOptions, Loaded, load};
@@ -31,7 +33,12 @@ fn print(loaded: &Loaded) {
         });
         println!("  {id:?} \"{}\": {shape}, {} materials", node.name, node.materials.len());
     }
-    println!("  {} meshes, {} materials, {} textures", scene.meshes().len(), scene.materials.len(), scene.textures.len());
+    println!(
+        "  {} meshes, {} materials, {} textures",
+        scene.meshes().len(),
+        scene.materials.len(),
+        scene.textures.len()
+    );
     for file in &files[1..] {
         println!("  reads {}", file.display());
     }

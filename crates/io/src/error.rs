@@ -78,7 +78,12 @@ pub struct LoadError {
 }
 
 impl LoadError {
-    pub(crate) fn new(kind: LoadErrorKind, file: &Path, what: impl Into<String>, remedy: impl Into<String>) -> Self {
+    pub(crate) fn new(
+        kind: LoadErrorKind,
+        file: &Path,
+        what: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
         let (what, remedy) = (printable(&what.into()), printable(&remedy.into()));
         Self { kind, file: file.to_owned(), place: Place::Whole, what, remedy }
     }
@@ -115,7 +120,8 @@ const QUOTE_LIMIT: usize = 400;
 /// The text on one line, without control characters, shortened in the middle
 /// of nowhere when it is absurdly long.
 pub(crate) fn printable(text: &str) -> String {
-    let mut clean: String = text.chars().take(QUOTE_LIMIT).map(|c| if is_unprintable(c) { '\u{fffd}' } else { c }).collect();
+    let mut clean: String =
+        text.chars().take(QUOTE_LIMIT).map(|c| if is_unprintable(c) { '\u{fffd}' } else { c }).collect();
     if text.chars().nth(QUOTE_LIMIT).is_some() {
         clean.push('…');
     }
@@ -124,7 +130,8 @@ pub(crate) fn printable(text: &str) -> String {
 
 /// Control characters, and the invisible ones that reorder or break lines.
 fn is_unprintable(c: char) -> bool {
-    c.is_control() || matches!(c, '\u{2028}' | '\u{2029}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    c.is_control()
+        || matches!(c, '\u{2028}' | '\u{2029}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 #[cfg(test)]
@@ -133,8 +140,13 @@ mod tests {
 
     #[test]
     fn a_message_is_one_line_with_file_place_and_remedy() {
-        let error = LoadError::malformed(Path::new("a\nb.obj"), "bad\u{1b}[31m name", "mend it").at(Place::Line(3));
-        assert_eq!(error.to_string(), "a\u{fffd}b.obj, line 3: bad\u{fffd}[31m name; mend it", "no control characters");
+        let error =
+            LoadError::malformed(Path::new("a\nb.obj"), "bad\u{1b}[31m name", "mend it").at(Place::Line(3));
+        assert_eq!(
+            error.to_string(),
+            "a\u{fffd}b.obj, line 3: bad\u{fffd}[31m name; mend it",
+            "no control characters"
+        );
     }
 
     #[test]

@@ -88,7 +88,11 @@ impl Folder {
     /// The folder that holds a model.
     pub(crate) fn of(model: &Path, limits: &Limits) -> io::Result<Self> {
         let parent = model.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        Ok(Self { root: Some(fs::canonicalize(parent)?), shown: model.parent().unwrap_or(parent).to_owned(), ..Self::none(limits) })
+        Ok(Self {
+            root: Some(fs::canonicalize(parent)?),
+            shown: model.parent().unwrap_or(parent).to_owned(),
+            ..Self::none(limits)
+        })
     }
 
     /// No folder: every name is refused.
@@ -142,7 +146,11 @@ impl Folder {
     /// Counts bytes that did not come from a file of their own.
     pub(crate) fn account(&mut self, bytes: u64) -> Result<(), Refusal> {
         self.total = self.total.saturating_add(bytes);
-        if self.total > self.limits.total_bytes { Err(Refusal::TooLarge(self.total, self.limits.total_bytes)) } else { Ok(()) }
+        if self.total > self.limits.total_bytes {
+            Err(Refusal::TooLarge(self.total, self.limits.total_bytes))
+        } else {
+            Ok(())
+        }
     }
 
     fn read_exact(&mut self, within: &Path, name: &str) -> Result<Found, Refusal> {
@@ -204,7 +212,8 @@ impl Folder {
             let part = part.as_os_str().to_str()?.to_lowercase();
             // A folder with more entries than this is not searched.
             let entries = fs::read_dir(root.join(&found)).ok()?.take(100_000).flatten();
-            let mut names: Vec<_> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+            let mut names: Vec<_> =
+                entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
             names.retain(|entry| entry.to_lowercase() == part);
             names.sort();
             found.push(names.first()?);
@@ -280,7 +289,18 @@ mod tests {
     #[test]
     fn names_that_lead_away_are_refused() {
         let (_dir, mut folder) = folder_with(&["a.png"]);
-        for name in ["/etc/passwd", "../a.png", "x/../../a.png", "C:\\a.txt", "file:///etc/passwd", "http://x/a", "", " ", "a\0b", "\\\\host\\a"] {
+        for name in [
+            "/etc/passwd",
+            "../a.png",
+            "x/../../a.png",
+            "C:\\a.txt",
+            "file:///etc/passwd",
+            "http://x/a",
+            "",
+            " ",
+            "a\0b",
+            "\\\\host\\a",
+        ] {
             let refusal = read(&mut folder, name, Lookup::Exact).expect_err("refused");
             assert!(refusal.is_forbidden(), "{name:?}: {refusal}");
         }
@@ -289,7 +309,9 @@ mod tests {
     #[test]
     fn the_same_names_do_not_get_out_through_forgiveness() {
         let (_dir, mut folder) = folder_with(&["a.png"]);
-        for name in ["/etc/passwd", "../../etc/passwd", "..\\..\\etc\\passwd", "file:///etc/passwd", "/dev/zero"] {
+        for name in
+            ["/etc/passwd", "../../etc/passwd", "..\\..\\etc\\passwd", "file:///etc/passwd", "/dev/zero"]
+        {
             read(&mut folder, name, Lookup::Forgiving).expect_err(name);
         }
     }
@@ -297,7 +319,8 @@ mod tests {
     #[test]
     fn other_spellings_are_found_inside() {
         let (_dir, mut folder) = folder_with(&["textures/Wood.PNG", "plain.jpg"]);
-        for name in ["textures\\Wood.PNG", "Textures/wood.png", "C:\\models\\plain.jpg", "/home/x/PLAIN.jpg"] {
+        for name in ["textures\\Wood.PNG", "Textures/wood.png", "C:\\models\\plain.jpg", "/home/x/PLAIN.jpg"]
+        {
             let found = read(&mut folder, name, Lookup::Forgiving).expect(name);
             assert!(found.respelled, "{name} is not as written");
         }
@@ -311,11 +334,27 @@ mod tests {
         std::os::unix::fs::symlink("/etc", dir.path().join("out")).expect("a link");
         std::os::unix::fs::symlink("/dev/zero", dir.path().join("zero")).expect("a link");
         std::os::unix::fs::symlink("sub/a.png", dir.path().join("inside.png")).expect("a link");
-        assert!(matches!(read(&mut folder, "out/hostname", Lookup::Exact), Err(Refusal::Outside | Refusal::Missing)), "link to a folder");
-        assert!(matches!(read(&mut folder, "zero", Lookup::Exact), Err(Refusal::Outside)), "link to a device");
+        assert!(
+            matches!(
+                read(&mut folder, "out/hostname", Lookup::Exact),
+                Err(Refusal::Outside | Refusal::Missing)
+            ),
+            "link to a folder"
+        );
+        assert!(
+            matches!(read(&mut folder, "zero", Lookup::Exact), Err(Refusal::Outside)),
+            "link to a device"
+        );
         assert!(matches!(read(&mut folder, "sub", Lookup::Exact), Err(Refusal::NotAFile)), "a folder");
-        assert_eq!(read(&mut folder, "inside.png", Lookup::Exact).expect("stays inside").bytes, b"sub/a.png", "its target");
-        assert!(matches!(folder.read_model(Path::new("/dev/zero")), Err(Refusal::NotAFile)), "the model itself is a device");
+        assert_eq!(
+            read(&mut folder, "inside.png", Lookup::Exact).expect("stays inside").bytes,
+            b"sub/a.png",
+            "its target"
+        );
+        assert!(
+            matches!(folder.read_model(Path::new("/dev/zero")), Err(Refusal::NotAFile)),
+            "the model itself is a device"
+        );
     }
 
     #[test]

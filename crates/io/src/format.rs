@@ -30,7 +30,8 @@ pub struct Reader {
 
 /// Every model format that can be read.
 pub fn readers() -> &'static [Reader] {
-    const GLTF: &str = "node tree, materials, textures, vertex colours, cameras, lights; no animation, skins or morphs yet";
+    const GLTF: &str =
+        "node tree, materials, textures, vertex colours, cameras, lights; no animation, skins or morphs yet";
     const OBJ: &str = "polygons, edges, points, groups, materials, diffuse textures, vertex colours";
     const READERS: &[Reader] = &[
         Reader { format: Format::Obj, name: "Wavefront OBJ with MTL", extensions: &["obj"], reads: OBJ },
@@ -41,13 +42,16 @@ pub fn readers() -> &'static [Reader] {
 }
 
 /// Formats that people will try, and that are named instead of misread.
-const UNSUPPORTED: &[&str] =
-    &["ply", "stl", "off", "fbx", "dae", "3ds", "blend", "usd", "usda", "usdc", "usdz", "x3d", "wrl", "step", "stp", "iges", "3mf"];
+const UNSUPPORTED: &[&str] = &[
+    "ply", "stl", "off", "fbx", "dae", "3ds", "blend", "usd", "usda", "usdc", "usdz", "x3d", "wrl", "step",
+    "stp", "iges", "3mf",
+];
 
 /// The format of a file, or why it is none of ours. The magic of a GLB beats
 /// the name; then the name decides; then the contents.
 pub(crate) fn detect_format(path: &Path, bytes: &[u8]) -> Result<Format, String> {
-    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_lowercase();
+    let extension =
+        path.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_lowercase();
     let by_name = readers().iter().find(|reader| reader.extensions.contains(&extension.as_str()));
     if let Some(reader) = by_name {
         // Many a GLB is called .gltf and the other way round.
@@ -65,7 +69,12 @@ pub(crate) fn detect_format(path: &Path, bytes: &[u8]) -> Result<Format, String>
 
 /// The formats for a remedy: "convert it to …".
 pub(crate) fn supported() -> String {
-    let endings: Vec<String> = readers().iter().flat_map(|reader| reader.extensions).filter(|&&e| e != "vrm").map(|e| format!(".{e}")).collect();
+    let endings: Vec<String> = readers()
+        .iter()
+        .flat_map(|reader| reader.extensions)
+        .filter(|&&e| e != "vrm")
+        .map(|e| format!(".{e}"))
+        .collect();
     format!("supported are {}", endings.join(", "))
 }
 

@@ -51,11 +51,11 @@ mod textures;
 mod uri;
 mod warning;
 
-pub use load::{Loaded, load, load_from_slice};
-pub use options::{LoadOptions, Progress, ProgressHook, Stage};
-pub use limits::Limits;
-pub use warning::Warning;
 pub use error::{LoadError, LoadErrorKind, Place};
 pub use format::{Format, Reader, readers};
+pub use limits::Limits;
+pub use load::{Loaded, load, load_from_slice};
+pub use options::{LoadOptions, Progress, ProgressHook, Stage};
 pub use picture::{Picture, load_image};
 pub use png::{Pixels, WriteError, encode_png, write_png};
+pub use warning::Warning;

@@ -50,7 +50,11 @@ pub fn load(path: impl AsRef<Path>, options: &LoadOptions<'_>) -> Result<Loaded,
 ///
 /// # Errors
 /// As [`load`].
-pub fn load_from_slice(name: impl AsRef<Path>, bytes: &[u8], options: &LoadOptions<'_>) -> Result<Loaded, LoadError> {
+pub fn load_from_slice(
+    name: impl AsRef<Path>,
+    bytes: &[u8],
+    options: &LoadOptions<'_>,
+) -> Result<Loaded, LoadError> {
     let name = name.as_ref();
     let (length, limit) = (bytes.len() as u64, options.limits.file_bytes);
     if length > limit {
@@ -61,8 +65,9 @@ pub fn load_from_slice(name: impl AsRef<Path>, bytes: &[u8], options: &LoadOptio
 }
 
 fn import(path: &Path, bytes: &[u8], folder: Folder, options: &LoadOptions<'_>) -> Result<Loaded, LoadError> {
-    let format = detect_format(path, bytes)
-        .map_err(|what| LoadError::new(LoadErrorKind::Unsupported, path, what, format!("convert it; {}", supported())))?;
+    let format = detect_format(path, bytes).map_err(|what| {
+        LoadError::new(LoadErrorKind::Unsupported, path, what, format!("convert it; {}", supported()))
+    })?;
     let mut import = Import { path, options, folder, warnings: Warnings::about(path), scene: Scene::new() };
     match format {
         Format::Obj => crate::obj::import_obj(&mut import, bytes)?,
@@ -78,8 +83,23 @@ fn import(path: &Path, bytes: &[u8], folder: Folder, options: &LoadOptions<'_>) 
 pub(crate) fn refused(path: &Path, refusal: &Refusal) -> LoadError {
     match refusal {
         Refusal::Read(error) => LoadError::read(path, error),
-        Refusal::TooLarge(..) => LoadError::new(LoadErrorKind::Limit, path, refusal.to_string(), "raise the limit if you trust the file"),
-        Refusal::Missing => LoadError::new(LoadErrorKind::Read, path, "there is no such file", "check the name and the folder"),
-        other => LoadError::new(LoadErrorKind::Forbidden, path, other.to_string(), "name a regular file; pipe streams through `-`"),
+        Refusal::TooLarge(..) => LoadError::new(
+            LoadErrorKind::Limit,
+            path,
+            refusal.to_string(),
+            "raise the limit if you trust the file",
+        ),
+        Refusal::Missing => LoadError::new(
+            LoadErrorKind::Read,
+            path,
+            "there is no such file",
+            "check the name and the folder",
+        ),
+        other => LoadError::new(
+            LoadErrorKind::Forbidden,
+            path,
+            other.to_string(),
+            "name a regular file; pipe streams through `-`",
+        ),
     }
 }

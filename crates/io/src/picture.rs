@@ -31,8 +31,10 @@ pub struct Picture {
 /// larger than the limits.
 pub fn load_image(path: impl AsRef<Path>, limits: &Limits) -> Result<Picture, LoadError> {
     let path = path.as_ref();
-    let bytes = Folder::none(limits).read_model(path).map_err(|refusal| crate::load::refused(path, &refusal))?;
-    decode_picture(&bytes, limits).map_err(|why| LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as PNG or JPEG"))
+    let bytes =
+        Folder::none(limits).read_model(path).map_err(|refusal| crate::load::refused(path, &refusal))?;
+    decode_picture(&bytes, limits)
+        .map_err(|why| LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as PNG or JPEG"))
 }
 
 /// Decodes a picture, or says why it cannot be.
@@ -47,7 +49,9 @@ pub(crate) fn decode_picture(bytes: &[u8], limits: &Limits) -> Result<Picture, S
     }
     if width.max(height) > limits.image_side || pixels > limits.image_pixels {
         let (side, most) = (limits.image_side, limits.image_pixels);
-        return Err(format!("the picture claims {width}×{height} pixels; the limit is {side} a side and {most} in all"));
+        return Err(format!(
+            "the picture claims {width}×{height} pixels; the limit is {side} a side and {most} in all"
+        ));
     }
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(decoder_limits(limits));
@@ -71,10 +75,16 @@ pub(crate) fn placeholder() -> Picture {
 fn picture_format(bytes: &[u8]) -> Result<ImageFormat, String> {
     match image::guess_format(bytes) {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => Ok(format),
-        Ok(format) => Err(format!("pictures of the format {format:?} are not supported yet, only PNG and JPEG are")),
+        Ok(format) => {
+            Err(format!("pictures of the format {format:?} are not supported yet, only PNG and JPEG are"))
+        }
         Err(_) if bytes.is_empty() => Err("the picture is an empty file".to_owned()),
-        Err(_) if bytes.starts_with(b"\xabKTX 20\xbb\r\n\x1a\n") => Err("KTX2 pictures are not supported yet, only PNG and JPEG are".to_owned()),
-        Err(_) if bytes.starts_with(b"version https://git-lfs") => Err("the picture is a Git LFS pointer; run `git lfs pull`".to_owned()),
+        Err(_) if bytes.starts_with(b"\xabKTX 20\xbb\r\n\x1a\n") => {
+            Err("KTX2 pictures are not supported yet, only PNG and JPEG are".to_owned())
+        }
+        Err(_) if bytes.starts_with(b"version https://git-lfs") => {
+            Err("the picture is a Git LFS pointer; run `git lfs pull`".to_owned())
+        }
         Err(_) => Err("its first bytes are those of no known picture format".to_owned()),
     }
 }
@@ -92,7 +102,9 @@ fn decoder_limits(limits: &Limits) -> image::Limits {
 fn reason(error: &ImageError) -> String {
     match error {
         ImageError::Limits(limit) => format!("the picture is too large ({limit})"),
-        ImageError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => "the picture ends too early".to_owned(),
+        ImageError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            "the picture ends too early".to_owned()
+        }
         other => format!("the picture is broken ({other})"),
     }
 }
@@ -116,7 +128,12 @@ mod tests {
         let mut png = Vec::new();
         encode_png(&mut png, 64, 64, Pixels::Rgba8(&[7; 64 * 64 * 4])).expect("memory takes it");
         let half = &png[..png.len() / 2];
-        for (bytes, word) in [(&b""[..], "empty"), (b"hello, world", "no known"), (b"RIFF\x10\0\0\0WEBPVP8 ", "WebP"), (half, "picture")] {
+        for (bytes, word) in [
+            (&b""[..], "empty"),
+            (b"hello, world", "no known"),
+            (b"RIFF\x10\0\0\0WEBPVP8 ", "WebP"),
+            (half, "picture"),
+        ] {
             let why = decode_picture(bytes, &Limits::default()).expect_err("no picture");
             assert!(why.contains(word), "{why:?} names {word:?}");
         }

@@ -52,10 +52,16 @@ pub enum WriteError {
 /// # Errors
 /// When the sizes do not fit, or the file cannot be written; an old file of
 /// that name is then untouched.
-pub fn write_png(path: impl AsRef<Path>, width: u32, height: u32, pixels: Pixels<'_>) -> Result<(), WriteError> {
+pub fn write_png(
+    path: impl AsRef<Path>,
+    width: u32,
+    height: u32,
+    pixels: Pixels<'_>,
+) -> Result<(), WriteError> {
     let path = path.as_ref();
     check_size(width, height, pixels)?;
-    write_atomically(path, |file| encode(file, width, height, pixels)).map_err(|source| WriteError::File { path: path.to_owned(), source })
+    write_atomically(path, |file| encode(file, width, height, pixels))
+        .map_err(|source| WriteError::File { path: path.to_owned(), source })
 }
 
 /// Writes a PNG to a writer, such as standard output.
@@ -163,7 +169,8 @@ mod tests {
 
     #[test]
     fn the_error_names_the_file() {
-        let error = write_png("/nowhere/at/all.png", 1, 1, Pixels::Rgb8(&[0; 3])).expect_err("no such folder");
+        let error =
+            write_png("/nowhere/at/all.png", 1, 1, Pixels::Rgb8(&[0; 3])).expect_err("no such folder");
         assert!(error.to_string().starts_with("/nowhere/at/all.png: "), "{error}");
     }
 }

@@ -17,7 +17,8 @@ const FAR: f64 = 16.0;
 pub(crate) fn offset_for(positions: &[DVec3]) -> DVec3 {
     let finite = || positions.iter().filter(|position| position.is_finite());
     let Some(&first) = finite().next() else { return DVec3::ZERO };
-    let (low, high) = finite().fold((first, first), |(low, high), &position| (low.min(position), high.max(position)));
+    let (low, high) =
+        finite().fold((first, first), |(low, high), &position| (low.min(position), high.max(position)));
     let size = (high - low).max_element();
     let reach = low.abs().max(high.abs()).max_element();
     if !size.is_finite() || reach <= FAR * size {
@@ -44,7 +45,11 @@ mod tests {
         assert_eq!(offset_for(&[DVec3::ZERO, DVec3::ONE]), DVec3::ZERO, "at the origin");
         assert_eq!(offset_for(&[DVec3::splat(10.0), DVec3::splat(11.0)]), DVec3::ZERO, "a little off");
         assert_eq!(offset_for(&[]), DVec3::ZERO, "nothing");
-        assert_eq!(offset_for(&[DVec3::splat(f64::NAN), DVec3::splat(f64::MAX), DVec3::splat(f64::MIN)]), DVec3::ZERO, "absurd");
+        assert_eq!(
+            offset_for(&[DVec3::splat(f64::NAN), DVec3::splat(f64::MAX), DVec3::splat(f64::MIN)]),
+            DVec3::ZERO,
+            "absurd"
+        );
     }
 
     #[test]

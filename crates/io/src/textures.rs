@@ -25,14 +25,22 @@ pub(crate) struct Request {
 
 /// Decodes pictures and adds them to the scene, in order. A broken one becomes
 /// a warning and a checkerboard that nobody overlooks.
-pub(crate) fn add_textures(import: &mut Import<'_>, requests: &[Request]) -> Result<Vec<TextureId>, LoadError> {
+pub(crate) fn add_textures(
+    import: &mut Import<'_>,
+    requests: &[Request],
+) -> Result<Vec<TextureId>, LoadError> {
     let done = AtomicUsize::new(0);
     let (path, options) = (import.path, import.options);
     let decode = |request: &Request| {
-        options.report(path, Stage::Textures, done.fetch_add(1, Ordering::Relaxed) as f32 / requests.len() as f32)?;
+        options.report(
+            path,
+            Stage::Textures,
+            done.fetch_add(1, Ordering::Relaxed) as f32 / requests.len() as f32,
+        )?;
         Ok(decode_picture(&request.bytes, &options.limits).and_then(to_texture))
     };
-    let decoded: Vec<Result<Texture, String>> = requests.par_iter().map(decode).collect::<Result<_, LoadError>>()?;
+    let decoded: Vec<Result<Texture, String>> =
+        requests.par_iter().map(decode).collect::<Result<_, LoadError>>()?;
     let mut ids = Vec::with_capacity(requests.len());
     let mut stand_in = None;
     for (request, result) in requests.iter().zip(decoded) {
@@ -40,7 +48,12 @@ pub(crate) fn add_textures(import: &mut Import<'_>, requests: &[Request]) -> Res
             Ok(texture) => import.scene.add_texture(request.name.clone(), texture),
             Err(why) => {
                 let what = format!("picture \"{}\" is shown as a checkerboard: {why}", request.name);
-                import.warnings.push_about(&request.file, request.place.clone(), what, "save it as PNG or JPEG");
+                import.warnings.push_about(
+                    &request.file,
+                    request.place.clone(),
+                    what,
+                    "save it as PNG or JPEG",
+                );
                 *stand_in.get_or_insert_with(|| {
                     let texture = to_texture(placeholder()).expect("the placeholder is a small picture");
                     import.scene.add_texture("placeholder", texture)
@@ -53,5 +66,6 @@ pub(crate) fn add_textures(import: &mut Import<'_>, requests: &[Request]) -> Res
 
 fn to_texture(picture: Picture) -> Result<Texture, String> {
     let texels = picture.rgba.chunks_exact(4).map(|texel| [texel[0], texel[1], texel[2], texel[3]]).collect();
-    Texture::new(picture.width, picture.height, texels, TextureFormat::Srgb).map_err(|error| error.to_string())
+    Texture::new(picture.width, picture.height, texels, TextureFormat::Srgb)
+        .map_err(|error| error.to_string())
 }

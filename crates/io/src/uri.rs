@@ -2,14 +2,16 @@
 //! and percent-encoded relative paths (RFC 2397, RFC 3986).
 
 use base64::Engine;
-use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
 use base64::engine::DecodePaddingMode;
+use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::percent_decode_str;
 
 /// Standard base64, with or without padding: exporters differ.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
     &base64::alphabet::STANDARD,
-    GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent).with_decode_allow_trailing_bits(true),
+    GeneralPurposeConfig::new()
+        .with_decode_padding_mode(DecodePaddingMode::Indifferent)
+        .with_decode_allow_trailing_bits(true),
 );
 
 /// What a reference leads to.
@@ -58,7 +60,13 @@ mod tests {
 
     #[test]
     fn data_uris_of_every_spelling_decode() {
-        for uri in ["data:application/octet-stream;base64,AAEC/w==", "data:;base64,AAEC/w", "DATA:;BASE64,AA%45C/w==", "data:,%00%01%02%ff", "data:;base64,AAEC\n/w=="] {
+        for uri in [
+            "data:application/octet-stream;base64,AAEC/w==",
+            "data:;base64,AAEC/w",
+            "DATA:;BASE64,AA%45C/w==",
+            "data:,%00%01%02%ff",
+            "data:;base64,AAEC\n/w==",
+        ] {
             assert_eq!(parse_reference(uri), Ok(Reference::Data(vec![0, 1, 2, 255])), "{uri}");
         }
     }
@@ -72,8 +80,16 @@ mod tests {
 
     #[test]
     fn paths_are_decoded() {
-        assert_eq!(parse_reference("a%20b/%C3%A9.png"), Ok(Reference::Path("a b/é.png".to_owned())), "decoded");
-        assert_eq!(parse_reference("%2e%2e/x"), Ok(Reference::Path("../x".to_owned())), "to be refused by the folder");
+        assert_eq!(
+            parse_reference("a%20b/%C3%A9.png"),
+            Ok(Reference::Path("a b/é.png".to_owned())),
+            "decoded"
+        );
+        assert_eq!(
+            parse_reference("%2e%2e/x"),
+            Ok(Reference::Path("../x".to_owned())),
+            "to be refused by the folder"
+        );
     }
 
     #[test]

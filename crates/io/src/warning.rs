@@ -60,7 +60,13 @@ impl Warnings {
     }
 
     /// A warning about a file beside it.
-    pub(crate) fn push_about(&mut self, file: &Path, place: Place, what: impl Into<String>, remedy: impl Into<String>) {
+    pub(crate) fn push_about(
+        &mut self,
+        file: &Path,
+        place: Place,
+        what: impl Into<String>,
+        remedy: impl Into<String>,
+    ) {
         let (what, remedy) = (printable(&what.into()), printable(&remedy.into()));
         let key = (file.to_owned(), what.clone());
         if let Some(&index) = self.known.get(&key) {
@@ -74,7 +80,13 @@ impl Warnings {
     }
 
     /// A warning of which `count` were seen, the first at `place`.
-    pub(crate) fn push_counted(&mut self, count: usize, place: Place, what: impl Into<String>, remedy: impl Into<String>) {
+    pub(crate) fn push_counted(
+        &mut self,
+        count: usize,
+        place: Place,
+        what: impl Into<String>,
+        remedy: impl Into<String>,
+    ) {
         if count == 0 {
             return;
         }
@@ -107,7 +119,11 @@ mod tests {
         }
         let list = warnings.into_list();
         assert_eq!(list.len(), 1, "folded");
-        assert_eq!(list[0].to_string(), "a.obj, line 5: a face was dropped … and 41 more; mend it", "counted");
+        assert_eq!(
+            list[0].to_string(),
+            "a.obj, line 5: a face was dropped … and 41 more; mend it",
+            "counted"
+        );
     }
 
     #[test]

@@ -47,7 +47,11 @@ impl Accessors<'_, '_> {
     /// Decodes an accessor of a vector type to f32. `allowed` are the types
     /// that the use allows; `N` is the size of the largest. Components that the
     /// type does not have are 1, as an alpha is.
-    pub(crate) fn vectors<const N: usize>(&mut self, index: usize, allowed: &[Type]) -> Result<Vec<[f32; N]>, Unplaced> {
+    pub(crate) fn vectors<const N: usize>(
+        &mut self,
+        index: usize,
+        allowed: &[Type],
+    ) -> Result<Vec<[f32; N]>, Unplaced> {
         let (mut layout, bytes) = self.open(index, allowed)?;
         let (count, components) = (layout.count, layout.components);
         let mut elements = vec![[0.0; N]; count];
@@ -62,7 +66,11 @@ impl Accessors<'_, '_> {
             let mut at = values.1.start + layout.start;
             for target in targets {
                 let one = &values.0[at..at + layout.stride];
-                read_vectors(one, &Layout { count: 1, start: 0, ..layout }, std::iter::once(&mut elements[target]));
+                read_vectors(
+                    one,
+                    &Layout { count: 1, start: 0, ..layout },
+                    std::iter::once(&mut elements[target]),
+                );
                 at += layout.stride;
             }
         }
@@ -94,14 +102,24 @@ impl Accessors<'_, '_> {
         let accessor = &self.root.accessors[index];
         let type_ = valid(&accessor.type_).filter(|type_| allowed.contains(type_));
         let type_ = type_.ok_or_else(|| malformed(index, format!("its type is not one of {allowed:?}")))?;
-        let component = valid(&accessor.component_type).ok_or_else(|| malformed(index, "its componentType is unknown".to_owned()))?.0;
+        let component = valid(&accessor.component_type)
+            .ok_or_else(|| malformed(index, "its componentType is unknown".to_owned()))?
+            .0;
         let components = components_of(type_);
         let count = self.checked_count(index)?;
         let size = component.size() * components;
-        let layout = |start, stride| Layout { count, stride, start, component, components, normalized: accessor.normalized };
+        let layout = |start, stride| Layout {
+            count,
+            stride,
+            start,
+            component,
+            components,
+            normalized: accessor.normalized,
+        };
         let Some(view) = accessor.buffer_view.map(|view| view.value()) else {
             if count > MOST_ZEROS {
-                let what = format!("{count} elements and no bufferView; at most {MOST_ZEROS} may be all zero");
+                let what =
+                    format!("{count} elements and no bufferView; at most {MOST_ZEROS} may be all zero");
                 return Err(malformed(index, what));
             }
             return Ok((layout(0, size), None));
@@ -112,9 +130,14 @@ impl Accessors<'_, '_> {
         if stride < size {
             return Err(malformed(index, format!("elements of {size} bytes are only {stride} bytes apart")));
         }
-        let needed = (count as u64 - 1).checked_mul(stride as u64).and_then(|bytes| bytes.checked_add(size as u64)).and_then(|bytes| bytes.checked_add(start));
+        let needed = (count as u64 - 1)
+            .checked_mul(stride as u64)
+            .and_then(|bytes| bytes.checked_add(size as u64))
+            .and_then(|bytes| bytes.checked_add(start));
         if needed.is_none_or(|needed| needed > length) {
-            let what = format!("{count} elements from byte {start}, {stride} bytes apart, lie outside bufferView {view}, which has {length} bytes");
+            let what = format!(
+                "{count} elements from byte {start}, {stride} bytes apart, lie outside bufferView {view}, which has {length} bytes"
+            );
             return Err(malformed(index, what));
         }
         let bytes = self.buffers.view(self.root, view, self.folder)?;
@@ -130,36 +153,75 @@ impl Accessors<'_, '_> {
             None => {
                 let what = format!("{} elements are more than the limit of {}", self.count(index), self.most);
                 let remedy = "raise the limit if you trust the file";
-                Err(Unplaced(Place::Item("accessor", index), Unread { kind: LoadErrorKind::Limit, what, remedy }))
+                Err(Unplaced(
+                    Place::Item("accessor", index),
+                    Unread { kind: LoadErrorKind::Limit, what, remedy },
+                ))
             }
         }
     }
 
     /// The elements that sparse storage replaces, where in the bytes their
     /// values start, and those bytes.
-    fn sparse(&mut self, index: usize, layout: &Layout) -> Result<Option<(Vec<usize>, usize, Bytes)>, Unplaced> {
+    fn sparse(
+        &mut self,
+        index: usize,
+        layout: &Layout,
+    ) -> Result<Option<(Vec<usize>, usize, Bytes)>, Unplaced> {
         let Some(sparse) = &self.root.accessors[index].sparse else { return Ok(None) };
         let count = usize::try_from(sparse.count.0).ok().filter(|&count| count <= layout.count);
-        let count = count.ok_or_else(|| malformed(index, "it replaces more sparse elements than it has".to_owned()))?;
+        let count = count
+            .ok_or_else(|| malformed(index, "it replaces more sparse elements than it has".to_owned()))?;
         let component = valid(&sparse.indices.component_type);
-        let component = component.ok_or_else(|| malformed(index, "its sparse componentType is unknown".to_owned()))?.0;
-        let indices = self.range(index, sparse.indices.buffer_view.value(), sparse.indices.byte_offset.0, count, component.size())?;
-        let tight = Layout { count, stride: component.size(), start: sparse.indices.byte_offset.0 as usize, component, components: 1, normalized: false };
-        let targets: Vec<usize> = read_indices(&indices.0[indices.1], &tight).into_iter().map(|target| target as usize).collect();
+        let component =
+            component.ok_or_else(|| malformed(index, "its sparse componentType is unknown".to_owned()))?.0;
+        let indices = self.range(
+            index,
+            sparse.indices.buffer_view.value(),
+            sparse.indices.byte_offset.0,
+            count,
+            component.size(),
+        )?;
+        let tight = Layout {
+            count,
+            stride: component.size(),
+            start: sparse.indices.byte_offset.0 as usize,
+            component,
+            components: 1,
+            normalized: false,
+        };
+        let targets: Vec<usize> =
+            read_indices(&indices.0[indices.1], &tight).into_iter().map(|target| target as usize).collect();
         if let Some(target) = targets.iter().find(|&&target| target >= layout.count) {
-            return Err(malformed(index, format!("its sparse index {target} is not below its count {}", layout.count)));
+            return Err(malformed(
+                index,
+                format!("its sparse index {target} is not below its count {}", layout.count),
+            ));
         }
         let size = layout.component.size() * layout.components;
-        let values = self.range(index, sparse.values.buffer_view.value(), sparse.values.byte_offset.0, count, size)?;
+        let values =
+            self.range(index, sparse.values.buffer_view.value(), sparse.values.byte_offset.0, count, size)?;
         Ok(Some((targets, sparse.values.byte_offset.0 as usize, values)))
     }
 
     /// A view that holds `count` tight elements from an offset.
-    fn range(&mut self, index: usize, view: usize, offset: u64, count: usize, size: usize) -> Result<Bytes, Unplaced> {
+    fn range(
+        &mut self,
+        index: usize,
+        view: usize,
+        offset: u64,
+        count: usize,
+        size: usize,
+    ) -> Result<Bytes, Unplaced> {
         let length = self.root.buffer_views[view].byte_length.0;
         let needed = (count as u64).checked_mul(size as u64).and_then(|bytes| bytes.checked_add(offset));
         if needed.is_none_or(|needed| needed > length) {
-            return Err(malformed(index, format!("its {count} sparse elements lie outside bufferView {view}, which has {length} bytes")));
+            return Err(malformed(
+                index,
+                format!(
+                    "its {count} sparse elements lie outside bufferView {view}, which has {length} bytes"
+                ),
+            ));
         }
         self.buffers.view(self.root, view, self.folder)
     }
@@ -169,7 +231,10 @@ impl Accessors<'_, '_> {
 type Bytes = (std::sync::Arc<[u8]>, std::ops::Range<usize>);
 
 fn malformed(index: usize, what: String) -> Unplaced {
-    Unplaced(Place::Item("accessor", index), Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again" })
+    Unplaced(
+        Place::Item("accessor", index),
+        Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again" },
+    )
 }
 
 pub(super) fn valid<T: Copy>(checked: &Checked<T>) -> Option<T> {
@@ -190,7 +255,11 @@ fn components_of(type_: Type) -> usize {
     }
 }
 
-fn read_vectors<'e, const N: usize>(bytes: &[u8], layout: &Layout, elements: impl Iterator<Item = &'e mut [f32; N]>) {
+fn read_vectors<'e, const N: usize>(
+    bytes: &[u8],
+    layout: &Layout,
+    elements: impl Iterator<Item = &'e mut [f32; N]>,
+) {
     let size = layout.component.size();
     for (index, element) in elements.enumerate() {
         let start = layout.start + index * layout.stride;

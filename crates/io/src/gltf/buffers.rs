@@ -29,7 +29,12 @@ impl<'a> Buffers<'a> {
 
     /// The bytes of a buffer view, at a checked index. At least as long as the
     /// view claims.
-    pub(crate) fn view(&mut self, root: &Root, index: usize, folder: &mut Folder) -> Result<(Arc<[u8]>, std::ops::Range<usize>), Unplaced> {
+    pub(crate) fn view(
+        &mut self,
+        root: &Root,
+        index: usize,
+        folder: &mut Folder,
+    ) -> Result<(Arc<[u8]>, std::ops::Range<usize>), Unplaced> {
         let view = &root.buffer_views[index];
         let buffer = self.buffer(root, view.buffer.value(), folder)?;
         let start = view.byte_offset.map_or(0, |offset| offset.0) as usize;
@@ -44,16 +49,25 @@ impl<'a> Buffers<'a> {
         let place = Place::Item("buffer", index);
         let claim = root.buffers[index].byte_length.0;
         let bytes: Arc<[u8]> = match (&root.buffers[index].uri, self.binary) {
-            (Some(uri), _) => read_reference(uri, folder, Lookup::Exact).map_err(|unread| Unplaced(place.clone(), unread))?.0.into(),
+            (Some(uri), _) => read_reference(uri, folder, Lookup::Exact)
+                .map_err(|unread| Unplaced(place.clone(), unread))?
+                .0
+                .into(),
             (None, Some(binary)) if index == 0 => binary.into(),
             (None, _) => {
                 let what = "the buffer has no data".to_owned();
-                return Err(Unplaced(place, Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again, as GLB" }));
+                return Err(Unplaced(
+                    place,
+                    Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again, as GLB" },
+                ));
             }
         };
         if (bytes.len() as u64) < claim {
             let what = format!("the buffer has {} bytes and should have {claim}", bytes.len());
-            return Err(Unplaced(place, Unread { kind: LoadErrorKind::Malformed, what, remedy: "export or download the model again" }));
+            return Err(Unplaced(
+                place,
+                Unread { kind: LoadErrorKind::Malformed, what, remedy: "export or download the model again" },
+            ));
         }
         self.read[index] = Some(bytes.clone());
         Ok(bytes)
@@ -71,13 +85,23 @@ impl Unplaced {
 
 /// Reads what a URI leads to; the second value tells of another spelling that
 /// was used for a file.
-pub(crate) fn read_reference(uri: &str, folder: &mut Folder, lookup: Lookup) -> Result<(Vec<u8>, Option<String>), Unread> {
+pub(crate) fn read_reference(
+    uri: &str,
+    folder: &mut Folder,
+    lookup: Lookup,
+) -> Result<(Vec<u8>, Option<String>), Unread> {
     let quoted = quotable(uri);
-    let unread = |kind, why: &dyn std::fmt::Display, remedy| Unread { kind, what: format!("{quoted} is not read: {why}"), remedy };
+    let unread = |kind, why: &dyn std::fmt::Display, remedy| Unread {
+        kind,
+        what: format!("{quoted} is not read: {why}"),
+        remedy,
+    };
     match parse_reference(uri) {
         Err(why) => Err(unread(LoadErrorKind::Malformed, &why, "export the model again")),
         Ok(Reference::Data(bytes)) => {
-            folder.account(bytes.len() as u64).map_err(|refusal| unread(LoadErrorKind::Limit, &refusal, refusal.remedy()))?;
+            folder
+                .account(bytes.len() as u64)
+                .map_err(|refusal| unread(LoadErrorKind::Limit, &refusal, refusal.remedy()))?;
             Ok((bytes, None))
         }
         Ok(Reference::Path(name)) => match folder.read(std::path::Path::new(""), &name, lookup) {

@@ -14,18 +14,24 @@ pub(crate) fn convert_camera(root: &Root, node: &Node, warnings: &mut Warnings) 
     let camera = &root.cameras[index];
     let projection = match (valid(&camera.type_), &camera.perspective, &camera.orthographic) {
         (Some(Type::Perspective), Some(from), _) => {
-            Projection::perspective(from.yfov.into(), from.znear.into(), from.zfar.map(f64::from)).map_err(|error| error.to_string())
+            Projection::perspective(from.yfov.into(), from.znear.into(), from.zfar.map(f64::from))
+                .map_err(|error| error.to_string())
         }
         // The magnifications are half extents.
         (Some(Type::Orthographic), _, Some(from)) => {
-            Projection::orthographic(2.0 * f64::from(from.ymag), from.znear.into(), from.zfar.into()).map_err(|error| error.to_string())
+            Projection::orthographic(2.0 * f64::from(from.ymag), from.znear.into(), from.zfar.into())
+                .map_err(|error| error.to_string())
         }
         _ => Err("it is neither perspective nor orthographic".to_owned()),
     };
     match projection {
         Ok(projection) => Some(projection),
         Err(why) => {
-            warnings.push(Place::Item("camera", index), format!("the camera is left out: {why}"), "correct the camera in the model");
+            warnings.push(
+                Place::Item("camera", index),
+                format!("the camera is left out: {why}"),
+                "correct the camera in the model",
+            );
             None
         }
     }

@@ -19,10 +19,19 @@ pub(crate) struct Container<'a> {
 }
 
 /// Takes a GLB apart. Every length is checked against what is really there.
-pub(crate) fn open_glb<'a>(path: &Path, bytes: &'a [u8], warnings: &mut Warnings) -> Result<Container<'a>, LoadError> {
-    let error = |at: usize, what: String| LoadError::malformed(path, what, "export or download the file again").at(Place::Byte(at as u64));
+pub(crate) fn open_glb<'a>(
+    path: &Path,
+    bytes: &'a [u8],
+    warnings: &mut Warnings,
+) -> Result<Container<'a>, LoadError> {
+    let error = |at: usize, what: String| {
+        LoadError::malformed(path, what, "export or download the file again").at(Place::Byte(at as u64))
+    };
     if bytes.len() < HEADER {
-        return Err(error(bytes.len(), format!("the file is truncated: {} bytes, and the GLB header has {HEADER}", bytes.len())));
+        return Err(error(
+            bytes.len(),
+            format!("the file is truncated: {} bytes, and the GLB header has {HEADER}", bytes.len()),
+        ));
     }
     if &bytes[..4] != b"glTF" {
         return Err(error(0, "this is no GLB: the magic number is wrong".to_owned()));
@@ -34,7 +43,10 @@ pub(crate) fn open_glb<'a>(path: &Path, bytes: &'a [u8], warnings: &mut Warnings
     }
     let length = word(bytes, 8) as usize;
     if length > bytes.len() {
-        return Err(error(8, format!("the file is truncated: its length should be {length} bytes and is {}", bytes.len())));
+        return Err(error(
+            8,
+            format!("the file is truncated: its length should be {length} bytes and is {}", bytes.len()),
+        ));
     }
     if length < HEADER {
         return Err(error(8, format!("the length in the header is {length}, less than the header itself")));
@@ -78,7 +90,13 @@ fn read_chunk(bytes: &[u8], at: usize) -> Result<(u32, &[u8], usize), (usize, St
     let (length, kind) = (word(bytes, at) as usize, word(bytes, at + 4));
     let start = at + CHUNK_HEADER;
     if length > bytes.len() - start {
-        return Err((at, format!("a chunk claims {length} bytes and {} are left: the file is truncated", bytes.len() - start)));
+        return Err((
+            at,
+            format!(
+                "a chunk claims {length} bytes and {} are left: the file is truncated",
+                bytes.len() - start
+            ),
+        ));
     }
     Ok((kind, &bytes[start..start + length], start + length))
 }
@@ -120,12 +138,28 @@ mod tests {
         for length in 0..good.len() {
             open(&good[..length]).expect_err("truncated");
         }
-        for (at, value) in [(0, 0), (4, 1), (8, 0), (8, 11), (8, u32::MAX), (12, u32::MAX), (12, 0xffff_fff0), (12, 5), (16, BIN)] {
+        for (at, value) in [
+            (0, 0),
+            (4, 1),
+            (8, 0),
+            (8, 11),
+            (8, u32::MAX),
+            (12, u32::MAX),
+            (12, 0xffff_fff0),
+            (12, 5),
+            (16, BIN),
+        ] {
             let mut bad = good.clone();
             bad[at..at + 4].copy_from_slice(&value.to_le_bytes());
             open(&bad).expect_err("a wrong word");
         }
-        for chunks in [&[(JSON, &b""[..])][..], &[], &[(BIN, b"data")], &[(JSON, b"{}"), (JSON, b"{}")], &[(JSON, b"{}"), (BIN, b""), (BIN, b"")]] {
+        for chunks in [
+            &[(JSON, &b""[..])][..],
+            &[],
+            &[(BIN, b"data")],
+            &[(JSON, b"{}"), (JSON, b"{}")],
+            &[(JSON, b"{}"), (BIN, b""), (BIN, b"")],
+        ] {
             open(&glb(chunks)).expect_err("wrong chunks");
         }
     }

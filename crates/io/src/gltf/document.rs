@@ -50,7 +50,11 @@ struct RawAsset {
 pub(crate) fn parse_document(path: &Path, json: &[u8]) -> Result<Document, LoadError> {
     let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
     if json.starts_with(b"version https://git-lfs") {
-        return Err(LoadError::malformed(path, "the file is a Git LFS pointer, not a model", "fetch the real file with `git lfs pull`"));
+        return Err(LoadError::malformed(
+            path,
+            "the file is a Git LFS pointer, not a model",
+            "fetch the real file with `git lfs pull`",
+        ));
     }
     let preview: Preview = serde_json::from_slice(json).map_err(|error| json_error(path, &error))?;
     check_version(path, &preview)?;
@@ -116,13 +120,15 @@ mod tests {
 
     #[test]
     fn transforms_keep_all_their_digits() {
-        let document = parse(r#"{"asset":{"version":"2.0"},"nodes":[{"translation":[10000000.001,0.1,0]}]}"#).expect("glTF");
+        let document = parse(r#"{"asset":{"version":"2.0"},"nodes":[{"translation":[10000000.001,0.1,0]}]}"#)
+            .expect("glTF");
         assert_eq!(document.transforms[0].translation, Some([10000000.001, 0.1, 0.0]), "f64");
     }
 
     #[test]
     fn legal_oddities_are_read() {
-        parse(r#"{"asset":{"version":"2.1","extras":5},"scenes":[{"name":"empty"}],"extras":null}"#).expect("legal");
+        parse(r#"{"asset":{"version":"2.1","extras":5},"scenes":[{"name":"empty"}],"extras":null}"#)
+            .expect("legal");
     }
 
     #[test]
@@ -131,7 +137,11 @@ mod tests {
         assert!(message(r#"{"asset":{"version":"1.0"},"meshes":{}}"#).contains("'1.0'"), "an old version");
         assert!(message(r#"{"asset":{"version":"2.1","minVersion":"2.1"}}"#).contains("'2.1'"), "too new");
         assert!(message("{}").contains("asset.version"), "no version");
-        assert!(message("{\"asset\":{\"version\":\"2.0\"},\n\"nodes\":[{\"mesh\":-1}]}").starts_with("a.gltf, line 2: "), "the line");
+        assert!(
+            message("{\"asset\":{\"version\":\"2.0\"},\n\"nodes\":[{\"mesh\":-1}]}")
+                .starts_with("a.gltf, line 2: "),
+            "the line"
+        );
         message("");
         message(&"[".repeat(100_000));
     }

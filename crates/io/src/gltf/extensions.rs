@@ -8,21 +8,32 @@ use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::warning::Warnings;
 
 /// Read in full.
-const READ: &[&str] = &["KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_unlit"];
+const READ: &[&str] =
+    &["KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_unlit"];
 
 /// Pictures in formats that are not read: the geometry is shown all the same,
 /// with a fallback or a checkerboard on it.
-const PICTURES: &[&str] =
-    &["KHR_texture_basisu", "KHR_texture_ktx", "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds", "GOOGLE_texture_basis"];
+const PICTURES: &[&str] = &[
+    "KHR_texture_basisu",
+    "KHR_texture_ktx",
+    "EXT_texture_webp",
+    "EXT_texture_avif",
+    "MSFT_texture_dds",
+    "GOOGLE_texture_basis",
+];
 
 /// Data about the file that does not show.
-const INVISIBLE: &[&str] = &["KHR_xmp", "KHR_xmp_json_ld", "EXT_texture_procedurals", "KHR_animation_pointer"];
+const INVISIBLE: &[&str] =
+    &["KHR_xmp", "KHR_xmp_json_ld", "EXT_texture_procedurals", "KHR_animation_pointer"];
 
 /// Refuses a file that cannot be understood without an extension, and names
 /// what else is not drawn.
 pub(crate) fn check_extensions(path: &Path, root: &Root, warnings: &mut Warnings) -> Result<(), LoadError> {
     let required = root.extensions_required.iter();
-    let missing: Vec<&str> = required.map(String::as_str).filter(|name| !READ.contains(name) && !PICTURES.contains(name)).collect();
+    let missing: Vec<&str> = required
+        .map(String::as_str)
+        .filter(|name| !READ.contains(name) && !PICTURES.contains(name))
+        .collect();
     if !missing.is_empty() {
         let what = format!("the file requires {}, which trigon does not read", missing.join(", "));
         return Err(LoadError::new(LoadErrorKind::Unsupported, path, what, remedy(&missing)));
@@ -30,7 +41,11 @@ pub(crate) fn check_extensions(path: &Path, root: &Root, warnings: &mut Warnings
     for name in &root.extensions_used {
         let known = [READ, PICTURES, INVISIBLE].iter().any(|list| list.contains(&name.as_str()));
         if !known {
-            warnings.push(Place::Whole, format!("the extension {name} is not drawn yet"), "nothing to do: the rest of the model is drawn");
+            warnings.push(
+                Place::Whole,
+                format!("the extension {name} is not drawn yet"),
+                "nothing to do: the rest of the model is drawn",
+            );
         }
     }
     Ok(())
@@ -59,9 +74,15 @@ pub(crate) fn warn_of_undrawn(root: &Root, warnings: &mut Warnings) {
         }
     };
     let primitives = || root.meshes.iter().flat_map(|mesh| &mesh.primitives);
-    let is_morphed = |primitive: &&gltf_json::mesh::Primitive| primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty());
+    let is_morphed = |primitive: &&gltf_json::mesh::Primitive| {
+        primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty())
+    };
     let skinned = root.nodes.iter().filter(|node| node.skin.is_some()).count();
     warn(root.animations.len(), "animation", "not played yet: the rest pose is shown");
     warn(skinned, "skin", "not followed yet: the bind pose is shown");
-    warn(primitives().filter(is_morphed).count(), "set", "of morph targets not drawn yet: the base shape is shown");
+    warn(
+        primitives().filter(is_morphed).count(),
+        "set",
+        "of morph targets not drawn yet: the base shape is shown",
+    );
 }

@@ -25,7 +25,9 @@ pub(crate) fn find_hierarchy(path: &Path, root: &Root, limits: &Limits) -> Resul
     if count > limits.nodes {
         return Err(LoadError::limit(path, format!("it has {count} nodes; the limit is {}", limits.nodes)));
     }
-    let error = |node: usize, what: String| LoadError::malformed(path, what, "export the model again").at(Place::Item("node", node));
+    let error = |node: usize, what: String| {
+        LoadError::malformed(path, what, "export the model again").at(Place::Item("node", node))
+    };
     let mut parents = vec![None; count];
     for (parent, child) in links(root) {
         if let Some(other) = parents[child].replace(parent) {
@@ -37,7 +39,13 @@ pub(crate) fn find_hierarchy(path: &Path, root: &Root, limits: &Limits) -> Resul
         return Err(error(node, "it hangs on itself: the nodes form a loop (cycle)".to_owned()));
     }
     if let Some(node) = depths.iter().position(|&depth| depth > Some(limits.depth)) {
-        return Err(error(node, format!("nodes hang on each other more than {} deep; the limit is there to bound work", limits.depth)));
+        return Err(error(
+            node,
+            format!(
+                "nodes hang on each other more than {} deep; the limit is there to bound work",
+                limits.depth
+            ),
+        ));
     }
     let (included, order) = reach(root, scene_roots(root, &parents));
     for parent in &mut parents {
@@ -48,13 +56,17 @@ pub(crate) fn find_hierarchy(path: &Path, root: &Root, limits: &Limits) -> Resul
 
 fn links(root: &Root) -> impl Iterator<Item = (usize, usize)> {
     let children = |node: &gltf_json::Node| node.children.clone().unwrap_or_default();
-    root.nodes.iter().enumerate().flat_map(move |(parent, node)| children(node).into_iter().map(move |child| (parent, child.value())))
+    root.nodes
+        .iter()
+        .enumerate()
+        .flat_map(move |(parent, node)| children(node).into_iter().map(move |child| (parent, child.value())))
 }
 
 /// How deep each node hangs below its root; `None` for nodes in or below a loop.
 fn find_depths(root: &Root, parents: &[Option<usize>]) -> Vec<Option<usize>> {
     let mut depths = vec![None; parents.len()];
-    let mut waiting: Vec<(usize, usize)> = (0..parents.len()).filter(|&node| parents[node].is_none()).map(|node| (node, 0)).collect();
+    let mut waiting: Vec<(usize, usize)> =
+        (0..parents.len()).filter(|&node| parents[node].is_none()).map(|node| (node, 0)).collect();
     while let Some((node, depth)) = waiting.pop() {
         depths[node] = Some(depth);
         waiting.extend(root.nodes[node].children.iter().flatten().map(|child| (child.value(), depth + 1)));

@@ -23,12 +23,21 @@ pub(crate) struct Images {
 
 impl Images {
     /// Reads and decodes the images behind some textures, each once.
-    pub(crate) fn read(import: &mut Import<'_>, root: &Root, buffers: &mut Buffers<'_>, textures: &[usize]) -> Result<Self, LoadError> {
+    pub(crate) fn read(
+        import: &mut Import<'_>,
+        root: &Root,
+        buffers: &mut Buffers<'_>,
+        textures: &[usize],
+    ) -> Result<Self, LoadError> {
         let mut wanted = vec![false; root.images.len()];
         for &texture in textures {
             match image_of(root, texture) {
                 Some(image) => wanted[image] = true,
-                None => import.warnings.push(Place::Item("texture", texture), "it has no image and is not drawn", "export the model again"),
+                None => import.warnings.push(
+                    Place::Item("texture", texture),
+                    "it has no image and is not drawn",
+                    "export the model again",
+                ),
             }
         }
         let (mut requests, mut images) = (Vec::new(), Vec::new());
@@ -71,7 +80,12 @@ fn image_name(root: &Root, image: usize) -> String {
     file.or(from.name.as_deref()).map_or_else(|| format!("image {image}"), str::to_owned)
 }
 
-fn read_image(import: &mut Import<'_>, root: &Root, buffers: &mut Buffers<'_>, image: usize) -> Option<Vec<u8>> {
+fn read_image(
+    import: &mut Import<'_>,
+    root: &Root,
+    buffers: &mut Buffers<'_>,
+    image: usize,
+) -> Option<Vec<u8>> {
     let place = Place::Item("image", image);
     let from = &root.images[image];
     let result = match (&from.uri, from.buffer_view) {
@@ -81,14 +95,22 @@ fn read_image(import: &mut Import<'_>, root: &Root, buffers: &mut Buffers<'_>, i
             Err(unplaced) => Err(unplaced.1),
         },
         (None, None) => {
-            import.warnings.push(place, "it has neither a URI nor a bufferView and is not drawn", "export the model again");
+            import.warnings.push(
+                place,
+                "it has neither a URI nor a bufferView and is not drawn",
+                "export the model again",
+            );
             return None;
         }
     };
     match result {
         Ok((bytes, respelled)) => {
             if let Some(path) = respelled {
-                let what = format!("\"{}\" was not found; \"{}\" is used instead", image_name(root, image), Path::new(&path).display());
+                let what = format!(
+                    "\"{}\" was not found; \"{}\" is used instead",
+                    image_name(root, image),
+                    Path::new(&path).display()
+                );
                 import.warnings.push(place, what, "correct the name in the model");
             }
             Some(bytes)
@@ -104,7 +126,11 @@ fn read_image(import: &mut Import<'_>, root: &Root, buffers: &mut Buffers<'_>, i
 pub(crate) fn convert_sampler(root: &Root, texture: usize) -> Sampler {
     let Some(index) = root.textures[texture].sampler else { return Sampler::default() };
     let from = &root.samplers[index.value()];
-    let (minification, mip) = from.min_filter.as_ref().and_then(valid).map_or_else(|| (Filter::Linear, MipFilter::Linear), minification);
+    let (minification, mip) = from
+        .min_filter
+        .as_ref()
+        .and_then(valid)
+        .map_or_else(|| (Filter::Linear, MipFilter::Linear), minification);
     Sampler {
         wrap_u: valid(&from.wrap_s).map_or(Wrap::Repeat, wrap),
         wrap_v: valid(&from.wrap_t).map_or(Wrap::Repeat, wrap),

@@ -36,7 +36,11 @@ pub(crate) fn convert_light(root: &Root, node: &Node, warnings: &mut Warnings) -
         Some(Type::Directional) => Light::directional(intensity),
         Some(Type::Point) => Light::point(intensity),
         Some(Type::Spot) => {
-            warnings.push(place(), "spot lights are not drawn yet; it shines in all directions", "nothing to do");
+            warnings.push(
+                place(),
+                "spot lights are not drawn yet; it shines in all directions",
+                "nothing to do",
+            );
             Light::point(intensity)
         }
         None => {

@@ -22,7 +22,8 @@ pub(crate) fn add_materials(
     buffers: &mut Buffers<'_>,
     used: &[Option<usize>],
 ) -> Result<BTreeMap<Option<usize>, MaterialId>, LoadError> {
-    let textures: Vec<usize> = used.iter().filter_map(|&material| Some(base_texture(root, material?)?.index.value())).collect();
+    let textures: Vec<usize> =
+        used.iter().filter_map(|&material| Some(base_texture(root, material?)?.index.value())).collect();
     let images = Images::read(import, root, buffers, &textures)?;
     let mut ids = BTreeMap::new();
     for &index in used {
@@ -61,16 +62,24 @@ fn convert(root: &Root, index: usize, images: &Images, warnings: &mut Warnings) 
     let is_unlit = from.extensions.as_ref().is_some_and(|extensions| extensions.unlit.is_some());
     // A factor multiplies its texture; without the texture it says nothing.
     let has_map = pbr.metallic_roughness_texture.is_some();
-    let (metallic, roughness) = if has_map { (0.0, 0.5) } else { (pbr.metallic_factor.0, pbr.roughness_factor.0) };
-    let emissive = clean(Vec3::from(from.emissive_factor.0).extend(0.0), Vec4::ZERO).truncate().max(Vec3::ZERO);
+    let (metallic, roughness) =
+        if has_map { (0.0, 0.5) } else { (pbr.metallic_factor.0, pbr.roughness_factor.0) };
+    let emissive =
+        clean(Vec3::from(from.emissive_factor.0).extend(0.0), Vec4::ZERO).truncate().max(Vec3::ZERO);
     Material {
         name: from.name.clone().unwrap_or_else(|| format!("material {index}")),
         base_color,
         base_color_texture: base_texture(root, index).and_then(|info| bind(root, info, images)),
-        shading: if is_unlit { Shading::Unlit } else { approximate(base_color.truncate(), metallic, roughness) },
+        shading: if is_unlit {
+            Shading::Unlit
+        } else {
+            approximate(base_color.truncate(), metallic, roughness)
+        },
         emissive: if from.emissive_texture.is_some() || is_unlit { Vec3::ZERO } else { emissive },
         alpha_mode: match valid(&from.alpha_mode) {
-            Some(JsonAlphaMode::Mask) => AlphaMode::Mask { cutoff: from.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0) },
+            Some(JsonAlphaMode::Mask) => {
+                AlphaMode::Mask { cutoff: from.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0) }
+            }
             Some(JsonAlphaMode::Blend) => AlphaMode::Blend,
             _ => AlphaMode::Opaque,
         },
@@ -92,7 +101,11 @@ fn warn_of_textures(from: &gltf_json::Material, warnings: &mut Warnings) {
     ];
     for (name, _) in textures.iter().filter(|(_, is_there)| *is_there) {
         let place = Place::Named(format!("material \"{}\"", from.name.as_deref().unwrap_or_default()));
-        warnings.push(place, format!("a {name} texture is not drawn yet"), "nothing to do: the base colour is drawn");
+        warnings.push(
+            place,
+            format!("a {name} texture is not drawn yet"),
+            "nothing to do: the base colour is drawn",
+        );
     }
 }
 
@@ -135,7 +148,10 @@ fn to_affine(from: &gltf_json::extensions::texture::TextureTransform) -> Affine2
     let (sine, cosine) = elementary::sin_cos(f64::from(from.rotation.0));
     let (sine, cosine) = (sine as f32, cosine as f32);
     let (scale, offset) = (Vec2::from(from.scale.0), Vec2::from(from.offset.0));
-    let matrix = trigon_math::glam::Mat2::from_cols(Vec2::new(cosine, -sine) * scale.x, Vec2::new(sine, cosine) * scale.y);
+    let matrix = trigon_math::glam::Mat2::from_cols(
+        Vec2::new(cosine, -sine) * scale.x,
+        Vec2::new(sine, cosine) * scale.y,
+    );
     let affine = Affine2::from_mat2_translation(matrix, offset);
     if affine.is_finite() { affine } else { Affine2::IDENTITY }
 }

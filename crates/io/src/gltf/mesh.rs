@@ -46,8 +46,18 @@ pub(crate) fn build_mesh(
         draft.add(part);
     }
     let place = || Place::Item("mesh", index);
-    warnings.push_counted(draft.non_finite, place(), "a triangle has a vertex that is not finite and is left out", "export the model again");
-    warnings.push_counted(draft.flat, place(), "a triangle has fewer than 3 different vertices and is left out", "nothing to do; it has no area");
+    warnings.push_counted(
+        draft.non_finite,
+        place(),
+        "a triangle has a vertex that is not finite and is left out",
+        "export the model again",
+    );
+    warnings.push_counted(
+        draft.flat,
+        place(),
+        "a triangle has fewer than 3 different vertices and is left out",
+        "nothing to do; it has no area",
+    );
     Ok(draft.finish())
 }
 
@@ -73,7 +83,9 @@ fn read_primitive(
     texture_sets: &dyn Fn(Option<usize>) -> Option<u32>,
     warnings: &mut Warnings,
 ) -> Result<Option<Part>, Unplaced> {
-    let find = |semantic: Semantic| primitive.attributes.get(&Checked::Valid(semantic)).map(|accessor| accessor.value());
+    let find = |semantic: Semantic| {
+        primitive.attributes.get(&Checked::Valid(semantic)).map(|accessor| accessor.value())
+    };
     let Some(position_index) = find(Semantic::Positions) else {
         warnings.push(place, "it has no POSITION and is not drawn", "export the model again");
         return Ok(None);
@@ -90,7 +102,10 @@ fn read_primitive(
     };
     if let Some(beyond) = indices.iter().find(|&&vertex| vertex as usize >= positions.len()) {
         let what = format!("index {beyond} leads nowhere; there are {} vertices", positions.len());
-        return Err(Unplaced(place, Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again" }));
+        return Err(Unplaced(
+            place,
+            Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again" },
+        ));
     }
     let elements = elements(mode, &indices);
     if elements.left_over > 0 {
@@ -135,7 +150,12 @@ struct Optional<'o, 'a, 'b> {
 }
 
 impl Optional<'_, '_, '_> {
-    fn read<const N: usize>(&mut self, index: Option<usize>, name: &str, allowed: &[Type]) -> Result<Option<Vec<[f32; N]>>, Unplaced> {
+    fn read<const N: usize>(
+        &mut self,
+        index: Option<usize>,
+        name: &str,
+        allowed: &[Type],
+    ) -> Result<Option<Vec<[f32; N]>>, Unplaced> {
         let Some(index) = index else { return Ok(None) };
         let count = self.accessors.count(index);
         if count != self.vertices as u64 {
@@ -148,11 +168,17 @@ impl Optional<'_, '_, '_> {
 }
 
 /// Makes sure that the set that the texture wants is there.
-fn settle_uv_sets(mut sets: Vec<Option<Vec<[f32; 2]>>>, wanted: Option<u32>, place: &Place, warnings: &mut Warnings) -> Vec<Vec<[f32; 2]>> {
+fn settle_uv_sets(
+    mut sets: Vec<Option<Vec<[f32; 2]>>>,
+    wanted: Option<u32>,
+    place: &Place,
+    warnings: &mut Warnings,
+) -> Vec<Vec<[f32; 2]>> {
     if let Some(wanted) = wanted {
         let missing = sets.get(wanted as usize).is_none_or(Option::is_none);
         if missing {
-            let instead = if sets[0].is_some() { "TEXCOORD_0 is used" } else { "the texture shows one colour" };
+            let instead =
+                if sets[0].is_some() { "TEXCOORD_0 is used" } else { "the texture shows one colour" };
             let what = format!("its texture wants TEXCOORD_{wanted}, which is missing; {instead}");
             warnings.push(place.clone(), what, "export the model with that UV map");
         }
@@ -255,7 +281,11 @@ impl Draft {
             list.push(if color.is_finite() { color.clamp(Vec4::ZERO, Vec4::ONE) } else { Vec4::ONE });
         }
         for (set, list) in self.attributes.uv_sets.iter_mut().enumerate() {
-            let uv = part.uv_sets.get(set).and_then(|values| values.get(corner)).map_or(Vec2::ZERO, |&uv| Vec2::from(uv));
+            let uv = part
+                .uv_sets
+                .get(set)
+                .and_then(|values| values.get(corner))
+                .map_or(Vec2::ZERO, |&uv| Vec2::from(uv));
             list.push(if uv.is_finite() { uv } else { Vec2::ZERO });
         }
     }

@@ -52,7 +52,8 @@ fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<&[u8]>) -> 
     extensions::warn_of_undrawn(root, &mut import.warnings);
     let mut buffers = Buffers::new(root, binary);
     let meshes = build_meshes(import, &document, &hierarchy, &mut buffers)?;
-    let used: BTreeSet<Option<usize>> = meshes.iter().flatten().flat_map(|mesh| mesh.materials.iter().copied()).collect();
+    let used: BTreeSet<Option<usize>> =
+        meshes.iter().flatten().flat_map(|mesh| mesh.materials.iter().copied()).collect();
     let used: Vec<Option<usize>> = used.into_iter().collect();
     let materials = materials::add_materials(import, root, &mut buffers, &used)?;
     nodes::add_nodes(import, &document, &hierarchy, meshes, &materials);
@@ -68,7 +69,8 @@ fn build_meshes(
 ) -> Result<Vec<Option<BuiltMesh>>, LoadError> {
     let root = &document.root;
     let mut meshes: Vec<Option<BuiltMesh>> = root.meshes.iter().map(|_| None).collect();
-    let used: BTreeSet<usize> = hierarchy.order.iter().filter_map(|&node| Some(root.nodes[node].mesh?.value())).collect();
+    let used: BTreeSet<usize> =
+        hierarchy.order.iter().filter_map(|&node| Some(root.nodes[node].mesh?.value())).collect();
     let limits = &import.options.limits;
     let (mut corners, mut drawable) = (0, false);
     for (done, &index) in used.iter().enumerate() {
@@ -76,11 +78,18 @@ fn build_meshes(
         let most = limits.vertices.max(limits.corners);
         let mut accessors = Accessors { root, buffers, folder: &mut import.folder, most };
         let sets = |material| materials::texture_set(root, material);
-        let built = mesh::build_mesh(&mut accessors, index, &sets, &mut import.warnings).map_err(|unplaced| unplaced.into_error(import.path))?;
+        let built = mesh::build_mesh(&mut accessors, index, &sets, &mut import.warnings)
+            .map_err(|unplaced| unplaced.into_error(import.path))?;
         let mesh = &built.mesh;
         corners += mesh.corner_count();
         if mesh.vertex_count() > limits.vertices || corners > limits.corners {
-            return Err(LoadError::limit(import.path, format!("the meshes have more than {} vertices or {} corners", limits.vertices, limits.corners)));
+            return Err(LoadError::limit(
+                import.path,
+                format!(
+                    "the meshes have more than {} vertices or {} corners",
+                    limits.vertices, limits.corners
+                ),
+            ));
         }
         drawable |= mesh.face_count() + mesh.loose_edges().len() + mesh.loose_points().len() > 0;
         meshes[index] = Some(built);

@@ -25,13 +25,17 @@ pub(crate) fn add_nodes(
     meshes: Vec<Option<BuiltMesh>>,
     materials: &BTreeMap<Option<usize>, MaterialId>,
 ) {
-    let meshes: Vec<Option<PlacedMesh>> = meshes.into_iter().enumerate().map(|(index, built)| {
-        let name = document.root.meshes[index].name.clone().unwrap_or_default();
-        built.map(|built| {
-            let slots = built.materials.iter().map(|material| materials[material]).collect();
-            (import.scene.add_mesh(name, built.mesh), slots)
+    let meshes: Vec<Option<PlacedMesh>> = meshes
+        .into_iter()
+        .enumerate()
+        .map(|(index, built)| {
+            let name = document.root.meshes[index].name.clone().unwrap_or_default();
+            built.map(|built| {
+                let slots = built.materials.iter().map(|material| materials[material]).collect();
+                (import.scene.add_mesh(name, built.mesh), slots)
+            })
         })
-    }).collect();
+        .collect();
     let included = (0..document.root.nodes.len()).filter(|&node| hierarchy.included[node]);
     let mut ids: Vec<Option<NodeId>> = vec![None; document.root.nodes.len()];
     for index in included {
@@ -53,7 +57,12 @@ fn hang_up(import: &mut Import<'_>, document: &Document, hierarchy: &Hierarchy, 
     }
 }
 
-fn convert_node(import: &mut Import<'_>, document: &Document, index: usize, meshes: &[Option<PlacedMesh>]) -> Node {
+fn convert_node(
+    import: &mut Import<'_>,
+    document: &Document,
+    index: usize,
+    meshes: &[Option<PlacedMesh>],
+) -> Node {
     let from = &document.root.nodes[index];
     let raw = document.transforms.get(index).cloned().unwrap_or_default();
     let transform = convert_transform(&raw, index, &mut import.warnings);
@@ -71,14 +80,26 @@ fn convert_transform(raw: &RawTransform, index: usize, warnings: &mut Warnings) 
     if let Some(matrix) = &raw.matrix {
         let matrix = DMat4::from_cols_array(matrix);
         if matrix.row(3).to_array() != [0.0, 0.0, 0.0, 1.0] {
-            warnings.push(Place::Item("node", index), "the last row of its matrix is not 0 0 0 1 and is ignored", "export the model again");
+            warnings.push(
+                Place::Item("node", index),
+                "the last row of its matrix is not 0 0 0 1 and is ignored",
+                "export the model again",
+            );
         }
         return Transform::Affine(DAffine3::from_mat4(matrix));
     }
     let rotation = raw.rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
     if rotation.length_squared() == 0.0 {
-        warnings.push(Place::Item("node", index), "its rotation has no length and counts as none", "export the model again");
+        warnings.push(
+            Place::Item("node", index),
+            "its rotation has no length and counts as none",
+            "export the model again",
+        );
     }
     let scale = raw.scale.map_or(DVec3::ONE, DVec3::from);
-    Transform::from_scale_rotation_translation(scale, rotation, raw.translation.map_or(DVec3::ZERO, DVec3::from))
+    Transform::from_scale_rotation_translation(
+        scale,
+        rotation,
+        raw.translation.map_or(DVec3::ZERO, DVec3::from),
+    )
 }

@@ -31,12 +31,17 @@ pub(crate) fn elements(mode: Mode, indices: &[u32]) -> Elements {
             }
         }
         Mode::Triangles => {
-            elements.triangles = indices.chunks_exact(3).map(|corner| [corner[0], corner[1], corner[2]]).collect();
+            elements.triangles =
+                indices.chunks_exact(3).map(|corner| [corner[0], corner[1], corner[2]]).collect();
             elements.left_over = indices.len() % 3;
         }
         Mode::TriangleStrip => {
             let turned = |(index, corner): (usize, &[u32])| {
-                if index % 2 == 0 { [corner[0], corner[1], corner[2]] } else { [corner[1], corner[0], corner[2]] }
+                if index % 2 == 0 {
+                    [corner[0], corner[1], corner[2]]
+                } else {
+                    [corner[1], corner[0], corner[2]]
+                }
             };
             elements.triangles = indices.windows(3).enumerate().map(turned).collect();
         }
@@ -65,13 +70,24 @@ mod tests {
         assert_eq!(elements(Mode::LineStrip, &indices).edges, [[0, 1], [1, 2], [2, 3], [3, 4]], "strip");
         assert_eq!(elements(Mode::LineLoop, &indices[..3]).edges, [[0, 1], [1, 2], [2, 0]], "loop");
         assert_eq!(elements(Mode::Triangles, &indices).triangles, [[0, 1, 2]], "triangles");
-        assert_eq!(elements(Mode::TriangleStrip, &indices).triangles, [[0, 1, 2], [2, 1, 3], [2, 3, 4]], "all the same way round");
+        assert_eq!(
+            elements(Mode::TriangleStrip, &indices).triangles,
+            [[0, 1, 2], [2, 1, 3], [2, 3, 4]],
+            "all the same way round"
+        );
         assert_eq!(elements(Mode::TriangleFan, &indices).triangles, [[0, 1, 2], [0, 2, 3], [0, 3, 4]], "fan");
     }
 
     #[test]
     fn few_indices_make_nothing() {
-        let modes = [Mode::Lines, Mode::LineStrip, Mode::LineLoop, Mode::Triangles, Mode::TriangleStrip, Mode::TriangleFan];
+        let modes = [
+            Mode::Lines,
+            Mode::LineStrip,
+            Mode::LineLoop,
+            Mode::Triangles,
+            Mode::TriangleStrip,
+            Mode::TriangleFan,
+        ];
         for mode in modes {
             for indices in [&[][..], &[0]] {
                 let found = elements(mode, indices);

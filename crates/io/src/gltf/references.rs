@@ -37,7 +37,9 @@ fn check(root: &Root) -> Result<(), Fault> {
 
 fn within(place: impl Fn() -> Place, kind: &str, index: Option<usize>, length: usize) -> Result<(), Fault> {
     match index {
-        Some(index) if index >= length => Err((place(), format!("{kind} {index} does not exist; there are {length}"))),
+        Some(index) if index >= length => {
+            Err((place(), format!("{kind} {index} does not exist; there are {length}")))
+        }
         _ => Ok(()),
     }
 }
@@ -49,7 +51,10 @@ fn check_view(root: &Root, view: &buffer::View, place: Place) -> Result<(), Faul
     let end = offset.checked_add(length);
     if end.is_none_or(|end| end > buffer.byte_length.0) {
         let (number, has) = (view.buffer.value(), buffer.byte_length.0);
-        return Err((place, format!("{length} bytes from byte {offset} lie outside buffer {number}, which has {has}")));
+        return Err((
+            place,
+            format!("{length} bytes from byte {offset} lie outside buffer {number}, which has {has}"),
+        ));
     }
     Ok(())
 }
@@ -63,7 +68,12 @@ fn check_meshes(root: &Root) -> Result<(), Fault> {
             for accessor in attributes.chain(primitive.indices.map(|indices| indices.value())) {
                 within(place, "accessor", Some(accessor), accessors)?;
             }
-            within(place, "material", primitive.material.map(|material| material.value()), root.materials.len())?;
+            within(
+                place,
+                "material",
+                primitive.material.map(|material| material.value()),
+                root.materials.len(),
+            )?;
         }
     }
     Ok(())
@@ -90,7 +100,12 @@ fn check_nodes(root: &Root) -> Result<(), Fault> {
 fn check_appearance(root: &Root) -> Result<(), Fault> {
     for (index, material) in root.materials.iter().enumerate() {
         let texture = material.pbr_metallic_roughness.base_color_texture.as_ref();
-        within(|| Place::Item("material", index), "texture", texture.map(|info| info.index.value()), root.textures.len())?;
+        within(
+            || Place::Item("material", index),
+            "texture",
+            texture.map(|info| info.index.value()),
+            root.textures.len(),
+        )?;
     }
     for (index, texture) in root.textures.iter().enumerate() {
         let place = || Place::Item("texture", index);

@@ -38,10 +38,30 @@ pub(crate) fn build_parts(parsed: &Parsed, warnings: &mut Warnings) -> (Vec<Part
     let cut = |(name, spans): (&String, &Vec<Span>)| cutter.part(name, spans, &mut local, &mut dropped);
     let parts = names.iter().zip(&spans).map(cut).collect();
     let place = parsed.non_finite_line.map_or(Place::Whole, Place::Line);
-    warnings.push_counted(dropped.non_finite, place, "a face has a vertex that is not finite and is left out", "export the model again");
-    let colors = parsed.mesh.vertex_color.chunks_exact(3).filter(|color| !color.iter().all(|channel| channel.is_finite())).count();
-    warnings.push_counted(colors, Place::Whole, "a vertex has a colour that is not finite; it is white there", "export the model again");
-    warnings.push_counted(dropped.flat, Place::Whole, "a face has fewer than 3 different vertices and is left out", "clean the model up");
+    warnings.push_counted(
+        dropped.non_finite,
+        place,
+        "a face has a vertex that is not finite and is left out",
+        "export the model again",
+    );
+    let colors = parsed
+        .mesh
+        .vertex_color
+        .chunks_exact(3)
+        .filter(|color| !color.iter().all(|channel| channel.is_finite()))
+        .count();
+    warnings.push_counted(
+        colors,
+        Place::Whole,
+        "a vertex has a colour that is not finite; it is white there",
+        "export the model again",
+    );
+    warnings.push_counted(
+        dropped.flat,
+        Place::Whole,
+        "a face has fewer than 3 different vertices and is left out",
+        "clean the model up",
+    );
     (parts, offset)
 }
 
@@ -61,7 +81,12 @@ fn spans_by_part(parsed: &Parsed) -> Vec<Vec<Span>> {
     let mut corner = 0;
     for (index, run) in record.runs.iter().enumerate() {
         let end = record.runs.get(index + 1).map_or(record.elements, |next| next.first);
-        let span = Span { elements: (run.first, end), first_corner: corner, material: run.material, smoothing: run.smoothing };
+        let span = Span {
+            elements: (run.first, end),
+            first_corner: corner,
+            material: run.material,
+            smoothing: run.smoothing,
+        };
         parts[run.part as usize].push(span);
         corner += (run.first..end).map(|element| arity(parsed, element)).sum::<usize>();
     }
@@ -98,8 +123,15 @@ impl Cutter<'_> {
         let builder = MeshBuilder::with_capacity(faces / 2, faces, 3 * faces);
         let (sources, face_slots) = (Vec::with_capacity(3 * faces), Vec::with_capacity(faces));
         let face_groups = Vec::with_capacity(faces);
-        let mut draft =
-            Draft { builder, sources, face_slots, face_groups, materials: Vec::new(), used: Vec::new(), face: Vec::new() };
+        let mut draft = Draft {
+            builder,
+            sources,
+            face_slots,
+            face_groups,
+            materials: Vec::new(),
+            used: Vec::new(),
+            face: Vec::new(),
+        };
         for span in spans {
             self.span(span, &mut draft, local, dropped);
         }
@@ -156,7 +188,14 @@ impl Cutter<'_> {
         Some(*known)
     }
 
-    fn attributes(&self, mesh: &Mesh, sources: &[u32], face_slots: Vec<u32>, face_groups: &[u32], slots: usize) -> Attributes {
+    fn attributes(
+        &self,
+        mesh: &Mesh,
+        sources: &[u32],
+        face_slots: Vec<u32>,
+        face_groups: &[u32],
+        slots: usize,
+    ) -> Attributes {
         let given = self.normals(sources);
         let is_smooth = face_groups.iter().any(|&group| group != 0);
         let mut groups: Vec<u32> = face_groups.iter().copied().filter(|&group| group != 0).collect();
@@ -212,7 +251,8 @@ impl Cutter<'_> {
         if mesh.vertex_color.is_empty() {
             return None;
         }
-        let channel = |value: f64| if value.is_finite() { srgb_to_linear(value.clamp(0.0, 1.0) as f32) } else { 1.0 };
+        let channel =
+            |value: f64| if value.is_finite() { srgb_to_linear(value.clamp(0.0, 1.0) as f32) } else { 1.0 };
         let color = |&corner: &u32| {
             let at = 3 * mesh.indices[corner as usize] as usize;
             let [red, green, blue] = [0, 1, 2].map(|index| channel(mesh.vertex_color[at + index]));
@@ -225,18 +265,17 @@ impl Cutter<'_> {
 impl Draft {
     /// Adds the element in `self.face`, whose corners start at `corner`.
     fn push(&mut self, corner: usize, slot: u32, smoothing: u32, dropped: &mut Dropped) {
-        match *self.face.as_slice() {
-            [point] => self.builder.push_loose_point(point).expect("the vertex was just added"),
-            [from, to] if from == to => self.builder.push_loose_point(from).expect("the vertex was just added"),
-            [from, to] => self.builder.push_loose_edge(from, to).expect("the vertices were just added"),
-            _ => match self.builder.push_face(&self.face) {
-                Ok(_) => {
-                    self.sources.extend((corner..corner + self.face.len()).map(|corner| corner as u32));
-                    self.face_slots.push(slot);
-                    self.face_groups.push(smoothing);
-                }
-                Err(_) => dropped.flat += 1,
-            },
-        }
+        let added = match *self.face.as_slice() {
+            [point] => self.builder.push_loose_point(point),
+            [from, to] if from == to => self.builder.push_loose_point(from),
+            [from, to] => self.builder.push_loose_edge(from, to),
+            _ => self.builder.push_face(&self.face).map(|_| {
+                self.sources.extend((corner..corner + self.face.len()).map(|corner| corner as u32));
+                self.face_slots.push(slot);
+                self.face_groups.push(smoothing);
+            }),
+        };
+        // Its vertices were just added: it can only be too few different ones.
+        dropped.flat += usize::from(added.is_err());
     }
 }

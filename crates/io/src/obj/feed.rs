@@ -135,11 +135,29 @@ impl<'a> Feed<'a> {
     /// Warns of what was odd, and hands over what was recorded.
     pub(crate) fn finish(self, warnings: &mut Warnings) -> (Record, Option<u64>) {
         let odd = &self.oddities;
-        let mut warn = |tally: Tally, what: &str, remedy: &str| warnings.push_counted(tally.count, Place::Line(tally.line), what, remedy);
-        warn(odd.surplus, "a vertex has more numbers than trigon reads", "nothing to do; the rest is ignored");
-        warn(odd.colorless, "a vertex has no colour while others have; it is white", "export colours for all vertices or for none");
-        warn(odd.short_faces, "a face has fewer than 3 vertices and is left out", "remove it, or write edges with `l` and points with `p`");
-        warn(odd.dropped_indices, "a texture coordinate or normal index leads nowhere and is ignored", "export the model again");
+        let mut warn = |tally: Tally, what: &str, remedy: &str| {
+            warnings.push_counted(tally.count, Place::Line(tally.line), what, remedy);
+        };
+        warn(
+            odd.surplus,
+            "a vertex has more numbers than trigon reads",
+            "nothing to do; the rest is ignored",
+        );
+        warn(
+            odd.colorless,
+            "a vertex has no colour while others have; it is white",
+            "export colours for all vertices or for none",
+        );
+        warn(
+            odd.short_faces,
+            "a face has fewer than 3 vertices and is left out",
+            "remove it, or write edges with `l` and points with `p`",
+        );
+        warn(
+            odd.dropped_indices,
+            "a texture coordinate or normal index leads nowhere and is ignored",
+            "export the model again",
+        );
         warn(odd.unknown, "curves and surfaces are not drawn", "convert them to polygons");
         (self.record, self.non_finite_line)
     }
@@ -191,7 +209,8 @@ impl<'a> Feed<'a> {
         self.seen.positions += 1;
         let start = self.portion.len();
         self.portion.push(b'v');
-        let tally = copy_numbers(rest, 6, &mut self.portion).map_err(|what| self.error(number, what, "write plain decimal numbers"))?;
+        let tally = copy_numbers(rest, 6, &mut self.portion)
+            .map_err(|what| self.error(number, what, "write plain decimal numbers"))?;
         if tally.count < 3 {
             let what = format!("a vertex has {} numbers and needs 3", tally.count);
             return Err(self.error(number, what, "export the model again"));
@@ -230,11 +249,18 @@ impl<'a> Feed<'a> {
         }
     }
 
-    fn numbers(&mut self, number: u64, keyword: &'static str, rest: &[u8], needed: usize) -> Result<(), Stop> {
+    fn numbers(
+        &mut self,
+        number: u64,
+        keyword: &'static str,
+        rest: &[u8],
+        needed: usize,
+    ) -> Result<(), Stop> {
         let seen = if keyword == "vt" { &mut self.seen.coordinates } else { &mut self.seen.normals };
         *seen += 1;
         self.portion.extend_from_slice(keyword.as_bytes());
-        let tally = copy_numbers(rest, 3, &mut self.portion).map_err(|what| self.error(number, what, "write plain decimal numbers"))?;
+        let tally = copy_numbers(rest, 3, &mut self.portion)
+            .map_err(|what| self.error(number, what, "write plain decimal numbers"))?;
         // A texture coordinate may be a single number.
         if keyword == "vt" && tally.count == 1 {
             self.portion.extend_from_slice(b" 0");
@@ -252,7 +278,8 @@ impl<'a> Feed<'a> {
         self.corner_buffer.clear();
         for word in words(rest) {
             let parsed = parse_corner(word, self.seen, self.source.total);
-            let corner = parsed.map_err(|what| self.error(number, what, "export the model again, or mend the line"))?;
+            let corner = parsed
+                .map_err(|what| self.error(number, what, "export the model again, or mend the line"))?;
             if corner.dropped {
                 self.oddities.dropped_indices.add(number);
             }

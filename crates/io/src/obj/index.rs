@@ -36,11 +36,18 @@ pub(crate) fn parse_corner(word: &[u8], seen: Counts, total: Counts) -> Result<C
         Resolved::Index(index) => index,
         Resolved::Zero => return Err(describe(word, "has index 0, and indices count from 1")),
         Resolved::NotANumber => return Err(describe(word, "is not an index")),
-        Resolved::Nowhere => return Err(format!("face index {} leads nowhere; there are {} vertices", quote(position), total.positions)),
+        Resolved::Nowhere => {
+            return Err(format!(
+                "face index {} leads nowhere; there are {} vertices",
+                quote(position),
+                total.positions
+            ));
+        }
     };
     let mut corner = Corner { position, ..Corner::default() };
     let optional = [(coordinate, seen.coordinates, total.coordinates), (normal, seen.normals, total.normals)];
-    for (slot, (part, seen, total)) in [&mut corner.coordinate, &mut corner.normal].into_iter().zip(optional) {
+    for (slot, (part, seen, total)) in [&mut corner.coordinate, &mut corner.normal].into_iter().zip(optional)
+    {
         let Some(part) = part else { continue };
         match resolve(part, seen, total) {
             Resolved::Index(index) => *slot = index,
@@ -68,7 +75,9 @@ fn resolve(part: &[u8], seen: usize, total: usize) -> Resolved {
     if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
         return Resolved::NotANumber;
     }
-    let value = digits.iter().try_fold(0usize, |value, digit| value.checked_mul(10)?.checked_add(usize::from(digit - b'0')));
+    let value = digits
+        .iter()
+        .try_fold(0usize, |value, digit| value.checked_mul(10)?.checked_add(usize::from(digit - b'0')));
     match value {
         Some(0) => Resolved::Zero,
         Some(value) if negative && value <= seen => Resolved::Index(seen - value + 1),
@@ -98,7 +107,8 @@ mod tests {
 
     #[test]
     fn every_form_of_a_corner_is_read() {
-        let corner = |position, coordinate, normal| Ok(Corner { position, coordinate, normal, dropped: false });
+        let corner =
+            |position, coordinate, normal| Ok(Corner { position, coordinate, normal, dropped: false });
         assert_eq!(parse("1"), corner(1, 0, 0), "v");
         assert_eq!(parse("5/3"), corner(5, 3, 0), "v/vt, pointing ahead");
         assert_eq!(parse("-1//-2"), corner(4, 0, 1), "v//vn, backwards");
@@ -108,7 +118,16 @@ mod tests {
 
     #[test]
     fn no_number_wraps_into_a_valid_index() {
-        for word in ["0", "-5", "6", "4294967297", "18446744073709551617", "-9223372036854775808", "9223372036854775808", "99999999999999999999999"] {
+        for word in [
+            "0",
+            "-5",
+            "6",
+            "4294967297",
+            "18446744073709551617",
+            "-9223372036854775808",
+            "9223372036854775808",
+            "99999999999999999999999",
+        ] {
             parse(word).expect_err(word);
         }
         for word in ["1/0", "1//0", "a", "1/x", "", "/1", "1/1/1/1", "-", "+", "1.5", "0x1"] {

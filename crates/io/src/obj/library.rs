@@ -19,7 +19,10 @@ use crate::textures::{Request, add_textures};
 
 /// Adds the materials that faces use. The result has one entry per name of the
 /// record; `None` where no library knows it.
-pub(crate) fn add_materials(import: &mut Import<'_>, record: &Record) -> Result<Vec<Option<MaterialId>>, LoadError> {
+pub(crate) fn add_materials(
+    import: &mut Import<'_>,
+    record: &Record,
+) -> Result<Vec<Option<MaterialId>>, LoadError> {
     let (libraries, any_missing) = read_libraries(import, record);
     let mut used = vec![false; record.materials.list().len()];
     for run in &record.runs {
@@ -33,7 +36,11 @@ pub(crate) fn add_materials(import: &mut Import<'_>, record: &Record) -> Result<
             Some(material) => wanted.push((index, material)),
             None if !any_missing => {
                 let what = format!("material \"{name}\" is in no library; the default material is used");
-                let remedy = if record.libraries.is_empty() { "name its library with mtllib" } else { "add it to the MTL file" };
+                let remedy = if record.libraries.is_empty() {
+                    "name its library with mtllib"
+                } else {
+                    "add it to the MTL file"
+                };
                 import.warnings.push(Place::Line(record.material_lines[index]), what, remedy);
             }
             None => {}
@@ -70,7 +77,10 @@ fn read_libraries(import: &mut Import<'_>, record: &Record) -> (HashMap<String, 
                 Err(refusal) => {
                     any_missing = true;
                     let tried = import.folder.would_be(Path::new(""), &name);
-                    let what = format!("material library \"{}\" is not read ({refusal}), the default material is used", tried.display());
+                    let what = format!(
+                        "material library \"{}\" is not read ({refusal}), the default material is used",
+                        tried.display()
+                    );
                     import.warnings.push(Place::Line(*line), what, refusal.remedy());
                     continue;
                 }
@@ -116,7 +126,10 @@ struct Textures {
 }
 
 impl Textures {
-    fn read<'m>(import: &mut Import<'_>, materials: impl Iterator<Item = &'m MtlMaterial>) -> Result<Self, LoadError> {
+    fn read<'m>(
+        import: &mut Import<'_>,
+        materials: impl Iterator<Item = &'m MtlMaterial>,
+    ) -> Result<Self, LoadError> {
         let (mut keys, mut requests, mut by_path) = (HashMap::new(), Vec::new(), HashMap::new());
         for material in materials {
             let Some((line, map)) = &material.texture else { continue };
@@ -152,7 +165,12 @@ fn key(material: &MtlMaterial, map: &MapStatement) -> (PathBuf, String) {
 }
 
 /// Looks beside the library, then beside the model.
-fn find_texture(import: &mut Import<'_>, material: &MtlMaterial, line: u64, map: &MapStatement) -> Option<Found> {
+fn find_texture(
+    import: &mut Import<'_>,
+    material: &MtlMaterial,
+    line: u64,
+    map: &MapStatement,
+) -> Option<Found> {
     let beside = import.folder.relative_folder(&material.file);
     let mut result = import.folder.read(&beside, &map.file, Lookup::Forgiving);
     if matches!(result, Err(Refusal::Missing)) && !beside.as_os_str().is_empty() {

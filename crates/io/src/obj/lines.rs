@@ -107,7 +107,8 @@ pub(crate) fn plain_bytes(bytes: &[u8]) -> Result<Cow<'_, [u8]>, &'static str> {
     }
     let from_units = |read: fn([u8; 2]) -> u16| {
         let units = bytes[2..].chunks_exact(2).map(|pair| read([pair[0], pair[1]]));
-        let text: String = char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
+        let text: String =
+            char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
         Cow::Owned(text.into_bytes())
     };
     if bytes.starts_with(b"\xff\xfe") {
@@ -127,7 +128,9 @@ mod tests {
     use super::*;
 
     fn lines(text: &str) -> Vec<(u64, String)> {
-        Lines::new(text.as_bytes()).map(|(number, line)| (number, String::from_utf8_lossy(&line).into_owned())).collect()
+        Lines::new(text.as_bytes())
+            .map(|(number, line)| (number, String::from_utf8_lossy(&line).into_owned()))
+            .collect()
     }
 
     #[test]
@@ -140,7 +143,11 @@ mod tests {
 
     #[test]
     fn continuations_are_joined_and_numbers_go_on() {
-        assert_eq!(lines("f 1 \\\n 2 \\ \r\n3\nv"), [(1, "f 1   2  3".to_owned()), (4, "v".to_owned())], "joined");
+        assert_eq!(
+            lines("f 1 \\\n 2 \\ \r\n3\nv"),
+            [(1, "f 1   2  3".to_owned()), (4, "v".to_owned())],
+            "joined"
+        );
         assert_eq!(lines("f\\"), [(1, "f".to_owned())], "a backslash at the end of the file");
     }
 

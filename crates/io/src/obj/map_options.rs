@@ -18,7 +18,13 @@ pub(crate) struct MapStatement {
 
 /// Takes the options off; what is left is the file name.
 pub(crate) fn parse_map(rest: &str) -> MapStatement {
-    let mut map = MapStatement { file: String::new(), scale: Vec2::ONE, offset: Vec2::ZERO, clamp: false, ignored: Vec::new() };
+    let mut map = MapStatement {
+        file: String::new(),
+        scale: Vec2::ONE,
+        offset: Vec2::ZERO,
+        clamp: false,
+        ignored: Vec::new(),
+    };
     let mut rest = rest.trim();
     while let Some((option, after)) = split_option(rest) {
         let mut arguments = Vec::new();
@@ -74,7 +80,11 @@ fn take_arguments<'a>((_, count): (&str, usize), mut rest: &'a str, into: &mut V
 impl MapStatement {
     fn apply(&mut self, (option, _): (&str, usize), arguments: &[&str]) {
         let number = |index: usize, default: f32| {
-            arguments.get(index).and_then(|word| word.parse().ok()).filter(|value: &f32| value.is_finite()).unwrap_or(default)
+            arguments
+                .get(index)
+                .and_then(|word| word.parse().ok())
+                .filter(|value: &f32| value.is_finite())
+                .unwrap_or(default)
         };
         let first = arguments.first().copied().unwrap_or_default();
         match option {
@@ -96,7 +106,11 @@ mod tests {
     fn options_come_off_and_spaces_stay() {
         let map = parse_map(" -s 2 3 -bm 0.5 -clamp on -o 0.25 my wood.png ");
         assert_eq!(map.file, "my wood.png", "the name");
-        assert_eq!((map.scale, map.offset, map.clamp), (Vec2::new(2.0, 3.0), Vec2::new(0.25, 0.0), true), "the options");
+        assert_eq!(
+            (map.scale, map.offset, map.clamp),
+            (Vec2::new(2.0, 3.0), Vec2::new(0.25, 0.0), true),
+            "the options"
+        );
         assert_eq!(parse_map("-foo.png").file, "-foo.png", "a name may begin with a dash");
         assert_eq!(parse_map("-mm 0.1 0.9 a.png").ignored, ["-mm 0.1 0.9"], "named");
         assert_eq!(parse_map("-s").file, "", "an option and nothing else");

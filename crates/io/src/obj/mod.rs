@@ -32,7 +32,10 @@ pub(crate) fn import_obj(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), Lo
     let materials = library::add_materials(import, &record)?;
     let mut plain = PlainMaterial { id: None, has_colors };
     let transform = Transform::from_translation(offset);
-    let stem = import.path.file_stem().map_or_else(|| "object".to_owned(), |stem| stem.to_string_lossy().into_owned());
+    let stem = import
+        .path
+        .file_stem()
+        .map_or_else(|| "object".to_owned(), |stem| stem.to_string_lossy().into_owned());
     for mut part in parts {
         if part.name.is_empty() {
             part.name.clone_from(&stem);

@@ -48,8 +48,13 @@ pub(crate) fn parse_mtl(file: &Path, bytes: &[u8], warnings: &mut Warnings) -> V
         }
     }
     let Cleaner { out, asides, .. } = cleaner;
-    let (materials, _) = tobj::load_mtl_buf(&mut out.as_bytes()).expect("the cleaned text has only statements that tobj reads");
-    materials.into_iter().zip(asides).map(|(material, aside)| convert(file, material, aside, warnings)).collect()
+    let (materials, _) = tobj::load_mtl_buf(&mut out.as_bytes())
+        .expect("the cleaned text has only statements that tobj reads");
+    materials
+        .into_iter()
+        .zip(asides)
+        .map(|(material, aside)| convert(file, material, aside, warnings))
+        .collect()
 }
 
 struct Cleaner<'a> {
@@ -119,7 +124,11 @@ impl Cleaner<'_> {
             return self.warn(line, "map_Kd names no file and is ignored");
         }
         if !map.ignored.is_empty() {
-            let what = format!("the options {} of texture \"{}\" are not followed", map.ignored.join(", "), map.file);
+            let what = format!(
+                "the options {} of texture \"{}\" are not followed",
+                map.ignored.join(", "),
+                map.file
+            );
             self.warn(line, &what);
         }
         self.aside().texture = Some((line, map));
@@ -128,10 +137,16 @@ impl Cleaner<'_> {
     /// Textures that are not drawn yet are named; other statements are not.
     fn other_map(&mut self, line: u64, keyword: &str, rest: &[u8]) {
         let lower = keyword.to_ascii_lowercase();
-        if lower.starts_with("map_") || matches!(lower.as_str(), "bump" | "norm" | "disp" | "decal" | "refl") {
+        if lower.starts_with("map_") || matches!(lower.as_str(), "bump" | "norm" | "disp" | "decal" | "refl")
+        {
             let file = parse_map(&decode_name(rest)).file;
             let what = format!("{keyword} \"{file}\" is not drawn yet");
-            self.warnings.push_about(self.file, Place::Line(line), what, "only map_Kd is; bake the effect into it");
+            self.warnings.push_about(
+                self.file,
+                Place::Line(line),
+                what,
+                "only map_Kd is; bake the effect into it",
+            );
         }
     }
 
@@ -140,7 +155,12 @@ impl Cleaner<'_> {
     }
 
     fn warn(&mut self, line: u64, what: &str) {
-        self.warnings.push_about(self.file, Place::Line(line), what, "mend the line, or export the material again");
+        self.warnings.push_about(
+            self.file,
+            Place::Line(line),
+            what,
+            "mend the line, or export the material again",
+        );
     }
 }
 
@@ -162,7 +182,9 @@ fn convert(file: &Path, from: tobj::Material, aside: Aside, warnings: &mut Warni
         _ if textured => Vec3::ONE,
         _ => Material::default().base_color.truncate(),
     };
-    let alpha = from.dissolve.map_or_else(|| alpha_from(file, &aside, warnings), |alpha| alpha.clamp(0.0, 1.0) as f32);
+    let alpha = from
+        .dissolve
+        .map_or_else(|| alpha_from(file, &aside, warnings), |alpha| alpha.clamp(0.0, 1.0) as f32);
     let material = Material {
         name: from.name,
         base_color: Vec4::from((base, alpha)),
@@ -181,7 +203,12 @@ fn convert(file: &Path, from: tobj::Material, aside: Aside, warnings: &mut Warni
 fn alpha_from(file: &Path, aside: &Aside, warnings: &mut Warnings) -> f32 {
     match aside.transparency {
         Some((line, value)) if value >= 1.0 => {
-            warnings.push_about(file, Place::Line(line), "Tr 1 would be invisible and is taken as opaque", "write d instead of Tr");
+            warnings.push_about(
+                file,
+                Place::Line(line),
+                "Tr 1 would be invisible and is taken as opaque",
+                "write d instead of Tr",
+            );
             1.0
         }
         Some((_, value)) => 1.0 - value.max(0.0),
@@ -218,13 +245,18 @@ mod tests {
 
     #[test]
     fn values_arrive() {
-        let (materials, warnings) = parse("newmtl my wood\nKd 1 0 0\nKs 1 1 1\nNs 50\nd 0.5\nillum 2\nmap_Kd -s 2 2 1 a b.png\n");
+        let (materials, warnings) =
+            parse("newmtl my wood\nKd 1 0 0\nKs 1 1 1\nNs 50\nd 0.5\nillum 2\nmap_Kd -s 2 2 1 a b.png\n");
         assert_eq!(warnings, [""; 0], "nothing to warn of");
         let MtlMaterial { material, texture, .. } = &materials[0];
         assert_eq!(material.name, "my wood", "spaces stay");
         assert_eq!(material.base_color, Vec4::new(1.0, 0.0, 0.0, 0.5), "colour and alpha");
         assert_eq!(material.alpha_mode, AlphaMode::Blend, "d below 1");
-        assert_eq!(material.shading, Shading::BlinnPhong { specular: Vec3::ONE, shininess: 50.0 }, "highlight");
+        assert_eq!(
+            material.shading,
+            Shading::BlinnPhong { specular: Vec3::ONE, shininess: 50.0 },
+            "highlight"
+        );
         assert_eq!(texture.as_ref().expect("a texture").1.file, "a b.png", "the name");
     }
 
@@ -233,7 +265,10 @@ mod tests {
         let (materials, warnings) = parse("newmtl \nKs 0\nnewmtl a\nKd 0.5\nKs x\nNs\nillum two\nKd 1 2\n");
         assert_eq!(materials.len(), 1, "the named one");
         for line in [1, 5, 6, 7, 8] {
-            assert!(warnings.iter().any(|warning| warning.starts_with(&format!("a.mtl, line {line}: "))), "line {line}: {warnings:?}");
+            assert!(
+                warnings.iter().any(|warning| warning.starts_with(&format!("a.mtl, line {line}: "))),
+                "line {line}: {warnings:?}"
+            );
         }
         assert_eq!(materials[0].material.base_color.x, srgb_to_linear(0.5), "one number is grey");
     }

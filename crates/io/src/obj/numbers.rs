@@ -70,7 +70,9 @@ fn spell(word: &[u8]) -> Result<Option<&[u8]>, String> {
         Ok(value) if value.is_finite() => Ok(Some(word)),
         Ok(_) => Ok(None),
         Err(_) if is_c_spelling_of_non_finite(word) => Ok(None),
-        Err(_) => Err(format!("\"{}\" is not a number", String::from_utf8_lossy(&word[..word.len().min(40)]))),
+        Err(_) => {
+            Err(format!("\"{}\" is not a number", String::from_utf8_lossy(&word[..word.len().min(40)])))
+        }
     }
 }
 

@@ -23,8 +23,14 @@ pub(crate) struct Parsed {
 const OPTIONS: tobj::LoadOptions =
     tobj::LoadOptions { single_index: false, triangulate: false, ignore_points: false, ignore_lines: false };
 
-pub(crate) fn parse(path: &Path, bytes: &[u8], options: &LoadOptions<'_>, warnings: &mut Warnings) -> Result<Parsed, LoadError> {
-    let text = plain_bytes(bytes).map_err(|what| LoadError::malformed(path, what, "fetch the real file with `git lfs pull`"))?;
+pub(crate) fn parse(
+    path: &Path,
+    bytes: &[u8],
+    options: &LoadOptions<'_>,
+    warnings: &mut Warnings,
+) -> Result<Parsed, LoadError> {
+    let text = plain_bytes(bytes)
+        .map_err(|what| LoadError::malformed(path, what, "fetch the real file with `git lfs pull`"))?;
     let total = count_ahead(&text);
     let limit = options.limits.vertices;
     if total.positions.max(total.coordinates).max(total.normals) > limit {
@@ -39,7 +45,9 @@ pub(crate) fn parse(path: &Path, bytes: &[u8], options: &LoadOptions<'_>, warnin
         Stop::Error(error) => error,
         Stop::LateColor => unreachable!("colours were expected from the first vertex on"),
     })
-    .and_then(|parsed| if parsed.record.elements > 0 { Ok(parsed) } else { Err(nothing(path, total.positions)) })
+    .and_then(
+        |parsed| if parsed.record.elements > 0 { Ok(parsed) } else { Err(nothing(path, total.positions)) },
+    )
 }
 
 fn run(source: Source<'_>, colors: Colors, warnings: &mut Warnings) -> Result<Parsed, Stop> {
@@ -58,7 +66,8 @@ fn run(source: Source<'_>, colors: Colors, warnings: &mut Warnings) -> Result<Pa
 }
 
 fn parse_error(path: &Path, error: tobj::LoadError, line: u64) -> LoadError {
-    LoadError::malformed(path, error.to_string(), "mend the line, or export the model again").at(Place::Line(line))
+    LoadError::malformed(path, error.to_string(), "mend the line, or export the model again")
+        .at(Place::Line(line))
 }
 
 fn nothing(path: &Path, vertices: usize) -> LoadError {

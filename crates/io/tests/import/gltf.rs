@@ -18,10 +18,14 @@ pub(crate) struct Doc {
 impl Doc {
     /// Two triangles of a square, as four points and six indices, in one node.
     pub(crate) fn square() -> Self {
-        let mut doc = Self { json: json!({"asset": {"version": "2.0"}, "accessors": [], "bufferViews": []}), bytes: Vec::new() };
+        let mut doc = Self {
+            json: json!({"asset": {"version": "2.0"}, "accessors": [], "bufferViews": []}),
+            bytes: Vec::new(),
+        };
         let position = doc.floats("VEC3", &[0., 0., 0., 1., 0., 0., 1., 1., 0., 0., 1., 0.]);
         let indices = doc.accessor(5121, "SCALAR", 6, &[0, 1, 2, 0, 2, 3]);
-        doc.json["meshes"] = json!([{"primitives": [{"attributes": {"POSITION": position}, "indices": indices}]}]);
+        doc.json["meshes"] =
+            json!([{"primitives": [{"attributes": {"POSITION": position}, "indices": indices}]}]);
         doc.json["nodes"] = json!([{"mesh": 0}]);
         doc
     }
@@ -38,7 +42,10 @@ impl Doc {
 
     fn accessor(&mut self, component: u32, kind: &str, count: usize, data: &[u8]) -> usize {
         let view = self.view(data);
-        push(&mut self.json["accessors"], json!({"bufferView": view, "componentType": component, "type": kind, "count": count}))
+        push(
+            &mut self.json["accessors"],
+            json!({"bufferView": view, "componentType": component, "type": kind, "count": count}),
+        )
     }
 
     pub(crate) fn view(&mut self, data: &[u8]) -> usize {
@@ -47,7 +54,10 @@ impl Doc {
         }
         let offset = self.bytes.len();
         self.bytes.extend(data);
-        push(&mut self.json["bufferViews"], json!({"buffer": 0, "byteOffset": offset, "byteLength": data.len()}))
+        push(
+            &mut self.json["bufferViews"],
+            json!({"buffer": 0, "byteOffset": offset, "byteLength": data.len()}),
+        )
     }
 
     fn primitive(&mut self) -> &mut Value {
@@ -64,7 +74,12 @@ impl Doc {
         binary.resize(binary.len().next_multiple_of(4), 0);
         let total = 12 + 8 + text.len() + 8 + binary.len();
         let words = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
-        let parts = [words(&[0x4654_6c67, 2, total as u32, text.len() as u32, 0x4e4f_534a]), text, words(&[binary.len() as u32, 0x004e_4942]), binary];
+        let parts = [
+            words(&[0x4654_6c67, 2, total as u32, text.len() as u32, 0x4e4f_534a]),
+            text,
+            words(&[binary.len() as u32, 0x004e_4942]),
+            binary,
+        ];
         parts.concat()
     }
 
@@ -90,7 +105,11 @@ fn push(list: &mut Value, item: Value) -> usize {
 fn a_square_arrives() {
     let loaded = Doc::square().load();
     let mesh = meshes(&loaded)[0];
-    assert_eq!((mesh.vertex_count(), mesh.edge_count(), mesh.face_count()), (4, 5, 2), "welded along the diagonal");
+    assert_eq!(
+        (mesh.vertex_count(), mesh.edge_count(), mesh.face_count()),
+        (4, 5, 2),
+        "welded along the diagonal"
+    );
     assert_eq!(warnings(&loaded), [""; 0], "nothing to warn of");
     let (_, material) = loaded.scene.materials.iter().next().expect("the default material");
     assert_eq!((material.base_color, material.shading), (Vec4::ONE, Shading::Lambert), "white and matt");
@@ -124,8 +143,16 @@ fn primitives_are_slots_of_one_mesh() {
     assert_eq!(slots, Some(vec![0, 0, 1, 1]), "a slot for each primitive");
     let (_, node) = loaded.scene.nodes().iter().nth(1).expect("the second node");
     let red = loaded.scene.materials.get(node.materials[1]).expect("a material");
-    assert_eq!((red.base_color, red.shading), (Vec4::new(1.0, 0.0, 0.0, 0.5), Shading::Unlit), "colour and shading");
-    assert_eq!((red.alpha_mode, red.double_sided), (AlphaMode::Mask { cutoff: 0.25 }, true), "alpha and sides");
+    assert_eq!(
+        (red.base_color, red.shading),
+        (Vec4::new(1.0, 0.0, 0.0, 0.5), Shading::Unlit),
+        "colour and shading"
+    );
+    assert_eq!(
+        (red.alpha_mode, red.double_sided),
+        (AlphaMode::Mask { cutoff: 0.25 }, true),
+        "alpha and sides"
+    );
 }
 
 #[test]
@@ -135,8 +162,18 @@ fn integers_of_every_kind_are_positions_too() {
         (5120, false, vec![0, 0, 0, 0, 127, 0, 0, 0, 0, 129, 0, 0], Vec3::new(127.0, 0.0, 0.0)),
         (5120, true, vec![0, 0, 0, 0, 127, 0, 0, 0, 0, 128, 0, 0], Vec3::X),
         (5121, true, vec![0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0, 0], Vec3::X),
-        (5122, true, [0i16, 0, 0, 0, 32767, 0, 0, 0, 0, -32768, 0, 0].iter().flat_map(|v| v.to_le_bytes()).collect(), Vec3::X),
-        (5123, false, [0u16, 0, 0, 0, 65535, 0, 0, 0, 0, 9, 0, 0].iter().flat_map(|v| v.to_le_bytes()).collect(), Vec3::X * 65535.0),
+        (
+            5122,
+            true,
+            [0i16, 0, 0, 0, 32767, 0, 0, 0, 0, -32768, 0, 0].iter().flat_map(|v| v.to_le_bytes()).collect(),
+            Vec3::X,
+        ),
+        (
+            5123,
+            false,
+            [0u16, 0, 0, 0, 65535, 0, 0, 0, 0, 9, 0, 0].iter().flat_map(|v| v.to_le_bytes()).collect(),
+            Vec3::X * 65535.0,
+        ),
     ];
     for (component, normalized, bytes, second) in cases {
         let mut doc = Doc::square();
@@ -147,19 +184,33 @@ fn integers_of_every_kind_are_positions_too() {
         doc.json["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
         *doc.primitive() = json!({"attributes": {"POSITION": accessor}});
         let loaded = doc.load();
-        assert_eq!(meshes(&loaded)[0].positions()[1], second, "component {component}, normalized {normalized}");
+        assert_eq!(
+            meshes(&loaded)[0].positions()[1],
+            second,
+            "component {component}, normalized {normalized}"
+        );
     }
 }
 
 #[test]
 fn sparse_values_replace_and_absent_views_are_zero() {
     let mut doc = Doc::square();
-    let (indices, values) = (doc.view(&[1, 0, 2, 0]), doc.view(&[2.0f32, 0., 0., 0., 3., 0.].iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<_>>()));
+    let (indices, values) = (
+        doc.view(&[1, 0, 2, 0]),
+        doc.view(&[2.0f32, 0., 0., 0., 3., 0.].iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<_>>()),
+    );
     let sparse = json!({"count": 2, "indices": {"bufferView": indices, "componentType": 5123}, "values": {"bufferView": values}});
-    let accessor = push(&mut doc.json["accessors"], json!({"componentType": 5126, "type": "VEC3", "count": 3, "sparse": sparse}));
+    let accessor = push(
+        &mut doc.json["accessors"],
+        json!({"componentType": 5126, "type": "VEC3", "count": 3, "sparse": sparse}),
+    );
     *doc.primitive() = json!({"attributes": {"POSITION": accessor}});
     let loaded = doc.load();
-    assert_eq!(meshes(&loaded)[0].positions(), [Vec3::ZERO, Vec3::X * 2.0, Vec3::Y * 3.0], "zeros and replacements");
+    assert_eq!(
+        meshes(&loaded)[0].positions(),
+        [Vec3::ZERO, Vec3::X * 2.0, Vec3::Y * 3.0],
+        "zeros and replacements"
+    );
     doc.json["accessors"][accessor]["sparse"]["count"] = json!(4);
     assert!(doc.refused().contains("sparse"), "more than there are");
     doc.json["accessors"][accessor]["sparse"]["count"] = json!(2);
@@ -198,7 +249,9 @@ fn claims_beyond_the_bytes_are_refused() {
 
 #[test]
 fn indices_are_checked() {
-    for (component, bytes) in [(5121, vec![0, 1, 4]), (5125, [0u32, 1, u32::MAX].iter().flat_map(|v| v.to_le_bytes()).collect())] {
+    for (component, bytes) in
+        [(5121, vec![0, 1, 4]), (5125, [0u32, 1, u32::MAX].iter().flat_map(|v| v.to_le_bytes()).collect())]
+    {
         let mut doc = Doc::square();
         let accessor = doc.accessor(component, "SCALAR", 3, &bytes);
         doc.primitive()["indices"] = json!(accessor);
@@ -219,7 +272,11 @@ fn optional_attributes_that_do_not_fit_are_ignored() {
     let loaded = doc.load();
     warns_once(&loaded, "NORMAL has 1 values for 4 vertices");
     let colors = meshes(&loaded)[0].attributes().corner_colors.clone().expect("colours");
-    assert_eq!(colors[..3], [Vec4::ONE, Vec4::new(0.5, 0.5, 0.5, 1.0), Vec4::new(1.0, 0.0, 0.0, 1.0)], "clean, opaque");
+    assert_eq!(
+        colors[..3],
+        [Vec4::ONE, Vec4::new(0.5, 0.5, 0.5, 1.0), Vec4::new(1.0, 0.0, 0.0, 1.0)],
+        "clean, opaque"
+    );
 }
 
 #[test]
@@ -237,13 +294,24 @@ fn nodes_hang_together_in_f64() {
     let ids: Vec<_> = scene.nodes().iter().map(|(id, _)| id).collect();
     assert_eq!(ids.len(), 3, "the default scene only");
     assert_eq!(scene.node(ids[0]).expect("a node").children(), [ids[2], ids[1]], "in the file's order");
-    assert_eq!(scene.world_transform(ids[1]).translation, DVec3::new(10_000_000.001 + 0.1, 0.0, 0.0), "all digits");
+    assert_eq!(
+        scene.world_transform(ids[1]).translation,
+        DVec3::new(10_000_000.001 + 0.1, 0.0, 0.0),
+        "all digits"
+    );
     warns_once(&loaded, "rotation has no length");
 }
 
 #[test]
 fn broken_node_trees_are_refused() {
-    for nodes in [json!([{"mesh": 0, "children": [0]}]), json!([{"mesh": 0}, {"children": [2]}, {"children": [1]}]), json!([{"children": [1, 1]}, {"mesh": 0}]), json!([{"children": [2]}, {"children": [2]}, {"mesh": 0}]), json!([{"mesh": 0, "children": [9]}]), json!([{"mesh": 9}])] {
+    for nodes in [
+        json!([{"mesh": 0, "children": [0]}]),
+        json!([{"mesh": 0}, {"children": [2]}, {"children": [1]}]),
+        json!([{"children": [1, 1]}, {"mesh": 0}]),
+        json!([{"children": [2]}, {"children": [2]}, {"mesh": 0}]),
+        json!([{"mesh": 0, "children": [9]}]),
+        json!([{"mesh": 9}]),
+    ] {
         let mut doc = Doc::square();
         doc.json["nodes"] = nodes.clone();
         assert!(doc.refused().contains("node"), "{nodes}");
@@ -254,7 +322,9 @@ fn broken_node_trees_are_refused() {
 fn a_chain_of_nodes_may_be_deep_but_not_endless() {
     let chain = |depth: usize| {
         let mut doc = Doc::square();
-        let link = |index: usize| if index + 1 < depth { json!({"children": [index + 1]}) } else { json!({"mesh": 0}) };
+        let link = |index: usize| {
+            if index + 1 < depth { json!({"children": [index + 1]}) } else { json!({"mesh": 0}) }
+        };
         doc.json["nodes"] = (0..depth).map(link).collect();
         doc
     };
@@ -289,7 +359,11 @@ fn cameras_and_lights_stand_on_nodes() {
 
 #[test]
 fn extensions_that_are_required_are_named() {
-    for (name, word) in [("KHR_draco_mesh_compression", "Draco"), ("EXT_meshopt_compression", "meshopt"), ("EXT_not_real", "re-export")] {
+    for (name, word) in [
+        ("KHR_draco_mesh_compression", "Draco"),
+        ("EXT_meshopt_compression", "meshopt"),
+        ("EXT_not_real", "re-export"),
+    ] {
         let mut doc = Doc::square();
         doc.json["extensionsRequired"] = json!([name]);
         let message = doc.refused();
@@ -330,15 +404,26 @@ fn data_uris_are_buffers_and_other_uris_are_not_followed() {
     assert_eq!(meshes(&loaded("a.gltf", &text))[0].face_count(), 2, "from the URI itself");
     let dir = tempfile::tempdir().expect("a folder");
     let path = dir.path().join("model.gltf");
-    for uri in ["/etc/passwd", "../x.bin", "%2e%2e/x.bin", "file:///etc/passwd", "http://example.invalid/x.bin", "gone.bin", "", "/dev/zero"] {
+    for uri in [
+        "/etc/passwd",
+        "../x.bin",
+        "%2e%2e/x.bin",
+        "file:///etc/passwd",
+        "http://example.invalid/x.bin",
+        "gone.bin",
+        "",
+        "/dev/zero",
+    ] {
         std::fs::write(&path, with_uri(&mut doc, uri)).expect("a file");
-        let error = trigon_io::load(&path, &trigon_io::LoadOptions::default()).map(|_| ()).expect_err("not followed");
+        let error =
+            trigon_io::load(&path, &trigon_io::LoadOptions::default()).map(|_| ()).expect_err("not followed");
         assert!(error.to_string().contains("buffer 0"), "{uri}: {error}");
     }
     std::fs::write(dir.path().join("a b.bin"), &doc.bytes).expect("a file");
     for uri in ["a b.bin", "a%20b.bin", "./a%20b.bin"] {
         std::fs::write(&path, with_uri(&mut doc, uri)).expect("a file");
-        let loaded = trigon_io::load(&path, &trigon_io::LoadOptions::default()).unwrap_or_else(|error| panic!("{uri}: {error}"));
+        let loaded = trigon_io::load(&path, &trigon_io::LoadOptions::default())
+            .unwrap_or_else(|error| panic!("{uri}: {error}"));
         assert_eq!(loaded.files, [path.clone(), dir.path().join("a b.bin")], "{uri}: what was read");
     }
 }

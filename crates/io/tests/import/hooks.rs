@@ -9,7 +9,9 @@ fn grid(side: usize) -> String {
     let vertices = (0..side * side).map(|index| format!("v {} {} 0\n", index % side, index / side));
     let corner = |x: usize, y: usize| y * side + x + 1;
     let cells = (0..side - 1).flat_map(|y| (0..side - 1).map(move |x| (x, y)));
-    let faces = cells.map(|(x, y)| format!("f {} {} {} {}\n", corner(x, y), corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1)));
+    let faces = cells.map(|(x, y)| {
+        format!("f {} {} {} {}\n", corner(x, y), corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1))
+    });
     vertices.chain(faces).collect()
 }
 
@@ -30,7 +32,9 @@ fn progress_goes_forward_to_the_end() {
 
 #[test]
 fn a_load_can_be_cancelled() {
-    let hook = |progress: trigon_io::Progress| if progress.stage == Stage::Geometry { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    let hook = |progress: trigon_io::Progress| {
+        if progress.stage == Stage::Geometry { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
     let options = LoadOptions { progress: Some(&hook), ..LoadOptions::default() };
     let error = load_from_slice("a.obj", grid(10).as_bytes(), &options).map(|_| ()).expect_err("cancelled");
     assert_eq!(error.kind, LoadErrorKind::Cancelled, "{error}");
@@ -59,7 +63,10 @@ fn files_that_are_none_say_so() {
         assert!(message.contains(word), "{message}");
     }
     for name in ["a.stl", "a.txt"] {
-        let message = load_from_slice(name, b"solid x", &LoadOptions::default()).map(|_| ()).expect_err("not supported").to_string();
+        let message = load_from_slice(name, b"solid x", &LoadOptions::default())
+            .map(|_| ())
+            .expect_err("not supported")
+            .to_string();
         assert!(message.contains(".obj, .gltf, .glb"), "{message} names what is supported");
     }
 }

@@ -15,7 +15,8 @@ fn loaded(name: &str, bytes: &[u8]) -> Loaded {
 
 /// The message of what must not load.
 fn refused(name: &str, bytes: &[u8]) -> String {
-    let error = load_from_slice(name, bytes, &LoadOptions::default()).map(|_| ()).expect_err("it must not load");
+    let error =
+        load_from_slice(name, bytes, &LoadOptions::default()).map(|_| ()).expect_err("it must not load");
     let message = error.to_string();
     assert!(message.starts_with(name), "{message:?} names the file");
     assert!(!message.contains('\n'), "{message:?} is one line");

@@ -15,7 +15,11 @@ fn obj(text: &str) -> trigon_io::Loaded {
 fn polygons_stay_polygons_and_edges_are_their_own() {
     let loaded = obj(&format!("{SQUARE}f 1 2 3 4\nl 1 3\np 2\n"));
     let mesh = meshes(&loaded)[0];
-    assert_eq!((mesh.vertex_count(), mesh.face_count(), mesh.edge_count()), (4, 1, 5), "a square and a diagonal");
+    assert_eq!(
+        (mesh.vertex_count(), mesh.face_count(), mesh.edge_count()),
+        (4, 1, 5),
+        "a square and a diagonal"
+    );
     assert_eq!(mesh.loose_edges().len(), 1, "the line");
     assert_eq!(mesh.loose_points().len(), 1, "the point");
     assert_eq!(mesh.face_vertices(0), [0, 1, 2, 3], "in the file's order");
@@ -43,10 +47,16 @@ fn line_endings_marks_and_continuations_do_not_matter() {
 
 #[test]
 fn groups_and_objects_are_nodes_and_materials_are_slots() {
-    let text = format!("{SQUARE}o a\nusemtl x\nf 1 2 3\nusemtl y\nf 1 3 4\no b\nf 1 2 4\ng part\nf 2 3 4\no a\nf 2 4 1\n");
+    let text = format!(
+        "{SQUARE}o a\nusemtl x\nf 1 2 3\nusemtl y\nf 1 3 4\no b\nf 1 2 4\ng part\nf 2 3 4\no a\nf 2 4 1\n"
+    );
     let loaded = obj(&text);
     let nodes: Vec<_> = loaded.scene.nodes().iter().map(|(_, node)| node).collect();
-    assert_eq!(nodes.iter().map(|node| node.name.as_str()).collect::<Vec<_>>(), ["a", "b", "b/part"], "by name");
+    assert_eq!(
+        nodes.iter().map(|node| node.name.as_str()).collect::<Vec<_>>(),
+        ["a", "b", "b/part"],
+        "by name"
+    );
     assert_eq!(nodes.iter().map(|node| node.materials.len()).collect::<Vec<_>>(), [2, 1, 1], "slots");
     let slots = meshes(&loaded)[0].attributes().face_materials.clone();
     assert_eq!(slots, Some(vec![0, 1, 1]), "the object was resumed in material y");
@@ -55,7 +65,13 @@ fn groups_and_objects_are_nodes_and_materials_are_slots() {
 
 #[test]
 fn a_file_without_names_is_named_after_itself() {
-    let (_, node) = &obj(&format!("{SQUARE}f 1 2 3\n")).scene.nodes().iter().map(|(id, node)| (id, node.clone())).next().expect("a node");
+    let (_, node) = &obj(&format!("{SQUARE}f 1 2 3\n"))
+        .scene
+        .nodes()
+        .iter()
+        .map(|(id, node)| (id, node.clone()))
+        .next()
+        .expect("a node");
     assert_eq!(node.name, "a", "the file's stem");
 }
 
@@ -63,7 +79,8 @@ fn a_file_without_names_is_named_after_itself() {
 fn coordinates_turn_down_and_missing_ones_are_zero() {
     let loaded = obj(&format!("{SQUARE}vt 0.25 0.25\nvt 0.5\nvn 0 0 2\nf 1/1/1 2/2 3\nf 1 3 4\n"));
     let attributes = meshes(&loaded)[0].attributes();
-    let expected = [Vec2::new(0.25, 0.75), Vec2::new(0.5, 1.0), Vec2::ZERO, Vec2::ZERO, Vec2::ZERO, Vec2::ZERO];
+    let expected =
+        [Vec2::new(0.25, 0.75), Vec2::new(0.5, 1.0), Vec2::ZERO, Vec2::ZERO, Vec2::ZERO, Vec2::ZERO];
     assert_eq!(attributes.uv_sets, [expected], "v counts from the top");
     let normals = attributes.corner_normals.as_ref().expect("one corner has one");
     assert_eq!(normals[0], Vec3::new(0.0, 0.0, 2.0), "given");
@@ -92,7 +109,11 @@ fn smoothing_groups_crease_where_they_meet() {
     assert!(normals[0].distance(diagonal) < 1e-6, "smooth within the group: {}", normals[0]);
     assert!(normals[6].distance(-Vec3::Y) < 1e-6, "a crease towards the other: {}", normals[6]);
     let one = obj(&format!("{cube}s 1\nf 1 3 2\ns off\nf 1 4 3\n"));
-    assert_eq!(meshes(&one)[0].attributes().face_smooth, Some(vec![true, false]), "one group needs no normals");
+    assert_eq!(
+        meshes(&one)[0].attributes().face_smooth,
+        Some(vec![true, false]),
+        "one group needs no normals"
+    );
 }
 
 #[test]
@@ -120,8 +141,24 @@ fn what_is_not_finite_is_left_out_and_the_rest_stays() {
 #[test]
 fn errors_name_the_line() {
     let lines = [
-        "f 1 2 0", "f 1 2 5", "f 1 2 -5", "f 1 2 4294967297", "f 1 2 -9223372036854775808", "f 1/0 2 3", "f 1 2 x", "f 1/1/1/1 2 3",
-        "v 1 2", "v 1 2 x", "v 1,5 2 3", "v 1-2 3 4", "v 0 0 \0", "vn 1 2", "vt", "l 9 1", "p 0", "v 1 1 1 0",
+        "f 1 2 0",
+        "f 1 2 5",
+        "f 1 2 -5",
+        "f 1 2 4294967297",
+        "f 1 2 -9223372036854775808",
+        "f 1/0 2 3",
+        "f 1 2 x",
+        "f 1/1/1/1 2 3",
+        "v 1 2",
+        "v 1 2 x",
+        "v 1,5 2 3",
+        "v 1-2 3 4",
+        "v 0 0 \0",
+        "vn 1 2",
+        "vt",
+        "l 9 1",
+        "p 0",
+        "v 1 1 1 0",
     ];
     for line in lines {
         let message = refused("a.obj", format!("{SQUARE}\n{line}\nf 1 2 3\n").as_bytes());
@@ -131,7 +168,15 @@ fn errors_name_the_line() {
 
 #[test]
 fn nothing_to_draw_is_said() {
-    for text in ["", "# only a comment", SQUARE, "f", &format!("{SQUARE}f 1\nf 1 2\n"), "\0\0\0\0", "version https://git-lfs.github.com/spec/v1\n"] {
+    for text in [
+        "",
+        "# only a comment",
+        SQUARE,
+        "f",
+        &format!("{SQUARE}f 1\nf 1 2\n"),
+        "\0\0\0\0",
+        "version https://git-lfs.github.com/spec/v1\n",
+    ] {
         refused("a.obj", text.as_bytes());
     }
 }
@@ -143,13 +188,25 @@ fn a_library_that_is_missing_or_outside_is_a_warning() {
     std::fs::create_dir(dir.path().join("model")).expect("a folder");
     std::fs::write(dir.path().join("secret.mtl"), "newmtl m\n").expect("a file");
     std::fs::write(dir.path().join("model/my lib.mtl"), "newmtl m\nKd 1 0 0\n").expect("a file");
-    for (name, is_found) in [("gone.mtl", false), ("../secret.mtl", false), ("/dev/zero", false), ("gone.mtl MY LIB.mtl", false), ("my lib.mtl", true), ("sub\\My Lib.mtl", true)] {
+    for (name, is_found) in [
+        ("gone.mtl", false),
+        ("../secret.mtl", false),
+        ("/dev/zero", false),
+        ("gone.mtl MY LIB.mtl", false),
+        ("my lib.mtl", true),
+        ("sub\\My Lib.mtl", true),
+    ] {
         std::fs::write(&path, format!("mtllib {name}\n{SQUARE}usemtl m\nf 1 2 3\n")).expect("a file");
-        let loaded = trigon_io::load(&path, &trigon_io::LoadOptions::default()).expect("the geometry is fine");
+        let loaded =
+            trigon_io::load(&path, &trigon_io::LoadOptions::default()).expect("the geometry is fine");
         let (_, material) = loaded.scene.materials.iter().next().expect("a material");
         assert_eq!(material.name == "m", is_found, "{name}: {:#?}", warnings(&loaded));
         assert!(is_found || !loaded.warnings.is_empty(), "{name}: a warning");
-        assert!(loaded.files.iter().all(|file| file.starts_with(dir.path().join("model"))), "{name}: {:?}", loaded.files);
+        assert!(
+            loaded.files.iter().all(|file| file.starts_with(dir.path().join("model"))),
+            "{name}: {:?}",
+            loaded.files
+        );
     }
 }
 

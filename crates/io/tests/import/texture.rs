@@ -52,11 +52,16 @@ fn obj_and_gltf_agree_which_way_is_up() {
     std::fs::write(dir.path().join("lib/m.mtl"), "newmtl m\nmap_Kd -bm 1 my tex.png\n").expect("a file");
     let obj = "mtllib lib/m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0.75\nvt 1 0\nvt 0 0\nusemtl m\nf 1/1 2/2 3/3\n";
     std::fs::write(dir.path().join("a.obj"), obj).expect("a file");
-    let from_obj = trigon_io::load(dir.path().join("a.obj"), &trigon_io::LoadOptions::default()).expect("a model");
+    let from_obj =
+        trigon_io::load(dir.path().join("a.obj"), &trigon_io::LoadOptions::default()).expect("a model");
     let (_, mesh) = from_obj.scene.meshes().iter().next().expect("a mesh");
     let uv = mesh.mesh().attributes().uv_sets[0][0];
     assert_eq!(color_at(&from_obj, uv), Vec3::X, "three quarters up, a quarter right is the upper left: red");
-    assert_eq!(color_at(&textured_square().load(), Vec2::splat(0.25)), Vec3::X, "glTF counts from the upper left");
+    assert_eq!(
+        color_at(&textured_square().load(), Vec2::splat(0.25)),
+        Vec3::X,
+        "glTF counts from the upper left"
+    );
     assert_eq!(from_obj.files.len(), 3, "the model, the library, the picture: {:?}", from_obj.files);
 }
 
@@ -67,7 +72,8 @@ fn obj_scale_and_offset_count_from_below() {
     std::fs::write(dir.path().join("m.mtl"), "newmtl m\nmap_Kd -s 0.5 0.5 -o 0 0.5 t.png\n").expect("a file");
     let obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.5\nusemtl m\nf 1/1 2/1 3/1\n";
     std::fs::write(dir.path().join("a.obj"), obj).expect("a file");
-    let loaded = trigon_io::load(dir.path().join("a.obj"), &trigon_io::LoadOptions::default()).expect("a model");
+    let loaded =
+        trigon_io::load(dir.path().join("a.obj"), &trigon_io::LoadOptions::default()).expect("a model");
     // 0.5 · 0.5 + 0.5 = 0.75 up, 0.25 right.
     assert_eq!(color_at(&loaded, Vec2::splat(0.5)), Vec3::X, "the upper left");
 }
@@ -76,9 +82,12 @@ fn obj_scale_and_offset_count_from_below() {
 fn samplers_and_texture_transforms_arrive() {
     let mut doc = textured_square();
     let binding_of = |doc: &Doc| binding(&doc.load());
-    assert_eq!((binding_of(&doc).sampler.wrap_u, binding_of(&doc).sampler.wrap_v), (Wrap::ClampToEdge, Wrap::MirroredRepeat), "wrap");
-    doc.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] =
-        json!({"KHR_texture_transform": {"offset": [0.5, 0], "rotation": std::f64::consts::FRAC_PI_2, "scale": [2, 4]}});
+    assert_eq!(
+        (binding_of(&doc).sampler.wrap_u, binding_of(&doc).sampler.wrap_v),
+        (Wrap::ClampToEdge, Wrap::MirroredRepeat),
+        "wrap"
+    );
+    doc.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] = json!({"KHR_texture_transform": {"offset": [0.5, 0], "rotation": std::f64::consts::FRAC_PI_2, "scale": [2, 4]}});
     let moved = binding_of(&doc).transform.transform_point2(Vec2::new(0.25, 0.5));
     // Scaled to (0.5, 2), a quarter turn counter-clockwise with v down to (2, −0.5), moved by (0.5, 0).
     assert!(moved.distance(Vec2::new(2.5, -0.5)) < 1e-6, "scale, turn, move: {moved}");
@@ -86,7 +95,11 @@ fn samplers_and_texture_transforms_arrive() {
 
 #[test]
 fn broken_and_foreign_pictures_become_a_checkerboard() {
-    for (bytes, word) in [(b"RIFF\x10\0\0\0WEBPVP8 ".to_vec(), "WebP"), (b"\xabKTX 20\xbb\r\n\x1a\n".to_vec(), "KTX2"), (png()[..40].to_vec(), "picture")] {
+    for (bytes, word) in [
+        (b"RIFF\x10\0\0\0WEBPVP8 ".to_vec(), "WebP"),
+        (b"\xabKTX 20\xbb\r\n\x1a\n".to_vec(), "KTX2"),
+        (png()[..40].to_vec(), "picture"),
+    ] {
         let mut doc = textured_square();
         let view = doc.view(&bytes);
         doc.json["images"] = json!([{"bufferView": view, "name": "the image"}]);
