@@ -178,7 +178,7 @@ impl Stage {
 
     /// Takes the whole scene into the picture, seen from the same side.
     pub fn fit_view(&mut self) {
-        self.orbit.fit(&self.scene.bounds(), self.viewport.aspect(), DEFAULT_MARGIN);
+        self.orbit.fit_points(&self.scene.visible_points(), self.viewport.aspect(), DEFAULT_MARGIN);
     }
 
     /// What a pixel shows, and where in the world. Draws the ids once for it.

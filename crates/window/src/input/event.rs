@@ -24,8 +24,8 @@ pub(crate) struct KeyPress {
     pub(crate) code: KeyCode,
     /// By the user's layout.
     pub(crate) logical: Option<Key>,
-    /// By its place on a US keyboard, for digits that other layouts put
-    /// behind Shift.
+    /// By its place on a US keyboard, where the layout hides digits behind
+    /// Shift or has no Latin letters.
     pub(crate) physical: Option<Key>,
 }
 

@@ -83,9 +83,27 @@ fn key_event(event: &KeyEvent) -> Option<InputEvent> {
         ElementState::Pressed => Some(InputEvent::KeyDown(KeyPress {
             code,
             logical: logical_key(&event.key_without_modifiers()),
-            physical: physical_digit(event.physical_key),
+            physical: physical_key(event.physical_key, &event.key_without_modifiers()),
         })),
     }
+}
+
+/// The key by its place on a US keyboard: digits, which some layouts put behind
+/// Shift, and letters where the layout has none of the Latin ones.
+fn physical_key(physical: PhysicalKey, logical: &keyboard::Key) -> Option<Key> {
+    let is_foreign = matches!(logical, keyboard::Key::Character(text) if !text.is_ascii());
+    physical_digit(physical).or_else(|| physical_letter(physical).filter(|_| is_foreign))
+}
+
+fn physical_letter(key: PhysicalKey) -> Option<Key> {
+    use keyboard::KeyCode::*;
+    const LETTERS: [keyboard::KeyCode; 26] = [
+        KeyA, KeyB, KeyC, KeyD, KeyE, KeyF, KeyG, KeyH, KeyI, KeyJ, KeyK, KeyL, KeyM, KeyN, KeyO, KeyP, KeyQ,
+        KeyR, KeyS, KeyT, KeyU, KeyV, KeyW, KeyX, KeyY, KeyZ,
+    ];
+    let PhysicalKey::Code(code) = key else { return None };
+    let letter = ('a'..='z').zip(LETTERS).find(|&(_, place)| place == code);
+    letter.map(|(letter, _)| Key::Character(letter))
 }
 
 fn logical_key(key: &keyboard::Key) -> Option<Key> {
@@ -167,6 +185,14 @@ mod tests {
         assert_eq!(character("H"), Some(Key::Character('h')), "shortcuts know no case");
         assert_eq!(character("ff"), None, "a key that types two characters is no shortcut");
         assert_eq!(logical_key(&keyboard::Key::Named(NamedKey::F12)), Some(Key::Function(12)), "F12");
+    }
+
+    #[test]
+    fn letters_are_found_by_place_where_the_layout_is_not_latin() {
+        let place = PhysicalKey::Code(keyboard::KeyCode::KeyQ);
+        let typed = |text: &str| physical_key(place, &keyboard::Key::Character(text.into()));
+        assert_eq!(typed("\u{439}"), Some(Key::Character('q')), "Cyrillic short i is on the key of Q");
+        assert_eq!(typed("a"), None, "on a French keyboard A is there, and means A");
     }
 
     #[test]
