@@ -1,5 +1,6 @@
 //! The properties that hold for every clipped triangle, stated once.
 
+use trigon_math::elementary::exp2;
 use trigon_math::{ClipPolygon, ClipVertex, Vec4, clip_triangle};
 
 use super::input::Planes;
@@ -26,7 +27,7 @@ pub(super) fn weights_are_convex<const N: usize>(vertex: &ClipVertex<N>) {
         "a weight of {vertex:?} is out of range"
     );
     let excess = weights.iter().sum::<f64>() - 1.0;
-    let bound = 3.0 * 2.0_f64.powi(-25) + 2.0_f64.powi(-48);
+    let bound = 3.0 * exp2(-25.0) + exp2(-48.0);
     assert!(excess.abs() <= bound, "the weights of {vertex:?} sum to 1 + {excess}");
 }
 

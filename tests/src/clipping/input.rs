@@ -19,14 +19,14 @@ impl Planes {
         Self { minimal_w: 1e-6, near: true, far: true, horizontal: Some(1.0), vertical: Some(1.0) };
 
     pub(super) fn volume(&self) -> ClipVolume {
-        let mut volume = ClipVolume::before_the_eye(self.minimal_w).unwrap();
+        let mut volume = ClipVolume::before_the_eye(self.minimal_w).expect("a normal number");
         if self.near {
             volume = volume.with(HalfSpace::NEAR);
         }
         if self.far {
             volume = volume.with(HalfSpace::FAR);
         }
-        let band = |factor| Band::at_most(factor).unwrap();
+        let band = |factor| Band::at_most(factor).expect("at least 1");
         if let Some(factor) = self.horizontal {
             volume = volume.with(HalfSpace::left(band(factor))).with(HalfSpace::right(band(factor)));
         }

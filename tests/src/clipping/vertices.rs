@@ -2,6 +2,7 @@
 
 use num_traits::{Signed, Zero};
 use proptest::prelude::*;
+use trigon_math::elementary::exp2;
 use trigon_math::{ClipPolygon, Vec4};
 
 use super::exact::rational;
@@ -23,10 +24,10 @@ fn positions_follow_weights(triangle: [Vec4; 3], band: f64, polygon: &ClipPolygo
                 .fold(num_rational::BigRational::zero(), |sum, (corner, weight)| {
                     sum + rational(corner[axis]) * rational(weight)
                 });
-            let bound = 2.0_f64.powi(-22) * largest(axis)
-                + 2.0_f64.powi(-44) * (largest(axis) + band * largest(3))
+            let bound = exp2(-22.0) * largest(axis)
+                + exp2(-44.0) * (largest(axis) + band * largest(3))
                 // Positions and weights below the normal range of f32.
-                + 2.0_f64.powi(-149) * (1.0 + largest(axis));
+                + exp2(-149.0) * (1.0 + largest(axis));
             let error = (rational(vertex.position[axis]) - weighted).abs();
             assert!(
                 error <= rational(bound),
