@@ -4,6 +4,7 @@ mod camera;
 mod clipping;
 mod corpus;
 mod coverage;
+mod coverage_lines;
 mod coverage_support;
 mod depth;
 mod goldens;

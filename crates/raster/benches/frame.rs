@@ -76,7 +76,7 @@ fn knot() -> (Knot, Vec<[u32; 3]>) {
     let triangles = quads
         .flat_map(|(i, j)| {
             let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
-            [[a, c, b], [a, d, c]]
+            [[a, b, c], [a, c, d]]
         })
         .collect();
     let eye = Vec3::new(0.3, 0.4, 4.6);

@@ -44,7 +44,7 @@ fn cover_opaque(frame: &Frame<'_>, area: TileArea, scratch: &mut Scratch, place:
             settle_ties(frame, triangles, &lanes, depth, winner, place as u32);
         }
         for lane in 0..LANES {
-            let nearer = lanes.sign[lane] >= 0 && lanes.depth[lane] > depth[lane];
+            let nearer = (lanes.sign[lane] >= 0) & (lanes.depth[lane] > depth[lane]);
             depth[lane] = if nearer { lanes.depth[lane] } else { depth[lane] };
             winner[lane] = if nearer { place as u32 } else { winner[lane] };
         }
@@ -53,11 +53,10 @@ fn cover_opaque(frame: &Frame<'_>, area: TileArea, scratch: &mut Scratch, place:
 
 #[inline(always)]
 fn any_tie(lanes: &Lanes, depth: &[f32]) -> bool {
-    let mut tie = false;
-    for lane in 0..LANES {
-        tie |= lanes.sign[lane] >= 0 && lanes.depth[lane] == depth[lane];
-    }
-    tie
+    // Without short cuts, so that the lanes go in step.
+    let ties = lanes.sign.iter().zip(&lanes.depth).zip(depth);
+    ties.fold(0, |any, ((&sign, &ours), &theirs)| any | (u32::from(sign >= 0) & u32::from(ours == theirs)))
+        != 0
 }
 
 /// Gives samples of equal depth to the smaller key.

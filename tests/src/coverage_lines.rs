@@ -1,0 +1,116 @@
+//! Lines and points: the same from either end, one pixel in each step, each
+//! joint once. Hard case 38.
+
+use crate::coverage_support::{Raw, SIDE, Values, clip_position, draw, pixel};
+use proptest::prelude::*;
+use trigon_raster::{Lines, Pass, PointShape, Points, Surface};
+
+/// How often each pixel is covered by segments of a width in pixels.
+fn count(points: &[Raw], segments: &[[u32; 2]], width: f32) -> Vec<u32> {
+    let pipeline = Values::on_grid(points);
+    let mut pass = Pass::new();
+    pass.lines(Lines { width, surface: Surface::Translucent, ..Lines::new(&pipeline, segments) });
+    draw(&pass).linear.expect("asked for").iter().map(|color| color.x as u32).collect()
+}
+
+fn inside() -> impl Strategy<Value = Raw> {
+    let coordinate = 4 * 256..(SIDE - 4) * 256;
+    [coordinate.clone(), coordinate]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn a_line_is_the_same_from_either_end(
+        ends in [inside(), inside()],
+        depths in [0.0_f32..1.0, 0.0..1.0],
+        width in 1.0_f32..9.0,
+    ) {
+        let vertices = (0..2).map(|i| (clip_position(ends[i], depths[i]), depths[i] * 3.0)).collect();
+        let pipeline = Values { vertices };
+        let pictures = [[[0, 1]], [[1, 0]]].map(|segments| {
+            let mut pass = Pass::new();
+            pass.lines(Lines { width, ..Lines::new(&pipeline, &segments) });
+            draw(&pass)
+        });
+        prop_assert!(pictures[0] == pictures[1]);
+    }
+
+    /// One pixel in each column that the line passes (or row, if it is steep),
+    /// within half a pixel of it.
+    #[test]
+    fn a_line_of_one_pixel_has_one_in_each_step(ends in [inside(), inside()]) {
+        let counts = count(&ends, &[[0, 1]], 1.0);
+        let span = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
+        let major = usize::from(span[0].abs() < span[1].abs());
+        let mut steps = [0; SIDE as usize];
+        for (index, &count) in counts.iter().enumerate() {
+            prop_assert!(count <= 1, "twice at {:?}", pixel(index));
+            if count == 1 {
+                let at = pixel(index);
+                steps[at[major] as usize] += 1;
+                let along = f64::from(256 * at[major] + 128 - ends[0][major]) / f64::from(span[major]);
+                let line = f64::from(ends[0][1 - major]) + f64::from(span[1 - major]) * along;
+                let distance = f64::from(256 * at[1 - major] + 128) - line;
+                prop_assert!(span[major] == 0 || distance.abs() <= 130.0, "{distance} off at {at:?}");
+            }
+        }
+        let (low, high) = (ends[0][major].min(ends[1][major]), ends[0][major].max(ends[1][major]));
+        for (step, &found) in (0..).zip(&steps) {
+            // Prolonged by half a pixel, so both ends have theirs.
+            let centre = 256 * step + 128;
+            let expected = (low - 128..high + 128).contains(&centre);
+            prop_assert_eq!(found, i32::from(expected), "step {}", step);
+        }
+    }
+
+    #[test]
+    fn a_polyline_draws_each_joint_once(points in [inside(), inside()], width in 1.0_f32..6.0) {
+        let [a, b] = points;
+        // Out and back again: the second segment lies on the first.
+        let counts = count(&[a, b], &[[0, 1], [1, 0]], width);
+        prop_assert!(counts.iter().all(|&count| count <= 1), "no pixel twice");
+        let once = count(&[a, b], &[[0, 1]], width);
+        prop_assert_eq!(counts, once);
+    }
+
+    /// A line that leaves the view is drawn as if the view were larger.
+    #[test]
+    fn the_border_of_the_view_moves_no_pixel(ends in [far(), far()], dx in 0..30_i32) {
+        let moved = ends.map(|[x, y]| [x + 256 * dx, y]);
+        let [before, after] = [ends, moved].map(|ends| count(&ends, &[[0, 1]], 1.0));
+        for (index, &count) in before.iter().enumerate() {
+            let [x, y] = pixel(index);
+            if x + dx < SIDE {
+                prop_assert_eq!(count, after[(y * SIDE + x + dx) as usize]);
+            }
+        }
+    }
+}
+
+fn far() -> impl Strategy<Value = Raw> {
+    let coordinate = -30_000 * 256..30_000 * 256;
+    [coordinate.clone(), coordinate]
+}
+
+#[test]
+fn points_have_their_size() {
+    let centre = [[20 * 256, 20 * 256]];
+    let pipeline = Values::on_grid(&centre);
+    for (shape, size, expected) in [
+        (PointShape::Square, 1.0, 1),
+        (PointShape::Square, 6.0, 36),
+        (PointShape::Round, 2.0, 4),
+        (PointShape::Round, 6.0, 32),
+        (PointShape::Square, f32::NAN, 1),
+    ] {
+        let mut pass = Pass::new();
+        let surface = Surface::Translucent;
+        pass.points(Points { shape, surface, ..Points::new(&pipeline, &[0], size) });
+        let linear = draw(&pass).linear.expect("asked for");
+        let covered: f32 = linear.iter().map(|color| color.x).sum();
+        assert_eq!(covered, expected as f32, "{shape:?} of {size}");
+        assert!(linear.iter().all(|color| color.x <= 1.0), "no pixel twice");
+    }
+}
