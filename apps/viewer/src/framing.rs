@@ -61,21 +61,24 @@ impl Framing {
         let shot = match self.eye {
             Eye::Position(position) => self.standing(position, center)?,
             Eye::SceneCamera(index) => self.borrowed(scene, index, center)?,
-            Eye::Default | Eye::Direction(_) | Eye::Side(_) => self.fitted(bounds, center, aspect)?,
+            Eye::Default | Eye::Direction(_) | Eye::Side(_) => self.fitted(scene, bounds, aspect)?,
         };
         Ok(Shot { camera: shot.camera.with_clip_planes(bounds), ..shot })
     }
 
     /// A camera that shows the whole model from a direction.
-    fn fitted(&self, bounds: &Bounds3, center: DVec3, aspect: f64) -> Result<Shot, Failure> {
+    fn fitted(&self, scene: &Scene, bounds: &Bounds3, aspect: f64) -> Result<Shot, Failure> {
         /// The emptiest picture that fitting itself can do.
         const LARGEST_MARGIN: f64 = 0.95;
         let orientation = self.turn(self.orientation());
         let (direction, up) = (orientation * DVec3::NEG_Z, orientation * DVec3::Y);
         let margin = (1.0 - self.zoom).clamp(0.0, LARGEST_MARGIN);
-        let around = if self.focal_point.is_some() { centered(bounds, center) } else { *bounds };
         let base = Camera::default().with_projection(self.projection(1.0)?);
-        let camera = base.fit(&around, direction, up, aspect, margin);
+        let camera = match self.focal_point {
+            Some(center) => base.fit(&centered(bounds, center), direction, up, aspect, margin),
+            None => base.fit_points(&scene.visible_points(), direction, up, aspect, margin),
+        };
+        let center = self.focal_point.unwrap_or_else(|| Extent::new(bounds).center());
         // What a margin cannot express: larger than the picture, or tiny in it.
         Ok(zoomed(camera, center, self.zoom / (1.0 - margin)))
     }

@@ -1,9 +1,10 @@
 //! Placing a camera so that a model fills the picture, and placing the near
 //! and far planes around it.
 //!
-//! The box is fitted by its eight corners as they are projected, not by its
-//! bounding sphere: a tall tower fills the height of the picture. The target
-//! stays the box's centre, so that a camera that orbits it does not wobble.
+//! What is fitted are points as they are projected (all vertices of a model, or
+//! the eight corners of a box), not a bounding sphere: a tall tower fills the
+//! height of the picture. The target stays the middle of the box around them,
+//! so that a camera that orbits it does not wobble.
 //! Everything scales with the box: a model of 10⁻⁶ and one of 10²⁰ give the
 //! same picture.
 
@@ -81,11 +82,16 @@ impl Extent {
     }
 
     /// The eight corners, relative to the centre.
-    fn corners(&self) -> [DVec3; 8] {
+    pub(crate) fn corners(&self) -> [DVec3; 8] {
         std::array::from_fn(|i| {
             let sign = |bit: usize| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
             self.half * DVec3::new(sign(0), sign(1), sign(2))
         })
+    }
+
+    /// Those points that are finite, relative to the centre.
+    pub(crate) fn offsets<'a>(&'a self, points: &'a [DVec3]) -> impl Iterator<Item = DVec3> + 'a {
+        points.iter().filter(|point| point.is_finite()).map(|&point| point - self.center)
     }
 
     /// How far before and behind the plane through the eye the box reaches,
@@ -109,8 +115,32 @@ impl Camera {
     #[must_use]
     pub fn fit(&self, bounds: &Bounds3, direction: DVec3, up: DVec3, aspect: f64, margin: f64) -> Self {
         let extent = Extent::new(bounds);
-        let orientation = orientation_looking(direction, up);
-        let fitted = fit_distance(&self.projection, orientation, &extent, aspect, margin);
+        let shot = Shot { projection: &self.projection, orientation: orientation_looking(direction, up) };
+        let fitted = fit_distance(shot, &extent, extent.corners().into_iter(), aspect, margin);
+        self.fitted(shot.orientation, &extent, fitted).with_clip_planes(bounds)
+    }
+
+    /// As [`Camera::fit`], but to points instead of the box around them: a ball
+    /// fills the picture as well as a cube does. The camera still looks at the
+    /// middle of the box. Points that are not finite are passed over.
+    #[must_use]
+    pub fn fit_points(
+        &self,
+        points: &[DVec3],
+        direction: DVec3,
+        up: DVec3,
+        aspect: f64,
+        margin: f64,
+    ) -> Self {
+        let bounds = finite_bounds(points);
+        let extent = Extent::new(&bounds);
+        let shot = Shot { projection: &self.projection, orientation: orientation_looking(direction, up) };
+        let fitted = fit_distance(shot, &extent, extent.offsets(points), aspect, margin);
+        self.fitted(shot.orientation, &extent, fitted).with_clip_planes(&bounds)
+    }
+
+    /// Where the camera stands when `fitted` came out of [`fit_distance`].
+    fn fitted(&self, orientation: DQuat, extent: &Extent, fitted: f64) -> Self {
         let (projection, away) = match self.projection {
             // What is fitted is the height; the eye just stands clear of the box.
             Projection::Orthographic { near, far, .. } => {
@@ -119,7 +149,7 @@ impl Camera {
             other => (other, fitted),
         };
         let position = extent.center - orientation * sight(&projection, away);
-        Self { position, orientation, projection }.with_clip_planes(bounds)
+        Self { position, orientation, projection }
     }
 
     /// The same camera with its near and far planes just around these bounds,
@@ -143,34 +173,47 @@ impl Camera {
     }
 }
 
-/// The distance from the box's centre along the line of sight at which the box
-/// just fills the picture; the height of the window for a parallel projection.
+/// How a camera looks that is still to be placed.
+#[derive(Clone, Copy)]
+pub(crate) struct Shot<'a> {
+    pub(crate) projection: &'a Projection,
+    pub(crate) orientation: DQuat,
+}
+
+/// The box around those points that are finite.
+pub(crate) fn finite_bounds(points: &[DVec3]) -> Bounds3 {
+    Bounds3::from_points(points.iter().copied().filter(|point| point.is_finite()))
+}
+
+/// The distance from the extent's centre along the line of sight at which the
+/// points, given relative to the centre, just fill the picture; the height of
+/// the window for a parallel projection.
 pub(crate) fn fit_distance(
-    projection: &Projection,
-    orientation: DQuat,
+    shot: Shot<'_>,
     extent: &Extent,
+    points: impl Iterator<Item = DVec3>,
     aspect: f64,
     margin: f64,
 ) -> f64 {
     let fill = 1.0 - if margin > 0.0 { smaller(margin, LARGEST_MARGIN) } else { 0.0 };
-    let map = projection.clip_map(aspect);
+    let map = shot.projection.clip_map(aspect);
     let (half, middle) = (fill / map.scale, map.shift / map.scale);
-    let turn = orientation.conjugate();
-    let corners = extent.corners().map(|corner| turn * corner);
+    let turn = shot.orientation.conjugate();
+    let points = points.map(|point| turn * point);
     match map.kind {
-        // |x + middle·z| <= half·(distance - z) for every corner, per axis.
-        Kind::Perspective => corners.iter().fold(0.0, |distance, corner| {
-            let off = (corner.truncate() + middle * corner.z).abs() / half;
-            let clear = corner.z + CLEARANCE * extent.radius;
-            larger(distance, larger(clear, corner.z + larger(off.x, off.y)))
+        // |x + middle·z| <= half·(distance - z) for every point, per axis.
+        Kind::Perspective => points.fold(CLEARANCE * extent.radius, |distance, point| {
+            let off = (point.truncate() + middle * point.z).abs() / half;
+            let clear = point.z + CLEARANCE * extent.radius;
+            larger(distance, larger(clear, point.z + larger(off.x, off.y)))
         }),
         // `half` is half of the window's size at the current height.
         Kind::Parallel => {
-            let reach = corners.iter().fold(0.0, |reach, corner| {
-                let off = corner.truncate().abs() / half;
+            let reach = points.fold(0.0, |reach, point| {
+                let off = point.truncate().abs() / half;
                 larger(reach, larger(off.x, off.y))
             });
-            let height = reach * projection.height_at(1.0);
+            let height = reach * shot.projection.height_at(1.0);
             if height > 0.0 { height } else { 2.0 * extent.radius / fill }
         }
     }

@@ -4,7 +4,7 @@
 use trigon_math::{Bounds3, DMat3, DQuat, DVec3, elementary};
 
 use super::angle::Angle;
-use crate::fit::{Extent, fit_distance, sight};
+use crate::fit::{Extent, Shot, finite_bounds, fit_distance, sight};
 use crate::view::up_frame;
 use crate::{AxisView, Camera, Projection};
 
@@ -289,9 +289,19 @@ impl Orbit {
     /// fill the picture; see [`Camera::fit`].
     pub fn fit(&mut self, bounds: &Bounds3, aspect: f64, margin: f64) {
         let extent = Extent::new(bounds);
-        let orientation = self.orientation();
-        let projection = self.projection();
-        let fitted = fit_distance(&projection, orientation, &extent, aspect, margin);
+        self.fit_extent(&extent, extent.corners().into_iter(), aspect, margin);
+    }
+
+    /// As [`Orbit::fit`], but to points instead of the box around them; see
+    /// [`Camera::fit_points`].
+    pub fn fit_points(&mut self, points: &[DVec3], aspect: f64, margin: f64) {
+        let extent = Extent::new(&finite_bounds(points));
+        self.fit_extent(&extent, extent.offsets(points), aspect, margin);
+    }
+
+    fn fit_extent(&mut self, extent: &Extent, points: impl Iterator<Item = DVec3>, aspect: f64, margin: f64) {
+        let shot = Shot { projection: &self.projection(), orientation: self.orientation() };
+        let fitted = fit_distance(shot, extent, points, aspect, margin);
         let distance = match self.parallel {
             Lines::Converging => fitted,
             Lines::Parallel => fitted / self.perspective.height_at(1.0),
