@@ -71,6 +71,36 @@ proptest! {
     }
 }
 
+proptest! {
+    /// A model's own points fill the picture, where its box would leave room.
+    #[test]
+    fn points_fill_the_picture_up_to_the_margin(
+        which in 0usize..5,
+        points in prop::collection::vec(prop::array::uniform3(-1.0f64..1.0), 2..40),
+        direction in prop::array::uniform3(-1.0f64..1.0),
+        margin in 0.0f64..0.5,
+    ) {
+        let points: Vec<DVec3> = points.into_iter().map(DVec3::from).collect();
+        let camera = Camera::default().with_projection(projections()[which]);
+        let aspect = PICTURE.aspect();
+        let camera = camera.fit_points(&points, DVec3::from(direction), DVec3::Y, aspect, margin);
+        let projector = Projector::new(&camera, PICTURE);
+        let mut reach: f64 = 0.0;
+        for &point in &points {
+            let screen = projector.to_screen(point).expect("before the eye");
+            reach = reach.max((PICTURE.to_ndc(screen).abs() / (1.0 - margin)).max_element());
+        }
+        prop_assert!(reach < 1.0 + 1e-9, "a point is at {} of the margin", reach);
+        // Points nearly in line with the eye may leave it close enough to be held
+        // off by its clearance.
+        let bounds = Bounds3::from_points(points.iter().copied());
+        let middle = bounds.min.midpoint(bounds.max);
+        let off = |point: &DVec3| (*point - middle).reject_from(camera.forward()).length();
+        let off = points.iter().map(off).fold(0.0, f64::max);
+        prop_assert!(reach > 0.999 || which == 1 || off < 0.5, "the points reach only {}", reach);
+    }
+}
+
 #[test]
 fn tiny_models_far_from_the_origin_are_fitted() {
     let center = DVec3::new(1e7, -1e7, 1e7);
