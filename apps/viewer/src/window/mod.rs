@@ -5,7 +5,7 @@ mod commands;
 mod screenshot;
 mod viewer;
 
-use trigon_window::{Application, Keymap, WindowError};
+use trigon_window::{Application, DragBinding, WindowError};
 
 use crate::args::Request;
 use crate::model::Source;
@@ -36,16 +36,19 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
     }
 }
 
-/// `--list-bindings`: the mouse, then the keys.
+/// `--list-bindings`: the mouse, then the keys; those that do the same share a line.
 pub(crate) fn bindings() -> Vec<String> {
-    let keymap: Keymap = commands::keymap();
-    let line = |keys: String, does: &str| format!("{keys:24} {does}");
-    let drags = keymap
-        .drags()
-        .iter()
-        .map(|drag| line(format!("{}{} drag", drag.modifiers, drag.button), &drag.description));
-    let keys = keymap.bindings().iter().map(|binding| line(binding.chord.to_string(), &binding.description));
-    drags.chain([line("Wheel".to_owned(), "zoom")]).chain(keys).collect()
+    let keymap = commands::keymap();
+    let line = |keys: String, does: &str| format!("{keys:48} {does}");
+    let drag =
+        |drag: &DragBinding| line(format!("{}{} drag", drag.modifiers, drag.button), &drag.description);
+    let mouse = keymap.drags().iter().map(drag).chain([line("Wheel".to_owned(), "zoom")]);
+    let runs = keymap.bindings().chunk_by(|one, next| one.description == next.description);
+    let keys = runs.map(|run| {
+        let chords: Vec<String> = run.iter().map(|binding| binding.chord.to_string()).collect();
+        line(chords.join(", "), &run[0].description)
+    });
+    mouse.chain(keys).collect()
 }
 
 /// What is written on the window.

@@ -4,7 +4,7 @@
 mod floor;
 
 use trigon_camera::{Camera, Projection};
-use trigon_math::glam::Affine2;
+use trigon_math::glam::{Affine2, Mat2};
 use trigon_math::{DAffine3, DMat3, DQuat, DVec2, DVec3, Vec2, Vec3, Vec4, color};
 use trigon_mesh::Mesh;
 use trigon_mesh::primitives::{self, TorusKnot};
@@ -82,7 +82,7 @@ fn exhibits() -> Vec<Exhibit> {
         Exhibit {
             name: "icosahedron",
             mesh: resting(&primitives::icosahedron(0.72)),
-            place: DVec2::new(-2.0, -0.25),
+            place: DVec2::new(-2.15, -0.55),
             turn: 10.0,
             color: [28, 140, 138],
             shading: glossy(0.25, 30.0),
@@ -91,7 +91,7 @@ fn exhibits() -> Vec<Exhibit> {
         Exhibit {
             name: "dodecahedron",
             mesh: resting(&primitives::dodecahedron(0.33)),
-            place: DVec2::new(-1.75, 1.35),
+            place: DVec2::new(-1.6, 1.5),
             turn: 32.0,
             color: [226, 164, 52],
             shading: Shading::Lambert,
@@ -100,7 +100,7 @@ fn exhibits() -> Vec<Exhibit> {
         Exhibit {
             name: "torus knot",
             mesh: primitives::torus_knot(&knot).transformed(&upright),
-            place: DVec2::new(1.15, -1.35),
+            place: DVec2::new(1.4, -1.35),
             turn: -18.0,
             color: [236, 226, 206],
             shading: glossy(0.5, 60.0),
@@ -109,7 +109,7 @@ fn exhibits() -> Vec<Exhibit> {
         Exhibit {
             name: "cone",
             mesh: primitives::cone(0.42, 1.15, 64),
-            place: DVec2::new(-0.75, -1.6),
+            place: DVec2::new(-0.95, -1.7),
             turn: 0.0,
             color: [122, 158, 88],
             shading: Shading::Lambert,
@@ -118,7 +118,7 @@ fn exhibits() -> Vec<Exhibit> {
         Exhibit {
             name: "torus",
             mesh: primitives::torus(0.33, 0.13, 64, 24),
-            place: DVec2::new(1.45, 1.6),
+            place: DVec2::new(1.4, 1.65),
             turn: 0.0,
             color: [132, 62, 110],
             shading: glossy(0.5, 60.0),
@@ -166,20 +166,17 @@ fn add_floor(scene: &mut Scene) {
     const RADIUS: f32 = 4.6;
     let texture = scene.add_texture("floor", floor::floor());
     let repeats = 2.0 * RADIUS / floor::METRES;
-    let binding = TextureBinding {
-        transform: Affine2::from_scale(Vec2::splat(repeats)),
-        ..TextureBinding::new(texture)
-    };
+    // Turned by 30 degrees: fields that run into the depth askew look less like a grid.
+    let (sine, cosine) = (0.5, 0.866_025_4);
+    let turned = Mat2::from_cols_array(&[cosine, sine, -sine, cosine]) * repeats;
+    let binding = TextureBinding { transform: Affine2::from_mat2(turned), ..TextureBinding::new(texture) };
     let material = Material {
         base_color: Vec4::ONE,
         base_color_texture: Some(binding),
         shading: glossy(0.12, 40.0),
         ..Material::default()
     };
-    let floor = scene.add_object("floor", primitives::disc(RADIUS, 128), material);
-    if let Some(node) = scene.node_mut(floor) {
-        node.transform.rotate(DVec3::Y, std::f64::consts::FRAC_PI_6);
-    }
+    scene.add_object("floor", primitives::disc(RADIUS, 128), material);
 }
 
 /// Sun from the upper left, a warm lamp on the right, and the sky.

@@ -1,0 +1,269 @@
+//! The whole program, run as a user runs it: pictures, streams, messages, exit
+//! codes. No display, no network.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// A corner of a cube: three quads, one of them red.
+const CORNER: &str = "mtllib corner.mtl
+v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1
+usemtl red\nf 1 4 3 2\nf 1 2 6 5\nf 1 5 7 4\n";
+
+/// A folder with a model in it, removed at the end.
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        let folder = Self(tempfile::tempdir().expect("a temporary folder"));
+        folder.write("corner.obj", CORNER);
+        folder.write("corner.mtl", "newmtl red\nKd 1 0 0\n");
+        folder
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, contents: &str) {
+        fs::write(self.path(name), contents).expect("the folder is writable");
+    }
+
+    /// Runs the viewer in this folder, without a display.
+    fn run(&self, flags: &str) -> Output {
+        self.command(flags).output().expect("the viewer starts")
+    }
+
+    fn command(&self, flags: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_trigon-viewer"));
+        command.args(flags.split_whitespace()).current_dir(self.0.path());
+        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+        command
+    }
+
+    /// Runs it and expects an exit code; returns what it said.
+    fn said(&self, flags: &str, code: i32) -> String {
+        let output = self.run(flags);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(code), "`{flags}` said: {said}");
+        assert!(!said.contains("panicked"), "`{flags}` panicked: {said}");
+        said
+    }
+
+    /// Runs it and expects one line about a failure of the work.
+    fn failed(&self, flags: &str) -> String {
+        let said = self.said(flags, 1);
+        let lines: Vec<&str> = said.lines().collect();
+        assert_eq!(lines.len(), 1, "`{flags}` says one line: {said}");
+        assert!(said.starts_with("trigon-viewer: error: "), "who and what: {said}");
+        said
+    }
+}
+
+/// Width, height and whether there is an alpha channel, by the PNG's header.
+fn png_size(bytes: &[u8]) -> (u32, u32) {
+    assert!(bytes.starts_with(b"\x89PNG\r\n\x1a\n"), "a PNG, not {:?}", &bytes[..bytes.len().min(20)]);
+    let number = |at: usize| u32::from_be_bytes(bytes[at..at + 4].try_into().expect("four bytes"));
+    (number(16), number(20))
+}
+
+fn picture(path: &Path) -> trigon_io::Picture {
+    trigon_io::load_image(path, &trigon_io::Limits::default()).expect("a picture")
+}
+
+#[test]
+fn a_model_becomes_a_picture_of_the_size_asked_for() {
+    let folder = Folder::new();
+    let said = folder.said("corner.obj --output out.png --resolution 120x80", 0);
+    assert_eq!(said, "trigon-viewer: wrote out.png (120×80)\n", "one line, no warning");
+    let picture = picture(&folder.path("out.png"));
+    assert_eq!((picture.width, picture.height), (120, 80), "the size");
+    let red = picture.rgba.chunks(4).filter(|p| p[0] > 60 && p[1] < 60 && p[2] < 60).count();
+    assert!((1500..8000).contains(&red), "the model fills a good part of the picture: {red} of 9600 pixels");
+}
+
+#[test]
+fn without_a_file_there_is_the_built_in_scene() {
+    let folder = Folder::new();
+    folder.said("--output out.png --resolution 100,60 --samples=1", 0);
+    let picture = picture(&folder.path("out.png"));
+    let mut colors: Vec<&[u8]> = picture.rgba.chunks(4).collect();
+    colors.sort_unstable();
+    colors.dedup();
+    assert!(colors.len() > 500, "it is no plain area: {} colours", colors.len());
+}
+
+#[test]
+fn a_dash_writes_the_picture_and_nothing_else_to_standard_output() {
+    let folder = Folder::new();
+    let output = folder.run("corner.obj --output - --resolution 64,48");
+    assert!(output.status.success(), "{output:?}");
+    assert_eq!(png_size(&output.stdout), (64, 48), "a PNG");
+    assert!(output.stdout.ends_with(b"IEND\xaeB\x60\x82"), "up to its end");
+    assert!(output.stderr.is_empty(), "nothing to say: {:?}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn a_reader_that_leaves_early_is_no_panic() {
+    let folder = Folder::new();
+    for flags in ["--output - --resolution 300,300", "--list-readers"] {
+        let mut child =
+            folder.command(flags).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("starts");
+        drop(child.stdout.take());
+        let output = child.wait_with_output().expect("it ends");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(!said.contains("panicked"), "{flags}: {said}");
+    }
+}
+
+#[test]
+fn every_flag_about_the_picture_changes_it() {
+    let folder = Folder::new();
+    let stream = |flags: &str| {
+        let output = folder.run(&format!("corner.obj --output - --resolution 60,40 {flags}"));
+        assert!(output.status.success(), "`{flags}`: {}", String::from_utf8_lossy(&output.stderr));
+        output.stdout
+    };
+    let plain = stream("");
+    for flags in [
+        "--no-background",
+        "--background-color=navy",
+        "--up=+Z",
+        "--edges",
+        "--style=wireframe",
+        "--style=hidden-line",
+        "--anti-aliasing=none",
+        "--samples=4",
+        "--view=front",
+        "--camera-direction=1,0,0",
+        "--camera-position=3,4,5",
+        "--camera-focal-point=1,1,1",
+        "--camera-view-up=1,1,0",
+        "--camera-view-angle=60",
+        "--camera-zoom-factor=2",
+        "--camera-azimuth-angle=30",
+        "--camera-elevation-angle=30",
+        "--camera-orthographic",
+        "--color=green",
+        "--opacity=50%",
+        "--unlit",
+        "--light-intensity=0.5",
+    ] {
+        assert!(stream(flags) != plain, "`{flags}` changes nothing");
+    }
+    for flags in ["--threads=1", "--edges=false", "--samples=3", "--style=surface", "--camera-index=-1"] {
+        assert!(stream(flags) == plain, "`{flags}` is the default");
+    }
+    assert!(stream("--edges --line-width=5") != stream("--edges"), "width of edges");
+}
+
+#[test]
+fn several_files_are_drawn_together_or_under_several_names() {
+    let folder = Folder::new();
+    folder.write("b.obj", "v 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\n");
+    let said = folder.said("corner.obj b.obj --output {model}_{n:2}.png --resolution 20,20", 0);
+    assert_eq!(said.lines().count(), 2, "a line each: {said}");
+    assert!(folder.path("corner_01.png").is_file() && folder.path("b_01.png").is_file(), "a file each");
+    folder.said("corner.obj b.obj --output all.png --multi-file-mode=all --resolution 20,20", 0);
+    assert!(folder.path("all.png").is_file(), "one file");
+
+    let said = folder.said("corner.obj b.obj --output one.png", 2);
+    assert!(said.contains("{model}") && said.contains("--multi-file-mode=all"), "both remedies: {said}");
+    fs::create_dir(folder.path("other")).expect("a folder");
+    fs::copy(folder.path("b.obj"), folder.path("other/b.obj")).expect("a copy");
+    let said = folder.said("b.obj other/b.obj --output {model}.png --resolution 20,20", 2);
+    assert!(said.contains("two models") && said.contains("{n}"), "no picture is lost silently: {said}");
+}
+
+#[test]
+fn one_bad_file_among_several_fails_the_run_but_not_the_others() {
+    let folder = Folder::new();
+    let said = folder.said("missing.obj corner.obj --output {model}.png --resolution 20,20", 1);
+    assert!(said.contains("missing.obj"), "named: {said}");
+    assert!(folder.path("corner.png").is_file(), "the good one is drawn");
+}
+
+#[test]
+fn failures_are_one_line_that_names_the_file() {
+    let folder = Folder::new();
+    folder.write("empty.obj", "");
+    folder.write("model.stl", "solid x\nendsolid x\n");
+    folder.write("broken.gltf", "{ \"asset\": ");
+    for (flags, words) in [
+        ("missing.obj --output o.png", ["missing.obj", "check the name"]),
+        ("empty.obj --output o.png", ["empty.obj", "nothing to draw"]),
+        ("model.stl --output o.png", ["model.stl", "supported"]),
+        ("broken.gltf --output o.png", ["broken.gltf", ""]),
+        ("corner.obj --output no/such/folder/o.png", ["no/such/folder/o.png", "folder exists"]),
+        ("corner.obj --output o.png --max-size=0.00001", ["corner.obj", "--max-size"]),
+        ("corner.obj --output o.png --camera-index=0", ["--camera-index=0", "no camera"]),
+    ] {
+        let said = folder.failed(flags);
+        assert!(words.iter().all(|word| said.contains(word)), "`{flags}`: {said}");
+    }
+    assert!(!folder.path("o.png").exists(), "no picture of a failure");
+}
+
+#[test]
+fn warnings_are_lines_and_can_be_silenced() {
+    let folder = Folder::new();
+    fs::remove_file(folder.path("corner.mtl")).expect("it was there");
+    let said = folder.said("corner.obj --output o.png --resolution 20,20", 0);
+    let warning = said.lines().next().expect("a line");
+    assert!(warning.starts_with("trigon-viewer: warning: ") && warning.contains("corner.mtl"), "{said}");
+    let said = folder.said("corner.obj --output o.png --resolution 20,20 --verbose=error", 0);
+    assert_eq!(said, "", "silenced");
+    let said = folder.said("missing.obj --output o.png --verbose=quiet", 1);
+    assert_eq!(said, "", "the exit code has to do");
+    let said = folder.said("corner.obj --output o.png --resolution 20,20 --raytracing", 0);
+    assert!(said.contains("--raytracing is ignored"), "a flag of a GPU: {said}");
+}
+
+#[test]
+fn a_senseless_command_line_exits_with_2() {
+    let folder = Folder::new();
+    for (flags, words) in [
+        ("--resolutoin 10,10", "--resolution"),
+        ("--resolution 0,10", "1 to 16384"),
+        ("--output o.jpg", ".png"),
+        ("--camera-position 1,2,3 --camera-focal-point 1,2,3 --output o.png", "same point"),
+        ("corner.obj --camera-position 0.5,0.5,0.5 --output o.png", "looks nowhere"),
+        ("--background-color=blurple", "CSS name"),
+    ] {
+        let said = folder.said(flags, 2);
+        assert!(said.contains(words), "`{flags}`: {said}");
+    }
+}
+
+#[test]
+fn without_a_display_the_message_says_how_to_get_a_picture() {
+    let folder = Folder::new();
+    let said = folder.failed("corner.obj");
+    assert!(said.contains("--output picture.png"), "the remedy: {said}");
+}
+
+#[test]
+fn lists_and_facts_go_to_standard_output() {
+    let folder = Folder::new();
+    let listed = |flags: &str| {
+        let output = folder.run(flags);
+        assert!(output.status.success(), "{flags}: {output:?}");
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let readers = listed("--list-readers");
+    assert!([".obj", ".gltf", ".glb"].iter().all(|ending| readers.contains(ending)), "{readers}");
+    let facts = listed("corner.obj --no-render");
+    assert!(facts.contains("faces     3") && facts.contains("1 × 1 × 1"), "{facts}");
+    assert!(listed("--version").starts_with("trigon-viewer "), "its name");
+    assert!(listed("--help").contains("Exit codes"), "documented");
+}
+
+#[test]
+fn the_same_model_gives_the_same_bytes() {
+    let folder = Folder::new();
+    let bytes =
+        |threads: u32| folder.run(&format!("--output - --resolution 150,90 --threads={threads}")).stdout;
+    let one = bytes(1);
+    assert_eq!(png_size(&one), (150, 90), "a picture");
+    assert!(one == bytes(2) && one == bytes(7), "whatever the number of threads");
+}
