@@ -233,3 +233,27 @@ fn layers_blend_in_depth_order_whatever_the_order_of_draws() {
     let middle = forward.linear.expect("asked for")[8 * 16 + 4];
     assert!((middle - expected).abs().max_element() < 1e-6, "{middle} instead of {expected}");
 }
+
+/// At equal depth the smaller (object, face) lies on top, as it would be seen if
+/// both were opaque.
+#[test]
+fn equally_deep_layers_blend_by_their_ids() {
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let layer = |color: Vec4| Coloured {
+        vertices: corners.map(|[x, y]| (Vec4::new(x, y, 0.5, 1.0), color)).to_vec(),
+    };
+    let (first, second) = (layer(Vec4::new(1.0, 0.0, 0.0, 0.5)), layer(Vec4::new(0.0, 1.0, 0.0, 0.5)));
+    let triangles = [[0, 1, 2], [0, 2, 3]];
+    for swapped in [false, true] {
+        let mut pass = Pass::new();
+        let mut draws = [(1, &first), (2, &second)];
+        if swapped {
+            draws.reverse();
+        }
+        for (object, layer) in draws {
+            pass.triangles(Draw { surface: Surface::Translucent, object, ..Draw::new(layer, &triangles) });
+        }
+        let linear = draw_sized(&pass, [16, 16], &ExecuteSettings::default()).linear.expect("asked for");
+        assert_eq!(linear[8 * 16 + 4], Vec4::new(0.5, 0.25, 0.0, 0.75), "object 1 over object 2");
+    }
+}
