@@ -6,6 +6,7 @@
 //! result, with links followed, must still lie in it and be a regular file;
 //! reading stops at a limit.
 
+use std::collections::HashSet;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
@@ -82,6 +83,7 @@ pub(crate) struct Folder {
     limits: Limits,
     total: u64,
     read: Vec<PathBuf>,
+    known: HashSet<PathBuf>,
 }
 
 impl Folder {
@@ -97,7 +99,14 @@ impl Folder {
 
     /// No folder: every name is refused.
     pub(crate) fn none(limits: &Limits) -> Self {
-        Self { root: None, shown: PathBuf::new(), limits: limits.clone(), total: 0, read: Vec::new() }
+        Self {
+            root: None,
+            shown: PathBuf::new(),
+            limits: limits.clone(),
+            total: 0,
+            read: Vec::new(),
+            known: HashSet::new(),
+        }
     }
 
     /// Every file that was read, in order, without repetition.
@@ -186,7 +195,7 @@ impl Folder {
     }
 
     fn note(&mut self, path: PathBuf) {
-        if !self.read.contains(&path) {
+        if self.known.insert(path.clone()) {
             self.read.push(path);
         }
     }

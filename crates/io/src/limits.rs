@@ -17,7 +17,7 @@ pub struct Limits {
     pub vertices: usize,
     /// Corners of all faces of one file, counted once per mesh. Default 200 million.
     pub corners: usize,
-    /// Nodes of a scene. Default 4 million.
+    /// Nodes of a scene, and groups of an OBJ. Default 1 million.
     pub nodes: usize,
     /// How deep nodes may hang on each other. Default 100 000.
     pub depth: usize,
@@ -35,7 +35,7 @@ impl Default for Limits {
             total_bytes: 4 << 30,
             vertices: 50_000_000,
             corners: 200_000_000,
-            nodes: 4_000_000,
+            nodes: 1_000_000,
             depth: 100_000,
             image_side: 1 << 14,
             image_pixels: 1 << 26,

@@ -2,6 +2,10 @@
 //!
 //! What a picture is, its first bytes decide, never its name or what a model
 //! claims about it.
+//!
+//! The JPEG decoder has an AVX2 path beside the scalar one. Both gave the same
+//! bytes for 1,000 random and 4 real files (zune-jpeg 0.5.15); its NEON path has
+//! not been compared yet.
 
 use std::io::Cursor;
 use std::path::Path;

@@ -200,6 +200,7 @@ struct Draft {
     attributes: Attributes,
     face_materials: Vec<u32>,
     materials: Vec<Option<usize>>,
+    slots: HashMap<Option<usize>, u32>,
     flat: usize,
     non_finite: usize,
 }
@@ -222,19 +223,17 @@ impl Draft {
             attributes,
             face_materials: Vec::with_capacity(faces),
             materials: Vec::new(),
+            slots: HashMap::new(),
             flat: 0,
             non_finite: 0,
         }
     }
 
     fn add(&mut self, part: &Part) {
-        let slot = match self.materials.iter().position(|&known| known == part.material) {
-            Some(slot) => slot,
-            None => {
-                self.materials.push(part.material);
-                self.materials.len() - 1
-            }
-        };
+        let slot = *self.slots.entry(part.material).or_insert_with(|| {
+            self.materials.push(part.material);
+            self.materials.len() as u32 - 1
+        });
         let vertices: Vec<Option<u32>> = part.positions.iter().map(|&position| self.weld(position)).collect();
         for corners in &part.elements.triangles {
             let [Some(a), Some(b), Some(c)] = corners.map(|corner| vertices[corner as usize]) else {
@@ -243,7 +242,7 @@ impl Draft {
             };
             match self.builder.push_face(&[a, b, c]) {
                 Ok(_) => {
-                    self.face_materials.push(slot as u32);
+                    self.face_materials.push(slot);
                     corners.iter().for_each(|&corner| self.add_corner(part, corner as usize));
                 }
                 Err(_) => self.flat += usize::from(!part.is_strip),

@@ -1,5 +1,7 @@
 //! From parsed lists to nodes: one for each object or group of the file.
 
+use std::collections::HashMap;
+
 use trigon_math::{DVec3, Vec2, Vec3, Vec4, color::srgb_to_linear};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder};
 
@@ -112,6 +114,7 @@ struct Draft {
     face_slots: Vec<u32>,
     face_groups: Vec<u32>,
     materials: Vec<Option<u32>>,
+    slots: HashMap<Option<u32>, u32>,
     /// Vertices of the file that the part uses.
     used: Vec<u32>,
     face: Vec<u32>,
@@ -129,6 +132,7 @@ impl Cutter<'_> {
             face_slots,
             face_groups,
             materials: Vec::new(),
+            slots: HashMap::new(),
             used: Vec::new(),
             face: Vec::new(),
         };
@@ -149,13 +153,7 @@ impl Cutter<'_> {
     }
 
     fn span(&self, span: &Span, draft: &mut Draft, local: &mut [u32], dropped: &mut Dropped) {
-        let slot = match draft.materials.iter().position(|&known| known == span.material) {
-            Some(slot) => slot,
-            None => {
-                draft.materials.push(span.material);
-                draft.materials.len() - 1
-            }
-        };
+        let slot = draft.slot(span.material);
         let mut corner = span.first_corner;
         for element in span.elements.0..span.elements.1 {
             let corners = corner..corner + arity(self.parsed, element);
@@ -169,7 +167,7 @@ impl Cutter<'_> {
                 dropped.non_finite += 1;
                 continue;
             }
-            draft.push(corners.start, slot as u32, span.smoothing, dropped);
+            draft.push(corners.start, slot, span.smoothing, dropped);
         }
     }
 
@@ -263,6 +261,14 @@ impl Cutter<'_> {
 }
 
 impl Draft {
+    /// The slot of a material, a new one for a new material.
+    fn slot(&mut self, material: Option<u32>) -> u32 {
+        *self.slots.entry(material).or_insert_with(|| {
+            self.materials.push(material);
+            self.materials.len() as u32 - 1
+        })
+    }
+
     /// Adds the element in `self.face`, whose corners start at `corner`.
     fn push(&mut self, corner: usize, slot: u32, smoothing: u32, dropped: &mut Dropped) {
         let added = match *self.face.as_slice() {

@@ -100,9 +100,11 @@ fn find_libraries(import: &mut Import<'_>, names: &str) -> Vec<(String, Result<F
     let here = Path::new("");
     let whole = import.folder.read(here, names, Lookup::Forgiving);
     // `\ ` is how some write a space in a name.
+    const MOST_NAMES: usize = 64;
     const ESCAPED: char = '\u{1}';
     let escaped = names.replace("\\ ", &ESCAPED.to_string());
-    let each: Vec<String> = escaped.split_whitespace().map(|name| name.replace(ESCAPED, " ")).collect();
+    let each: Vec<String> =
+        escaped.split_whitespace().take(MOST_NAMES).map(|name| name.replace(ESCAPED, " ")).collect();
     if whole.is_ok() || each.len() < 2 {
         return vec![(names.to_owned(), whole)];
     }

@@ -25,6 +25,13 @@ use crate::options::Stage;
 /// Reads an OBJ into the scene.
 pub(crate) fn import_obj(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), LoadError> {
     let parsed = parse::parse(import.path, bytes, import.options, &mut import.warnings)?;
+    let (count, limit) = (parsed.record.parts.list().len(), import.options.limits.nodes);
+    if count > limit {
+        return Err(LoadError::limit(
+            import.path,
+            format!("it has {count} groups; the limit is {limit} nodes"),
+        ));
+    }
     let (parts, offset) = build::build_parts(&parsed, &mut import.warnings);
     import.options.report(import.path, Stage::Geometry, 1.0)?;
     let has_colors = !parsed.mesh.vertex_color.is_empty();

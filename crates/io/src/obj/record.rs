@@ -42,6 +42,10 @@ impl Names {
     }
 }
 
+/// Real files name a few libraries; a hostile one could name millions, each a
+/// search through the folder.
+const MOST_LIBRARIES: usize = 256;
+
 /// Follows the state of an OBJ through its lines.
 #[derive(Debug, Default)]
 pub(crate) struct Record {
@@ -99,7 +103,7 @@ impl Record {
 
     pub(crate) fn add_library(&mut self, line: u64, rest: &[u8]) {
         let name = decode_name(rest);
-        if !self.libraries.iter().any(|(_, known)| *known == name) {
+        if self.libraries.len() < MOST_LIBRARIES && !self.libraries.iter().any(|(_, known)| *known == name) {
             self.libraries.push((line, name));
         }
     }

@@ -45,6 +45,7 @@ fn every_limit_holds() {
     let text = grid(10);
     let small = [
         Limits { file_bytes: 100, ..Limits::default() },
+        Limits { nodes: 0, ..Limits::default() },
         Limits { vertices: 99, ..Limits::default() },
         Limits { corners: 4 * 81 - 1, ..Limits::default() },
     ];

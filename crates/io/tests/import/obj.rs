@@ -218,6 +218,17 @@ fn a_long_line_takes_linear_time() {
     assert_eq!(meshes(&loaded)[0].corner_count(), 200_000, "one huge face");
 }
 
+#[test]
+fn many_groups_materials_and_libraries_take_linear_time() {
+    let lines: String =
+        (0..100_000).map(|index| format!("mtllib {index}\nusemtl {index}\nf 1 2 3\n")).collect();
+    let loaded = obj(&format!("{SQUARE}{lines}"));
+    let (_, node) = loaded.scene.nodes().iter().next().expect("a node");
+    assert_eq!(node.materials.len(), 100_000, "a slot for each");
+    let groups: String = (0..20_000).map(|index| format!("g {index}\nf 1 2 3\n")).collect();
+    assert_eq!(obj(&format!("{SQUARE}{groups}")).scene.nodes().len(), 20_000, "a node for each");
+}
+
 proptest! {
     /// Whatever stands in the file, all indices of the mesh are right and all
     /// positions are finite.
