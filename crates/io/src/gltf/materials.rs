@@ -57,7 +57,7 @@ fn default_material() -> Material {
 fn convert(root: &Root, index: usize, images: &Images, warnings: &mut Warnings) -> Material {
     let from = &root.materials[index];
     let pbr = &from.pbr_metallic_roughness;
-    warn_of_textures(from, warnings);
+    warn_of_textures(from, index, warnings);
     let base_color = clean(Vec4::from(pbr.base_color_factor.0), Vec4::ONE).clamp(Vec4::ZERO, Vec4::ONE);
     let is_unlit = from.extensions.as_ref().is_some_and(|extensions| extensions.unlit.is_some());
     // A factor multiplies its texture; without the texture it says nothing.
@@ -92,7 +92,7 @@ fn clean(value: Vec4, otherwise: Vec4) -> Vec4 {
 }
 
 /// Names the textures that are not drawn yet.
-fn warn_of_textures(from: &gltf_json::Material, warnings: &mut Warnings) {
+fn warn_of_textures(from: &gltf_json::Material, index: usize, warnings: &mut Warnings) {
     let textures = [
         ("metallic-roughness", from.pbr_metallic_roughness.metallic_roughness_texture.is_some()),
         ("normal", from.normal_texture.is_some()),
@@ -100,7 +100,8 @@ fn warn_of_textures(from: &gltf_json::Material, warnings: &mut Warnings) {
         ("emissive", from.emissive_texture.is_some()),
     ];
     for (name, _) in textures.iter().filter(|(_, is_there)| *is_there) {
-        let place = Place::Named(format!("material \"{}\"", from.name.as_deref().unwrap_or_default()));
+        let named = |name: &String| Place::Named(format!("material {index} \"{name}\""));
+        let place = from.name.as_ref().map_or(Place::Item("material", index), named);
         warnings.push(
             place,
             format!("a {name} texture is not drawn yet"),
