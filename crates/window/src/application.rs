@@ -1,6 +1,5 @@
 //! The ready application: add objects, run.
 
-use trigon_camera::Viewport;
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
@@ -37,14 +36,6 @@ impl<'a> Application<'a> {
     #[must_use]
     pub fn new(title: impl Into<String>) -> Self {
         Self { stage: Stage::new(title), animate: None }
-    }
-
-    /// Opens the window in this size, in logical pixels; otherwise it is 1000 by
-    /// 600. Window systems may choose another one.
-    #[must_use]
-    pub fn with_size(mut self, width: u32, height: u32) -> Self {
-        self.stage.resize(Viewport { width: width.max(1), height: height.max(1) });
-        self
     }
 
     /// Calls this before each frame, at about 60 frames a second, for as long

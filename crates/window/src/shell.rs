@@ -53,7 +53,7 @@ impl<'a> Shell<'a> {
         let (title, size) = (stage.title().to_owned(), stage.viewport());
         let attributes = Window::default_attributes()
             .with_title(&title)
-            .with_inner_size(LogicalSize::new(size.width, size.height));
+            .with_inner_size(LogicalSize::new(size.width.max(1), size.height.max(1)));
         let refused = |error: winit::error::OsError| WindowError::Window { reason: error.to_string() };
         let window = Arc::new(event_loop.create_window(attributes).map_err(refused)?);
         let presenter = Presenter::new(event_loop, &window)?;

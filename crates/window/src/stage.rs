@@ -136,6 +136,12 @@ impl Stage {
         self.viewport
     }
 
+    /// Asks for a window of this size, in logical pixels; once it is open, its
+    /// user decides. Without it a window is 1000×600, as in F3D.
+    pub fn set_size(&mut self, size: Viewport) {
+        self.viewport = size;
+    }
+
     /// Physical pixels per logical one.
     #[must_use]
     pub fn scale(&self) -> f64 {
