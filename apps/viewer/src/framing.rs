@@ -1,5 +1,5 @@
-//! Where the camera stands: the camera flags and the model's bounds become a
-//! camera that shows the model.
+//! Where the camera stands: the camera flags and the model become a camera
+//! that shows the model.
 //!
 //! Turning (`azimuth`, `elevation`) comes before fitting, so that the model
 //! is in the picture whatever the angles are.
@@ -55,30 +55,33 @@ pub(crate) struct Shot {
 }
 
 impl Framing {
-    /// The camera for a scene that fills `bounds`.
-    pub(crate) fn shot(&self, scene: &Scene, bounds: &Bounds3, aspect: f64) -> Result<Shot, Failure> {
-        let center = self.focal_point.unwrap_or_else(|| Extent::new(bounds).center());
+    /// The camera for a scene.
+    pub(crate) fn shot(&self, scene: &Scene, aspect: f64) -> Result<Shot, Failure> {
+        let points = scene.visible_points();
+        let bounds = Bounds3::from_points(points.iter().copied().filter(|point| point.is_finite()));
+        let center = self.focal_point.unwrap_or_else(|| Extent::new(&bounds).center());
         let shot = match self.eye {
             Eye::Position(position) => self.standing(position, center)?,
             Eye::SceneCamera(index) => self.borrowed(scene, index, center)?,
-            Eye::Default | Eye::Direction(_) | Eye::Side(_) => self.fitted(scene, bounds, aspect)?,
+            Eye::Default | Eye::Direction(_) | Eye::Side(_) => self.fitted(points, center, aspect)?,
         };
-        Ok(Shot { camera: shot.camera.with_clip_planes(bounds), ..shot })
+        Ok(Shot { camera: shot.camera.with_clip_planes(&bounds), ..shot })
     }
 
     /// A camera that shows the whole model from a direction.
-    fn fitted(&self, scene: &Scene, bounds: &Bounds3, aspect: f64) -> Result<Shot, Failure> {
+    fn fitted(&self, mut points: Vec<DVec3>, center: DVec3, aspect: f64) -> Result<Shot, Failure> {
         /// The emptiest picture that fitting itself can do.
         const LARGEST_MARGIN: f64 = 0.95;
         let orientation = self.turn(self.orientation());
         let (direction, up) = (orientation * DVec3::NEG_Z, orientation * DVec3::Y);
         let margin = (1.0 - self.zoom).clamp(0.0, LARGEST_MARGIN);
         let base = Camera::default().with_projection(self.projection(1.0)?);
-        let camera = match self.focal_point {
-            Some(center) => base.fit(&centered(bounds, center), direction, up, aspect, margin),
-            None => base.fit_points(&scene.visible_points(), direction, up, aspect, margin),
-        };
-        let center = self.focal_point.unwrap_or_else(|| Extent::new(bounds).center());
+        if self.focal_point.is_some() {
+            // Around the focal point everything is as far on the other side.
+            let mirrored: Vec<DVec3> = points.iter().map(|&point| 2.0 * center - point).collect();
+            points.extend(mirrored);
+        }
+        let camera = base.fit_points(&points, direction, up, aspect, margin);
         // What a margin cannot express: larger than the picture, or tiny in it.
         Ok(zoomed(camera, center, self.zoom / (1.0 - margin)))
     }
@@ -177,12 +180,6 @@ fn upright(up: DVec3) -> DVec3 {
     front.orientation() * OVERVIEW_DIRECTION
 }
 
-/// The smallest box about `center` that holds `bounds`.
-fn centered(bounds: &Bounds3, center: DVec3) -> Bounds3 {
-    let half = (bounds.max - center).abs().max((center - bounds.min).abs());
-    Bounds3 { min: center - half, max: center + half }
-}
-
 /// The camera that shows `center`, at which it looks, `factor` times as large.
 fn zoomed(camera: Camera, center: DVec3, factor: f64) -> Shot {
     let away = camera.position - center;
@@ -205,5 +202,134 @@ struct Coordinates(DVec3);
 impl std::fmt::Display for Coordinates {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{},{},{}", self.0.x, self.0.y, self.0.z)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use trigon_camera::{Projector, Viewport};
+    use trigon_math::DAffine3;
+    use trigon_mesh::primitives;
+    use trigon_scene::{Material, Node, Transform};
+
+    use super::*;
+
+    const PICTURE: Viewport = Viewport { width: 1000, height: 600 };
+
+    fn default() -> Framing {
+        Framing {
+            eye: Eye::Default,
+            up: DVec3::Y,
+            view_up: None,
+            focal_point: None,
+            view_angle: 30f64.to_radians(),
+            zoom: 0.9,
+            azimuth: 0.0,
+            elevation: 0.0,
+            orthographic: false,
+        }
+    }
+
+    /// A long box far from the origin.
+    fn scene() -> Scene {
+        let mut scene = Scene::new();
+        let stretched = DAffine3::from_scale(DVec3::new(4.0, 1.0, 2.0));
+        let node =
+            scene.add_object("box", primitives::cube(1.0).transformed(&stretched), Material::default());
+        scene.node_mut(node).expect("just added").transform =
+            Transform::from_translation(DVec3::new(1e6, 5.0, -3.0));
+        scene
+    }
+
+    fn shot(framing: &Framing) -> Shot {
+        framing.shot(&scene(), PICTURE.aspect()).expect("a camera")
+    }
+
+    /// How much of the picture the model takes, in the direction where it takes more.
+    fn filled(camera: &Camera) -> f64 {
+        let projector = Projector::new(camera, PICTURE);
+        let out = scene().visible_points().into_iter().map(|point| {
+            let at = projector.to_screen(point).expect("before the eye");
+            let (x, y) = ((at.x / 500.0 - 1.0).abs(), (at.y / 300.0 - 1.0).abs());
+            if x > y { x } else { y }
+        });
+        out.fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn whatever_the_angles_the_model_fills_the_picture_to_the_margin() {
+        for framing in [
+            default(),
+            Framing { azimuth: 1.0, elevation: 0.7, ..default() },
+            Framing { eye: Eye::Side(AxisView::Top), ..default() },
+            Framing { eye: Eye::Direction(DVec3::new(0.0, 0.0, 3.0)), orthographic: true, ..default() },
+            Framing { up: DVec3::Z, view_angle: 1.5, ..default() },
+            Framing { view_up: Some(DVec3::X), orthographic: true, ..default() },
+        ] {
+            let filled = filled(&shot(&framing).camera);
+            assert!((filled - 0.9).abs() < 1e-6, "{framing:?} fills {filled}");
+        }
+    }
+
+    #[test]
+    fn zooming_in_scales_what_is_in_the_middle() {
+        let (whole, near) =
+            (shot(&Framing { zoom: 1.0, ..default() }), shot(&Framing { zoom: 2.0, ..default() }));
+        let ratio = whole.distance / near.distance;
+        assert!((ratio - 2.0).abs() < 1e-9, "half the distance, not {ratio}");
+    }
+
+    #[test]
+    fn the_camera_looks_at_the_focal_point() {
+        let focal_point = DVec3::new(1e6 + 1.0, 5.0, -3.0);
+        for eye in [Eye::Default, Eye::Position(DVec3::new(1e6, 20.0, 30.0))] {
+            let shot = shot(&Framing { eye, focal_point: Some(focal_point), azimuth: 0.3, ..default() });
+            let seen = shot.camera.position + shot.camera.forward() * shot.distance;
+            assert!(seen.distance(focal_point) < 1e-6, "{eye:?} looks at {seen}");
+        }
+    }
+
+    #[test]
+    fn angles_turn_to_the_right_and_up() {
+        let front = Framing { eye: Eye::Side(AxisView::Front), ..default() };
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let right = shot(&Framing { azimuth: quarter, ..front.clone() }).camera;
+        assert!(
+            right.forward().distance(DVec3::NEG_X) < 1e-9,
+            "from the right it looks along −X: {}",
+            right.forward()
+        );
+        let top = shot(&Framing { elevation: quarter, ..front }).camera;
+        assert!(top.forward().distance(DVec3::NEG_Y) < 1e-9, "from above it looks down: {}", top.forward());
+        assert!(top.up().distance(DVec3::NEG_Z) < 1e-9, "with −Z on top: {}", top.up());
+    }
+
+    #[test]
+    fn another_up_axis_shows_the_same_sides() {
+        let camera = shot(&Framing { up: DVec3::Z, ..default() }).camera;
+        // What F3D's configuration has for STL files.
+        let expected = DVec3::new(-1.0, 1.0, -0.5).normalize();
+        assert!(camera.forward().distance(expected) < 1e-9, "{}", camera.forward());
+    }
+
+    #[test]
+    fn a_camera_in_the_middle_of_the_model_is_refused() {
+        let framing = Framing { eye: Eye::Position(DVec3::new(1e6, 5.0, -3.0)), ..default() };
+        let failure = framing.shot(&scene(), 1.0).expect_err("it looks nowhere");
+        assert_eq!(failure.exit_code(), 2, "{failure}");
+    }
+
+    #[test]
+    fn cameras_of_the_file_are_counted() {
+        let mut scene = scene();
+        let projection = Projection::perspective(1.0, 0.1, None).expect("in range");
+        let mut holder = Node::default().at(DVec3::new(1e6, 5.0, 9.0));
+        holder.camera = Some(projection);
+        scene.add(holder);
+        let through = |index| Framing { eye: Eye::SceneCamera(index), ..default() }.shot(&scene, 1.0);
+        let shot = through(0).expect("it is there");
+        assert_eq!(shot.camera.position, DVec3::new(1e6, 5.0, 9.0), "as the file has it");
+        assert!((shot.distance - 12.0).abs() < 1e-9, "up to the model's middle, not {}", shot.distance);
+        assert!(through(1).expect_err("there is one").to_string().contains("has 1"), "says how many");
     }
 }

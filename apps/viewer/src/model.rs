@@ -61,7 +61,7 @@ impl Model {
     /// The model, or an error when nothing in it can be drawn.
     pub(crate) fn new(mut scene: Scene, source: Source, request: &Request) -> Result<Self, Failure> {
         request.look.apply(&mut scene);
-        let bounds = scene.bounds();
+        let bounds = Bounds3::from_points(scene.visible_points());
         if bounds.is_empty() {
             return Err(Failure::work(format!(
                 "{}: nothing to draw: there is no face, line or point in it; check that the right file was exported, with its meshes",
@@ -74,7 +74,7 @@ impl Model {
     /// The model of a scene that is shown already.
     #[cfg(feature = "window")]
     pub(crate) fn shown(scene: Scene, source: Source) -> Self {
-        Self { bounds: scene.bounds(), scene, source }
+        Self { bounds: Bounds3::from_points(scene.visible_points()), scene, source }
     }
 
     /// The camera that the flags ask for. The built-in scene is composed for
@@ -82,7 +82,7 @@ impl Model {
     pub(crate) fn shot(&self, framing: &Framing, aspect: f64) -> Result<Shot, Failure> {
         let composed = Framing { eye: Eye::SceneCamera(0), ..framing.clone() };
         let own = self.source == Source::BuiltIn && framing.eye == Eye::Default;
-        if own { &composed } else { framing }.shot(&self.scene, &self.bounds, aspect)
+        if own { &composed } else { framing }.shot(&self.scene, aspect)
     }
 
     /// Counts and sizes of what is visible.

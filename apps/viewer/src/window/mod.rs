@@ -5,6 +5,7 @@ mod commands;
 mod screenshot;
 mod viewer;
 
+use trigon_camera::Viewport;
 use trigon_window::{Application, DragBinding, WindowError};
 
 use crate::args::Request;
@@ -20,6 +21,8 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
     }
     let sources = Source::all(request);
     let mut application = Application::new(title(&sources[0]));
+    let (width, height) = (request.settings.width, request.settings.height);
+    application.stage.set_size(Viewport { width, height });
     application.stage.settings = request.settings.clone();
     application.stage.keymap = commands::keymap();
     let mut viewer = Viewer::new(request.clone(), sources, reporter);
