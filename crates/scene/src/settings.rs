@@ -26,7 +26,8 @@ pub enum Style {
 /// Which lights a picture uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lighting {
-    /// The scene's own lights, or the studio lights when it has none.
+    /// The scene's own lights, with a little ambient light when it has none of
+    /// that kind; or the studio lights when it has no lights at all.
     #[default]
     Automatic,
     /// The scene's own lights only.

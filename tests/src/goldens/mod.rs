@@ -7,7 +7,7 @@ use trigon_camera::Camera;
 use trigon_math::{DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder, primitives};
 use trigon_scene::{
-    AlphaMode, Background, Light, Material, Node, RenderSettings, Sampler, Scene, Shading, Style, Texture,
+    AlphaMode, Background, Light, Lighting, Material, Node, RenderSettings, Sampler, Scene, Shading, Style, Texture,
     TextureBinding, TextureFormat, Transform, render,
 };
 
@@ -132,7 +132,8 @@ fn a_point_light_falls_off_over_a_floor() {
     let mut scene =
         single(primitives::plane(4.0, 4.0), Material::from_color(Vec3::ONE).with_shading(Shading::Lambert));
     scene.add(Node::from_light(Light::point(0.6)).at(DVec3::new(-0.8, 0.7, 0.0)));
-    check("point_light", &scene, &scene.overview(1.5), &settings());
+    let settings = RenderSettings { lighting: Lighting::Scene, ..settings() };
+    check("point_light", &scene, &scene.overview(1.5), &settings);
 }
 
 #[test]

@@ -24,6 +24,9 @@ struct Point {
     radiance: Vec3,
 }
 
+/// The light from everywhere in the studio: enough to see shapes in the shade.
+const STUDIO_AMBIENT: Vec3 = Vec3::splat(0.16);
+
 /// All lights of a picture.
 #[derive(Default)]
 pub(super) struct Lights {
@@ -49,11 +52,19 @@ impl Lights {
                 }
             }
         }
-        let none = lights.ambient == Vec3::ZERO && lights.directional.is_empty() && lights.point.is_empty();
-        if lighting == Lighting::Studio || (lighting == Lighting::Automatic && none) {
-            return Self::studio();
+        match lighting {
+            Lighting::Studio => return Self::studio(),
+            Lighting::Automatic if lights.is_dark() => return Self::studio(),
+            // Formats such as glTF know no ambient light; without any, the sides
+            // that no light reaches would be black holes.
+            Lighting::Automatic if lights.ambient == Vec3::ZERO => lights.ambient = STUDIO_AMBIENT,
+            Lighting::Automatic | Lighting::Scene => {}
         }
         lights
+    }
+
+    fn is_dark(&self) -> bool {
+        self.ambient == Vec3::ZERO && self.directional.is_empty() && self.point.is_empty()
     }
 
     /// A key light from the upper left, a weak fill from the right, a rim
@@ -65,7 +76,7 @@ impl Lights {
             radiance: Vec3::splat(radiance),
         };
         Self {
-            ambient: Vec3::splat(0.16),
+            ambient: STUDIO_AMBIENT,
             directional: vec![
                 light(-0.45, 0.65, 0.62, 0.68),
                 light(0.85, 0.05, 0.5, 0.22),
