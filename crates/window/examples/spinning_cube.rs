@@ -1,19 +1,17 @@
 //! A spinning cube with a small companion that comes and goes. Arrows and mouse
 //! move the camera, Tab selects an object, Alt+arrows move it; H lists the rest.
 
-use trigon_math::{DVec3, Vec4};
-use trigon_mesh::primitives;
-use trigon_scene::{Material, Node};
+use trigon_window::scene::math::{DVec3, Vec3};
+use trigon_window::scene::{Material, Node, mesh::primitives};
 use trigon_window::{Animation, Application, WindowError};
 
 fn main() -> Result<(), WindowError> {
     let mut application = Application::new("Spinning cube");
     let scene = &mut application.stage.scene;
-    let red = Material { base_color: Vec4::new(0.7, 0.1, 0.08, 1.0), ..Material::default() };
+    let red = Material::from_color(Vec3::new(0.7, 0.1, 0.08));
     let cube = scene.add_object("cube", primitives::cube(1.0), red);
     let small = scene.add_mesh("small", primitives::cube(0.3));
-    let blue = Material { base_color: Vec4::new(0.08, 0.2, 0.7, 1.0), ..Material::default() };
-    let blue = scene.add_material(blue);
+    let blue = scene.add_material(Material::from_color(Vec3::new(0.08, 0.2, 0.7)));
 
     let mut companion = None;
     application.animate(move |stage, tick| {

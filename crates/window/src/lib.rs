@@ -16,10 +16,8 @@
 //! without a display.
 //!
 //! ```no_run
-//! use trigon_mesh::primitives;
-//! use trigon_scene::Material;
+//! use trigon_window::scene::{Material, math::DVec3, mesh::primitives};
 //! use trigon_window::{Animation, Application};
-//! use trigon_math::DVec3;
 //!
 //! # fn main() -> Result<(), trigon_window::WindowError> {
 //! let mut application = Application::new("A turning cube");
@@ -59,3 +57,6 @@ pub use keymap::{Action, Binding, CameraMotion, DragAction, DragBinding, Keymap,
 pub use overlay::{Corner, Overlay};
 pub use stage::{FrameReport, Stage, Visibility};
 pub use waker::Waker;
+
+/// The crates below, so that an application needs no others.
+pub use trigon_scene as scene;

@@ -7,8 +7,8 @@ use trigon_camera::Camera;
 use trigon_math::{DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder, primitives};
 use trigon_scene::{
-    AlphaMode, Background, Light, Lighting, Material, Node, RenderSettings, Sampler, Scene, Shading, Style, Texture,
-    TextureBinding, TextureFormat, Transform, render,
+    AlphaMode, Background, Light, Lighting, Material, Node, RenderSettings, Sampler, Scene, Shading, Style,
+    Texture, TextureBinding, TextureFormat, Transform, render,
 };
 
 const RED: Vec3 = Vec3::new(0.8, 0.1, 0.05);
