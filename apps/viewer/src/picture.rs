@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use trigon_io::{Pixels, encode_png, write_png};
-use trigon_scene::{Frame, render};
+use trigon_scene::{Frame, Renderer};
 
 use crate::args::{Destination, Request, Template};
 use crate::failure::Failure;
@@ -52,9 +52,16 @@ fn draw_one(
 fn draw(model: &Model, request: &Request, reporter: Reporter) -> Result<Frame, Failure> {
     let started = Instant::now();
     let shot = model.shot(&request.framing, request.settings.aspect())?;
-    let frame = render(&model.scene, &shot.camera, &request.settings).map_err(Failure::work)?;
+    let mut renderer = Renderer::new();
+    let frame = renderer.render(&model.scene, &shot.camera, &request.settings).map_err(Failure::work)?;
+    let title = model.source.title();
+    if renderer.stats().samples_shaded == 0 {
+        reporter.warning(format_args!(
+            "{title}: nothing of the model is in the picture; look from elsewhere (--view=back), or show faces that point away (--backface-type=visible)"
+        ));
+    }
     let (milliseconds, faces) = (started.elapsed().as_secs_f64() * 1e3, model.summary().faces);
-    reporter.debug(format_args!("drew {} ({faces} faces) in {milliseconds:.1} ms", model.source.title()));
+    reporter.debug(format_args!("drew {title} ({faces} faces) in {milliseconds:.1} ms"));
     Ok(frame)
 }
 

@@ -220,6 +220,14 @@ fn warnings_are_lines_and_can_be_silenced() {
 }
 
 #[test]
+fn a_picture_that_shows_nothing_of_the_model_says_so() {
+    let folder = Folder::new();
+    let away = "--camera-position 9,9,9 --camera-focal-point 20,20,20 --output o.png --resolution 20,20";
+    let said = folder.said(&format!("corner.obj {away}"), 0);
+    assert!(said.contains("nothing of the model is in the picture"), "{said}");
+}
+
+#[test]
 fn a_senseless_command_line_exits_with_2() {
     let folder = Folder::new();
     for (flags, words) in [
