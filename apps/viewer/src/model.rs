@@ -133,7 +133,7 @@ impl Summary {
             ("nodes", self.nodes.to_string()),
             ("materials", self.materials.to_string()),
             ("textures", self.textures.to_string()),
-            ("size", format!("{} × {} × {}", short(x), short(y), short(z))),
+            ("size", format!("{} x {} x {}", short(x), short(y), short(z))),
         ];
         facts.map(|(name, value)| format!("{name:9} {value}")).to_vec()
     }

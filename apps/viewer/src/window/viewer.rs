@@ -141,15 +141,16 @@ impl Viewer {
         }
     }
 
-    /// Writes what is to be read beside the model.
+    /// Writes what is to be read beside the model: above it, for messages come
+    /// below.
     fn write_overlay(&self, stage: &mut Stage) {
         let name = self.show_name.then(|| self.name());
         let loading = self.pending.as_ref().map(|pending| {
-            format!("loading {} … {} %", self.sources[self.current].title(), pending.loading.percent())
+            format!("loading {}: {} %", self.sources[self.current].title(), pending.loading.percent())
         });
         stage.overlay.set(Corner::Top, name.into_iter().chain(loading));
         let summary = self.shown.as_ref().filter(|_| self.show_metadata).map(|shown| shown.summary.lines());
-        stage.overlay.set(Corner::BottomRight, summary.unwrap_or_default());
+        stage.overlay.set(Corner::TopLeft, summary.unwrap_or_default());
     }
 
     /// Another up axis, and the view that goes with it.
@@ -179,7 +180,7 @@ impl Viewer {
         const RANGE: (f32, f32) = (0.01, 100.0);
         let light = (stage.settings.light_intensity * factor).clamp(RANGE.0, RANGE.1);
         stage.settings.light_intensity = light;
-        stage.overlay.notify(format!("light × {light:.2}"));
+        stage.overlay.notify(format!("light: {light:.2}"));
     }
 
     fn take_screenshot(stage: &mut Stage, background: Background) {
