@@ -62,6 +62,11 @@ impl Request {
     /// Puts the flags together, or says why they do not fit each other.
     pub(crate) fn new(raw: RawArgs) -> Result<Self, String> {
         let files: Vec<PathBuf> = raw.files.iter().chain(&raw.input).cloned().collect();
+        if files.iter().any(|file| file.as_os_str() == "-") {
+            return Err(
+                "models are not read from standard input yet; save it as a file and name that".to_owned()
+            );
+        }
         let grouping = match raw.multi_file_mode {
             MultiFileMode::Single => Grouping::OneByOne,
             MultiFileMode::All => Grouping::Together,
@@ -273,6 +278,11 @@ mod tests {
         assert!(refusal("--camera-direction 0,0,0").contains("no direction"), "explained");
         assert!(refusal("--camera-view-angle 180").contains("179"), "explained");
         assert!(refusal("--camera-index 0 --view=top").contains("cannot be used with"), "explained");
+    }
+
+    #[test]
+    fn standard_input_is_no_file_called_dash() {
+        assert!(refusal("- --output o.png").contains("standard input"), "explained");
     }
 
     #[test]
