@@ -2,7 +2,7 @@
 
 use crate::coverage_support::{Raw, SIDE, draw, pixel};
 use proptest::prelude::*;
-use trigon_math::Vec4;
+use trigon_math::{Vec4, elementary};
 use trigon_raster::{Culling, Draw, Fragment, Pass, Pipeline, VertexOutput};
 
 /// A triangle with a value at each corner; a fragment shows the value and its
@@ -69,7 +69,7 @@ fn point() -> impl Strategy<Value = Raw> {
 
 /// Ratios of w up to a million.
 fn w() -> impl Strategy<Value = f32> {
-    prop_oneof![0.5_f32..4.0, (0..7_i32).prop_map(|e| 10_f64.powi(e - 3) as f32)]
+    prop_oneof![0.5_f32..4.0, (0..7_i32).prop_map(|e| elementary::pow(10.0, f64::from(e - 3)) as f32)]
 }
 
 fn probe() -> impl Strategy<Value = Probe> {
