@@ -53,8 +53,8 @@ pub(crate) struct RawArgs {
     /// Write a PNG instead of opening a window; - is standard output
     ///
     /// The name may hold {model} (the file's name without its ending),
-    /// {model.ext} (with it), {model_ext} (the ending), {n} or {n:3} (the first number whose file
-    /// does not exist yet, padded), {app} and {version}; {{x}} stands for {x} itself.
+    /// {model.ext} (with it), {model_ext} (the ending), {n:3} (the first number whose file does not
+    /// exist yet, padded to three digits), {app} and {version}; {{x}} stands for {x} itself.
     #[arg(long, value_name = "FILE.png|-", help_heading = "Files")]
     pub(crate) output: Option<Destination>,
 
@@ -66,7 +66,7 @@ pub(crate) struct RawArgs {
     ///
     /// In a window, single starts with the first; the arrow keys go through
     /// them. With --output, single writes one picture per file and needs
-    /// {model} or {n} in the name.
+    /// {model} or a number such as {n:1} in the name.
     #[arg(long, value_name = "MODE", default_value = "single", help_heading = "Files")]
     pub(crate) multi_file_mode: MultiFileMode,
 

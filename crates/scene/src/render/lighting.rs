@@ -25,7 +25,7 @@ struct Point {
 }
 
 /// The light from everywhere in the studio: enough to see shapes in the shade.
-const STUDIO_AMBIENT: Vec3 = Vec3::splat(0.16);
+const STUDIO_AMBIENT: Vec3 = Vec3::splat(0.1);
 
 /// All lights of a picture.
 #[derive(Default)]
@@ -78,8 +78,8 @@ impl Lights {
         Self {
             ambient: STUDIO_AMBIENT,
             directional: vec![
-                light(-0.45, 0.65, 0.62, 0.68),
-                light(0.85, 0.05, 0.5, 0.22),
+                light(-0.55, 0.65, 0.55, 0.78),
+                light(0.85, 0.05, 0.5, 0.16),
                 light(0.25, 0.75, -0.6, 0.25),
             ],
             point: Vec::new(),
