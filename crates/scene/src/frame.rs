@@ -16,10 +16,11 @@ pub struct Frame {
     /// Four bytes a pixel: sRGB and straight (not premultiplied) alpha.
     pub color: Vec<u8>,
     /// Distance from the camera along its view axis in metres, infinite where
-    /// nothing was drawn. Taken at the pixel's centre.
+    /// nothing was drawn. Taken at the sample in the middle of the pixel, or with
+    /// an even number of samples per axis at the one right and below of it.
     pub depth: Option<Vec<f32>>,
-    /// Index of the node, `u32::MAX` where nothing was drawn. Taken at the
-    /// pixel's centre, never mixed.
+    /// Index of the node, `u32::MAX` where nothing was drawn. Taken at the same
+    /// sample as the depth, never mixed. What is translucent leaves no id.
     pub object_ids: Option<Vec<u32>>,
     /// Index of the polygon in its mesh, `u32::MAX` where nothing was drawn.
     pub face_ids: Option<Vec<u32>>,
