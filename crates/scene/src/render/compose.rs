@@ -5,11 +5,12 @@ use std::ops::Range;
 
 use trigon_camera::Camera;
 use trigon_math::{DAffine3, Vec3};
-use trigon_raster::{Culling, Draw, EdgeFlags, Lines, Pass, Pipeline, Points};
+use trigon_raster::Culling;
 
 use super::geometry::{Geometry, Run};
 use super::lighting::Lights;
 use super::placement::{Eye, Placement};
+use super::record::{Dots, Record, Segments, Triangles};
 use super::surface::{
     ColorPart, Colored, Coverage, EdgeOverlay, LightPart, Lit, Rays, Surface, TexturePart, Textured,
 };
@@ -18,11 +19,6 @@ use crate::material::{AlphaMode, Material, Shading, TextureBinding};
 use crate::node::Node;
 use crate::scene::{MeshAsset, Scene};
 use crate::settings::{RenderSettings, Style};
-
-/// A draw that owns its pipeline, and can be recorded whatever that is.
-pub(super) trait Record {
-    fn record<'a>(&'a self, pass: &mut Pass<'a>);
-}
 
 /// Size of loose points, in line widths.
 const POINT_TO_LINE: f32 = 3.0;
@@ -259,58 +255,5 @@ fn answer_to_alpha(mode: AlphaMode) -> (trigon_raster::Surface, Coverage, f32) {
         AlphaMode::Opaque => (trigon_raster::Surface::Opaque, Coverage::Opaque, 0.0),
         AlphaMode::Mask { cutoff } => (trigon_raster::Surface::Masked, Coverage::Opaque, cutoff),
         AlphaMode::Blend => (trigon_raster::Surface::Translucent, Coverage::Translucent, 0.0),
-    }
-}
-
-struct Triangles<'s, P> {
-    pipeline: P,
-    triangles: &'s [[u32; 3]],
-    faces: &'s [u32],
-    edge_flags: Option<&'s [EdgeFlags]>,
-    object: u32,
-    culling: Culling,
-    surface: trigon_raster::Surface,
-}
-
-impl<P: Pipeline> Record for Triangles<'_, P> {
-    fn record<'a>(&'a self, pass: &mut Pass<'a>) {
-        pass.triangles(Draw {
-            faces: Some(self.faces),
-            edge_flags: self.edge_flags,
-            object: self.object,
-            culling: self.culling,
-            surface: self.surface,
-            ..Draw::new(&self.pipeline, self.triangles)
-        });
-    }
-}
-
-struct Segments<'s> {
-    pipeline: Wire<'s>,
-    segments: &'s [[u32; 2]],
-    no_face: Vec<u32>,
-    object: u32,
-    width: f32,
-}
-
-impl Record for Segments<'_> {
-    fn record<'a>(&'a self, pass: &mut Pass<'a>) {
-        let lines = Lines::new(&self.pipeline, self.segments);
-        pass.lines(Lines { ids: Some(&self.no_face), object: self.object, width: self.width, ..lines });
-    }
-}
-
-struct Dots<'s> {
-    pipeline: Wire<'s>,
-    points: &'s [u32],
-    no_face: Vec<u32>,
-    object: u32,
-    size: f32,
-}
-
-impl Record for Dots<'_> {
-    fn record<'a>(&'a self, pass: &mut Pass<'a>) {
-        let points = Points::new(&self.pipeline, self.points, self.size);
-        pass.points(Points { ids: Some(&self.no_face), object: self.object, ..points });
     }
 }

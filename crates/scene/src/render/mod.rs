@@ -7,6 +7,7 @@ mod compose;
 mod geometry;
 mod lighting;
 mod placement;
+mod record;
 mod surface;
 mod wire;
 

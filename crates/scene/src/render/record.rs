@@ -1,0 +1,66 @@
+//! Draws that own their pipelines, until they are recorded in a pass.
+
+use trigon_raster::{Culling, Draw, EdgeFlags, Lines, Pass, Pipeline, Points, Surface};
+
+use super::wire::Wire;
+
+/// A draw that owns its pipeline, and can be recorded whatever that is.
+pub(super) trait Record {
+    fn record<'a>(&'a self, pass: &mut Pass<'a>);
+}
+
+/// Triangles of one mesh.
+pub(super) struct Triangles<'s, P> {
+    pub(super) pipeline: P,
+    pub(super) triangles: &'s [[u32; 3]],
+    pub(super) faces: &'s [u32],
+    pub(super) edge_flags: Option<&'s [EdgeFlags]>,
+    pub(super) object: u32,
+    pub(super) culling: Culling,
+    pub(super) surface: Surface,
+}
+
+impl<P: Pipeline> Record for Triangles<'_, P> {
+    fn record<'a>(&'a self, pass: &mut Pass<'a>) {
+        pass.triangles(Draw {
+            faces: Some(self.faces),
+            edge_flags: self.edge_flags,
+            object: self.object,
+            culling: self.culling,
+            surface: self.surface,
+            ..Draw::new(&self.pipeline, self.triangles)
+        });
+    }
+}
+
+/// Edges and loose lines of one mesh. They belong to no face.
+pub(super) struct Segments<'s> {
+    pub(super) pipeline: Wire<'s>,
+    pub(super) segments: &'s [[u32; 2]],
+    pub(super) no_face: Vec<u32>,
+    pub(super) object: u32,
+    pub(super) width: f32,
+}
+
+impl Record for Segments<'_> {
+    fn record<'a>(&'a self, pass: &mut Pass<'a>) {
+        let lines = Lines::new(&self.pipeline, self.segments);
+        pass.lines(Lines { ids: Some(&self.no_face), object: self.object, width: self.width, ..lines });
+    }
+}
+
+/// Loose points of one mesh. They belong to no face.
+pub(super) struct Dots<'s> {
+    pub(super) pipeline: Wire<'s>,
+    pub(super) points: &'s [u32],
+    pub(super) no_face: Vec<u32>,
+    pub(super) object: u32,
+    pub(super) size: f32,
+}
+
+impl Record for Dots<'_> {
+    fn record<'a>(&'a self, pass: &mut Pass<'a>) {
+        let points = Points::new(&self.pipeline, self.points, self.size);
+        pass.points(Points { ids: Some(&self.no_face), object: self.object, ..points });
+    }
+}
