@@ -93,6 +93,16 @@ fn without_a_file_there_is_the_built_in_scene() {
     assert!(colors.len() > 500, "it is no plain area: {} colours", colors.len());
 }
 
+/// The same bytes on every machine: the README's picture, drawn once on one of
+/// them, is what the program draws on this one.
+#[test]
+fn the_picture_in_the_readme_is_what_the_program_draws() {
+    let folder = Folder::new();
+    folder.said("--output teapot.png", 0);
+    let shown = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/images/showcase.png");
+    assert!(picture(&folder.path("teapot.png")) == picture(&shown), "draw docs/images/showcase.png again");
+}
+
 #[test]
 fn a_dash_writes_the_picture_and_nothing_else_to_standard_output() {
     let folder = Folder::new();
