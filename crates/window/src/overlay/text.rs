@@ -26,12 +26,24 @@ impl Font {
     /// The size that is nearest to the usual one at this many physical pixels
     /// per logical one.
     pub(crate) fn for_scale(scale: f64) -> Self {
-        const LARGEST_ZOOM: i32 = 8;
         let wanted = LINE_HEIGHT * scale;
-        let all = (1..=LARGEST_ZOOM).flat_map(|zoom| HEIGHTS.map(|height| Self { height, zoom }));
         let miss = |font: &Self| (f64::from(font.line_height()) - wanted).abs();
         // The first of equals: the one with the least repeating.
-        all.min_by(|a, b| miss(a).total_cmp(&miss(b))).unwrap_or(Self::SMALLEST)
+        Self::all().min_by(|a, b| miss(a).total_cmp(&miss(b))).unwrap_or(Self::SMALLEST)
+    }
+
+    /// This size, and those below it, from the largest down.
+    pub(crate) fn and_smaller(self) -> impl Iterator<Item = Self> {
+        let smaller = Self::all().filter(move |font| font.line_height() < self.line_height());
+        let mut smaller: Vec<Self> = smaller.collect();
+        smaller.sort_by_key(|font| std::cmp::Reverse(font.line_height()));
+        std::iter::once(self).chain(smaller)
+    }
+
+    /// All sizes; some are as large as another one, with more repeating.
+    fn all() -> impl Iterator<Item = Self> {
+        const LARGEST_ZOOM: i32 = 8;
+        (1..=LARGEST_ZOOM).flat_map(|zoom| HEIGHTS.map(|height| Self { height, zoom }))
     }
 
     /// From line to line, in pixels.
