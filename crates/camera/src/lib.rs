@@ -14,8 +14,8 @@
 //! meshes and no pixels' contents.
 //!
 //! ```
+//! use trigon_camera::math::{DVec2, DVec3};
 //! use trigon_camera::{Camera, Projector, Viewport};
-//! use trigon_math::{DVec2, DVec3};
 //!
 //! let camera = Camera::look_at(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, DVec3::Y);
 //! let projector = Projector::new(&camera, Viewport { width: 10, height: 5 });
@@ -52,3 +52,11 @@ pub use projector::Projector;
 pub use ray::Ray;
 pub use view::orientation_looking;
 pub use viewport::Viewport;
+
+/// The crate below, so that points and vectors need no other dependency.
+pub use trigon_math as math;
+
+/// Runs the README's example as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -19,8 +19,8 @@
 //! and out again. Its triangles leave the hole open, which the picture shows:
 //!
 //! ```
-//! use trigon_math::Vec3;
 //! use trigon_mesh::MeshBuilder;
+//! use trigon_mesh::math::Vec3;
 //!
 //! let mut builder = MeshBuilder::new();
 //! for (x, y) in [(0, 0), (8, 0), (8, 4), (0, 4), (2, 1), (2, 3), (6, 3), (6, 1)] {
@@ -69,3 +69,11 @@ pub use mesh::Mesh;
 pub use render_mesh::RenderMesh;
 pub use triangulate::triangulate_polygon;
 pub use triangulation::Triangulation;
+
+/// The crate below, so that points and vectors need no other dependency.
+pub use trigon_math as math;
+
+/// Runs the README's example as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -53,3 +53,8 @@ pub use trigon_raster::{Filter, MipFilter, Sampler, Stats, Texture, TextureError
 pub use views::OVERVIEW_DIRECTION;
 /// The crates below, so that a user of scenes needs no others.
 pub use {trigon_camera as camera, trigon_math as math, trigon_mesh as mesh};
+
+/// Runs the README's example as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -60,3 +60,8 @@ pub use waker::Waker;
 
 /// The crates below, so that an application needs no others.
 pub use trigon_scene as scene;
+
+/// Runs the README's example as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
