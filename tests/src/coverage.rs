@@ -1,11 +1,11 @@
 //! Which pixels a triangle covers, against an oracle in exact integers; and that
 //! meshes leave no gaps and cover nothing twice. Hard cases 1 to 9, 14, 15, 18.
 
-use crate::coverage_support::{Raw, SIDE, Values, clip_position, count, draw, pixel};
+use crate::coverage_support::{Raw, SIDE, Values, cases, clip_position, count, draw, pixel};
 use proptest::prelude::*;
 use trigon_math::glam::camera::rh::proj::directx::perspective_infinite_reverse;
 use trigon_math::{Mat4, Vec4, elementary};
-use trigon_raster::{Culling, Draw, Pass};
+use trigon_raster::{Culling, Draw, ExecuteSettings, Output, Pass, Surface, Target};
 
 /// The oracle: whether a triangle covers the centre of a pixel.
 ///
@@ -67,7 +67,7 @@ fn check_against_oracle(points: [Raw; 3]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(cases(300))]
 
     #[test]
     fn a_triangle_covers_what_exact_arithmetic_says(points in triangle()) {
@@ -226,6 +226,31 @@ fn a_fan_covers_its_centre_once() {
                 assert_eq!(count, 1, "a hole at {:?} among {count_of_triangles}", pixel(index));
             }
         }
+    }
+}
+
+/// Hard case 8: the widest grid there is, 65536 samples, where the guard band is
+/// the view itself; and the least target.
+#[test]
+fn targets_of_extreme_size_are_covered_once() {
+    for ([width, height], samples) in
+        [([16384, 2], 4), ([2, 16384], 4), ([16384, 3], 3), ([1, 1], 4), ([1, 1], 1)]
+    {
+        let mut positions = vec![Vec4::new(0.123, -0.456, 0.5, 1.0)];
+        for i in 0..7 {
+            let (sine, cosine) = elementary::sin_cos(f64::from(i) * std::f64::consts::TAU / 7.0);
+            positions.push(Vec4::new(cosine as f32 * 5.0, sine as f32 * 3.0, 0.5, 1.0));
+        }
+        let pipeline = Values::ones(positions);
+        let triangles = fan_triangles(7);
+        let mut pass = Pass::new();
+        let surface = Surface::Translucent;
+        pass.triangles(Draw { surface, culling: Culling::None, ..Draw::new(&pipeline, &triangles) });
+        let target = Target::new(width, height, &[Output::Linear]).expect("a size in range");
+        let mut target = target.with_samples_per_axis(samples).expect("a number in range");
+        pass.execute(&mut target, &ExecuteSettings::default());
+        let once = target.linear().expect("asked for").iter().all(|color| color.x == 1.0);
+        assert!(once, "every sample exactly once at {width}x{height} with {samples}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! Lines and points: the same from either end, one pixel in each step, each
 //! joint once. Hard case 38.
 
-use crate::coverage_support::{Raw, SIDE, Values, clip_position, draw, pixel};
+use crate::coverage_support::{Raw, SIDE, Values, cases, clip_position, draw, pixel};
 use proptest::prelude::*;
 use trigon_raster::{Lines, Pass, PointShape, Points, Surface};
 
@@ -19,7 +19,7 @@ fn inside() -> impl Strategy<Value = Raw> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(cases(200))]
 
     #[test]
     fn a_line_is_the_same_from_either_end(
@@ -113,4 +113,37 @@ fn points_have_their_size() {
         assert_eq!(covered, expected as f32, "{shape:?} of {size}");
         assert!(linear.iter().all(|color| color.x <= 1.0), "no pixel twice");
     }
+}
+
+/// Ends that snap to one point must not be told apart by the order in which
+/// they were given.
+#[test]
+fn a_segment_without_length_is_the_same_from_either_end() {
+    let vertices = [0.25, 0.75].map(|value| (clip_position([5000, 5000], value), value));
+    let pipeline = Values { vertices: vertices.to_vec() };
+    let pictures = [[[0, 1]], [[1, 0]]].map(|segments| {
+        let mut pass = Pass::new();
+        pass.lines(Lines { width: 5.0, ..Lines::new(&pipeline, &segments) });
+        draw(&pass)
+    });
+    assert!(pictures[0] == pictures[1], "both directions");
+}
+
+/// Translucent segments that cross in one sample and share no vertex: asking
+/// each about each other would take minutes.
+#[test]
+fn a_crossing_of_many_segments_takes_no_time_in_its_square() {
+    let count_of_segments = 40_000;
+    let mut points = Vec::new();
+    for i in 0..count_of_segments {
+        let angle = std::f64::consts::PI * f64::from(i) / f64::from(count_of_segments);
+        let (sine, cosine) = trigon_math::elementary::sin_cos(angle);
+        for radius in [-25.0, 25.0] {
+            points.push([cosine, sine].map(|v| SIDE * 128 + 128 + (v * radius * 256.0) as i32));
+        }
+    }
+    let segments: Vec<_> = (0..count_of_segments as u32).map(|i| [2 * i, 2 * i + 1]).collect();
+    let counts = count(&points, &segments, 1.0);
+    let middle = (SIDE / 2 * SIDE + SIDE / 2) as usize;
+    assert_eq!(counts[middle], count_of_segments as u32, "all pass through the centre");
 }

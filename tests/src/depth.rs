@@ -1,7 +1,7 @@
 //! Who is in front: exact ties, surfaces that cross, and how near depth comes to
 //! exact arithmetic. Hard cases 24 to 26.
 
-use crate::coverage_support::{Raw, SIDE, Values, clip_position, draw, pixel};
+use crate::coverage_support::{Raw, SIDE, Values, cases, clip_position, draw, pixel};
 use proptest::prelude::*;
 use trigon_raster::{Culling, Draw, Pass, Pictures, Surface};
 
@@ -31,7 +31,7 @@ fn coincident(keys: &[(u32, u32)], surface: Surface) -> Pictures {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(100))]
+    #![proptest_config(cases(100))]
 
     /// Hard case 25.
     #[test]

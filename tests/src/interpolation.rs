@@ -1,6 +1,6 @@
 //! Varyings against perspective interpolation in f64. Hard cases 21 to 23.
 
-use crate::coverage_support::{Raw, SIDE, draw, pixel};
+use crate::coverage_support::{Raw, SIDE, cases, draw, pixel};
 use proptest::prelude::*;
 use trigon_math::{Vec4, elementary};
 use trigon_raster::{Culling, Draw, Fragment, Pass, Pipeline, VertexOutput};
@@ -79,7 +79,7 @@ fn probe() -> impl Strategy<Value = Probe> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(cases(200))]
 
     #[test]
     fn values_are_perspective_correct(probe in probe()) {

@@ -2,7 +2,7 @@
 //! and any order of draws; and hostile vertices harm nobody else. Hard cases 6,
 //! 12, 17, 20, 43.
 
-use crate::coverage_support::draw_sized;
+use crate::coverage_support::{cases, draw_sized};
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_math::{UVec2, Vec3, Vec4};
@@ -124,7 +124,7 @@ fn picture(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(3))]
+    #![proptest_config(cases(3))]
 
     #[test]
     fn threads_and_tiles_change_nothing(soups in soups(), samples in 2..5_u32) {
@@ -141,7 +141,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(cases(40))]
 
     #[test]
     fn the_order_of_draws_and_triangles_changes_nothing(soups in soups(), samples in 1..3_u32) {
@@ -256,4 +256,113 @@ fn equally_deep_layers_blend_by_their_ids() {
         let linear = draw_sized(&pass, [16, 16], &ExecuteSettings::default()).linear.expect("asked for");
         assert_eq!(linear[8 * 16 + 4], Vec4::new(0.5, 0.25, 0.0, 0.75), "object 1 over object 2");
     }
+}
+
+/// Finite colours can overflow when they are blended or averaged; and what is
+/// infinite is no number as soon as something opaque lies on it.
+#[test]
+fn colours_that_overflow_stay_finite() {
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let glow = |depth: f32, alpha: f32| Glow {
+        vertices: corners.map(|[x, y]| Vec4::new(x, y, depth, 1.0)),
+        color: Vec4::new(3e38, -3e38, 3e38, alpha),
+    };
+    let layers = [glow(0.1, 0.0), glow(0.2, 0.0), glow(0.3, 1.0), glow(0.4, -1e38), glow(0.5, 1.0)];
+    let triangles = [[0, 1, 2], [0, 2, 3]];
+    for (surface, samples) in [(Surface::Opaque, 4), (Surface::Translucent, 1), (Surface::Translucent, 3)] {
+        for layers in [&layers[..2], &layers[..3], &layers[..4], &layers[..]] {
+            let mut pass = Pass::new();
+            for (object, layer) in layers.iter().enumerate() {
+                // Half of the picture, so that samples of a pixel differ.
+                let triangles = if surface == Surface::Opaque { &triangles[..1] } else { &triangles[..] };
+                pass.triangles(Draw { surface, object: object as u32, ..Draw::new(layer, triangles) });
+            }
+            let target = Target::new(13, 11, &[Output::Linear, Output::Srgb8]).expect("a size in range");
+            let mut target = target.with_samples_per_axis(samples).expect("a number in range");
+            pass.execute(&mut target, &ExecuteSettings::default());
+            let colors = target.linear().expect("asked for");
+            assert!(colors.iter().all(|color| color.is_finite()), "{surface:?} {samples}: {:?}", colors[40]);
+        }
+    }
+}
+
+/// A quad of one colour, which may be anything.
+struct Glow {
+    vertices: [Vec4; 4],
+    color: Vec4,
+}
+
+impl Pipeline for Glow {
+    type Varyings = ();
+
+    fn vertex_count(&self) -> usize {
+        4
+    }
+
+    fn vertex(&self, index: usize) -> VertexOutput<()> {
+        VertexOutput { position: self.vertices[index], varyings: () }
+    }
+
+    fn fragment(&self, _: &Fragment<()>) -> Vec4 {
+        self.color
+    }
+}
+
+/// More layers than a worker holds at a time: the tile is done in parts, and
+/// nothing shows where it was cut.
+#[test]
+fn thousands_of_layers_are_blended_in_parts() {
+    let count = 5_000_u32;
+    let corners = [[-0.9, -0.8], [0.9, -0.7], [0.7, 0.9], [-0.6, 0.8]];
+    let vertices = (0..count).flat_map(|i| {
+        let shade = (i % 97) as f32 / 97.0;
+        let depth = (i * 7 % count) as f32 / count as f32;
+        corners.map(|[x, y]| (Vec4::new(x, y, depth, 1.0), Vec4::new(shade, 1.0 - shade, 0.5, 0.01)))
+    });
+    let pipeline = Coloured { vertices: vertices.collect() };
+    let triangles: Vec<_> =
+        (0..count).flat_map(|i| [[4 * i, 4 * i + 1, 4 * i + 2], [4 * i, 4 * i + 2, 4 * i + 3]]).collect();
+    let few: Vec<_> = triangles[..20].to_vec();
+    let draw = |triangles: &[[u32; 3]], tile_size: TileSize| {
+        let mut pass = Pass::new();
+        pass.triangles(Draw {
+            surface: Surface::Translucent,
+            culling: Culling::None,
+            ..Draw::new(&pipeline, triangles)
+        });
+        draw_sized(&pass, [20, 17], &ExecuteSettings { tile_size, ..Default::default() })
+            .linear
+            .expect("asked for")
+    };
+    let many = draw(&triangles, TileSize::Samples64);
+    assert!(many == draw(&triangles, TileSize::Samples8), "another cut");
+    for (many, few) in many.iter().zip(draw(&few, TileSize::Samples64)) {
+        assert_eq!(many.w > 0.0, few.w > 0.0, "the same pixels as with few layers");
+        assert!(many.w == 0.0 || many.w > 0.9999, "nothing shines through so many layers: {many}");
+    }
+}
+
+/// Draws that use few of many vertices run only those that they use.
+#[test]
+fn unused_vertices_between_used_ones_are_not_run() {
+    let count = 1_000_000;
+    let mut vertices = vec![(Vec4::NAN, Vec4::NAN); count];
+    let used = [3, count / 2, count - 1];
+    for (slot, [x, y]) in used.into_iter().zip([[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]]) {
+        vertices[slot] = (Vec4::new(x, y, 0.5, 1.0), Vec4::new(x * x, y * y, 0.5, 1.0));
+    }
+    let pipeline = Coloured { vertices };
+    let triangles = [used.map(|index| index as u32), [3, 4, u32::MAX]];
+    let dense = Coloured { vertices: used.map(|index| pipeline.vertices[index]).to_vec() };
+    let execute = |pipeline: &Coloured, triangles: &[[u32; 3]]| {
+        let mut target = Target::new(20, 20, &[Output::Linear, Output::Depth]).expect("a size in range");
+        let mut pass = Pass::new();
+        pass.triangles(Draw { culling: Culling::None, ..Draw::new(pipeline, triangles) });
+        let stats = pass.execute(&mut target, &ExecuteSettings::default());
+        (target.into_pictures(), stats)
+    };
+    let (sparse, stats) = execute(&pipeline, &triangles);
+    assert!(sparse == execute(&dense, &[[0, 1, 2]]).0, "the same picture as with these vertices alone");
+    assert!(stats.vertices <= 4, "{} vertices were run", stats.vertices);
+    assert_eq!(stats.invalid, 1, "an index out of range");
 }

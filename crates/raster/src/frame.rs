@@ -11,7 +11,7 @@ use crate::pool::Workers;
 use crate::setup::{CutWeights, Setup, SetupBatch, SetupTriangle};
 use crate::shade::{ShadeContext, Shader, Span};
 use crate::tile::TileArea;
-use crate::vertex::VertexStore;
+use crate::vertex::{UsedVertices, VertexStore};
 use crate::viewport::Viewport;
 use crate::{Culling, Stats};
 use std::cmp::Ordering;
@@ -25,6 +25,7 @@ const SETUP_CHUNK: usize = 4096;
 /// One draw of the pass with its vertices done.
 pub(crate) struct PreparedDraw<'f> {
     geometry: &'f Geometry<'f>,
+    used: UsedVertices,
     shader: Box<dyn Shader + 'f>,
 }
 
@@ -63,11 +64,10 @@ impl<'f> Frame<'f> {
         let mut by_surface = [Vec::new(), Vec::new(), Vec::new()];
         for (index, recorded) in recorded.iter().enumerate() {
             let geometry = &recorded.geometry;
-            let used = geometry.used_vertices(recorded.pipeline.vertex_count());
+            let used = UsedVertices::new(geometry.indices(), recorded.pipeline.vertex_count());
             all.stats.vertices += used.len() as u64;
-            let first = used.start as u32;
-            let (positions, shader) = recorded.pipeline.run_vertices(used, workers);
-            let vertices = VertexStore::new(first, positions, grid.viewport);
+            let (positions, shader) = recorded.pipeline.run_vertices(&used, workers);
+            let vertices = VertexStore::new(&used, positions, grid.viewport);
             let start = all.triangles.len() as u32;
             let set_up = |range| set_up(geometry, index as u32, &vertices, settings, range);
             for batch in workers.map_chunks(geometry.len(), SETUP_CHUNK, set_up) {
@@ -79,7 +79,7 @@ impl<'f> Frame<'f> {
                 Surface::Translucent => 2,
             };
             by_surface[bin].extend(start..all.triangles.len() as u32);
-            draws.push(PreparedDraw { geometry, shader });
+            draws.push(PreparedDraw { geometry, used, shader });
         }
         let [opaque, masked, translucent] = by_surface.map(|list| Bins::new(grid, &all.triangles, &list));
         all.stats.binned = (opaque.len() + masked.len() + translucent.len()) as u64;
@@ -144,6 +144,7 @@ impl<'f> Frame<'f> {
                 triangles: &self.triangles,
                 weights: &self.weights,
                 geometry: prepared.geometry,
+                used: &prepared.used,
                 area,
                 samples_per_axis: self.samples_per_axis,
             };
@@ -156,7 +157,7 @@ impl<'f> Frame<'f> {
 fn set_up(
     geometry: &Geometry<'_>,
     draw: u32,
-    vertices: &VertexStore,
+    vertices: &VertexStore<'_>,
     settings: FrameSettings<'_>,
     range: Range<usize>,
 ) -> SetupBatch {

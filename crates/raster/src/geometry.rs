@@ -62,33 +62,12 @@ impl Geometry<'_> {
         }
     }
 
-    /// Whether two segments of a draw of lines meet in a vertex.
-    pub(crate) fn segments_meet(&self, a: u32, b: u32) -> bool {
+    /// The indices of all corners, in order.
+    pub(crate) fn indices(&self) -> &[u32] {
         match self.shape {
-            Shape::Lines { segments, .. } => {
-                let other = segments[b as usize];
-                segments[a as usize].iter().any(|end| other.contains(end))
-            }
-            Shape::Triangles { .. } | Shape::Points { .. } => false,
+            Shape::Triangles { triangles, .. } => triangles.as_flattened(),
+            Shape::Lines { segments, .. } => segments.as_flattened(),
+            Shape::Points { points, .. } => points,
         }
-    }
-
-    /// The vertices that are used: from the least to one beyond the greatest
-    /// index, of those below `count`. Empty if there are none.
-    pub(crate) fn used_vertices(&self, count: usize) -> std::ops::Range<usize> {
-        let (mut least, mut beyond) = (usize::MAX, 0);
-        let mut include = |index: u32| {
-            let index = index as usize;
-            if index < count {
-                least = least.min(index);
-                beyond = beyond.max(index + 1);
-            }
-        };
-        match self.shape {
-            Shape::Triangles { triangles, .. } => triangles.iter().flatten().for_each(|&i| include(i)),
-            Shape::Lines { segments, .. } => segments.iter().flatten().for_each(|&i| include(i)),
-            Shape::Points { points, .. } => points.iter().for_each(|&i| include(i)),
-        }
-        least.min(beyond)..beyond
     }
 }

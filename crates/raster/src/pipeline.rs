@@ -30,11 +30,13 @@ pub trait Pipeline: Sync {
     fn vertex_count(&self) -> usize;
 
     /// The vertex `index`, below [`vertex_count`](Self::vertex_count). Called
-    /// once per frame and draw for each vertex, on any thread.
+    /// at most once per frame and draw for each vertex, on any thread; for those
+    /// that the draw's indices name, and perhaps for some between them.
     fn vertex(&self, index: usize) -> VertexOutput<Self::Varyings>;
 
     /// The colour of a visible sample: linear light, premultiplied by its
-    /// alpha. A component that is not finite counts as 0.
+    /// alpha. A component that is not finite counts as 0; what overflows when
+    /// finite colours are blended or averaged is held to the largest number.
     fn fragment(&self, fragment: &Fragment<Self::Varyings>) -> Vec4;
 
     /// Whether the sample exists at all. Asked only for

@@ -10,6 +10,7 @@ use trigon_math::{ClipPolygon, Vec4};
 use super::check;
 use super::exact::{Point, area, at_corners, rational, split, whole};
 use super::input::{self, Planes};
+use crate::coverage_support::cases;
 
 /// The part of a triangle inside the planes, each moved outwards by `offset`
 /// times its scale, and all the parts that were cut off.
@@ -74,7 +75,7 @@ fn areas_agree(triangle: [Vec4; 3], planes: &Planes) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(cases(400))]
 
     /// The oracle holds in exact arithmetic: nothing is lost and nothing counted
     /// twice.

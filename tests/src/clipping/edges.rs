@@ -5,6 +5,7 @@ use trigon_math::{ClipPolygon, Vec4, clip_segment};
 
 use super::check::{bits, clip, weights_are_convex};
 use super::input;
+use crate::coverage_support::cases;
 
 /// The vertices' bits, from the least on: equal for equal cycles.
 fn cycle(polygon: &ClipPolygon, order: [usize; 3]) -> Vec<([u32; 4], [u32; 3])> {
@@ -31,7 +32,7 @@ fn has_edge(polygon: &ClipPolygon, from: Vec4, to: Vec4) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(6_000))]
+    #![proptest_config(cases(6_000))]
 
     /// The first vertex of a triangle and its winding change nothing else.
     #[test]

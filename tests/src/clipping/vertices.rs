@@ -7,6 +7,7 @@ use trigon_math::{ClipPolygon, Vec4};
 
 use super::exact::rational;
 use super::{check, input};
+use crate::coverage_support::cases;
 
 /// The documented bound: `2⁻²²·m` for rounding position and weights to `f32`
 /// (2⁻²⁴ of the position, three times 2⁻²⁵ of a corner) and `2⁻⁴⁴·(m + b·w)` for
@@ -48,7 +49,7 @@ fn triangles_at_the_near_plane(nudged: fn(f32) -> f32) -> impl Strategy<Value = 
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(20_000))]
+    #![proptest_config(cases(20_000))]
 
     #[test]
     fn vertices_are_inside_and_convex(triangle in input::triangle(), planes in input::planes()) {
@@ -57,7 +58,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1_000))]
+    #![proptest_config(cases(1_000))]
 
     #[test]
     fn vertices_are_where_their_weights_say(triangle in input::triangle(), planes in input::planes()) {

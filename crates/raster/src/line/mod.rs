@@ -46,10 +46,11 @@ impl Setup<'_> {
     /// One segment of a draw of lines.
     pub(crate) fn segment(&mut self, primitive: u32, indices: [u32; 2], style: LineStyle) {
         self.batch.stats.primitives += 1;
-        let [Some(a), Some(b)] = indices.map(|index| self.vertices.outcode(index)) else {
+        let Some(slots) = self.vertices.slots(indices) else {
             self.batch.stats.invalid += 1;
             return;
         };
+        let [a, b] = slots.map(|slot| self.vertices.outcode(slot));
         let planes = a.union(b);
         if planes.is_invalid() {
             self.batch.stats.invalid += 1;
@@ -57,24 +58,26 @@ impl Setup<'_> {
             self.batch.stats.outside += 1;
         } else if planes.cuts() {
             self.batch.stats.clipped += 1;
-            let positions = indices.map(|index| self.vertices.position(index));
+            let positions = slots.map(|slot| self.vertices.position(slot));
             let ends = clip_segment(positions, self.volume);
             let screen =
                 |end: ClipVertex<2>| Some((ScreenVertex::new(end.position, self.viewport)?, end.weights));
             match ends.map(|[a, b]| (screen(a), screen(b))) {
-                Some((Some(a), Some(b))) => self.parallelogram(primitive, [a, b], style),
+                Some((Some(a), Some(b))) => self.parallelogram(primitive, by_slot(slots, [a, b]), style),
                 _ => self.batch.stats.outside += 1,
             }
         } else {
-            let [a, b] = indices.map(|index| self.vertices.screen(index));
-            self.parallelogram(primitive, [(a, [1.0, 0.0]), (b, [0.0, 1.0])], style);
+            let [a, b] = slots.map(|slot| self.vertices.screen(slot));
+            let ends = [(a, [1.0, 0.0]), (b, [0.0, 1.0])];
+            self.parallelogram(primitive, by_slot(slots, ends), style);
         }
     }
 
     /// The two triangles around a segment.
     fn parallelogram(&mut self, primitive: u32, mut ends: [(ScreenVertex, [f32; 2]); 2], style: LineStyle) {
-        // From the upper end to the lower: then nothing below depends on which
-        // end was given first.
+        // From the upper end to the lower, and from the smaller slot where both
+        // lie on one point (the sort is stable): then nothing below depends on
+        // which end was given first.
         ends.sort_by_key(|(end, _)| (end.point.y.raw(), end.point.x.raw()));
         // Columns of the weights in the order of the ends, too.
         let swapped = ends[0].1[0] < ends[1].1[0];
@@ -101,6 +104,11 @@ impl Setup<'_> {
             self.push(candidate, Some(shares));
         }
     }
+}
+
+/// The ends of a segment in the order of their vertices' slots.
+fn by_slot<T>(slots: [usize; 2], [a, b]: [T; 2]) -> [T; 2] {
+    if slots[0] > slots[1] { [b, a] } else { [a, b] }
 }
 
 /// The corners of the parallelogram around a segment: for each end the one

@@ -32,16 +32,17 @@ impl Setup<'_> {
     /// One point of a draw of points.
     pub(crate) fn point(&mut self, primitive: u32, index: u32, style: PointStyle) {
         self.batch.stats.primitives += 1;
-        let Some(outcode) = self.vertices.outcode(index) else {
+        let Some([slot]) = self.vertices.slots([index]) else {
             self.batch.stats.invalid += 1;
             return;
         };
+        let outcode = self.vertices.outcode(slot);
         if outcode.is_invalid() {
             self.batch.stats.invalid += 1;
         } else if outcode.cuts() || outcode.hides_wide() {
             self.batch.stats.outside += 1;
         } else {
-            self.square(primitive, self.vertices.screen(index), style);
+            self.square(primitive, self.vertices.screen(slot), style);
         }
     }
 

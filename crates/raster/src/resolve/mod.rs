@@ -117,7 +117,32 @@ fn mean(colors: &[Vec4], pixel: [usize; 2], samples: usize) -> Vec4 {
         sum += colors[sample];
         equal &= colors[sample] == first;
     }
-    if equal { first } else { sum * (1.0 / (samples * samples) as f32) }
+    let share = 1.0 / (samples * samples) as f32;
+    if equal {
+        first
+    } else if sum.is_finite() {
+        sum * share
+    } else {
+        saturated(sample_indices(pixel, samples).map(|sample| colors[sample] * share).sum())
+    }
+}
+
+/// The largest number in place of infinity: what sums of finite colours can
+/// reach. An infinity would be no number as soon as it met a factor of 0.
+#[inline]
+pub(crate) fn saturated(color: Vec4) -> Vec4 {
+    if color.is_finite() {
+        return color;
+    }
+    Vec4::from_array(color.to_array().map(|v| {
+        if v.is_finite() {
+            v
+        } else if v > 0.0 {
+            f32::MAX
+        } else {
+            f32::MIN
+        }
+    }))
 }
 
 #[inline]

@@ -44,7 +44,7 @@ impl SetupBatch {
 pub(crate) struct Setup<'a> {
     pub(crate) viewport: Viewport,
     pub(crate) volume: &'a ClipVolume,
-    pub(crate) vertices: &'a VertexStore,
+    pub(crate) vertices: &'a VertexStore<'a>,
     pub(crate) draw: u32,
     pub(crate) culling: Culling,
     pub(crate) batch: SetupBatch,
@@ -63,24 +63,25 @@ impl Setup<'_> {
     /// One triangle of the draw.
     pub(crate) fn triangle(&mut self, primitive: u32, indices: [u32; 3]) {
         self.batch.stats.primitives += 1;
-        let [Some(a), Some(b), Some(c)] = indices.map(|index| self.vertices.outcode(index)) else {
+        let Some(slots) = self.vertices.slots(indices) else {
             self.batch.stats.invalid += 1;
             return;
         };
+        let [a, b, c] = slots.map(|slot| self.vertices.outcode(slot));
         let any = a.union(b).union(c);
         if any.is_invalid() {
             self.batch.stats.invalid += 1;
         } else if a.intersection(b).intersection(c).hides() {
             self.batch.stats.outside += 1;
         } else if any.cuts() {
-            self.cut_triangle(primitive, indices);
+            self.cut_triangle(primitive, slots);
         } else {
-            self.whole_triangle(primitive, indices);
+            self.whole_triangle(primitive, slots);
         }
     }
 
-    fn whole_triangle(&mut self, primitive: u32, indices: [u32; 3]) {
-        let vertices = indices.map(|index| self.vertices.screen(index));
+    fn whole_triangle(&mut self, primitive: u32, slots: [usize; 3]) {
+        let vertices = slots.map(|slot| self.vertices.screen(slot));
         let [a, b, c] = vertices.map(|v| v.point);
         // Positive is clockwise on the screen.
         let area = trigon_math::orientation_fixed(a, b, c);
@@ -94,8 +95,8 @@ impl Setup<'_> {
         self.push(candidate, None);
     }
 
-    fn cut_triangle(&mut self, primitive: u32, indices: [u32; 3]) {
-        let positions = indices.map(|index| self.vertices.position(index));
+    fn cut_triangle(&mut self, primitive: u32, slots: [usize; 3]) {
+        let positions = slots.map(|slot| self.vertices.position(slot));
         let cut = clip::cut_triangle(positions, self.volume);
         let vertices = cut.polygon.vertices();
         self.batch.stats.clipped += 1;

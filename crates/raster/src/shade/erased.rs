@@ -7,20 +7,20 @@ use crate::geometry::Geometry;
 use crate::pool::Workers;
 use crate::setup::{CutWeights, SetupTriangle};
 use crate::tile::TileArea;
+use crate::vertex::UsedVertices;
 use crate::{EdgeFlags, Fragment, Pipeline, Varyings};
 use std::num::NonZeroU32;
-use std::ops::Range;
 use trigon_math::{UVec2, Vec2, Vec4};
 
 /// A pipeline without its type.
 pub(crate) trait AnyPipeline: Sync {
     fn vertex_count(&self) -> usize;
 
-    /// Runs the vertex stage over some vertices: their positions, and what
-    /// shades with their varyings.
+    /// Runs the vertex stage over the `used` vertices: their positions, and
+    /// what shades with their varyings.
     fn run_vertices<'s>(
         &'s self,
-        range: Range<usize>,
+        used: &UsedVertices,
         workers: &Workers,
     ) -> (Vec<Vec4>, Box<dyn Shader + 's>);
 }
@@ -39,6 +39,7 @@ pub(crate) struct ShadeContext<'f> {
     pub(crate) triangles: &'f [SetupTriangle],
     pub(crate) weights: &'f [CutWeights],
     pub(crate) geometry: &'f Geometry<'f>,
+    pub(crate) used: &'f UsedVertices,
     pub(crate) area: TileArea,
     pub(crate) samples_per_axis: NonZeroU32,
 }
@@ -50,22 +51,21 @@ impl<P: Pipeline> AnyPipeline for &P {
 
     fn run_vertices<'s>(
         &'s self,
-        range: Range<usize>,
+        used: &UsedVertices,
         workers: &Workers,
     ) -> (Vec<Vec4>, Box<dyn Shader + 's>) {
         let pipeline: &'s P = self;
-        let first = range.start as u32;
-        let (positions, varyings) = workers.unzip(range, |index| {
-            let vertex = pipeline.vertex(index);
+        let (positions, varyings) = workers.unzip(0..used.len(), |slot| {
+            let vertex = pipeline.vertex(used.index(slot));
             (vertex.position, vertex.varyings)
         });
-        (positions, Box::new(TypedShader { pipeline, first, varyings }))
+        (positions, Box::new(TypedShader { pipeline, varyings }))
     }
 }
 
 struct TypedShader<'s, P: Pipeline> {
     pipeline: &'s P,
-    first: u32,
+    /// Of the used vertices, slot by slot.
     varyings: Vec<P::Varyings>,
 }
 
@@ -102,7 +102,7 @@ impl<P: Pipeline> TypedShader<'_, P> {
     ) {
         for spans in spans.chunk_by(|a, b| a.triangle == b.triangle) {
             let common = Common::new(context, spans[0].triangle);
-            let values = common.indices.map(|index| &self.varyings[(index - self.first) as usize]);
+            let values = common.slots.map(|slot| &self.varyings[slot]);
             for span in spans {
                 let y = context.area.origin[1] + i32::from(span.y);
                 for i in 0..span.length {
@@ -118,8 +118,9 @@ impl<P: Pipeline> TypedShader<'_, P> {
 /// What the fragments of one triangle have in common.
 struct Common {
     interpolation: Interpolation,
-    /// The vertices whose values are weighted, in the order of the weights.
-    indices: [u32; 3],
+    /// The slots of the vertices whose values are weighted, in the order of the
+    /// weights.
+    slots: [usize; 3],
     primitive: u32,
     face: u32,
     front_facing: bool,
@@ -134,8 +135,9 @@ impl Common {
         let samples = context.samples_per_axis.get() as f32;
         let interpolation = Interpolation::new(triangle, context.weights, samples);
         let corners = context.geometry.corners(triangle.primitive);
+        let slot = |index: u32| context.used.slot(index).expect("what is seen has its vertices");
         Self {
-            indices: interpolation.corners.map(|corner| corners[usize::from(corner)]),
+            slots: interpolation.corners.map(|corner| slot(corners[usize::from(corner)])),
             interpolation,
             primitive: triangle.primitive,
             face: context.geometry.face(triangle.primitive),

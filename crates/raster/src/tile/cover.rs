@@ -21,6 +21,39 @@ pub(crate) struct TileArea {
     pub(crate) size: [usize; 2],
 }
 
+/// A rectangle of samples within a tile, ends included.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Region {
+    pub(crate) columns: [usize; 2],
+    pub(crate) rows: [usize; 2],
+}
+
+impl TileArea {
+    /// All samples of the tile.
+    pub(crate) fn whole(&self) -> Region {
+        Region { columns: [0, self.size[0] - 1], rows: [0, self.size[1] - 1] }
+    }
+}
+
+impl Region {
+    /// Both halves, one above or beside the other; `None` if there is only one
+    /// sample.
+    pub(crate) fn halves(self) -> Option<[Self; 2]> {
+        let Self { columns, rows } = self;
+        let cut = |[first, last]: [usize; 2]| {
+            let middle = first + (last - first) / 2;
+            [[first, middle], [middle + 1, last]]
+        };
+        if rows[0] < rows[1] {
+            Some(cut(rows).map(|rows| Self { columns, rows }))
+        } else if columns[0] < columns[1] {
+            Some(cut(columns).map(|columns| Self { columns, rows }))
+        } else {
+            None
+        }
+    }
+}
+
 /// A run of eight samples of a tile.
 pub(crate) struct Lanes {
     /// The first sample's column and row in the tile.
@@ -126,17 +159,16 @@ impl Disc {
 }
 
 impl TileTriangle {
-    /// `None` if the triangle covers no sample of the rows `rows` (ends
-    /// included) of the tile.
-    pub(crate) fn new(triangle: &SetupTriangle, area: TileArea, rows: [usize; 2]) -> Option<Self> {
+    /// `None` if the triangle covers no sample of the `region` of the tile.
+    pub(crate) fn new(triangle: &SetupTriangle, area: TileArea, region: Region) -> Option<Self> {
         let SampleBounds { x, y } = triangle.sample_bounds()?;
-        let clipped = |[first, last]: [i32; 2], axis: usize, least: usize, most: usize| {
+        let clipped = |[first, last]: [i32; 2], axis: usize, [least, most]: [usize; 2]| {
             let first = (first - area.origin[axis]).max(least as i32);
             let last = (last - area.origin[axis]).min(most as i32);
             (first <= last).then_some([first as usize, last as usize])
         };
-        let columns = clipped(x, 0, 0, area.size[0] - 1)?;
-        let rows = clipped(y, 1, rows[0], rows[1])?;
+        let columns = clipped(x, 0, region.columns)?;
+        let rows = clipped(y, 1, region.rows)?;
         let edges = Edge::of(triangle);
         let mut signs = [Sign::default(); 3];
         let mut wide = false;

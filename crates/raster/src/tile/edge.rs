@@ -10,7 +10,8 @@ use trigon_math::FixedPoint;
 /// edge, twice the triangle's area at the vertex, positive inside.
 ///
 /// All in units of the grid squared. With coordinates within ±2^24 (the guard
-/// band) no value exceeds 2^50.
+/// band) and the
+/// widest lines no value exceeds 2^53.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edge {
     /// At the centre of sample (0, 0).
@@ -72,12 +73,6 @@ impl Edge {
         let (x, y) = (span(self.right), span(self.down));
         let value = self.at(corner);
         [value + x[0] + y[0], value + x[1] + y[1]]
-    }
-
-    /// Whether any sample of a square lies on the inner side.
-    #[inline]
-    pub(crate) fn reaches(&self, corner: [i32; 2], size: u32) -> bool {
-        self.range(corner, size)[1] + self.bias() >= 0
     }
 }
 

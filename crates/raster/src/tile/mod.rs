@@ -5,7 +5,7 @@ mod edge;
 mod scratch;
 mod visibility;
 
-pub(crate) use cover::{DepthPlane, STRIDE, TileArea, TileTriangle};
+pub(crate) use cover::{DepthPlane, Region, STRIDE, TileArea, TileTriangle};
 pub(crate) use edge::Edge;
 pub(crate) use scratch::{NOBODY, Scratch, Waiting};
 pub(crate) use visibility::is_seen;

@@ -3,6 +3,7 @@
 
 use super::STRIDE;
 use crate::Stats;
+use crate::blend::Joint;
 use crate::shade::Span;
 use trigon_math::Vec4;
 
@@ -35,6 +36,7 @@ pub(crate) struct Scratch {
     pub(crate) waiting_color: Vec<Vec4>,
     pub(crate) order: Vec<u32>,
     pub(crate) kept: Vec<bool>,
+    pub(crate) joints: Vec<Joint>,
     pub(crate) stats: Stats,
 }
 
@@ -53,6 +55,7 @@ impl Scratch {
             waiting_color: Vec::new(),
             order: Vec::new(),
             kept: Vec::new(),
+            joints: Vec::new(),
             stats: Stats::default(),
         }
     }

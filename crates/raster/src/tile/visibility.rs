@@ -32,7 +32,7 @@ pub(crate) fn resolve_visibility(
 
 fn cover_opaque(frame: &Frame<'_>, area: TileArea, scratch: &mut Scratch, place: usize) {
     let triangle = &frame.triangles[scratch.triangles[place] as usize];
-    let Some(tile_triangle) = TileTriangle::new(triangle, area, [0, area.size[1] - 1]) else {
+    let Some(tile_triangle) = TileTriangle::new(triangle, area, area.whole()) else {
         return;
     };
     let Scratch { depth, winner, triangles, .. } = scratch;
@@ -105,7 +105,7 @@ fn cover_masked(frame: &Frame<'_>, area: TileArea, scratch: &mut Scratch, first:
         }
         let ordinal = scratch.triangles[place];
         let triangle = &frame.triangles[ordinal as usize];
-        let Some(tile_triangle) = TileTriangle::new(triangle, area, [0, area.size[1] - 1]) else {
+        let Some(tile_triangle) = TileTriangle::new(triangle, area, area.whole()) else {
             continue;
         };
         tile_triangle.for_each_sample(|sample, depth| {

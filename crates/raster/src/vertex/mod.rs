@@ -1,6 +1,10 @@
 //! The vertex stage: each vertex once, then its outcode and its place on the
 //! grid.
 
+mod used;
+
+pub(crate) use used::UsedVertices;
+
 use crate::clip::Outcode;
 use crate::setup::ScreenVertex;
 use crate::viewport::Viewport;
@@ -31,9 +35,9 @@ fn depth(position: Vec4) -> f32 {
     }
 }
 
-/// The vertices of one draw, from `first` on, as set-up needs them.
-pub(crate) struct VertexStore {
-    first: u32,
+/// The vertices of one draw as set-up needs them.
+pub(crate) struct VertexStore<'u> {
+    used: &'u UsedVertices,
     positions: Vec<Vec4>,
     processed: Vec<Processed>,
 }
@@ -45,36 +49,40 @@ struct Processed {
     outcode: Outcode,
 }
 
-impl VertexStore {
-    /// The positions of the vertices from `first` on.
-    pub(crate) fn new(first: u32, positions: Vec<Vec4>, viewport: Viewport) -> Self {
+impl<'u> VertexStore<'u> {
+    /// The `used` vertices at these positions, slot by slot.
+    pub(crate) fn new(used: &'u UsedVertices, positions: Vec<Vec4>, viewport: Viewport) -> Self {
         let guard = viewport.guard();
         let process = |&position: &Vec4| Processed::new(position, viewport, guard);
         let processed = positions.iter().map(process).collect();
-        Self { first, positions, processed }
+        Self { used, positions, processed }
     }
 
-    fn slot(&self, index: u32) -> Option<usize> {
-        let slot = index.checked_sub(self.first)? as usize;
-        (slot < self.processed.len()).then_some(slot)
-    }
-
-    /// `None` if there is no such vertex.
+    /// The slots of a primitive's vertices; `None` if one does not exist.
     #[inline]
-    pub(crate) fn outcode(&self, index: u32) -> Option<Outcode> {
-        Some(self.processed[self.slot(index)?].outcode)
+    pub(crate) fn slots<const N: usize>(&self, indices: [u32; N]) -> Option<[usize; N]> {
+        let mut slots = [0; N];
+        for (slot, index) in slots.iter_mut().zip(indices) {
+            *slot = self.used.slot(index)?;
+        }
+        Some(slots)
     }
 
-    /// Where a vertex lies that exists and needs no cutting.
     #[inline]
-    pub(crate) fn screen(&self, index: u32) -> ScreenVertex {
-        self.processed[(index - self.first) as usize].screen
+    pub(crate) fn outcode(&self, slot: usize) -> Outcode {
+        self.processed[slot].outcode
     }
 
-    /// Where a vertex that exists lies in clip space.
+    /// Where a vertex lies that needs no cutting.
     #[inline]
-    pub(crate) fn position(&self, index: u32) -> Vec4 {
-        self.positions[(index - self.first) as usize]
+    pub(crate) fn screen(&self, slot: usize) -> ScreenVertex {
+        self.processed[slot].screen
+    }
+
+    /// Where a vertex lies in clip space.
+    #[inline]
+    pub(crate) fn position(&self, slot: usize) -> Vec4 {
+        self.positions[slot]
     }
 }
 

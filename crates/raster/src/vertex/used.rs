@@ -1,0 +1,97 @@
+//! Which of a pipeline's vertices a draw runs.
+
+use std::ops::Range;
+
+/// The vertices that a draw uses, each with a slot: its place among them.
+#[derive(Debug, PartialEq)]
+pub(crate) enum UsedVertices {
+    /// All from the least to the greatest index.
+    Range(Range<usize>),
+    /// Few of many: ascending.
+    Listed(Vec<u32>),
+}
+
+impl UsedVertices {
+    /// The vertices that `indices` name, of those below `count`.
+    ///
+    /// A range costs nothing to look up, but holds vertices that nobody asked
+    /// for; it is taken if those are not many more than the indices.
+    pub(crate) fn new(indices: &[u32], count: usize) -> Self {
+        // A vertex is about as dear as a few look-ups in a list.
+        const WORTH_LISTING: usize = 4;
+        let exists = |index: &u32| (*index as usize) < count;
+        let (mut least, mut beyond) = (usize::MAX, 0);
+        for &index in indices.iter().filter(|index| exists(index)) {
+            least = least.min(index as usize);
+            beyond = beyond.max(index as usize + 1);
+        }
+        let range = least.min(beyond)..beyond;
+        if range.len() <= indices.len().saturating_mul(WORTH_LISTING) {
+            return Self::Range(range);
+        }
+        let mut listed: Vec<u32> = indices.iter().copied().filter(exists).collect();
+        listed.sort_unstable();
+        listed.dedup();
+        Self::Listed(listed)
+    }
+
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::Range(range) => range.len(),
+            Self::Listed(indices) => indices.len(),
+        }
+    }
+
+    /// The vertex of a slot.
+    #[inline]
+    pub(crate) fn index(&self, slot: usize) -> usize {
+        match self {
+            Self::Range(range) => range.start + slot,
+            Self::Listed(indices) => indices[slot] as usize,
+        }
+    }
+
+    /// The slot of a vertex; `None` if the draw has no such vertex.
+    #[inline]
+    pub(crate) fn slot(&self, index: u32) -> Option<usize> {
+        match self {
+            Self::Range(range) => {
+                let index = index as usize;
+                range.contains(&index).then(|| index - range.start)
+            }
+            Self::Listed(indices) => indices.binary_search(&index).ok(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slots_and_vertices_belong_together() {
+        for (indices, count) in [
+            (vec![5, 7, 6, 5], 100),
+            (vec![90, 3, 50, 3], 100),
+            (vec![0, u32::MAX, u32::MAX - 1], usize::MAX),
+            (vec![99, 100, 101], 100),
+        ] {
+            let used = UsedVertices::new(&indices, count);
+            for &index in &indices {
+                let slot = used.slot(index);
+                let exists = (index as usize) < count;
+                assert_eq!(slot.is_some(), exists, "vertex {index} of {count} in {used:?}");
+                assert!(slot.is_none_or(|slot| used.index(slot) == index as usize), "slot of {index}");
+            }
+        }
+    }
+
+    #[test]
+    fn few_of_many_are_listed() {
+        assert_eq!(UsedVertices::new(&[2, 9, 4], 10), UsedVertices::Range(2..10), "near each other");
+        assert_eq!(UsedVertices::new(&[9, 900, 9], 1000), UsedVertices::Listed(vec![9, 900]), "far apart");
+        assert_eq!(UsedVertices::new(&[4, 5], 3).len(), 0, "none exists");
+        assert_eq!(UsedVertices::new(&[], 3).len(), 0, "none is asked for");
+    }
+}
