@@ -1,7 +1,8 @@
 //! Which pixels a triangle covers, against an oracle in exact integers; and that
 //! meshes leave no gaps and cover nothing twice. Hard cases 1 to 9, 14, 15, 18.
 
-use crate::coverage_support::{Raw, SIDE, Values, cases, clip_position, count, draw, pixel};
+use crate::coverage_support::{Raw, SIDE, Values, clip_position, count, draw, pixel};
+use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::glam::camera::rh::proj::directx::perspective_infinite_reverse;
 use trigon_math::{Mat4, Vec4, elementary};

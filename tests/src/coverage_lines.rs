@@ -1,7 +1,8 @@
 //! Lines and points: the same from either end, one pixel in each step, each
 //! joint once. Hard case 38.
 
-use crate::coverage_support::{Raw, SIDE, Values, cases, clip_position, draw, pixel};
+use crate::coverage_support::{Raw, SIDE, Values, clip_position, draw, pixel};
+use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_raster::{Lines, Pass, PointShape, Points, Surface};
 

@@ -1,7 +1,6 @@
 //! What the tests of the rasterizer share: triangles given on the sub-pixel
 //! grid, and pictures that count how often each pixel is covered.
 
-use proptest::prelude::ProptestConfig;
 use trigon_math::Vec4;
 use trigon_raster::{
     Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, Surface, Target, VertexOutput,
@@ -81,17 +80,4 @@ pub(crate) fn count(pipeline: &Values, triangles: &[[u32; 3]]) -> Vec<u32> {
 /// Pixel coordinates of a row-major index.
 pub(crate) fn pixel(index: usize) -> [i32; 2] {
     [index as i32 % SIDE, index as i32 / SIDE]
-}
-
-/// `cases` of a property, and with `PROPTEST_CASES` set as many times more as
-/// that is more than proptest's own 256: then one variable makes all properties
-/// run longer, the cheap and the dear ones in proportion.
-pub(crate) fn cases(cases: u32) -> ProptestConfig {
-    const USUAL: u64 = 256;
-    let usual = ProptestConfig::default();
-    let scaled = |number: u32| {
-        let scaled = u64::from(number) * u64::from(usual.cases) / USUAL;
-        u32::try_from(scaled.max(1)).unwrap_or(u32::MAX)
-    };
-    ProptestConfig { cases: scaled(cases), max_global_rejects: scaled(usual.max_global_rejects), ..usual }
 }

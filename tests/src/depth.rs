@@ -1,7 +1,8 @@
 //! Who is in front: exact ties, surfaces that cross, and how near depth comes to
 //! exact arithmetic. Hard cases 24 to 26.
 
-use crate::coverage_support::{Raw, SIDE, Values, cases, clip_position, draw, pixel};
+use crate::coverage_support::{Raw, SIDE, Values, clip_position, draw, pixel};
+use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_raster::{Culling, Draw, Pass, Pictures, Surface};
 

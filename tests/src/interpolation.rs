@@ -1,6 +1,7 @@
 //! Varyings against perspective interpolation in f64. Hard cases 21 to 23.
 
-use crate::coverage_support::{Raw, SIDE, cases, draw, pixel};
+use crate::coverage_support::{Raw, SIDE, draw, pixel};
+use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::{Vec4, elementary};
 use trigon_raster::{Culling, Draw, Fragment, Pass, Pipeline, VertexOutput};

@@ -7,6 +7,7 @@ mod coverage;
 mod coverage_lines;
 mod coverage_support;
 mod depth;
+mod effort;
 mod goldens;
 mod interpolation;
 mod same_bytes;

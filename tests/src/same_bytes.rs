@@ -2,7 +2,8 @@
 //! and any order of draws; and hostile vertices harm nobody else. Hard cases 6,
 //! 12, 17, 20, 43.
 
-use crate::coverage_support::{cases, draw_sized};
+use crate::coverage_support::draw_sized;
+use crate::effort::cases;
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_math::{UVec2, Vec3, Vec4};

@@ -136,7 +136,7 @@ fn any_transform() -> impl Strategy<Value = Transform> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::effort::cases(24))]
 
     /// Moving everything, the camera included, by a rigid motion that is exact
     /// in binary moves nothing in the picture.

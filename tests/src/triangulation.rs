@@ -55,7 +55,7 @@ fn strip(heights: &[f32], thickness: f32) -> Vec<Vec3> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(crate::effort::cases(64))]
 
     #[test]
     fn areas_of_stars_add_up(

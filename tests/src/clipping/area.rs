@@ -10,7 +10,7 @@ use trigon_math::{ClipPolygon, Vec4};
 use super::check;
 use super::exact::{Point, area, at_corners, rational, split, whole};
 use super::input::{self, Planes};
-use crate::coverage_support::cases;
+use crate::effort::cases;
 
 /// The part of a triangle inside the planes, each moved outwards by `offset`
 /// times its scale, and all the parts that were cut off.

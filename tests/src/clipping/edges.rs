@@ -5,7 +5,7 @@ use trigon_math::{ClipPolygon, Vec4, clip_segment};
 
 use super::check::{bits, clip, weights_are_convex};
 use super::input;
-use crate::coverage_support::cases;
+use crate::effort::cases;
 
 /// The vertices' bits, from the least on: equal for equal cycles.
 fn cycle(polygon: &ClipPolygon, order: [usize; 3]) -> Vec<([u32; 4], [u32; 3])> {

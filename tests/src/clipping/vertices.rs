@@ -7,7 +7,7 @@ use trigon_math::{ClipPolygon, Vec4};
 
 use super::exact::rational;
 use super::{check, input};
-use crate::coverage_support::cases;
+use crate::effort::cases;
 
 /// The documented bound: `2⁻²²·m` for rounding position and weights to `f32`
 /// (2⁻²⁴ of the position, three times 2⁻²⁵ of a corner) and `2⁻⁴⁴·(m + b·w)` for
