@@ -6,60 +6,21 @@
 //! result, with links followed, must still lie in it and be a regular file;
 //! reading stops at a limit.
 
-use std::collections::HashSet;
+use std::collections::hash_map::Entry;
+use std::collections::{HashMap, HashSet};
 use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::{Component, Path, PathBuf};
-
-use thiserror::Error;
+use std::path::{Path, PathBuf};
 
 use crate::limits::Limits;
-
-/// Why a name was not opened.
-#[derive(Debug, Error)]
-pub(crate) enum Refusal {
-    #[error("it has a scheme, and only files in the model's folder and data: URIs are opened")]
-    Scheme,
-    #[error("it is an absolute path, and only files in the model's folder are opened")]
-    Absolute,
-    #[error("it leads out of the model's folder")]
-    Outside,
-    #[error("it is not a regular file")]
-    NotAFile,
-    #[error("it is no valid file name")]
-    BadName,
-    #[error("there is no such file")]
-    Missing,
-    #[error("the model came without a folder")]
-    NoFolder,
-    #[error("it has {0} bytes, more than the limit of {1}")]
-    TooLarge(u64, u64),
-    #[error("it cannot be read ({0})")]
-    Read(io::Error),
-}
-
-impl Refusal {
-    pub(crate) fn is_forbidden(&self) -> bool {
-        matches!(self, Self::Scheme | Self::Absolute | Self::Outside | Self::NotAFile | Self::BadName)
-    }
-
-    pub(crate) fn remedy(&self) -> &'static str {
-        match self {
-            Self::Missing => "put the file there, or export the model again with it",
-            Self::NoFolder => "load the model from a file instead of a stream, or embed everything in a GLB",
-            Self::TooLarge(..) => "use a smaller file, or raise the limit",
-            Self::Read(_) => "check that the file can be read",
-            _ => "put the file beside the model and name it by its relative path",
-        }
-    }
-}
+use crate::refusal::{Refusal, relative_path};
 
 /// How exactly a name must match.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Lookup {
     /// As written: for buffers, whose bytes become geometry.
     Exact,
-    /// As written, else with `\` as `/`, another case, or only its last part:
+    /// As written, else with `\` as `/`, another case, or only its last parts:
     /// for textures and material libraries named on another machine.
     Forgiving,
 }
@@ -84,6 +45,9 @@ pub(crate) struct Folder {
     total: u64,
     read: Vec<PathBuf>,
     known: HashSet<PathBuf>,
+    /// The names in each folder that was searched, by their lower case: a
+    /// model may miss thousands of pictures.
+    listings: HashMap<PathBuf, HashMap<String, String>>,
 }
 
 impl Folder {
@@ -106,6 +70,7 @@ impl Folder {
             total: 0,
             read: Vec::new(),
             known: HashSet::new(),
+            listings: HashMap::new(),
         }
     }
 
@@ -165,7 +130,7 @@ impl Folder {
     fn read_exact(&mut self, within: &Path, name: &str) -> Result<Found, Refusal> {
         let root = self.root.as_ref().ok_or(Refusal::NoFolder)?;
         let relative = within.join(relative_path(name)?);
-        let path = fs::canonicalize(root.join(&relative)).map_err(missing_or_read)?;
+        let path = fs::canonicalize(root.join(&relative)).map_err(Refusal::from_io)?;
         let inside = path.strip_prefix(root).map_err(|_| Refusal::Outside)?;
         let shown = self.shown.join(inside);
         let bytes = self.read_regular(&path)?;
@@ -175,10 +140,10 @@ impl Folder {
 
     fn read_regular(&mut self, path: &Path) -> Result<Vec<u8>, Refusal> {
         // Before opening: opening a FIFO would wait for a writer.
-        if !fs::metadata(path).map_err(missing_or_read)?.is_file() {
+        if !fs::metadata(path).map_err(Refusal::from_io)?.is_file() {
             return Err(Refusal::NotAFile);
         }
-        let file = File::open(path).map_err(missing_or_read)?;
+        let file = File::open(path).map_err(Refusal::from_io)?;
         let length = file.metadata().map_err(Refusal::Read)?.len();
         let limit = self.limits.file_bytes.min(self.limits.total_bytes.saturating_sub(self.total));
         if length > limit {
@@ -202,78 +167,48 @@ impl Folder {
 
     /// What the author may have meant. Every result is confined like the
     /// original.
-    fn other_spellings(&self, within: &Path, name: &str) -> Vec<(PathBuf, String)> {
+    fn other_spellings(&mut self, within: &Path, name: &str) -> Vec<(PathBuf, String)> {
+        // So many folders of another machine are tried as folders here.
+        const MOST_PARTS: usize = 8;
         let slashed = name.replace('\\', "/");
-        let last = slashed.rsplit('/').next().unwrap_or_default().to_owned();
-        let mut list = vec![(within.to_owned(), slashed.clone())];
-        list.extend(self.other_case(within, &slashed).map(|found| (PathBuf::new(), found)));
-        list.push((within.to_owned(), last.clone()));
-        list.extend(self.other_case(within, &last).map(|found| (PathBuf::new(), found)));
+        // `C:/models/textures/a.png` may be `textures/a.png` here, or `a.png`.
+        let starts = slashed.rmatch_indices('/').map(|(at, _)| at + 1).take(MOST_PARTS);
+        let mut ends: Vec<&str> = starts.map(|start| &slashed[start..]).chain([slashed.as_str()]).collect();
+        ends.reverse();
+        let mut list = Vec::new();
+        for end in ends {
+            list.push((within.to_owned(), end.to_owned()));
+            list.extend(self.other_case(within, end).map(|found| (PathBuf::new(), found)));
+        }
         list
     }
 
     /// The path below the root that differs from the name only in the case of
     /// its letters.
-    fn other_case(&self, within: &Path, name: &str) -> Option<String> {
-        let root = self.root.as_ref()?;
+    fn other_case(&mut self, within: &Path, name: &str) -> Option<String> {
+        let root = self.root.clone()?;
         let mut found = within.to_owned();
         for part in relative_path(name).ok()?.components() {
             let part = part.as_os_str().to_str()?.to_lowercase();
-            // A folder with more entries than this is not searched.
-            let entries = fs::read_dir(root.join(&found)).ok()?.take(100_000).flatten();
-            let mut names: Vec<_> =
-                entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
-            names.retain(|entry| entry.to_lowercase() == part);
-            names.sort();
-            found.push(names.first()?);
+            let listing = match self.listings.entry(found.clone()) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(new) => new.insert(list_folder(&root.join(&found))),
+            };
+            found.push(listing.get(&part)?);
         }
         Some(found.to_str()?.to_owned())
     }
 }
 
-fn missing_or_read(error: io::Error) -> Refusal {
-    match error.kind() {
-        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => Refusal::Missing,
-        io::ErrorKind::InvalidInput | io::ErrorKind::InvalidFilename => Refusal::BadName,
-        _ => Refusal::Read(error),
-    }
-}
-
-/// The name as a path that goes down only.
-fn relative_path(name: &str) -> Result<PathBuf, Refusal> {
-    if name.trim().is_empty() || name.contains('\0') {
-        return Err(Refusal::BadName);
-    }
-    if has_drive(name) || name.starts_with(['/', '\\']) {
-        return Err(Refusal::Absolute);
-    }
-    if has_scheme(name) {
-        return Err(Refusal::Scheme);
-    }
-    let mut path = PathBuf::new();
-    for component in Path::new(name).components() {
-        match component {
-            Component::Normal(part) => path.push(part),
-            Component::CurDir => {}
-            Component::ParentDir => return Err(Refusal::Outside),
-            Component::RootDir | Component::Prefix(_) => return Err(Refusal::Absolute),
-        }
-    }
-    if path.as_os_str().is_empty() { Err(Refusal::BadName) } else { Ok(path) }
-}
-
-/// `C:` as Windows writes it; a drive is one letter, a scheme at least two.
-fn has_drive(name: &str) -> bool {
-    let mut chars = name.chars();
-    chars.next().is_some_and(|c| c.is_ascii_alphabetic()) && chars.next() == Some(':')
-}
-
-/// `scheme:` as RFC 3986, section 3.1 writes it.
-fn has_scheme(name: &str) -> bool {
-    name.split_once(':').is_some_and(|(scheme, _)| {
-        scheme.starts_with(|c: char| c.is_ascii_alphabetic())
-            && scheme.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '+' | '-' | '.'))
-    })
+/// The names in a folder by their lower case; of several with the same, the
+/// first in alphabetical order. Empty when it cannot be listed.
+fn list_folder(folder: &Path) -> HashMap<String, String> {
+    // A folder with more entries than this is not searched to its end.
+    const MOST_ENTRIES: usize = 100_000;
+    let entries = fs::read_dir(folder).into_iter().flatten().take(MOST_ENTRIES).flatten();
+    let mut names: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    names.sort_unstable_by(|a, b| b.cmp(a));
+    names.into_iter().map(|name| (name.to_lowercase(), name)).collect()
 }
 
 #[cfg(test)]
@@ -328,12 +263,27 @@ mod tests {
     #[test]
     fn other_spellings_are_found_inside() {
         let (_dir, mut folder) = folder_with(&["textures/Wood.PNG", "plain.jpg"]);
-        for name in ["textures\\Wood.PNG", "Textures/wood.png", "C:\\models\\plain.jpg", "/home/x/PLAIN.jpg"]
-        {
+        for name in [
+            "textures\\Wood.PNG",
+            "Textures/wood.png",
+            "C:\\models\\plain.jpg",
+            "/home/x/PLAIN.jpg",
+            "C:\\models\\textures\\wood.png",
+            "../textures/Wood.PNG",
+        ] {
             let found = read(&mut folder, name, Lookup::Forgiving).expect(name);
             assert!(found.respelled, "{name} is not as written");
         }
         read(&mut folder, "textures/wood.png", Lookup::Exact).expect_err("exact means exact");
+    }
+
+    /// 10⁴ missing pictures beside 10⁴ files took minutes when each was a search.
+    #[test]
+    fn a_folder_is_listed_once() {
+        let (dir, mut folder) = folder_with(&["b.png", "B.png"]);
+        read(&mut folder, "gone.png", Lookup::Forgiving).expect_err("missing");
+        fs::write(dir.path().join("Gone.png"), "").expect("a file");
+        read(&mut folder, "gone.png", Lookup::Forgiving).expect_err("the list is that of the first search");
     }
 
     #[cfg(unix)]

@@ -23,7 +23,7 @@
 //! let error = load_from_slice("square.obj", b"v 0 0 0\nf 1 2 3\n", &LoadOptions::default()).unwrap_err();
 //! assert_eq!(
 //!     error.to_string(),
-//!     "square.obj, line 2: face index \"2\" leads nowhere; there are 1 vertices; \
+//!     "square.obj, line 2: face index \"2\" leads nowhere; the file has 1 vertex; \
 //!      export the model again, or mend the line"
 //! );
 //! # Ok::<(), trigon_io::LoadError>(())
@@ -47,6 +47,7 @@ mod options;
 mod picture;
 mod png;
 mod rebase;
+mod refusal;
 mod textures;
 mod uri;
 mod warning;

@@ -15,7 +15,9 @@ pub struct Limits {
     pub total_bytes: u64,
     /// Vertices of one mesh, and of one accessor. Default 50 million.
     pub vertices: usize,
-    /// Corners of all faces of one file, counted once per mesh. Default 200 million.
+    /// Corners of all faces of one file (and ends of lines, and points), counted
+    /// as often as nodes place them. Default 100 million: 33 million triangles,
+    /// which take about 3 GB to draw.
     pub corners: usize,
     /// Nodes of a scene, and groups of an OBJ. Default 1 million.
     pub nodes: usize,
@@ -26,6 +28,10 @@ pub struct Limits {
     pub image_side: u32,
     /// Width times height of a picture. Default 2²⁶, which is 8192 × 8192.
     pub image_pixels: u64,
+    /// Pixels of all pictures of a model together. A few bytes of file can
+    /// claim millions of pixels, so their number alone bounds nothing. Default
+    /// 2²⁹, which is 32 pictures of 4096 × 4096, and 3 GB with smaller copies.
+    pub total_pixels: u64,
 }
 
 impl Default for Limits {
@@ -34,11 +40,12 @@ impl Default for Limits {
             file_bytes: 2 << 30,
             total_bytes: 4 << 30,
             vertices: 50_000_000,
-            corners: 200_000_000,
+            corners: 100_000_000,
             nodes: 1_000_000,
             depth: 100_000,
             image_side: 1 << 14,
             image_pixels: 1 << 26,
+            total_pixels: 1 << 29,
         }
     }
 }

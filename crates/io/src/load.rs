@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use trigon_scene::Scene;
 
 use crate::error::{LoadError, LoadErrorKind};
-use crate::folder::{Folder, Refusal};
+use crate::folder::Folder;
 use crate::format::{Format, detect_format, supported};
 use crate::import::Import;
 use crate::options::{LoadOptions, Stage};
+use crate::refusal::Refusal;
 use crate::warning::{Warning, Warnings};
 
 /// A model that was loaded.

@@ -41,8 +41,9 @@ pub fn load_image(path: impl AsRef<Path>, limits: &Limits) -> Result<Picture, Lo
         .map_err(|why| LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as PNG or JPEG"))
 }
 
-/// Decodes a picture, or says why it cannot be.
-pub(crate) fn decode_picture(bytes: &[u8], limits: &Limits) -> Result<Picture, String> {
+/// Width and height as the picture claims them, if it is one within the limits.
+/// Reads its header only.
+pub(crate) fn picture_size(bytes: &[u8], limits: &Limits) -> Result<(u32, u32), String> {
     let format = picture_format(bytes)?;
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(decoder_limits(limits));
@@ -57,7 +58,13 @@ pub(crate) fn decode_picture(bytes: &[u8], limits: &Limits) -> Result<Picture, S
             "the picture claims {width}×{height} pixels; the limit is {side} a side and {most} in all"
         ));
     }
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    Ok((width, height))
+}
+
+/// Decodes a picture, or says why it cannot be.
+pub(crate) fn decode_picture(bytes: &[u8], limits: &Limits) -> Result<Picture, String> {
+    let (width, height) = picture_size(bytes, limits)?;
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), picture_format(bytes)?);
     reader.limits(decoder_limits(limits));
     let rgba = reader.decode().map_err(|error| reason(&error))?.into_rgba8().into_raw();
     Ok(Picture { width, height, rgba })

@@ -1,7 +1,9 @@
 //! Pictures of a model to textures of the scene: decoded in parallel, and only
 //! those that a material uses.
 
+use std::ops::Range;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
@@ -10,8 +12,9 @@ use trigon_scene::TextureId;
 
 use crate::error::{LoadError, Place};
 use crate::import::Import;
+use crate::limits::Limits;
 use crate::options::Stage;
-use crate::picture::{Picture, decode_picture, placeholder};
+use crate::picture::{Picture, decode_picture, picture_size, placeholder};
 
 /// A picture to decode, and where its name was found.
 pub(crate) struct Request {
@@ -20,7 +23,22 @@ pub(crate) struct Request {
     /// The file that is to blame when it is broken.
     pub(crate) file: PathBuf,
     pub(crate) place: Place,
-    pub(crate) bytes: Vec<u8>,
+    pub(crate) bytes: PictureBytes,
+}
+
+/// The bytes of a picture file: its own, or some of a buffer that many share.
+pub(crate) enum PictureBytes {
+    Own(Vec<u8>),
+    Shared(Arc<[u8]>, Range<usize>),
+}
+
+impl PictureBytes {
+    fn get(&self) -> &[u8] {
+        match self {
+            Self::Own(bytes) => bytes,
+            Self::Shared(buffer, range) => &buffer[range.clone()],
+        }
+    }
 }
 
 /// Decodes pictures and adds them to the scene, in order. A broken one becomes
@@ -31,29 +49,27 @@ pub(crate) fn add_textures(
 ) -> Result<Vec<TextureId>, LoadError> {
     let done = AtomicUsize::new(0);
     let (path, options) = (import.path, import.options);
-    let decode = |request: &Request| {
+    let fits = within_budget(requests, &options.limits);
+    let decode = |(request, fits): (&Request, Result<(), Fault>)| {
         options.report(
             path,
             Stage::Textures,
             done.fetch_add(1, Ordering::Relaxed) as f32 / requests.len() as f32,
         )?;
-        Ok(decode_picture(&request.bytes, &options.limits).and_then(to_texture))
+        let picture =
+            fits.and_then(|()| decode_picture(request.bytes.get(), &options.limits).map_err(broken));
+        Ok(picture.and_then(|picture| to_texture(picture).map_err(broken)))
     };
-    let decoded: Vec<Result<Texture, String>> =
-        requests.par_iter().map(decode).collect::<Result<_, LoadError>>()?;
+    let decoded: Vec<Result<Texture, Fault>> =
+        requests.par_iter().zip(fits).map(decode).collect::<Result<_, LoadError>>()?;
     let mut ids = Vec::with_capacity(requests.len());
     let mut stand_in = None;
     for (request, result) in requests.iter().zip(decoded) {
         ids.push(match result {
             Ok(texture) => import.scene.add_texture(request.name.clone(), texture),
-            Err(why) => {
+            Err((why, remedy)) => {
                 let what = format!("picture \"{}\" is shown as a checkerboard: {why}", request.name);
-                import.warnings.push_about(
-                    &request.file,
-                    request.place.clone(),
-                    what,
-                    "save it as PNG or JPEG",
-                );
+                import.warnings.push_about(&request.file, request.place.clone(), what, remedy);
                 *stand_in.get_or_insert_with(|| {
                     let texture = to_texture(placeholder()).expect("the placeholder is a small picture");
                     import.scene.add_texture("placeholder", texture)
@@ -62,6 +78,30 @@ pub(crate) fn add_textures(
         });
     }
     Ok(ids)
+}
+
+/// Why a picture is not shown, and what to do about it.
+type Fault = (String, &'static str);
+
+fn broken(why: String) -> Fault {
+    (why, "save it as PNG or JPEG")
+}
+
+/// Which pictures are decoded, by what their headers claim: in order, until all
+/// together would be too many pixels.
+fn within_budget(requests: &[Request], limits: &Limits) -> Vec<Result<(), Fault>> {
+    let mut left = limits.total_pixels;
+    let mut admit = |request: &Request| {
+        let (width, height) = picture_size(request.bytes.get(), limits).map_err(broken)?;
+        let pixels = u64::from(width) * u64::from(height);
+        left = left.checked_sub(pixels).ok_or_else(|| {
+            let most = limits.total_pixels;
+            let why = format!("with it, the model's pictures have more than {most} pixels");
+            (why, "make the pictures smaller")
+        })?;
+        Ok(())
+    };
+    requests.iter().map(&mut admit).collect()
 }
 
 fn to_texture(picture: Picture) -> Result<Texture, String> {

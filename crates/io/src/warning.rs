@@ -36,6 +36,16 @@ impl fmt::Display for Warning {
     }
 }
 
+/// A number with what it counts: `1 vertex`, `2 vertices`.
+pub(crate) fn counted(count: usize, kind: &str) -> String {
+    let plural = match kind {
+        "vertex" => "vertices".to_owned(),
+        "index" => "indices".to_owned(),
+        regular => format!("{regular}s"),
+    };
+    format!("{count} {}", if count == 1 { kind } else { &plural })
+}
+
 /// How many different warnings are kept; a hostile file can make every one
 /// different.
 const MOST_WARNINGS: usize = 200;

@@ -27,6 +27,11 @@ impl<'a> Buffers<'a> {
         Self { binary, read: vec![None; root.buffers.len()] }
     }
 
+    /// How many bytes the buffers that were needed so far have.
+    pub(crate) fn bytes_read(&self) -> usize {
+        self.read.iter().flatten().map(|bytes| bytes.len()).sum()
+    }
+
     /// The bytes of a buffer view, at a checked index. At least as long as the
     /// view claims.
     pub(crate) fn view(
@@ -116,6 +121,6 @@ pub(crate) fn read_reference(
     }
 }
 
-fn kind_of(refusal: &crate::folder::Refusal) -> LoadErrorKind {
+fn kind_of(refusal: &crate::refusal::Refusal) -> LoadErrorKind {
     if refusal.is_forbidden() { LoadErrorKind::Forbidden } else { LoadErrorKind::Read }
 }

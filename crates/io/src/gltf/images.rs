@@ -1,5 +1,6 @@
 //! Images of the document, for the textures that materials use.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use gltf_json::Root;
@@ -14,7 +15,7 @@ use super::references::source_of;
 use crate::error::{LoadError, Place};
 use crate::folder::Lookup;
 use crate::import::Import;
-use crate::textures::{Request, add_textures};
+use crate::textures::{PictureBytes, Request, add_textures};
 
 /// For each image of the document its texture, if it is used and was found.
 pub(crate) struct Images {
@@ -40,19 +41,21 @@ impl Images {
                 ),
             }
         }
-        let (mut requests, mut images) = (Vec::new(), Vec::new());
+        let (mut requests, mut indices) = (Vec::new(), vec![None; root.images.len()]);
+        // Many images may be one picture: it is read, decoded and kept once.
+        let mut known = HashMap::new();
         for image in (0..wanted.len()).filter(|&image| wanted[image]) {
-            if let Some(bytes) = read_image(import, root, buffers, image) {
+            let from = &root.images[image];
+            let source = (&from.uri, from.buffer_view.map(|view| view.value()));
+            indices[image] = *known.entry(source).or_insert_with(|| {
+                let bytes = read_image(import, root, buffers, image)?;
                 let (name, place) = (image_name(root, image), Place::Item("image", image));
                 requests.push(Request { name, file: import.path.to_owned(), place, bytes });
-                images.push(image);
-            }
+                Some(requests.len() - 1)
+            });
         }
-        let mut ids = vec![None; root.images.len()];
-        for (image, id) in images.into_iter().zip(add_textures(import, &requests)?) {
-            ids[image] = Some(id);
-        }
-        Ok(Self { ids })
+        let ids = add_textures(import, &requests)?;
+        Ok(Self { ids: indices.into_iter().map(|index| index.map(|index| ids[index])).collect() })
     }
 
     /// The texture of the scene for a texture of the document.
@@ -85,13 +88,14 @@ fn read_image(
     root: &Root,
     buffers: &mut Buffers<'_>,
     image: usize,
-) -> Option<Vec<u8>> {
+) -> Option<PictureBytes> {
     let place = Place::Item("image", image);
     let from = &root.images[image];
     let result = match (&from.uri, from.buffer_view) {
-        (Some(uri), _) => read_reference(uri, &mut import.folder, Lookup::Forgiving),
+        (Some(uri), _) => read_reference(uri, &mut import.folder, Lookup::Forgiving)
+            .map(|(bytes, respelled)| (PictureBytes::Own(bytes), respelled)),
         (None, Some(view)) => match buffers.view(root, view.value(), &mut import.folder) {
-            Ok((buffer, range)) => Ok((buffer[range].to_vec(), None)),
+            Ok((buffer, range)) => Ok((PictureBytes::Shared(buffer, range), None)),
             Err(unplaced) => Err(unplaced.1),
         },
         (None, None) => {

@@ -4,6 +4,8 @@
 //! arithmetic is on i64 with checks, so no absurd number wraps around into a
 //! valid one.
 
+use crate::warning::counted;
+
 /// How many positions, texture coordinates and normals there are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Counts {
@@ -38,9 +40,9 @@ pub(crate) fn parse_corner(word: &[u8], seen: Counts, total: Counts) -> Result<C
         Resolved::NotANumber => return Err(describe(word, "is not an index")),
         Resolved::Nowhere => {
             return Err(format!(
-                "face index {} leads nowhere; there are {} vertices",
+                "face index {} leads nowhere; the file has {}",
                 quote(position),
-                total.positions
+                counted(total.positions, "vertex")
             ));
         }
     };

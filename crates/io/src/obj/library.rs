@@ -13,9 +13,10 @@ use super::map_options::MapStatement;
 use super::mtl::{MtlMaterial, parse_mtl};
 use super::record::Record;
 use crate::error::{LoadError, Place};
-use crate::folder::{Found, Lookup, Refusal};
+use crate::folder::{Found, Lookup};
 use crate::import::Import;
-use crate::textures::{Request, add_textures};
+use crate::refusal::Refusal;
+use crate::textures::{PictureBytes, Request, add_textures};
 
 /// Adds the materials that faces use. The result has one entry per name of the
 /// record; `None` where no library knows it.
@@ -85,7 +86,8 @@ fn read_libraries(import: &mut Import<'_>, record: &Record) -> (HashMap<String, 
                     continue;
                 }
             };
-            note_respelled(import, &format!("material library \"{name}\""), &found, Place::Line(*line));
+            let (what, place) = (format!("material library \"{name}\""), Place::Line(*line));
+            note_respelled(import, &what, &found, import.path, place);
             for material in parse_mtl(&found.path, &found.bytes, &mut import.warnings) {
                 materials.insert(material.material.name.clone(), material);
             }
@@ -115,10 +117,11 @@ fn find_libraries(import: &mut Import<'_>, names: &str) -> Vec<(String, Result<F
     each.into_iter().map(&mut read).collect()
 }
 
-fn note_respelled(import: &mut Import<'_>, name: &str, found: &Found, place: Place) {
+/// `from` and `place` are the file and the line that have the name.
+fn note_respelled(import: &mut Import<'_>, name: &str, found: &Found, from: &Path, place: Place) {
     if found.respelled {
         let what = format!("{name} was not found; \"{}\" is used instead", found.path.display());
-        import.warnings.push(place, what, "correct the name in the model");
+        import.warnings.push_about(from, place, what, "correct the name there");
     }
 }
 
@@ -144,7 +147,8 @@ impl Textures {
             keys.insert(key, index);
             if index == requests.len() {
                 let (name, place) = (map.file.clone(), Place::Line(*line));
-                requests.push(Request { name, file: material.file.clone(), place, bytes: found.bytes });
+                let bytes = PictureBytes::Own(found.bytes);
+                requests.push(Request { name, file: material.file.clone(), place, bytes });
             }
         }
         let ids = add_textures(import, &requests)?;
@@ -180,7 +184,8 @@ fn find_texture(
     }
     match result {
         Ok(found) => {
-            note_respelled(import, &format!("texture \"{}\"", map.file), &found, Place::Line(line));
+            let what = format!("texture \"{}\"", map.file);
+            note_respelled(import, &what, &found, &material.file, Place::Line(line));
             Some(found)
         }
         Err(refusal) => {

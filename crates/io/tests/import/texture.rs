@@ -1,7 +1,7 @@
 //! Textures: which pixel ends up where, and what stands in for broken ones.
 
 use serde_json::json;
-use trigon_io::{Loaded, Pixels, encode_png, write_png};
+use trigon_io::{Limits, LoadOptions, Loaded, Pixels, encode_png, load, load_image, write_png};
 use trigon_math::{Vec2, Vec3};
 use trigon_scene::{TextureBinding, Wrap};
 
@@ -52,8 +52,7 @@ fn obj_and_gltf_agree_which_way_is_up() {
     std::fs::write(dir.path().join("lib/m.mtl"), "newmtl m\nmap_Kd -bm 1 my tex.png\n").expect("a file");
     let obj = "mtllib lib/m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0.75\nvt 1 0\nvt 0 0\nusemtl m\nf 1/1 2/2 3/3\n";
     std::fs::write(dir.path().join("a.obj"), obj).expect("a file");
-    let from_obj =
-        trigon_io::load(dir.path().join("a.obj"), &trigon_io::LoadOptions::default()).expect("a model");
+    let from_obj = load(dir.path().join("a.obj"), &LoadOptions::default()).expect("a model");
     let (_, mesh) = from_obj.scene.meshes().iter().next().expect("a mesh");
     let uv = mesh.mesh().attributes().uv_sets[0][0];
     assert_eq!(color_at(&from_obj, uv), Vec3::X, "three quarters up, a quarter right is the upper left: red");
@@ -72,8 +71,7 @@ fn obj_scale_and_offset_count_from_below() {
     std::fs::write(dir.path().join("m.mtl"), "newmtl m\nmap_Kd -s 0.5 0.5 -o 0 0.5 t.png\n").expect("a file");
     let obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.5\nusemtl m\nf 1/1 2/1 3/1\n";
     std::fs::write(dir.path().join("a.obj"), obj).expect("a file");
-    let loaded =
-        trigon_io::load(dir.path().join("a.obj"), &trigon_io::LoadOptions::default()).expect("a model");
+    let loaded = load(dir.path().join("a.obj"), &LoadOptions::default()).expect("a model");
     // 0.5 · 0.5 + 0.5 = 0.75 up, 0.25 right.
     assert_eq!(color_at(&loaded, Vec2::splat(0.5)), Vec3::X, "the upper left");
 }
@@ -131,4 +129,41 @@ fn a_set_that_is_missing_is_replaced() {
     let (_, mesh) = loaded.scene.meshes().iter().next().expect("a mesh");
     let sets = &mesh.mesh().attributes().uv_sets;
     assert_eq!(sets[1], sets[0], "the first set stands in");
+}
+
+/// Each picture is within the limits, all together are not.
+#[test]
+fn pictures_are_limited_together() {
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+    let dir = tempfile::tempdir().expect("a folder");
+    let (mut obj, mut mtl) = (format!("mtllib a.mtl\n{square}"), String::new());
+    for index in 0..3 {
+        obj += &format!("usemtl m{index}\nf 1 2 3\n");
+        mtl += &format!("newmtl m{index}\nmap_Kd {index}.png\n");
+        std::fs::write(dir.path().join(format!("{index}.png")), png()).expect("a picture");
+    }
+    std::fs::write(dir.path().join("a.mtl"), mtl).expect("a library");
+    std::fs::write(dir.path().join("a.obj"), obj).expect("a model");
+    let picture = load_image(dir.path().join("0.png"), &Limits::default()).expect("a picture");
+    let one = u64::from(picture.width * picture.height);
+    let limits = Limits { total_pixels: 2 * one, ..Limits::default() };
+    let options = LoadOptions { limits, ..LoadOptions::default() };
+    let loaded = load(dir.path().join("a.obj"), &options).expect("still a model");
+    let warnings = warnings(&loaded);
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    assert!(warnings[0].contains("\"2.png\"") && warnings[0].contains("smaller"), "{}", warnings[0]);
+}
+
+/// The name stands in the library, not in the model.
+#[test]
+fn a_name_that_was_mended_is_shown_where_it_stands() {
+    let dir = tempfile::tempdir().expect("a folder");
+    std::fs::create_dir(dir.path().join("textures")).expect("a folder");
+    let obj = "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+    std::fs::write(dir.path().join("a.obj"), obj).expect("a model");
+    std::fs::write(dir.path().join("a.mtl"), "newmtl m\nmap_Kd C:\\x\\textures\\a.png\n").expect("a library");
+    std::fs::write(dir.path().join("textures/A.png"), png()).expect("a picture");
+    let found = load(dir.path().join("a.obj"), &LoadOptions::default()).expect("a model");
+    warns_once(&found, "a.mtl, line 2");
+    assert!(warnings(&found)[0].contains("A.png"), "{:?}", warnings(&found));
 }

@@ -1,0 +1,90 @@
+//! Why a file is not opened, and which names are refused whatever they lead to.
+
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+use thiserror::Error;
+
+/// Why a name was not opened.
+#[derive(Debug, Error)]
+pub(crate) enum Refusal {
+    #[error("it has a scheme, and only files in the model's folder and data: URIs are opened")]
+    Scheme,
+    #[error("it is an absolute path, and only files in the model's folder are opened")]
+    Absolute,
+    #[error("it leads out of the model's folder")]
+    Outside,
+    #[error("it is not a regular file")]
+    NotAFile,
+    #[error("it is no valid file name")]
+    BadName,
+    #[error("there is no such file")]
+    Missing,
+    #[error("the model came without a folder")]
+    NoFolder,
+    #[error("it has {0} bytes, more than the limit of {1}")]
+    TooLarge(u64, u64),
+    #[error("it cannot be read ({0})")]
+    Read(io::Error),
+}
+
+impl Refusal {
+    pub(crate) fn from_io(error: io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => Self::Missing,
+            io::ErrorKind::InvalidInput | io::ErrorKind::InvalidFilename => Self::BadName,
+            _ => Self::Read(error),
+        }
+    }
+
+    pub(crate) fn is_forbidden(&self) -> bool {
+        matches!(self, Self::Scheme | Self::Absolute | Self::Outside | Self::NotAFile | Self::BadName)
+    }
+
+    pub(crate) fn remedy(&self) -> &'static str {
+        match self {
+            Self::Missing => "put the file there, or export the model again with it",
+            Self::NoFolder => "load the model from a file instead of a stream, or embed everything in a GLB",
+            Self::TooLarge(..) => "use a smaller file, or raise the limit",
+            Self::Read(_) => "check that the file can be read",
+            _ => "put the file beside the model and name it by its relative path",
+        }
+    }
+}
+
+/// The name as a path that goes down only.
+pub(crate) fn relative_path(name: &str) -> Result<PathBuf, Refusal> {
+    if name.trim().is_empty() || name.contains('\0') {
+        return Err(Refusal::BadName);
+    }
+    if has_drive(name) || name.starts_with(['/', '\\']) {
+        return Err(Refusal::Absolute);
+    }
+    if has_scheme(name) {
+        return Err(Refusal::Scheme);
+    }
+    let mut path = PathBuf::new();
+    for component in Path::new(name).components() {
+        match component {
+            Component::Normal(part) => path.push(part),
+            Component::CurDir => {}
+            Component::ParentDir => return Err(Refusal::Outside),
+            Component::RootDir | Component::Prefix(_) => return Err(Refusal::Absolute),
+        }
+    }
+    if path.as_os_str().is_empty() { Err(Refusal::BadName) } else { Ok(path) }
+}
+
+/// `C:` as Windows writes it; a drive is one letter, a scheme at least two.
+fn has_drive(name: &str) -> bool {
+    let mut chars = name.chars();
+    chars.next().is_some_and(|c| c.is_ascii_alphabetic()) && chars.next() == Some(':')
+}
+
+/// `scheme:` as RFC 3986, section 3.1 writes it.
+fn has_scheme(name: &str) -> bool {
+    name.split_once(':').is_some_and(|(scheme, _)| {
+        scheme.starts_with(|c: char| c.is_ascii_alphabetic())
+            && scheme.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '+' | '-' | '.'))
+    })
+}
