@@ -17,6 +17,13 @@ use crate::folder::Folder;
 /// and nothing else bounds them.
 const MOST_ZEROS: usize = 1 << 20;
 
+/// Strips of one-byte indices make three corners of a byte; the rest is room
+/// for primitives that share vertices.
+const CORNERS_PER_BYTE: usize = 8;
+
+/// What even a small file may make.
+const CORNERS_ALWAYS: usize = 1 << 24;
+
 /// Reads accessors of one document.
 pub(crate) struct Accessors<'a, 'b> {
     pub(crate) root: &'a Root,
@@ -24,6 +31,11 @@ pub(crate) struct Accessors<'a, 'b> {
     pub(crate) folder: &'a mut Folder,
     /// The most elements that one accessor may have.
     pub(crate) most: usize,
+    /// How many vertices and corners primitives may make in all, whatever the
+    /// bytes say.
+    pub(crate) most_corners: usize,
+    /// How many they have made.
+    pub(crate) spent: &'a mut usize,
 }
 
 /// Where the elements of an accessor lie in the bytes of a view.
@@ -42,6 +54,21 @@ impl Accessors<'_, '_> {
     /// How many elements an accessor claims.
     pub(crate) fn count(&self, index: usize) -> u64 {
         self.root.accessors[index].count.0
+    }
+
+    /// Accounts for the vertices or corners that a primitive makes of bytes.
+    /// Thousands of primitives may share one accessor and so ask for thousands
+    /// of times what the file holds; no honest file goes far in that.
+    pub(crate) fn spend(&mut self, corners: usize, place: &Place) -> Result<(), Unplaced> {
+        let sharing = self.buffers.bytes_read().saturating_mul(CORNERS_PER_BYTE).max(CORNERS_ALWAYS);
+        let most = sharing.min(self.most_corners);
+        *self.spent = self.spent.saturating_add(corners);
+        if *self.spent <= most {
+            return Ok(());
+        }
+        let what = format!("the primitives up to here make more than {most} corners of what the file holds");
+        let remedy = "let nodes share a mesh instead of repeating its primitives";
+        Err(Unplaced(place.clone(), Unread { kind: LoadErrorKind::Limit, what, remedy }))
     }
 
     /// Decodes an accessor of a vector type to f32. `allowed` are the types

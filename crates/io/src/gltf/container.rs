@@ -78,7 +78,9 @@ fn read_chunks(bytes: &[u8]) -> Result<Container<'_>, (usize, String)> {
         }
         at = next;
     }
-    Ok(Container { json, binary })
+    // Some exporters fill up with zeros where spaces belong.
+    let text = json.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
+    Ok(Container { json: &json[..text], binary })
 }
 
 /// A chunk's kind, its data, and where the next one starts.

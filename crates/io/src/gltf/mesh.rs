@@ -15,9 +15,9 @@ use trigon_mesh::{Attributes, Mesh, MeshBuilder};
 
 use super::accessor::{Accessors, valid};
 use super::buffers::{Unplaced, Unread};
-use super::primitive::{Elements, elements};
+use super::primitive::{Elements, corner_count, elements};
 use crate::error::{LoadErrorKind, Place};
-use crate::warning::Warnings;
+use crate::warning::{Warnings, counted};
 
 /// A mesh, and what its slots hold.
 pub(crate) struct BuiltMesh {
@@ -56,7 +56,7 @@ pub(crate) fn build_mesh(
         draft.flat,
         place(),
         "a triangle has fewer than 3 different vertices and is left out",
-        "nothing to do; it has no area",
+        "remove doubles and export again if a hole shows",
     );
     Ok(draft.finish())
 }
@@ -100,8 +100,10 @@ fn read_primitive(
         Some(indices) => accessors.indices(indices.value())?,
         None => (0..positions.len() as u32).collect(),
     };
+    accessors.spend(positions.len().max(corner_count(mode, indices.len())), &place)?;
     if let Some(beyond) = indices.iter().find(|&&vertex| vertex as usize >= positions.len()) {
-        let what = format!("index {beyond} leads nowhere; there are {} vertices", positions.len());
+        let what =
+            format!("index {beyond} leads nowhere; the primitive has {}", counted(positions.len(), "vertex"));
         return Err(Unplaced(
             place,
             Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again" },
@@ -109,7 +111,10 @@ fn read_primitive(
     }
     let elements = elements(mode, &indices);
     if elements.left_over > 0 {
-        let what = format!("{} indices at the end make no whole element", elements.left_over);
+        let what = format!(
+            "{} at the end left over, too few for a whole element",
+            counted(elements.left_over, "index")
+        );
         warnings.push(place.clone(), what, "export the model again");
     }
     let mut optional = Optional { accessors, vertices: positions.len(), place: &place, warnings };

@@ -22,13 +22,15 @@ mod references;
 
 use std::collections::BTreeSet;
 
+use trigon_mesh::Mesh;
+
 use accessor::Accessors;
 use buffers::Buffers;
 use document::Document;
 use hierarchy::Hierarchy;
 use mesh::BuiltMesh;
 
-use crate::error::{LoadError, LoadErrorKind};
+use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::import::Import;
 use crate::options::Stage;
 
@@ -72,29 +74,57 @@ fn build_meshes(
     let used: BTreeSet<usize> =
         hierarchy.order.iter().filter_map(|&node| Some(root.nodes[node].mesh?.value())).collect();
     let limits = &import.options.limits;
-    let (mut corners, mut drawable) = (0, false);
+    let (mut spent, mut drawable) = (0, false);
     for (done, &index) in used.iter().enumerate() {
         import.options.report(import.path, Stage::Geometry, done as f32 / used.len() as f32)?;
         let most = limits.vertices.max(limits.corners);
-        let mut accessors = Accessors { root, buffers, folder: &mut import.folder, most };
+        let mut accessors = Accessors {
+            root,
+            buffers,
+            folder: &mut import.folder,
+            most,
+            most_corners: limits.corners,
+            spent: &mut spent,
+        };
         let sets = |material| materials::texture_set(root, material);
         let built = mesh::build_mesh(&mut accessors, index, &sets, &mut import.warnings)
             .map_err(|unplaced| unplaced.into_error(import.path))?;
         let mesh = &built.mesh;
-        corners += mesh.corner_count();
-        if mesh.vertex_count() > limits.vertices || corners > limits.corners {
-            return Err(LoadError::limit(
-                import.path,
-                format!(
-                    "the meshes have more than {} vertices or {} corners",
-                    limits.vertices, limits.corners
-                ),
-            ));
+        if mesh.vertex_count() > limits.vertices {
+            let what = format!("it has more than {} vertices", limits.vertices);
+            return Err(LoadError::limit(import.path, what).at(Place::Item("mesh", index)));
         }
         drawable |= mesh.face_count() + mesh.loose_edges().len() + mesh.loose_points().len() > 0;
         meshes[index] = Some(built);
     }
-    if drawable { Ok(meshes) } else { Err(nothing(import, root, used.len())) }
+    if !drawable {
+        return Err(nothing(import, root, used.len()));
+    }
+    check_placed(import, root, hierarchy, &meshes)?;
+    Ok(meshes)
+}
+
+/// Holds what the nodes place to the limit: many copies of one mesh take no
+/// memory here, but the picture needs every one.
+fn check_placed(
+    import: &Import<'_>,
+    root: &gltf_json::Root,
+    hierarchy: &Hierarchy,
+    meshes: &[Option<BuiltMesh>],
+) -> Result<(), LoadError> {
+    let corners =
+        |mesh: &Mesh| mesh.corner_count() + 2 * mesh.loose_edges().len() + mesh.loose_points().len();
+    let each: Vec<usize> =
+        meshes.iter().map(|built| built.as_ref().map_or(0, |built| corners(&built.mesh))).collect();
+    let (mut placed, limit) = (0_usize, import.options.limits.corners);
+    for &node in &hierarchy.order {
+        placed = placed.saturating_add(root.nodes[node].mesh.map_or(0, |mesh| each[mesh.value()]));
+        if placed > limit {
+            let what = format!("with it, the nodes place more than {limit} corners");
+            return Err(LoadError::limit(import.path, what).at(Place::Item("node", node)));
+        }
+    }
+    Ok(())
 }
 
 /// Why there is nothing to draw: the first warning is usually the reason.

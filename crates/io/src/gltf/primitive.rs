@@ -13,6 +13,16 @@ pub(crate) struct Elements {
     pub(crate) left_over: usize,
 }
 
+/// How many corners, ends and points a mode makes of some indices, or more.
+pub(crate) fn corner_count(mode: Mode, indices: usize) -> usize {
+    let each = match mode {
+        Mode::Points | Mode::Lines | Mode::Triangles => 1,
+        Mode::LineStrip | Mode::LineLoop => 2,
+        Mode::TriangleStrip | Mode::TriangleFan => 3,
+    };
+    indices.saturating_mul(each)
+}
+
 /// Sorts indices into elements. Strips turn every second triangle round, so
 /// that all face the same way.
 pub(crate) fn elements(mode: Mode, indices: &[u32]) -> Elements {

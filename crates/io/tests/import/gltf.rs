@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 use trigon_camera::Projection;
-use trigon_io::Loaded;
+use trigon_io::{LoadErrorKind, LoadOptions, Loaded, load, load_from_slice};
 use trigon_math::{DVec3, Vec2, Vec3, Vec4};
 use trigon_scene::{AlphaMode, LightKind, Shading};
 
@@ -255,7 +255,10 @@ fn indices_are_checked() {
         let mut doc = Doc::square();
         let accessor = doc.accessor(component, "SCALAR", 3, &bytes);
         doc.primitive()["indices"] = json!(accessor);
-        assert!(doc.refused().contains("leads nowhere; there are 4 vertices"), "component {component}");
+        assert!(
+            doc.refused().contains("leads nowhere; the primitive has 4 vertices"),
+            "component {component}"
+        );
     }
     let mut doc = Doc::square();
     doc.primitive()["indices"] = json!(0);
@@ -415,15 +418,51 @@ fn data_uris_are_buffers_and_other_uris_are_not_followed() {
         "/dev/zero",
     ] {
         std::fs::write(&path, with_uri(&mut doc, uri)).expect("a file");
-        let error =
-            trigon_io::load(&path, &trigon_io::LoadOptions::default()).map(|_| ()).expect_err("not followed");
+        let error = load(&path, &LoadOptions::default()).map(|_| ()).expect_err("not followed");
         assert!(error.to_string().contains("buffer 0"), "{uri}: {error}");
     }
     std::fs::write(dir.path().join("a b.bin"), &doc.bytes).expect("a file");
     for uri in ["a b.bin", "a%20b.bin", "./a%20b.bin"] {
         std::fs::write(&path, with_uri(&mut doc, uri)).expect("a file");
-        let loaded = trigon_io::load(&path, &trigon_io::LoadOptions::default())
-            .unwrap_or_else(|error| panic!("{uri}: {error}"));
+        let loaded = load(&path, &LoadOptions::default()).unwrap_or_else(|error| panic!("{uri}: {error}"));
         assert_eq!(loaded.files, [path.clone(), dir.path().join("a b.bin")], "{uri}: what was read");
     }
+}
+
+/// A few bytes that thousands of primitives or nodes use must not become
+/// gigabytes.
+#[test]
+fn sharing_does_not_multiply_without_bound() {
+    let limited = |doc: &Doc| {
+        let options = LoadOptions::default();
+        let error = load_from_slice("a.glb", &doc.glb(), &options).map(|_| ()).expect_err("too much");
+        assert_eq!(error.kind, LoadErrorKind::Limit, "{error}");
+    };
+    // Points have no corners of faces, and count all the same.
+    for mode in [0, 3, 4, 6] {
+        let mut doc = Doc::square();
+        let zeros = json!({"componentType": 5126, "count": 1 << 20, "type": "VEC3"});
+        let position = push(&mut doc.json["accessors"], zeros);
+        let primitive = json!({"mode": mode, "attributes": {"POSITION": position}});
+        doc.json["meshes"][0]["primitives"] = json!(vec![primitive; 17]);
+        limited(&doc);
+    }
+    let mut doc = Doc::square();
+    let indices = doc.accessor(5121, "SCALAR", 60_000, &[0, 1, 2].repeat(20_000));
+    doc.primitive()["indices"] = json!(indices);
+    doc.json["nodes"] = json!(vec![json!({"mesh": 0}); 2_000]);
+    doc.json["scenes"] = json!([{"nodes": (0..2_000).collect::<Vec<_>>()}]);
+    limited(&doc);
+}
+
+/// Some exporters fill the JSON chunk up with zeros instead of spaces.
+#[test]
+fn zeros_after_the_json_are_padding() {
+    let mut glb = Doc::square().glb();
+    let json = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
+    glb.splice(20 + json..20 + json, [0; 4]);
+    let (length, json) = (glb.len() as u32, json as u32 + 4);
+    glb[8..12].copy_from_slice(&length.to_le_bytes());
+    glb[12..16].copy_from_slice(&json.to_le_bytes());
+    loaded("a.glb", &glb);
 }
