@@ -5,7 +5,7 @@ use std::path::Path;
 use gltf_json::Root;
 
 use crate::error::{LoadError, LoadErrorKind, Place};
-use crate::warning::Warnings;
+use crate::warning::{Warnings, counted};
 
 /// Read in full.
 const READ: &[&str] =
@@ -44,7 +44,7 @@ pub(crate) fn check_extensions(path: &Path, root: &Root, warnings: &mut Warnings
             warnings.push(
                 Place::Whole,
                 format!("the extension {name} is not drawn yet"),
-                "nothing to do: the rest of the model is drawn",
+                "bake what it adds into the base colour or the mesh if it matters",
             );
         }
     }
@@ -66,11 +66,10 @@ fn remedy(missing: &[&str]) -> &'static str {
 
 /// Says once each what the file has and trigon does not draw yet.
 pub(crate) fn warn_of_undrawn(root: &Root, warnings: &mut Warnings) {
-    let remedy = "nothing to do: the rest of the model is drawn";
     let mut warn = |count: usize, kind: &str, what: &str| {
         if count > 0 {
-            let plural = if count == 1 { "" } else { "s" };
-            warnings.push(Place::Whole, format!("{count} {kind}{plural} {what}"), remedy);
+            let remedy = "export the model in the pose to be shown";
+            warnings.push(Place::Whole, format!("{} {what}", counted(count, kind)), remedy);
         }
     };
     let primitives = || root.meshes.iter().flat_map(|mesh| &mesh.primitives);
@@ -82,7 +81,7 @@ pub(crate) fn warn_of_undrawn(root: &Root, warnings: &mut Warnings) {
     warn(skinned, "skin", "not followed yet: the bind pose is shown");
     warn(
         primitives().filter(is_morphed).count(),
-        "set",
-        "of morph targets not drawn yet: the base shape is shown",
+        "primitive",
+        "with morph targets that are not drawn yet: the base shape is shown",
     );
 }

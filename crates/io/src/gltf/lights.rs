@@ -39,7 +39,7 @@ pub(crate) fn convert_light(root: &Root, node: &Node, warnings: &mut Warnings) -
             warnings.push(
                 place(),
                 "spot lights are not drawn yet; it shines in all directions",
-                "nothing to do",
+                "aim at the same effect with a point or directional light",
             );
             Light::point(intensity)
         }

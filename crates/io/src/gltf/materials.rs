@@ -105,7 +105,7 @@ fn warn_of_textures(from: &gltf_json::Material, index: usize, warnings: &mut War
         warnings.push(
             place,
             format!("a {name} texture is not drawn yet"),
-            "nothing to do: the base colour is drawn",
+            "bake its effect into the base colour texture if it matters",
         );
     }
 }

@@ -11,9 +11,11 @@
 use std::io::{self, BufRead, Read};
 use std::path::Path;
 
+use super::corner::write_corner;
 use super::index::{Corner, Counts, parse_corner};
 use super::lines::{Lines, split_keyword, words};
 use super::numbers::copy_numbers;
+use super::oddities::Oddities;
 use super::record::Record;
 use crate::error::{LoadError, Place};
 use crate::options::{LoadOptions, Stage};
@@ -40,31 +42,6 @@ pub(crate) enum Stop {
     /// [`Colors::Present`].
     LateColor,
     Error(LoadError),
-}
-
-/// Counts of what is worth one warning each, with the line of the first.
-#[derive(Debug, Default)]
-struct Oddities {
-    surplus: Tally,
-    colorless: Tally,
-    short_faces: Tally,
-    dropped_indices: Tally,
-    unknown: Tally,
-}
-
-#[derive(Clone, Copy, Debug, Default)]
-struct Tally {
-    count: usize,
-    line: u64,
-}
-
-impl Tally {
-    fn add(&mut self, line: u64) {
-        if self.count == 0 {
-            self.line = line;
-        }
-        self.count += 1;
-    }
 }
 
 /// Where to read from and what is known beforehand.
@@ -134,31 +111,7 @@ impl<'a> Feed<'a> {
 
     /// Warns of what was odd, and hands over what was recorded.
     pub(crate) fn finish(self, warnings: &mut Warnings) -> (Record, Option<u64>) {
-        let odd = &self.oddities;
-        let mut warn = |tally: Tally, what: &str, remedy: &str| {
-            warnings.push_counted(tally.count, Place::Line(tally.line), what, remedy);
-        };
-        warn(
-            odd.surplus,
-            "a vertex has more numbers than trigon reads",
-            "nothing to do; the rest is ignored",
-        );
-        warn(
-            odd.colorless,
-            "a vertex has no colour while others have; it is white",
-            "export colours for all vertices or for none",
-        );
-        warn(
-            odd.short_faces,
-            "a face has fewer than 3 vertices and is left out",
-            "remove it, or write edges with `l` and points with `p`",
-        );
-        warn(
-            odd.dropped_indices,
-            "a texture coordinate or normal index leads nowhere and is ignored",
-            "export the model again",
-        );
-        warn(odd.unknown, "curves and surfaces are not drawn", "convert them to polygons");
+        self.oddities.warn(warnings);
         (self.record, self.non_finite_line)
     }
 
@@ -332,38 +285,6 @@ impl<'a> Feed<'a> {
     }
 }
 
-/// Writes a corner for tobj. Every corner gets every index that the file has
-/// at all: tobj would otherwise repeat the one before. Index 1 is the "none"
-/// that the feed put in front, so all others are one higher than in the file.
-fn write_corner(out: &mut Vec<u8>, corner: &Corner, total: Counts) {
-    out.push(b' ');
-    write_number(out, corner.position);
-    if total.coordinates > 0 {
-        out.push(b'/');
-        write_number(out, corner.coordinate + 1);
-    }
-    if total.normals > 0 {
-        out.extend_from_slice(if total.coordinates > 0 { b"/" } else { b"//" });
-        write_number(out, corner.normal + 1);
-    }
-}
-
-/// Decimal digits; `write!` takes three times as long, and this is a third of
-/// the work on a large file.
-fn write_number(out: &mut Vec<u8>, mut number: usize) {
-    let mut digits = [0; 20];
-    let mut at = digits.len();
-    loop {
-        at -= 1;
-        digits[at] = b'0' + (number % 10) as u8;
-        number /= 10;
-        if number == 0 {
-            break;
-        }
-    }
-    out.extend_from_slice(&digits[at..]);
-}
-
 impl Read for Feed<'_> {
     fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
         let available = self.fill_buf()?;
@@ -395,19 +316,4 @@ impl BufRead for Feed<'_> {
         self.taken_lines += taken.iter().rev().take(1).filter(|&&byte| byte == b'\n').count();
         self.taken += amount;
     }
-}
-
-/// Counts vertices, coordinates and normals ahead, so that indices can be
-/// checked at the line that has them.
-pub(crate) fn count_ahead(text: &[u8]) -> Counts {
-    let mut counts = Counts::default();
-    for (_, line) in Lines::new(text) {
-        match split_keyword(&line) {
-            Some((b"v", _)) => counts.positions += 1,
-            Some((b"vt", _)) => counts.coordinates += 1,
-            Some((b"vn", _)) => counts.normals += 1,
-            _ => {}
-        }
-    }
-    counts
 }

@@ -1,10 +1,11 @@
 //! Wavefront OBJ and MTL.
 //!
-//! `lines` → `feed` (checks, `index`, `numbers`, `record`) → tobj (`parse`) →
+//! `lines` → `feed` (checks, `index`, `numbers`, `corner`, `oddities`, `record`) → tobj (`parse`) →
 //! `build` (polygons, one node for each object or group). Materials come from
 //! `mtl`, by way of `library`.
 
 mod build;
+mod corner;
 mod feed;
 mod index;
 mod library;
@@ -12,6 +13,7 @@ mod lines;
 mod map_options;
 mod mtl;
 mod numbers;
+mod oddities;
 mod parse;
 mod record;
 mod smoothing;

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use super::feed::{Colors, Feed, Source, Stop, count_ahead};
-use super::lines::plain_bytes;
+use super::feed::{Colors, Feed, Source, Stop};
+use super::index::Counts;
+use super::lines::{Lines, plain_bytes, split_keyword};
 use super::record::Record;
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::options::LoadOptions;
@@ -50,6 +51,21 @@ pub(crate) fn parse(
     )
 }
 
+/// Counts vertices, coordinates and normals ahead, so that indices can be
+/// checked at the line that has them.
+fn count_ahead(text: &[u8]) -> Counts {
+    let mut counts = Counts::default();
+    for (_, line) in Lines::new(text) {
+        match split_keyword(&line) {
+            Some((b"v", _)) => counts.positions += 1,
+            Some((b"vt", _)) => counts.coordinates += 1,
+            Some((b"vn", _)) => counts.normals += 1,
+            _ => {}
+        }
+    }
+    counts
+}
+
 fn run(source: Source<'_>, colors: Colors, warnings: &mut Warnings) -> Result<Parsed, Stop> {
     let mut feed = Feed::new(source, colors);
     let result = tobj::load_obj_buf(&mut feed, &OPTIONS, |_| Ok(Default::default()));
@@ -66,8 +82,13 @@ fn run(source: Source<'_>, colors: Colors, warnings: &mut Warnings) -> Result<Pa
 }
 
 fn parse_error(path: &Path, error: tobj::LoadError, line: u64) -> LoadError {
-    LoadError::malformed(path, error.to_string(), "mend the line, or export the model again")
-        .at(Place::Line(line))
+    let what = match error {
+        tobj::LoadError::PositionParseError => "a coordinate is no number".to_owned(),
+        tobj::LoadError::TexcoordParseError => "a texture coordinate is no number".to_owned(),
+        tobj::LoadError::NormalParseError => "a normal has what is no number".to_owned(),
+        other => other.to_string(),
+    };
+    LoadError::malformed(path, what, "mend the line, or export the model again").at(Place::Line(line))
 }
 
 fn nothing(path: &Path, vertices: usize) -> LoadError {
