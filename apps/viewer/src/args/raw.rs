@@ -71,7 +71,7 @@ pub(crate) struct RawArgs {
     pub(crate) multi_file_mode: MultiFileMode,
 
     /// Refuse files larger than this many MiB
-    #[arg(long, value_name = "MIB", value_parser = values::mebibytes, help_heading = "Files")]
+    #[arg(long, value_name = "MIB", value_parser = values::mebibytes, allow_negative_numbers = true, help_heading = "Files")]
     pub(crate) max_size: Option<u64>,
 
     /// Load the files and say what is in them, but draw nothing
@@ -103,11 +103,11 @@ pub(crate) struct RawArgs {
     pub(crate) camera_view_up: Option<DVec3>,
 
     /// Angle between the lower and the upper edge of the picture, in degrees
-    #[arg(long, value_name = "DEGREES", default_value = "30", value_parser = values::view_angle, help_heading = "Camera")]
+    #[arg(long, value_name = "DEGREES", default_value = "30", value_parser = values::view_angle, allow_negative_numbers = true, help_heading = "Camera")]
     pub(crate) camera_view_angle: f64,
 
     /// How much of the picture the model fills: 0.9 leaves a margin of a tenth
-    #[arg(long, value_name = "FACTOR", default_value = "0.9", value_parser = values::zoom, help_heading = "Camera")]
+    #[arg(long, value_name = "FACTOR", default_value = "0.9", value_parser = values::zoom, allow_negative_numbers = true, help_heading = "Camera")]
     pub(crate) camera_zoom_factor: f64,
 
     /// Then turn the camera this far to the right around the model, in degrees
@@ -135,7 +135,7 @@ pub(crate) struct RawArgs {
     pub(crate) style: Option<DrawStyle>,
 
     /// Width of edges and lines in pixels
-    #[arg(long, value_name = "PIXELS", default_value = "1", value_parser = values::line_width, help_heading = "Look")]
+    #[arg(long, value_name = "PIXELS", default_value = "1", value_parser = values::line_width, allow_negative_numbers = true, help_heading = "Look")]
     pub(crate) line_width: f32,
 
     /// Smooth outlines by drawing several samples per pixel
@@ -143,7 +143,7 @@ pub(crate) struct RawArgs {
     pub(crate) anti_aliasing: AntiAliasing,
 
     /// Samples along each side of a pixel: 3 means 9 per pixel (not in F3D) [default: 3]
-    #[arg(long, value_name = "1-4", value_parser = clap::value_parser!(u32).range(1..=4), help_heading = "Look")]
+    #[arg(long, value_name = "1-4", value_parser = clap::value_parser!(u32).range(1..=4), allow_negative_numbers = true, help_heading = "Look")]
     pub(crate) samples: Option<u32>,
 
     /// Colour of the model; textures are tinted by it
@@ -151,7 +151,7 @@ pub(crate) struct RawArgs {
     pub(crate) color: Option<Vec3>,
 
     /// Opacity of the model, 0 to 1 or 0% to 100%
-    #[arg(long, value_name = "RATIO", value_parser = values::unit_ratio, help_heading = "Look")]
+    #[arg(long, value_name = "RATIO", value_parser = values::unit_ratio, allow_negative_numbers = true, help_heading = "Look")]
     pub(crate) opacity: Option<f32>,
 
     /// Show the model's colours as they are, without light
@@ -159,7 +159,7 @@ pub(crate) struct RawArgs {
     pub(crate) unlit: Option<bool>,
 
     /// Make every light this many times as bright
-    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = values::intensity, help_heading = "Look")]
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = values::intensity, allow_negative_numbers = true, help_heading = "Look")]
     pub(crate) light_intensity: f32,
 
     /// Whether the back sides of faces are drawn; default is what the file says
@@ -175,7 +175,7 @@ pub(crate) struct RawArgs {
     pub(crate) no_background: Option<bool>,
 
     /// Use at most this many threads; the picture is the same with any number [default: one per core]
-    #[arg(long, value_name = "N", value_parser = values::threads, help_heading = "Program")]
+    #[arg(long, value_name = "N", value_parser = values::threads, allow_negative_numbers = true, help_heading = "Program")]
     pub(crate) threads: Option<std::num::NonZeroUsize>,
 
     /// How much to say on standard error

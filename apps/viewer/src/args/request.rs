@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use trigon_camera::AxisView;
+use trigon_math::Vec3;
 use trigon_scene::{Background, RenderSettings, Style};
 
 use super::output::Destination;
@@ -183,6 +184,9 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
     } else if let Some(color) = raw.background_color {
         settings.background = Background::Color(color);
     }
+    if let Some(color) = raw.background_color.filter(|_| raw.no_background != Some(true)) {
+        settings.edge_color = edges_before(color, settings.edge_color);
+    }
     settings.style = match (raw.style, raw.edges) {
         (Some(DrawStyle::Edges), _) | (None, Some(true)) => Style::SurfaceWithEdges,
         (Some(DrawStyle::Wireframe), _) => Style::Wireframe,
@@ -193,6 +197,17 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
     settings.light_intensity = raw.light_intensity;
     settings.threads = raw.threads;
     Ok(settings)
+}
+
+/// The colour of edges before a background: the usual dark one, or a light one
+/// where it would not be seen. Linear RGB.
+fn edges_before(background: Vec3, usual: Vec3) -> Vec3 {
+    /// Rec. 709: what each channel adds to the brightness.
+    const BRIGHTNESS: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
+    /// Here dark and light edges have the same contrast: the root of 0.05 × 1.05, less 0.05, as WCAG 2 has it.
+    const EQUALLY_FAR: f32 = 0.18;
+    const LIGHT: Vec3 = Vec3::splat(0.8);
+    if background.dot(BRIGHTNESS) < EQUALLY_FAR { LIGHT } else { usual }
 }
 
 #[cfg(test)]
@@ -294,6 +309,38 @@ mod tests {
         }
         assert!(refusal("--anti-aliasing=none --samples=2").contains("one sample"), "explained");
         assert!(refusal("--samples=5").contains("1..=4"), "explained");
+    }
+
+    /// Dark edges on `--background-color=black` made an empty picture.
+    #[test]
+    fn edges_can_be_seen_on_a_dark_background() {
+        let edges = |flags: &str| request(flags).expect("fine").settings.edge_color;
+        let usual = edges("--style=wireframe");
+        assert!(usual.max_element() < 0.1, "dark on the grey gradient");
+        for color in ["black", "navy", "#222"] {
+            let color = edges(&format!("--style=hidden-line --background-color={color}"));
+            assert!(color.min_element() > 0.5, "light, not {color}");
+        }
+        assert_eq!(edges("--edges --background-color=white"), usual, "dark on white");
+        assert_eq!(edges("--edges --background-color=black --no-background"), usual, "no background");
+    }
+
+    /// "unexpected argument '-1'" told nobody what was wrong.
+    #[test]
+    fn a_negative_number_is_named_as_the_mistake() {
+        for flag in [
+            "--light-intensity",
+            "--opacity",
+            "--line-width",
+            "--camera-zoom-factor",
+            "--camera-view-angle",
+            "--samples",
+            "--threads",
+            "--max-size",
+        ] {
+            let message = refusal(&format!("{flag} -1"));
+            assert!(message.contains("invalid value '-1'"), "{flag}: {message}");
+        }
     }
 
     #[test]
