@@ -9,20 +9,19 @@ use crate::model::Source;
 use crate::report::Reporter;
 
 /// `--list-readers`: one line per format.
-pub(crate) fn readers() -> u8 {
+pub(crate) fn readers(reporter: Reporter) -> u8 {
     let line = |reader: &trigon_io::Reader| {
         let endings: Vec<String> = reader.extensions.iter().map(|ending| format!(".{ending}")).collect();
         format!("{:12} {:24} {}", endings.join(" "), reader.name, reader.reads)
     };
-    print_lines(trigon_io::readers().iter().map(line))
+    print_lines(trigon_io::readers().iter().map(line), reporter)
 }
 
 /// `--list-bindings`: one line per key.
 pub(crate) fn bindings(reporter: Reporter) -> u8 {
     #[cfg(feature = "window")]
     {
-        let _ = reporter;
-        print_lines(crate::window::bindings())
+        print_lines(crate::window::bindings(), reporter)
     }
     #[cfg(not(feature = "window"))]
     {
@@ -37,7 +36,7 @@ pub(crate) fn inspect(request: &Request, reporter: Reporter) -> u8 {
     for source in Source::all(request) {
         let outcome = loading::load_aloud(&source, request, reporter).map(|model| {
             let facts = model.summary().lines().into_iter().map(|fact| format!("  {fact}"));
-            print_lines(std::iter::once(source.title()).chain(facts))
+            print_lines(std::iter::once(source.title()).chain(facts), reporter)
         });
         let code = outcome.unwrap_or_else(|failure| {
             reporter.error(&failure);
@@ -49,12 +48,17 @@ pub(crate) fn inspect(request: &Request, reporter: Reporter) -> u8 {
 }
 
 /// Writes lines to standard output; whoever closes it early wanted no more.
-fn print_lines(lines: impl IntoIterator<Item = String>) -> u8 {
+fn print_lines(lines: impl IntoIterator<Item = String>, reporter: Reporter) -> u8 {
     let mut stdout = io::stdout().lock();
     let outcome = lines.into_iter().try_for_each(|line| writeln!(stdout, "{line}"));
     match outcome {
         Ok(()) => 0,
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,
-        Err(_) => 1,
+        Err(error) => {
+            reporter.error(format_args!(
+                "standard output cannot be written ({error}); check that where it leads is writable and has room"
+            ));
+            1
+        }
     }
 }

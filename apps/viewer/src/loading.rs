@@ -10,7 +10,7 @@ use trigon_scene::Scene;
 
 use crate::args::Request;
 use crate::failure::Failure;
-use crate::model::{Model, Source};
+use crate::model::{Model, Source, short};
 use crate::report::Reporter;
 
 /// Quick loads flash no bar.
@@ -84,9 +84,9 @@ fn check_size(path: &Path, max_bytes: Option<u64>) -> Result<(), Failure> {
     if metadata.len() <= most {
         return Ok(());
     }
-    let (size, most) = (metadata.len() as f64 / MIB, most as f64 / MIB);
+    let [size, most] = [metadata.len(), most].map(|bytes| short(bytes as f64 / MIB));
     Err(Failure::work(format!(
-        "{}: is {size:.1} MiB, more than --max-size={most} allows; raise it if you want this file",
+        "{}: is {size} MiB, more than --max-size={most} allows; raise it if you want this file",
         path.display()
     )))
 }

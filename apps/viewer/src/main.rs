@@ -36,7 +36,7 @@ fn main() -> ExitCode {
         Mode::Picture(destination) => picture::run(&request, destination, reporter),
         Mode::Window => look_at(&request, reporter),
         Mode::Inspect => lists::inspect(&request, reporter),
-        Mode::ListReaders => lists::readers(),
+        Mode::ListReaders => lists::readers(reporter),
         Mode::ListBindings => lists::bindings(reporter),
     })
 }

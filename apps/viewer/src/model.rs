@@ -139,8 +139,8 @@ impl Summary {
     }
 }
 
-/// A length to a ten-thousandth of itself, without needless zeros.
-fn short(length: f64) -> String {
+/// A length or another amount to a ten-thousandth of itself, without needless zeros.
+pub(crate) fn short(length: f64) -> String {
     if length != 0.0 && !(1e-3..1e7).contains(&length) {
         return format!("{length:.3e}");
     }

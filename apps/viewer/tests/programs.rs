@@ -285,3 +285,24 @@ fn the_same_model_gives_the_same_bytes() {
     assert_eq!(png_size(&one), (150, 90), "a picture");
     assert!(one == bytes(2) && one == bytes(7), "whatever the number of threads");
 }
+
+/// It was "0.0 MiB, more than --max-size=0.0000095367431640625 allows".
+#[test]
+fn a_small_limit_is_named_in_readable_numbers() {
+    let folder = Folder::new();
+    folder.write("big.obj", &" ".repeat(4096));
+    let said = folder.failed("big.obj --max-size=0.001 --output big.png");
+    assert!(said.contains("is 0.003906 MiB"), "the size: {said}");
+    assert!(said.contains("--max-size=9.995e-4"), "the limit, in whole bytes: {said}");
+}
+
+/// The exit code was all that told of it.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_list_that_cannot_be_written_says_so() {
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
+    let output = Folder::new().command("--list-readers").stdout(full).output().expect("the viewer starts");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "said: {said}");
+    assert!(said.contains("standard output cannot be written"), "said: {said}");
+}

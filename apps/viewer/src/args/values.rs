@@ -109,7 +109,7 @@ pub(crate) fn view_angle(text: &str) -> Result<f64, String> {
 pub(crate) fn zoom(text: &str) -> Result<f64, String> {
     ratio(text)
         .filter(|factor| (1e-6..=1e6).contains(factor))
-        .ok_or_else(|| "write a number greater than 0, such as 0.9".to_owned())
+        .ok_or_else(|| "write a number from 0.000001 to 1000000, such as 0.9".to_owned())
 }
 
 /// A number from 0 to 1.
@@ -228,6 +228,15 @@ mod tests {
         }
         for text in ["", "1.5", "-1", "150%", "1/0", "nan", "half"] {
             assert!(unit_ratio(text).is_err(), "{text:?} is no ratio");
+        }
+    }
+
+    /// 1e-7 is "greater than 0", which was all that was asked for.
+    #[test]
+    fn a_refused_zoom_names_the_limits() {
+        for text in ["0", "1e-7", "1e7"] {
+            let message = zoom(text).expect_err("out of range");
+            assert!(message.contains("from 0.000001 to 1000000"), "{text}: {message}");
         }
     }
 
