@@ -60,3 +60,12 @@ pub use options::{LoadOptions, Progress, ProgressHook, Stage};
 pub use picture::{Picture, load_image};
 pub use png::{Pixels, WriteError, encode_png, write_png};
 pub use warning::Warning;
+
+/// Runs the examples of the READMEs as tests: this crate's and the project's.
+#[cfg(doctest)]
+mod readmes {
+    #[doc = include_str!("../README.md")]
+    struct Own;
+    #[doc = include_str!("../../../README.md")]
+    struct Project;
+}

@@ -117,3 +117,11 @@ pub use stats::Stats;
 pub use target::{MAX_SAMPLES_PER_AXIS, MAX_TARGET_SIZE, Output, Pictures, Target, TargetError};
 pub use texture::{Filter, MAX_TEXTURE_SIZE, MipFilter, Sampler, Texture, TextureError, TextureFormat, Wrap};
 pub use varyings::Varyings;
+
+/// The crate below, so that points and vectors need no other dependency.
+pub use trigon_math as math;
+
+/// Runs the README's example as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

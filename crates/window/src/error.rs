@@ -1,7 +1,7 @@
 //! Why there is no window.
 
 /// A window cannot be opened, or cannot go on.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum WindowError {
     /// No display: a server, a container, or a session without graphics.
@@ -33,4 +33,11 @@ pub enum WindowError {
         /// What the window system said.
         reason: String,
     },
+}
+
+impl std::fmt::Debug for WindowError {
+    /// The message: what a `main` that returns this error shows its user.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{self}")
+    }
 }
