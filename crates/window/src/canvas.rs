@@ -11,6 +11,18 @@ pub(crate) struct Canvas {
     pixels: Vec<u32>,
 }
 
+#[cfg(test)]
+impl Canvas {
+    /// For tests: a white canvas.
+    pub(crate) fn white(width: u32, height: u32) -> Self {
+        let color = vec![255; (4 * width * height) as usize];
+        let mut canvas = Self::default();
+        let frame = Frame { width, height, color, depth: None, object_ids: None, face_ids: None };
+        canvas.show(&frame, width, height);
+        canvas
+    }
+}
+
 impl Canvas {
     /// Takes this size and the frame's colours. A frame that was drawn smaller
     /// is magnified by repeating its pixels; what is transparent in it is black.

@@ -117,25 +117,7 @@ fn columns_inside(edges: &[Edge; 3], grid: Grid, columns: Range<u32>, row: u32) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::setup::{Corners, Kind, ScreenVertex};
     use proptest::prelude::*;
-    use trigon_math::{Fixed, FixedPoint};
-
-    fn triangle(points: [[i32; 2]; 3]) -> SetupTriangle {
-        let vertex = |[x, y]: [i32; 2]| ScreenVertex {
-            point: FixedPoint::new(Fixed::from_raw(x), Fixed::from_raw(y)),
-            depth: 0.5,
-            inverse_w: 1.0,
-        };
-        SetupTriangle {
-            vertices: points.map(vertex),
-            draw: 0,
-            primitive: 0,
-            corners: Corners::Whole([0, 1, 2]),
-            kind: Kind::Triangle,
-            front_facing: true,
-        }
-    }
 
     fn point() -> impl Strategy<Value = [i32; 2]> {
         let (near, far) = (-20_000..60_000, -(1 << 23)..1 << 24);
@@ -149,7 +131,7 @@ mod tests {
             points in [point(), point(), point()],
             size in prop_oneof![Just(8_u32), Just(63), Just(64)],
         ) {
-            let triangle = triangle(points);
+            let triangle = SetupTriangle::on_grid(points);
             prop_assume!(triangle.doubled_area() != 0);
             let grid = Grid::new(Viewport { width: 200, height: 150 }, size);
             let mut binned = Vec::new();

@@ -60,6 +60,27 @@ pub(crate) struct SampleBounds {
     pub(crate) y: [i32; 2],
 }
 
+#[cfg(test)]
+impl SetupTriangle {
+    /// For tests: a front-facing triangle at points in 1/256 sample.
+    pub(crate) fn on_grid(points: [[i32; 2]; 3]) -> Self {
+        use trigon_math::{Fixed, FixedPoint};
+        let vertex = |[x, y]: [i32; 2]| ScreenVertex {
+            point: FixedPoint::new(Fixed::from_raw(x), Fixed::from_raw(y)),
+            depth: 0.5,
+            inverse_w: 1.0,
+        };
+        Self {
+            vertices: points.map(vertex),
+            draw: 0,
+            primitive: 0,
+            corners: Corners::Whole([0, 1, 2]),
+            kind: Kind::Triangle,
+            front_facing: true,
+        }
+    }
+}
+
 impl SetupTriangle {
     /// Twice the area in units of the grid, signed: positive if the sorted
     /// vertices run clockwise on the screen.

@@ -79,23 +79,10 @@ impl Edge {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::setup::{Corners, Kind, ScreenVertex};
-    use trigon_math::Fixed;
 
+    /// A triangle at whole pixels.
     fn triangle(points: [(i32, i32); 3]) -> SetupTriangle {
-        let vertex = |(x, y): (i32, i32)| ScreenVertex {
-            point: FixedPoint::new(Fixed::from_raw(x * 256), Fixed::from_raw(y * 256)),
-            depth: 0.5,
-            inverse_w: 1.0,
-        };
-        SetupTriangle {
-            vertices: points.map(vertex),
-            draw: 0,
-            primitive: 0,
-            corners: Corners::Whole([0, 1, 2]),
-            kind: Kind::Triangle,
-            front_facing: true,
-        }
+        SetupTriangle::on_grid(points.map(|(x, y)| [x * 256, y * 256]))
     }
 
     #[test]

@@ -72,15 +72,6 @@ pub(crate) fn draw_block(canvas: &mut Canvas, font: Font, block: Block<'_>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trigon_scene::Frame;
-
-    fn canvas(width: u32, height: u32) -> Canvas {
-        let color = vec![255; (4 * width * height) as usize];
-        let mut canvas = Canvas::default();
-        let frame = Frame { width, height, color, depth: None, object_ids: None, face_ids: None };
-        canvas.show(&frame, width, height);
-        canvas
-    }
 
     /// Columns and rows that differ from the white canvas: (left, right, top, bottom).
     fn touched(canvas: &Canvas) -> Option<(usize, usize, usize, usize)> {
@@ -101,7 +92,7 @@ mod tests {
             (Corner::BottomLeft, true, false),
             (Corner::BottomRight, false, false),
         ] {
-            let mut canvas = canvas(200, 100);
+            let mut canvas = Canvas::white(200, 100);
             draw_block(&mut canvas, Font::SMALLEST, Block { corner, lines: &lines });
             let (l, r, t, b) = touched(&canvas).expect("something was drawn");
             // Two letters and a letter's width on either side, 7 px each; two lines.
@@ -113,7 +104,7 @@ mod tests {
 
     #[test]
     fn text_is_legible_on_white() {
-        let mut canvas = canvas(100, 40);
+        let mut canvas = Canvas::white(100, 40);
         draw_block(&mut canvas, Font::SMALLEST, Block { corner: Corner::Top, lines: &["H".to_owned()] });
         let brightness = |pixel: &u32| pixel & 0xff;
         let inside: Vec<u32> = canvas.pixels().iter().map(brightness).filter(|&b| b < 255).collect();
@@ -124,7 +115,7 @@ mod tests {
     #[test]
     fn tiny_windows_are_no_problem() {
         for (width, height) in [(1, 1), (3, 200), (200, 3)] {
-            let mut canvas = canvas(width, height);
+            let mut canvas = Canvas::white(width, height);
             for corner in Corner::ALL {
                 let lines = ["a long line that cannot fit".to_owned()];
                 draw_block(&mut canvas, Font::for_scale(3.0), Block { corner, lines: &lines });

@@ -135,24 +135,14 @@ fn missing(rows: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use trigon_scene::Frame;
-
     use super::*;
     use crate::keymap::{Keymap, sheet};
-
-    fn canvas(width: u32, height: u32) -> Canvas {
-        let color = vec![255; (4 * width * height) as usize];
-        let mut canvas = Canvas::default();
-        let frame = Frame { width, height, color, depth: None, object_ids: None, face_ids: None };
-        canvas.show(&frame, width, height);
-        canvas
-    }
 
     /// The sheet said nothing of rows that a small window had no place for.
     #[test]
     fn small_windows_say_how_much_of_the_sheet_is_missing() {
         let rows = sheet(&Keymap::default());
-        let canvas = canvas(300, 200);
+        let canvas = Canvas::white(300, 200);
         let layout = Layout::new(&rows, &canvas, Font::for_scale(1.0));
         let shown: usize = layout.columns.iter().map(|column| column.rows.len()).sum();
         assert!(layout.hidden > 0, "it is too small for {} rows", rows.len());
@@ -166,7 +156,7 @@ mod tests {
     fn the_sheet_shrinks_no_further_than_it_must() {
         let rows = sheet(&Keymap::default());
         for (scale, width, height) in [(1.0, 1000, 600), (1.5, 1500, 900), (2.0, 2000, 1200)] {
-            let layout = Layout::new(&rows, &canvas(width, height), Font::for_scale(scale));
+            let layout = Layout::new(&rows, &Canvas::white(width, height), Font::for_scale(scale));
             let size = f64::from(layout.font.line_height()) / scale;
             assert!(size >= 12.0, "{size} logical pixels at scale {scale}");
             assert_eq!(layout.hidden, 0, "all rows at scale {scale}");
@@ -177,7 +167,7 @@ mod tests {
     fn tiny_windows_and_empty_sheets_are_no_problem() {
         let rows = sheet(&Keymap::default());
         for (width, height) in [(1, 1), (3, 200), (200, 3)] {
-            let mut canvas = canvas(width, height);
+            let mut canvas = Canvas::white(width, height);
             draw_sheet(&mut canvas, Font::for_scale(3.0), &rows);
             draw_sheet(&mut canvas, Font::SMALLEST, &[]);
         }
