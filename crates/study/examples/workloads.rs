@@ -1,0 +1,119 @@
+//! Times the workloads, or saves their pictures:
+//!
+//! `cargo run --release -p trigon-study --example workloads -- --csv --threads 1,2 W2 W3`
+
+#![expect(clippy::print_stdout, reason = "a table is what this is for")]
+
+use clap::Parser;
+use image::ExtendedColorType;
+use std::error::Error;
+use std::fs::{self, File};
+use std::io::Write;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use trigon_raster::ExecuteSettings;
+use trigon_study::workloads::{Canvas, Scene, Timings, Workload};
+
+/// Draw the workloads over and over, and print how long a frame takes.
+#[derive(Parser)]
+struct Arguments {
+    /// Print comma-separated values instead of a table
+    #[arg(long)]
+    csv: bool,
+    /// Numbers of threads to draw with, one after the other
+    #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1")]
+    threads: Vec<NonZeroUsize>,
+    /// How many frames to time
+    #[arg(long, value_name = "N", default_value = "12")]
+    repetitions: usize,
+    /// Save the pictures in this folder
+    #[arg(long, value_name = "FOLDER")]
+    png: Option<PathBuf>,
+    /// Append each frame's time to this file, to pool several runs
+    #[arg(long, value_name = "FILE")]
+    samples: Option<PathBuf>,
+    /// The workloads whose names begin so; all, unless given
+    #[arg(value_name = "WORKLOAD")]
+    workloads: Vec<String>,
+}
+
+impl Arguments {
+    fn chosen(&self) -> Result<Vec<Workload>, String> {
+        let unknown = |prefix: &&String| !Workload::ALL.iter().any(|w| w.name().starts_with(prefix.as_str()));
+        if let Some(prefix) = self.workloads.iter().find(unknown) {
+            let names = Workload::ALL.map(Workload::name).join(", ");
+            return Err(format!("no workload begins with {prefix:?}; there are {names}"));
+        }
+        let wanted = |workload: &Workload| {
+            self.workloads.is_empty()
+                || self.workloads.iter().any(|prefix| workload.name().starts_with(prefix.as_str()))
+        };
+        Ok(Workload::ALL.into_iter().filter(wanted).collect())
+    }
+}
+
+/// One workload with one number of threads.
+struct Line<'a> {
+    workload: Workload,
+    threads: NonZeroUsize,
+    work: f64,
+    timings: &'a Timings,
+}
+
+impl Line<'_> {
+    const CSV_HEADER: &'static str = "peer,workload,threads,ms_median,ms_min,ms_max,unit_rate";
+
+    fn csv(&self) -> String {
+        let Self { workload, threads, timings, .. } = self;
+        let [median, min, max] = [timings.median(), timings.min(), timings.max()];
+        let rate = self.work / median / 1e3;
+        format!("trigon,{},{threads},{median:.3},{min:.3},{max:.3},{rate:.2}", workload.name())
+    }
+
+    fn text(&self) -> String {
+        let Self { workload, threads, timings, .. } = self;
+        let [median, min, max] = [timings.median(), timings.min(), timings.max()];
+        format!("{:<16} {threads:>2} threads {median:>10.3} ms ({min:.3} to {max:.3})", workload.name())
+    }
+
+    fn samples(&self) -> String {
+        let times: Vec<String> =
+            self.timings.milliseconds().iter().map(|time| format!("{time:.4}")).collect();
+        format!("trigon,{},{},{},{}", self.workload.name(), self.threads, self.work / 1e6, times.join(","))
+    }
+}
+
+fn save(folder: &Path, workload: Workload, scene: &Scene, canvas: &Canvas) -> Result<(), Box<dyn Error>> {
+    fs::create_dir_all(folder)?;
+    let path = folder.join(format!("trigon-{}.png", workload.name()));
+    let (bytes, size) = (canvas.pixels().as_flattened(), scene.size);
+    Ok(image::save_buffer(path, bytes, size.x, size.y, ExtendedColorType::Rgba8)?)
+}
+
+fn append(path: &Path, line: &str) -> std::io::Result<()> {
+    writeln!(File::options().create(true).append(true).open(path)?, "{line}")
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments = Arguments::parse();
+    if arguments.csv {
+        println!("{}", Line::CSV_HEADER);
+    }
+    for workload in arguments.chosen()? {
+        let scene = workload.scene();
+        for &threads in &arguments.threads {
+            let settings = ExecuteSettings { threads: Some(threads), ..ExecuteSettings::default() };
+            let mut canvas = Canvas::new(&scene, settings)?;
+            let timings = Timings::of_frames(arguments.repetitions, || canvas.draw(&scene));
+            let line = Line { workload, threads, work: workload.work(&scene), timings: &timings };
+            println!("{}", if arguments.csv { line.csv() } else { line.text() });
+            if let Some(path) = &arguments.samples {
+                append(path, &line.samples())?;
+            }
+            if let Some(folder) = &arguments.png {
+                save(folder, workload, &scene, &canvas)?;
+            }
+        }
+    }
+    Ok(())
+}

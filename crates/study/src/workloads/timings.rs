@@ -1,0 +1,80 @@
+//! How long frames take.
+
+use std::time::Instant;
+
+/// The times of repeated frames in milliseconds, shortest first; never empty.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Timings {
+    milliseconds: Vec<f64>,
+}
+
+impl Timings {
+    /// Times `frame`, which returns when the picture is complete, `repetitions`
+    /// times (at least once), after three frames that fill caches and arenas.
+    ///
+    /// A frame of more than 1.5 s is warmed up twice and repeated five times at
+    /// most. These are the rules by which the other renderers were timed.
+    pub fn of_frames(repetitions: usize, mut frame: impl FnMut()) -> Self {
+        const LONG: f64 = 1500.0;
+        const ENOUGH_OF_LONG: usize = 5;
+        let mut time = || {
+            let start = Instant::now();
+            frame();
+            start.elapsed().as_secs_f64() * 1e3
+        };
+        time();
+        let mut repetitions = repetitions.max(1);
+        if time() > LONG {
+            repetitions = repetitions.min(ENOUGH_OF_LONG);
+        } else {
+            time();
+        }
+        let mut milliseconds: Vec<f64> = (0..repetitions).map(|_| time()).collect();
+        milliseconds.sort_by(f64::total_cmp);
+        Self { milliseconds }
+    }
+
+    /// All times, shortest first.
+    pub fn milliseconds(&self) -> &[f64] {
+        &self.milliseconds
+    }
+
+    /// The shortest time.
+    pub fn min(&self) -> f64 {
+        self.milliseconds[0]
+    }
+
+    /// The longest time.
+    pub fn max(&self) -> f64 {
+        self.milliseconds[self.milliseconds.len() - 1]
+    }
+
+    /// The time in the middle, or the mean of the two there.
+    pub fn median(&self) -> f64 {
+        let count = self.milliseconds.len();
+        (self.milliseconds[(count - 1) / 2] + self.milliseconds[count / 2]) / 2.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn timings(milliseconds: &[f64]) -> Timings {
+        Timings { milliseconds: milliseconds.to_vec() }
+    }
+
+    #[test]
+    fn the_median_is_in_the_middle() {
+        assert_eq!(timings(&[1.0, 2.0, 9.0]).median(), 2.0, "of an odd number");
+        assert_eq!(timings(&[1.0, 2.0, 4.0, 9.0]).median(), 3.0, "of an even number");
+    }
+
+    #[test]
+    fn three_frames_warm_up() {
+        let mut frames = 0;
+        let timings = Timings::of_frames(4, || frames += 1);
+        assert_eq!((frames, timings.milliseconds().len()), (7, 4), "frames drawn and timed");
+        assert!(timings.min() <= timings.max(), "sorted");
+    }
+}
