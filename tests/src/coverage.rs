@@ -6,18 +6,22 @@ use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::glam::camera::rh::proj::directx::perspective_infinite_reverse;
 use trigon_math::{Mat4, Vec4, elementary};
-use trigon_raster::{Culling, Draw, ExecuteSettings, Output, Pass, Surface, Target};
+use trigon_raster::{Culling, Draw, Output, Pass, Rasterizer, Surface, Target};
 
-/// The oracle: whether a triangle covers the centre of a pixel.
+/// Whether a triangle covers the centre of a pixel.
+pub(crate) fn covers(triangle: [Raw; 3], pixel: [i32; 2]) -> bool {
+    covers_point(triangle, pixel.map(|v| 256 * v + 128))
+}
+
+/// The oracle: whether a triangle covers a sample.
 ///
-/// The top-left rule says that a centre on an edge counts as if it lay a little
-/// to the right, and on a horizontal one as if a little below. So the centre is
+/// The top-left rule says that a sample on an edge counts as if it lay a little
+/// to the right, and on a horizontal one as if a little below. So the sample is
 /// moved to the right by 1/K and down by 1/K² for a K so large that no edge is
 /// crossed on the way, everything times K², and no case is left open.
-pub(crate) fn covers(triangle: [Raw; 3], [x, y]: [i32; 2]) -> bool {
+pub(crate) fn covers_point(triangle: [Raw; 3], [x, y]: Raw) -> bool {
     const K: i128 = 1 << 27;
-    let centre = |v: i32| i128::from(256 * v + 128) * K * K;
-    let (px, py) = (centre(x) + K, centre(y) + 1);
+    let (px, py) = (i128::from(x) * K * K + K, i128::from(y) * K * K + 1);
     let [a, b, c] = triangle.map(|[x, y]| [i128::from(x) * K * K, i128::from(y) * K * K]);
     let turn = |[ax, ay]: [i128; 2], [bx, by]: [i128; 2]| {
         // Differences of vertices are multiples of K².
@@ -43,7 +47,7 @@ fn point() -> impl Strategy<Value = Raw> {
 
 /// Any three points, or two and a third within a few units of the line through
 /// them.
-fn triangle() -> impl Strategy<Value = [Raw; 3]> {
+pub(crate) fn triangle() -> impl Strategy<Value = [Raw; 3]> {
     let sliver = (point(), point(), 0..=1000_i64, [-3..=3_i32, -3..=3]).prop_map(|(a, b, t, jitter)| {
         let along = |i: usize| {
             let (from, to) = (i64::from(a[i]), i64::from(b[i]));
@@ -249,7 +253,7 @@ fn targets_of_extreme_size_are_covered_once() {
         pass.triangles(Draw { surface, culling: Culling::None, ..Draw::new(&pipeline, &triangles) });
         let target = Target::new(width, height, &[Output::Linear]).expect("a size in range");
         let mut target = target.with_samples_per_axis(samples).expect("a number in range");
-        pass.execute(&mut target, &ExecuteSettings::default());
+        Rasterizer::default().draw(&pass, &mut target);
         let once = target.linear().expect("asked for").iter().all(|color| color.x == 1.0);
         assert!(once, "every sample exactly once at {width}x{height} with {samples}");
     }
@@ -265,12 +269,12 @@ fn triangles_without_area_cover_nothing() {
     }
 }
 
-fn fan_triangles(count: u32) -> Vec<[u32; 3]> {
+pub(crate) fn fan_triangles(count: u32) -> Vec<[u32; 3]> {
     (0..count).map(|i| [0, 1 + i, 1 + (i + 1) % count]).collect()
 }
 
 /// Two triangles for each cell of a square grid, split and wound at random.
-fn grid_triangles(cells: u32, random: &mut Random) -> Vec<[u32; 3]> {
+pub(crate) fn grid_triangles(cells: u32, random: &mut Random) -> Vec<[u32; 3]> {
     let mut triangles = Vec::new();
     for cell in 0..cells * cells {
         let a = cell / cells * (cells + 1) + cell % cells;
@@ -285,11 +289,11 @@ fn grid_triangles(cells: u32, random: &mut Random) -> Vec<[u32; 3]> {
 
 /// A small generator (Knuth's linear congruential one), so that a failing case
 /// is small to print.
-struct Random(u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     /// A number from `-reach` to `reach`.
-    fn within(&mut self, reach: i32) -> i32 {
+    pub(crate) fn within(&mut self, reach: i32) -> i32 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let span = 2 * reach as u64 + 1;
         ((self.0 >> 33) % span) as i32 - reach

@@ -1,9 +1,12 @@
 //! What the tests of the rasterizer share: triangles given on the sub-pixel
 //! grid, and pictures that count how often each pixel is covered.
 
+use proptest::prelude::*;
 use trigon_math::Vec4;
+use trigon_raster::simd::SimdLevel;
 use trigon_raster::{
-    Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, Surface, Target, VertexOutput,
+    Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, Rasterizer, Surface, Target,
+    VertexOutput,
 };
 
 /// Width and height of the pictures: a power of two, so that points of the
@@ -54,12 +57,52 @@ impl Pipeline for Values {
     }
 }
 
+/// How many samples a target has.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Samples {
+    /// By supersampling, along each side of a pixel.
+    pub(crate) per_axis: u32,
+    /// By multisampling, at the standard positions.
+    pub(crate) per_pixel: u32,
+}
+
+impl Samples {
+    pub(crate) const ONE: Self = Self { per_axis: 1, per_pixel: 1 };
+
+    /// Either kind, both together, or none.
+    pub(crate) fn any() -> impl Strategy<Value = Self> {
+        let per_pixel = prop_oneof![Just(1_u32), Just(2), Just(4), Just(8), Just(16)];
+        prop_oneof![
+            3 => per_pixel.clone().prop_map(|per_pixel| Self { per_axis: 1, per_pixel }),
+            1 => (2..5_u32).prop_map(|per_axis| Self { per_axis, per_pixel: 1 }),
+            1 => per_pixel.prop_map(|per_pixel| Self { per_axis: 2, per_pixel }),
+        ]
+    }
+
+    /// A target with these samples.
+    pub(crate) fn target(self, [width, height]: [u32; 2], outputs: &[Output]) -> Target<'static> {
+        let target = Target::new(width, height, outputs).expect("the size is in range");
+        let target = target.with_samples_per_axis(self.per_axis).expect("the number is in range");
+        target.with_samples(self.per_pixel).expect("a standard pattern")
+    }
+}
+
+/// The SIMD levels of this machine; the scalar one is on every machine.
+pub(crate) fn levels() -> impl Iterator<Item = SimdLevel> {
+    SimdLevel::ALL.into_iter().filter(|level| level.is_supported())
+}
+
+/// A rasterizer with these settings, which the machine supports.
+pub(crate) fn rasterizer(settings: &ExecuteSettings) -> Rasterizer {
+    Rasterizer::new(*settings).expect("the level is supported")
+}
+
 /// All pictures of a pass, `width` by `height` pixels.
 pub(crate) fn draw_sized(pass: &Pass<'_>, [width, height]: [i32; 2], settings: &ExecuteSettings) -> Pictures {
     let outputs =
         [Output::Srgb8, Output::Linear, Output::Depth, Output::Object, Output::Face, Output::Triangle];
     let mut target = Target::new(width as u32, height as u32, &outputs).expect("the size is in range");
-    pass.execute(&mut target, settings);
+    rasterizer(settings).draw(pass, &mut target);
     target.into_pictures()
 }
 

@@ -1,10 +1,11 @@
 //! Who is in front: exact ties, surfaces that cross, and how near depth comes to
 //! exact arithmetic. Hard cases 24 to 26.
 
-use crate::coverage_support::{Raw, SIDE, Values, clip_position, draw, pixel};
+use crate::coverage::Random;
+use crate::coverage_support::{Raw, SIDE, Samples, Values, clip_position, draw, pixel, rasterizer};
 use crate::effort::cases;
 use proptest::prelude::*;
-use trigon_raster::{Culling, Draw, Pass, Pictures, Surface};
+use trigon_raster::{Culling, DepthTest, Draw, ExecuteSettings, Output, Pass, Pictures, Stats, Surface};
 
 const QUAD: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
@@ -105,6 +106,53 @@ proptest! {
         for (depth, id) in pictures.depth.iter().flatten().zip(pictures.triangles.iter().flatten()) {
             prop_assert!(*id == u32::MAX || (low <= *depth && *depth <= high), "{depth} of {depths:?}");
         }
+    }
+}
+
+/// Hundreds of triangles over each other, from small to much larger than the
+/// picture; every third depth is one of eight, so that many are equal.
+fn heap(seed: u64) -> Values {
+    let mut random = Random(seed);
+    let vertices = (0..600).flat_map(|i| {
+        let reach = [600, 3000, 12_000, 100_000][i % 4];
+        let middle = [random.within(10_000) + 8192, random.within(10_000) + 8192];
+        let depth = (random.within(500) + 500) as f32 / 1000.0;
+        let depth = if i % 3 == 0 { (depth * 8.0).floor() / 8.0 } else { depth };
+        let steep = if i % 2 == 0 { 0.0 } else { 0.3 };
+        [0, 1, 2].map(|corner| {
+            let point = middle.map(|v| v + random.within(reach));
+            let depth = depth + (1.0 - depth) * steep * corner as f32;
+            (clip_position(point, depth), depth)
+        })
+    });
+    Values { vertices: vertices.collect() }
+}
+
+/// The heap, its last third with a mask, and what it took.
+fn draw_heap(heap: &Values, samples: Samples, depth_test: DepthTest) -> (Pictures, Stats) {
+    let triangles: Vec<_> = (0..600).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let (opaque, masked) = triangles.split_at(400);
+    let mut pass = Pass::new();
+    pass.triangles(Draw { culling: Culling::None, object: 1, ..Draw::new(heap, opaque) });
+    let (culling, surface) = (Culling::None, Surface::Masked);
+    pass.triangles(Draw { culling, surface, object: 0, ..Draw::new(heap, masked) });
+    let mut target = samples.target([SIDE as u32; 2], &[Output::Linear, Output::Depth, Output::Triangle]);
+    let settings = ExecuteSettings { depth_test, ..Default::default() };
+    let stats = rasterizer(&settings).draw(&pass, &mut target);
+    (target.into_pictures(), stats)
+}
+
+proptest! {
+    #![proptest_config(cases(24))]
+
+    #[test]
+    fn bounds_of_depths_leave_out_only_what_is_hidden(seed in any::<u64>(), samples in Samples::any()) {
+        let heap = heap(seed);
+        let (quick, stats) = draw_heap(&heap, samples, DepthTest::Hierarchical);
+        let (late, late_stats) = draw_heap(&heap, samples, DepthTest::Late);
+        prop_assert!(quick == late, "the same picture");
+        prop_assert!(stats.tiles_rejected > 0, "and something was left out");
+        prop_assert_eq!(late_stats.tiles_rejected, 0, "which late tests do not");
     }
 }
 

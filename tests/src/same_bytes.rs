@@ -1,15 +1,16 @@
-//! The same picture, to the byte, with any number of threads, any size of tiles
-//! and any order of draws; and hostile vertices harm nobody else. Hard cases 6,
+//! The same picture, to the byte, with any number of threads, any size of tiles,
+//! any SIMD level, either way to test depth and any order of draws; and hostile
+//! vertices harm nobody else. Hard cases 6,
 //! 12, 17, 20, 43.
 
-use crate::coverage_support::draw_sized;
+use crate::coverage_support::{Samples, draw_sized, levels, rasterizer};
 use crate::effort::cases;
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_math::{UVec2, Vec3, Vec4};
 use trigon_raster::{
-    Background, Culling, Draw, ExecuteSettings, Fragment, Lines, Output, Pass, Pictures, Pipeline,
-    PointShape, Points, Surface, Target, TileSize, VertexOutput,
+    Background, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Lines, Output, Pass, Pictures, Pipeline,
+    PointShape, Points, Rasterizer, Surface, Target, TileSize, VertexOutput,
 };
 
 /// Coloured vertices; a fragment shows the colour, by its alpha, with dark
@@ -105,13 +106,13 @@ fn record<'a>(pass: &mut Pass<'a>, soup: &'a Soup) {
 
 fn picture(
     soups: &[Soup],
-    [width, height, samples_per_axis]: [u32; 3],
+    [width, height]: [u32; 2],
+    samples: Samples,
     settings: &ExecuteSettings,
 ) -> Pictures {
     let outputs =
         [Output::Srgb8, Output::Linear, Output::Depth, Output::Object, Output::Face, Output::Triangle];
-    let target = Target::new(width, height, &outputs).expect("the size is in range");
-    let mut target = target.with_samples_per_axis(samples_per_axis).expect("the number is in range");
+    let mut target = samples.target([width, height], &outputs);
     let background = |pixel: UVec2| {
         Vec3::new(pixel.x as f32 / width as f32, pixel.y as f32 / height as f32, 0.5).extend(1.0)
     };
@@ -120,7 +121,7 @@ fn picture(
     for soup in soups {
         record(&mut pass, soup);
     }
-    pass.execute(&mut target, settings);
+    rasterizer(settings).draw(&pass, &mut target);
     target.into_pictures()
 }
 
@@ -128,14 +129,31 @@ proptest! {
     #![proptest_config(cases(3))]
 
     #[test]
-    fn threads_and_tiles_change_nothing(soups in soups(), samples in 2..5_u32) {
+    fn threads_and_tiles_change_nothing(soups in soups(), samples in Samples::any()) {
         // Large enough to be shared among threads.
-        let size = [300, 200, samples];
-        let reference = picture(&soups, size, &ExecuteSettings::default());
+        let draw = |settings: &ExecuteSettings| picture(&soups, [300, 200], samples, settings);
+        let reference = draw(&ExecuteSettings::default());
         for threads in [1, 2, 3, 8] {
-            for tile_size in [TileSize::Samples8, TileSize::Samples16, TileSize::Samples32, TileSize::Samples64] {
-                let settings = ExecuteSettings { threads: NonZeroUsize::new(threads), tile_size };
-                prop_assert!(picture(&soups, size, &settings) == reference, "{settings:?}");
+            for tile_size in [TileSize::Pixels8, TileSize::Pixels16, TileSize::Pixels32, TileSize::Pixels64] {
+                let settings =
+                    ExecuteSettings { threads: NonZeroUsize::new(threads), tile_size, ..Default::default() };
+                prop_assert!(draw(&settings) == reference, "{settings:?}");
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(12))]
+
+    #[test]
+    fn levels_and_depth_tests_change_nothing(soups in soups(), samples in Samples::any()) {
+        let draw = |settings: &ExecuteSettings| picture(&soups, [150, 100], samples, settings);
+        let reference = draw(&ExecuteSettings::default());
+        for level in levels() {
+            for depth_test in [DepthTest::Hierarchical, DepthTest::Late] {
+                let settings = ExecuteSettings { simd: Some(level), depth_test, ..Default::default() };
+                prop_assert!(draw(&settings) == reference, "{settings:?}");
             }
         }
     }
@@ -145,16 +163,16 @@ proptest! {
     #![proptest_config(cases(40))]
 
     #[test]
-    fn the_order_of_draws_and_triangles_changes_nothing(soups in soups(), samples in 1..3_u32) {
+    fn the_order_of_draws_and_triangles_changes_nothing(soups in soups(), samples in Samples::any()) {
         let settings = ExecuteSettings::default();
-        let mut reference = picture(&soups, [160, 120, samples], &settings);
+        let mut reference = picture(&soups, [100, 80], samples, &settings);
         let mut turned = soups;
         turned.reverse();
         for soup in &mut turned {
             soup.triangles.reverse();
             soup.faces.reverse();
         }
-        let mut other = picture(&turned, [160, 120, samples], &settings);
+        let mut other = picture(&turned, [100, 80], samples, &settings);
         // The index of a triangle in its draw is what has changed.
         reference.triangles = None;
         other.triangles = None;
@@ -165,7 +183,7 @@ proptest! {
     #[test]
     fn hostile_vertices_harm_nobody_else(soups in soups(), hostile in proptest::collection::vec(hostile(), 3..12)) {
         let settings = ExecuteSettings::default();
-        let reference = picture(&soups, [160, 120, 1], &settings);
+        let reference = picture(&soups, [160, 120], Samples::ONE, &settings);
         let count = hostile.len() as u32;
         let hostile = Soup {
             object: 500,
@@ -177,7 +195,7 @@ proptest! {
             faces: Vec::new(),
         };
         let all: Vec<_> = soups.iter().cloned().chain([hostile]).collect();
-        let pictures = picture(&all, [160, 120, 1], &settings);
+        let pictures = picture(&all, [160, 120], Samples::ONE, &settings);
         prop_assert!(pictures.linear.iter().flatten().all(|color| color.is_finite()), "a colour is not finite");
         prop_assert!(pictures.depth.iter().flatten().all(|depth| (0.0..=1.0).contains(depth)), "a depth is not one");
         // Translucent, so it changes no id and no depth.
@@ -280,7 +298,7 @@ fn colours_that_overflow_stay_finite() {
             }
             let target = Target::new(13, 11, &[Output::Linear, Output::Srgb8]).expect("a size in range");
             let mut target = target.with_samples_per_axis(samples).expect("a number in range");
-            pass.execute(&mut target, &ExecuteSettings::default());
+            Rasterizer::default().draw(&pass, &mut target);
             let colors = target.linear().expect("asked for");
             assert!(colors.iter().all(|color| color.is_finite()), "{surface:?} {samples}: {:?}", colors[40]);
         }
@@ -335,9 +353,9 @@ fn thousands_of_layers_are_blended_in_parts() {
             .linear
             .expect("asked for")
     };
-    let many = draw(&triangles, TileSize::Samples64);
-    assert!(many == draw(&triangles, TileSize::Samples8), "another cut");
-    for (many, few) in many.iter().zip(draw(&few, TileSize::Samples64)) {
+    let many = draw(&triangles, TileSize::Pixels64);
+    assert!(many == draw(&triangles, TileSize::Pixels8), "another cut");
+    for (many, few) in many.iter().zip(draw(&few, TileSize::Pixels64)) {
         assert_eq!(many.w > 0.0, few.w > 0.0, "the same pixels as with few layers");
         assert!(many.w == 0.0 || many.w > 0.9999, "nothing shines through so many layers: {many}");
     }
@@ -359,7 +377,7 @@ fn unused_vertices_between_used_ones_are_not_run() {
         let mut target = Target::new(20, 20, &[Output::Linear, Output::Depth]).expect("a size in range");
         let mut pass = Pass::new();
         pass.triangles(Draw { culling: Culling::None, ..Draw::new(pipeline, triangles) });
-        let stats = pass.execute(&mut target, &ExecuteSettings::default());
+        let stats = Rasterizer::default().draw(&pass, &mut target);
         (target.into_pictures(), stats)
     };
     let (sparse, stats) = execute(&pipeline, &triangles);

@@ -55,7 +55,7 @@ fn draw(model: &Model, request: &Request, reporter: Reporter) -> Result<Frame, F
     let mut renderer = Renderer::new();
     let frame = renderer.render(&model.scene, &shot.camera, &request.settings).map_err(Failure::work)?;
     let title = model.source.title();
-    if renderer.stats().samples_shaded == 0 {
+    if renderer.stats().pixels_shaded == 0 {
         reporter.warning(format_args!(
             "{title}: nothing of the model is in the picture; look from elsewhere (--view=back), or show faces that point away (--backface-type=visible)"
         ));

@@ -144,6 +144,7 @@ fn every_flag_about_the_picture_changes_it() {
         "--style=hidden-line",
         "--anti-aliasing=none",
         "--samples=4",
+        "--anti-aliasing=msaa",
         "--view=front",
         "--camera-direction=1,0,0",
         "--camera-position=3,4,5",
@@ -161,7 +162,14 @@ fn every_flag_about_the_picture_changes_it() {
     ] {
         assert!(stream(flags) != plain, "`{flags}` changes nothing");
     }
-    for flags in ["--threads=1", "--edges=false", "--samples=3", "--style=surface", "--camera-index=-1"] {
+    for flags in [
+        "--threads=1",
+        "--simd=scalar",
+        "--edges=false",
+        "--samples=3",
+        "--style=surface",
+        "--camera-index=-1",
+    ] {
         assert!(stream(flags) == plain, "`{flags}` is the default");
     }
     assert!(stream("--edges --line-width=5") != stream("--edges"), "width of edges");
@@ -237,6 +245,9 @@ fn a_picture_that_shows_nothing_of_the_model_says_so() {
     assert!(said.contains("nothing of the model is in the picture"), "{said}");
 }
 
+/// A level that only other processors have.
+const ELSEWHERE: &str = if cfg!(target_arch = "aarch64") { "--simd=sse2" } else { "--simd=neon" };
+
 #[test]
 fn a_senseless_command_line_exits_with_2() {
     let folder = Folder::new();
@@ -247,6 +258,8 @@ fn a_senseless_command_line_exits_with_2() {
         ("--camera-position 1,2,3 --camera-focal-point 1,2,3 --output o.png", "same point"),
         ("corner.obj --camera-position 0.5,0.5,0.5 --output o.png", "looks nowhere"),
         ("--background-color=blurple", "CSS name"),
+        ("--simd=mmx", "scalar, sse2, avx2, avx512 and neon"),
+        (ELSEWHERE, "does not support the SIMD level"),
     ] {
         let said = folder.said(flags, 2);
         assert!(said.contains(words), "`{flags}`: {said}");
@@ -279,11 +292,12 @@ fn lists_and_facts_go_to_standard_output() {
 #[test]
 fn the_same_model_gives_the_same_bytes() {
     let folder = Folder::new();
-    let bytes =
-        |threads: u32| folder.run(&format!("--output - --resolution 150,90 --threads={threads}")).stdout;
-    let one = bytes(1);
+    let bytes = |flags: &str| folder.run(&format!("--output - --resolution 150,90 {flags}")).stdout;
+    let one = bytes("--threads=1");
     assert_eq!(png_size(&one), (150, 90), "a picture");
-    assert!(one == bytes(2) && one == bytes(7), "whatever the number of threads");
+    for flags in ["--threads=2", "--threads=7", "--simd=scalar", "--simd=scalar --threads=3"] {
+        assert!(one == bytes(flags), "{flags}");
+    }
 }
 
 /// It was "0.0 MiB, more than --max-size=0.0000095367431640625 allows".

@@ -7,7 +7,7 @@ use std::num::NonZeroUsize;
 use trigon_math::glam::camera::rh::{proj::directx, view};
 use trigon_math::{DVec3, Mat4, Vec3, Vec4, elementary};
 use trigon_raster::{
-    Background, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Target, VertexOutput,
+    Background, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Rasterizer, Target, VertexOutput,
 };
 
 const ALONG: u32 = 700;
@@ -91,15 +91,16 @@ fn frames(criterion: &mut Criterion) {
     let background = Background::Color(Vec4::new(0.01, 0.01, 0.02, 1.0));
     for threads in [1, 2] {
         let settings = ExecuteSettings { threads: NonZeroUsize::new(threads), ..Default::default() };
+        let mut rasterizer = Rasterizer::new(settings).expect("the best level is supported");
         criterion.bench_function(&format!("knot, {threads} threads"), |bencher| {
             let mut pass = Pass::new();
             pass.background(background).triangles(Draw::new(&knot, &triangles));
-            bencher.iter(|| pass.execute(&mut target, &settings));
+            bencher.iter(|| rasterizer.draw(&pass, &mut target));
         });
         criterion.bench_function(&format!("nothing, {threads} threads"), |bencher| {
             let mut pass = Pass::new();
             pass.background(background);
-            bencher.iter(|| pass.execute(&mut target, &settings));
+            bencher.iter(|| rasterizer.draw(&pass, &mut target));
         });
     }
 }

@@ -9,7 +9,7 @@ use std::{env, thread, time::Duration};
 use trigon_math::glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_at_mat4};
 use trigon_math::{Mat4, Vec3, Vec4, elementary};
 use trigon_raster::{
-    Draw, EdgeFlags, ExecuteSettings, Fragment, Output, Pass, Pipeline, Target, TargetError, VertexOutput,
+    Draw, EdgeFlags, Fragment, Output, Pass, Pipeline, Rasterizer, Target, TargetError, VertexOutput,
 };
 
 const WIDTH: u32 = 80;
@@ -74,12 +74,13 @@ fn main() -> Result<(), TargetError> {
     // first of its second.
     let halves = [EdgeFlags::new([true, true, false]), EdgeFlags::new([false, true, true])];
     let edges = halves.repeat(SIDES.len());
+    let mut rasterizer = Rasterizer::default();
     let mut target = Target::new(WIDTH, HEIGHT, &[Output::Srgb8])?.with_samples_per_axis(3)?;
     for frame in 0..frames {
         let cube = Cube { to_clip_space: camera(f64::from(frame) * 0.1) };
         let mut pass = Pass::new();
         pass.triangles(Draw { edge_flags: Some(&edges), ..Draw::new(&cube, &triangles) });
-        pass.execute(&mut target, &ExecuteSettings::default());
+        rasterizer.draw(&pass, &mut target);
         // Back to the top left of the terminal.
         print!("\x1b[H");
         print(&target);

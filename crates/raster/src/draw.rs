@@ -18,7 +18,7 @@ pub enum Culling {
 }
 
 /// How a draw meets what lies behind it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Surface {
     /// Hides what is behind; the pipeline's alpha goes to the output as it is.
     #[default]

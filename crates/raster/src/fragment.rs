@@ -65,7 +65,7 @@ impl<V> Fragment<V> {
 /// which are only diagonals of its triangulation.
 ///
 /// Edge `i` runs from corner `i` to corner `i + 1 (mod 3)` of the triangle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct EdgeFlags(u8);
 
 impl EdgeFlags {

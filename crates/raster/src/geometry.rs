@@ -43,6 +43,18 @@ impl Geometry<'_> {
         }
     }
 
+    /// The first and the last face id if they ascend from primitive to
+    /// primitive.
+    pub(crate) fn ascending_faces(&self) -> Option<[u32; 2]> {
+        let last = (self.len() as u32).checked_sub(1)?;
+        // In the middle of the ids the primitives' indices take over.
+        let listed = self.faces.unwrap_or(&[]);
+        let listed = &listed[..listed.len().min(self.len())];
+        let in_order = listed.is_sorted()
+            && (listed.len() == self.len() || listed.last().is_none_or(|&id| id <= listed.len() as u32));
+        in_order.then(|| [self.face(0), self.face(last)])
+    }
+
     /// The face id of a primitive.
     #[inline]
     pub(crate) fn face(&self, primitive: u32) -> u32 {

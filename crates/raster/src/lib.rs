@@ -38,7 +38,7 @@
 //! let mut target = Target::new(10, 5, &[Output::Linear])?;
 //! let mut pass = Pass::new();
 //! pass.triangles(Draw::new(&Triangle, &[[0, 1, 2]]));
-//! pass.execute(&mut target, &ExecuteSettings::default());
+//! Rasterizer::default().draw(&pass, &mut target);
 //!
 //! let symbol = |color: &Vec4| if color.w == 0.0 { ' ' } else { char::from(b'0' + (color.x * 10.0) as u8) };
 //! let picture: String = target.linear().unwrap().iter().map(symbol).collect();
@@ -81,6 +81,10 @@
 //! background and only its edges in ink; for see-through wireframes draw
 //! [`Lines`] alone. Lines over a surface of their own can be drawn a little
 //! nearer with [`Lines::toward_eye`].
+//!
+//! # User interfaces
+//! [`paint2d`] is a path of its own, without depth and in gamma space: it paints
+//! triangles in the order given, as user interface toolkits want it.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "tests may"))]
 
@@ -92,14 +96,18 @@ mod fragment;
 mod frame;
 mod geometry;
 mod line;
+pub mod paint2d;
 mod pass;
 mod pipeline;
 mod point;
 mod pool;
+mod rasterizer;
 mod resolve;
+mod samples;
 mod settings;
 mod setup;
 mod shade;
+pub mod simd;
 mod stats;
 mod target;
 mod texture;
@@ -111,12 +119,22 @@ mod viewport;
 pub use draw::{Culling, Draw, Lines, PointShape, Points, Surface};
 pub use fragment::{EdgeFlags, Fragment};
 pub use pass::{Background, Pass};
-pub use pipeline::{Pipeline, VertexOutput};
-pub use settings::{ExecuteSettings, TileSize};
+#[doc(hidden)]
+pub use pipeline::ScalarPipeline;
+pub use pipeline::{LanePipeline, Pipeline, VertexOutput};
+pub use rasterizer::Rasterizer;
+pub use settings::{DepthTest, ExecuteSettings, TileSize};
+#[doc(hidden)]
+pub use shade::RawFragment;
+pub use shade::{FragmentLanes, MAX_VARYINGS};
 pub use stats::Stats;
 pub use target::{MAX_SAMPLES_PER_AXIS, MAX_TARGET_SIZE, Output, Pictures, Target, TargetError};
-pub use texture::{Filter, MAX_TEXTURE_SIZE, MipFilter, Sampler, Texture, TextureError, TextureFormat, Wrap};
+pub use texture::{
+    Dual, Filter, MAX_ANISOTROPY, MAX_TEXTURE_SIZE, MipFilter, Sampler, Texture, TextureError, TextureFormat,
+    Wrap,
+};
 pub use varyings::Varyings;
+pub use vertex::VertexLanes;
 
 /// The crate below, so that points and vectors need no other dependency.
 pub use trigon_math as math;

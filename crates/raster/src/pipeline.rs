@@ -1,7 +1,9 @@
-//! The trait that a user of the rasterizer implements: where vertices come
-//! from, and what colour a sample gets.
+//! The traits that a user of the rasterizer implements: where vertices come
+//! from, and what colour a visible pixel gets.
 
-use crate::{Fragment, Varyings};
+use crate::shade::RawFragment;
+use crate::simd::{F32, LANES, Mask, Simd, prelude::*};
+use crate::{Fragment, FragmentLanes, Varyings, VertexLanes};
 use trigon_math::Vec4;
 
 /// One vertex after the vertex stage.
@@ -17,7 +19,8 @@ pub struct VertexOutput<V> {
     pub varyings: V,
 }
 
-/// A draw's own program: vertices in, colours out.
+/// A draw's own program, one vertex and one fragment at a time: the convenient
+/// form. [`LanePipeline`] is the fast one.
 ///
 /// The trait is called statically inside loops over many vertices or
 /// fragments; only those loops are reached through a virtual call.
@@ -30,18 +33,140 @@ pub trait Pipeline: Sync {
     fn vertex_count(&self) -> usize;
 
     /// The vertex `index`, below [`vertex_count`](Self::vertex_count). Called
-    /// at most once per frame and draw for each vertex, on any thread; for those
-    /// that the draw's indices name, and perhaps for some between them.
+    /// on any thread; once per frame and draw for each vertex that the draw's
+    /// indices name, and perhaps for some that they do not. Asked again where
+    /// a triangle is cut, so it must be a function of the index alone.
     fn vertex(&self, index: usize) -> VertexOutput<Self::Varyings>;
 
-    /// The colour of a visible sample: linear light, premultiplied by its
+    /// The colour of a visible pixel: linear light, premultiplied by its
     /// alpha. A component that is not finite counts as 0; what overflows when
     /// finite colours are blended or averaged is held to the largest number.
     fn fragment(&self, fragment: &Fragment<Self::Varyings>) -> Vec4;
 
-    /// Whether the sample exists at all. Asked only for
+    /// Whether the fragment exists at all. Asked only for
     /// [`Surface::Masked`](crate::Surface::Masked), before depth is written.
     fn mask(&self, _fragment: &Fragment<Self::Varyings>) -> bool {
         true
+    }
+}
+
+/// A [`Pipeline`] without its type: its calls are dear enough to be virtual.
+#[doc(hidden)]
+pub trait ScalarPipeline: Sync {
+    /// A vertex's position; its varyings go to the row.
+    fn run_vertex(&self, index: usize, varyings: &mut [f32]) -> [f32; 4];
+    /// A fragment's colour.
+    fn run_fragment(&self, fragment: &RawFragment<'_>) -> [f32; 4];
+    /// Whether a fragment exists.
+    fn run_mask(&self, fragment: &RawFragment<'_>) -> bool;
+}
+
+impl<P: Pipeline> ScalarPipeline for P {
+    fn run_vertex(&self, index: usize, varyings: &mut [f32]) -> [f32; 4] {
+        let output = self.vertex(index);
+        output.varyings.store(varyings);
+        output.position.to_array()
+    }
+
+    fn run_fragment(&self, fragment: &RawFragment<'_>) -> [f32; 4] {
+        self.fragment(&fragment.typed()).to_array()
+    }
+
+    fn run_mask(&self, fragment: &RawFragment<'_>) -> bool {
+        self.mask(&fragment.typed())
+    }
+}
+
+/// A draw's own program in vectors of eight lanes, the same at every
+/// [`SimdLevel`](crate::simd::SimdLevel). Every [`Pipeline`] is one.
+///
+/// Write each method `#[inline(always)]`, and everything that it calls on
+/// vectors, too: a call that is not inlined loses the level's instructions.
+/// Lanes must not look at each other, and only operations that round the same
+/// everywhere keep the promise of equal bytes: `+ - * /`, square root,
+/// comparison and selection; no fused multiply-add.
+pub trait LanePipeline: Sync {
+    /// How many f32 are interpolated from the vertices to the fragments.
+    const VARYINGS: usize;
+
+    /// Whether [`fragments`](Self::fragments) is asked only once for each visible
+    /// triangle or part of a cut one (in each tile): flat colours.
+    const FLAT: bool = false;
+
+    /// Whether [`masks`](Self::masks) says anything.
+    const MASKED: bool = false;
+
+    /// How many vertices there are; indices beyond are dropped with their
+    /// triangle.
+    fn vertex_count(&self) -> usize;
+
+    /// Clip-space positions (see [`VertexOutput::position`]) of up to eight
+    /// consecutive vertices, and their varyings by [`VertexLanes::set`]. Lanes
+    /// beyond the count are ignored.
+    fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4];
+
+    /// The colours of up to eight visible pixels: linear light, premultiplied;
+    /// see [`Pipeline::fragment`]. For a [`FLAT`](Self::FLAT) pipeline only the ids
+    /// of the fragments have a meaning, and the first lane's colour is taken.
+    fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4];
+
+    /// Whether the fragments exist at all; see [`Pipeline::mask`]. Asked only
+    /// if [`MASKED`](Self::MASKED).
+    #[inline(always)]
+    fn masks<S: Simd>(&self, simd: S, _fragments: &FragmentLanes<'_, S>) -> Mask<S> {
+        Mask::splat(simd, true)
+    }
+
+    /// The pipeline as one that does one thing at a time, so that its code is
+    /// compiled once and not for every level.
+    #[doc(hidden)]
+    const SCALAR: bool = false;
+
+    #[doc(hidden)]
+    fn as_scalar(&self) -> Option<&dyn ScalarPipeline> {
+        None
+    }
+}
+
+impl<P: Pipeline> LanePipeline for P {
+    const VARYINGS: usize = P::Varyings::COMPONENTS;
+    const SCALAR: bool = true;
+
+    fn as_scalar(&self) -> Option<&dyn ScalarPipeline> {
+        Some(self)
+    }
+
+    fn vertex_count(&self) -> usize {
+        P::vertex_count(self)
+    }
+
+    #[inline(always)]
+    fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
+        let mut positions = [[0.0; LANES]; 4];
+        for lane in 0..vertices.count() {
+            let position = self.run_vertex(vertices.first() + lane, vertices.of(lane));
+            for (column, value) in positions.iter_mut().zip(position) {
+                column[lane] = value;
+            }
+        }
+        positions.map(|column| F32::simd_from(simd, column))
+    }
+
+    #[inline(always)]
+    fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+        let mut colors = [[0.0; LANES]; 4];
+        fragments.for_each(|lane, fragment| {
+            for (column, value) in colors.iter_mut().zip(self.run_fragment(&fragment)) {
+                column[lane] = value;
+            }
+        });
+        colors.map(|column| F32::simd_from(simd, column))
+    }
+
+    #[inline(always)]
+    fn masks<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> Mask<S> {
+        let mut kept = [0.0_f32; LANES];
+        fragments.for_each(|lane, fragment| kept[lane] = f32::from(u8::from(self.run_mask(&fragment))));
+        F32::simd_from(simd, kept).simd_gt(F32::splat(simd, 0.5))
     }
 }

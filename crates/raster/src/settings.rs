@@ -1,5 +1,6 @@
 //! How a pass is executed. Nothing in here can change a byte of the result.
 
+use crate::simd::SimdLevel;
 use std::num::NonZeroUsize;
 
 /// How a pass is executed: what it costs, never what it draws.
@@ -8,33 +9,52 @@ pub struct ExecuteSettings {
     /// How many threads may work; `None` for as many as the machine runs at
     /// once. Small frames stay on the calling thread regardless.
     pub threads: Option<NonZeroUsize>,
+    /// Which vector instructions are used; `None` for the best that the
+    /// processor has.
+    pub simd: Option<SimdLevel>,
     /// The size of the squares that the frame is cut into.
     pub tile_size: TileSize,
+    /// Whether hidden blocks are told from bounds of their depths.
+    pub depth_test: DepthTest,
 }
 
-/// The edge of a tile in samples; with supersampling the tile is the largest
-/// whole number of pixels that fits.
+/// When depth is tested.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DepthTest {
+    /// Bounds over blocks and tiles first, so that what is hidden is left out as
+    /// a whole.
+    #[default]
+    Hierarchical,
+    /// At every sample: for comparison.
+    Late,
+}
+
+/// The edge of a tile in pixels; with supersampling, of the finer grid, and the
+/// tile is the largest whole number of pixels that fits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TileSize {
-    /// 8 by 8 samples: for tests.
-    Samples8,
-    /// 16 by 16 samples.
-    Samples16,
-    /// 32 by 32 samples.
-    Samples32,
-    /// 64 by 64 samples: a depth and an ordinal for each sample fit into the
-    /// first-level cache of most processors.
+    /// 64 by 64, and 32 by 32 from four samples on: what a worker keeps of a tile
+    /// fits into the caches nearest to it.
     #[default]
-    Samples64,
+    Automatic,
+    /// 8 by 8: for tests.
+    Pixels8,
+    /// 16 by 16.
+    Pixels16,
+    /// 32 by 32.
+    Pixels32,
+    /// 64 by 64.
+    Pixels64,
 }
 
 impl TileSize {
-    pub(crate) fn samples(self) -> u32 {
+    pub(crate) fn pixels(self, samples: u32) -> u32 {
         match self {
-            Self::Samples8 => 8,
-            Self::Samples16 => 16,
-            Self::Samples32 => 32,
-            Self::Samples64 => 64,
+            Self::Automatic if samples >= 4 => 32,
+            Self::Automatic | Self::Pixels64 => 64,
+            Self::Pixels8 => 8,
+            Self::Pixels16 => 16,
+            Self::Pixels32 => 32,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What a frame took, in counts.
 
+use crate::tile::Counts;
 use std::ops::AddAssign;
 
 /// Counts of one executed pass. Lines and points count as the triangles that
@@ -29,9 +30,21 @@ pub struct Stats {
     pub binned: u64,
     /// Tiles that had any entry.
     pub tiles: u64,
-    /// Calls of the fragment function.
-    pub samples_shaded: u64,
-    /// Calls of the mask function.
+    /// Triangles that a tile hid as a whole, tile by tile.
+    pub tiles_rejected: u64,
+    /// Tiles that one triangle filled as a whole.
+    pub tiles_filled: u64,
+    /// Blocks of 8 by 8 pixels that a triangle does not cover, or that hid it as
+    /// a whole.
+    pub blocks_rejected: u64,
+    /// Blocks that a triangle covers all of.
+    pub blocks_accepted: u64,
+    /// Groups of 4 by 2 pixels that were tested sample by sample, outside of
+    /// accepted blocks.
+    pub groups_tested: u64,
+    /// Fragments that were shaded.
+    pub pixels_shaded: u64,
+    /// Fragments whose mask was asked.
     pub samples_masked: u64,
 }
 
@@ -46,7 +59,23 @@ impl AddAssign for Stats {
         self.set_up += other.set_up;
         self.binned += other.binned;
         self.tiles += other.tiles;
-        self.samples_shaded += other.samples_shaded;
+        self.tiles_rejected += other.tiles_rejected;
+        self.tiles_filled += other.tiles_filled;
+        self.blocks_rejected += other.blocks_rejected;
+        self.blocks_accepted += other.blocks_accepted;
+        self.groups_tested += other.groups_tested;
+        self.pixels_shaded += other.pixels_shaded;
         self.samples_masked += other.samples_masked;
+    }
+}
+
+impl Stats {
+    /// Adds what a tile's visibility took.
+    pub(crate) fn add_counts(&mut self, counts: &Counts) {
+        self.tiles_rejected += counts.tiles_rejected;
+        self.tiles_filled += counts.tiles_filled;
+        self.blocks_rejected += counts.blocks_rejected;
+        self.blocks_accepted += counts.blocks_accepted;
+        self.groups_tested += counts.groups;
     }
 }

@@ -32,10 +32,19 @@ impl Viewport {
     /// In f64, so that the only rounding that matters is the one to the grid.
     #[inline]
     pub(crate) fn snap(self, position: Vec4) -> Option<FixedPoint> {
-        let w = f64::from(position.w);
-        let x = (f64::from(position.x) / w * 0.5 + 0.5) * f64::from(self.width);
-        let y = (0.5 - f64::from(position.y) / w * 0.5) * f64::from(self.height);
+        let inverse_w = 1.0 / f64::from(position.w);
+        let [x, y] = self.place([position.x, position.y].map(f64::from), inverse_w);
         Some(FixedPoint::new(Fixed::from_f64(x)?, Fixed::from_f64(y)?))
+    }
+
+    /// Where a point in clip space lies, in pixels: within 2^-34 pixel of the
+    /// exact place as long as that is within the guard band.
+    #[inline(always)]
+    pub(crate) fn place(self, [x, y]: [f64; 2], inverse_w: f64) -> [f64; 2] {
+        [
+            (x * inverse_w * 0.5 + 0.5) * f64::from(self.width),
+            (0.5 - y * inverse_w * 0.5) * f64::from(self.height),
+        ]
     }
 }
 

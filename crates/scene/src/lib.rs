@@ -49,6 +49,7 @@ pub use scene::{MaterialId, MeshAsset, MeshId, NodeId, Scene, SceneError, Textur
 pub use settings::{Lighting, MAX_SIZE, Outputs, RenderSettings, Style};
 pub use showcase::showcase;
 pub use transform::Transform;
+pub use trigon_raster::simd::{SimdLevel, SimdLevelError};
 pub use trigon_raster::{Filter, MipFilter, Sampler, Stats, Texture, TextureError, TextureFormat, Wrap};
 pub use views::OVERVIEW_DIRECTION;
 /// The crates below, so that a user of scenes needs no others.

@@ -1,6 +1,7 @@
 //! What a picture is to hold and how it is drawn.
 
 use std::num::NonZeroUsize;
+use trigon_raster::simd::SimdLevel;
 
 use trigon_math::Vec3;
 
@@ -54,9 +55,13 @@ pub struct RenderSettings {
     pub width: u32,
     /// Pixels, 1 to [`MAX_SIZE`].
     pub height: u32,
-    /// Anti-aliasing: this many samples along each side of a pixel, 1 to 4,
-    /// averaged in linear light.
+    /// Anti-aliasing by supersampling: this many samples along each side of a
+    /// pixel, 1 to 4, each shaded, averaged in linear light.
     pub samples_per_axis: u32,
+    /// Anti-aliasing by multisampling: this many samples in each of those, 1, 2,
+    /// 4, 8 or 16, of which those of one triangle are shaded together. Smooths
+    /// outlines at a lower price, and nothing within a triangle.
+    pub samples: u32,
     /// Behind everything.
     pub background: Background,
     /// Faces, edges or both.
@@ -74,6 +79,9 @@ pub struct RenderSettings {
     /// At most this many threads; `None` for one per core. The picture does
     /// not depend on it.
     pub threads: Option<NonZeroUsize>,
+    /// Which vector instructions are used; `None` for the best that the
+    /// processor has. The picture does not depend on it.
+    pub simd: Option<SimdLevel>,
 }
 
 impl RenderSettings {
@@ -83,6 +91,7 @@ impl RenderSettings {
             width,
             height,
             samples_per_axis: 3,
+            samples: 1,
             background: Background::default(),
             style: Style::default(),
             line_width: 1.0,
@@ -91,6 +100,7 @@ impl RenderSettings {
             light_intensity: 1.0,
             outputs: Outputs::default(),
             threads: None,
+            simd: None,
         }
     }
 

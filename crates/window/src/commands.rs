@@ -104,6 +104,6 @@ fn cycle_samples(stage: &mut Stage) {
     /// The most that the renderer takes, along each side of a pixel.
     const MOST: u32 = 4;
     let next = stage.settings.samples_per_axis % MOST + 1;
-    stage.settings.samples_per_axis = next;
+    (stage.settings.samples_per_axis, stage.settings.samples) = (next, 1);
     stage.overlay.notify(format!("{} samples per pixel", next * next));
 }

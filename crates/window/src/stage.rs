@@ -195,7 +195,8 @@ impl Stage {
         }
         let camera = self.camera();
         let outputs = Outputs { depth: true, ids: true };
-        let mut settings = RenderSettings { outputs, samples_per_axis: 1, ..self.settings.clone() };
+        let mut settings =
+            RenderSettings { outputs, samples_per_axis: 1, samples: 1, ..self.settings.clone() };
         (settings.width, settings.height) = (self.viewport.width, self.viewport.height);
         let frame = self.renderer.render(&self.scene, &camera, &settings).ok()?;
         let (x, y) = (at.x as u32, at.y as u32);
@@ -261,7 +262,7 @@ impl Stage {
         let shrink = match quality {
             Quality::Full => 1,
             Quality::Draft { shrink } => {
-                settings.samples_per_axis = 1;
+                (settings.samples_per_axis, settings.samples) = (1, 1);
                 shrink
             }
         };

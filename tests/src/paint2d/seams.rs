@@ -100,7 +100,7 @@ proptest! {
 fn centres_on_edges_belong_to_the_right_and_the_lower_neighbour() {
     let shape = Shape::rectangle([2.5, 1.5], [5.5, 3.5], [255; 4]);
     let black = vec![[0; 4]; (SIZE[0] * SIZE[1]) as usize];
-    for painting in [meshes(&[shape.clone()]), shape.apart()] {
+    for painting in [meshes(std::slice::from_ref(&shape)), shape.apart()] {
         let (pixels, _) = painted_over(&black, &painting);
         let inside: Vec<usize> = (0..pixels.len()).filter(|&i| pixels[i] != [0; 4]).collect();
         let row = |y: usize| (2..5).map(move |x| y * SIZE[0] as usize + x);

@@ -9,6 +9,7 @@ use std::path::PathBuf;
 use clap::{ArgAction, Parser, ValueEnum};
 use trigon_camera::Viewport;
 use trigon_math::{DVec3, Vec3};
+use trigon_scene::SimdLevel;
 
 use super::output::Destination;
 use super::values;
@@ -142,8 +143,8 @@ pub(crate) struct RawArgs {
     #[arg(long, short, num_args = 0..=1, require_equals = true, default_missing_value = "ssaa", default_value = "ssaa", value_name = "METHOD", help_heading = "Look")]
     pub(crate) anti_aliasing: AntiAliasing,
 
-    /// Samples along each side of a pixel: 3 means 9 per pixel (not in F3D) [default: 3]
-    #[arg(long, value_name = "1-4", value_parser = clap::value_parser!(u32).range(1..=4), allow_negative_numbers = true, help_heading = "Look")]
+    /// Samples: along each side of a pixel with ssaa, 1 to 4, so 3 means 9; in all with msaa, 1, 2, 4, 8 or 16 (not in F3D) [default: 3, or 4 with msaa]
+    #[arg(long, value_name = "1-16", value_parser = clap::value_parser!(u32).range(1..=16), allow_negative_numbers = true, help_heading = "Look")]
     pub(crate) samples: Option<u32>,
 
     /// Colour of the model; textures are tinted by it
@@ -177,6 +178,10 @@ pub(crate) struct RawArgs {
     /// Use at most this many threads; the picture is the same with any number [default: one per core]
     #[arg(long, value_name = "N", value_parser = values::threads, allow_negative_numbers = true, help_heading = "Program")]
     pub(crate) threads: Option<std::num::NonZeroUsize>,
+
+    /// Use these vector instructions; the picture is the same with any [default: the best that the processor has]
+    #[arg(long, value_name = "LEVEL", value_parser = values::simd, help_heading = "Program")]
+    pub(crate) simd: Option<SimdLevel>,
 
     /// How much to say on standard error
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "debug", default_value = "info", value_name = "LEVEL", help_heading = "Program")]
@@ -264,8 +269,10 @@ pub(crate) enum DrawStyle {
 pub(crate) enum AntiAliasing {
     /// One sample per pixel
     None,
-    /// Several samples per pixel, see --samples
+    /// Several samples per pixel, each with a colour of its own, see --samples
     Ssaa,
+    /// Several samples per pixel, one colour for those of a triangle: quicker (not in F3D)
+    Msaa,
 }
 
 /// What happens to faces seen from behind.

@@ -170,15 +170,7 @@ fn look(raw: &RawArgs) -> Look {
 
 fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
     let mut settings = RenderSettings::new(raw.resolution.width, raw.resolution.height);
-    settings.samples_per_axis = match (raw.anti_aliasing, raw.samples) {
-        (AntiAliasing::None, None | Some(1)) => 1,
-        (AntiAliasing::None, Some(samples)) => {
-            return Err(format!(
-                "--anti-aliasing=none means one sample per pixel, but --samples={samples} asks for more; leave one of them out"
-            ));
-        }
-        (AntiAliasing::Ssaa, samples) => samples.unwrap_or(settings.samples_per_axis),
-    };
+    (settings.samples_per_axis, settings.samples) = samples(raw)?;
     if raw.no_background == Some(true) {
         settings.background = Background::Transparent;
     } else if let Some(color) = raw.background_color {
@@ -196,7 +188,29 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
     settings.line_width = raw.line_width;
     settings.light_intensity = raw.light_intensity;
     settings.threads = raw.threads;
+    settings.simd = raw.simd;
     Ok(settings)
+}
+
+/// Samples along each side of a pixel by supersampling, and in each of those by
+/// multisampling.
+fn samples(raw: &RawArgs) -> Result<(u32, u32), String> {
+    match (raw.anti_aliasing, raw.samples) {
+        (AntiAliasing::None, None | Some(1)) => Ok((1, 1)),
+        (AntiAliasing::None, Some(samples)) => Err(format!(
+            "--anti-aliasing=none means one sample per pixel, but --samples={samples} asks for more; leave one of them out"
+        )),
+        (AntiAliasing::Ssaa, None) => Ok((3, 1)),
+        (AntiAliasing::Ssaa, Some(samples @ 1..=4)) => Ok((samples, 1)),
+        (AntiAliasing::Ssaa, Some(samples)) => Err(format!(
+            "--samples={samples} along each side of a pixel are too many: write 1 to 4, or --anti-aliasing=msaa for so many in all"
+        )),
+        (AntiAliasing::Msaa, None) => Ok((1, 4)),
+        (AntiAliasing::Msaa, Some(samples @ (1 | 2 | 4 | 8 | 16))) => Ok((1, samples)),
+        (AntiAliasing::Msaa, Some(samples)) => {
+            Err(format!("--anti-aliasing=msaa takes --samples=1, 2, 4, 8 or 16, not {samples}"))
+        }
+    }
 }
 
 /// The colour of edges before a background: the usual dark one, or a light one
@@ -302,13 +316,21 @@ mod tests {
 
     #[test]
     fn anti_aliasing_and_samples_agree() {
-        for (flags, samples) in
-            [("-a", 3), ("--anti-aliasing=none", 1), ("--samples 4", 4), ("-a=none --samples=1", 1)]
-        {
-            assert_eq!(request(flags).expect("fine").settings.samples_per_axis, samples, "{flags}");
+        for (flags, samples) in [
+            ("-a", (3, 1)),
+            ("--anti-aliasing=none", (1, 1)),
+            ("--samples 4", (4, 1)),
+            ("-a=none --samples=1", (1, 1)),
+            ("-a=msaa", (1, 4)),
+            ("-a=msaa --samples=16", (1, 16)),
+        ] {
+            let settings = request(flags).expect("fine").settings;
+            assert_eq!((settings.samples_per_axis, settings.samples), samples, "{flags}");
         }
         assert!(refusal("--anti-aliasing=none --samples=2").contains("one sample"), "explained");
-        assert!(refusal("--samples=5").contains("1..=4"), "explained");
+        assert!(refusal("--samples=5").contains("--anti-aliasing=msaa"), "explained");
+        assert!(refusal("--anti-aliasing=msaa --samples=3").contains("1, 2, 4, 8 or 16"), "explained");
+        assert!(refusal("--samples=17").contains("1..=16"), "explained");
     }
 
     /// Dark edges on `--background-color=black` made an empty picture.

@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 
 use trigon_camera::Viewport;
 use trigon_math::{DVec3, Vec3, color};
-use trigon_scene::MAX_SIZE;
+use trigon_scene::{MAX_SIZE, SimdLevel, SimdLevelError};
 
 /// A switch: `--edges`, `--edges=false` and their spellings.
 pub(crate) fn switch(text: &str) -> Result<bool, String> {
@@ -148,6 +148,12 @@ pub(crate) fn threads(text: &str) -> Result<NonZeroUsize, String> {
     text.parse().map_err(|_| "write a whole number from 1 up".to_owned())
 }
 
+/// A set of vector instructions that this processor has.
+pub(crate) fn simd(text: &str) -> Result<SimdLevel, SimdLevelError> {
+    let level: SimdLevel = text.parse()?;
+    if level.is_supported() { Ok(level) } else { Err(SimdLevelError::Unsupported(level)) }
+}
+
 fn finite(text: &str) -> Option<f64> {
     text.trim().parse::<f64>().ok().filter(|number| number.is_finite())
 }
@@ -237,6 +243,15 @@ mod tests {
         for text in ["0", "1e-7", "1e7"] {
             let message = zoom(text).expect_err("out of range");
             assert!(message.contains("from 0.000001 to 1000000"), "{text}: {message}");
+        }
+    }
+
+    #[test]
+    fn simd_levels_are_those_of_the_processor() {
+        assert_eq!(simd("scalar"), Ok(SimdLevel::Scalar), "every processor has it");
+        assert_eq!(simd("sse9"), Err(SimdLevelError::Unknown), "nobody has it");
+        for level in SimdLevel::ALL {
+            assert_eq!(simd(&level.to_string()).is_ok(), level.is_supported(), "{level}");
         }
     }
 

@@ -5,13 +5,21 @@
 //! threads. A band of eight rows is done at a time, and where layers are very
 //! many a part of one, to bound the memory that they take: a sample's layers
 //! are never parted, so the result does not depend on it.
+//!
+//! With several samples a fragment is shaded once for its triangle and pixel,
+//! like an opaque one, and laid over each sample that it covers and that nothing
+//! hides; it stores no depth and no ids.
 
-use crate::frame::Frame;
+mod joints;
+mod samples;
+
+use crate::frame::FrameView;
 use crate::resolve::saturated;
-use crate::setup::Kind;
-use crate::shade::Span;
-use crate::tile::{Region, STRIDE, Scratch, TileArea, TileTriangle, Waiting, is_seen};
+use crate::shade::{Job, ShadeOutput, Work, shade_jobs};
+use crate::tile::{Place, Scratch, TileArea, for_each_seen};
+use joints::Joints;
 use std::cmp::Ordering;
+use std::ops::Range;
 use trigon_math::Vec4;
 
 const BAND: usize = 8;
@@ -20,127 +28,152 @@ const BAND: usize = 8;
 /// megabytes, and 512 layers over a whole band.
 const MOST_WAITING: usize = 1 << 18;
 
-/// An end of a translucent segment at the sample that is blended: its draw, its
-/// vertex, and the segment.
-pub(crate) type Joint = [u32; 3];
+/// A fragment that waits for its turn at one sample.
+#[derive(Clone, Copy)]
+struct Waiting {
+    /// Index of the sample in the tile's buffer.
+    sample: u32,
+    depth: f32,
+    place: u32,
+    /// Which colour it has.
+    color: u32,
+}
+
+/// What blending keeps from tile to tile.
+#[derive(Default)]
+pub(crate) struct Layers {
+    waiting: Vec<Waiting>,
+    order: Vec<u32>,
+    jobs: Vec<Job>,
+    work: Vec<Work>,
+    colors: Vec<[f32; 4]>,
+    joints: Joints,
+}
+
+/// A rectangle of pixels of a tile: columns and rows, ends excluded.
+type Region = [Range<usize>; 2];
 
 /// Lays the translucent triangles of a tile over its colours.
-pub(crate) fn blend_translucent(frame: &Frame<'_>, area: TileArea, scratch: &mut Scratch, bin: &[u32]) {
-    let whole = area.whole();
-    let last = whole.rows[1];
-    for first in (0..=last).step_by(BAND) {
-        let rows = [first, last.min(first + BAND - 1)];
-        blend_region(frame, area, scratch, (bin, Region { rows, ..whole }));
+pub(crate) fn blend_translucent(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    scratch: &mut Scratch,
+    places: Range<usize>,
+) {
+    samples::expand(frame, area, scratch);
+    let mut layers = std::mem::take(&mut scratch.layers);
+    for first in (0..area.size[1]).step_by(BAND) {
+        let rows = first..area.size[1].min(first + BAND);
+        blend_region(frame, area, scratch, &mut layers, (places.clone(), [0..area.size[0], rows]));
+    }
+    scratch.layers = layers;
+    samples::collapse(frame, scratch);
+}
+
+fn blend_region(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    scratch: &mut Scratch,
+    layers: &mut Layers,
+    (places, region): (Range<usize>, Region),
+) {
+    if gather(frame, area, scratch, layers, (places.clone(), region.clone())) {
+        if !layers.waiting.is_empty() {
+            shade(frame, area, &scratch.places, layers);
+            scratch.stats.pixels_shaded += layers.work.len() as u64;
+            sort(frame, &scratch.places, layers);
+            lay_over(frame, &scratch.places, layers, &mut scratch.samples);
+        }
+        return;
+    }
+    for half in halves(region).into_iter().flatten() {
+        blend_region(frame, area, scratch, layers, (places.clone(), half));
     }
 }
 
-fn blend_region(frame: &Frame<'_>, area: TileArea, scratch: &mut Scratch, (bin, region): (&[u32], Region)) {
-    let mut waiting = std::mem::take(&mut scratch.waiting);
-    let complete = gather(frame, area, scratch, (bin, region), &mut waiting);
-    if complete && !waiting.is_empty() {
-        shade(frame, area, scratch, &waiting);
-        sort(frame, scratch, &waiting);
-        lay_over(frame, scratch, &waiting);
-    }
-    scratch.waiting = waiting;
-    if !complete {
-        for half in region.halves().into_iter().flatten() {
-            blend_region(frame, area, scratch, (bin, half));
-        }
+/// Both halves, one above or beside the other; `None` if there is only one
+/// pixel.
+fn halves([columns, rows]: Region) -> Option<[Region; 2]> {
+    let cut = |range: &Range<usize>| {
+        let middle = range.start + range.len() / 2;
+        [range.start..middle, middle..range.end]
+    };
+    if rows.len() > 1 {
+        Some(cut(&rows).map(|rows| [columns.clone(), rows]))
+    } else if columns.len() > 1 {
+        Some(cut(&columns).map(|columns| [columns, rows.clone()]))
+    } else {
+        None
     }
 }
 
 /// The fragments that nothing opaque hides. False if they are too many to be
 /// done at once, and the region can be halved.
 fn gather(
-    frame: &Frame<'_>,
-    area: TileArea,
-    scratch: &mut Scratch,
-    (bin, region): (&[u32], Region),
-    waiting: &mut Vec<Waiting>,
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    scratch: &Scratch,
+    layers: &mut Layers,
+    (places, region): (Range<usize>, Region),
 ) -> bool {
-    let most = if region.halves().is_some() { MOST_WAITING } else { usize::MAX };
+    let most = if halves(region.clone()).is_some() { MOST_WAITING } else { usize::MAX };
+    let Layers { waiting, jobs, work, .. } = layers;
     waiting.clear();
-    scratch.spans.clear();
-    let mut spans = std::mem::take(&mut scratch.spans);
-    for &ordinal in bin {
+    jobs.clear();
+    work.clear();
+    for place in places {
         if waiting.len() > most {
-            break;
+            return false;
         }
-        let Some(tile_triangle) = TileTriangle::new(&frame.triangles[ordinal as usize], area, region) else {
-            continue;
-        };
-        tile_triangle.for_each_sample(|sample, depth| {
-            if is_seen(frame, scratch, sample, depth, ordinal) {
-                Span::extend(&mut spans, ordinal, [sample % STRIDE, sample / STRIDE], waiting.len());
-                waiting.push(Waiting { sample: sample as u32, depth, triangle: ordinal });
+        let start = work.len();
+        for_each_seen(frame, area, scratch, (place, region.clone()), |pixel, sample, depth| {
+            // The samples of a pixel come one after another.
+            if work[start..].last().is_none_or(|last: &Work| last.pixel() != pixel) {
+                work.push(Work::anywhere(pixel, frame.is_multisampled(), work.len()));
             }
+            let sample = scratch.buffer.index(pixel, sample) as u32;
+            waiting.push(Waiting { sample, depth, place: place as u32, color: work.len() as u32 - 1 });
         });
+        if work.len() > start {
+            jobs.push(Job { place: place as u32, work: start..work.len() });
+        }
     }
-    scratch.spans = spans;
     waiting.len() <= most
 }
 
-fn shade(frame: &Frame<'_>, area: TileArea, scratch: &mut Scratch, waiting: &[Waiting]) {
-    scratch.waiting_color.clear();
-    scratch.waiting_color.resize(waiting.len(), Vec4::ZERO);
-    frame.shade(area, &scratch.spans, &mut scratch.waiting_color);
-    scratch.stats.samples_shaded += waiting.len() as u64;
+fn shade(frame: &FrameView<'_>, area: &TileArea, places: &[Place], layers: &mut Layers) {
+    layers.colors.clear();
+    layers.colors.resize(layers.work.len(), [0.0; 4]);
+    let mut output = ShadeOutput::Colors(&mut layers.colors);
+    shade_jobs(frame, area, (places, &layers.jobs, &layers.work), &mut output);
 }
 
 /// By sample, then from back to front.
-fn sort(frame: &Frame<'_>, scratch: &mut Scratch, waiting: &[Waiting]) {
-    scratch.order.clear();
-    scratch.order.extend(0..waiting.len() as u32);
-    scratch.order.sort_unstable_by(|&a, &b| {
+fn sort(frame: &FrameView<'_>, places: &[Place], layers: &mut Layers) {
+    let Layers { waiting, order, .. } = layers;
+    order.clear();
+    order.extend(0..waiting.len() as u32);
+    order.sort_unstable_by(|&a, &b| {
         let (a, b) = (&waiting[a as usize], &waiting[b as usize]);
         let depth = || a.depth.partial_cmp(&b.depth).unwrap_or(Ordering::Equal);
         // Of equal depths the smaller key is in front, so later.
-        let key = || frame.compare(b.triangle, a.triangle);
+        let key = || frame.compare(places[b.place as usize], places[a.place as usize]);
         a.sample.cmp(&b.sample).then_with(depth).then_with(key)
     });
 }
 
-fn lay_over(frame: &Frame<'_>, scratch: &mut Scratch, waiting: &[Waiting]) {
-    let Scratch { order, color, waiting_color, joints, .. } = scratch;
-    for layers in order.chunk_by(|&a, &b| waiting[a as usize].sample == waiting[b as usize].sample) {
-        let color = &mut color[waiting[layers[0] as usize].sample as usize];
-        collect_joints(frame, waiting, layers, joints);
-        for &layer in layers {
-            if leaves_joint(frame, joints, waiting[layer as usize].triangle) {
+fn lay_over(frame: &FrameView<'_>, places: &[Place], layers: &mut Layers, samples: &mut [Vec4]) {
+    let Layers { waiting, order, colors, joints, .. } = layers;
+    let place = |layer: u32| places[waiting[layer as usize].place as usize];
+    for at_sample in order.chunk_by(|&a, &b| waiting[a as usize].sample == waiting[b as usize].sample) {
+        let color = &mut samples[waiting[at_sample[0] as usize].sample as usize];
+        joints.collect(frame, at_sample.iter().map(|&layer| place(layer)));
+        for &layer in at_sample {
+            if joints.leaves(frame, place(layer)) {
                 continue;
             }
-            let source = waiting_color[layer as usize];
+            let source = Vec4::from_array(colors[waiting[layer as usize].color as usize]);
             *color = saturated(source + *color * (1.0 - source.w));
         }
     }
-}
-
-/// The ends of all segments at a sample, in order.
-fn collect_joints(frame: &Frame<'_>, waiting: &[Waiting], layers: &[u32], joints: &mut Vec<Joint>) {
-    joints.clear();
-    for &layer in layers {
-        joints.extend(joints_of(frame, waiting[layer as usize].triangle).into_iter().flatten());
-    }
-    joints.sort_unstable();
-}
-
-/// The two ends of a line's triangle.
-fn joints_of(frame: &Frame<'_>, ordinal: u32) -> Option<[Joint; 2]> {
-    let triangle = &frame.triangles[ordinal as usize];
-    let ends = || {
-        let [from, to, _] = frame.geometry(triangle).corners(triangle.primitive);
-        [from, to].map(|vertex| [triangle.draw, vertex, triangle.primitive])
-    };
-    (triangle.kind == Kind::Line).then(ends)
-}
-
-/// Whether a triangle is of a segment that leaves this sample to a later one of
-/// the same draw that it is joined to.
-fn leaves_joint(frame: &Frame<'_>, joints: &[Joint], ordinal: u32) -> bool {
-    joints_of(frame, ordinal).into_iter().flatten().any(|[draw, vertex, primitive]| {
-        // The last that meets in this vertex; the segment itself is among them.
-        let after = joints.partition_point(|joint| *joint <= [draw, vertex, u32::MAX]);
-        joints[after - 1][2] > primitive
-    })
 }

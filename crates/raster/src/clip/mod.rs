@@ -7,7 +7,7 @@
 
 mod outcode;
 
-pub(crate) use outcode::{Outcode, W_MIN};
+pub(crate) use outcode::{COORDINATE_MAX, Outcode, W_MIN};
 
 use crate::viewport::Viewport;
 use trigon_math::{ClipPolygon, ClipVolume, HalfSpace, Vec4, clip_triangle};

@@ -60,6 +60,17 @@ impl Outcode {
     }
 
     #[inline]
+    pub(crate) const fn bits(self) -> u16 {
+        self.0
+    }
+
+    /// The set that [`bits`](Self::bits) gave.
+    #[inline]
+    pub(crate) fn from_bits(bits: u16) -> Self {
+        Self(bits)
+    }
+
+    #[inline]
     pub(crate) fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }

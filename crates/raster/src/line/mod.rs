@@ -5,9 +5,8 @@
 //! by cuts along it, so that a line one pixel wide has one pixel in each step
 //! of its major direction, as in Direct3D and OpenGL.
 
-use crate::setup::{Candidate, CutWeights, Kind, ScreenVertex, Setup};
-use crate::vertex::nearer;
-use std::num::NonZeroU32;
+use crate::setup::{Candidate, CutWeights, Kind, Setup};
+use crate::vertex::{ScreenVertex, nearer};
 use trigon_math::{ClipVertex, Fixed, FixedPoint, clip_segment};
 
 /// The widest line and largest point in pixels.
@@ -35,62 +34,59 @@ pub(crate) struct LineStyle {
 }
 
 impl LineStyle {
-    pub(crate) fn new(width: f32, toward_eye: f32, samples_per_axis: NonZeroU32) -> Self {
+    pub(crate) fn new(width: f32, toward_eye: f32, supersampling: u32, multisampled: bool) -> Self {
         let width = drawable_size(width);
-        let half_width = f64::from(width) * f64::from(samples_per_axis.get()) * 128.0;
-        Self { half_width, single: width == 1.0 && samples_per_axis.get() == 1, toward_eye }
+        let half_width = f64::from(width) * f64::from(supersampling) * 128.0;
+        Self { half_width, single: width == 1.0 && supersampling == 1 && !multisampled, toward_eye }
     }
 }
 
 impl Setup<'_> {
     /// One segment of a draw of lines.
     pub(crate) fn segment(&mut self, primitive: u32, indices: [u32; 2], style: LineStyle) {
-        self.batch.stats.primitives += 1;
-        let Some(slots) = self.vertices.slots(indices) else {
-            self.batch.stats.invalid += 1;
-            return;
-        };
-        let [a, b] = slots.map(|slot| self.vertices.outcode(slot));
+        let [a, b] = indices.map(|index| self.vertices.outcode(index));
         let planes = a.union(b);
         if planes.is_invalid() {
-            self.batch.stats.invalid += 1;
+            self.chunk.stats.invalid += 1;
         } else if a.intersection(b).hides_wide() {
-            self.batch.stats.outside += 1;
+            self.chunk.stats.outside += 1;
         } else if planes.cuts() {
-            self.batch.stats.clipped += 1;
-            let positions = slots.map(|slot| self.vertices.position(slot));
+            self.chunk.stats.clipped += 1;
+            let positions = indices.map(|index| self.vertices.position(index));
             let ends = clip_segment(positions, self.volume);
             let screen =
-                |end: ClipVertex<2>| Some((ScreenVertex::new(end.position, self.viewport)?, end.weights));
+                |end: ClipVertex<2>| Some((ScreenVertex::of(end.position, self.grid.viewport)?, end.weights));
             match ends.map(|[a, b]| (screen(a), screen(b))) {
-                Some((Some(a), Some(b))) => self.parallelogram(primitive, by_slot(slots, [a, b]), style),
-                _ => self.batch.stats.outside += 1,
+                Some((Some(a), Some(b))) => self.parallelogram(primitive, by_index(indices, [a, b]), style),
+                _ => self.chunk.stats.outside += 1,
             }
         } else {
-            let [a, b] = slots.map(|slot| self.vertices.screen(slot));
+            let [a, b] = indices.map(|index| *self.vertices.get(index));
             let ends = [(a, [1.0, 0.0]), (b, [0.0, 1.0])];
-            self.parallelogram(primitive, by_slot(slots, ends), style);
+            self.parallelogram(primitive, by_index(indices, ends), style);
         }
     }
 
     /// The two triangles around a segment.
     fn parallelogram(&mut self, primitive: u32, mut ends: [(ScreenVertex, [f32; 2]); 2], style: LineStyle) {
-        // From the upper end to the lower, and from the smaller slot where both
+        // From the upper end to the lower, and from the smaller index where both
         // lie on one point (the sort is stable): then nothing below depends on
         // which end was given first.
-        ends.sort_by_key(|(end, _)| (end.point.y.raw(), end.point.x.raw()));
+        ends.sort_by_key(|(end, _)| {
+            let [x, y] = end.raw();
+            (y, x)
+        });
         // Columns of the weights in the order of the ends, too.
         let swapped = ends[0].1[0] < ends[1].1[0];
         let corners = if swapped { [1, 0, 0] } else { [0, 1, 1] };
         let weights = ends.map(|(_, [a, b])| if swapped { [b, a, 0.0] } else { [a, b, 0.0] });
-        let Some(outline) = outline(ends.map(|(end, _)| end.point), style) else {
-            self.batch.stats.outside += 1;
+        let Some(outline) = outline(ends.map(|(end, _)| end.point()), style) else {
+            self.chunk.stats.outside += 1;
             return;
         };
-        let vertex = |end: usize, side: usize| ScreenVertex {
-            point: outline[end][side],
-            depth: nearer(ends[end].0.depth, style.toward_eye),
-            ..ends[end].0
+        let vertex = |end: usize, side: usize| {
+            let vertex = ends[end].0.at(outline[end][side]);
+            vertex.with_depth(nearer(vertex.depth(), style.toward_eye))
         };
         for [a, b, c] in [[(0, 0), (0, 1), (1, 1)], [(0, 0), (1, 1), (1, 0)]] {
             let candidate = Candidate {
@@ -106,9 +102,9 @@ impl Setup<'_> {
     }
 }
 
-/// The ends of a segment in the order of their vertices' slots.
-fn by_slot<T>(slots: [usize; 2], [a, b]: [T; 2]) -> [T; 2] {
-    if slots[0] > slots[1] { [b, a] } else { [a, b] }
+/// The ends of a segment in the order of their vertices' indices.
+fn by_index<T>(indices: [u32; 2], [a, b]: [T; 2]) -> [T; 2] {
+    if indices[0] > indices[1] { [b, a] } else { [a, b] }
 }
 
 /// The corners of the parallelogram around a segment: for each end the one

@@ -3,9 +3,8 @@
 
 use crate::PointShape;
 use crate::line::drawable_size;
-use crate::setup::{Candidate, Kind, ScreenVertex, Setup};
-use crate::vertex::nearer;
-use std::num::NonZeroU32;
+use crate::setup::{Candidate, Kind, Setup};
+use crate::vertex::{ScreenVertex, nearer};
 use trigon_math::{Fixed, FixedPoint};
 
 /// How a draw's points look.
@@ -18,8 +17,8 @@ pub(crate) struct PointStyle {
 }
 
 impl PointStyle {
-    pub(crate) fn new(size: f32, shape: PointShape, toward_eye: f32, samples_per_axis: NonZeroU32) -> Self {
-        let half = f64::from(drawable_size(size)) * f64::from(samples_per_axis.get()) * 128.0;
+    pub(crate) fn new(size: f32, shape: PointShape, toward_eye: f32, supersampling: u32) -> Self {
+        let half = f64::from(drawable_size(size)) * f64::from(supersampling) * 128.0;
         let kind = match shape {
             PointShape::Round => Kind::RoundPoint,
             PointShape::Square => Kind::SquarePoint,
@@ -31,29 +30,23 @@ impl PointStyle {
 impl Setup<'_> {
     /// One point of a draw of points.
     pub(crate) fn point(&mut self, primitive: u32, index: u32, style: PointStyle) {
-        self.batch.stats.primitives += 1;
-        let Some([slot]) = self.vertices.slots([index]) else {
-            self.batch.stats.invalid += 1;
-            return;
-        };
-        let outcode = self.vertices.outcode(slot);
+        let outcode = self.vertices.outcode(index);
         if outcode.is_invalid() {
-            self.batch.stats.invalid += 1;
+            self.chunk.stats.invalid += 1;
         } else if outcode.cuts() || outcode.hides_wide() {
-            self.batch.stats.outside += 1;
+            self.chunk.stats.outside += 1;
         } else {
-            self.square(primitive, self.vertices.screen(slot), style);
+            self.square(primitive, *self.vertices.get(index), style);
         }
     }
 
     fn square(&mut self, primitive: u32, centre: ScreenVertex, style: PointStyle) {
-        let depth = nearer(centre.depth, style.toward_eye);
+        let centre = centre.with_depth(nearer(centre.depth(), style.toward_eye));
+        let [column, row] = centre.raw();
         // Within the guard band and the largest size, nothing leaves the grid.
-        let moved = |fixed: Fixed, by: i32| Fixed::from_raw(fixed.raw() + by);
         let vertex = |x: i32, y: i32| {
-            let x = moved(centre.point.x, x * style.half);
-            let y = moved(centre.point.y, y * style.half);
-            ScreenVertex { point: FixedPoint::new(x, y), depth, ..centre }
+            let moved = |raw: i32, by: i32| Fixed::from_raw(raw + by * style.half);
+            centre.at(FixedPoint::new(moved(column, x), moved(row, y)))
         };
         for other in [vertex(1, -1), vertex(-1, 1)] {
             let candidate = Candidate {

@@ -1,172 +1,182 @@
-//! Samples become pixels: mean in linear light, transfer function, ids; straight
-//! into the rows of the target that belong to the tile.
+//! Pixels of a tile go to the target: mean in linear light, transfer function,
+//! ids.
 
-use crate::frame::Frame;
-use crate::pass::Background;
-use crate::target::{TileRect, TileRows};
-use crate::tile::{NOBODY, STRIDE, Scratch};
-use trigon_math::{UVec2, Vec4, color};
+mod background;
+mod mean;
 
-/// A linear premultiplied colour as sRGB bytes with straight alpha.
-#[inline]
-fn encode(value: Vec4) -> [u8; 4] {
-    color::linear_to_srgba8(if value.w == 1.0 { value } else { color::unpremultiplied(value) })
-}
+pub(crate) use background::fill_background;
+pub(crate) use mean::{mean, saturated};
 
-impl Background<'_> {
-    fn at(&self, x: u32, y: u32) -> Vec4 {
-        let value = match self {
-            Self::Color(color) => *color,
-            Self::PerPixel(function) => function(UVec2::new(x, y)),
-        };
-        if value.is_finite() { value } else { Vec4::ZERO }
+use crate::frame::FrameView;
+use crate::shade::Encoding;
+use crate::simd::{Each, F32, LANES, Simd, at_level, prelude::*, transposed};
+use crate::target::Bands;
+use crate::tile::{NOBODY, Scratch, TileArea};
+use trigon_math::Vec4;
+
+/// Writes all outputs of a tile; `early` if its pixels are bytes already.
+pub(crate) fn resolve(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    scratch: &mut Scratch,
+    (bands, early): (&Bands<'_>, Option<Encoding>),
+) {
+    if early.is_some() {
+        background::lay_codes(frame, area, scratch);
+        copy_codes(area, scratch, bands);
+    } else if frame.wants.color {
+        finish_colors(frame, area, scratch);
+        if let Some(encoding) = frame.wants.bytes {
+            at_level!(frame.token, simd => encode_colors(simd, scratch, encoding));
+            copy_codes(area, scratch, bands);
+        } else {
+            store_colors(frame, area, scratch, bands);
+        }
+    }
+    if frame.wants.depth || frame.wants.ids {
+        store_visibility(frame, area, scratch, bands);
     }
 }
 
-/// Draws a tile that nothing is in.
-pub(crate) fn fill_background(frame: &Frame<'_>, rows: &mut TileRows<'_>) {
-    let TileRect { x: left, y: top, .. } = rows.rect;
-    match frame.background {
-        Background::Color(_) => {
-            let value = frame.background.at(0, 0);
-            let code = encode(value);
-            rows.linear.iter_mut().for_each(|row| row.fill(value));
-            rows.srgb8.iter_mut().for_each(|row| row.fill(code));
+/// Turns the colours of all pixels to bytes, eight at a time.
+#[inline(always)]
+fn encode_colors<S: Simd>(simd: S, scratch: &mut Scratch, encoding: Encoding) {
+    let span = scratch.buffer.span();
+    let groups = scratch.colors[..span].as_chunks::<LANES>().0;
+    for (colors, codes) in groups.iter().zip(scratch.codes.as_chunks_mut::<LANES>().0) {
+        let bits = colors.each_ref().each(
+            #[inline(always)]
+            |color| {
+                color.each(
+                    #[inline(always)]
+                    |channel| channel.to_bits() as i32,
+                )
+            },
+        );
+        let color = transposed(simd, bits.each_ref()).each(
+            #[inline(always)]
+            |channel| channel.bitcast::<F32<S>>(),
+        );
+        *codes = encoding.encode_lanes(simd, color);
+    }
+}
+
+/// Copies bytes, four pixels at a time.
+fn copy_codes(area: &TileArea, scratch: &Scratch, bands: &Bands<'_>) {
+    let [left, top] = area.origin.map(|v| v as u32);
+    let (mut band, first) = bands.lock([left, top]);
+    let band = &mut *band;
+    let picture = if band.unorm8.is_empty() { &mut *band.srgb8 } else { &mut *band.unorm8 };
+    for y in 0..area.size[1] {
+        let start = first + y * bands.width();
+        let row = &mut picture[start..start + area.size[0]];
+        for (column, pixels) in row.chunks_mut(4).enumerate() {
+            let index = TileArea::index_of([column * 4, y]);
+            for (pixel, code) in pixels.iter_mut().zip(&scratch.codes[index..index + 4]) {
+                *pixel = code.to_le_bytes();
+            }
         }
-        Background::PerPixel(_) => {
-            for y in 0..rows.rect.height as usize {
-                for x in 0..rows.rect.width as usize {
-                    store(rows, [x, y], || frame.background.at(left + x as u32, top + y as u32));
+    }
+}
+
+/// Gives every pixel of the finer grid its colour: the mean of its samples, or
+/// the background.
+fn finish_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) {
+    if std::mem::take(&mut scratch.blended) {
+        return;
+    }
+    background::lay_colors(frame, area, scratch);
+    if !frame.is_multisampled() {
+        return;
+    }
+    let samples = frame.grid.pattern.count();
+    let Scratch { edge_pixels, sample_colors, colors, .. } = scratch;
+    for edge in edge_pixels.iter() {
+        let pixel = edge.pixel as usize;
+        let at = TileArea::pixel_at(pixel);
+        if !area.contains(at) {
+            continue;
+        }
+        let names = &sample_colors[edge.first as usize..edge.first as usize + samples];
+        let of_samples = names.iter().map(|&name| match name {
+            NOBODY => frame.background_at(area, at),
+            name => Vec4::from_array(colors[name as usize]),
+        });
+        colors[pixel] = mean(of_samples, samples).to_array();
+    }
+}
+
+/// Writes the outputs of colour, pixel by pixel.
+fn store_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: &Bands<'_>) {
+    let axis = frame.supersampling as usize;
+    let [left, top] = area.origin.map(|v| v as u32 / frame.supersampling);
+    let (mut band, first) = bands.lock([left, top]);
+    for y in 0..area.size[1] / axis {
+        for x in 0..area.size[0] / axis {
+            let color = match axis {
+                1 => Vec4::from_array(scratch.colors[TileArea::index_of([x, y])]),
+                _ => {
+                    let cells = (0..axis * axis).map(|i| [x * axis + i % axis, y * axis + i / axis]);
+                    let colors = cells.map(|cell| Vec4::from_array(scratch.colors[TileArea::index_of(cell)]));
+                    mean(colors, axis * axis)
+                }
+            };
+            let index = first + y * bands.width() + x;
+            if let Some(pixel) = band.linear.get_mut(index) {
+                *pixel = color;
+            }
+            if let Some(pixel) = band.srgb8.get_mut(index) {
+                *pixel = Encoding::Srgb8.encode(color);
+            }
+            if let Some(pixel) = band.unorm8.get_mut(index) {
+                *pixel = Encoding::Unorm8.encode(color);
+            }
+        }
+    }
+}
+
+/// Writes depth and ids, each from one sample of the pixel.
+fn store_visibility(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: &Bands<'_>) {
+    let axis = frame.supersampling as usize;
+    let [left, top] = area.origin.map(|v| v as u32 / frame.supersampling);
+    let (mut band, first) = bands.lock([left, top]);
+    for y in 0..area.size[1] / axis {
+        for x in 0..area.size[0] / axis {
+            let pixel = TileArea::index_of([x * axis + axis / 2, y * axis + axis / 2]);
+            let sample = scratch.buffer.index(pixel, 0);
+            let index = first + y * bands.width() + x;
+            if let Some(depth) = band.depth.get_mut(index) {
+                let seen = scratch.buffer.depth[sample];
+                // The background is behind 0; and -0 becomes 0.
+                *depth = if seen > 0.0 { seen } else { 0.0 };
+            }
+            if frame.wants.ids {
+                let ids = frame.ids(scratch, sample);
+                let band = &mut *band;
+                for (plane, id) in
+                    [&mut band.objects, &mut band.faces, &mut band.triangles].into_iter().zip(ids)
+                {
+                    if let Some(place) = plane.get_mut(index) {
+                        *place = id;
+                    }
                 }
             }
         }
     }
-    rows.depth.iter_mut().for_each(|row| row.fill(0.0));
-    let ids = rows.objects.iter_mut().chain(&mut rows.faces).chain(&mut rows.triangles);
-    ids.for_each(|row| row.fill(u32::MAX));
 }
 
-/// Stores a colour in the outputs that want one.
-#[inline]
-fn store(rows: &mut TileRows<'_>, [x, y]: [usize; 2], value: impl FnOnce() -> Vec4) {
-    if rows.linear.is_empty() && rows.srgb8.is_empty() {
-        return;
-    }
-    let value = value();
-    if let Some(row) = rows.linear.get_mut(y) {
-        row[x] = value;
-    }
-    if let Some(row) = rows.srgb8.get_mut(y) {
-        row[x] = encode(value);
-    }
-}
-
-/// Puts the background's colour into all samples that see it.
-pub(crate) fn lay_background(frame: &Frame<'_>, rect: TileRect, scratch: &mut Scratch) {
-    let samples = frame.samples_per_axis.get() as usize;
-    let constant = frame.background.at(0, 0);
-    for y in 0..rect.height as usize {
-        for x in 0..rect.width as usize {
-            let block = sample_indices([x, y], samples);
-            if block.clone().all(|sample| scratch.winner[sample] != NOBODY) {
-                continue;
+impl FrameView<'_> {
+    /// The object, face and primitive that a sample of the buffer sees.
+    fn ids(&self, scratch: &Scratch, sample: usize) -> [u32; 3] {
+        match scratch.buffer.winner[sample] {
+            NOBODY => [u32::MAX; 3],
+            winner => {
+                let place = scratch.places[winner as usize];
+                let plan = &self.plan.draws[self.draw_of(place)];
+                let geometry = &self.pass[plan.draw].geometry;
+                let primitive = self.ordinal(place) - plan.ordinals.start;
+                [geometry.object, geometry.face(primitive), primitive]
             }
-            let value = match frame.background {
-                Background::Color(_) => constant,
-                Background::PerPixel(_) => frame.background.at(rect.x + x as u32, rect.y + y as u32),
-            };
-            block.for_each(|sample| scratch.color[sample] = value);
-        }
-    }
-}
-
-/// The samples of a pixel of the tile, row by row.
-#[inline]
-fn sample_indices([x, y]: [usize; 2], samples: usize) -> impl Iterator<Item = usize> + Clone {
-    let first = (y * STRIDE + x) * samples;
-    (0..samples).flat_map(move |row| (0..samples).map(move |column| first + row * STRIDE + column))
-}
-
-/// Writes all outputs of a tile.
-pub(crate) fn resolve(frame: &Frame<'_>, scratch: &Scratch, rows: &mut TileRows<'_>) {
-    let samples = frame.samples_per_axis.get() as usize;
-    let middle = (samples / 2) * STRIDE + samples / 2;
-    for y in 0..rows.rect.height as usize {
-        for x in 0..rows.rect.width as usize {
-            store(rows, [x, y], || match samples {
-                1 => scratch.color[y * STRIDE + x],
-                _ => mean(&scratch.color, [x, y], samples),
-            });
-            let sample = (y * STRIDE + x) * samples + middle;
-            if let Some(row) = rows.depth.get_mut(y) {
-                // -0 becomes 0.
-                row[x] = scratch.depth[sample] + 0.0;
-            }
-            store_ids(frame, scratch, (sample, [x, y]), rows);
-        }
-    }
-}
-
-/// The mean of a pixel's samples. Equal ones are not rounded, so that a pixel
-/// that shows only the background is the same in a tile that shows more.
-fn mean(colors: &[Vec4], pixel: [usize; 2], samples: usize) -> Vec4 {
-    let mut indices = sample_indices(pixel, samples);
-    let first = indices.next().map_or(Vec4::ZERO, |sample| colors[sample]);
-    let (mut sum, mut equal) = (first, true);
-    for sample in indices {
-        sum += colors[sample];
-        equal &= colors[sample] == first;
-    }
-    let share = 1.0 / (samples * samples) as f32;
-    if equal {
-        first
-    } else if sum.is_finite() {
-        sum * share
-    } else {
-        saturated(sample_indices(pixel, samples).map(|sample| colors[sample] * share).sum())
-    }
-}
-
-/// The largest number in place of infinity: what sums of finite colours can
-/// reach. An infinity would be no number as soon as it met a factor of 0.
-#[inline]
-pub(crate) fn saturated(color: Vec4) -> Vec4 {
-    if color.is_finite() {
-        return color;
-    }
-    Vec4::from_array(color.to_array().map(|v| {
-        if v.is_finite() {
-            v
-        } else if v > 0.0 {
-            f32::MAX
-        } else {
-            f32::MIN
-        }
-    }))
-}
-
-#[inline]
-fn store_ids(
-    frame: &Frame<'_>,
-    scratch: &Scratch,
-    (sample, [x, y]): (usize, [usize; 2]),
-    rows: &mut TileRows<'_>,
-) {
-    if rows.objects.is_empty() && rows.faces.is_empty() && rows.triangles.is_empty() {
-        return;
-    }
-    let [object, face, primitive] = match scratch.winner[sample] {
-        NOBODY => [u32::MAX; 3],
-        place => {
-            let triangle = &frame.triangles[scratch.triangles[place as usize] as usize];
-            let geometry = frame.geometry(triangle);
-            [geometry.object, geometry.face(triangle.primitive), triangle.primitive]
-        }
-    };
-    let outputs = [(&mut rows.objects, object), (&mut rows.faces, face), (&mut rows.triangles, primitive)];
-    for (output, id) in outputs {
-        if let Some(row) = output.get_mut(y) {
-            row[x] = id;
         }
     }
 }

@@ -1,53 +1,35 @@
-//! Triangles of the pass become records that are ready for the tiles: cut where
-//! needed, snapped, sorted, culled.
+//! Primitives of the pass become triangles that are ready for the tiles: cut
+//! where needed, snapped, culled.
 
+mod columns;
 mod ears;
+mod eight;
 mod triangle;
 
+pub(crate) use columns::{Column, small_lanes, sorted_columns};
 pub(crate) use ears::{cut_ears, doubled_area};
-pub(crate) use triangle::{Corners, Kind, SampleBounds, ScreenVertex, SetupTriangle};
+pub(crate) use eight::SMALL;
+pub(crate) use triangle::{Corners, Kind, SetupTriangle, sorted};
 
+use crate::Culling;
+use crate::bin::{Chunk, Entry, Grid};
 use crate::clip;
-use crate::vertex::VertexStore;
-use crate::viewport::Viewport;
-use crate::{Culling, Stats};
+use crate::vertex::{DrawVertices, ScreenVertex};
 use trigon_math::{ClipVertex, ClipVolume};
 
 /// The weights of a primitive's corners at the vertices of a cut triangle:
 /// `[vertex][corner]`.
 pub(crate) type CutWeights = [[f32; 3]; 3];
 
-/// What set-up leaves of a run of primitives, in their order.
-#[derive(Default)]
-pub(crate) struct SetupBatch {
-    pub(crate) triangles: Vec<SetupTriangle>,
-    pub(crate) weights: Vec<CutWeights>,
-    pub(crate) stats: Stats,
-}
-
-impl SetupBatch {
-    /// Appends a batch that follows.
-    pub(crate) fn append(&mut self, mut next: Self) {
-        let base = self.weights.len() as u32;
-        for triangle in &mut next.triangles {
-            if let Corners::Cut { weights, .. } = &mut triangle.corners {
-                *weights += base;
-            }
-        }
-        self.triangles.append(&mut next.triangles);
-        self.weights.append(&mut next.weights);
-        self.stats += next.stats;
-    }
-}
-
-/// Sets up the primitives of one draw.
+/// Sets up primitives of one draw into a chunk.
 pub(crate) struct Setup<'a> {
-    pub(crate) viewport: Viewport,
+    pub(crate) grid: &'a Grid,
     pub(crate) volume: &'a ClipVolume,
-    pub(crate) vertices: &'a VertexStore<'a>,
-    pub(crate) draw: u32,
+    pub(crate) vertices: DrawVertices<'a>,
+    /// Ordinal of the draw's first primitive in the frame.
+    pub(crate) first: u32,
     pub(crate) culling: Culling,
-    pub(crate) batch: SetupBatch,
+    pub(crate) chunk: &'a mut Chunk,
 }
 
 /// Three vertices on their way into a record.
@@ -60,55 +42,56 @@ pub(crate) struct Candidate {
 }
 
 impl Setup<'_> {
+    /// Where a primitive of the draw stands in the chunk.
+    #[inline(always)]
+    pub(crate) fn place(&self, primitive: u32) -> u32 {
+        self.first + primitive - self.chunk.ordinals.start
+    }
+
     /// One triangle of the draw.
+    #[inline(never)]
     pub(crate) fn triangle(&mut self, primitive: u32, indices: [u32; 3]) {
-        self.batch.stats.primitives += 1;
-        let Some(slots) = self.vertices.slots(indices) else {
-            self.batch.stats.invalid += 1;
-            return;
-        };
-        let [a, b, c] = slots.map(|slot| self.vertices.outcode(slot));
-        let any = a.union(b).union(c);
-        if any.is_invalid() {
-            self.batch.stats.invalid += 1;
+        let vertices = indices.map(|index| *self.vertices.get(index));
+        if vertices.iter().all(|vertex| vertex.has_place()) {
+            return self.whole_triangle(primitive, vertices);
+        }
+        let [a, b, c] = indices.map(|index| self.vertices.outcode(index));
+        if a.union(b).union(c).is_invalid() {
+            self.chunk.stats.invalid += 1;
         } else if a.intersection(b).intersection(c).hides() {
-            self.batch.stats.outside += 1;
-        } else if any.cuts() {
-            self.cut_triangle(primitive, slots);
+            self.chunk.stats.outside += 1;
         } else {
-            self.whole_triangle(primitive, slots);
+            self.cut_triangle(primitive, indices);
         }
     }
 
-    fn whole_triangle(&mut self, primitive: u32, slots: [usize; 3]) {
-        let vertices = slots.map(|slot| self.vertices.screen(slot));
-        let [a, b, c] = vertices.map(|v| v.point);
-        // Positive is clockwise on the screen.
+    fn whole_triangle(&mut self, primitive: u32, vertices: [ScreenVertex; 3]) {
+        let triangle = SetupTriangle::whole(vertices, self.first + primitive);
+        let [a, b, c] = vertices.map(ScreenVertex::point);
         let area = trigon_math::orientation_fixed(a, b, c);
-        if self.is_culled(area) {
-            self.batch.stats.culled += 1;
+        if self.is_culled(area) || area == 0 || self.grid.pixels_of(&triangle).is_none() {
+            self.chunk.stats.culled += 1;
             return;
         }
-        let corners = [0, 1, 2];
-        let front_facing = area < 0;
-        let candidate = Candidate { vertices, primitive, corners, kind: Kind::Triangle, front_facing };
-        self.push(candidate, None);
+        self.chunk.stats.set_up += 1;
+        let entry = Entry::primitive(self.place(primitive));
+        self.chunk.push_all(self.grid, &triangle, entry);
     }
 
-    fn cut_triangle(&mut self, primitive: u32, slots: [usize; 3]) {
-        let positions = slots.map(|slot| self.vertices.position(slot));
+    fn cut_triangle(&mut self, primitive: u32, indices: [u32; 3]) {
+        let positions = indices.map(|index| self.vertices.position(index));
         let cut = clip::cut_triangle(positions, self.volume);
         let vertices = cut.polygon.vertices();
-        self.batch.stats.clipped += 1;
+        self.chunk.stats.clipped += 1;
         let Some(screen) = self.snap(vertices) else {
-            self.batch.stats.outside += 1;
+            self.chunk.stats.outside += 1;
             return;
         };
-        let points: Vec<_> = screen.iter().map(|v| v.point).collect();
+        let points: Vec<_> = screen.iter().map(|vertex| vertex.point()).collect();
         // Sorting the corners may have turned the triangle over.
         let area = doubled_area(&points) * cut.winding;
         if self.is_culled(area) {
-            self.batch.stats.culled += 1;
+            self.chunk.stats.culled += 1;
             return;
         }
         cut_ears(&points, |ear| {
@@ -125,7 +108,7 @@ impl Setup<'_> {
 
     /// `None` if nothing is left, or a vertex has no place on the grid.
     fn snap(&self, vertices: &[ClipVertex]) -> Option<Vec<ScreenVertex>> {
-        let screen = |v: &ClipVertex| ScreenVertex::new(v.position, self.viewport);
+        let screen = |v: &ClipVertex| ScreenVertex::of(v.position, self.grid.viewport);
         (vertices.len() >= 3).then(|| vertices.iter().map(screen).collect())?
     }
 
@@ -137,41 +120,29 @@ impl Setup<'_> {
         }
     }
 
-    /// Sorts the vertices and keeps the record if it can hold a sample of the
+    /// Sorts the vertices and keeps the triangle if it can hold a sample of the
     /// view.
-    pub(crate) fn push(&mut self, mut candidate: Candidate, weights: Option<CutWeights>) {
-        let mut order = [0, 1, 2];
-        order.sort_unstable_by_key(|&i| {
-            let point = candidate.vertices[i].point;
-            (point.y.raw(), point.x.raw())
-        });
-        candidate.vertices = order.map(|i| candidate.vertices[i]);
+    pub(crate) fn push(&mut self, candidate: Candidate, weights: Option<CutWeights>) {
+        let order = sorted(candidate.vertices);
         let corners = match weights {
             None => Corners::Whole(order.map(|i| candidate.corners[i])),
-            Some(_) => Corners::Cut { weights: self.batch.weights.len() as u32, order: candidate.corners },
+            Some(_) => Corners::Cut { weights: self.chunk.weights.len() as u32, order: candidate.corners },
         };
         let triangle = SetupTriangle {
-            vertices: candidate.vertices,
-            draw: self.draw,
-            primitive: candidate.primitive,
+            vertices: order.map(|i| candidate.vertices[i]),
+            ordinal: self.first + candidate.primitive,
             corners,
             kind: candidate.kind,
             front_facing: candidate.front_facing,
         };
-        if !self.can_be_seen(&triangle) {
-            self.batch.stats.culled += 1;
+        if triangle.doubled_area() == 0 || self.grid.pixels_of(&triangle).is_none() {
+            self.chunk.stats.culled += 1;
             return;
         }
-        self.batch.stats.set_up += 1;
-        self.batch.weights.extend(weights.map(|weights| order.map(|i| weights[i])));
-        self.batch.triangles.push(triangle);
-    }
-
-    fn can_be_seen(&self, triangle: &SetupTriangle) -> bool {
-        let Some(SampleBounds { x, y }) = triangle.sample_bounds() else {
-            return false;
-        };
-        let (width, height) = (self.viewport.width as i32, self.viewport.height as i32);
-        x[1] >= 0 && y[1] >= 0 && x[0] < width && y[0] < height && triangle.doubled_area() != 0
+        self.chunk.stats.set_up += 1;
+        self.chunk.weights.extend(weights.map(|weights| order.map(|i| weights[i])));
+        let entry = Entry::extra(self.chunk.extras.len());
+        self.chunk.push_all(self.grid, &triangle, entry);
+        self.chunk.extras.push(triangle);
     }
 }

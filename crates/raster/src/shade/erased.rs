@@ -1,170 +1,118 @@
 //! Pipelines of different types side by side: the type is forgotten once per
-//! draw and remembered once per run of a draw's samples in a tile.
+//! draw and remembered once per run of a draw's pixels in a tile.
 
-use super::interpolation::Interpolation;
-use super::span::Span;
-use crate::geometry::Geometry;
-use crate::pool::Workers;
-use crate::setup::{CutWeights, SetupTriangle};
-use crate::tile::TileArea;
-use crate::vertex::UsedVertices;
-use crate::{EdgeFlags, Fragment, Pipeline, Varyings};
-use std::num::NonZeroU32;
-use trigon_math::{UVec2, Vec2, Vec4};
+use super::{Job, MAX_VARYINGS, ShadeContext, ShadeOutput, Work, run, scalar};
+use crate::LanePipeline;
+use crate::simd::{Token, at_level};
+use crate::vertex::{self, ScreenVertex, UsedVertices};
+use crate::viewport::Viewport;
+use std::ops::Range;
+use trigon_math::Vec4;
 
 /// A pipeline without its type.
 pub(crate) trait AnyPipeline: Sync {
     fn vertex_count(&self) -> usize;
 
-    /// Runs the vertex stage over the `used` vertices: their positions, and
-    /// what shades with their varyings.
-    fn run_vertices<'s>(
-        &'s self,
+    /// How many f32 a vertex's varyings take.
+    fn varyings(&self) -> usize;
+
+    /// Whether a triangle has the same colour all over.
+    fn is_flat(&self) -> bool;
+
+    /// Runs the vertex stage over some of the `used` vertices.
+    fn run_vertices(
+        &self,
+        token: Token,
         used: &UsedVertices,
-        workers: &Workers,
-    ) -> (Vec<Vec4>, Box<dyn Shader + 's>);
+        slots: Range<usize>,
+        viewport: Viewport,
+        out: (&mut [ScreenVertex], &mut [f32]),
+    );
+
+    /// The clip-space position of a vertex.
+    fn position(&self, token: Token, vertex: usize) -> Vec4;
+
+    /// Shades the pixels of some triangles of the draw.
+    fn shade(
+        &self,
+        token: Token,
+        context: &ShadeContext<'_>,
+        jobs: &[Job],
+        work: &[Work],
+        output: &mut ShadeOutput<'_>,
+    );
+
+    /// Asks whether fragments exist: 1 or 0 for each, at its output's place.
+    fn mask(&self, token: Token, context: &ShadeContext<'_>, jobs: &[Job], work: &[Work], kept: &mut [u8]);
 }
 
-/// What shades the samples of one draw.
-pub(crate) trait Shader: Sync {
-    /// Writes each sample's colour to its place in `colors`.
-    fn shade(&self, context: &ShadeContext<'_>, spans: &[Span], colors: &mut [Vec4]);
-
-    /// Writes whether each sample exists to its place in `kept`.
-    fn mask(&self, context: &ShadeContext<'_>, spans: &[Span], kept: &mut [bool]);
-}
-
-/// What a shader has to know of the frame.
-pub(crate) struct ShadeContext<'f> {
-    pub(crate) triangles: &'f [SetupTriangle],
-    pub(crate) weights: &'f [CutWeights],
-    pub(crate) geometry: &'f Geometry<'f>,
-    pub(crate) used: &'f UsedVertices,
-    pub(crate) area: TileArea,
-    pub(crate) samples_per_axis: NonZeroU32,
-}
-
-impl<P: Pipeline> AnyPipeline for &P {
+impl<P: LanePipeline> AnyPipeline for P {
     fn vertex_count(&self) -> usize {
         P::vertex_count(self)
     }
 
-    fn run_vertices<'s>(
-        &'s self,
-        used: &UsedVertices,
-        workers: &Workers,
-    ) -> (Vec<Vec4>, Box<dyn Shader + 's>) {
-        let pipeline: &'s P = self;
-        let (positions, varyings) = workers.unzip(0..used.len(), |slot| {
-            let vertex = pipeline.vertex(used.index(slot));
-            (vertex.position, vertex.varyings)
-        });
-        (positions, Box::new(TypedShader { pipeline, varyings }))
-    }
-}
-
-struct TypedShader<'s, P: Pipeline> {
-    pipeline: &'s P,
-    /// Of the used vertices, slot by slot.
-    varyings: Vec<P::Varyings>,
-}
-
-impl<P: Pipeline> Shader for TypedShader<'_, P> {
-    fn shade(&self, context: &ShadeContext<'_>, spans: &[Span], colors: &mut [Vec4]) {
-        self.for_each_fragment(context, spans, |output, fragment| {
-            colors[output] = finite(self.pipeline.fragment(fragment));
-        });
+    fn varyings(&self) -> usize {
+        const { assert!(P::VARYINGS <= MAX_VARYINGS, "a pipeline has at most MAX_VARYINGS varyings") };
+        P::VARYINGS
     }
 
-    fn mask(&self, context: &ShadeContext<'_>, spans: &[Span], kept: &mut [bool]) {
-        self.for_each_fragment(context, spans, |output, fragment| {
-            kept[output] = self.pipeline.mask(fragment);
-        });
+    fn is_flat(&self) -> bool {
+        P::FLAT
     }
-}
 
-/// A colour without anything that is not finite.
-#[inline(always)]
-fn finite(color: Vec4) -> Vec4 {
-    if color.is_finite() {
-        return color;
-    }
-    Vec4::from_array(color.to_array().map(|v| if v.is_finite() { v } else { 0.0 }))
-}
-
-impl<P: Pipeline> TypedShader<'_, P> {
-    #[inline(always)]
-    fn for_each_fragment(
+    fn run_vertices(
         &self,
-        context: &ShadeContext<'_>,
-        spans: &[Span],
-        mut visit: impl FnMut(usize, &Fragment<P::Varyings>),
+        token: Token,
+        used: &UsedVertices,
+        slots: Range<usize>,
+        viewport: Viewport,
+        out: (&mut [ScreenVertex], &mut [f32]),
     ) {
-        for spans in spans.chunk_by(|a, b| a.triangle == b.triangle) {
-            let common = Common::new(context, spans[0].triangle);
-            let values = common.slots.map(|slot| &self.varyings[slot]);
-            for span in spans {
-                let y = context.area.origin[1] + i32::from(span.y);
-                for i in 0..span.length {
-                    let x = context.area.origin[0] + i32::from(span.x + i);
-                    let fragment = common.fragment(values, [x, y]);
-                    visit(span.output as usize + usize::from(i), &fragment);
-                }
-            }
-        }
-    }
-}
-
-/// What the fragments of one triangle have in common.
-struct Common {
-    interpolation: Interpolation,
-    /// The slots of the vertices whose values are weighted, in the order of the
-    /// weights.
-    slots: [usize; 3],
-    primitive: u32,
-    face: u32,
-    front_facing: bool,
-    edge_flags: EdgeFlags,
-    samples_per_axis: NonZeroU32,
-}
-
-impl Common {
-    #[inline(always)]
-    fn new(context: &ShadeContext<'_>, ordinal: u32) -> Self {
-        let triangle = &context.triangles[ordinal as usize];
-        let samples = context.samples_per_axis.get() as f32;
-        let interpolation = Interpolation::new(triangle, context.weights, samples);
-        let corners = context.geometry.corners(triangle.primitive);
-        let slot = |index: u32| context.used.slot(index).expect("what is seen has its vertices");
-        Self {
-            slots: interpolation.corners.map(|corner| slot(corners[usize::from(corner)])),
-            interpolation,
-            primitive: triangle.primitive,
-            face: context.geometry.face(triangle.primitive),
-            front_facing: triangle.front_facing,
-            edge_flags: context.geometry.edge_flags(triangle.primitive),
-            samples_per_axis: context.samples_per_axis,
+        // The other branch is not compiled.
+        if P::SCALAR {
+            let pipeline = self.as_scalar().expect("a scalar pipeline");
+            vertex::run_scalar(token, (pipeline, P::VARYINGS), (used, slots), viewport, out);
+        } else {
+            at_level!(token, simd => vertex::run(simd, self, (used, slots), viewport, out));
         }
     }
 
-    #[inline(always)]
-    fn fragment<V: Varyings>(&self, values: [&V; 3], sample: [i32; 2]) -> Fragment<V> {
-        let place = self.interpolation.at(self.interpolation.edges.map(|edge| edge.at(sample)));
-        let [x, y] = sample;
-        let pixels = self.samples_per_axis.get() as f32;
-        Fragment {
-            varyings: V::weighted(values, place.weights),
-            ddx: V::gradient(values, place.ddx),
-            ddy: V::gradient(values, place.ddy),
-            pixel: UVec2::new(x as u32 / self.samples_per_axis, y as u32 / self.samples_per_axis),
-            position: Vec2::new((x as f32 + 0.5) / pixels, (y as f32 + 0.5) / pixels),
-            depth: place.depth,
-            inverse_w: place.inverse_w,
-            triangle: self.primitive,
-            face: self.face,
-            front_facing: self.front_facing,
-            edge_distances: place.edge_distances,
-            edge_flags: self.edge_flags,
+    fn position(&self, token: Token, vertex: usize) -> Vec4 {
+        let mut varyings = [0.0; MAX_VARYINGS];
+        if P::SCALAR {
+            let pipeline = self.as_scalar().expect("a scalar pipeline");
+            Vec4::from_array(pipeline.run_vertex(vertex, &mut varyings))
+        } else {
+            at_level!(token, simd => vertex::position(simd, self, vertex, &mut varyings[..P::VARYINGS]))
+        }
+    }
+
+    fn shade(
+        &self,
+        token: Token,
+        context: &ShadeContext<'_>,
+        jobs: &[Job],
+        work: &[Work],
+        output: &mut ShadeOutput<'_>,
+    ) {
+        if P::SCALAR {
+            let pipeline = self.as_scalar().expect("a scalar pipeline");
+            scalar::shade(token, (pipeline, P::VARYINGS), context, (jobs, work), output);
+        } else if P::FLAT {
+            at_level!(token, simd => run::shade_flat(simd, self, context, (jobs, work), output));
+        } else {
+            at_level!(token, simd => run::shade(simd, self, context, (jobs, work), output));
+        }
+    }
+
+    fn mask(&self, token: Token, context: &ShadeContext<'_>, jobs: &[Job], work: &[Work], kept: &mut [u8]) {
+        if P::SCALAR {
+            let pipeline = self.as_scalar().expect("a scalar pipeline");
+            scalar::mask(token, (pipeline, P::VARYINGS), context, (jobs, work), kept);
+        } else if P::MASKED {
+            at_level!(token, simd => run::mask(simd, self, context, (jobs, work), kept));
+        } else {
+            kept.fill(1);
         }
     }
 }

@@ -1,9 +1,12 @@
 //! Where a pass lands: row-major pictures, one for each output asked for.
 
-mod tiles;
+mod bands;
+mod plane;
 
-pub(crate) use tiles::{TileRect, TileRows, split_into_tiles};
+pub(crate) use bands::Bands;
 
+use crate::samples::SamplePattern;
+use plane::Plane;
 use thiserror::Error;
 use trigon_math::Vec4;
 
@@ -20,6 +23,9 @@ pub enum Output {
     /// Colour as four bytes: red, green, blue through the sRGB transfer
     /// function, straight alpha.
     Srgb8,
+    /// Colour as four bytes, each component as it is, premultiplied: 0 to 1 as
+    /// 0 to 255, to the nearest.
+    Unorm8,
     /// Colour in linear light, premultiplied by alpha, as f32.
     Linear,
     /// Reversed depth as f32: 1 at the near plane, 0 for the background.
@@ -46,9 +52,31 @@ pub enum TargetError {
     },
     /// Not 1 to [`MAX_SAMPLES_PER_AXIS`].
     #[error("{samples_per_axis} samples per axis: it must be 1 to {MAX_SAMPLES_PER_AXIS}")]
-    Samples {
+    SamplesPerAxis {
         /// The number asked for.
         samples_per_axis: u32,
+    },
+    /// Not 1, 2, 4, 8 or 16.
+    #[error("{samples} samples per pixel: it must be 1, 2, 4, 8 or 16")]
+    Samples {
+        /// The number asked for.
+        samples: u32,
+    },
+    /// Borrowed pixels are not as many as the target has.
+    #[error("{given} pixels for a target that has {needed}")]
+    Length {
+        /// The pixels given.
+        given: usize,
+        /// Width times height.
+        needed: usize,
+    },
+    /// The pictures do not fit into memory.
+    #[error("no memory for pictures of {width}x{height} pixels: make the target smaller")]
+    Memory {
+        /// The width asked for.
+        width: u32,
+        /// The height asked for.
+        height: u32,
     },
 }
 
@@ -56,55 +84,104 @@ pub enum TargetError {
 ///
 /// All are row-major from the top left, `width * height` entries. With several
 /// samples per pixel, colour is their mean in linear light; depth and ids are
-/// never averaged but taken from one sample, in the middle of the pixel or
-/// (when the number per axis is even) the one next to the middle to the right
-/// and below. Translucent draws leave no depth and no ids.
-pub struct Target {
+/// never averaged but taken from one sample: the first of the standard pattern,
+/// of the pixel (with supersampling: of the finer grid) in the middle, or when
+/// the number per axis is even of the one next to the middle to the right and
+/// below. Translucent draws leave no depth and no ids.
+pub struct Target<'a> {
     width: u32,
     height: u32,
     samples_per_axis: u32,
-    srgb8: Option<Vec<[u8; 4]>>,
-    linear: Option<Vec<Vec4>>,
-    depth: Option<Vec<f32>>,
-    objects: Option<Vec<u32>>,
-    faces: Option<Vec<u32>>,
-    triangles: Option<Vec<u32>>,
+    pattern: SamplePattern,
+    srgb8: Plane<'a, [u8; 4]>,
+    unorm8: Plane<'a, [u8; 4]>,
+    linear: Plane<'a, Vec4>,
+    depth: Plane<'a, f32>,
+    objects: Plane<'a, u32>,
+    faces: Plane<'a, u32>,
+    triangles: Plane<'a, u32>,
 }
 
-impl Target {
+impl<'a> Target<'a> {
     /// A target of `width` by `height` pixels, one sample each, that keeps the
     /// `outputs` asked for.
     ///
     /// # Errors
-    /// [`TargetError::Size`] if a side is 0 or above [`MAX_TARGET_SIZE`].
+    /// [`TargetError::Size`] if a side is 0 or above [`MAX_TARGET_SIZE`],
+    /// [`TargetError::Memory`] if there is not enough.
     pub fn new(width: u32, height: u32, outputs: &[Output]) -> Result<Self, TargetError> {
         let sides = 1..=MAX_TARGET_SIZE;
         if !sides.contains(&width) || !sides.contains(&height) {
             return Err(TargetError::Size { width, height });
         }
         let pixels = width as usize * height as usize;
-        let ids = |output| outputs.contains(&output).then(|| vec![u32::MAX; pixels]);
+        let pixels = |output| if outputs.contains(&output) { pixels } else { 0 };
+        let full = TargetError::Memory { width, height };
+        let ids = |output| Plane::owned(pixels(output), u32::MAX).ok_or(full);
         Ok(Self {
             width,
             height,
             samples_per_axis: 1,
-            srgb8: outputs.contains(&Output::Srgb8).then(|| vec![[0; 4]; pixels]),
-            linear: outputs.contains(&Output::Linear).then(|| vec![Vec4::ZERO; pixels]),
-            depth: outputs.contains(&Output::Depth).then(|| vec![0.0; pixels]),
-            objects: ids(Output::Object),
-            faces: ids(Output::Face),
-            triangles: ids(Output::Triangle),
+            pattern: SamplePattern::SINGLE,
+            srgb8: Plane::owned(pixels(Output::Srgb8), [0; 4]).ok_or(full)?,
+            unorm8: Plane::owned(pixels(Output::Unorm8), [0; 4]).ok_or(full)?,
+            linear: Plane::owned(pixels(Output::Linear), Vec4::ZERO).ok_or(full)?,
+            depth: Plane::owned(pixels(Output::Depth), 0.0).ok_or(full)?,
+            objects: ids(Output::Object)?,
+            faces: ids(Output::Face)?,
+            triangles: ids(Output::Triangle)?,
         })
     }
 
-    /// The same with a regular grid of samples in each pixel, `samples_per_axis`
-    /// in a row.
+    /// The same with the picture of [`Output::Srgb8`] in the caller's memory.
     ///
     /// # Errors
-    /// [`TargetError::Samples`] if it is 0 or above [`MAX_SAMPLES_PER_AXIS`].
+    /// [`TargetError::Length`] if there are not `width * height` pixels.
+    pub fn with_srgb8(mut self, pixels: &'a mut [[u8; 4]]) -> Result<Self, TargetError> {
+        self.srgb8 = self.borrowed(pixels)?;
+        Ok(self)
+    }
+
+    /// The same with the picture of [`Output::Unorm8`] in the caller's memory.
+    ///
+    /// # Errors
+    /// [`TargetError::Length`] if there are not `width * height` pixels.
+    pub fn with_unorm8(mut self, pixels: &'a mut [[u8; 4]]) -> Result<Self, TargetError> {
+        self.unorm8 = self.borrowed(pixels)?;
+        Ok(self)
+    }
+
+    fn borrowed<T>(&self, pixels: &'a mut [T]) -> Result<Plane<'a, T>, TargetError> {
+        let needed = self.width as usize * self.height as usize;
+        if pixels.len() == needed {
+            Ok(Plane::Borrowed(pixels))
+        } else {
+            Err(TargetError::Length { given: pixels.len(), needed })
+        }
+    }
+
+    /// The same with multisampling: `samples` in each pixel, 1, 2, 4, 8 or 16,
+    /// at the standard positions of Direct3D and Vulkan. Coverage and depth are
+    /// decided at each; a triangle is shaded once for each pixel, at its centre
+    /// if the triangle covers it, else at the lowest-numbered sample that it
+    /// covers.
+    ///
+    /// # Errors
+    /// [`TargetError::Samples`] for any other number.
+    pub fn with_samples(mut self, samples: u32) -> Result<Self, TargetError> {
+        self.pattern = SamplePattern::of(samples).ok_or(TargetError::Samples { samples })?;
+        Ok(self)
+    }
+
+    /// The same with supersampling: everything is drawn on a grid that is finer
+    /// by `samples_per_axis` on both axes, shaded there, and averaged.
+    ///
+    /// # Errors
+    /// [`TargetError::SamplesPerAxis`] if it is 0 or above
+    /// [`MAX_SAMPLES_PER_AXIS`].
     pub fn with_samples_per_axis(mut self, samples_per_axis: u32) -> Result<Self, TargetError> {
         if !(1..=MAX_SAMPLES_PER_AXIS).contains(&samples_per_axis) {
-            return Err(TargetError::Samples { samples_per_axis });
+            return Err(TargetError::SamplesPerAxis { samples_per_axis });
         }
         self.samples_per_axis = samples_per_axis;
         Ok(self)
@@ -120,60 +197,77 @@ impl Target {
         self.height
     }
 
-    /// How many samples a pixel has in a row and in a column.
+    /// By how much supersampling makes the grid finer.
     pub fn samples_per_axis(&self) -> u32 {
         self.samples_per_axis
     }
 
+    /// How many samples multisampling has in a pixel.
+    pub fn samples(&self) -> u32 {
+        self.pattern.count() as u32
+    }
+
+    pub(crate) fn pattern(&self) -> SamplePattern {
+        self.pattern
+    }
+
+    /// The picture of [`Output::Unorm8`], if asked for.
+    pub fn unorm8(&self) -> Option<&[[u8; 4]]> {
+        self.unorm8.pixels()
+    }
+
     /// The picture of [`Output::Srgb8`], if asked for.
     pub fn srgb8(&self) -> Option<&[[u8; 4]]> {
-        self.srgb8.as_deref()
+        self.srgb8.pixels()
     }
 
     /// The picture of [`Output::Linear`], if asked for.
     pub fn linear(&self) -> Option<&[Vec4]> {
-        self.linear.as_deref()
+        self.linear.pixels()
     }
 
     /// The picture of [`Output::Depth`], if asked for.
     pub fn depth(&self) -> Option<&[f32]> {
-        self.depth.as_deref()
+        self.depth.pixels()
     }
 
     /// The picture of [`Output::Object`], if asked for.
     pub fn objects(&self) -> Option<&[u32]> {
-        self.objects.as_deref()
+        self.objects.pixels()
     }
 
     /// The picture of [`Output::Face`], if asked for.
     pub fn faces(&self) -> Option<&[u32]> {
-        self.faces.as_deref()
+        self.faces.pixels()
     }
 
     /// The picture of [`Output::Triangle`], if asked for.
     pub fn triangles(&self) -> Option<&[u32]> {
-        self.triangles.as_deref()
+        self.triangles.pixels()
     }
 
     /// Gives the pictures away.
     pub fn into_pictures(self) -> Pictures {
         Pictures {
-            srgb8: self.srgb8,
-            linear: self.linear,
-            depth: self.depth,
-            objects: self.objects,
-            faces: self.faces,
-            triangles: self.triangles,
+            srgb8: self.srgb8.into_owned(),
+            unorm8: self.unorm8.into_owned(),
+            linear: self.linear.into_owned(),
+            depth: self.depth.into_owned(),
+            objects: self.objects.into_owned(),
+            faces: self.faces.into_owned(),
+            triangles: self.triangles.into_owned(),
         }
     }
 }
 
-/// The pictures of a [`Target`], owned; those that were not asked for are
-/// `None`.
+/// The pictures of a [`Target`], owned; those that were not asked for, or that
+/// lie in borrowed memory, are `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pictures {
     /// See [`Output::Srgb8`].
     pub srgb8: Option<Vec<[u8; 4]>>,
+    /// See [`Output::Unorm8`].
+    pub unorm8: Option<Vec<[u8; 4]>>,
     /// See [`Output::Linear`].
     pub linear: Option<Vec<Vec4>>,
     /// See [`Output::Depth`].

@@ -1,17 +1,21 @@
 //! Mip levels by an exact box filter in linear light.
 
-use super::{Level, TextureFormat, decode};
+use super::{TextureFormat, decode, full_scale};
 use trigon_math::{Vec4, color};
 
-/// The base level and all smaller ones.
-pub(super) fn chain(base: Level, format: TextureFormat) -> Vec<Level> {
-    let mut levels = vec![base];
-    while let Some(last) = levels.last()
-        && (last.width > 1 || last.height > 1)
-    {
-        levels.push(halved(last, format));
+/// One level as rows of texels, top row first.
+#[derive(Clone, Debug)]
+pub(super) struct Rows {
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) texels: Vec<[u8; 4]>,
+}
+
+impl Rows {
+    pub(super) fn row(&self, y: u32) -> &[[u8; 4]] {
+        let width = self.width as usize;
+        &self.texels[y as usize * width..][..width]
     }
-    levels
 }
 
 /// The texels of one axis that a texel of the next level covers, and the share
@@ -40,7 +44,11 @@ impl Footprint {
     }
 }
 
-fn halved(from: &Level, format: TextureFormat) -> Level {
+/// The next smaller level; `None` below a single texel.
+pub(super) fn halved(from: &Rows, format: TextureFormat) -> Option<Rows> {
+    if from.width == 1 && from.height == 1 {
+        return None;
+    }
     let (width, height) = ((from.width / 2).max(1), (from.height / 2).max(1));
     let columns: Vec<_> = (0..width).map(|x| Footprint::new(x, from.width, width)).collect();
     let mut texels = Vec::with_capacity(width as usize * height as usize);
@@ -50,15 +58,15 @@ fn halved(from: &Level, format: TextureFormat) -> Level {
             texels.push(mean(from, *column, rows, format));
         }
     }
-    Level { width, height, texels }
+    Some(Rows { width, height, texels })
 }
 
-fn mean(from: &Level, columns: Footprint, rows: Footprint, format: TextureFormat) -> [u8; 4] {
+fn mean(from: &Rows, columns: Footprint, rows: Footprint, format: TextureFormat) -> [u8; 4] {
     let mut plain = Vec4::ZERO;
     let mut weighted = Vec4::ZERO;
     for (j, &row_share) in (rows.first..from.height).zip(&rows.shares) {
         for (i, &column_share) in (columns.first..from.width).zip(&columns.shares) {
-            let texel = decode(from.texels[(j * from.width + i) as usize], format);
+            let texel = decode(from.texels[(j * from.width + i) as usize], format) / full_scale(format);
             let share = row_share * column_share;
             plain += texel * share;
             weighted += texel * (share * texel.w);
@@ -82,9 +90,13 @@ fn encode(value: Vec4, format: TextureFormat) -> [u8; 4] {
 mod tests {
     use super::*;
 
-    fn level(width: u32, height: u32, value: impl Fn(u32, u32) -> u8) -> Level {
+    fn level(width: u32, height: u32, value: impl Fn(u32, u32) -> u8) -> Rows {
         let texels = (0..width * height).map(|i| [value(i % width, i / width), 0, 0, 255]).collect();
-        Level { width, height, texels }
+        Rows { width, height, texels }
+    }
+
+    fn chain(base: Rows, format: TextureFormat) -> Vec<Rows> {
+        std::iter::successors(Some(base), |rows| halved(rows, format)).collect()
     }
 
     #[test]
@@ -130,7 +142,7 @@ mod tests {
     #[test]
     fn transparent_texels_do_not_bleed() {
         let texels = vec![[255, 0, 0, 255], [0, 255, 0, 0]];
-        let levels = chain(Level { width: 2, height: 1, texels }, TextureFormat::Srgb);
+        let levels = chain(Rows { width: 2, height: 1, texels }, TextureFormat::Srgb);
         assert_eq!(levels[1].texels[0], [255, 0, 0, 128], "only the red one is seen");
     }
 }

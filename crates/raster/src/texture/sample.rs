@@ -1,94 +1,95 @@
-//! The look-up itself: level, addresses, weights.
+//! The look-up itself, for one sample: level, texels, weights.
 //!
 //! Every step is total: any coordinate and any gradient, finite or not, gives
-//! an index in range and a finite value.
+//! an index in range and a finite value. This is the definition that the look-up
+//! for lanes repeats bit for bit.
 
-use super::{Filter, Level, MipFilter, Sampler, Texture, Wrap, decode};
+use super::axis::{reduced, texel};
+use super::blocks::Blocks;
+use super::detail::Footprint;
+use super::{Filter, MipFilter, Sampler, Texture, decode, full_scale};
 use trigon_math::{Vec2, Vec4};
 
 pub(super) fn sample(texture: &Texture, uv: Vec2, ddx: Vec2, ddy: Vec2, sampler: &Sampler) -> Vec4 {
-    let lookup = Lookup { texture, uv, sampler };
-    let mips = sampler.mip != MipFilter::None;
-    if !mips && sampler.magnification == sampler.minification {
-        return lookup.level(0, sampler.magnification);
-    }
-    let detail = level_of_detail(&texture.levels[0], ddx, ddy);
-    if detail <= 0.0 {
-        return lookup.level(0, sampler.magnification);
-    }
-    let last = texture.levels.len() - 1;
-    let detail = if detail < last as f32 { detail } else { last as f32 };
-    match sampler.mip {
-        MipFilter::None => lookup.level(0, sampler.minification),
-        MipFilter::Nearest => lookup.level((detail + 0.5) as usize, sampler.minification),
-        MipFilter::Linear => {
-            let finer = detail as usize;
-            let share = detail - finer as f32;
-            let value = lookup.level(finer, sampler.minification);
-            if share == 0.0 {
-                return value;
-            }
-            value + (lookup.level(finer + 1, sampler.minification) - value) * share
-        }
-    }
+    let uv = Vec2::new(reduced(uv.x, sampler.wrap_u), reduced(uv.y, sampler.wrap_v));
+    let footprint = Footprint::new(texture, ddx, ddy, sampler);
+    let lookup = |uv: Vec2| Lookup::new(texture, uv, footprint.detail, sampler).value();
+    let value = if footprint.probes == 1.0 {
+        lookup(uv)
+    } else {
+        mean(&footprint, |shift| {
+            let at = uv + shift;
+            lookup(Vec2::new(reduced(at.x, sampler.wrap_u), reduced(at.y, sampler.wrap_v)))
+        })
+    };
+    value / full_scale(texture.format)
 }
 
-/// The binary logarithm of the longer side of the footprint in texels of the
-/// base level; at most 64, whatever the gradient.
-fn level_of_detail(base: &Level, ddx: Vec2, ddy: Vec2) -> f32 {
-    let size = Vec2::new(base.width as f32, base.height as f32);
-    let (x, y) = (ddx * size, ddy * size);
-    let (x, y) = (x.x * x.x + x.y * x.y, y.x * y.x + y.y * y.y);
-    let square = if y > x { y } else { x };
-    // Also when it is not a number.
-    if !(x + y).is_finite() {
-        return 64.0;
+/// The mean of the values at all probes of a footprint.
+fn mean(footprint: &Footprint, at: impl Fn(Vec2) -> Vec4) -> Vec4 {
+    let mut sum = Vec4::ZERO;
+    let mut index = 1.0;
+    while index <= footprint.probes {
+        sum += at(footprint.axis * footprint.offset(index));
+        index += 1.0;
     }
-    0.5 * log2(square)
+    sum / footprint.probes
 }
 
-/// The binary logarithm of a finite `x` >= 0, within 0.00005; below -126 for 0
-/// and for numbers too small to matter.
-///
-/// The exponent and a polynomial in the mantissa: only additions and
-/// multiplications, so the same on every machine.
-fn log2(x: f32) -> f32 {
-    let bits = x.to_bits();
-    let exponent = (bits >> 23) as f32 - 127.0;
-    let t = f32::from_bits(bits & 0x007f_ffff | 0x3f80_0000) - 1.0;
-    // Interpolates log2(1 + t) at both ends; the inner coefficients are a
-    // least-squares fit.
-    let polynomial = t * (1.0 + (1.0 - t) * (0.441_74 - t * (0.266_03 - t * (0.146_31 - t * 0.044))));
-    exponent + polynomial
-}
-
+/// A look-up at one point.
 struct Lookup<'a> {
     texture: &'a Texture,
-    uv: Vec2,
     sampler: &'a Sampler,
+    /// Reduced to the first period.
+    uv: Vec2,
+    filter: Filter,
+    /// The finer level, and the share of the next one.
+    finer: u32,
+    share: f32,
 }
 
-impl Lookup<'_> {
+impl<'a> Lookup<'a> {
     #[inline]
-    fn level(&self, index: usize, filter: Filter) -> Vec4 {
-        let level = &self.texture.levels[index];
-        let u = Axis { size: level.width, wrap: self.sampler.wrap_u, coordinate: self.uv.x };
-        let v = Axis { size: level.height, wrap: self.sampler.wrap_v, coordinate: self.uv.y };
-        match filter {
-            Filter::Nearest => self.texel(level, u.nearest(), v.nearest()),
-            Filter::Linear => {
-                let ([x0, x1], s) = u.pair();
-                let ([y0, y1], t) = v.pair();
-                let top = mix(self.texel(level, x0, y0), self.texel(level, x1, y0), s);
-                let bottom = mix(self.texel(level, x0, y1), self.texel(level, x1, y1), s);
-                mix(top, bottom, t)
-            }
-        }
+    fn new(texture: &'a Texture, uv: Vec2, detail: f32, sampler: &'a Sampler) -> Self {
+        let minified = detail > 0.0;
+        let last = (texture.blocks.level_count - 1) as f32;
+        let held = if detail < last { detail } else { last };
+        let level = match sampler.mip {
+            MipFilter::None => 0.0,
+            _ if !minified => 0.0,
+            MipFilter::Nearest => (held + 0.5) as u32 as f32,
+            MipFilter::Linear | MipFilter::Anisotropic(_) => held,
+        };
+        let filter = if minified { sampler.minification } else { sampler.magnification };
+        let finer = level as u32;
+        Self { texture, sampler, uv, filter, finer, share: level - finer as f32 }
     }
 
     #[inline]
-    fn texel(&self, level: &Level, x: u32, y: u32) -> Vec4 {
-        decode(level.texels[(y * level.width + x) as usize], self.texture.format)
+    fn value(&self) -> Vec4 {
+        let value = self.level(self.finer);
+        if self.share == 0.0 {
+            return value;
+        }
+        mix(value, self.level(self.finer + 1), self.share)
+    }
+
+    #[inline]
+    fn level(&self, level: u32) -> Vec4 {
+        let blocks = &self.texture.blocks;
+        let [width, height] = blocks.size(level);
+        let (x, s) = texel(self.uv.x, width as f32, self.sampler.wrap_u, self.filter);
+        let (y, t) = texel(self.uv.y, height as f32, self.sampler.wrap_v, self.filter);
+        let index = blocks.start(level) + Blocks::index(width, [x, y]);
+        let [top, bottom] = blocks.footprint(index);
+        mix(self.row(top, s), self.row(bottom, s), t)
+    }
+
+    /// Mixes neighbours.
+    #[inline]
+    fn row(&self, pair: u64, share: f32) -> Vec4 {
+        let texel = |bits: u32| decode(bits.to_le_bytes(), self.texture.format);
+        mix(texel(pair as u32), texel((pair >> 32) as u32), share)
     }
 }
 
@@ -97,81 +98,17 @@ fn mix(a: Vec4, b: Vec4, share: f32) -> Vec4 {
     a + (b - a) * share
 }
 
-/// One axis of a look-up.
-struct Axis {
-    size: u32,
-    wrap: Wrap,
-    coordinate: f32,
-}
-
-impl Axis {
-    /// The coordinate in texels, brought near the texture while it is still
-    /// precise: within `[0, 2 * size]`, or a texel outside when clamped.
-    #[inline]
-    fn position(&self) -> f32 {
-        let c = if self.coordinate.is_finite() { self.coordinate } else { 0.0 };
-        let near = match self.wrap {
-            Wrap::Repeat => c - c.floor(),
-            Wrap::MirroredRepeat => c - 2.0 * (c * 0.5).floor(),
-            Wrap::ClampToEdge if c < 0.0 => 0.0,
-            Wrap::ClampToEdge if c > 1.0 => 1.0,
-            Wrap::ClampToEdge => c,
-        };
-        near * self.size as f32
-    }
-
-    /// The texel `index`, from -1 up to `2 * size`, wrapped into the texture.
-    #[inline]
-    fn wrapped(&self, index: i32) -> u32 {
-        let size = self.size as i32;
-        let inside = match self.wrap {
-            Wrap::Repeat => match index {
-                -1 => size - 1,
-                _ if index >= size => index - size,
-                _ => index,
-            },
-            Wrap::MirroredRepeat => {
-                let index = match index {
-                    -1 => 0,
-                    _ if index >= 2 * size => index - 2 * size,
-                    _ => index,
-                };
-                if index >= size { 2 * size - 1 - index } else { index }
-            }
-            Wrap::ClampToEdge => index,
-        };
-        inside.clamp(0, size - 1) as u32
-    }
-
-    #[inline]
-    fn nearest(&self) -> u32 {
-        let position = self.position();
-        // A coordinate just below 0 rounds up to the whole size when it is
-        // wrapped: it belongs to the last texel.
-        if self.wrap == Wrap::Repeat && position >= self.size as f32 {
-            return self.size - 1;
-        }
-        self.wrapped(position as i32)
-    }
-
-    /// The two texels whose centres enclose the coordinate, and the share of
-    /// the second.
-    #[inline]
-    fn pair(&self) -> ([u32; 2], f32) {
-        let position = self.position() - 0.5;
-        let floor = position.floor();
-        let first = floor as i32;
-        ([self.wrapped(first), self.wrapped(first + 1)], position - floor)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::TextureFormat;
+    use crate::{TextureFormat, Wrap};
     use proptest::prelude::*;
+    use trigon_math::DVec2;
 
     const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge];
+
+    const MIPS: [MipFilter; 4] =
+        [MipFilter::None, MipFilter::Nearest, MipFilter::Linear, MipFilter::Anisotropic(16)];
 
     /// A row of texels with red 0, 10, 20 …
     fn row(width: u32) -> Texture {
@@ -223,26 +160,67 @@ mod tests {
         }
     }
 
-    #[test]
-    fn logarithm_is_close_enough() {
-        for i in 1..20_000 {
-            let x = i as f32 * 0.01;
-            let error =
-                f64::from(log2(x)) - trigon_math::elementary::ln(f64::from(x)) / std::f64::consts::LN_2;
-            assert!(error.abs() < 5e-5, "log2({x}) is off by {error}");
-        }
-        assert!(log2(0.0) < -100.0, "0 selects the base level");
+    /// A picture of stripes that are `period` texels wide and run along v.
+    fn stripes(side: u32, period: u32) -> Texture {
+        let light = |x: u32| if (x / period).is_multiple_of(2) { 255 } else { 0 };
+        let texels = (0..side * side).map(|i| [light(i % side), 0, 0, 255]).collect();
+        Texture::new(side, side, texels, TextureFormat::Linear).unwrap()
     }
 
     #[test]
-    fn each_halving_moves_one_level_down() {
-        let texels = vec![[200, 100, 50, 255]; 64 * 64];
-        let texture = Texture::new(64, 64, texels, TextureFormat::Linear).unwrap();
-        for k in 0..6 {
-            let step = (1 << k) as f32 / 64.0;
-            let detail = level_of_detail(&texture.levels[0], Vec2::new(step, 0.0), Vec2::ZERO);
-            assert!((detail - k as f32).abs() < 1e-3, "a step of {} texels: {detail}", 1 << k);
-        }
+    fn probes_along_the_longer_side_keep_the_shorter_one_sharp() {
+        let texture = stripes(64, 4);
+        let (ddx, ddy) = (Vec2::new(1.0 / 64.0, 0.0), Vec2::new(0.0, 16.0 / 64.0));
+        let contrast = |mip| {
+            let sampler = Sampler { mip, ..Sampler::default() };
+            let at = |texel: f32| texture.sample(Vec2::new(texel / 64.0, 0.5), ddx, ddy, &sampler).x;
+            at(2.0) - at(6.0)
+        };
+        assert!(contrast(MipFilter::Linear) < 0.01, "one look-up blurs in both directions");
+        assert_eq!(contrast(MipFilter::Anisotropic(16)), 1.0, "16 probes see the stripes");
+        let some = contrast(MipFilter::Anisotropic(3));
+        assert!(some > 0.01 && some < 1.0, "3 probes see some of them: {some}");
+    }
+
+    #[test]
+    fn probes_average_what_the_longer_side_covers() {
+        // 1/7 to 6/7 of a side of 16 texels, across 4 pairs of stripes.
+        let texture = stripes(64, 2);
+        let sampler = Sampler { mip: MipFilter::Anisotropic(16), ..Sampler::default() };
+        let (ddx, ddy) = (Vec2::new(16.0 / 64.0, 0.0), Vec2::new(0.0, 1.0 / 64.0));
+        let value = texture.sample(Vec2::splat(0.5), ddx, ddy, &sampler).x;
+        assert!((value - 0.5).abs() < 0.1, "half the stripes are white: {value}");
+    }
+
+    #[test]
+    fn a_single_probe_is_trilinear() {
+        let texture = stripes(32, 3);
+        let (uv, ddx, ddy) = (Vec2::new(0.3, 0.7), Vec2::new(0.05, 0.01), Vec2::new(0.0, 0.02));
+        let with = |mip| texture.sample(uv, ddx, ddy, &Sampler { mip, ..Sampler::default() });
+        assert_eq!(with(MipFilter::Anisotropic(1)), with(MipFilter::Linear), "at most one probe");
+        assert_eq!(with(MipFilter::Anisotropic(0)), with(MipFilter::Linear), "0 counts as 1");
+        assert_eq!(with(MipFilter::Anisotropic(99)), with(MipFilter::Anisotropic(16)), "99 as 16");
+    }
+
+    /// The bilinear filter in f64, with texels addressed one by one.
+    fn reference(texels: &[[u8; 4]], side: u32, uv: Vec2, wrap: Wrap) -> f64 {
+        let side_i = i64::from(side);
+        let wrapped = |i: i64| match wrap {
+            Wrap::Repeat => i.rem_euclid(side_i),
+            Wrap::MirroredRepeat => {
+                let i = i.rem_euclid(2 * side_i);
+                if i < side_i { i } else { 2 * side_i - 1 - i }
+            }
+            Wrap::ClampToEdge => i.clamp(0, side_i - 1),
+        };
+        let position = DVec2::new(f64::from(uv.x), f64::from(uv.y)) * f64::from(side) - 0.5;
+        let (first, share) = (position.floor(), position - position.floor());
+        let texel = |dx: i64, dy: i64| {
+            let (x, y) = (wrapped(first.x as i64 + dx), wrapped(first.y as i64 + dy));
+            f64::from(texels[(y * side_i + x) as usize][0]) / 255.0
+        };
+        let mix = |a: f64, b: f64, t: f64| a + (b - a) * t;
+        mix(mix(texel(0, 0), texel(1, 0), share.x), mix(texel(0, 1), texel(1, 1), share.x), share.y)
     }
 
     fn any_coordinate() -> impl Strategy<Value = f32> {
@@ -259,12 +237,35 @@ mod tests {
 
     proptest! {
         #[test]
+        fn bilinear_equals_the_reference_far_from_zero(
+            uv in prop_oneof![
+                [-2.0_f32..2.0, -2.0_f32..2.0],
+                [-2e5_f32..2e5, -2e5_f32..2e5],
+                [-1e7_f32..1e7, -1e7_f32..1e7],
+            ],
+            side in 1_u32..40,
+            wrap in 0_usize..3,
+        ) {
+            let wrap = WRAPS[wrap];
+            let texels: Vec<_> =
+                (0..side * side).map(|i| i.wrapping_mul(2_654_435_761).to_be_bytes()).collect();
+            let texture = Texture::new(side, side, texels.clone(), TextureFormat::Linear).unwrap();
+            let sampler = Sampler { wrap_u: wrap, wrap_v: wrap, ..Sampler::default() };
+            let value = texture.sample(uv.into(), Vec2::ZERO, Vec2::ZERO, &sampler);
+            let error = f64::from(value.x) - reference(&texels, side, uv.into(), wrap);
+            // A neighbour differs by 1 at most: the error of the position on
+            // both axes, and a little for the arithmetic.
+            let bound = 2.0 * f64::from(side) * f64::from(f32::EPSILON) + 1e-6;
+            prop_assert!(error.abs() <= bound, "{error:e} beyond {bound:e} at {uv:?}");
+        }
+
+        #[test]
         fn any_input_gives_a_value_in_range(
             uv in [any_coordinate(), any_coordinate()],
             ddx in [any_coordinate(), any_coordinate()],
             ddy in [any_coordinate(), any_coordinate()],
             size in (1_u32..9, 1_u32..9),
-            modes in (0_usize..3, 0_usize..3, 0_usize..2, 0_usize..2, 0_usize..3),
+            modes in (0_usize..3, 0_usize..3, 0_usize..2, 0_usize..2, 0_usize..4),
         ) {
             let texels = vec![[51, 102, 153, 204]; (size.0 * size.1) as usize];
             let texture = Texture::new(size.0, size.1, texels, TextureFormat::Linear).unwrap();
@@ -274,7 +275,7 @@ mod tests {
                 wrap_v: WRAPS[modes.1],
                 magnification: filters[modes.2],
                 minification: filters[modes.3],
-                mip: [MipFilter::None, MipFilter::Nearest, MipFilter::Linear][modes.4],
+                mip: MIPS[modes.4],
             };
             let value = texture.sample(uv.into(), ddx.into(), ddy.into(), &sampler);
             let expected = Vec4::new(0.2, 0.4, 0.6, 0.8);

@@ -1,5 +1,8 @@
 //! How a texture is looked up.
 
+/// The most probes that [`MipFilter::Anisotropic`] takes.
+pub const MAX_ANISOTROPY: u8 = 16;
+
 /// What lies beyond the edges of a texture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Wrap {
@@ -32,6 +35,11 @@ pub enum MipFilter {
     /// The two nearest levels, weighted ("trilinear" with [`Filter::Linear`]).
     #[default]
     Linear,
+    /// Up to so many look-ups like [`Self::Linear`] along the longer side of the
+    /// footprint, each as sharp as the shorter side allows: surfaces seen at a
+    /// grazing angle stay sharp, and cost as many times more. 1 (or 0) is the
+    /// same as `Linear`; more than 16 counts as 16.
+    Anisotropic(u8),
 }
 
 /// How a texture is looked up; the default repeats and is trilinear.
@@ -47,4 +55,21 @@ pub struct Sampler {
     pub minification: Filter,
     /// Choice of levels where it is smaller.
     pub mip: MipFilter,
+}
+
+impl Sampler {
+    /// Whether a look-up depends on the size of the footprint at all.
+    #[inline]
+    pub(super) fn needs_detail(&self) -> bool {
+        self.mip != MipFilter::None || self.magnification != self.minification
+    }
+
+    /// The most probes along the longer side of a footprint.
+    #[inline]
+    pub(super) fn most_probes(&self) -> f32 {
+        match self.mip {
+            MipFilter::Anisotropic(most) => f32::from(most.clamp(1, MAX_ANISOTROPY)),
+            _ => 1.0,
+        }
+    }
 }

@@ -1,308 +1,338 @@
-//! One triangle in one tile: which samples it covers and how deep they lie,
-//! eight at a time.
+//! Opaque triangles: which samples they cover, and whether they are seen there.
 
-use super::Edge;
-use crate::setup::{Kind, SampleBounds, SetupTriangle};
+use super::area::{BLOCKS, TileArea};
+use super::buffer::{NOBODY, VisibilityBuffer};
+use super::covering::Covering;
+use super::store::{store, store_where};
+use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, lanes_of, prelude::*};
 
-/// The distance between rows of a tile's scratch, and the most samples that a
-/// tile has in a row.
-pub(crate) const STRIDE: usize = 64;
-
-/// Samples that are decided together: a run in a row, starting at a multiple
-/// of this. Fixed by the layout and not by the machine.
-pub(crate) const LANES: usize = 8;
-
-/// Where a tile lies in the sample grid.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct TileArea {
-    /// The first sample.
-    pub(crate) origin: [i32; 2],
-    /// Samples in a row and in a column, at most [`STRIDE`].
-    pub(crate) size: [usize; 2],
+/// What all triangles of a tile have in common.
+pub(crate) struct Cover<'f> {
+    pub(crate) area: TileArea,
+    pub(crate) offsets: &'f [[i32; 2]],
+    /// Whether a later triangle never wins at equal depth; else `precedes`
+    /// decides.
+    pub(crate) in_order: bool,
+    /// Whether bounds of depths are asked before samples are.
+    pub(crate) hierarchical: bool,
+    /// Whether the first place is seen before the second at equal depth.
+    pub(crate) precedes: &'f dyn Fn(u32, u32) -> bool,
 }
 
-/// A rectangle of samples within a tile, ends included.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Region {
-    pub(crate) columns: [usize; 2],
-    pub(crate) rows: [usize; 2],
-}
-
-impl TileArea {
-    /// All samples of the tile.
-    pub(crate) fn whole(&self) -> Region {
-        Region { columns: [0, self.size[0] - 1], rows: [0, self.size[1] - 1] }
-    }
-}
-
-impl Region {
-    /// Both halves, one above or beside the other; `None` if there is only one
-    /// sample.
-    pub(crate) fn halves(self) -> Option<[Self; 2]> {
-        let Self { columns, rows } = self;
-        let cut = |[first, last]: [usize; 2]| {
-            let middle = first + (last - first) / 2;
-            [[first, middle], [middle + 1, last]]
-        };
-        if rows[0] < rows[1] {
-            Some(cut(rows).map(|rows| Self { columns, rows }))
-        } else if columns[0] < columns[1] {
-            Some(cut(columns).map(|columns| Self { columns, rows }))
-        } else {
-            None
-        }
-    }
-}
-
-/// A run of eight samples of a tile.
-pub(crate) struct Lanes {
-    /// The first sample's column and row in the tile.
-    pub(crate) x: usize,
-    pub(crate) y: usize,
-    /// Not negative where the triangle covers the sample.
-    pub(crate) sign: [i32; LANES],
-    /// Depth, meaningful where covered.
-    pub(crate) depth: [f32; LANES],
-}
-
-/// An edge function's sign on the samples of a tile.
+/// Counts of blocks and samples.
 #[derive(Clone, Copy, Default)]
-struct Sign {
-    start: i64,
-    right: i32,
-    down: i32,
+pub(crate) struct Counts {
+    pub(crate) tiles_rejected: u64,
+    pub(crate) tiles_filled: u64,
+    pub(crate) blocks_rejected: u64,
+    pub(crate) blocks_accepted: u64,
+    pub(crate) groups: u64,
 }
 
-/// A triangle as one tile sees it.
-pub(crate) struct TileTriangle {
-    signs: [Sign; 3],
-    /// Whether the signs need more than 32 bits.
-    wide: bool,
-    edges: [Edge; 3],
-    /// Whether the edge functions fit 32 bits on all covered samples.
-    small: bool,
-    depth: DepthPlane,
-    disc: Option<Disc>,
-    /// First and last column and row, within the tile.
-    columns: [usize; 2],
-    rows: [usize; 2],
+/// A triangle on its way through a tile.
+struct Walk<'c, S: Simd> {
+    covering: &'c Covering,
+    /// Edge functions' steps within a group.
+    lanes: [I32<S>; 3],
+    place: u32,
 }
 
-/// How depth comes from the edge functions.
-pub(crate) struct DepthPlane {
-    inverse_area: f32,
-    vertices: [f32; 3],
-    range: [f32; 2],
-}
+impl Cover<'_> {
+    /// Whether something at `depth` cannot be seen before something at
+    /// `farthest`.
+    #[inline(always)]
+    pub(super) fn hides(&self, farthest: f32, depth: f32) -> bool {
+        if self.in_order { depth <= farthest } else { depth < farthest }
+    }
 
-impl DepthPlane {
-    pub(crate) fn new(triangle: &SetupTriangle) -> Self {
-        let vertices = triangle.vertices.map(|v| v.depth);
-        let [a, b, c] = vertices;
-        let low = |a: f32, b: f32| if b < a { b } else { a };
-        let high = |a: f32, b: f32| if b > a { b } else { a };
-        Self {
-            inverse_area: 1.0 / triangle.doubled_area().abs() as f32,
-            vertices,
-            range: [low(low(a, b), c), high(high(a, b), c)],
+    /// Whether the whole tile hides a triangle no nearer than `depth`.
+    #[inline(always)]
+    pub(crate) fn tile_hides(&self, buffer: &mut VisibilityBuffer, depth: f32) -> bool {
+        self.hierarchical && self.hides(buffer.farthest_of_all(&self.area), depth)
+    }
+
+    /// Lets a triangle compete for the samples that it covers.
+    #[inline(always)]
+    pub(crate) fn triangle<S: Simd, const MULTI: bool>(
+        &self,
+        simd: S,
+        covering: &Covering,
+        place: u32,
+        buffer: &mut VisibilityBuffer,
+        counts: &mut Counts,
+    ) {
+        if self.tile_hides(buffer, covering.depth.high) {
+            counts.tiles_rejected += 1;
+            return;
+        }
+        if self.fills_tile(covering, buffer) {
+            counts.tiles_filled += 1;
+            buffer.fill_with(covering.depth.low, place);
+            return;
+        }
+        buffer.settle();
+        let (x, y) = (lane_numbers(simd) & 3, lane_numbers(simd) >> 2);
+        let lanes = [0, 1, 2].each(
+            #[inline(always)]
+            |k| x * covering.right[k] + y * covering.down[k],
+        );
+        let walk = Walk { covering, lanes, place };
+        let [columns, rows] = [covering.columns, covering.rows];
+        let small = columns[1] - columns[0] < 8 && rows[1] - rows[0] < 8;
+        for block_y in rows[0] >> 3..=rows[1] >> 3 {
+            for block_x in columns[0] >> 3..=columns[1] >> 3 {
+                let [left, top] = [block_x * 8, block_y * 8];
+                let block = (block_y as usize) * BLOCKS + block_x as usize;
+                let mut inside = false;
+                if small {
+                    if self.hierarchical && self.hides(buffer.blocks[block].farthest, covering.depth.high) {
+                        counts.blocks_rejected += 1;
+                        continue;
+                    }
+                } else {
+                    let [outside, within] = covering.block_sides(self.offsets.len(), [left, top]);
+                    if outside
+                        || (self.hierarchical && self.block_hides(covering, buffer, block, [left, top]))
+                    {
+                        counts.blocks_rejected += 1;
+                        continue;
+                    }
+                    inside = within;
+                }
+                if inside {
+                    counts.blocks_accepted += 1;
+                    self.whole_block::<S, MULTI>(simd, &walk, buffer, block, [left, top]);
+                } else {
+                    let groups = self.part_of_block::<S, MULTI>(simd, &walk, buffer, block, [left, top]);
+                    counts.groups += groups;
+                }
+            }
         }
     }
 
-    /// The weights of the vertices where the edge functions have these values.
+    /// Whether a triangle of one depth lies before all of the tile.
     #[inline(always)]
-    pub(crate) fn weights(&self, edges: [f32; 3]) -> [f32; 3] {
-        edges.map(|edge| edge * self.inverse_area)
+    fn fills_tile(&self, covering: &Covering, buffer: &VisibilityBuffer) -> bool {
+        let constant = covering.depth.low == covering.depth.high;
+        let nearer = buffer.nearest().is_some_and(|nearest| covering.depth.low > nearest);
+        self.hierarchical
+            && constant
+            && nearer
+            && covering.special.is_none()
+            && covering.right == [0; 3]
+            && covering.down == [0; 3]
+            && covering.columns == [0, self.area.padded()[0] as i32 - 1]
+            && covering.rows == [0, self.area.padded()[1] as i32 - 1]
     }
 
-    /// The depth for these weights: not beyond the vertices', and so exactly
-    /// theirs where they agree.
+    /// Whether what is in a block hides all of the triangle.
     #[inline(always)]
-    pub(crate) fn at(&self, [u, v, w]: [f32; 3]) -> f32 {
-        let [a, b, c] = self.vertices;
-        let depth = u * a + v * b + w * c;
-        let depth = if depth < self.range[0] { self.range[0] } else { depth };
-        if depth > self.range[1] { self.range[1] } else { depth }
-    }
-}
-
-/// The round outline of a point.
-#[derive(Clone, Copy)]
-struct Disc {
-    /// Twice the centre, relative to the centre of the tile's first sample, in
-    /// units of the grid.
-    centre: [i64; 2],
-    /// Twice the diameter's half.
-    diameter: i64,
-}
-
-impl Disc {
-    fn new(triangle: &SetupTriangle, origin: [i32; 2]) -> Option<Self> {
-        if triangle.kind != Kind::RoundPoint {
-            return None;
+    fn block_hides(
+        &self,
+        covering: &Covering,
+        buffer: &mut VisibilityBuffer,
+        block: usize,
+        corner: [i32; 2],
+    ) -> bool {
+        let farthest = buffer.farthest_in(block);
+        if self.hides(farthest, covering.depth.high) {
+            return true;
         }
-        // Each half of the square has the square's bounding box.
-        let axis = |i: usize| {
-            let raw = triangle.vertices.map(|v| i64::from([v.point.x, v.point.y][i].raw()));
-            let (low, high) = (raw[0].min(raw[1]).min(raw[2]), raw[0].max(raw[1]).max(raw[2]));
-            let first = i64::from(origin[i]) * 256 + 128;
-            (low + high - 2 * first, high - low)
+        if farthest <= covering.depth.low {
+            return false;
+        }
+        let [_, nearest] = self.depths_in_block(covering, corner);
+        self.hides(farthest, nearest)
+    }
+
+    /// Bounds of the triangle's depths in a block.
+    #[inline(always)]
+    fn depths_in_block(&self, covering: &Covering, corner: [i32; 2]) -> [f32; 2] {
+        let low = [0, 1].each(
+            #[inline(always)]
+            |axis| (self.area.origin[axis] + corner[axis]) * 256,
+        );
+        covering.depth.bounds(
+            low,
+            low.each(
+                #[inline(always)]
+                |v| v + 8 * 256,
+            ),
+        )
+    }
+
+    /// A block that the triangle covers all of.
+    #[inline(always)]
+    fn whole_block<S: Simd, const MULTI: bool>(
+        &self,
+        simd: S,
+        walk: &Walk<'_, S>,
+        buffer: &mut VisibilityBuffer,
+        block: usize,
+        corner: [i32; 2],
+    ) {
+        let [least, greatest] = self.depths_in_block(walk.covering, corner);
+        let overwrites = self.hierarchical && least > buffer.blocks[block].nearest;
+        for group in 0..8 {
+            let first = [corner[0] + (group & 1) * 4, corner[1] + (group >> 1) * 2];
+            let samples = if MULTI { buffer.samples } else { 1 };
+            for sample in 0..samples {
+                let depth = self.depth(simd, walk, first, sample);
+                let at = ((block * 8 + group as usize) * samples + sample) * LANES;
+                if overwrites {
+                    store(simd, walk.place, depth, buffer, at);
+                } else {
+                    self.compete(simd, walk.place, (Mask::splat(simd, true), depth), buffer, at);
+                }
+            }
+        }
+        buffer.note_write(block, greatest);
+        buffer.note_cover(block, least);
+    }
+
+    /// The groups of a block within the triangle's bounding box. Tells how many
+    /// were looked at.
+    #[inline(always)]
+    fn part_of_block<S: Simd, const MULTI: bool>(
+        &self,
+        simd: S,
+        walk: &Walk<'_, S>,
+        buffer: &mut VisibilityBuffer,
+        block: usize,
+        [left, top]: [i32; 2],
+    ) -> u64 {
+        let clip = |[first, last]: [i32; 2], start: i32, shift: i32| {
+            ((first.max(start) - start) >> shift)..=((last.min(start + 7) - start) >> shift)
         };
-        let ((x, diameter), (y, _)) = (axis(0), axis(1));
-        Some(Self { centre: [x, y], diameter })
-    }
-
-    #[inline]
-    fn covers(&self, x: usize, y: usize) -> bool {
-        let [dx, dy] = [512 * x as i64 - self.centre[0], 512 * y as i64 - self.centre[1]];
-        dx * dx + dy * dy < self.diameter * self.diameter
-    }
-}
-
-impl TileTriangle {
-    /// `None` if the triangle covers no sample of the `region` of the tile.
-    pub(crate) fn new(triangle: &SetupTriangle, area: TileArea, region: Region) -> Option<Self> {
-        let SampleBounds { x, y } = triangle.sample_bounds()?;
-        let clipped = |[first, last]: [i32; 2], axis: usize, [least, most]: [usize; 2]| {
-            let first = (first - area.origin[axis]).max(least as i32);
-            let last = (last - area.origin[axis]).min(most as i32);
-            (first <= last).then_some([first as usize, last as usize])
-        };
-        let columns = clipped(x, 0, region.columns)?;
-        let rows = clipped(y, 1, region.rows)?;
-        let edges = Edge::of(triangle);
-        let mut signs = [Sign::default(); 3];
-        let mut wide = false;
-        for (sign, edge) in signs.iter_mut().zip(&edges) {
-            let [least, greatest] = edge.range(area.origin, STRIDE as u32);
-            if greatest + edge.bias() < 0 {
-                return None;
-            }
-            if least + edge.bias() >= 0 {
-                continue;
-            }
-            let start = (edge.at(area.origin) + edge.bias()) >> 8;
-            *sign = Sign { start, right: edge.right, down: edge.down };
-            // The edge crosses the tile, so no value on it is further from 0
-            // than this span.
-            wide |= (greatest - least) >> 8 > i64::from(i32::MAX) - 1;
-        }
-        let edges = edges.map(|edge| Edge { origin: edge.at(area.origin), ..edge });
-        Some(Self {
-            signs,
-            wide,
-            edges,
-            small: triangle.doubled_area().abs() <= i64::from(i32::MAX),
-            depth: DepthPlane::new(triangle),
-            disc: Disc::new(triangle, area.origin),
-            columns,
-            rows,
-        })
-    }
-
-    /// Visits the runs of samples that may be covered, block by block of 8 by
-    /// 8; blocks that lie outside an edge are left out as a whole.
-    #[inline(always)]
-    pub(crate) fn for_each_run(&self, mut visit: impl FnMut(Lanes)) {
-        let blocks = |[first, last]: [usize; 2]| first / LANES..=last / LANES;
-        for block_y in blocks(self.rows) {
-            let top = (block_y * LANES).max(self.rows[0]);
-            let bottom = (block_y * LANES + LANES - 1).min(self.rows[1]);
-            for block_x in blocks(self.columns) {
-                let x = block_x * LANES;
-                if self.block_is_outside(x, block_y * LANES) {
-                    continue;
+        let mut looked_at = 0;
+        let mut wrote = false;
+        for row in clip(walk.covering.rows, top, 1) {
+            for column in clip(walk.covering.columns, left, 2) {
+                let first = [left + column * 4, top + row * 2];
+                let group = block * 8 + (row * 2 + column) as usize;
+                let samples = if MULTI { buffer.samples } else { 1 };
+                for sample in 0..samples {
+                    let covered = self.covered(simd, walk, first, sample);
+                    if !covered.any_true() {
+                        continue;
+                    }
+                    let depth = self.depth(simd, walk, first, sample);
+                    let at = (group * samples + sample) * LANES;
+                    wrote |= self.compete(simd, walk.place, (covered, depth), buffer, at);
                 }
-                for y in top..=bottom {
-                    visit(self.lanes(x, y));
-                }
+                looked_at += 1;
             }
         }
-    }
-
-    /// As [`for_each_run`](Self::for_each_run), sample by covered sample: index
-    /// in the scratch and depth.
-    pub(crate) fn for_each_sample(&self, mut visit: impl FnMut(usize, f32)) {
-        self.for_each_run(|lanes| {
-            for lane in 0..LANES {
-                let x = lanes.x + lane;
-                if lanes.sign[lane] >= 0 && self.columns[0] <= x && x <= self.columns[1] {
-                    visit(lanes.y * STRIDE + x, lanes.depth[lane]);
-                }
-            }
-        });
-    }
-
-    #[inline(always)]
-    fn block_is_outside(&self, x: usize, y: usize) -> bool {
-        const LAST: i64 = LANES as i64 - 1;
-        self.signs.iter().any(|sign| {
-            let (right, down) = (i64::from(sign.right), i64::from(sign.down));
-            let x = x as i64 + if right > 0 { LAST } else { 0 };
-            let y = y as i64 + if down > 0 { LAST } else { 0 };
-            sign.start + right * x + down * y < 0
-        })
-    }
-
-    #[inline(always)]
-    fn lanes(&self, x: usize, y: usize) -> Lanes {
-        let mut sign = if self.wide { self.wide_signs(x, y) } else { self.signs(x, y) };
-        if let Some(disc) = &self.disc {
-            for (lane, sign) in sign.iter_mut().enumerate() {
-                *sign = if disc.covers(x + lane, y) { *sign } else { -1 };
-            }
+        if wrote {
+            buffer.note_write(block, walk.covering.depth.high);
         }
-        Lanes { x, y, sign, depth: self.depths(x, y) }
+        looked_at
     }
 
-    /// Exact: where an edge crosses the tile its values over 256 fit 32 bits,
-    /// though the partial sums may wrap around.
+    /// Which pixels of a group the triangle covers at a sample.
     #[inline(always)]
-    fn signs(&self, x: usize, y: usize) -> [i32; LANES] {
-        let starts = self.signs.map(|sign| {
-            let right = sign.right.wrapping_mul(x as i32);
-            let down = sign.down.wrapping_mul(y as i32);
-            (sign.start as i32).wrapping_add(right).wrapping_add(down)
-        });
-        let [a, b, c] = self.signs;
-        std::array::from_fn(|lane| {
-            let at = |start: i32, sign: Sign| start.wrapping_add(sign.right.wrapping_mul(lane as i32));
-            at(starts[0], a) | at(starts[1], b) | at(starts[2], c)
-        })
+    fn covered<S: Simd>(&self, simd: S, walk: &Walk<'_, S>, first: [i32; 2], sample: usize) -> Mask<S> {
+        let covering = walk.covering;
+        if covering.special.is_some() {
+            return self.covered_specially(simd, covering, first, sample);
+        }
+        let [a, b, c] = [0, 1, 2].each(
+            #[inline(always)]
+            |k| {
+                // Partial sums may wrap around; the sum fits.
+                let start = covering.starts[sample][k]
+                    .wrapping_add(covering.right[k].wrapping_mul(first[0]))
+                    .wrapping_add(covering.down[k].wrapping_mul(first[1]));
+                walk.lanes[k] + start
+            },
+        );
+        (a | b | c).simd_ge(I32::splat(simd, 0))
     }
 
-    /// The same in 64 bits, for lines of extreme width.
     #[cold]
-    fn wide_signs(&self, x: usize, y: usize) -> [i32; LANES] {
-        std::array::from_fn(|lane| {
-            let at = |sign: &Sign| {
-                let (right, down) = (i64::from(sign.right), i64::from(sign.down));
-                sign.start + right * (x + lane) as i64 + down * y as i64
-            };
-            let all = self.signs.iter().fold(0, |all, sign| all | at(sign));
-            if all < 0 { -1 } else { 0 }
-        })
+    fn covered_specially<S: Simd>(
+        &self,
+        simd: S,
+        covering: &Covering,
+        first: [i32; 2],
+        sample: usize,
+    ) -> Mask<S> {
+        let [x, y] = self.point(first, sample);
+        let special = covering.special.as_ref();
+        let lanes: [i32; LANES] = lanes_of(
+            #[inline(always)]
+            |lane| {
+                let point = [x + (lane as i32 & 3) * 256, y + (lane as i32 >> 2) * 256];
+                i32::from(special.is_none_or(|special| special.covers(point)))
+            },
+        );
+        I32::simd_from(simd, lanes).simd_gt(I32::splat(simd, 0))
     }
 
-    /// Depths from the exact edge functions. On covered samples these lie
-    /// within 0 and the area, so 32 bits are enough for small triangles; others
-    /// wrap around and are not looked at.
     #[inline(always)]
-    fn depths(&self, x: usize, y: usize) -> [f32; LANES] {
-        let starts = self.edges.map(|edge| edge.at([x as i32, y as i32]));
-        let [a, b, c] = self.edges.map(|edge| edge.right);
-        if self.small {
-            let [d, e, f] = starts.map(|start| start as i32);
-            return std::array::from_fn(|lane| {
-                let at = |start: i32, right: i32| {
-                    start.wrapping_add(right.wrapping_mul(256).wrapping_mul(lane as i32)) as f32
-                };
-                self.depth.at(self.depth.weights([at(d, a), at(e, b), at(f, c)]))
-            });
+    fn depth<S: Simd>(&self, simd: S, walk: &Walk<'_, S>, first: [i32; 2], sample: usize) -> F32<S> {
+        walk.covering.depth.group(simd, self.point(first, sample))
+    }
+
+    /// The point of a pixel's sample in 1/256 pixel.
+    #[inline(always)]
+    pub(super) fn point(&self, pixel: [i32; 2], sample: usize) -> [i32; 2] {
+        let offset = self.offsets[sample];
+        [0, 1].each(
+            #[inline(always)]
+            |axis| (self.area.origin[axis] + pixel[axis]) * 256 + offset[axis],
+        )
+    }
+
+    /// Writes the covered lanes that are nearer than what is there; whether
+    /// there were any.
+    #[inline(always)]
+    fn compete<S: Simd>(
+        &self,
+        simd: S,
+        place: u32,
+        (covered, depth): (Mask<S>, F32<S>),
+        buffer: &mut VisibilityBuffer,
+        at: usize,
+    ) -> bool {
+        let seen = self.seen(simd, place, (covered, depth), buffer, at);
+        let any = seen.any_true();
+        if any {
+            store_where(simd, seen, (place, depth), buffer, at);
         }
-        let [d, e, f] = starts;
-        std::array::from_fn(|lane| {
-            let at = |start: i64, right: i32| (start + i64::from(right) * 256 * lane as i64) as f32;
-            self.depth.at(self.depth.weights([at(d, a), at(e, b), at(f, c)]))
-        })
+        any
+    }
+
+    /// The covered lanes that are nearer than what is there.
+    #[inline(always)]
+    pub(super) fn seen<S: Simd>(
+        &self,
+        simd: S,
+        place: u32,
+        (covered, depth): (Mask<S>, F32<S>),
+        buffer: &VisibilityBuffer,
+        at: usize,
+    ) -> Mask<S> {
+        let there = F32::from_slice(simd, &buffer.depth[at..at + LANES]);
+        let seen = covered & depth.simd_gt(there);
+        if !self.in_order {
+            let ties = covered & depth.simd_eq(there);
+            if ties.any_true() {
+                let won = self.won_ties(place, ties.to_bitmask(), &buffer.winner[at..at + LANES]);
+                return seen | Mask::from_bitmask(simd, won);
+            }
+        }
+        seen
+    }
+
+    /// Which of the lanes of equal depth have the smaller key.
+    #[cold]
+    fn won_ties(&self, place: u32, ties: u64, winners: &[u32]) -> u64 {
+        let wins = |winner: u32| winner == NOBODY || (self.precedes)(place, winner);
+        winners
+            .iter()
+            .enumerate()
+            .filter(|&(lane, &winner)| ties >> lane & 1 != 0 && wins(winner))
+            .fold(0, |won, (lane, _)| won | 1 << lane)
     }
 }

@@ -1,24 +1,23 @@
-//! Edge functions: on which side of an edge a sample lies, exactly.
+//! Edge functions: on which side of an edge a point lies, exactly.
 //!
 //! After J. Pineda, "A Parallel Algorithm for Polygon Rasterization", 1988, in
-//! integers on the sub-sample grid.
+//! integers on the sub-pixel grid.
 
 use crate::setup::SetupTriangle;
-use trigon_math::FixedPoint;
+use crate::vertex::ScreenVertex;
 
-/// The edge opposite one vertex as a linear function of the sample: zero on the
-/// edge, twice the triangle's area at the vertex, positive inside.
+/// The edge opposite one vertex as a linear function of a point in 1/256 pixel:
+/// zero on the edge, twice the triangle's area at the vertex, positive inside.
 ///
 /// All in units of the grid squared. With coordinates within ±2^24 (the guard
-/// band) and the
-/// widest lines no value exceeds 2^53.
-#[derive(Clone, Copy, Debug)]
+/// band) and the widest lines no value exceeds 2^53.
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Edge {
-    /// At the centre of sample (0, 0).
+    /// At (0, 0).
     pub(crate) origin: i64,
-    /// The step from one sample to the next to the right, over 256.
+    /// The step of one unit to the right.
     pub(crate) right: i32,
-    /// The step downwards, over 256.
+    /// The step of one unit downwards.
     pub(crate) down: i32,
 }
 
@@ -26,16 +25,15 @@ impl Edge {
     /// The edges opposite the three vertices.
     #[inline]
     pub(crate) fn of(triangle: &SetupTriangle) -> [Self; 3] {
-        let [a, b, c] = triangle.vertices.map(|v| v.point);
+        let [a, b, c] = triangle.vertices.map(ScreenVertex::raw);
         let edges = [Self::through(b, c), Self::through(c, a), Self::through(a, b)];
         if triangle.doubled_area() < 0 { edges.map(Self::reversed) } else { edges }
     }
 
     #[inline]
-    fn through(from: FixedPoint, to: FixedPoint) -> Self {
-        let (x, y) = (to.x.raw() - from.x.raw(), to.y.raw() - from.y.raw());
-        let sample = |raw: i32| i64::from(128 - raw);
-        let origin = i64::from(x) * sample(from.y.raw()) - i64::from(y) * sample(from.x.raw());
+    fn through(from: [i32; 2], to: [i32; 2]) -> Self {
+        let (x, y) = (to[0] - from[0], to[1] - from[1]);
+        let origin = i64::from(y) * i64::from(from[0]) - i64::from(x) * i64::from(from[1]);
         Self { origin, right: -y, down: x }
     }
 
@@ -44,14 +42,13 @@ impl Edge {
         Self { origin: -self.origin, right: -self.right, down: -self.down }
     }
 
-    /// The value at a sample.
+    /// The value at a point.
     #[inline]
     pub(crate) fn at(&self, [x, y]: [i32; 2]) -> i64 {
-        let steps = i64::from(self.right) * i64::from(x) + i64::from(self.down) * i64::from(y);
-        self.origin + steps * 256
+        self.origin + i64::from(self.right) * i64::from(x) + i64::from(self.down) * i64::from(y)
     }
 
-    /// -1 if samples exactly on the edge are outside, 0 if they belong to the
+    /// -1 if points exactly on the edge are outside, 0 if they belong to the
     /// triangle: those on a left edge, and those on a top edge (horizontal, the
     /// triangle below it). So of two triangles on both sides of an edge exactly
     /// one has it.
@@ -61,17 +58,15 @@ impl Edge {
         if inclusive { 0 } else { -1 }
     }
 
-    /// The least and the greatest value in a square of `size` samples whose
-    /// first is at `corner`.
+    /// The least and the greatest value in a rectangle, ends included.
     #[inline]
-    pub(crate) fn range(&self, corner: [i32; 2], size: u32) -> [i64; 2] {
-        let reach = i64::from(size - 1) * 256;
-        let span = |step: i32| {
-            let far = i64::from(step) * reach;
+    pub(crate) fn range(&self, low: [i32; 2], high: [i32; 2]) -> [i64; 2] {
+        let span = |step: i32, axis: usize| {
+            let far = i64::from(step) * i64::from(high[axis] - low[axis]);
             if far < 0 { [far, 0] } else { [0, far] }
         };
-        let (x, y) = (span(self.right), span(self.down));
-        let value = self.at(corner);
+        let (x, y) = (span(self.right, 0), span(self.down, 1));
+        let value = self.at(low);
         [value + x[0] + y[0], value + x[1] + y[1]]
     }
 }
@@ -90,19 +85,19 @@ mod tests {
         for points in [[(0, 0), (8, 1), (2, 9)], [(0, 0), (2, 9), (8, 1)]] {
             let triangle = triangle(points);
             let edges = Edge::of(&triangle);
-            for sample in [[0, 0], [3, 3], [-50, 7]] {
-                let sum: i64 = edges.iter().map(|edge| edge.at(sample)).sum();
-                assert_eq!(sum, triangle.doubled_area().abs(), "at {sample:?}");
+            for point in [[128, 128], [900, 896], [-13_000, 1000]] {
+                let sum: i64 = edges.iter().map(|edge| edge.at(point)).sum();
+                assert_eq!(sum, triangle.doubled_area().abs(), "at {point:?}");
             }
-            assert!(edges.iter().all(|edge| edge.at([3, 3]) > 0), "positive inside");
+            assert!(edges.iter().all(|edge| edge.at([900, 900]) > 0), "positive inside");
         }
     }
 
     #[test]
-    fn range_bounds_every_sample() {
+    fn range_bounds_every_point() {
         for edge in Edge::of(&triangle([(0, 0), (8, 1), (2, 9)])) {
             let values: Vec<i64> = (0..64).map(|i| edge.at([5 + i % 8, 2 + i / 8])).collect();
-            let range = edge.range([5, 2], 8);
+            let range = edge.range([5, 2], [12, 9]);
             assert_eq!(range[0], *values.iter().min().unwrap(), "the least");
             assert_eq!(range[1], *values.iter().max().unwrap(), "the greatest");
         }

@@ -1,41 +1,95 @@
 //! A tile in one visit: visibility, shading, blending, resolve.
 
+mod area;
+mod buffer;
 mod cover;
+mod covering;
+mod depth;
 mod edge;
+mod eight;
+mod masked;
 mod scratch;
+mod store;
+mod tiny;
 mod visibility;
 
-pub(crate) use cover::{DepthPlane, Region, STRIDE, TileArea, TileTriangle};
+pub(crate) use area::{MAX_SIDE, TileArea};
+pub(crate) use buffer::NOBODY;
+pub(crate) use cover::Counts;
+pub(crate) use covering::Covering;
+pub(crate) use depth::DepthPlane;
 pub(crate) use edge::Edge;
-pub(crate) use scratch::{NOBODY, Scratch, Waiting};
-pub(crate) use visibility::is_seen;
+pub(crate) use masked::for_each_seen;
+pub(crate) use scratch::{EdgePixel, PIXELS, Scratch};
 
-use crate::frame::Frame;
-use crate::target::TileRows;
+use crate::Surface;
+use crate::bin::Entry;
+use crate::frame::FrameView;
+use crate::target::Bands;
 use crate::{blend, resolve, shade};
+use std::ops::Range;
+
+/// A triangle of a tile: its chunk and its entry there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    pub(crate) chunk: u32,
+    pub(crate) entry: Entry,
+}
+
+/// The tile's triangles by kind of surface: ranges of its places.
+pub(crate) struct Surfaces {
+    pub(crate) opaque: Range<usize>,
+    pub(crate) masked: Range<usize>,
+    pub(crate) translucent: Range<usize>,
+}
 
 /// Draws the tile `index` of the frame into its part of the target.
-pub(crate) fn draw_tile(frame: &Frame<'_>, scratch: &mut Scratch, (index, mut rows): (usize, TileRows<'_>)) {
-    let bins = [&frame.opaque, &frame.masked, &frame.translucent].map(|bins| bins.tile(index));
-    if bins.iter().all(|bin| bin.is_empty()) {
-        resolve::fill_background(frame, &mut rows);
+pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Bands<'_>, index: u32) {
+    let area = frame.area(index);
+    let surfaces = collect(frame, scratch, index);
+    if scratch.places.is_empty() {
+        resolve::fill_background(frame, &area, bands);
         return;
     }
     scratch.stats.tiles += 1;
-    let samples = frame.samples_per_axis.get();
-    let rect = rows.rect;
-    let area = TileArea {
-        origin: [(rect.x * samples) as i32, (rect.y * samples) as i32],
-        size: [(rect.width * samples) as usize, (rect.height * samples) as usize],
-    };
-    let [opaque, masked, translucent] = bins;
-    visibility::resolve_visibility(frame, area, scratch, [opaque, masked]);
-    if frame.wants_color {
-        resolve::lay_background(frame, rect, scratch);
-        shade::shade_visible(frame, area, scratch);
-        if !translucent.is_empty() {
-            blend::blend_translucent(frame, area, scratch, translucent);
+    scratch.buffer.clear(&area, frame.grid.pattern.count());
+    visibility::resolve_visibility(frame, &area, scratch, &surfaces);
+    if frame.wants.color {
+        let early = surfaces.translucent.is_empty().then_some(frame.wants.early).flatten();
+        match early {
+            Some(encoding) => shade::shade_to_codes(frame, &area, scratch, encoding),
+            None => {
+                shade::shade_to_colors(frame, &area, scratch);
+                if !surfaces.translucent.is_empty() {
+                    blend::blend_translucent(frame, &area, scratch, surfaces.translucent);
+                }
+            }
         }
+        resolve::resolve(frame, &area, scratch, (bands, early));
+    } else {
+        resolve::resolve(frame, &area, scratch, (bands, None));
     }
-    resolve::resolve(frame, scratch, &mut rows);
+}
+
+/// Lists the triangles of a tile.
+fn collect(frame: &FrameView<'_>, scratch: &mut Scratch, tile: u32) -> Surfaces {
+    scratch.places.clear();
+    let mut ends = [0; 3];
+    for (number, chunk) in frame.chunks.iter().enumerate() {
+        if chunk.is_empty() {
+            continue;
+        }
+        scratch.entries.clear();
+        chunk.collect(&frame.grid, tile, &mut scratch.entries);
+        let chunk_number = number as u32;
+        scratch.places.extend(scratch.entries.iter().map(|&entry| Place { chunk: chunk_number, entry }));
+        let first = match chunk.surface {
+            Surface::Opaque => 0,
+            Surface::Masked => 1,
+            Surface::Translucent => 2,
+        };
+        ends[first..].fill(scratch.places.len());
+    }
+    let [opaque, masked, translucent] = ends;
+    Surfaces { opaque: 0..opaque, masked: opaque..masked, translucent: masked..translucent }
 }

@@ -1,145 +1,164 @@
 //! Who is seen at each sample of a tile: opaque triangles, then masked ones.
 
-use super::cover::{LANES, Lanes, STRIDE, TileArea, TileTriangle};
-use super::scratch::{NOBODY, Scratch, Waiting};
-use crate::frame::Frame;
-use crate::shade::Span;
-
-/// Masked fragments are asked for in portions of about this many, to bound
-/// memory.
-const MASK_PORTION: usize = 4096;
+use super::cover::Cover;
+use super::eight::Eight;
+use super::{Counts, Covering, Place, Scratch, Surfaces, TileArea, masked};
+use crate::frame::FrameView;
+use crate::simd::{Each, LANES, Simd, at_level, lanes_of};
 
 /// Finds the nearest opaque or masked triangle at every sample.
 pub(crate) fn resolve_visibility(
-    frame: &Frame<'_>,
-    area: TileArea,
+    frame: &FrameView<'_>,
+    area: &TileArea,
     scratch: &mut Scratch,
-    bins: [&[u32]; 2],
+    surfaces: &Surfaces,
 ) {
-    scratch.depth.fill(0.0);
-    scratch.winner.fill(NOBODY);
-    scratch.triangles.clear();
-    let [opaque, masked] = bins;
-    scratch.triangles.extend_from_slice(opaque);
-    scratch.triangles.extend_from_slice(masked);
-    for place in 0..opaque.len() {
-        cover_opaque(frame, area, scratch, place);
+    let mut counts = Counts::default();
+    if !surfaces.opaque.is_empty() {
+        at_level!(frame.token, simd => match frame.grid.pattern.count() {
+            1 => cover_opaque::<_, false>(simd, frame, area, scratch, (surfaces.opaque.len(), &mut counts)),
+            _ => cover_opaque::<_, true>(simd, frame, area, scratch, (surfaces.opaque.len(), &mut counts)),
+        });
     }
-    if !masked.is_empty() {
-        cover_masked(frame, area, scratch, opaque.len());
-    }
-}
-
-fn cover_opaque(frame: &Frame<'_>, area: TileArea, scratch: &mut Scratch, place: usize) {
-    let triangle = &frame.triangles[scratch.triangles[place] as usize];
-    let Some(tile_triangle) = TileTriangle::new(triangle, area, area.whole()) else {
-        return;
-    };
-    let Scratch { depth, winner, triangles, .. } = scratch;
-    tile_triangle.for_each_run(|lanes| {
-        let first = lanes.y * STRIDE + lanes.x;
-        let depth = &mut depth[first..first + LANES];
-        let winner = &mut winner[first..first + LANES];
-        if any_tie(&lanes, depth) {
-            settle_ties(frame, triangles, &lanes, depth, winner, place as u32);
-        }
-        for lane in 0..LANES {
-            let nearer = (lanes.sign[lane] >= 0) & (lanes.depth[lane] > depth[lane]);
-            depth[lane] = if nearer { lanes.depth[lane] } else { depth[lane] };
-            winner[lane] = if nearer { place as u32 } else { winner[lane] };
-        }
-    });
+    scratch.buffer.settle();
+    masked::cover_masked(frame, area, scratch, surfaces.masked.clone());
+    scratch.buffer.blank_outside(area);
+    scratch.stats.add_counts(&counts);
 }
 
 #[inline(always)]
-fn any_tie(lanes: &Lanes, depth: &[f32]) -> bool {
-    // Without short cuts, so that the lanes go in step.
-    let ties = lanes.sign.iter().zip(&lanes.depth).zip(depth);
-    ties.fold(0, |any, ((&sign, &ours), &theirs)| any | (u32::from(sign >= 0) & u32::from(ours == theirs)))
-        != 0
-}
-
-/// Gives samples of equal depth to the smaller key.
-#[cold]
-fn settle_ties(
-    frame: &Frame<'_>,
-    triangles: &[u32],
-    lanes: &Lanes,
-    depth: &[f32],
-    winner: &mut [u32],
-    place: u32,
+fn cover_opaque<S: Simd, const MULTI: bool>(
+    simd: S,
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    scratch: &mut Scratch,
+    (opaque, counts): (usize, &mut Counts),
 ) {
-    for lane in 0..LANES {
-        if lanes.sign[lane] >= 0 && lanes.depth[lane] == depth[lane] {
-            let ours = triangles[place as usize];
-            if winner[lane] == NOBODY || frame.precedes(ours, triangles[winner[lane] as usize]) {
-                winner[lane] = place;
+    let Scratch { places, buffer, .. } = scratch;
+    let precedes = |ours: u32, theirs: u32| frame.precedes(places[ours as usize], places[theirs as usize]);
+    let cover = Cover {
+        area: *area,
+        offsets: frame.grid.pattern.offsets(),
+        in_order: frame.plan.ordinals_are_keys,
+        hierarchical: frame.hierarchical,
+        precedes: &precedes,
+    };
+    let mut ready = Ready::default();
+    for (number, &place) in places[..opaque].iter().enumerate() {
+        if number == ready.end {
+            ready.refill(simd, frame, area, &places[..opaque], number);
+        }
+        let covering = match ready.lane(number) {
+            None => single(frame, area, place),
+            Some((eight, lane)) => {
+                if cover.tile_hides(buffer, eight.high[lane]) {
+                    counts.tiles_rejected += 1;
+                    continue;
+                }
+                if !MULTI && let Some(tiny) = eight.tiny(lane) {
+                    cover.tiny(simd, &tiny, number as u32, buffer, counts);
+                    continue;
+                }
+                eight.covering(lane, frame.grid.pattern)
             }
-        }
-    }
-}
-
-/// Whether a triangle at this depth is seen in front of what is there.
-#[inline]
-pub(crate) fn is_seen(frame: &Frame<'_>, scratch: &Scratch, sample: usize, depth: f32, ordinal: u32) -> bool {
-    let there = scratch.depth[sample];
-    if depth != there {
-        return depth > there;
-    }
-    match scratch.winner[sample] {
-        NOBODY => true,
-        winner => frame.precedes(ordinal, scratch.triangles[winner as usize]),
-    }
-}
-
-/// Masked triangles from place `first` on: first all samples that could be
-/// seen, then the mask, then depth.
-fn cover_masked(frame: &Frame<'_>, area: TileArea, scratch: &mut Scratch, first: usize) {
-    let mut waiting = std::mem::take(&mut scratch.waiting);
-    waiting.clear();
-    let draw = |scratch: &Scratch, place: usize| frame.triangles[scratch.triangles[place] as usize].draw;
-    for place in first..scratch.triangles.len() {
-        if waiting.len() > MASK_PORTION || (place > first && draw(scratch, place) != draw(scratch, place - 1))
-        {
-            settle_masks(frame, area, scratch, &mut waiting);
-        }
-        let ordinal = scratch.triangles[place];
-        let triangle = &frame.triangles[ordinal as usize];
-        let Some(tile_triangle) = TileTriangle::new(triangle, area, area.whole()) else {
-            continue;
         };
-        tile_triangle.for_each_sample(|sample, depth| {
-            if is_seen(frame, scratch, sample, depth, ordinal) {
-                waiting.push(Waiting { sample: sample as u32, depth, triangle: place as u32 });
-            }
-        });
-    }
-    settle_masks(frame, area, scratch, &mut waiting);
-    scratch.waiting = waiting;
-}
-
-/// Asks the mask of one draw about its waiting fragments and lets those that
-/// exist compete.
-fn settle_masks(frame: &Frame<'_>, area: TileArea, scratch: &mut Scratch, waiting: &mut Vec<Waiting>) {
-    if waiting.is_empty() {
-        return;
-    }
-    scratch.spans.clear();
-    for (output, fragment) in waiting.iter().enumerate() {
-        let ordinal = scratch.triangles[fragment.triangle as usize];
-        let sample = fragment.sample as usize;
-        Span::extend(&mut scratch.spans, ordinal, [sample % STRIDE, sample / STRIDE], output);
-    }
-    scratch.kept.clear();
-    scratch.kept.resize(waiting.len(), false);
-    frame.mask(area, &scratch.spans, &mut scratch.kept);
-    scratch.stats.samples_masked += waiting.len() as u64;
-    for (index, fragment) in waiting.drain(..).enumerate() {
-        let sample = fragment.sample as usize;
-        let ordinal = scratch.triangles[fragment.triangle as usize];
-        if scratch.kept[index] && is_seen(frame, scratch, sample, fragment.depth, ordinal) {
-            scratch.depth[sample] = fragment.depth;
-            scratch.winner[sample] = fragment.triangle;
+        if let Some(covering) = covering {
+            cover.triangle::<S, MULTI>(simd, &covering, number as u32, buffer, counts);
         }
     }
+}
+
+/// Triangles that were made ready together.
+#[derive(Default)]
+struct Ready {
+    start: usize,
+    end: usize,
+    eight: Option<Eight>,
+}
+
+impl Ready {
+    /// Makes the triangles from number `start` on ready, up to eight.
+    #[inline(always)]
+    fn refill<S: Simd>(
+        &mut self,
+        simd: S,
+        frame: &FrameView<'_>,
+        area: &TileArea,
+        places: &[Place],
+        start: usize,
+    ) {
+        let count = side_by_side(frame, &places[start..]);
+        self.start = start;
+        self.end = start + count.max(1);
+        self.eight = match count {
+            0 => None,
+            _ => Some(eight(simd, frame, area, &places[start..start + count])),
+        };
+    }
+
+    /// Where a triangle is, if it is small.
+    #[inline(always)]
+    fn lane(&self, number: usize) -> Option<(&Eight, usize)> {
+        let lane = number - self.start;
+        self.eight.as_ref().filter(|eight| eight.small >> lane & 1 != 0).map(|eight| (eight, lane))
+    }
+}
+
+/// How many of the first of some triangles, up to eight, are whole primitives
+/// of one draw and chunk.
+#[inline(always)]
+fn side_by_side(frame: &FrameView<'_>, places: &[Place]) -> usize {
+    let first = places[0];
+    let Ok(_) = first.entry.place() else {
+        return 0;
+    };
+    let draw = &frame.plan.draws[frame.draw_of(first)];
+    let chunk = &frame.chunks[first.chunk as usize];
+    let end = draw.ordinals.end - chunk.ordinals.start;
+    let belongs = |place: &Place| {
+        place.chunk == first.chunk && place.entry.place().is_ok_and(|primitive| primitive < end)
+    };
+    places.iter().take(LANES).take_while(|place| belongs(place)).count()
+}
+
+/// Up to eight whole primitives of one draw and chunk; lanes to spare repeat the
+/// first.
+#[inline(always)]
+fn eight<S: Simd>(simd: S, frame: &FrameView<'_>, area: &TileArea, places: &[Place]) -> Eight {
+    // Apart, so that it is compiled once.
+    simd.vectorize(
+        #[inline(always)]
+        || eight_apart(simd, frame, area, places),
+    )
+}
+
+#[inline(always)]
+fn eight_apart<S: Simd>(simd: S, frame: &FrameView<'_>, area: &TileArea, places: &[Place]) -> Eight {
+    let chunk = &frame.chunks[places[0].chunk as usize];
+    let draw = frame.draw_of(places[0]);
+    let plan = &frame.plan.draws[draw];
+    let (vertices, geometry) = (frame.vertices(draw), &frame.pass[plan.draw].geometry);
+    let corners: [[u32; 3]; LANES] = lanes_of(
+        #[inline(always)]
+        |lane| {
+            let place = places.get(lane).unwrap_or(&places[0]);
+            geometry.corners(chunk.ordinals.start + chunk.primitive(place.entry) - plan.ordinals.start)
+        },
+    );
+    let columns = [0, 1, 2].each(
+        #[inline(always)]
+        |corner| {
+            corners.each(
+                #[inline(always)]
+                |corners| vertices.get(corners[corner]),
+            )
+        },
+    );
+    Eight::new(simd, area, frame.grid.pattern, columns)
+}
+
+/// One triangle of the tile.
+#[inline(never)]
+pub(super) fn single(frame: &FrameView<'_>, area: &TileArea, place: Place) -> Option<Covering> {
+    Covering::new(&frame.triangle(place), &frame.grid, area)
 }

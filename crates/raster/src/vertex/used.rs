@@ -19,6 +19,9 @@ impl UsedVertices {
     pub(crate) fn new(indices: &[u32], count: usize) -> Self {
         // A vertex is about as dear as a few look-ups in a list.
         const WORTH_LISTING: usize = 4;
+        if count <= indices.len() {
+            return Self::Range(0..count);
+        }
         let exists = |index: &u32| (*index as usize) < count;
         let (mut least, mut beyond) = (usize::MAX, 0);
         for &index in indices.iter().filter(|index| exists(index)) {
@@ -73,6 +76,7 @@ mod tests {
     fn slots_and_vertices_belong_together() {
         for (indices, count) in [
             (vec![5, 7, 6, 5], 100),
+            (vec![5, 7, 6, 5], 3),
             (vec![90, 3, 50, 3], 100),
             (vec![0, u32::MAX, u32::MAX - 1], usize::MAX),
             (vec![99, 100, 101], 100),
@@ -91,6 +95,7 @@ mod tests {
     fn few_of_many_are_listed() {
         assert_eq!(UsedVertices::new(&[2, 9, 4], 10), UsedVertices::Range(2..10), "near each other");
         assert_eq!(UsedVertices::new(&[9, 900, 9], 1000), UsedVertices::Listed(vec![9, 900]), "far apart");
+        assert_eq!(UsedVertices::new(&[4, 5], 2), UsedVertices::Range(0..2), "not worth a look");
         assert_eq!(UsedVertices::new(&[4, 5], 3).len(), 0, "none exists");
         assert_eq!(UsedVertices::new(&[], 3).len(), 0, "none is asked for");
     }

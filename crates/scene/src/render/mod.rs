@@ -16,7 +16,8 @@ pub(crate) use geometry::Geometry;
 use thiserror::Error;
 use trigon_camera::Camera;
 use trigon_math::UVec2;
-use trigon_raster::{ExecuteSettings, Output, Pass, Stats, Target, TargetError};
+use trigon_raster::simd::SimdLevelError;
+use trigon_raster::{ExecuteSettings, Output, Pass, Rasterizer, Stats, Target, TargetError};
 
 use crate::background::Background;
 use crate::frame::Frame;
@@ -29,12 +30,16 @@ pub enum RenderError {
     /// The size or the number of samples is out of range.
     #[error(transparent)]
     Target(#[from] TargetError),
+    /// The processor lacks the SIMD level asked for.
+    #[error(transparent)]
+    Simd(#[from] SimdLevelError),
 }
 
 /// Draws pictures one after the other and keeps its memory between them.
 #[derive(Default)]
 pub struct Renderer {
-    target: Option<Target>,
+    target: Option<Target<'static>>,
+    rasterizer: Option<Rasterizer>,
     stats: Stats,
 }
 
@@ -64,8 +69,7 @@ impl Renderer {
         for draw in &draws {
             draw.record(&mut pass);
         }
-        let how = ExecuteSettings { threads: settings.threads, ..ExecuteSettings::default() };
-        self.stats = pass.execute(&mut target, &how);
+        self.stats = self.rasterizer(settings)?.draw(&pass, &mut target);
         let frame = frame(&target, camera, settings);
         self.target = Some(target);
         Ok(frame)
@@ -76,11 +80,23 @@ impl Renderer {
         &self.stats
     }
 
+    /// The last picture's rasterizer when its settings fit, or a new one.
+    fn rasterizer(&mut self, settings: &RenderSettings) -> Result<&mut Rasterizer, RenderError> {
+        let how = ExecuteSettings { threads: settings.threads, simd: settings.simd, ..Default::default() };
+        let kept = self.rasterizer.take().filter(|rasterizer| *rasterizer.settings() == how);
+        let rasterizer = match kept {
+            Some(rasterizer) => rasterizer,
+            None => Rasterizer::new(how)?,
+        };
+        Ok(self.rasterizer.insert(rasterizer))
+    }
+
     /// The last picture's target when it fits, or a new one.
-    fn target(&mut self, settings: &RenderSettings) -> Result<Target, RenderError> {
-        let fits = |target: &Target| {
+    fn target(&mut self, settings: &RenderSettings) -> Result<Target<'static>, RenderError> {
+        let fits = |target: &Target<'static>| {
             (target.width(), target.height()) == (settings.width, settings.height)
                 && target.samples_per_axis() == settings.samples_per_axis
+                && target.samples() == settings.samples
                 && target.depth().is_some() == settings.outputs.depth
                 && target.objects().is_some() == settings.outputs.ids
         };
@@ -95,7 +111,7 @@ impl Renderer {
             outputs.extend([Output::Object, Output::Face]);
         }
         let target = Target::new(settings.width, settings.height, &outputs)?;
-        Ok(target.with_samples_per_axis(settings.samples_per_axis)?)
+        Ok(target.with_samples_per_axis(settings.samples_per_axis)?.with_samples(settings.samples)?)
     }
 }
 
@@ -111,7 +127,7 @@ fn background_rows(background: &Background, height: u32) -> Vec<trigon_math::Vec
     (0..height).map(|y| background.row(y, height)).collect()
 }
 
-fn frame(target: &Target, camera: &Camera, settings: &RenderSettings) -> Frame {
+fn frame(target: &Target<'_>, camera: &Camera, settings: &RenderSettings) -> Frame {
     let color = target.srgb8().expect("colour is always asked for").as_flattened().to_vec();
     let distance = placement::DepthToDistance::new(&camera.projection, settings.aspect());
     let depth = target.depth().map(|depth| depth.iter().map(|&depth| distance.at(depth)).collect());

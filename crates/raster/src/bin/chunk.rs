@@ -1,0 +1,176 @@
+//! A run of the frame's primitives, set up and sorted into tiles.
+
+use super::{Grid, TileRange};
+use crate::setup::{CutWeights, SetupTriangle};
+use crate::{Stats, Surface};
+use std::ops::Range;
+
+/// A triangle of a chunk: a primitive of it that is drawn as it is, or one of
+/// the triangles made from a cut primitive, a line or a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Entry(u32);
+
+impl Entry {
+    const EXTRA: u32 = 1 << 31;
+
+    /// The primitive at this place in the chunk, as it is.
+    #[inline(always)]
+    pub(crate) fn primitive(place: u32) -> Self {
+        Self(place)
+    }
+
+    /// A triangle of the chunk's own.
+    #[inline(always)]
+    pub(crate) fn extra(index: usize) -> Self {
+        Self(index as u32 | Self::EXTRA)
+    }
+
+    /// The place of a primitive in its chunk; `Err` with the index among the
+    /// chunk's own triangles.
+    #[inline(always)]
+    pub(crate) fn place(self) -> Result<u32, usize> {
+        if self.0 & Self::EXTRA == 0 { Ok(self.0) } else { Err((self.0 & !Self::EXTRA) as usize) }
+    }
+}
+
+/// A triangle over many tiles, so that it is not listed in each.
+struct Large {
+    entry: Entry,
+    tiles: TileRange,
+}
+
+/// From this many tiles on a triangle is kept once for all, so that a triangle
+/// takes a bounded amount of memory whatever its size.
+const LARGE: usize = 64;
+
+/// Some primitives of one kind of surface, in the order of the frame.
+#[derive(Default)]
+pub(crate) struct Chunk {
+    /// Ordinals of its primitives in the frame.
+    pub(crate) ordinals: Range<u32>,
+    pub(crate) surface: Surface,
+    /// Triangles that are not just primitives.
+    pub(crate) extras: Vec<SetupTriangle>,
+    /// Weights of the corners at the vertices of cut triangles.
+    pub(crate) weights: Vec<CutWeights>,
+    pub(crate) stats: Stats,
+    /// (tile, entry) in the order of the primitives.
+    pairs: Vec<(u32, Entry)>,
+    large: Vec<Large>,
+    /// The first tile that has entries, and where each tile's entries start.
+    first_tile: u32,
+    starts: Vec<u32>,
+    entries: Vec<Entry>,
+}
+
+impl Chunk {
+    /// Empties the chunk for another frame and keeps its memory.
+    pub(crate) fn reset(&mut self, ordinals: Range<u32>, surface: Surface) {
+        self.ordinals = ordinals;
+        self.surface = surface;
+        self.extras.clear();
+        self.weights.clear();
+        self.stats = Stats::default();
+        self.pairs.clear();
+        self.large.clear();
+        self.starts.clear();
+        self.entries.clear();
+    }
+
+    /// Notes that a triangle may have samples in one tile.
+    #[inline(always)]
+    pub(crate) fn push(&mut self, tile: u32, entry: Entry) {
+        self.pairs.push((tile, entry));
+    }
+
+    /// Notes all tiles that a triangle may have samples in.
+    pub(crate) fn push_all(&mut self, grid: &Grid, triangle: &SetupTriangle, entry: Entry) {
+        let Some([columns, rows]) = grid.pixels_of(triangle) else {
+            return;
+        };
+        let tiles = grid.tiles_of(columns, rows);
+        if tiles.len() >= LARGE {
+            self.large.push(Large { entry, tiles });
+        } else {
+            let pairs = &mut self.pairs;
+            grid.for_each_tile(triangle, |tile| pairs.push((tile, entry)));
+        }
+    }
+
+    /// How many triangles are listed.
+    pub(crate) fn binned(&self) -> u64 {
+        (self.pairs.len() + self.large.len()) as u64
+    }
+
+    /// Sorts the pairs by tile, each tile's in their order, by counting.
+    pub(crate) fn sort(&mut self) {
+        let tiles = || self.pairs.iter().map(|&(tile, _)| tile);
+        let (Some(first), Some(last)) = (tiles().min(), tiles().max()) else {
+            return;
+        };
+        self.first_tile = first;
+        // One more than there are tiles, and one before that the filling in
+        // moves to its place.
+        self.starts.resize((last - first) as usize + 3, 0);
+        for &(tile, _) in &self.pairs {
+            self.starts[(tile - first) as usize + 2] += 1;
+        }
+        for tile in 1..self.starts.len() {
+            self.starts[tile] += self.starts[tile - 1];
+        }
+        self.entries.resize(self.pairs.len(), Entry(0));
+        for &(tile, entry) in &self.pairs {
+            let next = &mut self.starts[(tile - first) as usize + 1];
+            self.entries[*next as usize] = entry;
+            *next += 1;
+        }
+    }
+
+    /// The triangles listed for a tile, without the large ones.
+    fn listed(&self, tile: u32) -> &[Entry] {
+        let Some(place) = tile.checked_sub(self.first_tile).map(|place| place as usize) else {
+            return &[];
+        };
+        match (self.starts.get(place), self.starts.get(place + 1)) {
+            (Some(&start), Some(&end)) => &self.entries[start as usize..end as usize],
+            _ => &[],
+        }
+    }
+
+    /// Appends the triangles of a tile to `entries`, in the order of the
+    /// primitives.
+    pub(crate) fn collect(&self, grid: &Grid, tile: u32, entries: &mut Vec<Entry>) {
+        let listed = self.listed(tile);
+        if self.large.is_empty() {
+            entries.extend_from_slice(listed);
+            return;
+        }
+        let (column, row) = (tile % grid.columns, tile / grid.columns);
+        let reaches =
+            |large: &&Large| large.tiles.columns.contains(&column) && large.tiles.rows.contains(&row);
+        let mut listed = listed.iter().copied().peekable();
+        for large in self.large.iter().filter(reaches) {
+            while let Some(entry) =
+                listed.next_if(|entry| self.primitive(*entry) < self.primitive(large.entry))
+            {
+                entries.push(entry);
+            }
+            entries.push(large.entry);
+        }
+        entries.extend(listed);
+    }
+
+    /// The place in the chunk of the primitive that a triangle belongs to.
+    #[inline]
+    pub(crate) fn primitive(&self, entry: Entry) -> u32 {
+        match entry.place() {
+            Ok(place) => place,
+            Err(extra) => self.extras[extra].ordinal - self.ordinals.start,
+        }
+    }
+
+    /// Whether no tile has anything to draw.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.entries.is_empty() && self.large.is_empty()
+    }
+}

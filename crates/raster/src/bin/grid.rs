@@ -1,0 +1,172 @@
+//! The tiles of a frame, and which of them a triangle may have samples in.
+
+use crate::samples::SamplePattern;
+use crate::setup::SetupTriangle;
+use crate::tile::Edge;
+use crate::viewport::Viewport;
+use std::ops::Range;
+
+/// `columns * rows` squares of `size` pixels, numbered row by row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Grid {
+    pub(crate) viewport: Viewport,
+    pub(crate) pattern: SamplePattern,
+    pub(crate) size: u32,
+    pub(crate) columns: u32,
+    pub(crate) rows: u32,
+    /// 2^32 / size, rounded up: a product with it divides.
+    reciprocal: u64,
+}
+
+/// A rectangle of tiles.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct TileRange {
+    pub(crate) columns: Range<u32>,
+    pub(crate) rows: Range<u32>,
+}
+
+impl TileRange {
+    /// How many tiles there are.
+    pub(crate) fn len(&self) -> usize {
+        self.columns.len() * self.rows.len()
+    }
+}
+
+impl Grid {
+    pub(crate) fn new(viewport: Viewport, pattern: SamplePattern, size: u32) -> Self {
+        let columns = viewport.width.div_ceil(size);
+        let rows = viewport.height.div_ceil(size);
+        let reciprocal = (1_u64 << 32).div_ceil(u64::from(size));
+        Self { viewport, pattern, size, columns, rows, reciprocal }
+    }
+
+    /// How many tiles there are.
+    pub(crate) fn tiles(&self) -> usize {
+        (self.columns * self.rows) as usize
+    }
+
+    /// The column or row of tiles that a pixel lies in.
+    #[inline(always)]
+    pub(crate) fn tile_of(&self, pixel: u32) -> u32 {
+        ((u64::from(pixel) * self.reciprocal) >> 32) as u32
+    }
+
+    /// The tiles that hold these pixels, ends included and not empty; what lies
+    /// outside of the view is left out.
+    #[inline]
+    pub(crate) fn tiles_of(&self, columns: [i32; 2], rows: [i32; 2]) -> TileRange {
+        let tiles = |[first, last]: [i32; 2], side: u32| {
+            let last = last.min(side as i32 - 1);
+            self.tile_of(first.max(0) as u32)..self.tile_of(last as u32) + 1
+        };
+        TileRange { columns: tiles(columns, self.viewport.width), rows: tiles(rows, self.viewport.height) }
+    }
+
+    /// The pixels in view that may hold a sample of the triangle; `None` if
+    /// there are none.
+    #[inline]
+    pub(crate) fn pixels_of(&self, triangle: &SetupTriangle) -> Option<[[i32; 2]; 2]> {
+        let columns = self.pattern.pixels_between(triangle.extent(0))?;
+        let rows = self.pattern.pixels_between(triangle.extent(1))?;
+        let meets = |[first, last]: [i32; 2], side: u32| first < side as i32 && last >= 0;
+        (meets(columns, self.viewport.width) && meets(rows, self.viewport.height)).then_some([columns, rows])
+    }
+
+    /// The smallest rectangle around all samples of a tile, in 1/256 pixel.
+    pub(crate) fn reach_of_tile(&self, tile: [u32; 2]) -> [[i32; 2]; 2] {
+        let [least, greatest] = self.pattern.reach();
+        let first = tile.map(|v| (v * self.size) as i32 * 256);
+        [first.map(|v| v + least), first.map(|v| v + (self.size as i32 - 1) * 256 + greatest)]
+    }
+
+    /// The tiles that a triangle may have samples in: those of its bounding box,
+    /// without those that lie outside one of its edges.
+    pub(crate) fn for_each_tile(&self, triangle: &SetupTriangle, mut visit: impl FnMut(u32)) {
+        let Some([columns, rows]) = self.pixels_of(triangle) else {
+            return;
+        };
+        let TileRange { columns, rows } = self.tiles_of(columns, rows);
+        let few = columns.len() + rows.len() <= 3;
+        let edges = (!few).then(|| Edge::of(triangle));
+        for row in rows {
+            let columns = match &edges {
+                None => columns.clone(),
+                Some(edges) => self.columns_inside(edges, columns.clone(), row),
+            };
+            for column in columns {
+                visit(row * self.columns + column);
+            }
+        }
+    }
+
+    /// Those tiles of a row that lie outside none of the edges.
+    ///
+    /// The greatest value of an edge in a tile grows by the same step from tile to
+    /// tile, so its sign changes at one column, which a division finds exactly: a
+    /// long thin triangle costs as much as the tiles that it crosses, not as those
+    /// of its bounding box.
+    fn columns_inside(&self, edges: &[Edge; 3], columns: Range<u32>, row: u32) -> Range<u32> {
+        let (mut first, mut last) = (i64::from(columns.start), i64::from(columns.end) - 1);
+        for edge in edges {
+            let [low, high] = self.reach_of_tile([0, row]);
+            let greatest = edge.range(low, high)[1] + edge.bias();
+            let step = i64::from(edge.right) * 256 * i64::from(self.size);
+            match step.signum() {
+                1 => first = first.max(-greatest.div_euclid(step)),
+                -1 => last = last.min(greatest.div_euclid(-step)),
+                _ if greatest < 0 => last = -1,
+                _ => {}
+            }
+        }
+        if first <= last { first as u32..last as u32 + 1 } else { 0..0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn point() -> impl Strategy<Value = [i32; 2]> {
+        let (near, far) = (-20_000..60_000, -(1 << 23)..1 << 24);
+        prop_oneof![3 => [near.clone(), near], 1 => [far.clone(), far]]
+    }
+
+    #[test]
+    fn a_product_divides_every_pixel_number() {
+        for size in 1..=64 {
+            let grid = Grid::new(Viewport { width: 1, height: 1 }, SamplePattern::SINGLE, size);
+            for pixel in 0..1 << 16 {
+                assert_eq!(grid.tile_of(pixel), pixel / size, "{pixel} / {size}");
+            }
+        }
+    }
+
+    proptest! {
+        /// Asking every tile of the picture whether it lies outside an edge.
+        #[test]
+        fn a_triangle_is_in_the_tiles_that_no_edge_shuts_out(
+            points in [point(), point(), point()],
+            size in prop_oneof![Just(8_u32), Just(63), Just(64)],
+        ) {
+            let triangle = SetupTriangle::on_grid(points);
+            prop_assume!(triangle.doubled_area() != 0);
+            let grid = Grid::new(Viewport { width: 200, height: 150 }, SamplePattern::SINGLE, size);
+            let mut binned = Vec::new();
+            let Some([x, y]) = grid.pixels_of(&triangle) else { return Ok(()) };
+            grid.for_each_tile(&triangle, |tile| binned.push(tile));
+            for tile in 0..grid.columns * grid.rows {
+                let place = [tile % grid.columns, tile / grid.columns];
+                let corner = place.map(|v| (v * size) as i32);
+                let [low, high] = grid.reach_of_tile(place);
+                let reached = |edge: &Edge| edge.range(low, high)[1] + edge.bias() >= 0;
+                let inside = Edge::of(&triangle).iter().all(reached);
+                let meets = |[first, last]: [i32; 2], at: i32| first < at + size as i32 && at <= last;
+                let expected = inside && meets(x, corner[0]) && meets(y, corner[1]);
+                let found = binned.contains(&tile);
+                prop_assert!(found || !expected, "tile {} is missing", tile);
+                prop_assert!(expected || !found || binned.len() <= 2, "tile {} is in vain", tile);
+            }
+        }
+    }
+}

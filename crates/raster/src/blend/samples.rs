@@ -1,0 +1,55 @@
+//! Between the colours of pixels and those of samples: where something
+//! translucent is laid over, every sample needs one of its own.
+
+use crate::frame::FrameView;
+use crate::resolve::mean;
+use crate::simd::LANES;
+use crate::tile::{NOBODY, Scratch, TileArea};
+use trigon_math::Vec4;
+
+/// Gives every sample the colour of what it sees.
+pub(super) fn expand(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) {
+    let Scratch { buffer, colors, samples, edge_pixels, sample_colors, .. } = scratch;
+    let count = buffer.samples;
+    samples.clear();
+    samples.resize(buffer.span() * count, Vec4::ZERO);
+    for (pixel, color) in colors.iter().enumerate().take(buffer.span()) {
+        let place = TileArea::pixel_at(pixel);
+        if !area.contains(place) {
+            continue;
+        }
+        let background = || frame.background_at(area, place);
+        for sample in 0..count {
+            let index = buffer.index(pixel, sample);
+            samples[index] = match buffer.winner[index] {
+                NOBODY => background(),
+                _ => Vec4::from_array(*color),
+            };
+        }
+    }
+    if count > 1 {
+        for edge in edge_pixels {
+            for sample in 0..count {
+                let color = sample_colors[edge.first as usize + sample];
+                if color != NOBODY {
+                    let index = buffer.index(edge.pixel as usize, sample);
+                    samples[index] = Vec4::from_array(colors[color as usize]);
+                }
+            }
+        }
+    }
+}
+
+/// Gives every pixel the mean of its samples. All of the tile's pixels have a
+/// colour then, and none is an edge pixel.
+pub(super) fn collapse(frame: &FrameView<'_>, scratch: &mut Scratch) {
+    let Scratch { buffer, colors, samples, edge_pixels, .. } = scratch;
+    let count = frame.grid.pattern.count();
+    edge_pixels.clear();
+    for (pixel, color) in colors.iter_mut().enumerate().take(buffer.span()) {
+        let first = buffer.index(pixel, 0);
+        let of_pixel = (0..count).map(|sample| samples[first + sample * LANES]);
+        *color = mean(of_pixel, count).to_array();
+    }
+    scratch.blended = true;
+}

@@ -1,0 +1,124 @@
+//! A frame on its way: what the stages leave for the tiles.
+
+mod plan;
+mod stages;
+
+pub(crate) use plan::{DrawPlan, Plan};
+pub(crate) use stages::{Arena, How, draw};
+
+use crate::bin::{Chunk, Grid};
+use crate::pass::{Background, Recorded};
+use crate::setup::SetupTriangle;
+use crate::shade::{AnyPipeline, Encoding};
+use crate::simd::Token;
+use crate::tile::{Place, TileArea};
+use crate::vertex::{DrawVertices, ScreenVertex};
+use std::cmp::Ordering;
+
+/// What a frame is to leave behind.
+#[derive(Clone, Copy)]
+pub(crate) struct Wants {
+    pub(crate) color: bool,
+    pub(crate) depth: bool,
+    pub(crate) ids: bool,
+    /// The encoding, if bytes of one kind are all of the colour that is asked for
+    /// and there is no supersampling.
+    pub(crate) bytes: Option<Encoding>,
+    /// The same if pixels can be bytes as soon as they are shaded.
+    pub(crate) early: Option<Encoding>,
+}
+
+/// Everything that tiles read.
+pub(crate) struct FrameView<'f> {
+    pub(crate) pass: &'f [Recorded<'f>],
+    pub(crate) background: Background<'f>,
+    pub(crate) plan: &'f Plan,
+    pub(crate) places: &'f [ScreenVertex],
+    pub(crate) varyings: &'f [f32],
+    pub(crate) chunks: &'f [Chunk],
+    pub(crate) grid: Grid,
+    /// Internal pixels for each pixel of the target and axis.
+    pub(crate) supersampling: u32,
+    pub(crate) wants: Wants,
+    pub(crate) token: Token,
+    pub(crate) hierarchical: bool,
+}
+
+impl<'f> FrameView<'f> {
+    /// The rectangle of a tile.
+    pub(crate) fn area(&self, tile: u32) -> TileArea {
+        let Grid { viewport, size, columns, .. } = self.grid;
+        let origin = [(tile % columns) * size, (tile / columns) * size];
+        let side = |axis: usize, whole: u32| (whole - origin[axis]).min(size) as usize;
+        TileArea {
+            origin: origin.map(|v| v as i32),
+            size: [side(0, viewport.width), side(1, viewport.height)],
+        }
+    }
+
+    pub(crate) fn is_multisampled(&self) -> bool {
+        self.grid.pattern.count() > 1
+    }
+
+    /// The ordinal in the frame of the primitive that a triangle belongs to.
+    #[inline(always)]
+    pub(crate) fn ordinal(&self, place: Place) -> u32 {
+        let chunk = &self.chunks[place.chunk as usize];
+        chunk.ordinals.start + chunk.primitive(place.entry)
+    }
+
+    /// The index among the plans of the draw that a triangle belongs to.
+    #[inline(always)]
+    pub(crate) fn draw_of(&self, place: Place) -> usize {
+        self.plan.draw_of(self.ordinal(place))
+    }
+
+    pub(crate) fn pipeline(&self, draw: usize) -> &'f dyn AnyPipeline {
+        self.pass[self.plan.draws[draw].draw].pipeline
+    }
+
+    /// The vertices of a draw.
+    #[inline(always)]
+    pub(crate) fn vertices(&self, draw: usize) -> DrawVertices<'f> {
+        let plan = &self.plan.draws[draw];
+        let places = &self.places[plan.places..plan.places + plan.used.len()];
+        let pipeline = self.pass[plan.draw].pipeline;
+        DrawVertices { used: &plan.used, places, pipeline, token: self.token }
+    }
+
+    /// A triangle of a tile, ready.
+    #[inline]
+    pub(crate) fn triangle(&self, place: Place) -> SetupTriangle {
+        let chunk = &self.chunks[place.chunk as usize];
+        match place.entry.place() {
+            Err(extra) => chunk.extras[extra],
+            Ok(at) => {
+                let ordinal = chunk.ordinals.start + at;
+                let draw = self.plan.draw_of(ordinal);
+                let plan = &self.plan.draws[draw];
+                let vertices = self.vertices(draw);
+                let corners = self.pass[plan.draw].geometry.corners(ordinal - plan.ordinals.start);
+                SetupTriangle::whole(corners.map(|index| *vertices.get(index)), ordinal)
+            }
+        }
+    }
+
+    /// The order of two triangles at equal depth: the smaller (object, face) is
+    /// seen. Within a face, and only there, the smaller index, then the earlier
+    /// draw.
+    pub(crate) fn compare(&self, a: Place, b: Place) -> Ordering {
+        let key = |place: Place| {
+            let ordinal = self.ordinal(place);
+            let plan = &self.plan.draws[self.plan.draw_of(ordinal)];
+            let geometry = &self.pass[plan.draw].geometry;
+            let primitive = ordinal - plan.ordinals.start;
+            (geometry.object, geometry.face(primitive), primitive, plan.draw)
+        };
+        key(a).cmp(&key(b))
+    }
+
+    /// Whether `a` is seen before `b` at equal depth.
+    pub(crate) fn precedes(&self, a: Place, b: Place) -> bool {
+        self.compare(a, b).is_lt()
+    }
+}

@@ -1,0 +1,141 @@
+//! In which order a frame's draws are set up, and where their vertices go.
+
+use crate::Surface;
+use crate::bin::Chunk;
+use crate::pass::Recorded;
+use crate::vertex::UsedVertices;
+use std::ops::Range;
+
+/// How many primitives a chunk holds: enough to be worth a worker's while, few
+/// enough to stay in its cache.
+const CHUNK: u32 = 8192;
+
+/// One draw of the pass in the frame.
+pub(crate) struct DrawPlan {
+    /// Index of the draw in the pass.
+    pub(crate) draw: usize,
+    /// Ordinals of its primitives in the frame.
+    pub(crate) ordinals: Range<u32>,
+    pub(crate) used: UsedVertices,
+    /// Where its vertices' places start in the frame's array.
+    pub(crate) places: usize,
+    /// The same for its varyings.
+    pub(crate) varyings: usize,
+}
+
+/// The draws of a frame in the order of their ordinals: opaque, masked,
+/// translucent; within each the smaller object first. So at equal depth the
+/// smaller ordinal is mostly the one that is seen, whatever order the draws were
+/// recorded in.
+#[derive(Default)]
+pub(crate) struct Plan {
+    pub(crate) draws: Vec<DrawPlan>,
+    /// How many places and varyings there are in all.
+    pub(crate) vertices: usize,
+    pub(crate) varyings: usize,
+    /// Whether the order of ordinals is the order of (object, face) throughout
+    /// the opaque draws.
+    pub(crate) ordinals_are_keys: bool,
+    /// Whether every opaque and masked triangle has one colour.
+    pub(crate) is_flat: bool,
+}
+
+impl Plan {
+    /// Plans a frame, and cuts it into chunks.
+    pub(crate) fn make(&mut self, recorded: &[Recorded<'_>], chunks: &mut Vec<Chunk>) {
+        self.draws.clear();
+        (self.vertices, self.varyings) = (0, 0);
+        self.draws.extend((0..recorded.len()).map(|draw| {
+            let Recorded { geometry, pipeline } = &recorded[draw];
+            let used = UsedVertices::new(geometry.indices(), pipeline.vertex_count());
+            DrawPlan { draw, ordinals: 0..0, used, places: 0, varyings: 0 }
+        }));
+        // Equal keys stay in the order of the pass.
+        self.draws.sort_unstable_by_key(|plan| {
+            let geometry = &recorded[plan.draw].geometry;
+            (geometry.surface, geometry.object, plan.draw)
+        });
+        let mut ordinal = 0;
+        for plan in &mut self.draws {
+            let Recorded { geometry, pipeline } = &recorded[plan.draw];
+            let end = ordinal + geometry.len() as u32;
+            plan.ordinals = ordinal..end;
+            ordinal = end;
+            plan.places = self.vertices;
+            plan.varyings = self.varyings;
+            self.vertices += plan.used.len();
+            self.varyings += plan.used.len() * pipeline.varyings();
+        }
+        self.ordinals_are_keys = self.are_keys(recorded);
+        self.is_flat = recorded
+            .iter()
+            .all(|draw| draw.geometry.surface == Surface::Translucent || draw.pipeline.is_flat());
+        self.cut(recorded, chunks);
+    }
+
+    /// Whether equal depths can be decided by the ordinal among opaque draws.
+    fn are_keys(&self, recorded: &[Recorded<'_>]) -> bool {
+        let opaque = self
+            .draws
+            .iter()
+            .map(|plan| &recorded[plan.draw].geometry)
+            .filter(|g| g.surface == Surface::Opaque);
+        let mut before: Option<(u32, u32)> = None;
+        for geometry in opaque.filter(|geometry| geometry.len() > 0) {
+            let Some([first, last]) = geometry.ascending_faces() else {
+                return false;
+            };
+            if before.is_some_and(|before| before > (geometry.object, first)) {
+                return false;
+            }
+            before = Some((geometry.object, last));
+        }
+        true
+    }
+
+    fn cut(&self, recorded: &[Recorded<'_>], chunks: &mut Vec<Chunk>) {
+        let mut count = 0;
+        let mut add = |ordinals: Range<u32>, surface: Surface| {
+            if count == chunks.len() {
+                chunks.push(Chunk::default());
+            }
+            chunks[count].reset(ordinals, surface);
+            count += 1;
+        };
+        let surface = |plan: &DrawPlan| recorded[plan.draw].geometry.surface;
+        for draws in self.draws.chunk_by(|a, b| surface(a) == surface(b)) {
+            let end = draws[draws.len() - 1].ordinals.end;
+            let mut start = draws[0].ordinals.start;
+            while start < end {
+                let next = end.min(start.saturating_add(CHUNK));
+                add(start..next, surface(&draws[0]));
+                start = next;
+            }
+        }
+        for chunk in &mut chunks[count..] {
+            chunk.reset(0..0, Surface::Opaque);
+        }
+    }
+
+    /// The draws that have a share in some ordinals, each with the range of its
+    /// primitives.
+    pub(crate) fn parts(&self, ordinals: Range<u32>) -> impl Iterator<Item = (&DrawPlan, Range<u32>)> {
+        let first = self.draws.partition_point(|plan| plan.ordinals.end <= ordinals.start);
+        let draws = self.draws[first..].iter();
+        draws.take_while(move |plan| plan.ordinals.start < ordinals.end).map(move |plan| {
+            let start = ordinals.start.max(plan.ordinals.start) - plan.ordinals.start;
+            let end = ordinals.end.min(plan.ordinals.end) - plan.ordinals.start;
+            (plan, start..end)
+        })
+    }
+
+    /// The draw of a primitive.
+    #[inline]
+    pub(crate) fn draw_of(&self, ordinal: u32) -> usize {
+        if let [only] = self.draws.as_slice() {
+            debug_assert!(only.ordinals.contains(&ordinal), "ordinals come from the plan");
+            return 0;
+        }
+        self.draws.partition_point(|plan| plan.ordinals.end <= ordinal)
+    }
+}

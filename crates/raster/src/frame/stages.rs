@@ -1,0 +1,228 @@
+//! The stages of a frame: plan, vertices, set-up with binning, tiles. Each is
+//! worked off by all workers together.
+
+use super::{FrameView, Plan, Wants};
+use crate::bin::{Chunk, Grid};
+use crate::clip;
+use crate::geometry::Shape;
+use crate::line::LineStyle;
+use crate::pass::{Pass, Recorded};
+use crate::point::PointStyle;
+use crate::pool::Workers;
+use crate::setup::Setup;
+use crate::shade::Encoding;
+use crate::simd::{Simd, Token, at_level};
+use crate::target::Bands;
+use crate::tile::{Scratch, draw_tile};
+use crate::vertex::{DrawVertices, ScreenVertex};
+use crate::viewport::Viewport;
+use crate::{Culling, Stats, Target};
+use std::ops::Range;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// How many vertices a worker runs at a time.
+const VERTICES: usize = 2048;
+
+/// What is kept from frame to frame, so that a warm frame allocates nothing.
+#[derive(Default)]
+pub(crate) struct Arena {
+    plan: Plan,
+    places: Vec<ScreenVertex>,
+    varyings: Vec<f32>,
+    chunks: Vec<Chunk>,
+    scratches: Vec<Scratch>,
+}
+
+/// How a frame is drawn.
+#[derive(Clone, Copy)]
+pub(crate) struct How<'w> {
+    pub(crate) token: Token,
+    pub(crate) workers: &'w Workers,
+    pub(crate) tile_size: u32,
+    pub(crate) hierarchical: bool,
+}
+
+/// Draws a pass over the whole of a target.
+pub(crate) fn draw(arena: &mut Arena, pass: &Pass<'_>, target: &mut Target<'_>, how: How<'_>) -> Stats {
+    let axis = target.samples_per_axis();
+    let viewport = Viewport { width: target.width() * axis, height: target.height() * axis };
+    let tile_pixels = (how.tile_size / axis).max(1);
+    let grid = Grid::new(viewport, target.pattern(), tile_pixels * axis);
+    let Arena { plan, places, varyings, chunks, scratches } = arena;
+    plan.make(&pass.draws, chunks);
+    places.resize(plan.vertices, ScreenVertex::default());
+    varyings.resize(plan.varyings, 0.0);
+    run_vertices(&pass.draws, plan, viewport, how, (places, varyings));
+    set_up(&pass.draws, plan, places, (&grid, axis), how, chunks);
+    let mut stats = count(plan, chunks);
+    let wants = wants(target);
+    let bands = Bands::new(target, tile_pixels);
+    let view = FrameView {
+        pass: &pass.draws,
+        background: pass.background,
+        plan,
+        places,
+        varyings,
+        chunks,
+        grid,
+        supersampling: axis,
+        wants,
+        token: how.token,
+        hierarchical: how.hierarchical,
+    };
+    scratches.resize_with(how.workers.count(), Scratch::new);
+    draw_tiles(&view, &bands, how.workers, scratches);
+    for scratch in scratches {
+        stats += std::mem::take(&mut scratch.stats);
+    }
+    stats
+}
+
+fn wants(target: &Target<'_>) -> Wants {
+    let (srgb8, unorm8) = (target.srgb8().is_some(), target.unorm8().is_some());
+    let linear = target.linear().is_some();
+    let bytes = match (srgb8, unorm8, linear, target.samples_per_axis()) {
+        (true, false, false, 1) => Some(Encoding::Srgb8),
+        (false, true, false, 1) => Some(Encoding::Unorm8),
+        _ => None,
+    };
+    let early = bytes.filter(|_| target.samples() == 1);
+    let ids = target.objects().is_some() || target.faces().is_some() || target.triangles().is_some();
+    Wants { color: srgb8 || unorm8 || linear, depth: target.depth().is_some(), ids, bytes, early }
+}
+
+fn count(plan: &Plan, chunks: &[Chunk]) -> Stats {
+    let mut stats = Stats { vertices: plan.vertices as u64, ..Stats::default() };
+    for chunk in chunks {
+        stats.primitives += chunk.ordinals.len() as u64;
+        stats.binned += chunk.binned();
+        stats += chunk.stats;
+    }
+    stats
+}
+
+/// The vertex stage: every worker takes some vertices at a time.
+fn run_vertices(
+    pass: &[Recorded<'_>],
+    plan: &Plan,
+    viewport: Viewport,
+    how: How<'_>,
+    (places, varyings): (&mut [ScreenVertex], &mut [f32]),
+) {
+    struct Rest<'a> {
+        draw: usize,
+        slot: usize,
+        places: &'a mut [ScreenVertex],
+        varyings: &'a mut [f32],
+    }
+    let rest = Mutex::new(Rest { draw: 0, slot: 0, places, varyings });
+    let next = || {
+        let mut rest = rest.lock().unwrap_or_else(PoisonError::into_inner);
+        while plan.draws.get(rest.draw).is_some_and(|draw| rest.slot == draw.used.len()) {
+            (rest.draw, rest.slot) = (rest.draw + 1, 0);
+        }
+        let draw = plan.draws.get(rest.draw)?;
+        let slots = rest.slot..draw.used.len().min(rest.slot + VERTICES);
+        rest.slot = slots.end;
+        let stride = pass[draw.draw].pipeline.varyings();
+        let (places, others) = std::mem::take(&mut rest.places).split_at_mut(slots.len());
+        rest.places = others;
+        let (varyings, others) = std::mem::take(&mut rest.varyings).split_at_mut(slots.len() * stride);
+        rest.varyings = others;
+        Some((draw, slots, places, varyings))
+    };
+    how.workers.run(plan.vertices > VERTICES, |_| {
+        while let Some((draw, slots, places, varyings)) = next() {
+            let pipeline = pass[draw.draw].pipeline;
+            pipeline.run_vertices(how.token, &draw.used, slots, viewport, (places, varyings));
+        }
+    });
+}
+
+/// Set-up and binning: every worker takes a chunk at a time.
+fn set_up(
+    pass: &[Recorded<'_>],
+    plan: &Plan,
+    places: &[ScreenVertex],
+    (grid, axis): (&Grid, u32),
+    how: How<'_>,
+    chunks: &mut [Chunk],
+) {
+    let many = chunks.len() > 1;
+    let rest = Mutex::new(chunks.iter_mut());
+    let next = || rest.lock().unwrap_or_else(PoisonError::into_inner).next();
+    how.workers.run(many, |_| {
+        while let Some(chunk) = next() {
+            for (draw, range) in plan.parts(chunk.ordinals.clone()) {
+                let recorded = &pass[draw.draw];
+                let vertices = DrawVertices {
+                    used: &draw.used,
+                    places: &places[draw.places..draw.places + draw.used.len()],
+                    pipeline: recorded.pipeline,
+                    token: how.token,
+                };
+                let setup = Setup {
+                    grid,
+                    volume: &clip::volume(grid.viewport),
+                    vertices,
+                    first: draw.ordinals.start,
+                    culling: Culling::None,
+                    chunk,
+                };
+                set_up_part(setup, &recorded.geometry.shape, axis, how.token, range);
+            }
+            chunk.sort();
+        }
+    });
+}
+
+/// Sets up some primitives of one draw.
+fn set_up_part(mut setup: Setup<'_>, shape: &Shape<'_>, axis: u32, token: Token, range: Range<u32>) {
+    let multisampled = setup.grid.pattern.count() > 1;
+    match *shape {
+        Shape::Triangles { triangles, culling, .. } => {
+            setup.culling = culling;
+            let triangles = &triangles[range.start as usize..range.end as usize];
+            at_level!(token, simd => set_up_triangles(simd, &mut setup, range.start, triangles));
+        }
+        Shape::Lines { segments, width, toward_eye } => {
+            let style = LineStyle::new(width, toward_eye, axis, multisampled);
+            for index in range {
+                setup.segment(index, segments[index as usize], style);
+            }
+        }
+        Shape::Points { points, size, shape, toward_eye } => {
+            let style = PointStyle::new(size, shape, toward_eye, axis);
+            for index in range {
+                setup.point(index, points[index as usize], style);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn set_up_triangles<S: Simd>(simd: S, setup: &mut Setup<'_>, first: u32, triangles: &[[u32; 3]]) {
+    for (group, triangles) in triangles.chunks(crate::simd::LANES).enumerate() {
+        setup.eight_triangles(simd, first + (group * crate::simd::LANES) as u32, triangles);
+    }
+}
+
+/// The tiles: every worker takes the next one until there are none.
+fn draw_tiles(view: &FrameView<'_>, bands: &Bands<'_>, workers: &Workers, scratches: &mut [Scratch]) {
+    let tiles = view.grid.tiles() as u32;
+    let next = AtomicU32::new(0);
+    let free = Mutex::new(scratches.iter_mut());
+    workers.run(tiles > 1, |_| {
+        let Some(scratch) = free.lock().unwrap_or_else(PoisonError::into_inner).next() else {
+            return;
+        };
+        loop {
+            let tile = next.fetch_add(1, Ordering::Relaxed);
+            if tile >= tiles {
+                return;
+            }
+            draw_tile(view, scratch, bands, tile);
+        }
+    });
+}

@@ -1,0 +1,53 @@
+//! The object that draws passes and keeps what can be used again.
+
+use crate::frame::{Arena, How, draw};
+use crate::pool::Workers;
+use crate::simd::{SimdLevel, SimdLevelError, Token};
+use crate::{ExecuteSettings, Pass, Stats, Target};
+
+/// Draws passes: threads and memory that are kept from frame to frame.
+///
+/// A frame that is no larger than the last ones allocates nothing.
+pub struct Rasterizer {
+    settings: ExecuteSettings,
+    token: Token,
+    workers: Workers,
+    arena: Arena,
+}
+
+impl Rasterizer {
+    /// A rasterizer with its own threads.
+    ///
+    /// # Errors
+    /// [`SimdLevelError::Unsupported`] if the settings ask for a level that the
+    /// processor lacks.
+    pub fn new(settings: ExecuteSettings) -> Result<Self, SimdLevelError> {
+        let level = settings.simd.unwrap_or_else(SimdLevel::best);
+        let token = level.token().ok_or(SimdLevelError::Unsupported(level))?;
+        Ok(Self { settings, token, workers: Workers::new(settings.threads), arena: Arena::default() })
+    }
+
+    /// How it draws.
+    pub fn settings(&self) -> &ExecuteSettings {
+        &self.settings
+    }
+
+    /// Draws everything that was recorded, over the whole of the target.
+    ///
+    /// The result is a function of the pass and the target's size, samples and
+    /// outputs alone: the settings change no byte.
+    pub fn draw(&mut self, pass: &Pass<'_>, target: &mut Target<'_>) -> Stats {
+        let tile_size = self.settings.tile_size.pixels(target.samples());
+        let alone = Workers::new(std::num::NonZeroUsize::new(1));
+        let workers = if pass.is_worth_sharing(target) { &self.workers } else { &alone };
+        let hierarchical = self.settings.depth_test == crate::DepthTest::Hierarchical;
+        draw(&mut self.arena, pass, target, How { token: self.token, workers, tile_size, hierarchical })
+    }
+}
+
+impl Default for Rasterizer {
+    /// As many threads as the machine runs at once, and its best SIMD level.
+    fn default() -> Self {
+        Self::new(ExecuteSettings::default()).expect("the best level is supported")
+    }
+}

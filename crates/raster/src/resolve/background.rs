@@ -1,0 +1,122 @@
+//! What is seen where nothing is drawn.
+
+use crate::frame::FrameView;
+use crate::pass::Background;
+use crate::shade::Encoding;
+use crate::simd::LANES;
+use crate::target::Bands;
+use crate::tile::{NOBODY, Scratch, TileArea};
+use trigon_math::{UVec2, Vec4};
+
+impl FrameView<'_> {
+    /// The background at a pixel of the tile.
+    #[inline]
+    pub(crate) fn background_at(&self, area: &TileArea, [x, y]: [usize; 2]) -> Vec4 {
+        let pixel = UVec2::new(area.origin[0] as u32 + x as u32, area.origin[1] as u32 + y as u32);
+        self.background_of(pixel / self.supersampling)
+    }
+
+    /// The background at a pixel of the target.
+    fn background_of(&self, pixel: UVec2) -> Vec4 {
+        let value = match self.background {
+            Background::Color(color) => color,
+            Background::PerPixel(function) => function(pixel),
+        };
+        if value.is_finite() { value } else { Vec4::ZERO }
+    }
+}
+
+/// Draws a tile that nothing is in.
+pub(crate) fn fill_background(frame: &FrameView<'_>, area: &TileArea, bands: &Bands<'_>) {
+    let [left, top] = area.origin.map(|v| v as u32 / frame.supersampling);
+    let [width, height] = area.size.map(|side| side / frame.supersampling as usize);
+    let constant = matches!(frame.background, Background::Color(_));
+    let color = frame.background_of(UVec2::ZERO);
+    let codes = [Encoding::Srgb8, Encoding::Unorm8].map(|encoding| encoding.encode(color));
+    let (mut band, first) = bands.lock([left, top]);
+    for y in 0..height {
+        let start = first + y * bands.width();
+        let row = start..start + width;
+        if let Some(depths) = band.depth.get_mut(row.clone()) {
+            depths.fill(0.0);
+        }
+        let band = &mut *band;
+        for ids in [&mut band.objects, &mut band.faces, &mut band.triangles] {
+            if let Some(ids) = ids.get_mut(row.clone()) {
+                ids.fill(u32::MAX);
+            }
+        }
+        if constant {
+            for (picture, code) in [&mut band.srgb8, &mut band.unorm8].into_iter().zip(codes) {
+                if let Some(pixels) = picture.get_mut(row.clone()) {
+                    pixels.fill(code);
+                }
+            }
+            if let Some(pixels) = band.linear.get_mut(row) {
+                pixels.fill(color);
+            }
+            continue;
+        }
+        for (x, index) in row.enumerate() {
+            let color = frame.background_of(UVec2::new(left + x as u32, top + y as u32));
+            if let Some(pixel) = band.linear.get_mut(index) {
+                *pixel = color;
+            }
+            if let Some(pixel) = band.srgb8.get_mut(index) {
+                *pixel = Encoding::Srgb8.encode(color);
+            }
+            if let Some(pixel) = band.unorm8.get_mut(index) {
+                *pixel = Encoding::Unorm8.encode(color);
+            }
+        }
+    }
+}
+
+/// Puts the background's bytes into all pixels that see it.
+pub(super) fn lay_codes(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) {
+    let Some(encoding) = frame.wants.early else {
+        return;
+    };
+    let encode = |color| u32::from_le_bytes(encoding.encode(color));
+    let constant = match frame.background {
+        Background::Color(_) => Some(encode(frame.background_of(UVec2::ZERO))),
+        Background::PerPixel(_) => None,
+    };
+    for_each_empty(scratch, |scratch, pixel| {
+        let at = TileArea::pixel_at(pixel);
+        if let Some(code) = constant {
+            scratch.codes[pixel] = code;
+        } else if area.contains(at) {
+            scratch.codes[pixel] = encode(frame.background_at(area, at));
+        }
+    });
+}
+
+/// Puts the background's colour into all pixels of which every sample sees it.
+pub(super) fn lay_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) {
+    for_each_empty(scratch, |scratch, pixel| {
+        let at = TileArea::pixel_at(pixel);
+        if area.contains(at) {
+            scratch.colors[pixel] = frame.background_at(area, at).to_array();
+        }
+    });
+}
+
+/// Visits the pixels whose first sample sees nobody. (With several samples those
+/// that are edge pixels get their colour afterwards.)
+#[inline(always)]
+fn for_each_empty(scratch: &mut Scratch, mut visit: impl FnMut(&mut Scratch, usize)) {
+    let samples = scratch.buffer.samples;
+    for group in 0..scratch.buffer.span() / LANES {
+        let first = group * samples * LANES;
+        let winners: [u32; LANES] = std::array::from_fn(|lane| scratch.buffer.winner[first + lane]);
+        if !winners.contains(&NOBODY) {
+            continue;
+        }
+        for (lane, winner) in winners.into_iter().enumerate() {
+            if winner == NOBODY {
+                visit(scratch, group * LANES + lane);
+            }
+        }
+    }
+}

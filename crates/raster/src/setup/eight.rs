@@ -1,0 +1,179 @@
+//! Culling and binning of whole triangles, eight at a time. Triangles that
+//! need cutting or more than 32 bits are left to the single way.
+
+use super::Setup;
+use crate::Culling;
+use crate::bin::Entry;
+use crate::simd::{Each, I32, LANES, Mask, Simd, lanes_of, prelude::*, transposed};
+use crate::vertex::ScreenVertex;
+
+/// Triangles whose sides are shorter than this on both axes, in 1/256 pixel,
+/// have areas and edge functions within 32 bits, also a tile away.
+pub(crate) const SMALL: i32 = 1 << 14;
+
+/// What eight triangles look like on the screen.
+struct Eight<S: Simd> {
+    /// x and y of the corners.
+    corners: [[I32<S>; 2]; 3],
+    /// Least and greatest coordinates, by axis.
+    extent: [[I32<S>; 2]; 2],
+    /// Twice the signed area, where small.
+    area: I32<S>,
+    /// Not special and small.
+    plain: Mask<S>,
+}
+
+impl<S: Simd> Eight<S> {
+    #[inline(always)]
+    fn new(simd: S, vertices: [[&ScreenVertex; LANES]; 3]) -> Self {
+        let [a, b, c] = vertices.each(
+            #[inline(always)]
+            |vertices| {
+                transposed(
+                    simd,
+                    vertices.each(
+                        #[inline(always)]
+                        |vertex| &vertex.0,
+                    ),
+                )
+            },
+        );
+        let nowhere = I32::splat(simd, ScreenVertex::NOWHERE);
+        let special = a[0].simd_eq(nowhere) | b[0].simd_eq(nowhere) | c[0].simd_eq(nowhere);
+        let extent = [0, 1].each(
+            #[inline(always)]
+            |axis| {
+                let [a, b, c] = [a[axis], b[axis], c[axis]];
+                [a.min(b).min(c), a.max(b).max(c)]
+            },
+        );
+        let small = I32::splat(simd, SMALL);
+        let [x, y] = extent.each(
+            #[inline(always)]
+            |[low, high]| (high - low).simd_lt(small),
+        );
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        let corners = [[a[0], a[1]], [b[0], b[1]], [c[0], c[1]]];
+        Self { corners, extent, area, plain: !special & x & y }
+    }
+}
+
+impl<S: Simd> Eight<S> {
+    /// Which of the triangles cover none of the centres of the two by two pixels
+    /// that begin at `first`.
+    #[inline(always)]
+    fn miss(&self, simd: S, first: [I32<S>; 2]) -> Mask<S> {
+        let zero = I32::splat(simd, 0);
+        let clockwise = self.area.simd_gt(zero);
+        let point = first.each(
+            #[inline(always)]
+            |pixel| (pixel << 8) + 128,
+        );
+        // The sign bit is set where a centre lies outside of an edge.
+        let mut outside = [zero; 4];
+        let [a, b, c] = self.corners;
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            let steps = [from[1] - to[1], to[0] - from[0]];
+            let [right, down] = steps.each(
+                #[inline(always)]
+                |step| clockwise.select(step, -step),
+            );
+            let inclusive = right.simd_gt(zero) | (right.simd_eq(zero) & down.simd_gt(zero));
+            let value = right * (point[0] - from[0]) + down * (point[1] - from[1]);
+            let value = value - inclusive.select(zero, I32::splat(simd, 1));
+            let (right, down) = (right << 8, down << 8);
+            let values = [value, value + right, value + down, value + right + down];
+            for (outside, value) in outside.iter_mut().zip(values) {
+                *outside |= value;
+            }
+        }
+        let [a, b, c, d] = outside;
+        (a & b & c & d).simd_lt(zero)
+    }
+}
+
+impl Setup<'_> {
+    /// Triangles `first..` of the draw, up to eight.
+    #[inline(always)]
+    pub(crate) fn eight_triangles<S: Simd>(&mut self, simd: S, first: u32, triangles: &[[u32; 3]]) {
+        let last = triangles.len() - 1;
+        let vertices = [0, 1, 2].each(
+            #[inline(always)]
+            |corner| {
+                lanes_of(
+                    #[inline(always)]
+                    |lane| self.vertices.get(triangles[lane.min(last)][corner]),
+                )
+            },
+        );
+        let eight = Eight::new(simd, vertices);
+        let lanes = (1_u64 << triangles.len()) - 1;
+        let plain = eight.plain.to_bitmask() & lanes;
+        let drawn = self.push_plain(simd, &eight, plain, first);
+        self.chunk.stats.culled += u64::from((plain & !drawn).count_ones());
+        self.chunk.stats.set_up += u64::from(drawn.count_ones());
+        let mut others = lanes & !plain;
+        while others != 0 {
+            let lane = others.trailing_zeros();
+            others &= others - 1;
+            self.triangle(first + lane, triangles[lane as usize]);
+        }
+    }
+
+    /// Bins those of the `plain` lanes that may be seen, and tells which.
+    #[inline(always)]
+    fn push_plain<S: Simd>(&mut self, simd: S, eight: &Eight<S>, plain: u64, first: u32) -> u64 {
+        let zero = I32::splat(simd, 0);
+        let faces = match self.culling {
+            Culling::None => !eight.area.simd_eq(zero),
+            Culling::Back => eight.area.simd_lt(zero),
+            Culling::Front => eight.area.simd_gt(zero),
+        };
+        let grid = self.grid;
+        let [least, greatest] = grid.pattern.reach();
+        let mut seen = faces;
+        let pixels = [(0, grid.viewport.width), (1, grid.viewport.height)].each(
+            #[inline(always)]
+            |(axis, side)| {
+                let [low, high] = eight.extent[axis];
+                let begin = (low + (255 - greatest)) >> 8;
+                let end = (high - least) >> 8;
+                seen = seen & begin.simd_le(end) & end.simd_ge(zero);
+                seen &= begin.simd_lt(I32::splat(simd, side as i32));
+                [begin, end]
+            },
+        );
+        if grid.pattern.count() == 1 {
+            let [x, y] = pixels.each(
+                #[inline(always)]
+                |[begin, end]| (end - begin).simd_le(I32::splat(simd, 1)),
+            );
+            seen &= !(x & y & eight.miss(simd, [pixels[0][0], pixels[1][0]]));
+        }
+        let seen = seen.to_bitmask() & plain;
+        let [[left, right], [top, bottom]] = pixels.each(
+            #[inline(always)]
+            |range| range.each(<[i32; LANES]>::from),
+        );
+        let mut rest = seen;
+        while rest != 0 {
+            let lane = rest.trailing_zeros() as usize;
+            rest &= rest - 1;
+            self.push_box(first + lane as u32, [left[lane], right[lane]], [top[lane], bottom[lane]]);
+        }
+        seen
+    }
+
+    /// Bins a small triangle by its bounding box: at most two tiles each way,
+    /// more only where tiles are smaller than usual.
+    #[inline(always)]
+    fn push_box(&mut self, primitive: u32, columns: [i32; 2], rows: [i32; 2]) {
+        let tiles = self.grid.tiles_of(columns, rows);
+        let entry = Entry::primitive(self.place(primitive));
+        for row in tiles.rows {
+            for column in tiles.columns.clone() {
+                self.chunk.push(row * self.grid.columns + column, entry);
+            }
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! What shading has to know: the frame, the tile, and which pixels.
+
+use crate::bin::Chunk;
+use crate::frame::{DrawPlan, FrameView};
+use crate::geometry::Geometry;
+use crate::simd::{I32, Simd, U32, prelude::*};
+use crate::tile::{Place, TileArea};
+use crate::vertex::DrawVertices;
+use std::ops::Range;
+
+/// What a shader has to know of the frame.
+#[derive(Clone, Copy)]
+pub(crate) struct ShadeContext<'f> {
+    pub(crate) frame: &'f FrameView<'f>,
+    pub(crate) area: TileArea,
+    /// The tile's triangles.
+    pub(crate) places: &'f [Place],
+    /// Index of the draw among the frame's plans.
+    pub(crate) draw: usize,
+}
+
+impl<'f> ShadeContext<'f> {
+    #[inline(always)]
+    pub(crate) fn plan(&self) -> &'f DrawPlan {
+        &self.frame.plan.draws[self.draw]
+    }
+
+    #[inline(always)]
+    pub(crate) fn geometry(&self) -> &'f Geometry<'f> {
+        &self.frame.pass[self.plan().draw].geometry
+    }
+
+    #[inline(always)]
+    pub(crate) fn vertices(&self) -> DrawVertices<'f> {
+        self.frame.vertices(self.draw)
+    }
+
+    /// The varyings of a vertex that exists, by the index that the draw uses.
+    #[inline(always)]
+    pub(crate) fn varyings_of(&self, index: u32, stride: usize) -> &'f [f32] {
+        let plan = self.plan();
+        let slot = plan.used.slot(index).expect("what is seen has its vertices");
+        let start = plan.varyings + slot * stride;
+        &self.frame.varyings[start..start + stride]
+    }
+
+    /// The index in the draw of a triangle of the tile.
+    #[inline(always)]
+    pub(crate) fn primitive(&self, place: u32) -> u32 {
+        self.frame.ordinal(self.places[place as usize]) - self.plan().ordinals.start
+    }
+
+    /// Whether a triangle of the tile is not simply a primitive.
+    #[inline(always)]
+    pub(crate) fn is_cut(&self, place: u32) -> bool {
+        self.places[place as usize].entry.place().is_err()
+    }
+
+    /// The chunk of a triangle of the tile.
+    #[inline(always)]
+    pub(crate) fn chunk(&self, place: Place) -> &'f Chunk {
+        &self.frame.chunks[place.chunk as usize]
+    }
+}
+
+/// A pixel to be shaded: where in the tile, at which of its points, and where
+/// the result goes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Work {
+    /// Index of the pixel in the tile; bit 12 is set if the triangle may not
+    /// cover the pixel's centre.
+    spot: u32,
+    pub(crate) output: u32,
+}
+
+impl Work {
+    const PARTLY: u32 = 12;
+
+    /// At the centre if the triangle covers it, else at the lowest-numbered
+    /// sample that it covers; `partly` if the centre may not be covered.
+    #[inline(always)]
+    pub(crate) fn anywhere(pixel: usize, partly: bool, output: usize) -> Self {
+        Self { spot: pixel as u32 | u32::from(partly) << Self::PARTLY, output: output as u32 }
+    }
+
+    /// The pixel and whether it may be covered partly, as one number.
+    #[inline(always)]
+    pub(crate) fn spot(self) -> u32 {
+        self.spot
+    }
+
+    /// The index of the pixel in the tile.
+    #[inline(always)]
+    pub(crate) fn pixel(self) -> usize {
+        (self.spot & ((1 << Self::PARTLY) - 1)) as usize
+    }
+
+    /// The corners of eight pixels in 1/256 pixel, and whether one of them may
+    /// be covered partly.
+    #[inline(always)]
+    pub(crate) fn corners<S: Simd>(spots: U32<S>, area: &TileArea) -> ([I32<S>; 2], bool) {
+        let simd = spots.token();
+        let spots: I32<S> = spots.bitcast();
+        let partly = spots.simd_ge(I32::splat(simd, 1 << Self::PARTLY)).any_true();
+        let [x, y] = TileArea::pixels_at(spots & ((1 << Self::PARTLY) - 1));
+        ([(x + area.origin[0]) << 8, (y + area.origin[1]) << 8], partly)
+    }
+}
+
+/// The pixels of one triangle in a list of [`Work`].
+#[derive(Clone, Debug)]
+pub(crate) struct Job {
+    /// Index of the triangle among the tile's.
+    pub(crate) place: u32,
+    pub(crate) work: Range<usize>,
+}

@@ -1,0 +1,102 @@
+//! Linear light to bytes.
+
+use crate::simd::{Each, F32, I32, LANES, Simd, U32, greater, lanes_of, lesser, prelude::*};
+use trigon_math::{Vec4, color};
+
+/// What the bytes of a picture mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Encoding {
+    /// The sRGB transfer function, straight alpha.
+    Srgb8,
+    /// Each component as it is, 0 to 1 as 0 to 255.
+    Unorm8,
+}
+
+impl Encoding {
+    /// A premultiplied linear colour as four bytes.
+    #[inline]
+    pub(crate) fn encode(self, value: Vec4) -> [u8; 4] {
+        match self {
+            Self::Srgb8 => {
+                let straight = if value.w == 1.0 { value } else { color::unpremultiplied(value) };
+                color::linear_to_srgba8(straight)
+            }
+            Self::Unorm8 => value.to_array().map(unorm),
+        }
+    }
+
+    /// Eight colours as four bytes each, red in the lowest.
+    #[inline(always)]
+    pub(crate) fn encode_lanes<S: Simd>(self, simd: S, color: [F32<S>; 4]) -> [u32; LANES] {
+        match self {
+            Self::Srgb8 => {
+                let channels: [[f32; LANES]; 4] = color.each(Into::into);
+                lanes_of(
+                    #[inline(always)]
+                    |lane| {
+                        let [r, g, b, a] = channels.each(
+                            #[inline(always)]
+                            |channel| channel[lane],
+                        );
+                        u32::from_le_bytes(self.encode(Vec4::new(r, g, b, a)))
+                    },
+                )
+            }
+            Self::Unorm8 => {
+                let [r, g, b, a] = color.each(
+                    #[inline(always)]
+                    |channel| unorm_lanes(simd, channel),
+                );
+                (r | (g << 8) | (b << 16) | (a << 24)).into()
+            }
+        }
+    }
+}
+
+/// To the nearest of 256 steps; NaN is 0.
+#[inline]
+fn unorm(value: f32) -> u8 {
+    // The comparison is false for NaN.
+    let value = if value > 0.0 { value } else { 0.0 };
+    let value = if value < 1.0 { value } else { 1.0 };
+    (value * 255.0 + 0.5) as u8
+}
+
+#[inline(always)]
+fn unorm_lanes<S: Simd>(simd: S, value: F32<S>) -> U32<S> {
+    let value = lesser(greater(value, F32::splat(simd, 0.0)), F32::splat(simd, 1.0));
+    let steps: I32<S> = (value * 255.0 + 0.5).to_int();
+    steps.bitcast()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::{SimdLevel, at_level};
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn lanes_encode_as_single_colors_do(channels: [[f32; 8]; 4]) {
+            for encoding in [Encoding::Srgb8, Encoding::Unorm8] {
+                for token in SimdLevel::ALL.into_iter().filter_map(SimdLevel::token) {
+                    let codes = at_level!(token, simd => {
+                        encoding.encode_lanes(simd, channels.map(|channel| F32::simd_from(simd, channel)))
+                    });
+                    for (lane, code) in codes.into_iter().enumerate() {
+                        let color = Vec4::from_array(channels.map(|channel| channel[lane]));
+                        prop_assert_eq!(code.to_le_bytes(), encoding.encode(color), "{}", color);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn unorm_rounds_to_the_nearest_step() {
+        for (value, code) in [(0.0, 0), (1.0, 255), (0.5, 128), (0.499 / 255.0, 0), (0.501 / 255.0, 1)] {
+            assert_eq!(unorm(value), code, "{value}");
+        }
+        assert_eq!([f32::NAN, -1.0, 7.0].map(unorm), [0, 0, 255], "what is out of range");
+    }
+}

@@ -1,0 +1,285 @@
+//! Perspective-correct weights of triangles' corners at eight points, and their
+//! derivatives.
+//!
+//! With `E_i` the edge functions (exact, not negative within the triangle) and
+//! `q_i` the vertices' 1/w, the corners' shares are `L_k = Σ_i m_ik q_i E_i`,
+//! where `m` says how vertices come from corners (the identity unless the
+//! triangle was cut). Each `L_k` is linear on the screen, the perspective weights
+//! are `L_k / Σ L`, and the quotient rule gives their derivatives. (J. Blinn,
+//! "Hyperbolic Interpolation", 1992; P. Heckbert and H. Moreton, "Interpolation
+//! for Polygon Texture Mapping and Shading", 1991.)
+
+use crate::setup::CutWeights;
+use crate::simd::{Each, F32, I32, LANES, Mask, Simd, U32, greater, inlined, lanes_of, lesser, prelude::*};
+
+/// The largest ratio of w within a triangle that is told apart; beyond, a
+/// vertex counts as this much further away. Keeps all quotients finite.
+const RATIO_MAX: f32 = (1_u64 << 60) as f32;
+
+/// Three vertices in each lane: x and y in 1/256 pixel, depth, 1/w. Sorted by
+/// (y, x), not on a line.
+pub(crate) struct VertexColumns<S: Simd> {
+    pub(crate) x: [I32<S>; 3],
+    pub(crate) y: [I32<S>; 3],
+    pub(crate) depth: [F32<S>; 3],
+    pub(crate) inverse_w: [F32<S>; 3],
+}
+
+/// What the points of a lane's triangle have in common.
+pub(crate) struct TriangleLanes<S: Simd> {
+    x: I32<S>,
+    y: I32<S>,
+    /// Steps of the edge functions opposite vertices 1 and 2, both through
+    /// vertex 0.
+    right: [I32<S>; 2],
+    down: [I32<S>; 2],
+    area: Area<S>,
+    depth: [F32<S>; 3],
+    /// 1/w of the vertices over a power of two near the largest.
+    q: [F32<S>; 3],
+    /// That power of two.
+    scale: F32<S>,
+    cut: Option<CutWeights>,
+}
+
+/// Twice the area, in 32 bits where every lane's triangle is small.
+enum Area<S: Simd> {
+    Small(I32<S>),
+    Wide([f64; LANES]),
+}
+
+/// Where eight points lie in their triangles.
+pub(crate) struct Weights<S: Simd> {
+    /// Perspective-correct weights of the corners.
+    pub(crate) weights: [F32<S>; 3],
+    /// Derivatives of the weights of corners 1 and 2, to the right and
+    /// downwards, per pixel; that of corner 0 makes their sum 0.
+    pub(crate) slopes: [[F32<S>; 2]; 2],
+    pub(crate) depth: F32<S>,
+    pub(crate) inverse_w: F32<S>,
+    /// Distances in pixels to the edges opposite the corners.
+    pub(crate) distances: [F32<S>; 3],
+}
+
+impl<S: Simd> TriangleLanes<S> {
+    /// `wide` if a triangle may not be small (see
+    /// [`SMALL`](crate::setup::SMALL)); it never changes a result.
+    #[inline(always)]
+    pub(crate) fn new(simd: S, vertices: VertexColumns<S>, wide: bool) -> Self {
+        let VertexColumns { x, y, depth, inverse_w } = vertices;
+        let [ux, uy] = [x[1] - x[0], y[1] - y[0]];
+        let [vx, vy] = [x[2] - x[0], y[2] - y[0]];
+        let (area, clockwise) =
+            if wide { wide_area([ux, uy], [vx, vy]) } else { small_area(simd, [ux, uy], [vx, vy]) };
+        // The edge from vertex 2 to 0, and that from 0 to 1.
+        let turned = inlined(
+            #[inline(always)]
+            |value: I32<S>| clockwise.select(value, -value),
+        );
+        let scale = power_of_two(simd, greater(greater(inverse_w[0], inverse_w[1]), inverse_w[2]));
+        let least = F32::splat(simd, 1.0 / RATIO_MAX);
+        let inverse = F32::splat(simd, 1.0) / scale;
+        Self {
+            x: x[0],
+            y: y[0],
+            right: [turned(vy), turned(-uy)],
+            down: [turned(-vx), turned(ux)],
+            area,
+            depth,
+            q: inverse_w.each(
+                #[inline(always)]
+                |q| greater(q * inverse, least),
+            ),
+            scale,
+            cut: None,
+        }
+    }
+
+    /// The same triangle where corners come from a cut.
+    #[inline(always)]
+    pub(crate) fn cut(self, weights: &CutWeights) -> Self {
+        Self { cut: Some(*weights), ..self }
+    }
+
+    /// The weights at points in 1/256 pixel.
+    #[inline(always)]
+    pub(crate) fn at(&self, simd: S, x: I32<S>, y: I32<S>) -> Weights<S> {
+        let (edges, area) = self.edges(simd, x - self.x, y - self.y);
+        let shares = self.shares(edges);
+        let total = shares[0] + shares[1] + shares[2];
+        let inverse = F32::splat(simd, 1.0) / total;
+        let weights = shares.each(
+            #[inline(always)]
+            |share| share * inverse,
+        );
+        let [share_x, share_y] = [self.right, self.down].each(
+            #[inline(always)]
+            |step| self.share_steps(simd, step),
+        );
+        let (right, down) = (slopes(share_x, weights, inverse), slopes(share_y, weights, inverse));
+        Weights {
+            weights,
+            slopes: [[right[0], down[0]], [right[1], down[1]]],
+            depth: self.depth_at(edges, area),
+            inverse_w: total * self.scale / area,
+            distances: [0, 1, 2].each(
+                #[inline(always)]
+                |k| {
+                    let (dx, dy) = (share_x[k], share_y[k]);
+                    shares[k] / (dx * dx + dy * dy).sqrt()
+                },
+            ),
+        }
+    }
+
+    /// Which of the points lie in their triangles, by the top-left rule.
+    #[inline(always)]
+    pub(crate) fn covers(&self, simd: S, [x, y]: [I32<S>; 2]) -> Mask<S> {
+        let (b, c) = ([self.right[0], self.down[0]], [self.right[1], self.down[1]]);
+        let a = [-(b[0] + c[0]), -(b[1] + c[1])];
+        let (edges, _) = self.edges(simd, x - self.x, y - self.y);
+        is_inside(edges[0], a) & is_inside(edges[1], b) & is_inside(edges[2], c)
+    }
+
+    /// The edge functions and the area, each rounded once.
+    #[inline(always)]
+    fn edges(&self, simd: S, dx: I32<S>, dy: I32<S>) -> ([F32<S>; 3], F32<S>) {
+        match &self.area {
+            Area::Small(area) => {
+                let [b, c] = [0, 1].each(
+                    #[inline(always)]
+                    |i| self.right[i] * dx + self.down[i] * dy,
+                );
+                let a = *area - b - c;
+                ([a, b, c].each(SimdCvt::to_f32), area.to_f32())
+            }
+            Area::Wide(area) => {
+                let [dx, dy]: [[i32; LANES]; 2] = [dx.into(), dy.into()];
+                let mut edges = [[0.0_f32; LANES]; 3];
+                let right: [[i32; LANES]; 2] = self.right.each(Into::into);
+                let down: [[i32; LANES]; 2] = self.down.each(Into::into);
+                for lane in 0..LANES {
+                    // Whole numbers below 2^53: exact.
+                    let (x, y) = (f64::from(dx[lane]), f64::from(dy[lane]));
+                    let b = f64::from(right[0][lane]) * x + f64::from(down[0][lane]) * y;
+                    let c = f64::from(right[1][lane]) * x + f64::from(down[1][lane]) * y;
+                    edges[0][lane] = (area[lane] - b - c) as f32;
+                    edges[1][lane] = b as f32;
+                    edges[2][lane] = c as f32;
+                }
+                let area = area.each(
+                    #[inline(always)]
+                    |area| area as f32,
+                );
+                (
+                    edges.each(
+                        #[inline(always)]
+                        |edge| F32::simd_from(simd, edge),
+                    ),
+                    F32::simd_from(simd, area),
+                )
+            }
+        }
+    }
+
+    /// The corners' shares for values of the edge functions.
+    #[inline(always)]
+    fn shares(&self, edges: [F32<S>; 3]) -> [F32<S>; 3] {
+        let [a, b, c] = [edges[0] * self.q[0], edges[1] * self.q[1], edges[2] * self.q[2]];
+        match &self.cut {
+            None => [a, b, c],
+            Some(m) => [0, 1, 2].each(
+                #[inline(always)]
+                |k| a * m[0][k] + b * m[1][k] + c * m[2][k],
+            ),
+        }
+    }
+
+    /// What the shares change by in a pixel.
+    #[inline(always)]
+    fn share_steps(&self, simd: S, steps: [I32<S>; 2]) -> [F32<S>; 3] {
+        let pixel = F32::splat(simd, 256.0);
+        let [b, c] = steps;
+        self.shares([-(b + c), b, c].each(
+            #[inline(always)]
+            |step| step.to_f32() * pixel,
+        ))
+    }
+
+    /// The depth, within the range of the vertices'.
+    #[inline(always)]
+    fn depth_at(&self, edges: [F32<S>; 3], area: F32<S>) -> F32<S> {
+        let [a, b, c] = self.depth;
+        let depth = (edges[0] * a + edges[1] * b + edges[2] * c) / area;
+        lesser(greater(depth, lesser(lesser(a, b), c)), greater(greater(a, b), c))
+    }
+}
+
+/// Derivatives of the weights of corners 1 and 2, by the quotient rule.
+#[inline(always)]
+fn slopes<S: Simd>(steps: [F32<S>; 3], weights: [F32<S>; 3], inverse: F32<S>) -> [F32<S>; 2] {
+    let all = steps[0] + steps[1] + steps[2];
+    [1, 2].each(
+        #[inline(always)]
+        |k| (steps[k] - weights[k] * all) * inverse,
+    )
+}
+
+/// Which points on an edge with these steps belong to the triangle: those on
+/// left edges and on top edges.
+#[inline(always)]
+fn inclusive<S: Simd>([right, down]: [I32<S>; 2]) -> Mask<S> {
+    let zero = I32::splat(right.token(), 0);
+    right.simd_gt(zero) | (right.simd_eq(zero) & down.simd_gt(zero))
+}
+
+/// Where an edge function is inside of its edge. Rounding keeps the sign, and
+/// whether it is zero.
+#[inline(always)]
+fn is_inside<S: Simd>(edge: F32<S>, steps: [I32<S>; 2]) -> Mask<S> {
+    let zero = F32::splat(edge.token(), 0.0);
+    edge.simd_gt(zero) | (edge.simd_eq(zero) & inclusive(steps))
+}
+
+/// Conversion that rounds to nearest, named so that it can be passed on.
+trait SimdCvt<S: Simd> {
+    fn to_f32(self) -> F32<S>;
+}
+
+impl<S: Simd> SimdCvt<S> for I32<S> {
+    #[inline(always)]
+    fn to_f32(self) -> F32<S> {
+        self.to_float()
+    }
+}
+
+/// Twice the area, and whether the vertices run clockwise on the screen.
+#[inline(always)]
+fn small_area<S: Simd>(simd: S, u: [I32<S>; 2], v: [I32<S>; 2]) -> (Area<S>, Mask<S>) {
+    let area = u[0] * v[1] - u[1] * v[0];
+    let clockwise = area.simd_gt(I32::splat(simd, 0));
+    (Area::Small(area.abs()), clockwise)
+}
+
+#[inline(always)]
+fn wide_area<S: Simd>(u: [I32<S>; 2], v: [I32<S>; 2]) -> (Area<S>, Mask<S>) {
+    let simd = u[0].token();
+    let [u, v]: [[[i32; LANES]; 2]; 2] = [u.each(Into::into), v.each(Into::into)];
+    let area: [f64; LANES] = lanes_of(
+        #[inline(always)]
+        |lane| f64::from(u[0][lane]) * f64::from(v[1][lane]) - f64::from(u[1][lane]) * f64::from(v[0][lane]),
+    );
+    let sign = area.each(
+        #[inline(always)]
+        |area| if area > 0.0 { 1 } else { 0 },
+    );
+    let clockwise = I32::simd_from(simd, sign).simd_gt(I32::splat(simd, 0));
+    (Area::Wide(area.map(f64::abs)), clockwise)
+}
+
+/// The largest power of two not above a normal positive number.
+#[inline(always)]
+fn power_of_two<S: Simd>(simd: S, value: F32<S>) -> F32<S> {
+    let bits: U32<S> = value.bitcast();
+    (bits & U32::splat(simd, 0x7f80_0000)).bitcast()
+}

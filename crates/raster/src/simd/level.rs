@@ -1,0 +1,137 @@
+//! Which vector instructions a frame is drawn with.
+
+use fearless_simd::{Fallback, Level};
+use std::fmt;
+use std::str::FromStr;
+use thiserror::Error;
+
+/// A set of vector instructions. Every level draws the same bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SimdLevel {
+    /// None: one number at a time. For comparison.
+    Scalar,
+    /// x86-64's own 128 bits.
+    Sse2,
+    /// x86-64-v3: 256 bits.
+    Avx2,
+    /// Ice Lake's AVX-512: masks and 32 registers.
+    Avx512,
+    /// aarch64's own 128 bits.
+    Neon,
+}
+
+/// A level by its name failed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum SimdLevelError {
+    /// There is no level of that name.
+    #[error("no such SIMD level: it is one of scalar, sse2, avx2, avx512 and neon")]
+    Unknown,
+    /// This processor lacks the instructions.
+    #[error("this processor does not support the SIMD level {0}: take another, or leave it to be chosen")]
+    Unsupported(SimdLevel),
+}
+
+impl SimdLevel {
+    /// All levels, narrow to wide.
+    pub const ALL: [Self; 5] = [Self::Scalar, Self::Sse2, Self::Avx2, Self::Avx512, Self::Neon];
+
+    /// The best that this processor has.
+    pub fn best() -> Self {
+        let supported = |level: &&Self| level.token().is_some();
+        Self::ALL.iter().rfind(supported).copied().unwrap_or(Self::Scalar)
+    }
+
+    /// Whether this processor has it.
+    pub fn is_supported(self) -> bool {
+        self.token().is_some()
+    }
+
+    /// The proof that the processor has it.
+    pub(crate) fn token(self) -> Option<Token> {
+        match self {
+            Self::Scalar => Some(Token::Scalar(Fallback::new())),
+            #[cfg(target_arch = "x86_64")]
+            Self::Sse2 => Level::new().as_sse2().map(Token::Sse2),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => Level::new().as_avx2().map(Token::Avx2),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => Level::new().as_avx512().map(Token::Avx512),
+            #[cfg(not(target_arch = "x86_64"))]
+            Self::Sse2 | Self::Avx2 | Self::Avx512 => None,
+            #[cfg(target_arch = "aarch64")]
+            Self::Neon => Level::new().as_neon().map(Token::Neon),
+            #[cfg(not(target_arch = "aarch64"))]
+            Self::Neon => None,
+        }
+    }
+}
+
+impl fmt::Display for SimdLevel {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Scalar => "scalar",
+            Self::Sse2 => "sse2",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+            Self::Neon => "neon",
+        })
+    }
+}
+
+impl FromStr for SimdLevel {
+    type Err = SimdLevelError;
+
+    fn from_str(name: &str) -> Result<Self, SimdLevelError> {
+        Self::ALL.into_iter().find(|level| level.to_string() == name).ok_or(SimdLevelError::Unknown)
+    }
+}
+
+/// A level that the processor has.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Token {
+    Scalar(Fallback),
+    #[cfg(target_arch = "x86_64")]
+    Sse2(fearless_simd::x86::Sse2),
+    #[cfg(target_arch = "x86_64")]
+    Avx2(fearless_simd::x86::Avx2),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(fearless_simd::x86::Avx512),
+    #[cfg(target_arch = "aarch64")]
+    Neon(fearless_simd::aarch64::Neon),
+}
+
+/// Runs an expression in a function that is compiled for the level of a
+/// [`Token`]. Everything that it calls must be `#[inline(always)]` down to the
+/// vectors, or it loses the level's instructions.
+macro_rules! at_level {
+    ($token:expr, $simd:ident => $body:expr) => {{
+        use fearless_simd::Simd as _;
+        match $token {
+            $crate::simd::Token::Scalar($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $body,
+            ),
+            #[cfg(target_arch = "x86_64")]
+            $crate::simd::Token::Sse2($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $body,
+            ),
+            #[cfg(target_arch = "x86_64")]
+            $crate::simd::Token::Avx2($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $body,
+            ),
+            #[cfg(target_arch = "x86_64")]
+            $crate::simd::Token::Avx512($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $body,
+            ),
+            #[cfg(target_arch = "aarch64")]
+            $crate::simd::Token::Neon($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $body,
+            ),
+        }
+    }};
+}
+pub(crate) use at_level;

@@ -1,0 +1,214 @@
+//! How much of a texture one sample covers: the mip level, and with anisotropy
+//! the probes along the longer side, for one sample and for lanes.
+
+use super::{Sampler, Texture};
+use crate::simd::prelude::*;
+use crate::simd::{F32, I32, Simd, greater, lesser};
+use trigon_math::Vec2;
+
+/// The detail of a gradient that is not finite or too large to square: beyond
+/// the last level of any texture.
+const COARSEST: f32 = 64.0;
+
+/// What a sample covers.
+pub(super) struct Footprint {
+    /// The mip level, not yet held to those that there are: negative where a
+    /// texel is larger than a sample step; at most 64.
+    pub(super) detail: f32,
+    /// How many probes, an integer from 1.
+    pub(super) probes: f32,
+    /// The longer side: the probes' direction. Finite.
+    pub(super) axis: Vec2,
+}
+
+impl Footprint {
+    /// The footprint spanned by `ddx` and `ddy`, with at most the sampler's number
+    /// of probes; a point for a sampler that does not care.
+    ///
+    /// With a single probe, the detail is the binary logarithm of the longer
+    /// side in texels of the base level. With more, it is that of the longer
+    /// side over the number of probes, which is the ratio of the sides, rounded
+    /// up: the formula of EXT_texture_filter_anisotropic (Khronos, 1999).
+    #[inline]
+    pub(super) fn new(texture: &Texture, ddx: Vec2, ddy: Vec2, sampler: &Sampler) -> Self {
+        if !sampler.needs_detail() {
+            return Self { detail: 0.0, probes: 1.0, axis: Vec2::ZERO };
+        }
+        let most_probes = sampler.most_probes();
+        let size = Vec2::new(texture.width() as f32, texture.height() as f32);
+        let (x, y) = (ddx * size, ddy * size);
+        let (x, y) = (x.x * x.x + x.y * x.y, y.x * y.x + y.y * y.y);
+        // Also when it is not a number.
+        if !(x + y).is_finite() {
+            return Self { detail: COARSEST, probes: 1.0, axis: Vec2::ZERO };
+        }
+        let (longer, shorter, axis) = if y > x { (y, x, ddy) } else { (x, y, ddx) };
+        if most_probes == 1.0 {
+            return Self { detail: 0.5 * log2(longer), probes: 1.0, axis };
+        }
+        let ratio = (longer / shorter).sqrt();
+        // A point has no ratio: then the comparison fails.
+        let ratio = if ratio > 1.0 { ratio } else { 1.0 };
+        let ratio = if ratio < most_probes { ratio } else { most_probes };
+        let whole = ratio as i32 as f32;
+        let probes = if whole < ratio { whole + 1.0 } else { whole };
+        Self { detail: 0.5 * log2(longer / (probes * probes)), probes, axis }
+    }
+
+    /// Where probe `index` of 1 up to `probes` lies, in parts of the longer side
+    /// from the middle.
+    #[inline]
+    pub(super) fn offset(&self, index: f32) -> f32 {
+        index / (self.probes + 1.0) - 0.5
+    }
+}
+
+/// [`Footprint`], for lanes.
+pub(super) struct FootprintLanes<S: Simd> {
+    pub(super) detail: F32<S>,
+    pub(super) probes: F32<S>,
+    pub(super) axis: [F32<S>; 2],
+}
+
+impl<S: Simd> FootprintLanes<S> {
+    #[inline(always)]
+    pub(super) fn new(
+        simd: S,
+        texture: &Texture,
+        ddx: [F32<S>; 2],
+        ddy: [F32<S>; 2],
+        sampler: &Sampler,
+    ) -> Self {
+        let (zero, one) = (F32::splat(simd, 0.0), F32::splat(simd, 1.0));
+        if !sampler.needs_detail() {
+            return Self { detail: zero, probes: one, axis: [zero; 2] };
+        }
+        let most_probes = sampler.most_probes();
+        let (x, y) = (squared_lanes(texture, ddx), squared_lanes(texture, ddy));
+        let finite = (x + y).simd_lt(f32::INFINITY);
+        let steep = y.simd_gt(x);
+        let longer = steep.select(y, x);
+        let coarsest = F32::splat(simd, COARSEST);
+        if most_probes == 1.0 {
+            let detail = finite.select(log2_lanes(longer) * 0.5, coarsest);
+            return Self { detail, probes: one, axis: [zero; 2] };
+        }
+        let ratio = (longer / steep.select(x, y)).sqrt();
+        let ratio = lesser(greater(ratio, one), F32::splat(simd, most_probes));
+        let whole = ratio.to_int::<I32<S>>().to_float::<F32<S>>();
+        let probes = finite.select(whole.simd_lt(ratio).select(whole + 1.0, whole), one);
+        let detail = finite.select(log2_lanes(longer / (probes * probes)) * 0.5, coarsest);
+        let u = finite.select(steep.select(ddy[0], ddx[0]), zero);
+        let v = finite.select(steep.select(ddy[1], ddx[1]), zero);
+        Self { detail, probes, axis: [u, v] }
+    }
+
+    #[inline(always)]
+    pub(super) fn offset(&self, index: f32) -> F32<S> {
+        index / (self.probes + 1.0) - 0.5
+    }
+}
+
+/// The square of a side in texels.
+#[inline(always)]
+fn squared_lanes<S: Simd>(texture: &Texture, [u, v]: [F32<S>; 2]) -> F32<S> {
+    let (u, v) = (u * texture.width() as f32, v * texture.height() as f32);
+    u * u + v * v
+}
+
+/// The binary logarithm of a finite `x` >= 0, within 0.00005; below -126 for 0
+/// and for numbers too small to matter.
+///
+/// The exponent and a polynomial in the mantissa: only additions and
+/// multiplications, so the same on every machine. It interpolates
+/// log2(1 + t) at both ends; the inner coefficients are a least-squares fit.
+fn log2(x: f32) -> f32 {
+    let bits = x.to_bits();
+    let exponent = (bits >> 23) as f32 - 127.0;
+    let t = f32::from_bits(bits & 0x007f_ffff | 0x3f80_0000) - 1.0;
+    exponent + t * (1.0 + (1.0 - t) * (0.441_74 - t * (0.266_03 - t * (0.146_31 - t * 0.044))))
+}
+
+#[inline(always)]
+fn log2_lanes<S: Simd>(x: F32<S>) -> F32<S> {
+    let bits = x.to_bits().bitcast::<I32<S>>();
+    let exponent = (bits >> 23).to_float::<F32<S>>() - 127.0;
+    let t = (bits & 0x007f_ffff | 0x3f80_0000).bitcast::<F32<S>>() - 1.0;
+    exponent + t * (1.0 + (1.0 - t) * (0.441_74 - t * (0.266_03 - t * (0.146_31 - t * 0.044))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{MipFilter, TextureFormat};
+
+    #[test]
+    fn logarithm_is_close_enough() {
+        for i in 1..20_000 {
+            let x = i as f32 * 0.01;
+            let error =
+                f64::from(log2(x)) - trigon_math::elementary::ln(f64::from(x)) / std::f64::consts::LN_2;
+            assert!(error.abs() < 5e-5, "log2({x}) is off by {error}");
+        }
+        assert!(log2(0.0) < -100.0, "0 selects the base level");
+    }
+
+    fn grey(side: u32) -> Texture {
+        let texels = vec![[200, 100, 50, 255]; (side * side) as usize];
+        Texture::new(side, side, texels, TextureFormat::Linear).unwrap()
+    }
+
+    fn at_most(probes: u8) -> Sampler {
+        Sampler { mip: MipFilter::Anisotropic(probes), ..Sampler::default() }
+    }
+
+    #[test]
+    fn each_halving_moves_one_level_down() {
+        let texture = grey(64);
+        for k in 0..6 {
+            let step = (1 << k) as f32 / 64.0;
+            let footprint = Footprint::new(&texture, Vec2::new(step, 0.0), Vec2::ZERO, &at_most(1));
+            let detail = footprint.detail;
+            assert!((detail - k as f32).abs() < 1e-3, "a step of {} texels: {detail}", 1 << k);
+        }
+    }
+
+    #[test]
+    fn probes_follow_the_ratio_of_the_sides() {
+        let texture = grey(64);
+        let texel = 1.0 / 64.0;
+        // Sides in texels, probes allowed; probes taken and texels between them.
+        let cases = [
+            ([2.0, 2.0], 16, 1.0, 2.0),
+            ([8.0, 2.0], 16, 4.0, 2.0),
+            ([2.0, 8.0], 16, 4.0, 2.0),
+            ([7.0, 2.0], 16, 4.0, 1.75),
+            ([32.0, 1.0], 8, 8.0, 4.0),
+            ([16.0, 0.0], 16, 16.0, 1.0),
+        ];
+        for ([x, y], most, probes, step) in cases {
+            let footprint = Footprint::new(
+                &texture,
+                Vec2::new(x * texel, 0.0),
+                Vec2::new(0.0, y * texel),
+                &at_most(most),
+            );
+            assert_eq!(footprint.probes, probes, "{x} by {y} texels, at most {most}");
+            let expected = trigon_math::elementary::ln(step) / std::f64::consts::LN_2;
+            let error = f64::from(footprint.detail) - expected;
+            assert!(error.abs() < 1e-3, "level {} for {x} by {y} texels", footprint.detail);
+        }
+    }
+
+    #[test]
+    fn a_footprint_without_a_size_is_a_single_probe() {
+        let texture = grey(64);
+        for bad in [f32::NAN, f32::INFINITY, 1e30] {
+            let footprint = Footprint::new(&texture, Vec2::new(bad, 0.0), Vec2::X, &at_most(16));
+            assert_eq!((footprint.detail, footprint.probes), (64.0, 1.0), "gradient {bad}");
+        }
+        let point = Footprint::new(&texture, Vec2::ZERO, Vec2::ZERO, &at_most(16));
+        assert_eq!(point.probes, 1.0, "a point is as long as it is wide");
+        assert!(point.detail < 0.0, "and magnified");
+    }
+}

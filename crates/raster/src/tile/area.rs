@@ -1,0 +1,91 @@
+//! Where a tile lies, and how its pixels lie in memory.
+
+use crate::simd::{I32, Simd};
+
+/// The most pixels in a row or a column of a tile.
+pub(crate) const MAX_SIDE: usize = 64;
+
+/// A tile's rectangle of pixels.
+///
+/// Its pixels are kept in groups of eight, 4 by 2, one for each lane; eight of
+/// those groups, 2 by 4, make a block of 8 by 8 pixels, and blocks go row by
+/// row: so a small triangle touches few groups, and a block is contiguous.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TileArea {
+    /// The first pixel.
+    pub(crate) origin: [i32; 2],
+    /// Pixels in a row and in a column, at most [`MAX_SIDE`].
+    pub(crate) size: [usize; 2],
+}
+
+/// Blocks in a row of a tile.
+pub(crate) const BLOCKS: usize = MAX_SIDE / 8;
+
+/// Groups in a block.
+pub(crate) const GROUPS: usize = 8;
+
+impl TileArea {
+    /// The number of the pixel in this column and row of the tile.
+    #[inline(always)]
+    pub(crate) fn index_of([x, y]: [usize; 2]) -> usize {
+        Self::group_of([x / 4, y / 2]) * 8 + (y & 1) * 4 + (x & 3)
+    }
+
+    /// The number of a group by its column and row.
+    #[inline(always)]
+    pub(crate) fn group_of([x, y]: [usize; 2]) -> usize {
+        ((y / 4) * BLOCKS + x / 2) * GROUPS + (y & 3) * 2 + (x & 1)
+    }
+
+    /// The column and row of a pixel by its number.
+    #[inline(always)]
+    pub(crate) fn pixel_at(index: usize) -> [usize; 2] {
+        let x = (index & 3) | (index >> 1 & 4) | (index >> 3 & 0x38);
+        let y = (index >> 2 & 1) | (index >> 3 & 6) | (index >> 6 & 0x38);
+        [x, y]
+    }
+
+    /// The columns and rows of eight pixels by their numbers.
+    #[inline(always)]
+    pub(crate) fn pixels_at<S: Simd>(index: I32<S>) -> [I32<S>; 2] {
+        let x = (index & 3) | ((index >> 1) & 4) | ((index >> 3) & 0x38);
+        let y = ((index >> 2) & 1) | ((index >> 3) & 6) | ((index >> 6) & 0x38);
+        [x, y]
+    }
+
+    /// Whether a pixel of the tile lies in the picture.
+    #[inline(always)]
+    pub(crate) fn contains(&self, [x, y]: [usize; 2]) -> bool {
+        x < self.size[0] && y < self.size[1]
+    }
+
+    /// The size in whole blocks: what is drawn in scratch, so that bounds of
+    /// blocks at the picture's rim mean something.
+    #[inline(always)]
+    pub(crate) fn padded(&self) -> [usize; 2] {
+        self.size.map(|side| side.next_multiple_of(8))
+    }
+
+    /// How many numbers its pixels take; the tile need not use all.
+    pub(crate) fn span(&self) -> usize {
+        let [width, height] = self.size.map(|side| side.div_ceil(8));
+        ((height - 1) * BLOCKS + width) * GROUPS * 8
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_places_belong_together() {
+        let mut seen = vec![false; MAX_SIDE * MAX_SIDE];
+        for y in 0..MAX_SIDE {
+            for x in 0..MAX_SIDE {
+                let index = TileArea::index_of([x, y]);
+                assert_eq!(TileArea::pixel_at(index), [x, y], "pixel {index}");
+                assert!(!std::mem::replace(&mut seen[index], true), "{index} is given once");
+            }
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! A tile's visibility buffer: depth and winner of each sample, with bounds of
+//! the depths over blocks and over the whole tile.
+
+use super::area::{BLOCKS, GROUPS, TileArea};
+use crate::simd::LANES;
+
+/// No triangle: the background.
+pub(crate) const NOBODY: u32 = u32::MAX;
+
+/// The depth of the background: behind the far plane, at 0, by less than any
+/// depth that matters, so that what lies in the far plane is seen.
+const BEHIND_ALL: f32 = -f32::MIN_POSITIVE;
+
+/// Bounds of the depths in a block. They may be wider than need be, never
+/// narrower.
+#[derive(Clone, Copy)]
+pub(crate) struct BlockBounds {
+    pub(crate) farthest: f32,
+    pub(crate) nearest: f32,
+    /// Whether something has been written since `farthest` was found.
+    pub(crate) stale: bool,
+}
+
+/// Depth and winner of each sample of a tile: group by group, sample by sample,
+/// eight lanes.
+pub(crate) struct VisibilityBuffer {
+    pub(crate) depth: Vec<f32>,
+    /// The place of what is seen among the tile's triangles, or [`NOBODY`].
+    pub(crate) winner: Vec<u32>,
+    pub(crate) blocks: [BlockBounds; BLOCKS * BLOCKS],
+    /// No sample lies further away.
+    pub(crate) farthest: f32,
+    stale: bool,
+    /// All samples hold this, and the arrays do not know yet.
+    fill: Option<(f32, u32)>,
+    pub(crate) samples: usize,
+    span: usize,
+}
+
+impl VisibilityBuffer {
+    pub(crate) fn new() -> Self {
+        let bounds = BlockBounds { farthest: 0.0, nearest: 0.0, stale: false };
+        Self {
+            depth: Vec::new(),
+            winner: Vec::new(),
+            blocks: [bounds; BLOCKS * BLOCKS],
+            farthest: 0.0,
+            stale: false,
+            fill: None,
+            samples: 1,
+            span: 0,
+        }
+    }
+
+    /// Empties it for a tile.
+    pub(crate) fn clear(&mut self, area: &TileArea, samples: usize) {
+        self.span = area.span();
+        self.samples = samples;
+        let length = self.span * samples;
+        if self.depth.len() < length {
+            self.depth.resize(length, 0.0);
+            self.winner.resize(length, NOBODY);
+        }
+        self.fill_with(BEHIND_ALL, NOBODY);
+    }
+
+    /// Gives all samples one depth and winner, at no cost.
+    pub(crate) fn fill_with(&mut self, depth: f32, winner: u32) {
+        self.fill = Some((depth, winner));
+        (self.farthest, self.stale) = (depth, false);
+    }
+
+    /// No sample lies nearer, if that is known without a look.
+    pub(crate) fn nearest(&self) -> Option<f32> {
+        self.fill.map(|(depth, _)| depth)
+    }
+
+    /// Makes the arrays hold what they stand for.
+    pub(crate) fn settle(&mut self) {
+        if let Some((depth, winner)) = self.fill.take() {
+            let length = self.span * self.samples;
+            self.depth[..length].fill(depth);
+            self.winner[..length].fill(winner);
+            self.blocks.fill(BlockBounds { farthest: depth, nearest: depth, stale: false });
+        }
+    }
+
+    /// Lets nobody win outside of the picture.
+    pub(crate) fn blank_outside(&mut self, area: &TileArea) {
+        if area.size == area.padded() {
+            return;
+        }
+        for pixel in (0..self.span).filter(|&pixel| !area.contains(TileArea::pixel_at(pixel))) {
+            for sample in 0..self.samples {
+                let index = self.index(pixel, sample);
+                self.winner[index] = NOBODY;
+            }
+        }
+    }
+
+    /// The place in the arrays of a pixel's sample.
+    #[inline(always)]
+    pub(crate) fn index(&self, pixel: usize, sample: usize) -> usize {
+        (pixel / LANES * self.samples + sample) * LANES + pixel % LANES
+    }
+
+    /// How many pixels the arrays hold.
+    pub(crate) fn span(&self) -> usize {
+        self.span
+    }
+
+    /// Notes that samples of a block were written, none nearer than `nearest`.
+    #[inline(always)]
+    pub(crate) fn note_write(&mut self, block: usize, nearest: f32) {
+        let bounds = &mut self.blocks[block];
+        bounds.stale = true;
+        bounds.nearest = if nearest > bounds.nearest { nearest } else { bounds.nearest };
+    }
+
+    /// Notes that all samples of a block lie at least as near as `farthest`.
+    #[inline(always)]
+    pub(crate) fn note_cover(&mut self, block: usize, farthest: f32) {
+        let bounds = &mut self.blocks[block];
+        if farthest > bounds.farthest {
+            bounds.farthest = farthest;
+            self.stale = true;
+        }
+    }
+
+    /// The farthest depth of a block, found anew if that may help.
+    #[inline(always)]
+    pub(crate) fn farthest_in(&mut self, block: usize) -> f32 {
+        if self.blocks[block].stale {
+            self.refresh(block);
+        }
+        self.blocks[block].farthest
+    }
+
+    #[inline(always)]
+    fn refresh(&mut self, block: usize) {
+        let length = GROUPS * LANES * self.samples;
+        let depths = &self.depth[block * length..(block + 1) * length];
+        let mut least = [f32::INFINITY; LANES];
+        for group in depths.chunks_exact(LANES) {
+            for (least, &depth) in least.iter_mut().zip(group) {
+                *least = if depth < *least { depth } else { *least };
+            }
+        }
+        let farthest = least.into_iter().fold(f32::INFINITY, |a, b| if b < a { b } else { a });
+        self.stale |= farthest > self.blocks[block].farthest;
+        self.blocks[block] = BlockBounds { farthest, stale: false, ..self.blocks[block] };
+    }
+
+    /// The farthest depth of the tile, found anew from the blocks' if one of
+    /// them has changed. Blocks outside of the picture count like all others.
+    #[inline(always)]
+    pub(crate) fn farthest_of_all(&mut self, area: &TileArea) -> f32 {
+        if self.stale {
+            self.stale = false;
+            let [columns, rows] = area.size.map(|side| side.div_ceil(8));
+            let blocks = (0..rows).flat_map(|row| (0..columns).map(move |column| row * BLOCKS + column));
+            self.farthest = blocks.fold(f32::INFINITY, |least, block| {
+                let farthest = self.blocks[block].farthest;
+                if farthest < least { farthest } else { least }
+            });
+        }
+        self.farthest
+    }
+}

@@ -1,0 +1,158 @@
+//! A triangle as one tile sees it: which samples it covers, and how deep.
+
+use super::{DepthPlane, Edge, TileArea};
+use crate::bin::Grid;
+use crate::samples::MAX_SAMPLES;
+use crate::setup::{Kind, SetupTriangle};
+
+/// What coverage needs of a triangle in one tile.
+///
+/// Edge function over 256, rounded down, has the sign of the edge function at
+/// all samples with the same offset in their pixels; where an edge crosses the
+/// tile its values fit 32 bits. An edge that all of the tile lies inside of is
+/// dropped.
+pub(crate) struct Covering {
+    /// For each sample of a pixel the edge functions at the tile's first pixel.
+    pub(crate) starts: [[i32; 3]; MAX_SAMPLES],
+    /// Steps of a pixel.
+    pub(crate) right: [i32; 3],
+    pub(crate) down: [i32; 3],
+    /// First and last column and row that may have a sample, in the tile.
+    pub(crate) columns: [i32; 2],
+    pub(crate) rows: [i32; 2],
+    pub(crate) depth: DepthPlane,
+    /// What cannot be decided that way.
+    pub(crate) special: Option<Special>,
+}
+
+/// The exceptions: the widest lines, whose edge functions do not fit 32 bits,
+/// and discs.
+pub(crate) struct Special {
+    edges: [Edge; 3],
+    disc: Option<Disc>,
+}
+
+impl Special {
+    /// Whether a point in 1/256 pixel is covered.
+    pub(crate) fn covers(&self, point: [i32; 2]) -> bool {
+        self.edges.iter().all(|edge| edge.at(point) + edge.bias() >= 0)
+            && self.disc.is_none_or(|disc| disc.covers(point))
+    }
+}
+
+/// The round outline of a point.
+#[derive(Clone, Copy)]
+struct Disc {
+    /// Twice the centre, in 1/256 pixel.
+    centre: [i64; 2],
+    diameter: i64,
+}
+
+impl Disc {
+    fn new(triangle: &SetupTriangle) -> Option<Self> {
+        // Each half of the square has the square's bounding box.
+        let axis = |i: usize| triangle.extent(i).map(i64::from);
+        let ([left, right], [top, bottom]) = (axis(0), axis(1));
+        (triangle.kind == Kind::RoundPoint)
+            .then_some(Self { centre: [left + right, top + bottom], diameter: right - left })
+    }
+
+    fn covers(&self, point: [i32; 2]) -> bool {
+        let [dx, dy] = [0, 1].map(|axis| 2 * i64::from(point[axis]) - self.centre[axis]);
+        dx * dx + dy * dy < self.diameter * self.diameter
+    }
+}
+
+impl Covering {
+    /// `None` if the triangle covers no sample of the tile.
+    pub(crate) fn new(triangle: &SetupTriangle, grid: &Grid, area: &TileArea) -> Option<Self> {
+        let range = |axis: usize| {
+            let [first, last] = grid.pattern.pixels_between(triangle.extent(axis))?;
+            let first = (first - area.origin[axis]).max(0);
+            let last = (last - area.origin[axis]).min(area.padded()[axis] as i32 - 1);
+            (first <= last).then_some([first, last])
+        };
+        let (columns, rows) = (range(0)?, range(1)?);
+        let mut covering = Self {
+            starts: [[0; 3]; MAX_SAMPLES],
+            right: [0; 3],
+            down: [0; 3],
+            columns,
+            rows,
+            depth: DepthPlane::of(triangle),
+            special: None,
+        };
+        let edges = Edge::of(triangle);
+        let mut wide = false;
+        for (k, edge) in edges.iter().enumerate() {
+            wide |= covering.edge(k, edge, grid, area)?;
+        }
+        let disc = Disc::new(triangle);
+        covering.special = (wide || disc.is_some()).then_some(Special { edges, disc });
+        Some(covering)
+    }
+
+    /// Whether a block, whose first pixel is given, lies outside of an edge, and
+    /// whether inside of all; for the first `samples` of each pixel.
+    #[inline(always)]
+    pub(crate) fn block_sides(&self, samples: usize, [x, y]: [i32; 2]) -> [bool; 2] {
+        if self.special.is_some() {
+            return [false, false];
+        }
+        let (mut outside, mut inside) = (false, true);
+        for k in 0..3 {
+            let (right, down) = (self.right[k], self.down[k]);
+            let at = right.wrapping_mul(x).wrapping_add(down.wrapping_mul(y));
+            let far = |step: i32| step.wrapping_mul(7);
+            let grow = far(right.max(0)).wrapping_add(far(down.max(0)));
+            let shrink = far(right.min(0)).wrapping_add(far(down.min(0)));
+            let (mut least, mut greatest) = (i32::MAX, i32::MIN);
+            for starts in &self.starts[..samples] {
+                let value = starts[k].wrapping_add(at);
+                least = least.min(value.wrapping_add(shrink));
+                greatest = greatest.max(value.wrapping_add(grow));
+            }
+            outside |= greatest < 0;
+            inside &= least >= 0;
+        }
+        [outside, inside]
+    }
+
+    /// Whether the sample of a pixel of the tile, which lies at a point in 1/256
+    /// pixel, is covered.
+    #[inline]
+    pub(crate) fn covers(&self, [x, y]: [i32; 2], sample: usize, point: [i32; 2]) -> bool {
+        if let Some(special) = &self.special {
+            return special.covers(point);
+        }
+        let value = |k: usize| {
+            // Partial sums may wrap around; the sum fits.
+            let steps = self.right[k].wrapping_mul(x).wrapping_add(self.down[k].wrapping_mul(y));
+            self.starts[sample][k].wrapping_add(steps)
+        };
+        value(0) | value(1) | value(2) >= 0
+    }
+
+    /// Adds an edge; `None` if all of the tile lies outside of it, true if it
+    /// needs more than 32 bits.
+    fn edge(&mut self, k: usize, edge: &Edge, grid: &Grid, area: &TileArea) -> Option<bool> {
+        let corner = area.origin.map(|v| v * 256);
+        let [low, high] = grid.pattern.reach();
+        let last = (super::MAX_SIDE as i32 - 1) * 256;
+        let [least, greatest] = edge.range(corner.map(|v| v + low), corner.map(|v| v + last + high));
+        if greatest + edge.bias() < 0 {
+            return None;
+        }
+        if least + edge.bias() >= 0 {
+            return Some(false);
+        }
+        (self.right[k], self.down[k]) = (edge.right, edge.down);
+        for (start, offset) in self.starts.iter_mut().zip(grid.pattern.offsets()) {
+            let point = [corner[0] + offset[0], corner[1] + offset[1]];
+            // The edge crosses the tile, so no value in it is further from 0
+            // than the span.
+            start[k] = ((edge.at(point) + edge.bias()) >> 8) as i32;
+        }
+        Some((greatest - least) >> 8 >= i64::from(i32::MAX))
+    }
+}

@@ -1,0 +1,334 @@
+//! Eight small triangles of a tile made ready at once.
+
+use super::{Covering, DepthPlane, TileArea};
+use crate::samples::{MAX_SAMPLES, SamplePattern};
+use crate::setup::{Column, small_lanes, sorted_columns};
+use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lesser, prelude::*};
+use crate::vertex::ScreenVertex;
+use fearless_simd::f64x4;
+
+/// What [`Covering`] needs of eight small triangles.
+pub(super) struct Eight {
+    /// Edge functions at the tile's corner, with the bias of the top-left rule.
+    corner: [[i32; LANES]; 3],
+    /// The same at the first sample of the first pixel, over 256.
+    first: [[i32; LANES]; 3],
+    right: [[i32; LANES]; 3],
+    down: [[i32; LANES]; 3],
+    /// First and last columns and rows.
+    pixels: [[[i32; LANES]; 2]; 2],
+    anchor: [[i32; LANES]; 2],
+    value: [f32; LANES],
+    slopes: [[f64; LANES]; 2],
+    low: [f32; LANES],
+    /// The greatest depths.
+    pub(super) high: [f32; LANES],
+    /// The lanes whose triangles are small.
+    pub(super) small: u64,
+    /// Those of them that may have samples in the tile.
+    pub(super) live: u64,
+}
+
+/// Triangles that reach over fewer pixels than this each way are not worth asking
+/// whether blocks lie outside of them.
+const TINY: i32 = 24;
+
+/// A triangle of a few blocks: as [`Covering`], for one sample.
+pub(super) struct Tiny {
+    pub(super) start: [i32; 3],
+    pub(super) right: [i32; 3],
+    pub(super) down: [i32; 3],
+    pub(super) columns: [i32; 2],
+    pub(super) rows: [i32; 2],
+    pub(super) depth: DepthPlane,
+}
+
+impl Eight {
+    #[inline(always)]
+    pub(super) fn new<S: Simd>(
+        simd: S,
+        area: &TileArea,
+        pattern: SamplePattern,
+        vertices: [[&ScreenVertex; LANES]; 3],
+    ) -> Self {
+        let [a, b, c] = vertices;
+        let columns = [(a, 0), (b, 1), (c, 2)].each(
+            #[inline(always)]
+            |(vertices, corner)| Column::new(simd, vertices, corner),
+        );
+        let ([a, b, c], _) = sorted_columns(columns);
+        let zero = I32::splat(simd, 0);
+        let area_of = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        let clockwise = area_of.simd_gt(zero);
+        let origin = area.origin.each(
+            #[inline(always)]
+            |v| v * 256,
+        );
+        let edges = [(b, c), (c, a), (a, b)].each(
+            #[inline(always)]
+            |(from, to)| edge(simd, from, to, clockwise, origin),
+        );
+        let [za, zb, zc] = [a, b, c].each(
+            #[inline(always)]
+            |column| column.depth(),
+        );
+        let (pixels, live) = pixels(simd, area, pattern, [a, b, c]);
+        let small = small_lanes(simd, &[a, b, c]).to_bitmask();
+        Self {
+            corner: edges.each(
+                #[inline(always)]
+                |[corner, _, _]| corner.into(),
+            ),
+            first: edges.each(
+                #[inline(always)]
+                |[corner, right, down]| {
+                    let [x, y] = pattern.offsets()[0];
+                    ((corner + right * x + down * y) >> 8).into()
+                },
+            ),
+            right: edges.each(
+                #[inline(always)]
+                |[_, right, _]| right.into(),
+            ),
+            down: edges.each(
+                #[inline(always)]
+                |[_, _, down]| down.into(),
+            ),
+            pixels,
+            anchor: [a.x.into(), a.y.into()],
+            value: za.into(),
+            slopes: depth_slopes(simd, [a, b, c]),
+            low: lesser(lesser(za, zb), zc).into(),
+            high: greater(greater(za, zb), zc).into(),
+            small,
+            live: live.to_bitmask() & small,
+        }
+    }
+
+    /// The triangle of one lane with one sample to a pixel, if it has one in the
+    /// tile and reaches over a few blocks only.
+    #[inline(always)]
+    pub(super) fn tiny(&self, lane: usize) -> Option<Tiny> {
+        let [[left, right], [top, bottom]] = self.pixels.each_ref().each(
+            #[inline(always)]
+            |range| [range[0][lane], range[1][lane]],
+        );
+        if self.live >> lane & 1 == 0 || right - left >= TINY || bottom - top >= TINY {
+            return None;
+        }
+        let at = [&self.first, &self.right, &self.down];
+        let [start, right_steps, down] = at.each(
+            #[inline(always)]
+            |columns| [columns[0][lane], columns[1][lane], columns[2][lane]],
+        );
+        Some(Tiny {
+            start,
+            right: right_steps,
+            down,
+            columns: [left, right],
+            rows: [top, bottom],
+            depth: self.plane(lane),
+        })
+    }
+
+    #[inline(always)]
+    fn plane(&self, lane: usize) -> DepthPlane {
+        DepthPlane {
+            anchor: [self.anchor[0][lane], self.anchor[1][lane]],
+            value: f64::from(self.value[lane]),
+            right: self.slopes[0][lane],
+            down: self.slopes[1][lane],
+            low: self.low[lane],
+            high: self.high[lane],
+        }
+    }
+
+    /// The triangle of one lane; `None` if it has no sample in the tile.
+    #[inline(always)]
+    pub(super) fn covering(&self, lane: usize, pattern: SamplePattern) -> Option<Covering> {
+        if self.live >> lane & 1 == 0 {
+            return None;
+        }
+        let [corner, right, down] = [&self.corner, &self.right, &self.down].each(
+            #[inline(always)]
+            |columns| {
+                columns.each_ref().each(
+                    #[inline(always)]
+                    |column| column[lane],
+                )
+            },
+        );
+        let mut starts = [[0; 3]; MAX_SAMPLES];
+        for (start, [x, y]) in starts.iter_mut().zip(pattern.offsets()) {
+            *start = [0, 1, 2].each(
+                #[inline(always)]
+                |k| (corner[k] + right[k] * x + down[k] * y) >> 8,
+            );
+        }
+        Some(Covering {
+            starts,
+            right,
+            down,
+            columns: self.pixels[0].each(
+                #[inline(always)]
+                |column| column[lane],
+            ),
+            rows: self.pixels[1].each(
+                #[inline(always)]
+                |column| column[lane],
+            ),
+            depth: self.plane(lane),
+            special: None,
+        })
+    }
+}
+
+/// An edge function at the tile's corner, its bias included, and its steps.
+#[inline(always)]
+fn edge<S: Simd>(
+    simd: S,
+    from: Column<S>,
+    to: Column<S>,
+    clockwise: Mask<S>,
+    origin: [i32; 2],
+) -> [I32<S>; 3] {
+    let turned = inlined(
+        #[inline(always)]
+        |value: I32<S>| clockwise.select(value, -value),
+    );
+    let (right, down) = (turned(from.y - to.y), turned(to.x - from.x));
+    let value =
+        right * (I32::splat(simd, origin[0]) - from.x) + down * (I32::splat(simd, origin[1]) - from.y);
+    let zero = I32::splat(simd, 0);
+    let inclusive = right.simd_gt(zero) | (right.simd_eq(zero) & down.simd_gt(zero));
+    [value - inclusive.select(zero, I32::splat(simd, 1)), right, down]
+}
+
+/// The pixels of the tile that may have a sample in the triangles.
+#[inline(always)]
+fn pixels<S: Simd>(
+    simd: S,
+    area: &TileArea,
+    pattern: SamplePattern,
+    [a, b, c]: [Column<S>; 3],
+) -> ([[[i32; LANES]; 2]; 2], Mask<S>) {
+    let columns = range(simd, area, pattern, 0, [a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x)]);
+    let rows = range(simd, area, pattern, 1, [a.y, c.y]);
+    let live = columns[0].simd_le(columns[1]) & rows[0].simd_le(rows[1]);
+    (
+        [columns, rows].each(
+            #[inline(always)]
+            |range| range.each(Into::into),
+        ),
+        live,
+    )
+}
+
+/// The first and last pixel on an axis that may have a sample between two
+/// coordinates.
+#[inline(always)]
+fn range<S: Simd>(
+    simd: S,
+    area: &TileArea,
+    pattern: SamplePattern,
+    axis: usize,
+    [low, high]: [I32<S>; 2],
+) -> [I32<S>; 2] {
+    let [least, greatest] = pattern.reach();
+    let first = ((low + (255 - greatest)) >> 8) - area.origin[axis];
+    let last = ((high - least) >> 8) - area.origin[axis];
+    let end = I32::splat(simd, area.padded()[axis] as i32 - 1);
+    [first.max(I32::splat(simd, 0)), last.min(end)]
+}
+
+/// The steps of the planes of depth, by the formula of
+/// [`slopes`](super::depth::slopes). The sides of small triangles are exact in
+/// f32, and so their way to f64 is.
+#[inline(always)]
+fn depth_slopes<S: Simd>(simd: S, [a, b, c]: [Column<S>; 3]) -> [[f64; LANES]; 2] {
+    let [ux, uy, vx, vy] = [b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y].each(
+        #[inline(always)]
+        |step| halves(simd, step.to_float::<F32<S>>()),
+    );
+    let [za, zb, zc] = [a, b, c].each(
+        #[inline(always)]
+        |column| halves(simd, column.depth()),
+    );
+    let mut result = [[0.0; LANES]; 2];
+    for half in 0..2 {
+        let [ux, uy, vx, vy] = [ux[half], uy[half], vx[half], vy[half]];
+        let (zu, zv) = (zb[half] - za[half], zc[half] - za[half]);
+        let inverse = f64x4::splat(simd, 1.0) / (ux * vy - uy * vx);
+        let right = (zu * vy - zv * uy) * inverse;
+        let down = (zv * ux - zu * vx) * inverse;
+        let place = half * 4..half * 4 + 4;
+        right.store_slice(&mut result[0][place.clone()]);
+        down.store_slice(&mut result[1][place]);
+    }
+    result
+}
+
+/// Eight f32 as two times four f64.
+#[inline(always)]
+fn halves<S: Simd>(simd: S, value: F32<S>) -> [f64x4<S>; 2] {
+    let (low, high) = simd.widen_f32x8(value);
+    [low, high]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bin::Grid;
+    use crate::setup::SetupTriangle;
+    use crate::simd::{SimdLevel, at_level};
+    use crate::viewport::Viewport;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Against the single way, value by value.
+        #[test]
+        fn eight_at_once_are_as_one_by_one(
+            points: [[[u16; 2]; 3]; 8],
+            depths: [[f32; 3]; 8],
+            samples in prop_oneof![Just(1), Just(4), Just(16)],
+        ) {
+            let pattern = SamplePattern::of(samples).unwrap();
+            let grid = Grid::new(Viewport { width: 300, height: 300 }, pattern, 64);
+            let area = TileArea { origin: [64, 128], size: [64, 60] };
+            let vertices: [[ScreenVertex; 3]; 8] = std::array::from_fn(|lane| {
+                std::array::from_fn(|corner| {
+                    let point = [0, 1].map(|i| i32::from(points[lane][corner][i]) / 3 + area.origin[i] * 256 - 3000);
+                    let vertex = SetupTriangle::on_grid([point; 3]).vertices[0];
+                    vertex.with_depth(depths[lane][corner].abs().fract())
+                })
+            });
+            for token in SimdLevel::ALL.into_iter().filter_map(SimdLevel::token) {
+                let columns = [0, 1, 2].map(|corner| std::array::from_fn(|lane| &vertices[lane][corner]));
+                let eight = at_level!(token, simd => Eight::new(simd, &area, pattern, columns));
+                for (lane, &vertices) in vertices.iter().enumerate() {
+                    let triangle = SetupTriangle::whole(vertices, 0);
+                    if eight.small >> lane & 1 == 0 || triangle.doubled_area() == 0 {
+                        continue;
+                    }
+                    let Some(single) = Covering::new(&triangle, &grid, &area) else {
+                        continue;
+                    };
+                    let ours = eight.covering(lane, pattern).expect("it is live");
+                    prop_assert_eq!((ours.columns, ours.rows), (single.columns, single.rows));
+                    let bits = |plane: &DepthPlane| {
+                        (plane.anchor, plane.value, plane.right.to_bits(), plane.down.to_bits(), plane.low, plane.high)
+                    };
+                    prop_assert_eq!(bits(&ours.depth), bits(&single.depth));
+                    for y in single.rows[0]..=single.rows[1] {
+                        for x in single.columns[0]..=single.columns[1] {
+                            for sample in 0..pattern.count() {
+                                let covers = |covering: &Covering| covering.covers([x, y], sample, [0, 0]);
+                                prop_assert_eq!(covers(&ours), covers(&single), "{} {} {}", x, y, sample);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

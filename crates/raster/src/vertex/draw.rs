@@ -1,0 +1,42 @@
+//! The vertices of one draw after the vertex stage.
+
+use super::{ScreenVertex, UsedVertices};
+use crate::clip::Outcode;
+use crate::shade::AnyPipeline;
+use crate::simd::Token;
+use trigon_math::Vec4;
+
+/// A vertex that does not exist.
+static MISSING: ScreenVertex = ScreenVertex([ScreenVertex::NOWHERE, Outcode::INVALID.bits() as i32, 0, 0]);
+
+/// Looks up a draw's vertices by the indices that the draw uses.
+#[derive(Clone, Copy)]
+pub(crate) struct DrawVertices<'a> {
+    pub(crate) used: &'a UsedVertices,
+    pub(crate) places: &'a [ScreenVertex],
+    pub(crate) pipeline: &'a dyn AnyPipeline,
+    pub(crate) token: Token,
+}
+
+impl DrawVertices<'_> {
+    /// The vertex of an index; one without a place and invalid if there is none.
+    #[inline(always)]
+    pub(crate) fn get(&self, index: u32) -> &ScreenVertex {
+        let slot = match self.used {
+            UsedVertices::Range(range) => (index as usize).wrapping_sub(range.start),
+            UsedVertices::Listed(_) => self.used.slot(index).unwrap_or(usize::MAX),
+        };
+        self.places.get(slot).unwrap_or(&MISSING)
+    }
+
+    /// The planes that a vertex lies beyond; none for one that needs no cutting.
+    pub(crate) fn outcode(&self, index: u32) -> Outcode {
+        self.get(index).outcode()
+    }
+
+    /// Where a vertex lies in clip space: asked again of the pipeline, as few
+    /// triangles are cut.
+    pub(crate) fn position(&self, index: u32) -> Vec4 {
+        self.pipeline.position(self.token, index as usize)
+    }
+}

@@ -1,0 +1,105 @@
+//! The same bytes everywhere: what small pictures of every feature hash to, in a
+//! file that all machines share. Checked at every SIMD level of the machine, with
+//! 1, 2 and 3 threads. `TRIGON_UPDATE_MANIFEST=1` writes the file anew: a change
+//! of it is a change of what users see.
+
+mod layouts;
+mod pictures;
+
+use crate::coverage_support::{levels, rasterizer};
+use pictures::all;
+use std::collections::BTreeMap;
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use trigon_raster::{ExecuteSettings, Pictures};
+
+const HEADER: &str = "\
+# What the pictures of tests/src/manifest hash to (FNV-1a, 64 bits, over all outputs, little-endian).
+# Written by TRIGON_UPDATE_MANIFEST=1 cargo test -p trigon-tests manifest
+";
+
+fn path() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("manifest/pictures.txt")
+}
+
+/// The hashes by name.
+fn read() -> BTreeMap<String, String> {
+    let text = fs::read_to_string(path()).expect("the manifest is there");
+    let lines = text.lines().filter(|line| !line.starts_with('#'));
+    let pairs = lines.map(|line| line.split_once(' ').expect("a hash and a name"));
+    pairs.map(|(hash, name)| (name.to_owned(), hash.to_owned())).collect()
+}
+
+fn write(hashes: &BTreeMap<String, String>) {
+    let lines: String = hashes.iter().map(|(name, hash)| format!("{hash} {name}\n")).collect();
+    fs::create_dir_all(path().with_file_name("")).expect("the tests' folder is writable");
+    fs::write(path(), format!("{HEADER}{lines}")).expect("the tests' folder is writable");
+}
+
+/// FNV-1a (Fowler, Noll, Vo), 64 bits.
+fn fnv1a(bytes: impl IntoIterator<Item = u8>) -> u64 {
+    let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+    bytes.into_iter().fold(0xcbf2_9ce4_8422_2325, step)
+}
+
+fn hash(pictures: &Pictures) -> String {
+    let Pictures { srgb8, unorm8, linear, depth, objects, faces, triangles } = pictures;
+    let codes = [srgb8, unorm8].into_iter().flatten().flatten().flatten().copied();
+    let colors = linear.iter().flatten().flat_map(|color| color.to_array());
+    let floats = colors.chain(depth.iter().flatten().copied()).map(f32::to_bits);
+    let ids = [objects, faces, triangles].into_iter().flatten().flatten().copied();
+    format!("{:016x}", fnv1a(codes.chain(floats.chain(ids).flat_map(u32::to_le_bytes))))
+}
+
+/// Everything that must not change a byte.
+fn every_setting() -> impl Iterator<Item = ExecuteSettings> {
+    levels().flat_map(|level| {
+        [1, 2, 3].map(|threads| ExecuteSettings {
+            threads: NonZeroUsize::new(threads),
+            simd: Some(level),
+            ..ExecuteSettings::default()
+        })
+    })
+}
+
+#[test]
+fn every_picture_hashes_to_what_the_manifest_says() {
+    let pictures = all();
+    let by_name = |settings: &ExecuteSettings| -> BTreeMap<String, String> {
+        let mut rasterizer = rasterizer(settings);
+        pictures.iter().map(|picture| (picture.name(), hash(&picture.draw(&mut rasterizer)))).collect()
+    };
+    if std::env::var_os("TRIGON_UPDATE_MANIFEST").is_some() {
+        write(&by_name(&ExecuteSettings::default()));
+    }
+    let expected = read();
+    assert_eq!(expected.len(), pictures.len(), "a line for each picture");
+    let mut wrong = Vec::new();
+    for settings in every_setting() {
+        for (name, hash) in by_name(&settings) {
+            if expected.get(&name) != Some(&hash) {
+                wrong.push(format!("{name} at {:?} with {:?} threads", settings.simd, settings.threads));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} pictures differ:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// Else the manifest would hold nothing.
+#[test]
+fn every_picture_shows_something_of_its_own() {
+    let mut rasterizer = rasterizer(&ExecuteSettings::default());
+    let mut seen = BTreeMap::new();
+    for picture in all().into_iter().filter(|picture| !picture.is_scalar()) {
+        let other = seen.insert(hash(&picture.draw(&mut rasterizer)), picture.name());
+        assert_eq!(other, None, "{} is the same", picture.name());
+        assert!(picture.is_worth_drawing(&mut rasterizer), "{} is empty", picture.name());
+    }
+}
+
+#[test]
+fn the_hash_is_fnv_1a() {
+    assert_eq!(fnv1a(*b""), 0xcbf2_9ce4_8422_2325, "the offset basis");
+    assert_eq!(fnv1a(*b"foobar"), 0x8594_4171_f739_67e8, "from the authors' test vectors");
+}
