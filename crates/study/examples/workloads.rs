@@ -11,7 +11,8 @@ use std::fs::{self, File};
 use std::io::Write;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use trigon_raster::ExecuteSettings;
+use trigon_raster::simd::SimdLevel;
+use trigon_raster::{DepthTest, ExecuteSettings, Rasterizer, TileSize};
 use trigon_study::workloads::{Canvas, Scene, Timings, Workload};
 
 /// Draw the workloads over and over, and print how long a frame takes.
@@ -23,6 +24,15 @@ struct Arguments {
     /// Numbers of threads to draw with, one after the other
     #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1")]
     threads: Vec<NonZeroUsize>,
+    /// Draw with these instructions: scalar, sse2, avx2, avx512 or neon; the best, unless given
+    #[arg(long, value_name = "LEVEL")]
+    simd: Option<SimdLevel>,
+    /// Cut the picture into squares of 8, 16, 32 or 64 pixels
+    #[arg(long, value_name = "PIXELS", value_parser = tile_size)]
+    tile: Option<TileSize>,
+    /// Test depth at every sample, leaving nothing out as a whole
+    #[arg(long)]
+    late: bool,
     /// How many frames to time
     #[arg(long, value_name = "N", default_value = "12")]
     repetitions: usize,
@@ -37,7 +47,26 @@ struct Arguments {
     workloads: Vec<String>,
 }
 
+fn tile_size(pixels: &str) -> Result<TileSize, &'static str> {
+    match pixels {
+        "8" => Ok(TileSize::Pixels8),
+        "16" => Ok(TileSize::Pixels16),
+        "32" => Ok(TileSize::Pixels32),
+        "64" => Ok(TileSize::Pixels64),
+        _ => Err("it is one of 8, 16, 32 and 64"),
+    }
+}
+
 impl Arguments {
+    fn settings(&self, threads: NonZeroUsize) -> ExecuteSettings {
+        ExecuteSettings {
+            threads: Some(threads),
+            simd: self.simd,
+            tile_size: self.tile.unwrap_or_default(),
+            depth_test: if self.late { DepthTest::Late } else { DepthTest::Hierarchical },
+        }
+    }
+
     fn chosen(&self) -> Result<Vec<Workload>, String> {
         let unknown = |prefix: &&String| !Workload::ALL.iter().any(|w| w.name().starts_with(prefix.as_str()));
         if let Some(prefix) = self.workloads.iter().find(unknown) {
@@ -83,11 +112,11 @@ impl Line<'_> {
     }
 }
 
-fn save(folder: &Path, workload: Workload, scene: &Scene, canvas: &Canvas) -> Result<(), Box<dyn Error>> {
+fn save(folder: &Path, workload: Workload, scene: &Scene, pixels: &[[u8; 4]]) -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(folder)?;
     let path = folder.join(format!("trigon-{}.png", workload.name()));
-    let (bytes, size) = (canvas.pixels().as_flattened(), scene.size);
-    Ok(image::save_buffer(path, bytes, size.x, size.y, ExtendedColorType::Rgba8)?)
+    let size = scene.size;
+    Ok(image::save_buffer(path, pixels.as_flattened(), size.x, size.y, ExtendedColorType::Rgba8)?)
 }
 
 fn append(path: &Path, line: &str) -> std::io::Result<()> {
@@ -101,9 +130,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     for workload in arguments.chosen()? {
         let scene = workload.scene();
+        let mut pixels = vec![[0; 4]; scene.pixel_count()];
         for &threads in &arguments.threads {
-            let settings = ExecuteSettings { threads: Some(threads), ..ExecuteSettings::default() };
-            let mut canvas = Canvas::new(&scene, settings)?;
+            let rasterizer = Rasterizer::new(arguments.settings(threads))?;
+            let mut canvas = Canvas::new(rasterizer, &scene, &mut pixels)?;
             let timings = Timings::of_frames(arguments.repetitions, || canvas.draw(&scene));
             let line = Line { workload, threads, work: workload.work(&scene), timings: &timings };
             println!("{}", if arguments.csv { line.csv() } else { line.text() });
@@ -111,7 +141,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 append(path, &line.samples())?;
             }
             if let Some(folder) = &arguments.png {
-                save(folder, workload, &scene, &canvas)?;
+                save(folder, workload, &scene, &pixels)?;
             }
         }
     }

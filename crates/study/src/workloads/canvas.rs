@@ -3,52 +3,47 @@
 use super::pipelines::{BlinnPhong, Flat, Gouraud, Textured};
 use super::{Scene, Shading};
 use trigon_math::Vec4;
-use trigon_raster::{Background, Draw, ExecuteSettings, Output, Pass, Pipeline, Target, TargetError};
+use trigon_raster::{Background, Draw, LanePipeline, Pass, Rasterizer, Target, TargetError};
 
-/// A picture and what it takes to draw into it, kept from frame to frame.
-pub struct Canvas {
-    settings: ExecuteSettings,
-    target: Target,
-    pixels: Vec<[u8; 4]>,
+/// The caller's pixels and what it takes to draw into them, kept from frame to
+/// frame.
+pub struct Canvas<'a> {
+    rasterizer: Rasterizer,
+    target: Target<'a>,
 }
 
-impl Canvas {
-    /// A picture of the scene's size and samples.
+impl<'a> Canvas<'a> {
+    /// A picture of the scene's size and samples in `pixels`: row-major from the
+    /// top left, plain RGBA8, [`Scene::pixel_count`] of them.
     ///
     /// # Errors
     /// [`TargetError`] when there cannot be one.
-    pub fn new(scene: &Scene, settings: ExecuteSettings) -> Result<Self, TargetError> {
-        let target = Target::new(scene.size.x, scene.size.y, &[Output::Linear])?
-            .with_samples_per_axis(scene.samples.isqrt())?;
-        let pixels = vec![[0; 4]; scene.size.element_product() as usize];
-        Ok(Self { settings, target, pixels })
+    pub fn new(
+        rasterizer: Rasterizer,
+        scene: &Scene,
+        pixels: &'a mut [[u8; 4]],
+    ) -> Result<Self, TargetError> {
+        let target =
+            Target::new(scene.size.x, scene.size.y, &[])?.with_unorm8(pixels)?.with_samples(scene.samples)?;
+        Ok(Self { rasterizer, target })
     }
 
     /// Draws one frame of a scene of the same size and samples; the picture is
     /// complete when this returns.
     pub fn draw(&mut self, scene: &Scene) {
         match &scene.shading {
-            Shading::Flat => self.execute(scene, &Flat(scene)),
-            Shading::Gouraud => self.execute(scene, &Gouraud(scene)),
-            Shading::BlinnPhong => self.execute(scene, &BlinnPhong(scene)),
-            Shading::Textured(texture) => self.execute(scene, &Textured { scene, texture }),
+            Shading::Flat => self.draw_with(&Flat(scene), scene),
+            Shading::Gouraud => self.draw_with(&Gouraud(scene), scene),
+            Shading::BlinnPhong => self.draw_with(&BlinnPhong(scene), scene),
+            Shading::Textured(texture) => self.draw_with(&Textured { scene, texture }, scene),
         }
     }
 
-    fn execute(&mut self, scene: &Scene, pipeline: &impl Pipeline) {
+    fn draw_with(&mut self, pipeline: &impl LanePipeline, scene: &Scene) {
         let background = Vec4::from(Scene::BACKGROUND.map(f32::from)) / 255.0;
         let mut pass = Pass::new();
         pass.background(Background::Color(background));
         pass.triangles(Draw { culling: scene.culling, ..Draw::new(pipeline, &scene.mesh.triangles) });
-        pass.execute(&mut self.target, &self.settings);
-        let linear = self.target.linear().expect("it was asked for");
-        for (pixel, color) in self.pixels.iter_mut().zip(linear) {
-            *pixel = color.to_array().map(|channel| (channel.clamp(0.0, 1.0) * 255.0 + 0.5) as u8);
-        }
-    }
-
-    /// The picture: row-major from the top left, plain RGBA8.
-    pub fn pixels(&self) -> &[[u8; 4]] {
-        &self.pixels
+        self.rasterizer.draw(&pass, &mut self.target);
     }
 }

@@ -1,70 +1,82 @@
 //! The four ways of shading as pipelines of the rasterizer.
 
-use super::shading::{AMBIENT, BASE_COLOR, blinn_phong, lambert};
-use super::{Mesh, Scene};
-use trigon_math::{Vec2, Vec3, Vec4};
-use trigon_raster::{Fragment, Pipeline, Sampler, Texture, VertexOutput};
+use super::Scene;
+use super::shading::{BASE_COLOR, blinn_phong, lambert_lanes, lit};
+use trigon_raster::simd::{F32, Simd, prelude::*};
+use trigon_raster::{FragmentLanes, LanePipeline, Sampler, Texture, VertexLanes};
 
 /// Each triangle in its own colour.
 pub(super) struct Flat<'a>(pub(super) &'a Scene);
 
-impl Pipeline for Flat<'_> {
-    type Varyings = ();
+impl LanePipeline for Flat<'_> {
+    const VARYINGS: usize = 0;
+    const FLAT: bool = true;
 
     fn vertex_count(&self) -> usize {
         self.0.mesh.vertex_count()
     }
 
-    fn vertex(&self, index: usize) -> VertexOutput<()> {
-        VertexOutput { position: clip_position(self.0, index), varyings: () }
+    #[inline(always)]
+    fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
+        clip_position(self.0, columns(simd, vertices, &self.0.mesh.positions))
     }
 
-    fn fragment(&self, fragment: &Fragment<()>) -> Vec4 {
-        let color = self.0.mesh.colors[fragment.triangle as usize];
-        Vec4::from(color.map(f32::from)) / 255.0
+    #[inline(always)]
+    fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+        let [r, g, b, a] = self.0.mesh.colors[fragments.primitives()[0] as usize];
+        [unorm(simd, r), unorm(simd, g), unorm(simd, b), unorm(simd, a)]
     }
 }
 
 /// Light at the vertices.
 pub(super) struct Gouraud<'a>(pub(super) &'a Scene);
 
-impl Pipeline for Gouraud<'_> {
-    /// The colour.
-    type Varyings = Vec3;
+impl LanePipeline for Gouraud<'_> {
+    /// The light: the colour is the same everywhere.
+    const VARYINGS: usize = 1;
 
     fn vertex_count(&self) -> usize {
         self.0.mesh.vertex_count()
     }
 
-    fn vertex(&self, index: usize) -> VertexOutput<Vec3> {
-        let light = lambert(normal(&self.0.mesh, index), AMBIENT);
-        VertexOutput { position: clip_position(self.0, index), varyings: BASE_COLOR * light }
+    #[inline(always)]
+    fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
+        lit_vertices(simd, self.0, vertices, 0)
     }
 
-    fn fragment(&self, fragment: &Fragment<Vec3>) -> Vec4 {
-        fragment.varyings.extend(1.0)
+    #[inline(always)]
+    fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+        opaque(simd, lit(BASE_COLOR, fragments.varying(0)))
     }
 }
 
 /// Light and highlight in each pixel.
 pub(super) struct BlinnPhong<'a>(pub(super) &'a Scene);
 
-impl Pipeline for BlinnPhong<'_> {
+impl LanePipeline for BlinnPhong<'_> {
     /// Position and normal.
-    type Varyings = [Vec3; 2];
+    const VARYINGS: usize = 6;
 
     fn vertex_count(&self) -> usize {
         self.0.mesh.vertex_count()
     }
 
-    fn vertex(&self, index: usize) -> VertexOutput<[Vec3; 2]> {
-        let varyings = [position(&self.0.mesh, index), normal(&self.0.mesh, index)];
-        VertexOutput { position: clip_position(self.0, index), varyings }
+    #[inline(always)]
+    fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
+        let mesh = &self.0.mesh;
+        let position = columns(simd, vertices, &mesh.positions);
+        let normal = columns(simd, vertices, &mesh.normals);
+        for axis in 0..3 {
+            vertices.set(axis, position[axis]);
+            vertices.set(3 + axis, normal[axis]);
+        }
+        clip_position(self.0, position)
     }
 
-    fn fragment(&self, fragment: &Fragment<[Vec3; 2]>) -> Vec4 {
-        let [position, normal] = fragment.varyings;
-        blinn_phong(position, normal, self.0.eye).extend(1.0)
+    #[inline(always)]
+    fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+        let [position, normal] = [fragments.varyings(0), fragments.varyings(3)];
+        opaque(simd, blinn_phong(simd, position, normal, self.0.eye))
     }
 }
 
@@ -74,36 +86,68 @@ pub(super) struct Textured<'a> {
     pub(super) texture: &'a Texture,
 }
 
-impl Pipeline for Textured<'_> {
+impl LanePipeline for Textured<'_> {
     /// Texture coordinates and light.
-    type Varyings = (Vec2, f32);
+    const VARYINGS: usize = 3;
 
     fn vertex_count(&self) -> usize {
         self.scene.mesh.vertex_count()
     }
 
-    fn vertex(&self, index: usize) -> VertexOutput<(Vec2, f32)> {
-        let mesh = &self.scene.mesh;
-        let [u, v] = [0, 1].map(|axis| mesh.coordinates[axis][index]);
-        let light = lambert(normal(mesh, index), AMBIENT);
-        VertexOutput { position: clip_position(self.scene, index), varyings: (Vec2::new(u, v), light) }
+    #[inline(always)]
+    fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
+        for (axis, coordinates) in self.scene.mesh.coordinates.iter().enumerate() {
+            vertices.set(axis, vertices.load(simd, coordinates));
+        }
+        lit_vertices(simd, self.scene, vertices, 2)
     }
 
-    fn fragment(&self, fragment: &Fragment<(Vec2, f32)>) -> Vec4 {
-        let (coordinates, light) = fragment.varyings;
-        let texel = self.texture.sample(coordinates, fragment.ddx.0, fragment.ddy.0, &Sampler::default());
-        (texel.truncate() * light).extend(1.0)
+    #[inline(always)]
+    fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+        let [u, v, light] = fragments.varyings::<3>(0);
+        let [[ux, uy], [vx, vy]] = [fragments.gradient(0), fragments.gradient(1)];
+        let sampler = Sampler::default();
+        let [r, g, b, _] = self.texture.sample_lanes(simd, [u, v], [ux, vx], [uy, vy], &sampler);
+        opaque(simd, [r * light, g * light, b * light])
     }
 }
 
-fn position(mesh: &Mesh, index: usize) -> Vec3 {
-    Vec3::from([0, 1, 2].map(|axis| mesh.positions[axis][index]))
+#[inline(always)]
+fn unorm<S: Simd>(simd: S, byte: u8) -> F32<S> {
+    F32::splat(simd, f32::from(byte) / 255.0)
 }
 
-fn normal(mesh: &Mesh, index: usize) -> Vec3 {
-    Vec3::from([0, 1, 2].map(|axis| mesh.normals[axis][index]))
+/// Vertices with light at them: the varying `index`.
+#[inline(always)]
+fn lit_vertices<S: Simd>(
+    simd: S,
+    scene: &Scene,
+    vertices: &mut VertexLanes<'_>,
+    index: usize,
+) -> [F32<S>; 4] {
+    let normal = columns(simd, vertices, &scene.mesh.normals);
+    vertices.set(index, lambert_lanes(simd, normal));
+    clip_position(scene, columns(simd, vertices, &scene.mesh.positions))
 }
 
-fn clip_position(scene: &Scene, index: usize) -> Vec4 {
-    scene.to_clip_space * position(&scene.mesh, index).extend(1.0)
+#[inline(always)]
+fn columns<S: Simd>(simd: S, vertices: &VertexLanes<'_>, [x, y, z]: &[Vec<f32>; 3]) -> [F32<S>; 3] {
+    [vertices.load(simd, x), vertices.load(simd, y), vertices.load(simd, z)]
+}
+
+#[inline(always)]
+fn clip_position<S: Simd>(scene: &Scene, position: [F32<S>; 3]) -> [F32<S>; 4] {
+    let [x, y, z, w] = scene.to_clip_space.transpose().to_cols_array_2d();
+    [affine(x, position), affine(y, position), affine(z, position), affine(w, position)]
+}
+
+/// One row of a matrix times a position.
+#[inline(always)]
+fn affine<S: Simd>([a, b, c, d]: [f32; 4], [x, y, z]: [F32<S>; 3]) -> F32<S> {
+    x * a + y * b + z * c + d
+}
+
+#[inline(always)]
+fn opaque<S: Simd>(simd: S, [r, g, b]: [F32<S>; 3]) -> [F32<S>; 4] {
+    [r, g, b, F32::splat(simd, 1.0)]
 }

@@ -43,6 +43,11 @@ impl Scene {
     /// What shows where nothing is drawn: plain RGBA8.
     pub const BACKGROUND: [u8; 4] = [26, 26, 38, 255];
 
+    /// Width times height.
+    pub fn pixel_count(&self) -> usize {
+        self.size.x as usize * self.size.y as usize
+    }
+
     /// Triangles in flat colours, in clip space already.
     pub(super) fn flat(mesh: Mesh) -> Self {
         Self {

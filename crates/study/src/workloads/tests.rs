@@ -1,7 +1,7 @@
 //! The workloads are the ones that are documented.
 
 use super::*;
-use trigon_raster::ExecuteSettings;
+use trigon_raster::Rasterizer;
 
 /// Vertices, triangles and visible pixels. Pixels are those of Mesa's llvmpipe.
 const EXPECTED: [(Workload, usize, usize, usize); 8] = [
@@ -34,9 +34,9 @@ fn meshes_have_the_documented_sizes() {
 fn as_many_pixels_are_covered_as_by_another_renderer() {
     for (workload, .., expected) in EXPECTED {
         let scene = workload.scene();
-        let mut canvas = Canvas::new(&scene, ExecuteSettings::default()).unwrap();
-        canvas.draw(&scene);
-        let covered = canvas.pixels().iter().filter(|&&pixel| pixel != Scene::BACKGROUND).count();
+        let mut pixels = vec![[0; 4]; scene.pixel_count()];
+        Canvas::new(Rasterizer::default(), &scene, &mut pixels).unwrap().draw(&scene);
+        let covered = pixels.iter().filter(|&&pixel| pixel != Scene::BACKGROUND).count();
         // The outlines: another order of operations in the vertex stage moves a
         // vertex to the next point of the sub-pixel grid now and then, and the
         // samples of a pixel need not lie where the other's do.
