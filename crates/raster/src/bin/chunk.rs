@@ -33,6 +33,31 @@ impl Entry {
     }
 }
 
+/// A triangle of a frame: a primitive that is drawn as it is, or one that its
+/// chunk keeps.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    /// The primitive's ordinal in the frame.
+    pub(crate) ordinal: u32,
+    extra: u32,
+}
+
+impl Place {
+    const WHOLE: u32 = u32::MAX;
+
+    /// Whether it is simply a primitive.
+    #[inline(always)]
+    pub(crate) fn is_whole(self) -> bool {
+        self.extra == Self::WHOLE
+    }
+
+    /// Its index among the chunk's own triangles.
+    #[inline(always)]
+    pub(crate) fn extra(self) -> Option<usize> {
+        (!self.is_whole()).then_some(self.extra as usize)
+    }
+}
+
 /// A triangle over many tiles, so that it is not listed in each.
 struct Large {
     entry: Entry,
@@ -137,12 +162,12 @@ impl Chunk {
         }
     }
 
-    /// Appends the triangles of a tile to `entries`, in the order of the
+    /// Appends the triangles of a tile to `places`, in the order of the
     /// primitives.
-    pub(crate) fn collect(&self, grid: &Grid, tile: u32, entries: &mut Vec<Entry>) {
+    pub(crate) fn collect(&self, grid: &Grid, tile: u32, places: &mut Vec<Place>) {
         let listed = self.listed(tile);
         if self.large.is_empty() {
-            entries.extend_from_slice(listed);
+            places.extend(listed.iter().map(|&entry| self.place(entry)));
             return;
         }
         let (column, row) = (tile % grid.columns, tile / grid.columns);
@@ -153,11 +178,20 @@ impl Chunk {
             while let Some(entry) =
                 listed.next_if(|entry| self.primitive(*entry) < self.primitive(large.entry))
             {
-                entries.push(entry);
+                places.push(self.place(entry));
             }
-            entries.push(large.entry);
+            places.push(self.place(large.entry));
         }
-        entries.extend(listed);
+        places.extend(listed.map(|entry| self.place(entry)));
+    }
+
+    /// The triangle of an entry.
+    #[inline(always)]
+    fn place(&self, entry: Entry) -> Place {
+        match entry.place() {
+            Ok(at) => Place { ordinal: self.ordinals.start + at, extra: Place::WHOLE },
+            Err(extra) => Place { ordinal: self.extras[extra].ordinal, extra: extra as u32 },
+        }
     }
 
     /// The place in the chunk of the primitive that a triangle belongs to.

@@ -6,5 +6,5 @@
 mod chunk;
 mod grid;
 
-pub(crate) use chunk::{Chunk, Entry};
+pub(crate) use chunk::{Chunk, Entry, Place};
 pub(crate) use grid::{Grid, TileRange};

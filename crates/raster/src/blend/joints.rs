@@ -1,9 +1,9 @@
 //! Where translucent segments meet: of those that share a vertex only one
 //! paints a sample, so that a polyline draws each joint once.
 
+use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::setup::Kind;
-use crate::tile::Place;
 
 /// An end of a segment: its draw, its vertex, and the segment.
 type Joint = [u32; 3];
@@ -34,8 +34,7 @@ impl Joints {
 
 /// The two ends of a line's triangle.
 fn ends(frame: &FrameView<'_>, place: Place) -> Option<[Joint; 2]> {
-    let extra = place.entry.place().err()?;
-    let triangle = &frame.chunks[place.chunk as usize].extras[extra];
+    let triangle = &frame.chunk_of(place).extras[place.extra()?];
     let ends = || {
         let draw = frame.draw_of(place);
         let plan = &frame.plan.draws[draw];

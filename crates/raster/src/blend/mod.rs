@@ -13,10 +13,11 @@
 mod joints;
 mod samples;
 
+use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::resolve::saturated;
 use crate::shade::{Job, ShadeOutput, Work, shade_jobs};
-use crate::tile::{Place, Scratch, TileArea, for_each_seen};
+use crate::tile::{Scratch, TileArea, for_each_seen};
 use joints::Joints;
 use std::cmp::Ordering;
 use std::ops::Range;

@@ -6,12 +6,12 @@ mod stages;
 pub(crate) use plan::{DrawPlan, Plan};
 pub(crate) use stages::{Arena, How, draw};
 
-use crate::bin::{Chunk, Grid};
+use crate::bin::{Chunk, Grid, Place};
 use crate::pass::{Background, Recorded};
 use crate::setup::SetupTriangle;
 use crate::shade::{AnyPipeline, Encoding};
 use crate::simd::Token;
-use crate::tile::{Place, TileArea};
+use crate::tile::TileArea;
 use crate::vertex::{DrawVertices, ScreenVertex};
 use std::cmp::Ordering;
 
@@ -35,6 +35,7 @@ pub(crate) struct FrameView<'f> {
     pub(crate) plan: &'f Plan,
     pub(crate) places: &'f [ScreenVertex],
     pub(crate) varyings: &'f [f32],
+    /// In the order of their ordinals.
     pub(crate) chunks: &'f [Chunk],
     pub(crate) grid: Grid,
     /// Internal pixels for each pixel of the target and axis.
@@ -60,17 +61,10 @@ impl<'f> FrameView<'f> {
         self.grid.pattern.count() > 1
     }
 
-    /// The ordinal in the frame of the primitive that a triangle belongs to.
-    #[inline(always)]
-    pub(crate) fn ordinal(&self, place: Place) -> u32 {
-        let chunk = &self.chunks[place.chunk as usize];
-        chunk.ordinals.start + chunk.primitive(place.entry)
-    }
-
     /// The index among the plans of the draw that a triangle belongs to.
     #[inline(always)]
     pub(crate) fn draw_of(&self, place: Place) -> usize {
-        self.plan.draw_of(self.ordinal(place))
+        self.plan.draw_of(place.ordinal)
     }
 
     pub(crate) fn pipeline(&self, draw: usize) -> &'f dyn AnyPipeline {
@@ -89,18 +83,19 @@ impl<'f> FrameView<'f> {
     /// A triangle of a tile, ready.
     #[inline]
     pub(crate) fn triangle(&self, place: Place) -> SetupTriangle {
-        let chunk = &self.chunks[place.chunk as usize];
-        match place.entry.place() {
-            Err(extra) => chunk.extras[extra],
-            Ok(at) => {
-                let ordinal = chunk.ordinals.start + at;
-                let draw = self.plan.draw_of(ordinal);
-                let plan = &self.plan.draws[draw];
-                let vertices = self.vertices(draw);
-                let corners = self.pass[plan.draw].geometry.corners(ordinal - plan.ordinals.start);
-                SetupTriangle::whole(corners.map(|index| *vertices.get(index)), ordinal)
-            }
+        if let Some(extra) = place.extra() {
+            return self.chunk_of(place).extras[extra];
         }
+        let draw = self.draw_of(place);
+        let plan = &self.plan.draws[draw];
+        let vertices = self.vertices(draw);
+        let corners = self.pass[plan.draw].geometry.corners(place.ordinal - plan.ordinals.start);
+        SetupTriangle::whole(corners.map(|index| *vertices.get(index)), place.ordinal)
+    }
+
+    /// The chunk that a triangle belongs to.
+    pub(crate) fn chunk_of(&self, place: Place) -> &'f Chunk {
+        &self.chunks[self.chunks.partition_point(|chunk| chunk.ordinals.end <= place.ordinal)]
     }
 
     /// The order of two triangles at equal depth: the smaller (object, face) is
@@ -108,10 +103,9 @@ impl<'f> FrameView<'f> {
     /// draw.
     pub(crate) fn compare(&self, a: Place, b: Place) -> Ordering {
         let key = |place: Place| {
-            let ordinal = self.ordinal(place);
-            let plan = &self.plan.draws[self.plan.draw_of(ordinal)];
+            let plan = &self.plan.draws[self.draw_of(place)];
             let geometry = &self.pass[plan.draw].geometry;
-            let primitive = ordinal - plan.ordinals.start;
+            let primitive = place.ordinal - plan.ordinals.start;
             (geometry.object, geometry.face(primitive), primitive, plan.draw)
         };
         key(a).cmp(&key(b))

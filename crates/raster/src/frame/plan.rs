@@ -41,8 +41,9 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// Plans a frame, and cuts it into chunks.
-    pub(crate) fn make(&mut self, recorded: &[Recorded<'_>], chunks: &mut Vec<Chunk>) {
+    /// Plans a frame, and cuts it into chunks: the first so many, in the order of
+    /// their ordinals.
+    pub(crate) fn make(&mut self, recorded: &[Recorded<'_>], chunks: &mut Vec<Chunk>) -> usize {
         self.draws.clear();
         (self.vertices, self.varyings) = (0, 0);
         self.draws.extend((0..recorded.len()).map(|draw| {
@@ -70,7 +71,7 @@ impl Plan {
         self.is_flat = recorded
             .iter()
             .all(|draw| draw.geometry.surface == Surface::Translucent || draw.pipeline.is_flat());
-        self.cut(recorded, chunks);
+        self.cut(recorded, chunks)
     }
 
     /// Whether equal depths can be decided by the ordinal among opaque draws.
@@ -93,7 +94,7 @@ impl Plan {
         true
     }
 
-    fn cut(&self, recorded: &[Recorded<'_>], chunks: &mut Vec<Chunk>) {
+    fn cut(&self, recorded: &[Recorded<'_>], chunks: &mut Vec<Chunk>) -> usize {
         let mut count = 0;
         let mut add = |ordinals: Range<u32>, surface: Surface| {
             if count == chunks.len() {
@@ -112,9 +113,7 @@ impl Plan {
                 start = next;
             }
         }
-        for chunk in &mut chunks[count..] {
-            chunk.reset(0..0, Surface::Opaque);
-        }
+        count
     }
 
     /// The draws that have a share in some ordinals, each with the range of its

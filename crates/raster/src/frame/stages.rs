@@ -50,7 +50,8 @@ pub(crate) fn draw(arena: &mut Arena, pass: &Pass<'_>, target: &mut Target<'_>, 
     let tile_pixels = (how.tile_size / axis).max(1);
     let grid = Grid::new(viewport, target.pattern(), tile_pixels * axis);
     let Arena { plan, places, varyings, chunks, scratches } = arena;
-    plan.make(&pass.draws, chunks);
+    let used = plan.make(&pass.draws, chunks);
+    let chunks = &mut chunks[..used];
     places.resize(plan.vertices, ScreenVertex::default());
     varyings.resize(plan.varyings, 0.0);
     run_vertices(&pass.draws, plan, viewport, how, (places, varyings));

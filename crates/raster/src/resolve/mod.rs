@@ -174,7 +174,7 @@ impl FrameView<'_> {
                 let place = scratch.places[winner as usize];
                 let plan = &self.plan.draws[self.draw_of(place)];
                 let geometry = &self.pass[plan.draw].geometry;
-                let primitive = self.ordinal(place) - plan.ordinals.start;
+                let primitive = place.ordinal - plan.ordinals.start;
                 [geometry.object, geometry.face(primitive), primitive]
             }
         }

@@ -1,10 +1,10 @@
 //! What shading has to know: the frame, the tile, and which pixels.
 
-use crate::bin::Chunk;
+use crate::bin::{Chunk, Place};
 use crate::frame::{DrawPlan, FrameView};
 use crate::geometry::Geometry;
 use crate::simd::{I32, Simd, U32, prelude::*};
-use crate::tile::{Place, TileArea};
+use crate::tile::TileArea;
 use crate::vertex::DrawVertices;
 use std::ops::Range;
 
@@ -47,19 +47,19 @@ impl<'f> ShadeContext<'f> {
     /// The index in the draw of a triangle of the tile.
     #[inline(always)]
     pub(crate) fn primitive(&self, place: u32) -> u32 {
-        self.frame.ordinal(self.places[place as usize]) - self.plan().ordinals.start
+        self.places[place as usize].ordinal - self.plan().ordinals.start
     }
 
     /// Whether a triangle of the tile is not simply a primitive.
     #[inline(always)]
     pub(crate) fn is_cut(&self, place: u32) -> bool {
-        self.places[place as usize].entry.place().is_err()
+        !self.places[place as usize].is_whole()
     }
 
     /// The chunk of a triangle of the tile.
     #[inline(always)]
     pub(crate) fn chunk(&self, place: Place) -> &'f Chunk {
-        &self.frame.chunks[place.chunk as usize]
+        self.frame.chunk_of(place)
     }
 }
 

@@ -65,7 +65,7 @@ pub(crate) fn shade_to_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &
 pub(crate) fn shade_jobs(
     frame: &FrameView<'_>,
     area: &TileArea,
-    (places, jobs, work): (&[crate::tile::Place], &[Job], &[Work]),
+    (places, jobs, work): (&[crate::bin::Place], &[Job], &[Work]),
     output: &mut ShadeOutput<'_>,
 ) {
     let draw = |job: &Job| frame.draw_of(places[job.place as usize]);
@@ -73,7 +73,7 @@ pub(crate) fn shade_jobs(
     while let Some(first) = rest.first() {
         let draw_number = draw(first);
         let end = frame.plan.draws[draw_number].ordinals.end;
-        let count = rest.partition_point(|job| frame.ordinal(places[job.place as usize]) < end);
+        let count = rest.partition_point(|job| places[job.place as usize].ordinal < end);
         let (run, after) = rest.split_at(count);
         let context = ShadeContext { frame, area: *area, places, draw: draw_number };
         frame.pipeline(draw_number).shade(frame.token, &context, run, work, output);

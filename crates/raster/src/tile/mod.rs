@@ -23,18 +23,10 @@ pub(crate) use masked::for_each_seen;
 pub(crate) use scratch::{EdgePixel, PIXELS, Scratch};
 
 use crate::Surface;
-use crate::bin::Entry;
 use crate::frame::FrameView;
 use crate::target::Bands;
 use crate::{blend, resolve, shade};
 use std::ops::Range;
-
-/// A triangle of a tile: its chunk and its entry there.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
-    pub(crate) chunk: u32,
-    pub(crate) entry: Entry,
-}
 
 /// The tile's triangles by kind of surface: ranges of its places.
 pub(crate) struct Surfaces {
@@ -75,14 +67,8 @@ pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
 fn collect(frame: &FrameView<'_>, scratch: &mut Scratch, tile: u32) -> Surfaces {
     scratch.places.clear();
     let mut ends = [0; 3];
-    for (number, chunk) in frame.chunks.iter().enumerate() {
-        if chunk.is_empty() {
-            continue;
-        }
-        scratch.entries.clear();
-        chunk.collect(&frame.grid, tile, &mut scratch.entries);
-        let chunk_number = number as u32;
-        scratch.places.extend(scratch.entries.iter().map(|&entry| Place { chunk: chunk_number, entry }));
+    for chunk in frame.chunks.iter().filter(|chunk| !chunk.is_empty()) {
+        chunk.collect(&frame.grid, tile, &mut scratch.places);
         let first = match chunk.surface {
             Surface::Opaque => 0,
             Surface::Masked => 1,

@@ -1,11 +1,10 @@
 //! What a worker keeps from tile to tile and from frame to frame, so that
 //! nothing allocates once it is warm.
 
-use super::Place;
 use super::buffer::VisibilityBuffer;
 use super::masked::Waiting;
 use crate::Stats;
-use crate::bin::Entry;
+use crate::bin::Place;
 use crate::blend::Layers;
 use crate::shade::{Job, Work};
 use trigon_math::Vec4;
@@ -21,7 +20,6 @@ pub(crate) struct EdgePixel {
 
 /// A worker's own memory.
 pub(crate) struct Scratch {
-    pub(crate) entries: Vec<Entry>,
     /// The tile's triangles: opaque, masked, translucent.
     pub(crate) places: Vec<Place>,
     pub(crate) buffer: VisibilityBuffer,
@@ -58,7 +56,6 @@ pub(crate) const PIXELS: usize = super::MAX_SIDE * super::MAX_SIDE;
 impl Scratch {
     pub(crate) fn new() -> Self {
         Self {
-            entries: Vec::new(),
             places: Vec::new(),
             buffer: VisibilityBuffer::new(),
             counts: Vec::new(),

@@ -2,7 +2,8 @@
 
 use super::cover::Cover;
 use super::eight::Eight;
-use super::{Counts, Covering, Place, Scratch, Surfaces, TileArea, masked};
+use super::{Counts, Covering, Scratch, Surfaces, TileArea, masked};
+use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::simd::{Each, LANES, Simd, at_level, lanes_of};
 
@@ -105,23 +106,19 @@ impl Ready {
 }
 
 /// How many of the first of some triangles, up to eight, are whole primitives
-/// of one draw and chunk.
+/// of one draw.
 #[inline(always)]
 fn side_by_side(frame: &FrameView<'_>, places: &[Place]) -> usize {
     let first = places[0];
-    let Ok(_) = first.entry.place() else {
+    if !first.is_whole() {
         return 0;
-    };
-    let draw = &frame.plan.draws[frame.draw_of(first)];
-    let chunk = &frame.chunks[first.chunk as usize];
-    let end = draw.ordinals.end - chunk.ordinals.start;
-    let belongs = |place: &Place| {
-        place.chunk == first.chunk && place.entry.place().is_ok_and(|primitive| primitive < end)
-    };
+    }
+    let end = frame.plan.draws[frame.draw_of(first)].ordinals.end;
+    let belongs = |place: &Place| place.is_whole() && place.ordinal < end;
     places.iter().take(LANES).take_while(|place| belongs(place)).count()
 }
 
-/// Up to eight whole primitives of one draw and chunk; lanes to spare repeat the
+/// Up to eight whole primitives of one draw; lanes to spare repeat the
 /// first.
 #[inline(always)]
 fn eight<S: Simd>(simd: S, frame: &FrameView<'_>, area: &TileArea, places: &[Place]) -> Eight {
@@ -134,7 +131,6 @@ fn eight<S: Simd>(simd: S, frame: &FrameView<'_>, area: &TileArea, places: &[Pla
 
 #[inline(always)]
 fn eight_apart<S: Simd>(simd: S, frame: &FrameView<'_>, area: &TileArea, places: &[Place]) -> Eight {
-    let chunk = &frame.chunks[places[0].chunk as usize];
     let draw = frame.draw_of(places[0]);
     let plan = &frame.plan.draws[draw];
     let (vertices, geometry) = (frame.vertices(draw), &frame.pass[plan.draw].geometry);
@@ -142,7 +138,7 @@ fn eight_apart<S: Simd>(simd: S, frame: &FrameView<'_>, area: &TileArea, places:
         #[inline(always)]
         |lane| {
             let place = places.get(lane).unwrap_or(&places[0]);
-            geometry.corners(chunk.ordinals.start + chunk.primitive(place.entry) - plan.ordinals.start)
+            geometry.corners(place.ordinal - plan.ordinals.start)
         },
     );
     let columns = [0, 1, 2].each(
