@@ -17,6 +17,7 @@ mod pipelines;
 mod programs;
 mod same_bytes;
 mod scene;
+mod scissor;
 mod simd_levels;
 mod targets;
 mod triangulation;

@@ -118,6 +118,7 @@ mod viewport;
 
 pub use draw::{Culling, Draw, Lines, PointShape, Points, Surface};
 pub use fragment::{EdgeFlags, Fragment};
+pub use paint2d::Rect;
 pub use pass::{Background, Pass};
 #[doc(hidden)]
 pub use pipeline::ScalarPipeline;

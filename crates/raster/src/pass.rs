@@ -1,6 +1,7 @@
 //! A recorded pass: what is to be drawn, and then the frame in one go.
 
 use crate::geometry::{Geometry, Shape};
+use crate::paint2d::Rect;
 use crate::shade::AnyPipeline;
 use crate::{Draw, LanePipeline, Lines, Points, Target};
 use trigon_math::{UVec2, Vec4};
@@ -28,6 +29,7 @@ pub(crate) struct Recorded<'a> {
 pub struct Pass<'a> {
     pub(crate) background: Background<'a>,
     pub(crate) draws: Vec<Recorded<'a>>,
+    pub(crate) scissor: Option<Rect>,
 }
 
 impl Default for Pass<'_> {
@@ -39,12 +41,23 @@ impl Default for Pass<'_> {
 impl<'a> Pass<'a> {
     /// An empty pass on transparent black.
     pub fn new() -> Self {
-        Self { background: Background::Color(Vec4::ZERO), draws: Vec::new() }
+        Self { background: Background::Color(Vec4::ZERO), draws: Vec::new(), scissor: None }
     }
 
     /// Draws on `background` instead.
     pub fn background(&mut self, background: Background<'a>) -> &mut Self {
         self.background = background;
+        self
+    }
+
+    /// Draws only the pixels of a rectangle of the target, the background's
+    /// included; all others keep what the target holds. Inside, every byte is
+    /// that of the whole picture.
+    ///
+    /// Empty rectangles draw nothing; what lies beyond the target is left out.
+    /// Tiles that the rectangle does not meet cost nothing.
+    pub fn scissor(&mut self, rect: Rect) -> &mut Self {
+        self.scissor = Some(rect);
         self
     }
 
@@ -74,6 +87,12 @@ impl<'a> Pass<'a> {
         self
     }
 
+    /// The pixels of the target that are drawn.
+    pub(crate) fn drawn_pixels(&self, target: &Target<'_>) -> Rect {
+        let whole = Rect::new([0, 0], [target.width() as i32, target.height() as i32]);
+        self.scissor.map_or(whole, |rect| rect.intersection(whole))
+    }
+
     /// Whether a frame is large enough to be shared among threads: waking
     /// others costs a fraction of a millisecond.
     pub(crate) fn is_worth_sharing(&self, target: &Target<'_>) -> bool {
@@ -83,7 +102,9 @@ impl<'a> Pass<'a> {
         const WORTH_SHARING: u64 = 200_000;
         let axis = u64::from(target.samples_per_axis());
         let samples = axis * axis * u64::from(target.samples());
-        let samples = u64::from(target.width()) * u64::from(target.height()) * samples;
+        let Rect { min, max } = self.drawn_pixels(target);
+        let [width, height] = [0, 1].map(|axis| max[axis].saturating_sub(min[axis]).max(0) as u64);
+        let samples = width * height * samples;
         let primitives: usize = self.draws.iter().map(|draw| draw.geometry.len()).sum();
         samples * SAMPLE + primitives as u64 * PRIMITIVE >= WORTH_SHARING
     }

@@ -32,7 +32,8 @@ impl Rasterizer {
         &self.settings
     }
 
-    /// Draws everything that was recorded, over the whole of the target.
+    /// Draws everything that was recorded, over the whole of the target or of the
+    /// pass's [`scissor`](Pass::scissor).
     ///
     /// The result is a function of the pass and the target's size, samples and
     /// outputs alone: the settings change no byte.

@@ -13,7 +13,6 @@ pub(crate) struct Grid {
     pub(crate) pattern: SamplePattern,
     pub(crate) size: u32,
     pub(crate) columns: u32,
-    pub(crate) rows: u32,
     /// 2^32 / size, rounded up: a product with it divides.
     reciprocal: u64,
 }
@@ -30,19 +29,20 @@ impl TileRange {
     pub(crate) fn len(&self) -> usize {
         self.columns.len() * self.rows.len()
     }
+
+    /// The column and row of the tile with this number, counted row by row.
+    pub(crate) fn get(&self, number: u32) -> Option<[u32; 2]> {
+        let width = self.columns.len() as u32;
+        let at = |number: u32| [self.columns.start + number % width, self.rows.start + number / width];
+        ((number as usize) < self.len()).then(|| at(number))
+    }
 }
 
 impl Grid {
     pub(crate) fn new(viewport: Viewport, pattern: SamplePattern, size: u32) -> Self {
         let columns = viewport.width.div_ceil(size);
-        let rows = viewport.height.div_ceil(size);
         let reciprocal = (1_u64 << 32).div_ceil(u64::from(size));
-        Self { viewport, pattern, size, columns, rows, reciprocal }
-    }
-
-    /// How many tiles there are.
-    pub(crate) fn tiles(&self) -> usize {
-        (self.columns * self.rows) as usize
+        Self { viewport, pattern, size, columns, reciprocal }
     }
 
     /// The column or row of tiles that a pixel lies in.
@@ -155,7 +155,7 @@ mod tests {
             let mut binned = Vec::new();
             let Some([x, y]) = grid.pixels_of(&triangle) else { return Ok(()) };
             grid.for_each_tile(&triangle, |tile| binned.push(tile));
-            for tile in 0..grid.columns * grid.rows {
+            for tile in 0..grid.columns * grid.viewport.height.div_ceil(size) {
                 let place = [tile % grid.columns, tile / grid.columns];
                 let corner = place.map(|v| (v * size) as i32);
                 let [low, high] = grid.reach_of_tile(place);

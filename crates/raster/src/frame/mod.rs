@@ -6,7 +6,8 @@ mod stages;
 pub(crate) use plan::{DrawPlan, Plan};
 pub(crate) use stages::{Arena, How, draw};
 
-use crate::bin::{Chunk, Grid, Place};
+use crate::bin::{Chunk, Grid, Place, TileRange};
+use crate::paint2d::Rect;
 use crate::pass::{Background, Recorded};
 use crate::setup::SetupTriangle;
 use crate::shade::{AnyPipeline, Encoding};
@@ -14,6 +15,7 @@ use crate::simd::Token;
 use crate::tile::TileArea;
 use crate::vertex::{DrawVertices, ScreenVertex};
 use std::cmp::Ordering;
+use std::ops::Range;
 
 /// What a frame is to leave behind.
 #[derive(Clone, Copy)]
@@ -38,6 +40,8 @@ pub(crate) struct FrameView<'f> {
     /// In the order of their ordinals.
     pub(crate) chunks: &'f [Chunk],
     pub(crate) grid: Grid,
+    /// The pixels of the target that are drawn.
+    pub(crate) drawn: Rect,
     /// Internal pixels for each pixel of the target and axis.
     pub(crate) supersampling: u32,
     pub(crate) wants: Wants,
@@ -55,6 +59,29 @@ impl<'f> FrameView<'f> {
             origin: origin.map(|v| v as i32),
             size: [side(0, viewport.width), side(1, viewport.height)],
         }
+    }
+
+    /// The tiles that have pixels to be drawn.
+    pub(crate) fn tiles(&self) -> TileRange {
+        if self.drawn.is_empty() {
+            return TileRange { columns: 0..0, rows: 0..0 };
+        }
+        let axis = self.supersampling as i32;
+        let Rect { min, max } = self.drawn;
+        let pixels = |i: usize| [min[i] * axis, max[i] * axis - 1];
+        self.grid.tiles_of(pixels(0), pixels(1))
+    }
+
+    /// The columns and rows of a tile that are drawn, in pixels of the target
+    /// from the tile's first one.
+    pub(crate) fn drawn_part(&self, area: &TileArea) -> [Range<usize>; 2] {
+        let axis = self.supersampling;
+        [0, 1].map(|i| {
+            let first = area.origin[i] / axis as i32;
+            let side = area.size[i] / axis as usize;
+            let within = |end: i32| ((end - first).max(0) as usize).min(side);
+            within(self.drawn.min[i])..within(self.drawn.max[i])
+        })
     }
 
     pub(crate) fn is_multisampled(&self) -> bool {

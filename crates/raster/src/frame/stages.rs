@@ -43,23 +43,40 @@ pub(crate) struct How<'w> {
     pub(crate) hierarchical: bool,
 }
 
-/// Draws a pass over the whole of a target.
+/// Draws a pass into a target.
 pub(crate) fn draw(arena: &mut Arena, pass: &Pass<'_>, target: &mut Target<'_>, how: How<'_>) -> Stats {
+    let mut scratches = std::mem::take(&mut arena.scratches);
+    let view = prepare(arena, pass, target, how);
+    let mut stats = count(view.plan, view.chunks);
+    let bands = Bands::new(target, view.grid.size / view.supersampling);
+    scratches.resize_with(how.workers.count(), Scratch::new);
+    draw_tiles(&view, &bands, how.workers, &mut scratches);
+    for scratch in &mut scratches {
+        stats += std::mem::take(&mut scratch.stats);
+    }
+    arena.scratches = scratches;
+    stats
+}
+
+/// Everything up to the tiles: vertices run, triangles set up and binned.
+pub(crate) fn prepare<'f>(
+    arena: &'f mut Arena,
+    pass: &'f Pass<'_>,
+    target: &Target<'_>,
+    how: How<'_>,
+) -> FrameView<'f> {
     let axis = target.samples_per_axis();
     let viewport = Viewport { width: target.width() * axis, height: target.height() * axis };
     let tile_pixels = (how.tile_size / axis).max(1);
     let grid = Grid::new(viewport, target.pattern(), tile_pixels * axis);
-    let Arena { plan, places, varyings, chunks, scratches } = arena;
+    let Arena { plan, places, varyings, chunks, .. } = arena;
     let used = plan.make(&pass.draws, chunks);
     let chunks = &mut chunks[..used];
     places.resize(plan.vertices, ScreenVertex::default());
     varyings.resize(plan.varyings, 0.0);
     run_vertices(&pass.draws, plan, viewport, how, (places, varyings));
     set_up(&pass.draws, plan, places, (&grid, axis), how, chunks);
-    let mut stats = count(plan, chunks);
-    let wants = wants(target);
-    let bands = Bands::new(target, tile_pixels);
-    let view = FrameView {
+    FrameView {
         pass: &pass.draws,
         background: pass.background,
         plan,
@@ -67,17 +84,12 @@ pub(crate) fn draw(arena: &mut Arena, pass: &Pass<'_>, target: &mut Target<'_>, 
         varyings,
         chunks,
         grid,
+        drawn: pass.drawn_pixels(target),
         supersampling: axis,
-        wants,
+        wants: wants(target),
         token: how.token,
         hierarchical: how.hierarchical,
-    };
-    scratches.resize_with(how.workers.count(), Scratch::new);
-    draw_tiles(&view, &bands, how.workers, scratches);
-    for scratch in scratches {
-        stats += std::mem::take(&mut scratch.stats);
     }
-    stats
 }
 
 fn wants(target: &Target<'_>) -> Wants {
@@ -211,19 +223,15 @@ fn set_up_triangles<S: Simd>(simd: S, setup: &mut Setup<'_>, first: u32, triangl
 
 /// The tiles: every worker takes the next one until there are none.
 fn draw_tiles(view: &FrameView<'_>, bands: &Bands<'_>, workers: &Workers, scratches: &mut [Scratch]) {
-    let tiles = view.grid.tiles() as u32;
+    let tiles = view.tiles();
     let next = AtomicU32::new(0);
     let free = Mutex::new(scratches.iter_mut());
-    workers.run(tiles > 1, |_| {
+    workers.run(tiles.len() > 1, |_| {
         let Some(scratch) = free.lock().unwrap_or_else(PoisonError::into_inner).next() else {
             return;
         };
-        loop {
-            let tile = next.fetch_add(1, Ordering::Relaxed);
-            if tile >= tiles {
-                return;
-            }
-            draw_tile(view, scratch, bands, tile);
+        while let Some([column, row]) = tiles.get(next.fetch_add(1, Ordering::Relaxed)) {
+            draw_tile(view, scratch, bands, row * view.grid.columns + column);
         }
     });
 }

@@ -29,14 +29,14 @@ impl FrameView<'_> {
 /// Draws a tile that nothing is in.
 pub(crate) fn fill_background(frame: &FrameView<'_>, area: &TileArea, bands: &Bands<'_>) {
     let [left, top] = area.origin.map(|v| v as u32 / frame.supersampling);
-    let [width, height] = area.size.map(|side| side / frame.supersampling as usize);
+    let [columns, rows] = frame.drawn_part(area);
     let constant = matches!(frame.background, Background::Color(_));
     let color = frame.background_of(UVec2::ZERO);
     let codes = [Encoding::Srgb8, Encoding::Unorm8].map(|encoding| encoding.encode(color));
     let (mut band, first) = bands.lock([left, top]);
-    for y in 0..height {
+    for y in rows {
         let start = first + y * bands.width();
-        let row = start..start + width;
+        let row = start + columns.start..start + columns.end;
         if let Some(depths) = band.depth.get_mut(row.clone()) {
             depths.fill(0.0);
         }
@@ -57,7 +57,7 @@ pub(crate) fn fill_background(frame: &FrameView<'_>, area: &TileArea, bands: &Ba
             }
             continue;
         }
-        for (x, index) in row.enumerate() {
+        for (x, index) in columns.clone().zip(row) {
             let color = frame.background_of(UVec2::new(left + x as u32, top + y as u32));
             if let Some(pixel) = band.linear.get_mut(index) {
                 *pixel = color;

@@ -23,12 +23,12 @@ pub(crate) fn resolve(
 ) {
     if early.is_some() {
         background::lay_codes(frame, area, scratch);
-        copy_codes(area, scratch, bands);
+        copy_codes(frame, area, scratch, bands);
     } else if frame.wants.color {
         finish_colors(frame, area, scratch);
         if let Some(encoding) = frame.wants.bytes {
             at_level!(frame.token, simd => encode_colors(simd, scratch, encoding));
-            copy_codes(area, scratch, bands);
+            copy_codes(frame, area, scratch, bands);
         } else {
             store_colors(frame, area, scratch, bands);
         }
@@ -62,19 +62,25 @@ fn encode_colors<S: Simd>(simd: S, scratch: &mut Scratch, encoding: Encoding) {
 }
 
 /// Copies bytes, four pixels at a time.
-fn copy_codes(area: &TileArea, scratch: &Scratch, bands: &Bands<'_>) {
+fn copy_codes(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: &Bands<'_>) {
     let [left, top] = area.origin.map(|v| v as u32);
     let (mut band, first) = bands.lock([left, top]);
     let band = &mut *band;
     let picture = if band.unorm8.is_empty() { &mut *band.srgb8 } else { &mut *band.unorm8 };
-    for y in 0..area.size[1] {
+    let [columns, rows] = frame.drawn_part(area);
+    for y in rows {
         let start = first + y * bands.width();
-        let row = &mut picture[start..start + area.size[0]];
-        for (column, pixels) in row.chunks_mut(4).enumerate() {
-            let index = TileArea::index_of([column * 4, y]);
-            for (pixel, code) in pixels.iter_mut().zip(&scratch.codes[index..index + 4]) {
+        let row = &mut picture[start + columns.start..start + columns.end];
+        // Up to a whole group first.
+        let head = row.len().min(columns.start.next_multiple_of(4) - columns.start);
+        let (head, row) = row.split_at_mut(head);
+        let mut x = columns.start;
+        for pixels in std::iter::once(head).chain(row.chunks_mut(4)) {
+            let index = TileArea::index_of([x, y]);
+            for (pixel, code) in pixels.iter_mut().zip(&scratch.codes[index..]) {
                 *pixel = code.to_le_bytes();
             }
+            x += pixels.len();
         }
     }
 }
@@ -111,8 +117,9 @@ fn store_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands
     let axis = frame.supersampling as usize;
     let [left, top] = area.origin.map(|v| v as u32 / frame.supersampling);
     let (mut band, first) = bands.lock([left, top]);
-    for y in 0..area.size[1] / axis {
-        for x in 0..area.size[0] / axis {
+    let [columns, rows] = frame.drawn_part(area);
+    for y in rows {
+        for x in columns.clone() {
             let color = match axis {
                 1 => Vec4::from_array(scratch.colors[TileArea::index_of([x, y])]),
                 _ => {
@@ -140,8 +147,9 @@ fn store_visibility(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, b
     let axis = frame.supersampling as usize;
     let [left, top] = area.origin.map(|v| v as u32 / frame.supersampling);
     let (mut band, first) = bands.lock([left, top]);
-    for y in 0..area.size[1] / axis {
-        for x in 0..area.size[0] / axis {
+    let [columns, rows] = frame.drawn_part(area);
+    for y in rows {
+        for x in columns.clone() {
             let pixel = TileArea::index_of([x * axis + axis / 2, y * axis + axis / 2]);
             let sample = scratch.buffer.index(pixel, 0);
             let index = first + y * bands.width() + x;
