@@ -8,6 +8,7 @@ mod coverage_lines;
 mod coverage_support;
 mod depth;
 mod effort;
+mod explain;
 mod goldens;
 mod interpolation;
 mod manifest;

@@ -92,6 +92,7 @@ mod bin;
 mod blend;
 mod clip;
 mod draw;
+mod explain;
 mod fragment;
 mod frame;
 mod geometry;
@@ -117,6 +118,9 @@ mod vertex;
 mod viewport;
 
 pub use draw::{Culling, Draw, Lines, PointShape, Points, Surface};
+pub use explain::{
+    EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,
+};
 pub use fragment::{EdgeFlags, Fragment};
 pub use paint2d::Rect;
 pub use pass::{Background, Pass};

@@ -1,6 +1,6 @@
 //! The object that draws passes and keeps what can be used again.
 
-use crate::frame::{Arena, How, draw};
+use crate::frame::{Arena, FrameView, How, draw, prepare};
 use crate::pool::Workers;
 use crate::simd::{SimdLevel, SimdLevelError, Token};
 use crate::{ExecuteSettings, Pass, Stats, Target};
@@ -30,6 +30,13 @@ impl Rasterizer {
     /// How it draws.
     pub fn settings(&self) -> &ExecuteSettings {
         &self.settings
+    }
+
+    /// Everything up to the tiles of what [`draw`](Self::draw) would do.
+    pub(crate) fn prepare<'f>(&'f mut self, pass: &'f Pass<'_>, target: &Target<'_>) -> FrameView<'f> {
+        let tile_size = self.settings.tile_size.pixels(target.samples());
+        let how = How { token: self.token, workers: &self.workers, tile_size, hierarchical: true };
+        prepare(&mut self.arena, pass, target, how)
     }
 
     /// Draws everything that was recorded, over the whole of the target or of the

@@ -194,6 +194,15 @@ impl Chunk {
         }
     }
 
+    /// All triangles that any tile lists, in the order of the primitives.
+    pub(crate) fn all(&self) -> impl Iterator<Item = Place> {
+        let mut entries: Vec<_> =
+            self.large.iter().map(|large| large.entry).chain(self.entries.clone()).collect();
+        entries.sort_unstable_by_key(|&entry| (self.primitive(entry), entry.0));
+        entries.dedup();
+        entries.into_iter().map(|entry| self.place(entry))
+    }
+
     /// The place in the chunk of the primitive that a triangle belongs to.
     #[inline]
     pub(crate) fn primitive(&self, entry: Entry) -> u32 {

@@ -10,10 +10,10 @@ type Joint = [u32; 3];
 
 /// The ends of all segments at a sample, in order.
 #[derive(Default)]
-pub(super) struct Joints(Vec<Joint>);
+pub(crate) struct Joints(Vec<Joint>);
 
 impl Joints {
-    pub(super) fn collect(&mut self, frame: &FrameView<'_>, places: impl Iterator<Item = Place>) {
+    pub(crate) fn collect(&mut self, frame: &FrameView<'_>, places: impl Iterator<Item = Place>) {
         self.0.clear();
         for place in places {
             self.0.extend(ends(frame, place).into_iter().flatten());
@@ -23,7 +23,7 @@ impl Joints {
 
     /// Whether a triangle is of a segment that leaves this sample to a later one
     /// of the same draw that it is joined to.
-    pub(super) fn leaves(&self, frame: &FrameView<'_>, place: Place) -> bool {
+    pub(crate) fn leaves(&self, frame: &FrameView<'_>, place: Place) -> bool {
         ends(frame, place).into_iter().flatten().any(|[draw, vertex, primitive]| {
             // The last that meets in this vertex; the segment itself is among them.
             let after = self.0.partition_point(|joint| *joint <= [draw, vertex, u32::MAX]);

@@ -13,12 +13,13 @@
 mod joints;
 mod samples;
 
+pub(crate) use joints::Joints;
+
 use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::resolve::saturated;
 use crate::shade::{Job, ShadeOutput, Work, shade_jobs};
 use crate::tile::{Scratch, TileArea, for_each_seen};
-use joints::Joints;
 use std::cmp::Ordering;
 use std::ops::Range;
 use trigon_math::Vec4;

@@ -4,7 +4,7 @@ mod plan;
 mod stages;
 
 pub(crate) use plan::{DrawPlan, Plan};
-pub(crate) use stages::{Arena, How, draw};
+pub(crate) use stages::{Arena, How, draw, prepare};
 
 use crate::bin::{Chunk, Grid, Place, TileRange};
 use crate::paint2d::Rect;

@@ -9,7 +9,7 @@ pub(crate) const NOBODY: u32 = u32::MAX;
 
 /// The depth of the background: behind the far plane, at 0, by less than any
 /// depth that matters, so that what lies in the far plane is seen.
-const BEHIND_ALL: f32 = -f32::MIN_POSITIVE;
+pub(crate) const BEHIND_ALL: f32 = -f32::MIN_POSITIVE;
 
 /// Bounds of the depths in a block. They may be wider than need be, never
 /// narrower.

@@ -14,7 +14,7 @@ mod tiny;
 mod visibility;
 
 pub(crate) use area::{MAX_SIDE, TileArea};
-pub(crate) use buffer::NOBODY;
+pub(crate) use buffer::{BEHIND_ALL, NOBODY};
 pub(crate) use cover::Counts;
 pub(crate) use covering::Covering;
 pub(crate) use depth::DepthPlane;

@@ -1,0 +1,40 @@
+//! Asks a triangle's pipeline about one pixel.
+
+use crate::bin::Place;
+use crate::frame::FrameView;
+use crate::shade::{Job, ShadeContext, ShadeOutput, Work, shade_jobs};
+use crate::tile::TileArea;
+use trigon_math::Vec4;
+
+/// A pixel in its tile.
+#[derive(Clone, Copy)]
+pub(super) struct PixelInTile {
+    pub(super) area: TileArea,
+    pub(super) at: [usize; 2],
+}
+
+impl PixelInTile {
+    /// The pixel alone, as fragments of one triangle are shaded.
+    fn alone(&self, frame: &FrameView<'_>) -> (Job, Work) {
+        let work = Work::anywhere(TileArea::index_of(self.at), frame.is_multisampled(), 0);
+        (Job { place: 0, work: 0..1 }, work)
+    }
+}
+
+/// Whether a masked triangle exists at a pixel that it covers.
+pub(super) fn mask(frame: &FrameView<'_>, pixel: PixelInTile, place: Place) -> bool {
+    let (job, work) = pixel.alone(frame);
+    let draw = frame.draw_of(place);
+    let context = ShadeContext { frame, area: pixel.area, places: &[place], draw };
+    let mut kept = [0];
+    frame.pipeline(draw).mask(frame.token, &context, &[job], &[work], &mut kept);
+    kept != [0]
+}
+
+/// The colour of a triangle at a pixel that it covers.
+pub(super) fn color(frame: &FrameView<'_>, pixel: PixelInTile, place: Place) -> Vec4 {
+    let (job, work) = pixel.alone(frame);
+    let mut colors = [[0.0; 4]];
+    shade_jobs(frame, &pixel.area, (&[place], &[job], &[work]), &mut ShadeOutput::Colors(&mut colors));
+    Vec4::from_array(colors[0])
+}

@@ -1,0 +1,36 @@
+//! What happened at one sample.
+
+use super::{FragmentExplanation, Verdict};
+use trigon_math::Vec4;
+
+/// What happened at one sample of a pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SampleExplanation {
+    /// The pixel of the finer grid that it belongs to; without supersampling the
+    /// pixel itself.
+    pub cell: [u32; 2],
+    /// Its number in the standard pattern.
+    pub number: usize,
+    /// Where it lies, in 1/256 pixel of the finer grid from the top left.
+    pub position: [i32; 2],
+    /// The triangles: the winner first, then layers from the nearest to the one
+    /// furthest away, then what is not seen, the nearest first, and then those
+    /// that miss the sample.
+    pub fragments: Vec<FragmentExplanation>,
+    /// What the sample shows: linear light, premultiplied.
+    pub color: Vec4,
+}
+
+impl SampleExplanation {
+    /// The triangle whose depth and ids the sample has; `None` for the
+    /// background.
+    #[must_use]
+    pub fn winner(&self) -> Option<&FragmentExplanation> {
+        self.fragments.iter().find(|fragment| fragment.verdict == Verdict::Won)
+    }
+
+    /// The translucent layers, the one furthest away first.
+    pub fn layers(&self) -> impl Iterator<Item = &FragmentExplanation> {
+        self.fragments.iter().rev().filter(|fragment| matches!(fragment.verdict, Verdict::Layer(_)))
+    }
+}

@@ -1,0 +1,280 @@
+//! The competition at a sample, with every step kept.
+
+use super::ask::{self, PixelInTile};
+use super::{EdgeExplanation, FragmentExplanation, PrimitiveKind, SampleExplanation, Verdict};
+use crate::Surface;
+use crate::bin::Place;
+use crate::blend::Joints;
+use crate::frame::FrameView;
+use crate::resolve::saturated;
+use crate::setup::{Corners, Kind, SetupTriangle};
+use crate::tile::{BEHIND_ALL, Covering, Edge};
+use std::cmp::Ordering;
+use trigon_math::Vec4;
+
+/// A frame and all of its triangles.
+pub(super) struct Trial<'f> {
+    frame: &'f FrameView<'f>,
+    triangles: Vec<(Place, SetupTriangle)>,
+}
+
+/// A triangle at a sample, still with its name.
+struct Entrant {
+    place: Place,
+    fragment: FragmentExplanation,
+}
+
+impl Entrant {
+    fn depth(&self) -> f32 {
+        self.fragment.depth.unwrap_or(BEHIND_ALL)
+    }
+
+    fn is(&self, verdict: Verdict) -> bool {
+        self.fragment.verdict == verdict
+    }
+}
+
+impl<'f> Trial<'f> {
+    pub(super) fn new(frame: &'f FrameView<'f>) -> Self {
+        let places = frame.chunks.iter().flat_map(|chunk| chunk.all());
+        Self { frame, triangles: places.map(|place| (place, frame.triangle(place))).collect() }
+    }
+
+    /// What happened at a sample of a pixel of the finer grid.
+    pub(super) fn sample(&self, (cell, number): ([u32; 2], usize)) -> SampleExplanation {
+        let frame = self.frame;
+        let tile = cell.map(|v| frame.grid.tile_of(v));
+        let area = frame.area(tile[1] * frame.grid.columns + tile[0]);
+        let at = [0, 1].map(|axis| cell[axis] as usize - area.origin[axis] as usize);
+        let pixel = PixelInTile { area, at };
+        let offset = frame.grid.pattern.offsets()[number];
+        let position = [0, 1].map(|axis| cell[axis] as i32 * 256 + offset[axis]);
+        let mut entrants: Vec<Entrant> =
+            self.triangles.iter().filter_map(|entry| self.enter(pixel, number, position, entry)).collect();
+        self.judge(&mut entrants);
+        self.number_layers(&mut entrants);
+        for entrant in &mut entrants {
+            if matches!(entrant.fragment.verdict, Verdict::Won | Verdict::Layer(_)) {
+                entrant.fragment.color = Some(ask::color(frame, pixel, entrant.place));
+            }
+        }
+        entrants.sort_by(|a, b| self.in_telling_order(a, b));
+        let fragments: Vec<_> = entrants.into_iter().map(|entrant| entrant.fragment).collect();
+        let background = frame.background_at(&area, at);
+        SampleExplanation { cell, number, position, color: blended(&fragments, background), fragments }
+    }
+
+    /// A triangle whose bounding box holds the sample.
+    fn enter(
+        &self,
+        pixel: PixelInTile,
+        number: usize,
+        point: [i32; 2],
+        (place, triangle): &(Place, SetupTriangle),
+    ) -> Option<Entrant> {
+        let within = |axis: usize| {
+            let [low, high] = triangle.extent(axis);
+            low <= point[axis] && point[axis] <= high
+        };
+        if !(within(0) && within(1)) {
+            return None;
+        }
+        let mut fragment = self.describe(*place, triangle, point);
+        let covering = Covering::new(triangle, &self.frame.grid, &pixel.area);
+        let at = pixel.at.map(|v| v as i32);
+        if let Some(covering) = covering.filter(|covering| covering.covers(at, number, point)) {
+            fragment.is_covered = true;
+            fragment.depth = Some(covering.depth.at(point));
+            let is_there = || fragment.surface != Surface::Masked || ask::mask(self.frame, pixel, *place);
+            fragment.verdict = if is_there() { Verdict::Hidden } else { Verdict::MaskedAway };
+        }
+        Some(Entrant { place: *place, fragment })
+    }
+
+    /// A triangle that misses the sample, until it is known to cover it.
+    fn describe(&self, place: Place, triangle: &SetupTriangle, point: [i32; 2]) -> FragmentExplanation {
+        let frame = self.frame;
+        let plan = &frame.plan.draws[frame.draw_of(place)];
+        let geometry = &frame.pass[plan.draw].geometry;
+        let primitive = place.ordinal - plan.ordinals.start;
+        let order = order_of(triangle);
+        // Each is opposite the vertex that it does not meet.
+        let edges = Edge::of(triangle);
+        let edges = [2, 0, 1].map(|vertex| explain_edge(&edges[order[vertex]], point));
+        FragmentExplanation {
+            draw: plan.draw,
+            object: geometry.object,
+            face: geometry.face(primitive),
+            primitive,
+            kind: kind_of(triangle.kind),
+            surface: geometry.surface,
+            is_cut: self.is_cut(place, triangle),
+            front_facing: triangle.front_facing,
+            vertices: order.map(|i| triangle.vertices[i].raw()),
+            edges,
+            is_covered: false,
+            depth: None,
+            margin: None,
+            color: None,
+            verdict: shut_out(&edges),
+        }
+    }
+
+    /// Whether vertices of the triangle are not its primitive's own.
+    fn is_cut(&self, place: Place, triangle: &SetupTriangle) -> bool {
+        match triangle.corners {
+            Corners::Whole(_) => false,
+            Corners::Cut { weights, .. } => {
+                let weights = &self.frame.chunk_of(place).weights[weights as usize];
+                !weights.iter().all(|corners| corners.contains(&1.0))
+            }
+        }
+    }
+
+    /// Whether `a` is seen rather than `b`, where both are.
+    fn beats(&self, a: &Entrant, b: &Entrant) -> bool {
+        a.depth() > b.depth() || (a.depth() == b.depth() && self.frame.precedes(a.place, b.place))
+    }
+
+    /// Finds the winner and tells all others that cover the sample why they are
+    /// not seen; layers are left at [`Verdict::Layer`] 0.
+    fn judge(&self, entrants: &mut [Entrant]) {
+        for entrant in entrants.iter_mut().filter(|entrant| entrant.is(Verdict::Hidden)) {
+            if entrant.depth() <= BEHIND_ALL {
+                entrant.fragment.verdict = Verdict::BehindFarPlane;
+            }
+        }
+        let hides = |entrant: &Entrant| {
+            entrant.is(Verdict::Hidden) && entrant.fragment.surface != Surface::Translucent
+        };
+        let best = |except: Option<usize>| {
+            let rivals = (0..entrants.len()).filter(|&i| Some(i) != except && hides(&entrants[i]));
+            rivals.reduce(|a, b| if self.beats(&entrants[b], &entrants[a]) { b } else { a })
+        };
+        let winner = best(None);
+        let next = winner.and_then(|winner| best(Some(winner)));
+        let verdicts: Vec<_> =
+            entrants.iter().map(|entrant| self.verdict(entrants, entrant, winner)).collect();
+        let depths = [winner, next].map(|i| i.map(|i| entrants[i].depth()));
+        for (i, (entrant, verdict)) in entrants.iter_mut().zip(verdicts).enumerate() {
+            entrant.fragment.verdict = verdict;
+            let rival = if winner == Some(i) { depths[1] } else { depths[0] };
+            let pair = entrant.fragment.depth.zip(rival);
+            entrant.fragment.margin = pair.map(|(ours, theirs)| steps(ours) - steps(theirs));
+        }
+    }
+
+    fn verdict(&self, entrants: &[Entrant], entrant: &Entrant, winner: Option<usize>) -> Verdict {
+        if !entrant.is(Verdict::Hidden) {
+            return entrant.fragment.verdict;
+        }
+        let winner = winner.map(|winner| &entrants[winner]);
+        match winner {
+            Some(winner) if std::ptr::eq(winner, entrant) => Verdict::Won,
+            _ if entrant.fragment.surface == Surface::Translucent
+                && winner.is_none_or(|winner| self.beats(entrant, winner)) =>
+            {
+                Verdict::Layer(0)
+            }
+            Some(winner) if winner.depth() == entrant.depth() => Verdict::LostTie,
+            _ => Verdict::Hidden,
+        }
+    }
+
+    /// Numbers the layers from the back; takes out lines that leave the sample to
+    /// another.
+    fn number_layers(&self, entrants: &mut [Entrant]) {
+        let mut layers: Vec<&mut Entrant> =
+            entrants.iter_mut().filter(|entrant| entrant.is(Verdict::Layer(0))).collect();
+        layers.sort_by(|a, b| self.from_behind(a, b));
+        let mut joints = Joints::default();
+        joints.collect(self.frame, layers.iter().map(|layer| layer.place));
+        let mut number = 0;
+        for layer in layers {
+            if joints.leaves(self.frame, layer.place) {
+                layer.fragment.verdict = Verdict::LeftToJoint;
+            } else {
+                layer.fragment.verdict = Verdict::Layer(number);
+                number += 1;
+            }
+        }
+    }
+
+    fn from_behind(&self, a: &Entrant, b: &Entrant) -> Ordering {
+        let depth = a.depth().partial_cmp(&b.depth()).unwrap_or(Ordering::Equal);
+        depth.then_with(|| self.frame.compare(b.place, a.place))
+    }
+
+    fn in_telling_order(&self, a: &Entrant, b: &Entrant) -> Ordering {
+        let rank = |entrant: &Entrant| match entrant.fragment.verdict {
+            Verdict::Won => 0,
+            Verdict::Layer(_) => 1,
+            Verdict::OutsideEdge(_) | Verdict::OutsideDisc => 3,
+            _ => 2,
+        };
+        rank(a).cmp(&rank(b)).then_with(|| self.from_behind(b, a))
+    }
+}
+
+/// What a sample shows: the layers over the winner or the background.
+fn blended(fragments: &[FragmentExplanation], background: Vec4) -> Vec4 {
+    let colored = |won: bool| {
+        let told = fragments.iter().rev().filter(move |fragment| (fragment.verdict == Verdict::Won) == won);
+        told.filter_map(|fragment| fragment.color)
+    };
+    let ground = colored(true).next().unwrap_or(background);
+    colored(false).fold(ground, |color, layer| saturated(layer + color * (1.0 - layer.w)))
+}
+
+/// The sorted vertices in the order in which they are told: that of the draw's
+/// indices if they are known.
+fn order_of(triangle: &SetupTriangle) -> [usize; 3] {
+    match (triangle.corners, triangle.kind) {
+        (Corners::Whole(corners), Kind::Triangle) => {
+            [0, 1, 2].map(|corner| corners.iter().position(|&c| c == corner).expect("corners are 0, 1 and 2"))
+        }
+        _ => [0, 1, 2],
+    }
+}
+
+fn kind_of(kind: Kind) -> PrimitiveKind {
+    match kind {
+        Kind::Triangle => PrimitiveKind::Triangle,
+        Kind::Line => PrimitiveKind::Line,
+        Kind::SquarePoint => PrimitiveKind::SquarePoint,
+        Kind::RoundPoint => PrimitiveKind::RoundPoint,
+    }
+}
+
+fn explain_edge(edge: &Edge, point: [i32; 2]) -> EdgeExplanation {
+    let value = edge.at(point);
+    let [right, down] = [edge.right, edge.down].map(f64::from);
+    let distance = value as f64 / (right * right + down * down).sqrt() / 256.0;
+    EdgeExplanation { value, owns_boundary: edge.bias() == 0, distance }
+}
+
+/// Which edge shuts a sample out the most; the disc if none does.
+fn shut_out(edges: &[EdgeExplanation; 3]) -> Verdict {
+    let outside = (0..3).filter(|&i| !edges[i].is_inside());
+    outside
+        .min_by(|&a, &b| edges[a].distance.total_cmp(&edges[b].distance))
+        .map_or(Verdict::OutsideDisc, Verdict::OutsideEdge)
+}
+
+/// The number of a depth among all f32, so that neighbours differ by 1.
+fn steps(depth: f32) -> i64 {
+    let magnitude = i64::from(depth.abs().to_bits());
+    if depth < 0.0 { -magnitude } else { magnitude }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbouring_depths_are_one_step_apart() {
+        for depth in [0.25_f32, 1.0, 1e-30, -3.5, 0.0] {
+            assert_eq!(steps(depth.next_up()) - steps(depth), 1, "after {depth}");
+        }
+    }
+}
