@@ -125,7 +125,7 @@ impl LanePipeline for Counting<'_> {
 
     #[inline(always)]
     fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
-        self.asked.fetch_add(fragments.count(), Ordering::Relaxed);
+        self.asked.fetch_add(fragments.active().count_ones() as usize, Ordering::Relaxed);
         self.flat.fragments(simd, fragments)
     }
 }

@@ -1,5 +1,6 @@
 //! What was recorded, without the pipeline: indices and ids.
 
+use crate::simd::{Each, LANES};
 use crate::{Culling, EdgeFlags, PointShape, Surface};
 
 /// The primitives of one draw.
@@ -40,6 +41,20 @@ impl Geometry<'_> {
                 [from, to, to]
             }
             Shape::Points { points, .. } => [points[index]; 3],
+        }
+    }
+
+    /// The vertices of eight primitives.
+    #[inline(always)]
+    pub(crate) fn corners_of(&self, primitives: [u32; LANES]) -> [[u32; 3]; LANES] {
+        match self.shape {
+            Shape::Triangles { triangles, .. } => primitives.each(
+                #[inline(always)]
+                |primitive| triangles[primitive as usize],
+            ),
+            Shape::Lines { .. } | Shape::Points { .. } => {
+                primitives.each(|primitive| self.corners(primitive))
+            }
         }
     }
 

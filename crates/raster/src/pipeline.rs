@@ -107,7 +107,7 @@ pub trait LanePipeline: Sync {
 
     /// The colours of up to eight visible pixels: linear light, premultiplied;
     /// see [`Pipeline::fragment`]. For a [`FLAT`](Self::FLAT) pipeline only the ids
-    /// of the fragments have a meaning, and the first lane's colour is taken.
+    /// of the fragments have a meaning: each lane is the colour of its triangle.
     fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4];
 
     /// Whether the fragments exist at all; see [`Pipeline::mask`]. Asked only

@@ -81,7 +81,7 @@ fn blend_region(
 ) {
     if gather(frame, area, scratch, layers, (places.clone(), region.clone())) {
         if !layers.waiting.is_empty() {
-            shade(frame, area, &scratch.places, layers);
+            shade(frame, area, scratch, layers);
             scratch.stats.pixels_shaded += layers.work.len() as u64;
             sort(frame, &scratch.places, layers);
             lay_over(frame, &scratch.places, layers, &mut scratch.samples);
@@ -143,11 +143,12 @@ fn gather(
     waiting.len() <= most
 }
 
-fn shade(frame: &FrameView<'_>, area: &TileArea, places: &[Place], layers: &mut Layers) {
+fn shade(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch, layers: &mut Layers) {
+    let Scratch { shading, places, .. } = scratch;
     layers.colors.clear();
     layers.colors.resize(layers.work.len(), [0.0; 4]);
     let mut output = ShadeOutput::Colors(&mut layers.colors);
-    shade_jobs(frame, area, (places, &layers.jobs, &layers.work), &mut output);
+    shade_jobs(frame, area, shading, (places, &layers.jobs, &layers.work), &mut output);
 }
 
 /// By sample, then from back to front.

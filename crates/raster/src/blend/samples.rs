@@ -3,13 +3,15 @@
 
 use crate::frame::FrameView;
 use crate::resolve::mean;
+use crate::shade::Shading;
 use crate::simd::LANES;
 use crate::tile::{NOBODY, Scratch, TileArea};
 use trigon_math::Vec4;
 
 /// Gives every sample the colour of what it sees.
 pub(super) fn expand(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) {
-    let Scratch { buffer, colors, samples, edge_pixels, sample_colors, .. } = scratch;
+    let Scratch { buffer, shading, samples, .. } = scratch;
+    let Shading { colors, edge_pixels, sample_colors, .. } = shading;
     let count = buffer.samples;
     samples.clear();
     samples.resize(buffer.span() * count, Vec4::ZERO);
@@ -43,7 +45,8 @@ pub(super) fn expand(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scrat
 /// Gives every pixel the mean of its samples. All of the tile's pixels have a
 /// colour then, and none is an edge pixel.
 pub(super) fn collapse(frame: &FrameView<'_>, scratch: &mut Scratch) {
-    let Scratch { buffer, colors, samples, edge_pixels, .. } = scratch;
+    let Scratch { buffer, shading, samples, .. } = scratch;
+    let Shading { colors, edge_pixels, .. } = shading;
     let count = frame.grid.pattern.count();
     edge_pixels.clear();
     for (pixel, color) in colors.iter_mut().enumerate().take(buffer.span()) {

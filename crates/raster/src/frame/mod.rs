@@ -26,8 +26,6 @@ pub(crate) struct Wants {
     /// The encoding, if bytes of one kind are all of the colour that is asked for
     /// and there is no supersampling.
     pub(crate) bytes: Option<Encoding>,
-    /// The same if pixels can be bytes as soon as they are shaded.
-    pub(crate) early: Option<Encoding>,
 }
 
 /// Everything that tiles read.

@@ -36,8 +36,6 @@ pub(crate) struct Plan {
     /// Whether the order of ordinals is the order of (object, face) throughout
     /// the opaque draws.
     pub(crate) ordinals_are_keys: bool,
-    /// Whether every opaque and masked triangle has one colour.
-    pub(crate) is_flat: bool,
 }
 
 impl Plan {
@@ -65,12 +63,9 @@ impl Plan {
             plan.places = self.vertices;
             plan.varyings = self.varyings;
             self.vertices += plan.used.len();
-            self.varyings += plan.used.len() * pipeline.varyings();
+            self.varyings += plan.used.len() * pipeline.stride();
         }
         self.ordinals_are_keys = self.are_keys(recorded);
-        self.is_flat = recorded
-            .iter()
-            .all(|draw| draw.geometry.surface == Surface::Translucent || draw.pipeline.is_flat());
         self.cut(recorded, chunks)
     }
 

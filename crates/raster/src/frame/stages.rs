@@ -100,9 +100,8 @@ fn wants(target: &Target<'_>) -> Wants {
         (false, true, false, 1) => Some(Encoding::Unorm8),
         _ => None,
     };
-    let early = bytes.filter(|_| target.samples() == 1);
     let ids = target.objects().is_some() || target.faces().is_some() || target.triangles().is_some();
-    Wants { color: srgb8 || unorm8 || linear, depth: target.depth().is_some(), ids, bytes, early }
+    Wants { color: srgb8 || unorm8 || linear, depth: target.depth().is_some(), ids, bytes }
 }
 
 fn count(plan: &Plan, chunks: &[Chunk]) -> Stats {
@@ -138,7 +137,7 @@ fn run_vertices(
         let draw = plan.draws.get(rest.draw)?;
         let slots = rest.slot..draw.used.len().min(rest.slot + VERTICES);
         rest.slot = slots.end;
-        let stride = pass[draw.draw].pipeline.varyings();
+        let stride = pass[draw.draw].pipeline.stride();
         let (places, others) = std::mem::take(&mut rest.places).split_at_mut(slots.len());
         rest.places = others;
         let (varyings, others) = std::mem::take(&mut rest.varyings).split_at_mut(slots.len() * stride);

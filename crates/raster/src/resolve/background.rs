@@ -73,10 +73,7 @@ pub(crate) fn fill_background(frame: &FrameView<'_>, area: &TileArea, bands: &Ba
 }
 
 /// Puts the background's bytes into all pixels that see it.
-pub(super) fn lay_codes(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) {
-    let Some(encoding) = frame.wants.early else {
-        return;
-    };
+pub(super) fn lay_codes(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch, encoding: Encoding) {
     let encode = |color| u32::from_le_bytes(encoding.encode(color));
     let constant = match frame.background {
         Background::Color(_) => Some(encode(frame.background_of(UVec2::ZERO))),
@@ -85,9 +82,9 @@ pub(super) fn lay_codes(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Sc
     for_each_empty(scratch, |scratch, pixel| {
         let at = TileArea::pixel_at(pixel);
         if let Some(code) = constant {
-            scratch.codes[pixel] = code;
+            scratch.shading.codes[pixel] = code;
         } else if area.contains(at) {
-            scratch.codes[pixel] = encode(frame.background_at(area, at));
+            scratch.shading.codes[pixel] = encode(frame.background_at(area, at));
         }
     });
 }
@@ -97,7 +94,7 @@ pub(super) fn lay_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &mut S
     for_each_empty(scratch, |scratch, pixel| {
         let at = TileArea::pixel_at(pixel);
         if area.contains(at) {
-            scratch.colors[pixel] = frame.background_at(area, at).to_array();
+            scratch.shading.colors[pixel] = frame.background_at(area, at).to_array();
         }
     });
 }

@@ -8,8 +8,8 @@ pub(crate) use background::fill_background;
 pub(crate) use mean::{mean, saturated};
 
 use crate::frame::FrameView;
-use crate::shade::Encoding;
-use crate::simd::{Each, F32, LANES, Simd, at_level, prelude::*, transposed};
+use crate::shade::{EdgePixel, Encoding, Shading};
+use crate::simd::at_level;
 use crate::target::Bands;
 use crate::tile::{NOBODY, Scratch, TileArea};
 use trigon_math::Vec4;
@@ -21,13 +21,16 @@ pub(crate) fn resolve(
     scratch: &mut Scratch,
     (bands, early): (&Bands<'_>, Option<Encoding>),
 ) {
-    if early.is_some() {
-        background::lay_codes(frame, area, scratch);
+    if let Some(encoding) = early {
+        background::lay_codes(frame, area, scratch, encoding);
+        average_codes(frame, area, scratch, encoding);
         copy_codes(frame, area, scratch, bands);
     } else if frame.wants.color {
         finish_colors(frame, area, scratch);
         if let Some(encoding) = frame.wants.bytes {
-            at_level!(frame.token, simd => encode_colors(simd, scratch, encoding));
+            let span = scratch.buffer.span();
+            let Shading { colors, codes, .. } = &mut scratch.shading;
+            at_level!(frame.token, simd => encoding.encode_all(simd, &colors[..span], codes));
             copy_codes(frame, area, scratch, bands);
         } else {
             store_colors(frame, area, scratch, bands);
@@ -35,29 +38,6 @@ pub(crate) fn resolve(
     }
     if frame.wants.depth || frame.wants.ids {
         store_visibility(frame, area, scratch, bands);
-    }
-}
-
-/// Turns the colours of all pixels to bytes, eight at a time.
-#[inline(always)]
-fn encode_colors<S: Simd>(simd: S, scratch: &mut Scratch, encoding: Encoding) {
-    let span = scratch.buffer.span();
-    let groups = scratch.colors[..span].as_chunks::<LANES>().0;
-    for (colors, codes) in groups.iter().zip(scratch.codes.as_chunks_mut::<LANES>().0) {
-        let bits = colors.each_ref().each(
-            #[inline(always)]
-            |color| {
-                color.each(
-                    #[inline(always)]
-                    |channel| channel.to_bits() as i32,
-                )
-            },
-        );
-        let color = transposed(simd, bits.each_ref()).each(
-            #[inline(always)]
-            |channel| channel.bitcast::<F32<S>>(),
-        );
-        *codes = encoding.encode_lanes(simd, color);
     }
 }
 
@@ -77,7 +57,7 @@ fn copy_codes(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: 
         let mut x = columns.start;
         for pixels in std::iter::once(head).chain(row.chunks_mut(4)) {
             let index = TileArea::index_of([x, y]);
-            for (pixel, code) in pixels.iter_mut().zip(&scratch.codes[index..]) {
+            for (pixel, code) in pixels.iter_mut().zip(&scratch.shading.codes[index..]) {
                 *pixel = code.to_le_bytes();
             }
             x += pixels.len();
@@ -92,23 +72,41 @@ fn finish_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) 
         return;
     }
     background::lay_colors(frame, area, scratch);
-    if !frame.is_multisampled() {
-        return;
-    }
+    for_each_edge(frame, area, &mut scratch.shading, |shading, pixel, color| {
+        shading.colors[pixel] = color.to_array();
+    });
+}
+
+/// Gives the pixels whose samples see different triangles their bytes.
+fn average_codes(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch, encoding: Encoding) {
+    for_each_edge(frame, area, &mut scratch.shading, |shading, pixel, color| {
+        shading.codes[pixel] = u32::from_le_bytes(encoding.encode(color));
+    });
+}
+
+/// Visits the pixels whose samples see different triangles, with the mean of the
+/// samples.
+fn for_each_edge(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    shading: &mut Shading,
+    mut visit: impl FnMut(&mut Shading, usize, Vec4),
+) {
     let samples = frame.grid.pattern.count();
-    let Scratch { edge_pixels, sample_colors, colors, .. } = scratch;
-    for edge in edge_pixels.iter() {
-        let pixel = edge.pixel as usize;
-        let at = TileArea::pixel_at(pixel);
+    for edge in 0..shading.edge_pixels.len() {
+        let EdgePixel { pixel, first } = shading.edge_pixels[edge];
+        let at = TileArea::pixel_at(pixel as usize);
         if !area.contains(at) {
             continue;
         }
-        let names = &sample_colors[edge.first as usize..edge.first as usize + samples];
+        let Shading { sample_colors, colors, .. } = &*shading;
+        let names = &sample_colors[first as usize..first as usize + samples];
         let of_samples = names.iter().map(|&name| match name {
             NOBODY => frame.background_at(area, at),
             name => Vec4::from_array(colors[name as usize]),
         });
-        colors[pixel] = mean(of_samples, samples).to_array();
+        let color = mean(of_samples, samples);
+        visit(shading, pixel as usize, color);
     }
 }
 
@@ -121,10 +119,11 @@ fn store_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands
     for y in rows {
         for x in columns.clone() {
             let color = match axis {
-                1 => Vec4::from_array(scratch.colors[TileArea::index_of([x, y])]),
+                1 => Vec4::from_array(scratch.shading.colors[TileArea::index_of([x, y])]),
                 _ => {
                     let cells = (0..axis * axis).map(|i| [x * axis + i % axis, y * axis + i / axis]);
-                    let colors = cells.map(|cell| Vec4::from_array(scratch.colors[TileArea::index_of(cell)]));
+                    let colors =
+                        cells.map(|cell| Vec4::from_array(scratch.shading.colors[TileArea::index_of(cell)]));
                     mean(colors, axis * axis)
                 }
             };

@@ -1,6 +1,6 @@
 //! What shading has to know: the frame, the tile, and which pixels.
 
-use crate::bin::{Chunk, Place};
+use crate::bin::Place;
 use crate::frame::{DrawPlan, FrameView};
 use crate::geometry::Geometry;
 use crate::simd::{I32, Simd, U32, prelude::*};
@@ -44,22 +44,10 @@ impl<'f> ShadeContext<'f> {
         &self.frame.varyings[start..start + stride]
     }
 
-    /// The index in the draw of a triangle of the tile.
+    /// From how many f32 on the next vertex's varyings start.
     #[inline(always)]
-    pub(crate) fn primitive(&self, place: u32) -> u32 {
-        self.places[place as usize].ordinal - self.plan().ordinals.start
-    }
-
-    /// Whether a triangle of the tile is not simply a primitive.
-    #[inline(always)]
-    pub(crate) fn is_cut(&self, place: u32) -> bool {
-        !self.places[place as usize].is_whole()
-    }
-
-    /// The chunk of a triangle of the tile.
-    #[inline(always)]
-    pub(crate) fn chunk(&self, place: Place) -> &'f Chunk {
-        self.frame.chunk_of(place)
+    pub(crate) fn stride(&self) -> usize {
+        self.frame.pipeline(self.draw).stride()
     }
 }
 
@@ -95,15 +83,15 @@ impl Work {
         (self.spot & ((1 << Self::PARTLY) - 1)) as usize
     }
 
-    /// The corners of eight pixels in 1/256 pixel, and whether one of them may
-    /// be covered partly.
+    /// The corners of eight pixels in 1/256 pixel from the tile's, and whether one
+    /// of them may be covered partly.
     #[inline(always)]
-    pub(crate) fn corners<S: Simd>(spots: U32<S>, area: &TileArea) -> ([I32<S>; 2], bool) {
+    pub(crate) fn corners<S: Simd>(spots: U32<S>) -> ([I32<S>; 2], bool) {
         let simd = spots.token();
         let spots: I32<S> = spots.bitcast();
         let partly = spots.simd_ge(I32::splat(simd, 1 << Self::PARTLY)).any_true();
         let [x, y] = TileArea::pixels_at(spots & ((1 << Self::PARTLY) - 1));
-        ([(x + area.origin[0]) << 8, (y + area.origin[1]) << 8], partly)
+        ([x << 8, y << 8], partly)
     }
 }
 

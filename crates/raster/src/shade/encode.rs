@@ -1,6 +1,6 @@
 //! Linear light to bytes.
 
-use crate::simd::{Each, F32, I32, LANES, Simd, U32, greater, lanes_of, lesser, prelude::*};
+use crate::simd::{Each, F32, I32, LANES, Simd, U32, greater, lanes_of, lesser, prelude::*, transposed};
 use trigon_math::{Vec4, color};
 
 /// What the bytes of a picture mean.
@@ -22,6 +22,29 @@ impl Encoding {
                 color::linear_to_srgba8(straight)
             }
             Self::Unorm8 => value.to_array().map(unorm),
+        }
+    }
+
+    /// Colours as four bytes each, red in the lowest. Both lists are as long as the
+    /// shorter one, in whole eights.
+    #[inline(always)]
+    pub(crate) fn encode_all<S: Simd>(self, simd: S, colors: &[[f32; 4]], codes: &mut [u32]) {
+        let groups = colors.as_chunks::<LANES>().0;
+        for (colors, codes) in groups.iter().zip(codes.as_chunks_mut::<LANES>().0) {
+            let bits = colors.each_ref().each(
+                #[inline(always)]
+                |color| {
+                    color.each(
+                        #[inline(always)]
+                        |channel| channel.to_bits() as i32,
+                    )
+                },
+            );
+            let color = transposed(simd, bits.each_ref()).each(
+                #[inline(always)]
+                |channel| channel.bitcast::<F32<S>>(),
+            );
+            *codes = self.encode_lanes(simd, color);
         }
     }
 

@@ -1,7 +1,9 @@
 //! Pipelines of different types side by side: the type is forgotten once per
 //! draw and remembered once per run of a draw's pixels in a tile.
 
-use super::{Job, MAX_VARYINGS, ShadeContext, ShadeOutput, Work, run, scalar};
+use super::columns::Columns;
+use super::task::Task;
+use super::{MAX_VARYINGS, ShadeContext, ShadeOutput, run, scalar};
 use crate::LanePipeline;
 use crate::simd::{Token, at_level};
 use crate::vertex::{self, ScreenVertex, UsedVertices};
@@ -13,8 +15,9 @@ use trigon_math::Vec4;
 pub(crate) trait AnyPipeline: Sync {
     fn vertex_count(&self) -> usize;
 
-    /// How many f32 a vertex's varyings take.
-    fn varyings(&self) -> usize;
+    /// From how many f32 on the next vertex's varyings start: whole fours, so that
+    /// they are copied by four; fewer where there are fewer.
+    fn stride(&self) -> usize;
 
     /// Whether a triangle has the same colour all over.
     fn is_flat(&self) -> bool;
@@ -32,18 +35,24 @@ pub(crate) trait AnyPipeline: Sync {
     /// The clip-space position of a vertex.
     fn position(&self, token: Token, vertex: usize) -> Vec4;
 
-    /// Shades the pixels of some triangles of the draw.
+    /// Shades pixels of the draw; of a flat one, one of each triangle.
     fn shade(
         &self,
         token: Token,
         context: &ShadeContext<'_>,
-        jobs: &[Job],
-        work: &[Work],
+        list: (&Task<'_>, &mut Columns),
         output: &mut ShadeOutput<'_>,
     );
 
-    /// Asks whether fragments exist: 1 or 0 for each, at its output's place.
-    fn mask(&self, token: Token, context: &ShadeContext<'_>, jobs: &[Job], work: &[Work], kept: &mut [u8]);
+    /// Asks whether the fragments of a list exist: 1 or 0 for each, at its output's
+    /// place.
+    fn mask(
+        &self,
+        token: Token,
+        context: &ShadeContext<'_>,
+        list: (&Task<'_>, &mut Columns),
+        kept: &mut [u8],
+    );
 }
 
 impl<P: LanePipeline> AnyPipeline for P {
@@ -51,9 +60,9 @@ impl<P: LanePipeline> AnyPipeline for P {
         P::vertex_count(self)
     }
 
-    fn varyings(&self) -> usize {
+    fn stride(&self) -> usize {
         const { assert!(P::VARYINGS <= MAX_VARYINGS, "a pipeline has at most MAX_VARYINGS varyings") };
-        P::VARYINGS
+        stride(P::VARYINGS)
     }
 
     fn is_flat(&self) -> bool {
@@ -71,7 +80,7 @@ impl<P: LanePipeline> AnyPipeline for P {
         // The other branch is not compiled.
         if P::SCALAR {
             let pipeline = self.as_scalar().expect("a scalar pipeline");
-            vertex::run_scalar(token, (pipeline, P::VARYINGS), (used, slots), viewport, out);
+            vertex::run_scalar(token, (pipeline, stride(P::VARYINGS)), (used, slots), viewport, out);
         } else {
             at_level!(token, simd => vertex::run(simd, self, (used, slots), viewport, out));
         }
@@ -91,28 +100,36 @@ impl<P: LanePipeline> AnyPipeline for P {
         &self,
         token: Token,
         context: &ShadeContext<'_>,
-        jobs: &[Job],
-        work: &[Work],
+        list: (&Task<'_>, &mut Columns),
         output: &mut ShadeOutput<'_>,
     ) {
         if P::SCALAR {
             let pipeline = self.as_scalar().expect("a scalar pipeline");
-            scalar::shade(token, (pipeline, P::VARYINGS), context, (jobs, work), output);
-        } else if P::FLAT {
-            at_level!(token, simd => run::shade_flat(simd, self, context, (jobs, work), output));
+            scalar::shade(token, pipeline, context, list, output);
         } else {
-            at_level!(token, simd => run::shade(simd, self, context, (jobs, work), output));
+            at_level!(token, simd => run::shade(simd, self, context, list, output));
         }
     }
 
-    fn mask(&self, token: Token, context: &ShadeContext<'_>, jobs: &[Job], work: &[Work], kept: &mut [u8]) {
+    fn mask(
+        &self,
+        token: Token,
+        context: &ShadeContext<'_>,
+        list: (&Task<'_>, &mut Columns),
+        kept: &mut [u8],
+    ) {
         if P::SCALAR {
             let pipeline = self.as_scalar().expect("a scalar pipeline");
-            scalar::mask(token, (pipeline, P::VARYINGS), context, (jobs, work), kept);
+            scalar::mask(token, pipeline, context, list, kept);
         } else if P::MASKED {
-            at_level!(token, simd => run::mask(simd, self, context, (jobs, work), kept));
+            at_level!(token, simd => run::mask(simd, self, context, list, kept));
         } else {
             kept.fill(1);
         }
     }
+}
+
+/// See [`AnyPipeline::stride`].
+pub(crate) const fn stride(varyings: usize) -> usize {
+    if varyings < 3 { varyings } else { varyings.next_multiple_of(4) }
 }

@@ -1,88 +1,60 @@
 //! What a pipeline knows when it shades eight pixels.
 
+use super::ShadeContext;
+use super::records::{Records, flag, hot};
 use super::weights::Weights;
-use crate::geometry::Geometry;
-use crate::simd::{Each, F32, I32, LANES, Simd, greater, lesser, prelude::*};
+use crate::simd::{Each, F32, I32, LANES, Row, Simd, greater, lesser, prelude::*};
 use crate::{Fragment, Varyings};
 use trigon_math::{UVec2, Vec2};
 
-/// A varying at the three corners of each lane's triangle.
-#[derive(Clone, Copy)]
-pub(crate) struct CornerValues {
-    pub(crate) corners: [[f32; LANES]; 3],
-    pub(crate) low: [f32; LANES],
-    pub(crate) high: [f32; LANES],
-}
-
-impl CornerValues {
-    pub(crate) const ZERO: Self = Self { corners: [[0.0; LANES]; 3], low: [0.0; LANES], high: [0.0; LANES] };
-
-    /// The values with their range.
-    #[inline(always)]
-    pub(crate) fn new<S: Simd>(simd: S, corners: [[f32; LANES]; 3]) -> Self {
-        let [a, b, c] = corners.each(
-            #[inline(always)]
-            |corner| F32::simd_from(simd, corner),
-        );
-        let low = lesser(lesser(a, b), c).into();
-        let high = greater(greater(a, b), c).into();
-        Self { corners, low, high }
-    }
-}
-
-/// What the lanes' triangles are.
-#[derive(Clone, Copy)]
-pub(crate) struct LaneTriangles<'a> {
-    pub(crate) geometry: &'a Geometry<'a>,
-    pub(crate) primitives: [u32; LANES],
-    /// The corners that the shares belong to.
-    pub(crate) corners: [[i32; LANES]; 3],
-    /// The lanes that show their back.
-    pub(crate) backs: u64,
-    /// Whether there are edges to measure a distance to.
-    pub(crate) has_edges: bool,
-}
-
 /// Up to eight visible pixels, to be shaded together.
 ///
-/// Every lane is a function of its own triangle and pixel alone. Lanes beyond
-/// the count hold something, and what they give is ignored.
+/// Every lane is a function of its own triangle and pixel alone. Lanes that are
+/// not [active](Self::active) hold something, and what they give is ignored.
 pub struct FragmentLanes<'a, S: Simd> {
     pub(crate) simd: S,
-    pub(crate) count: usize,
-    pub(crate) varyings: &'a [CornerValues],
+    pub(crate) active: u64,
+    /// The varyings at the corners: `stride` for each of three.
+    pub(crate) varyings: &'a [Row],
+    pub(crate) stride: usize,
     pub(crate) place: Weights<S>,
-    /// In 1/256 internal pixel.
-    pub(crate) x: I32<S>,
-    pub(crate) y: I32<S>,
-    /// Internal pixels for each output pixel and axis.
-    pub(crate) supersampling: u32,
-    pub(crate) triangles: &'a LaneTriangles<'a>,
+    /// In 1/256 internal pixel from the tile's corner.
+    pub(crate) point: [I32<S>; 2],
+    /// The columns that are always loaded, of the triangles' records.
+    pub(crate) hot: &'a [Row; hot::COUNT],
+    pub(crate) slots: [u32; LANES],
+    pub(crate) records: &'a Records,
+    pub(crate) context: ShadeContext<'a>,
 }
 
 impl<S: Simd> FragmentLanes<'_, S> {
-    /// How many lanes there are, 1 to 8.
+    /// The lanes that are asked for: bit `i` for lane `i`, at least one.
     #[inline(always)]
-    pub fn count(&self) -> usize {
-        self.count
+    pub fn active(&self) -> u64 {
+        self.active
     }
 
     /// The varying `index`, perspective-correct, within the range of the
     /// vertices' values and exactly constant where those are equal.
     #[inline(always)]
     pub fn varying(&self, index: usize) -> F32<S> {
-        let values = &self.varyings[index];
-        let [a, b, c] = values.corners.each(
-            #[inline(always)]
-            |corner| F32::simd_from(self.simd, corner),
-        );
+        let [a, b, c] = self.corners(index);
         let [u, v, w] = self.place.weights;
         let value = a * u + b * v + c * w;
-        let [low, high] = [values.low, values.high].each(
-            #[inline(always)]
-            |bound| F32::simd_from(self.simd, bound),
-        );
+        let (low, high) = (lesser(lesser(a, b), c), greater(greater(a, b), c));
         lesser(greater(value, low), high)
+    }
+
+    /// A varying at the three corners.
+    #[inline(always)]
+    fn corners(&self, index: usize) -> [F32<S>; 3] {
+        [0, 1, 2].each(
+            #[inline(always)]
+            |corner| {
+                let row = self.varyings[corner * self.stride + index];
+                I32::simd_from(self.simd, row).bitcast()
+            },
+        )
     }
 
     /// The varyings from `first` on, as many as the array asks for.
@@ -100,10 +72,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
     /// what a texture look-up needs.
     #[inline(always)]
     pub fn gradient(&self, index: usize) -> [F32<S>; 2] {
-        let [a, b, c] = self.varyings[index].corners.each(
-            #[inline(always)]
-            |corner| F32::simd_from(self.simd, corner),
-        );
+        let [a, b, c] = self.corners(index);
         let [to_b, to_c] = [b - a, c - a];
         let [v, w] = self.place.slopes;
         [to_b * v[0] + to_c * w[0], to_b * v[1] + to_c * w[1]]
@@ -112,48 +81,54 @@ impl<S: Simd> FragmentLanes<'_, S> {
     /// 1/w, interpolated; > 0.
     #[inline(always)]
     pub fn inverse_w(&self) -> F32<S> {
-        self.place.inverse_w
+        self.place.inverse_w(self.simd, &self.records.cold(self.simd, self.slots))
     }
 
     /// Reversed depth: 1 at the near plane, 0 at the far plane or infinity.
     #[inline(always)]
     pub fn depth(&self) -> F32<S> {
-        self.place.depth
+        self.place.depth(self.simd, &self.records.cold(self.simd, self.slots))
     }
 
     /// Where the fragments lie in pixels of the target, x to the right, y down;
     /// the centre of the first pixel is (0.5, 0.5).
     #[inline(always)]
     pub fn position(&self) -> [F32<S>; 2] {
-        let pixel = F32::splat(self.simd, 256.0 * self.supersampling as f32);
-        [self.x, self.y].each(
+        let pixel = F32::splat(self.simd, 256.0 * self.context.frame.supersampling as f32);
+        [0, 1].each(
             #[inline(always)]
-            |place| place.to_float::<F32<S>>() / pixel,
+            |axis| {
+                let place = self.point[axis] + self.context.area.origin[axis] * 256;
+                place.to_float::<F32<S>>() / pixel
+            },
         )
     }
 
     /// The index of the triangle, segment or point in its draw, for each lane.
     #[inline(always)]
     pub fn primitives(&self) -> [u32; LANES] {
-        self.triangles.primitives
+        self.hot[hot::PRIMITIVE].each(i32::cast_unsigned)
     }
 
-    /// Calls `visit` with each lane as a fragment of its own.
+    /// Calls `visit` with each active lane as a fragment of its own.
     #[inline(always)]
     pub(crate) fn for_each(&self, mut visit: impl FnMut(usize, RawFragment<'_>)) {
         let mut rows = Rows::new();
-        for index in 0..self.varyings.len() {
+        for index in 0..self.stride {
             let [dx, dy] = self.gradient(index);
             rows.set(index, [self.varying(index), dx, dy]);
         }
         let [x, y]: [[f32; LANES]; 2] = self.position().each(Into::into);
-        let depth: [f32; LANES] = self.place.depth.into();
-        let inverse_w: [f32; LANES] = self.place.inverse_w.into();
+        let cold = self.records.cold(self.simd, self.slots);
+        let depth: [f32; LANES] = self.place.depth(self.simd, &cold).into();
+        let inverse_w: [f32; LANES] = self.place.inverse_w(self.simd, &cold).into();
+        let geometry = self.context.geometry();
+        let supersampling = self.context.frame.supersampling as f32;
         let distances: [[f32; LANES]; 3] = self.place.distances.each(Into::into);
-        for lane in 0..self.count {
-            let LaneTriangles { geometry, primitives, backs, .. } = *self.triangles;
-            let edge_distances =
-                self.triangles.distances(lane, distances.map(|d| d[lane] / self.supersampling as f32));
+        for lane in (0..LANES).filter(|lane| self.active >> lane & 1 != 0) {
+            let primitive = self.hot[hot::PRIMITIVE][lane].cast_unsigned();
+            let flags = self.hot[hot::FLAGS][lane];
+            let opposite = distances.map(|d| d[lane] / supersampling);
             let fragment = Fragment {
                 varyings: (),
                 ddx: (),
@@ -162,32 +137,30 @@ impl<S: Simd> FragmentLanes<'_, S> {
                 position: Vec2::new(x[lane], y[lane]),
                 depth: depth[lane],
                 inverse_w: inverse_w[lane],
-                triangle: primitives[lane],
-                face: geometry.face(primitives[lane]),
-                front_facing: backs >> lane & 1 == 0,
-                edge_distances,
-                edge_flags: geometry.edge_flags(primitives[lane]),
+                triangle: primitive,
+                face: geometry.face(primitive),
+                front_facing: flags & flag::BACK == 0,
+                edge_distances: edge_distances(flags, opposite),
+                edge_flags: geometry.edge_flags(primitive),
             };
-            let [varyings, ddx, ddy] = rows.of(lane, self.varyings.len());
+            let [varyings, ddx, ddy] = rows.of(lane, self.stride);
             visit(lane, RawFragment { fragment, varyings, ddx, ddy });
         }
     }
 }
 
-impl LaneTriangles<'_> {
-    /// A lane's distances to the edges, from those to the sides opposite the
-    /// shares' corners.
-    #[inline(always)]
-    fn distances(&self, lane: usize, opposite: [f32; 3]) -> [f32; 3] {
-        let mut distances = [f32::INFINITY; 3];
-        if self.has_edges {
-            for (corner, distance) in self.corners.iter().zip(opposite) {
-                // Opposite to corner k lies the edge from k + 1 to k + 2.
-                distances[(corner[lane] as usize + 1) % 3] = distance;
-            }
+/// Distances to the edges, from those to the sides opposite the vertices.
+#[inline(always)]
+fn edge_distances(flags: i32, opposite: [f32; 3]) -> [f32; 3] {
+    let mut distances = [f32::INFINITY; 3];
+    if flags & flag::EDGES != 0 {
+        for (vertex, distance) in opposite.into_iter().enumerate() {
+            // Opposite to corner k lies the edge from k + 1 to k + 2.
+            let corner = (flags >> (2 * vertex) & 3) as usize;
+            distances[(corner + 1) % 3] = distance;
         }
-        distances
     }
+    distances
 }
 
 /// A fragment whose varyings are still rows of components.

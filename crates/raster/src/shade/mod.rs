@@ -1,21 +1,27 @@
 //! The fragment stage: what is seen at each pixel gets its colour.
 
+mod columns;
 mod context;
 mod encode;
 mod erased;
 mod fragment_lanes;
-mod mixed;
+mod list;
 mod output;
+mod records;
 mod run;
 mod scalar;
-mod uniform;
+mod shading;
+mod surface;
+mod task;
 mod visible;
 mod weights;
 
 pub(crate) use context::{Job, ShadeContext, Work};
 pub(crate) use encode::Encoding;
-pub(crate) use erased::AnyPipeline;
-pub(crate) use fragment_lanes::{CornerValues, LaneTriangles};
+pub(crate) use erased::{AnyPipeline, stride};
 pub use fragment_lanes::{FragmentLanes, MAX_VARYINGS, RawFragment};
+pub(crate) use list::{mask_jobs, shade_jobs};
 pub(crate) use output::ShadeOutput;
-pub(crate) use visible::{shade_jobs, shade_to_codes, shade_to_colors};
+use records::Records;
+pub(crate) use shading::{EdgePixel, Shading};
+pub(crate) use surface::shade_tile;

@@ -1,7 +1,8 @@
 //! Where colours go.
 
-use super::{Encoding, Work};
-use crate::simd::{Each, F32, LANES, Simd};
+use super::Encoding;
+use super::task::Destination;
+use crate::simd::{Each, F32, LANES, Simd, lanes_of};
 
 /// The colours of a tile's pixels or fragments.
 pub(crate) enum ShadeOutput<'a> {
@@ -14,40 +15,45 @@ pub(crate) enum ShadeOutput<'a> {
 impl ShadeOutput<'_> {
     /// Writes up to eight colours, each to its place.
     #[inline(always)]
-    pub(super) fn write<S: Simd>(&mut self, simd: S, color: [F32<S>; 4], work: &[Work]) {
+    pub(super) fn write<S: Simd>(&mut self, simd: S, color: [F32<S>; 4], to: Destination<'_>) {
         match self {
             Self::Codes(codes, encoding) => {
-                for (work, code) in work.iter().zip(encoding.encode_lanes(simd, color)) {
-                    codes[work.output as usize] = code;
+                let encoded = encoding.encode_lanes(simd, color);
+                match to {
+                    Destination::Group(first) => codes[first..first + LANES].copy_from_slice(&encoded),
+                    Destination::Listed(fragments) => {
+                        for (fragment, code) in fragments.iter().zip(encoded) {
+                            codes[fragment.work.output as usize] = code;
+                        }
+                    }
                 }
             }
             Self::Colors(colors) => {
-                let channels: [[f32; LANES]; 4] = color.each(Into::into);
-                for (lane, work) in work.iter().enumerate() {
-                    colors[work.output as usize] = channels.each(
-                        #[inline(always)]
-                        |channel| channel[lane],
-                    );
+                let rows = rows(color);
+                match to {
+                    Destination::Group(first) => colors[first..first + LANES].copy_from_slice(&rows),
+                    Destination::Listed(fragments) => {
+                        for (fragment, color) in fragments.iter().zip(rows) {
+                            colors[fragment.work.output as usize] = color;
+                        }
+                    }
                 }
             }
         }
     }
+}
 
-    /// Writes the first lane's color to many places.
-    #[inline(always)]
-    pub(super) fn fill<S: Simd>(&mut self, simd: S, color: [F32<S>; 4], work: &[Work]) {
-        match self {
-            Self::Codes(codes, encoding) => {
-                let [code, ..] = encoding.encode_lanes(simd, color);
-                work.iter().for_each(|work| codes[work.output as usize] = code);
-            }
-            Self::Colors(colors) => {
-                let color = color.each(
-                    #[inline(always)]
-                    |channel| channel[0],
-                );
-                work.iter().for_each(|work| colors[work.output as usize] = color);
-            }
-        }
-    }
+/// Channels in lanes as colours one after the other.
+#[inline(always)]
+fn rows<S: Simd>(color: [F32<S>; 4]) -> [[f32; 4]; LANES] {
+    let channels: [[f32; LANES]; 4] = color.each(Into::into);
+    lanes_of(
+        #[inline(always)]
+        |lane| {
+            channels.each(
+                #[inline(always)]
+                |channel| channel[lane],
+            )
+        },
+    )
 }

@@ -1,22 +1,12 @@
-//! Shades a list of pixels of one draw in full vectors: those of a large
-//! triangle together, those of small ones side by side. Which way a pixel takes
-//! changes nothing.
+//! Shades what is visible of one draw in full vectors, whichever triangles their
+//! pixels belong to.
 
-use super::mixed::{Mixed, mixed};
-use super::uniform::uniform;
+use super::columns::Columns;
+use super::task::{Task, Vector};
 use super::weights::TriangleLanes;
-use super::{CornerValues, FragmentLanes, Job, LaneTriangles, MAX_VARYINGS, ShadeContext, ShadeOutput, Work};
+use super::{FragmentLanes, Records, ShadeContext, ShadeOutput, Work};
 use crate::LanePipeline;
-use crate::simd::{Each, F32, I32, LANES, Simd, U32, lanes_of, prelude::*};
-
-/// From this many pixels on a triangle gets vectors of its own.
-const UNIFORM: usize = 5;
-
-/// Vectors that have been made ready.
-pub(super) struct Batch<'f, S: Simd> {
-    pub(super) triangle: TriangleLanes<S>,
-    pub(super) triangles: LaneTriangles<'f>,
-}
+use crate::simd::{Each, F32, I32, Simd, U32, prelude::*};
 
 /// Writes the colours of all pixels.
 #[inline(always)]
@@ -24,143 +14,101 @@ pub(super) fn shade<S: Simd, P: LanePipeline>(
     simd: S,
     pipeline: &P,
     context: &ShadeContext<'_>,
-    (jobs, work): (&[Job], &[Work]),
+    (task, columns): (&Task<'_>, &mut Columns),
     output: &mut ShadeOutput<'_>,
 ) {
     for_each_vector(
         simd,
         context,
-        P::VARYINGS,
-        (jobs, work),
+        (task, columns),
         #[inline(always)]
-        |fragments, work| {
-            output.write(simd, finite(simd, pipeline.fragments(simd, fragments)), work);
+        |fragments, vector| {
+            let color = finite(simd, pipeline.fragments(simd, fragments));
+            output.write(simd, color, vector.destination);
         },
     );
 }
 
-/// Writes for each pixel whether its fragment exists.
+/// Writes for each fragment of a list whether it exists.
 #[inline(always)]
 pub(super) fn mask<S: Simd, P: LanePipeline>(
     simd: S,
     pipeline: &P,
     context: &ShadeContext<'_>,
-    (jobs, work): (&[Job], &[Work]),
+    (task, columns): (&Task<'_>, &mut Columns),
     kept: &mut [u8],
 ) {
     for_each_vector(
         simd,
         context,
-        P::VARYINGS,
-        (jobs, work),
+        (task, columns),
         #[inline(always)]
-        |fragments, work| {
+        |fragments, vector| {
             let mask = pipeline.masks(simd, fragments).to_bitmask();
-            for (lane, work) in work.iter().enumerate() {
-                kept[work.output as usize] = (mask >> lane & 1) as u8;
+            for (lane, fragment) in vector.fragments().iter().enumerate() {
+                kept[fragment.work.output as usize] = (mask >> lane & 1) as u8;
             }
         },
     );
 }
 
-/// One colour for each triangle, asked at the first of its pixels.
-#[inline(always)]
-pub(super) fn shade_flat<S: Simd, P: LanePipeline>(
-    simd: S,
-    pipeline: &P,
-    context: &ShadeContext<'_>,
-    (jobs, work): (&[Job], &[Work]),
-    output: &mut ShadeOutput<'_>,
-) {
-    let mut values = [CornerValues::ZERO; MAX_VARYINGS];
-    for job in jobs {
-        let batch = uniform(simd, context, job.place, &mut values[..P::VARYINGS]);
-        let all = &work[job.work.clone()];
-        let fragments = fragments(simd, context, &batch, &values[..P::VARYINGS], &all[..1]);
-        let color = finite(simd, pipeline.fragments(simd, &fragments));
-        output.fill(simd, color, all);
-    }
-}
-
-/// Calls `visit` with vectors that cover all pixels, each with its own part of
-/// the work.
+/// Calls `visit` with vectors that cover all pixels.
 #[inline(always)]
 pub(super) fn for_each_vector<S: Simd>(
     simd: S,
     context: &ShadeContext<'_>,
-    stride: usize,
-    (jobs, work): (&[Job], &[Work]),
-    mut visit: impl FnMut(&FragmentLanes<'_, S>, &[Work]),
+    (task, columns): (&Task<'_>, &mut Columns),
+    mut visit: impl FnMut(&FragmentLanes<'_, S>, &Vector<'_>),
 ) {
-    let mut values = [CornerValues::ZERO; MAX_VARYINGS];
-    let mut waiting = Mixed::default();
-    let mut jobs = jobs.iter();
-    let mut together = [Work::default(); LANES];
-    loop {
-        let job = if waiting.is_full() { None } else { jobs.next() };
-        let (batch, work) = match job {
-            Some(job) => {
-                let all = &work[job.work.clone()];
-                let whole = if context.is_cut(job.place) { all.len() } else { full(all.len()) };
-                waiting.extend(job.place, &all[whole..]);
-                if whole == 0 {
-                    continue;
-                }
-                (uniform(simd, context, job.place, &mut values[..stride]), &all[..whole])
-            }
-            None if waiting.is_empty() => return,
-            None => mixed(simd, context, (&mut waiting, &mut together), &mut values[..stride]),
-        };
-        for work in work.chunks(LANES) {
-            visit(&fragments(simd, context, &batch, &values[..stride], work), work);
-        }
+    columns.reset();
+    for number in 0..task.vectors() {
+        // Apart, so that it is compiled once for all pipelines.
+        let vector = simd.vectorize(
+            #[inline(always)]
+            || {
+                let vector = task.vector(simd, number);
+                columns.load(simd, context, task.records, vector.slots);
+                vector
+            },
+        );
+        visit(&fragments(simd, context, (task.records, columns), &vector), &vector);
     }
 }
 
-/// How many of a triangle's pixels are shaded in vectors of its own; the rest
-/// shares one with other triangles.
-#[inline(always)]
-fn full(count: usize) -> usize {
-    if count % LANES < UNIFORM { count - count % LANES } else { count }
-}
-
-/// The fragments of up to eight pixels.
+/// The fragments of a vector.
 #[inline(always)]
 fn fragments<'v, S: Simd>(
     simd: S,
-    context: &ShadeContext<'_>,
-    batch: &'v Batch<'_, S>,
-    varyings: &'v [CornerValues],
-    work: &[Work],
+    context: &ShadeContext<'v>,
+    (records, columns): (&'v Records, &'v Columns),
+    vector: &Vector<'_>,
 ) -> FragmentLanes<'v, S> {
-    let [x, y] = points(simd, context, &batch.triangle, work);
+    let triangles = TriangleLanes::load(simd, columns);
+    let point = points(simd, context, &triangles, U32::simd_from(simd, vector.spots));
     FragmentLanes {
         simd,
-        count: work.len(),
-        varyings,
-        place: batch.triangle.at(simd, x, y),
-        x,
-        y,
-        supersampling: context.frame.supersampling,
-        triangles: &batch.triangles,
+        active: vector.active,
+        hot: columns.hot(),
+        varyings: columns.varyings(),
+        stride: records.shape().stride,
+        place: triangles.at(simd, point),
+        point,
+        slots: vector.slots,
+        records,
+        context: *context,
     }
 }
 
-/// Where up to eight pixels are shaded, in 1/256 pixel: at their centre, or if
+/// Where up to eight pixels are shaded, in 1/256 pixel from the tile's corner: at their centre, or if
 /// their triangle does not cover it at the lowest-numbered sample that it covers.
 #[inline(always)]
 fn points<S: Simd>(
     simd: S,
     context: &ShadeContext<'_>,
-    triangle: &TriangleLanes<S>,
-    work: &[Work],
+    triangle: &TriangleLanes<'_, S>,
+    spots: U32<S>,
 ) -> [I32<S>; 2] {
-    // Lanes to spare repeat the first.
-    let spots = lanes_of(
-        #[inline(always)]
-        |lane| work.get(lane).unwrap_or(&work[0]).spot(),
-    );
-    let (corners, partly) = Work::corners(U32::simd_from(simd, spots), &context.area);
+    let (corners, partly) = Work::corners(spots);
     let centre = corners.each(
         #[inline(always)]
         |column| column + 128,

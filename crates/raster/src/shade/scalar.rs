@@ -1,20 +1,19 @@
 //! Shading for pipelines that shade one fragment at a time: compiled once for
 //! all of them, and not for each at every level.
 
+use super::columns::Columns;
 use super::run::{finite, for_each_vector};
-use super::{Job, ShadeContext, ShadeOutput, Work};
+use super::task::Task;
+use super::{ShadeContext, ShadeOutput};
 use crate::pipeline::ScalarPipeline;
 use crate::simd::{Each, F32, LANES, Simd, Token, at_level, prelude::*};
-
-/// A pipeline and the number of its varyings.
-type Pipeline<'p> = (&'p dyn ScalarPipeline, usize);
 
 /// Writes the colours of all pixels.
 pub(super) fn shade(
     token: Token,
-    pipeline: Pipeline<'_>,
+    pipeline: &dyn ScalarPipeline,
     context: &ShadeContext<'_>,
-    list: (&[Job], &[Work]),
+    list: (&Task<'_>, &mut Columns),
     output: &mut ShadeOutput<'_>,
 ) {
     at_level!(token, simd => shade_lanes(simd, pipeline, context, list, output));
@@ -23,18 +22,17 @@ pub(super) fn shade(
 #[inline(always)]
 fn shade_lanes<S: Simd>(
     simd: S,
-    (pipeline, stride): Pipeline<'_>,
+    pipeline: &dyn ScalarPipeline,
     context: &ShadeContext<'_>,
-    list: (&[Job], &[Work]),
+    list: (&Task<'_>, &mut Columns),
     output: &mut ShadeOutput<'_>,
 ) {
     for_each_vector(
         simd,
         context,
-        stride,
         list,
         #[inline(always)]
-        |fragments, work| {
+        |fragments, vector| {
             let mut colors = [[0.0; LANES]; 4];
             fragments.for_each(|lane, fragment| {
                 for (column, value) in colors.iter_mut().zip(pipeline.run_fragment(&fragment)) {
@@ -45,22 +43,22 @@ fn shade_lanes<S: Simd>(
                 #[inline(always)]
                 |column| F32::simd_from(simd, column),
             );
-            output.write(simd, finite(simd, color), work);
+            output.write(simd, finite(simd, color), vector.destination);
         },
     );
 }
 
-/// Writes for each pixel whether its fragment exists.
+/// Writes for each fragment of a list whether it exists.
 pub(super) fn mask(
     token: Token,
-    (pipeline, stride): Pipeline<'_>,
+    pipeline: &dyn ScalarPipeline,
     context: &ShadeContext<'_>,
-    list: (&[Job], &[Work]),
+    list: (&Task<'_>, &mut Columns),
     kept: &mut [u8],
 ) {
-    at_level!(token, simd => for_each_vector(simd, context, stride, list, #[inline(always)] |fragments, work| {
+    at_level!(token, simd => for_each_vector(simd, context, list, #[inline(always)] |fragments, vector| {
         fragments.for_each(|lane, fragment| {
-            kept[work[lane].output as usize] = u8::from(pipeline.run_mask(&fragment));
+            kept[vector.fragments()[lane].work.output as usize] = u8::from(pipeline.run_mask(&fragment));
         });
     }));
 }

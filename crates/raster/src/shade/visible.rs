@@ -1,198 +1,179 @@
-//! Which pixels each triangle of a tile is seen at.
+//! Which triangles of a tile are seen, and at which pixels.
 
-use super::{Encoding, Job, ShadeContext, ShadeOutput, Work};
+use super::Work;
+use super::shading::{EdgePixel, Run, Shading};
+use super::task::{Fragment, Group};
+use crate::bin::Place;
 use crate::frame::FrameView;
-use crate::simd::LANES;
-use crate::tile::{EdgePixel, NOBODY, PIXELS, Scratch, TileArea};
+use crate::simd::{LANES, Mask, Simd, U32, prelude::*};
+use crate::tile::{NOBODY, PIXELS, VisibilityBuffer};
 
-/// Shades every visible pixel of a tile once, straight to bytes.
-pub(crate) fn shade_to_codes(
-    frame: &FrameView<'_>,
-    area: &TileArea,
-    scratch: &mut Scratch,
-    encoding: Encoding,
-) {
-    if frame.plan.is_flat {
-        return shade_flat(frame, area, scratch, encoding);
-    }
-    scratch.stats.pixels_shaded += list_pixels(scratch) as u64;
-    let Scratch { codes, places, jobs, work, .. } = scratch;
-    let mut output = ShadeOutput::Codes(codes, encoding);
-    shade_jobs(frame, area, (places, jobs, work), &mut output);
-}
+/// Groups with fewer pixels than this that see anything share vectors with others.
+const FULL: u32 = 4;
 
-/// Shades every visible triangle of a tile once, and gives its colour to all of
-/// its pixels.
-fn shade_flat(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch, encoding: Encoding) {
-    let Scratch { buffer, counts, jobs, work, places, place_codes, codes, .. } = scratch;
-    let winners = &buffer.winner[..buffer.span()];
-    // The first pixel of each triangle that is seen.
-    counts.clear();
-    counts.resize(places.len(), NOBODY);
-    for (pixel, &winner) in winners.iter().enumerate() {
-        if winner != NOBODY && counts[winner as usize] == NOBODY {
-            counts[winner as usize] = pixel as u32;
-        }
-    }
-    jobs.clear();
-    work.clear();
-    for (place, &pixel) in counts.iter().enumerate().filter(|&(_, &pixel)| pixel != NOBODY) {
-        jobs.push(Job { place: place as u32, work: work.len()..work.len() + 1 });
-        work.push(Work::anywhere(pixel as usize, false, place));
-    }
-    if place_codes.len() < places.len() {
-        place_codes.resize(places.len(), 0);
-    }
-    shade_jobs(frame, area, (places, jobs, work), &mut ShadeOutput::Codes(place_codes, encoding));
-    for (code, &winner) in codes.iter_mut().zip(winners) {
-        if winner != NOBODY {
-            *code = place_codes[winner as usize];
-        }
-    }
-    scratch.stats.pixels_shaded += work.len() as u64;
-}
-
-/// Shades every visible triangle once at every pixel of a tile, in linear
-/// light.
-pub(crate) fn shade_to_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) {
-    let fragments = if frame.is_multisampled() { list_samples(scratch) } else { list_pixels(scratch) };
-    scratch.stats.pixels_shaded += fragments as u64;
-    let Scratch { colors, places, jobs, work, .. } = scratch;
-    shade_jobs(frame, area, (places, jobs, work), &mut ShadeOutput::Colors(colors));
-}
-
-/// Shades jobs in the order of their draws.
-pub(crate) fn shade_jobs(
-    frame: &FrameView<'_>,
-    area: &TileArea,
-    (places, jobs, work): (&[crate::bin::Place], &[Job], &[Work]),
-    output: &mut ShadeOutput<'_>,
-) {
-    let draw = |job: &Job| frame.draw_of(places[job.place as usize]);
-    let mut rest = jobs;
-    while let Some(first) = rest.first() {
-        let draw_number = draw(first);
-        let end = frame.plan.draws[draw_number].ordinals.end;
-        let count = rest.partition_point(|job| places[job.place as usize].ordinal < end);
-        let (run, after) = rest.split_at(count);
-        let context = ShadeContext { frame, area: *area, places, draw: draw_number };
-        frame.pipeline(draw_number).shade(frame.token, &context, run, work, output);
-        rest = after;
-    }
-}
-
-/// With one sample: a pixel's colour goes to the pixel's place. Sorted by
-/// triangle, by counting.
-fn list_pixels(scratch: &mut Scratch) -> usize {
-    let Scratch { buffer, counts, jobs, work, places, .. } = scratch;
-    let winners = &buffer.winner[..buffer.span()];
-    counts.clear();
-    counts.resize(places.len(), 0);
-    for group in winners.chunks_exact(LANES) {
-        let first = group[0];
-        if group.iter().all(|&winner| winner == first) {
-            if first != NOBODY {
-                counts[first as usize] += LANES as u32;
-            }
+/// Lists what is visible in a tile: the triangles, and the pixels that they are
+/// seen at. Tells how many fragments are to be shaded.
+#[inline(always)]
+pub(super) fn list<S: Simd>(
+    simd: S,
+    buffer: &VisibilityBuffer,
+    places: usize,
+    shading: &mut Shading,
+) -> usize {
+    let winners = buffer.winners();
+    number(simd, winners, places, shading);
+    shading.groups.clear();
+    shading.fragments.clear();
+    shading.parts.clear();
+    shading.edge_pixels.clear();
+    shading.sample_colors.clear();
+    let mut pixels = 0;
+    for (group, rows) in winners.chunks_exact(LANES * buffer.samples).enumerate() {
+        let (first, others) = rows.split_at(LANES);
+        let lanes = U32::from_slice(simd, first);
+        let agree = others.chunks_exact(LANES).fold(
+            Mask::splat(simd, true),
+            #[inline(always)]
+            |agree, row| agree & lanes.simd_eq(U32::from_slice(simd, row)),
+        );
+        let agree = agree.to_bitmask();
+        let seen = !lanes.simd_eq(U32::splat(simd, NOBODY)).to_bitmask() & agree;
+        pixels += seen.count_ones();
+        if agree == 0xff && seen.count_ones() >= FULL {
+            let slot = shading.slots[first[seen.trailing_zeros() as usize] as usize];
+            shading.groups.push(Group { slot, number: group as u32 });
             continue;
         }
-        for &winner in group.iter().filter(|&&winner| winner != NOBODY) {
-            counts[winner as usize] += 1;
-        }
+        push_lanes(shading, (group, first), seen);
+        push_edges(shading, (group, rows), !agree & 0xff);
     }
-    let total = make_jobs(counts, jobs);
-    if work.len() < total {
-        work.resize(total, Work::default());
+    let needed = PIXELS + shading.parts.len();
+    if shading.colors.len() < needed {
+        shading.colors.resize(needed, [0.0; 4]);
     }
-    for (pixel, &winner) in winners.iter().enumerate() {
-        if winner != NOBODY {
-            let next = &mut counts[winner as usize];
-            work[*next as usize] = Work::anywhere(pixel, false, pixel);
-            *next += 1;
-        }
-    }
-    total
+    pixels as usize + shading.parts.len()
 }
 
-/// Turns the counts of the triangles' pixels into the places where each
-/// triangle's begin.
-fn make_jobs(counts: &mut [u32], jobs: &mut Vec<Job>) -> usize {
-    jobs.clear();
-    let mut start = 0;
-    for (place, count) in counts.iter_mut().enumerate() {
-        if *count > 0 {
-            let end = start + *count as usize;
-            jobs.push(Job { place: place as u32, work: start..end });
-            *count = start as u32;
-            start = end;
-        }
-    }
-    start
-}
-
-/// With several samples: where all see one triangle, its colour goes to the
-/// pixel's place; else each triangle's has a place of its own, and an edge pixel
-/// names those of its samples.
-fn list_samples(scratch: &mut Scratch) -> usize {
-    let Scratch { buffer, counts, jobs, work, places, edge_pixels, sample_colors, colors, .. } = scratch;
-    edge_pixels.clear();
-    sample_colors.clear();
-    counts.clear();
-    counts.resize(places.len(), 0);
-    let samples = buffer.samples;
-    let mut fragments = 0;
-    // First each fragment in the order of the pixels, then sorted.
-    let mut unsorted = std::mem::take(&mut scratch.fragments);
-    unsorted.clear();
-    let groups = buffer.winner[..buffer.span() * samples].chunks_exact(samples * LANES);
-    for (group, winners) in groups.enumerate() {
-        if winners.iter().all(|&winner| winner == NOBODY) {
+/// Finds the triangles that are seen and numbers them in their order.
+#[inline(always)]
+fn number<S: Simd>(simd: S, winners: &[u32], places: usize, shading: &mut Shading) {
+    let Shading { slots, seen, .. } = shading;
+    slots.clear();
+    // One more, for nobody.
+    slots.resize(places + 1, 0);
+    let mut last = NOBODY;
+    for row in winners.chunks_exact(LANES) {
+        if U32::from_slice(simd, row).simd_eq(U32::splat(simd, last)).all_true() {
             continue;
         }
-        let agree = winners.chunks_exact(LANES).all(|row| row == &winners[..LANES]);
-        for lane in 0..LANES {
-            let pixel = group * LANES + lane;
-            let winner = |sample: usize| winners[sample * LANES + lane];
-            let seen = winner(0);
-            if agree || (1..samples).all(|sample| winner(sample) == seen) {
-                if seen != NOBODY {
-                    counts[seen as usize] += 1;
-                    unsorted.push((seen, Work::anywhere(pixel, false, pixel)));
+        for &winner in row {
+            slots[(winner as usize).min(places)] = 1;
+        }
+        last = row[LANES - 1];
+    }
+    slots.truncate(places);
+    seen.resize(places, 0);
+    let mut count = 0;
+    // Without branches that nobody can foresee: what is not seen is written over.
+    for (place, slot) in slots.iter_mut().enumerate() {
+        seen[count] = place as u32;
+        count += std::mem::replace(slot, count as u32) as usize;
+    }
+    seen.truncate(count);
+}
+
+/// Lists some pixels of a group by themselves.
+#[inline(always)]
+fn push_lanes(shading: &mut Shading, (group, winners): (usize, &[u32]), mut lanes: u64) {
+    while lanes != 0 {
+        let lane = lanes.trailing_zeros() as usize;
+        lanes &= lanes - 1;
+        let pixel = group * LANES + lane;
+        let slot = shading.slots[winners[lane] as usize];
+        shading.fragments.push(Fragment { slot, work: Work::anywhere(pixel, false, pixel) });
+    }
+}
+
+/// Lists pixels whose samples see different triangles: each triangle's colour gets
+/// a place of its own, and the samples name theirs.
+#[inline(always)]
+fn push_edges(shading: &mut Shading, (group, winners): (usize, &[u32]), mut lanes: u64) {
+    let Shading { slots, parts, edge_pixels, sample_colors, .. } = shading;
+    while lanes != 0 {
+        let lane = lanes.trailing_zeros() as usize;
+        lanes &= lanes - 1;
+        let pixel = group * LANES + lane;
+        let start = sample_colors.len();
+        edge_pixels.push(EdgePixel { pixel: pixel as u32, first: start as u32 });
+        let samples = || winners.iter().skip(lane).step_by(LANES).copied();
+        for (sample, winner) in samples().enumerate() {
+            let color = match samples().take(sample).position(|before| before == winner) {
+                _ if winner == NOBODY => NOBODY,
+                Some(before) => sample_colors[start + before],
+                None => {
+                    let place = PIXELS + parts.len();
+                    let slot = slots[winner as usize];
+                    parts.push(Fragment { slot, work: Work::anywhere(pixel, true, place) });
+                    place as u32
                 }
-                continue;
-            }
-            let start = sample_colors.len();
-            edge_pixels.push(EdgePixel { pixel: pixel as u32, first: start as u32 });
-            for sample in 0..samples {
-                let seen = winner(sample);
-                let before = (0..sample).find(|&before| winner(before) == seen);
-                let color = match before {
-                    _ if seen == NOBODY => NOBODY,
-                    Some(before) => sample_colors[start + before],
-                    None => {
-                        let place = PIXELS + fragments;
-                        fragments += 1;
-                        counts[seen as usize] += 1;
-                        unsorted.push((seen, Work::anywhere(pixel, true, place)));
-                        place as u32
-                    }
-                };
-                sample_colors.push(color);
-            }
+            };
+            sample_colors.push(color);
         }
     }
-    if colors.len() < PIXELS + fragments {
-        colors.resize(PIXELS + fragments, [0.0; 4]);
+}
+
+/// Divides what was listed by draws.
+pub(super) fn divide(
+    frame: &FrameView<'_>,
+    buffer: &VisibilityBuffer,
+    places: &[Place],
+    shading: &mut Shading,
+) {
+    let Shading { seen, runs, .. } = shading;
+    runs.clear();
+    let mut start = 0;
+    while let Some(&first) = seen.get(start) {
+        let draw = frame.draw_of(places[first as usize]);
+        let ordinals = frame.plan.draws[draw].ordinals.end;
+        let end = start + seen[start..].partition_point(|&place| places[place as usize].ordinal < ordinals);
+        runs.push(Run { draw, slots: start..end, groups: 0..0, fragments: 0..0, parts: 0..0 });
+        start = end;
     }
-    let total = make_jobs(counts, jobs);
-    if work.len() < total {
-        work.resize(total, Work::default());
+    if runs.len() > 1 {
+        part_groups(buffer, shading);
+        shading.groups.sort_unstable_by_key(|group| group.slot);
+        shading.fragments.sort_unstable_by_key(|fragment| fragment.slot);
+        shading.parts.sort_unstable_by_key(|fragment| fragment.slot);
     }
-    for &(winner, item) in &unsorted {
-        let next = &mut counts[winner as usize];
-        work[*next as usize] = item;
-        *next += 1;
+    let Shading { runs, groups, fragments, parts, .. } = shading;
+    let (mut group, mut fragment, mut part) = (0, 0, 0);
+    for run in runs {
+        let end = run.slots.end as u32;
+        run.groups = group..group + groups[group..].partition_point(|group| group.slot < end);
+        run.fragments =
+            fragment..fragment + fragments[fragment..].partition_point(|fragment| fragment.slot < end);
+        run.parts = part..part + parts[part..].partition_point(|part| part.slot < end);
+        (group, fragment, part) = (run.groups.end, run.fragments.end, run.parts.end);
     }
-    scratch.fragments = unsorted;
-    total
+}
+
+/// Takes groups apart that see several draws.
+fn part_groups(buffer: &VisibilityBuffer, shading: &mut Shading) {
+    let mut groups = std::mem::take(&mut shading.groups);
+    groups.retain(|group| {
+        let number = group.number as usize;
+        let winners = &buffer.winners()[number * LANES * buffer.samples..][..LANES];
+        let run = shading.runs.partition_point(|run| run.slots.end <= group.slot as usize);
+        let slots = shading.runs[run].slots.clone();
+        let belongs =
+            |winner: u32| winner == NOBODY || slots.contains(&(shading.slots[winner as usize] as usize));
+        let stays = winners.iter().all(|&winner| belongs(winner));
+        if !stays {
+            let seen =
+                (0..LANES).filter(|&lane| winners[lane] != NOBODY).fold(0, |seen, lane| seen | 1 << lane);
+            push_lanes(shading, (number, winners), seen);
+        }
+        stays
+    });
+    shading.groups = groups;
 }

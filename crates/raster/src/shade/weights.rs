@@ -9,24 +9,30 @@
 //! "Hyperbolic Interpolation", 1992; P. Heckbert and H. Moreton, "Interpolation
 //! for Polygon Texture Mapping and Shading", 1991.)
 
-use crate::setup::CutWeights;
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, U32, greater, inlined, lanes_of, lesser, prelude::*};
+use super::columns::Columns;
+use super::records::{cold, flag, hot};
+use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, U32, greater, inlined, lesser, prelude::*};
 
 /// The largest ratio of w within a triangle that is told apart; beyond, a
 /// vertex counts as this much further away. Keeps all quotients finite.
 const RATIO_MAX: f32 = (1_u64 << 60) as f32;
 
-/// Three vertices in each lane: x and y in 1/256 pixel, depth, 1/w. Sorted by
-/// (y, x), not on a line.
-pub(crate) struct VertexColumns<S: Simd> {
-    pub(crate) x: [I32<S>; 3],
-    pub(crate) y: [I32<S>; 3],
-    pub(crate) depth: [F32<S>; 3],
-    pub(crate) inverse_w: [F32<S>; 3],
+/// The vertices' 1/w over a power of two near the largest, and that power of two.
+#[inline(always)]
+pub(super) fn perspective<S: Simd>(simd: S, inverse_w: [F32<S>; 3]) -> ([F32<S>; 3], F32<S>) {
+    let scale = power_of_two(simd, greater(greater(inverse_w[0], inverse_w[1]), inverse_w[2]));
+    let least = F32::splat(simd, 1.0 / RATIO_MAX);
+    let inverse = F32::splat(simd, 1.0) / scale;
+    let q = inverse_w.each(
+        #[inline(always)]
+        |q| greater(q * inverse, least),
+    );
+    (q, scale)
 }
 
-/// What the points of a lane's triangle have in common.
-pub(crate) struct TriangleLanes<S: Simd> {
+/// What the points of a lane's triangle have in common, as its record has it.
+pub(crate) struct TriangleLanes<'c, S: Simd> {
+    /// The first of the sorted vertices, from the tile's corner.
     x: I32<S>,
     y: I32<S>,
     /// Steps of the edge functions opposite vertices 1 and 2, both through
@@ -34,13 +40,14 @@ pub(crate) struct TriangleLanes<S: Simd> {
     right: [I32<S>; 2],
     down: [I32<S>; 2],
     area: Area<S>,
-    depth: [F32<S>; 3],
     /// 1/w of the vertices over a power of two near the largest.
     q: [F32<S>; 3],
-    /// That power of two.
-    scale: F32<S>,
-    cut: Option<CutWeights>,
+    cut: Option<&'c CutColumns>,
 }
+
+/// The weights of the corners at the vertices of cut triangles, in lanes:
+/// `[vertex][corner]`.
+pub(super) type CutColumns = [[[f32; LANES]; 3]; 3];
 
 /// Twice the area, in 32 bits where every lane's triangle is small.
 enum Area<S: Simd> {
@@ -55,55 +62,71 @@ pub(crate) struct Weights<S: Simd> {
     /// Derivatives of the weights of corners 1 and 2, to the right and
     /// downwards, per pixel; that of corner 0 makes their sum 0.
     pub(crate) slopes: [[F32<S>; 2]; 2],
-    pub(crate) depth: F32<S>,
-    pub(crate) inverse_w: F32<S>,
+    /// The edge functions opposite the vertices, twice the area, and the sum of the
+    /// corners' shares.
+    edges: [F32<S>; 3],
+    area: F32<S>,
+    total: F32<S>,
     /// Distances in pixels to the edges opposite the corners.
     pub(crate) distances: [F32<S>; 3],
 }
 
-impl<S: Simd> TriangleLanes<S> {
-    /// `wide` if a triangle may not be small (see
-    /// [`SMALL`](crate::setup::SMALL)); it never changes a result.
+impl<'c, S: Simd> TriangleLanes<'c, S> {
+    /// From the columns of records. That a lane is wide or cut never changes
+    /// another's result.
     #[inline(always)]
-    pub(crate) fn new(simd: S, vertices: VertexColumns<S>, wide: bool) -> Self {
-        let VertexColumns { x, y, depth, inverse_w } = vertices;
-        let [ux, uy] = [x[1] - x[0], y[1] - y[0]];
-        let [vx, vy] = [x[2] - x[0], y[2] - y[0]];
-        let (area, clockwise) =
-            if wide { wide_area([ux, uy], [vx, vy]) } else { small_area(simd, [ux, uy], [vx, vy]) };
-        // The edge from vertex 2 to 0, and that from 0 to 1.
-        let turned = inlined(
+    pub(super) fn load(simd: S, columns: &'c Columns) -> Self {
+        let column = inlined(
             #[inline(always)]
-            |value: I32<S>| clockwise.select(value, -value),
+            |column: usize| I32::simd_from(simd, columns.hot()[column]),
         );
-        let scale = power_of_two(simd, greater(greater(inverse_w[0], inverse_w[1]), inverse_w[2]));
-        let least = F32::splat(simd, 1.0 / RATIO_MAX);
-        let inverse = F32::splat(simd, 1.0) / scale;
-        Self {
-            x: x[0],
-            y: y[0],
-            right: [turned(vy), turned(-uy)],
-            down: [turned(-vx), turned(ux)],
-            area,
-            depth,
-            q: inverse_w.each(
+        let flags = column(hot::FLAGS);
+        let any = inlined(
+            #[inline(always)]
+            |flag: i32| (flags & flag).simd_gt(I32::splat(simd, 0)).any_true(),
+        );
+        let low = inlined(
+            #[inline(always)]
+            |both: I32<S>| (both << 16) >> 16,
+        );
+        let (point, steps) = (column(hot::POINT), [column(hot::STEPS), column(hot::STEPS + 1)]);
+        let right = [low(steps[0]), low(steps[1])];
+        let down = [steps[0] >> 16, steps[1] >> 16];
+        let small = Self {
+            x: low(point),
+            y: point >> 16,
+            right,
+            down,
+            area: small_area(right, down),
+            q: [0, 1, 2].each(
                 #[inline(always)]
-                |q| greater(q * inverse, least),
+                |vertex| column(hot::Q + vertex).bitcast(),
             ),
-            scale,
             cut: None,
+        };
+        if !any(flag::CUT | flag::WIDE) {
+            return small;
+        }
+        let column = inlined(
+            #[inline(always)]
+            |column: usize| I32::simd_from(simd, columns.cold[column]),
+        );
+        let right = [column(cold::RIGHT), column(cold::RIGHT + 1)];
+        let down = [column(cold::DOWN), column(cold::DOWN + 1)];
+        Self {
+            x: column(cold::POINT),
+            y: column(cold::POINT + 1),
+            right,
+            down,
+            area: wide_area(right, down),
+            cut: any(flag::CUT).then_some(&columns.cut),
+            ..small
         }
     }
 
-    /// The same triangle where corners come from a cut.
+    /// The weights at points in 1/256 pixel from the tile's corner.
     #[inline(always)]
-    pub(crate) fn cut(self, weights: &CutWeights) -> Self {
-        Self { cut: Some(*weights), ..self }
-    }
-
-    /// The weights at points in 1/256 pixel.
-    #[inline(always)]
-    pub(crate) fn at(&self, simd: S, x: I32<S>, y: I32<S>) -> Weights<S> {
+    pub(crate) fn at(&self, simd: S, [x, y]: [I32<S>; 2]) -> Weights<S> {
         let (edges, area) = self.edges(simd, x - self.x, y - self.y);
         let shares = self.shares(edges);
         let total = shares[0] + shares[1] + shares[2];
@@ -120,8 +143,9 @@ impl<S: Simd> TriangleLanes<S> {
         Weights {
             weights,
             slopes: [[right[0], down[0]], [right[1], down[1]]],
-            depth: self.depth_at(edges, area),
-            inverse_w: total * self.scale / area,
+            edges,
+            area,
+            total,
             distances: [0, 1, 2].each(
                 #[inline(always)]
                 |k| {
@@ -188,9 +212,15 @@ impl<S: Simd> TriangleLanes<S> {
         let [a, b, c] = [edges[0] * self.q[0], edges[1] * self.q[1], edges[2] * self.q[2]];
         match &self.cut {
             None => [a, b, c],
-            Some(m) => [0, 1, 2].each(
+            Some(cut) => [0, 1, 2].each(
                 #[inline(always)]
-                |k| a * m[0][k] + b * m[1][k] + c * m[2][k],
+                |k| {
+                    let [m, n, o] = cut.each_ref().each(
+                        #[inline(always)]
+                        |vertex| F32::simd_from(a.token(), vertex[k]),
+                    );
+                    a * m + b * n + c * o
+                },
             ),
         }
     }
@@ -205,13 +235,25 @@ impl<S: Simd> TriangleLanes<S> {
             |step| step.to_f32() * pixel,
         ))
     }
+}
 
+impl<S: Simd> Weights<S> {
     /// The depth, within the range of the vertices'.
     #[inline(always)]
-    fn depth_at(&self, edges: [F32<S>; 3], area: F32<S>) -> F32<S> {
-        let [a, b, c] = self.depth;
-        let depth = (edges[0] * a + edges[1] * b + edges[2] * c) / area;
+    pub(super) fn depth(&self, simd: S, cold: &[Row; cold::COUNT]) -> F32<S> {
+        let [a, b, c]: [F32<S>; 3] = [0, 1, 2].each(
+            #[inline(always)]
+            |vertex| I32::simd_from(simd, cold[cold::DEPTH + vertex]).bitcast(),
+        );
+        let depth = (self.edges[0] * a + self.edges[1] * b + self.edges[2] * c) / self.area;
         lesser(greater(depth, lesser(lesser(a, b), c)), greater(greater(a, b), c))
+    }
+
+    /// 1/w.
+    #[inline(always)]
+    pub(super) fn inverse_w(&self, simd: S, cold: &[Row; cold::COUNT]) -> F32<S> {
+        let scale: F32<S> = I32::simd_from(simd, cold[cold::SCALE]).bitcast();
+        self.total * scale / self.area
     }
 }
 
@@ -253,28 +295,21 @@ impl<S: Simd> SimdCvt<S> for I32<S> {
     }
 }
 
-/// Twice the area, and whether the vertices run clockwise on the screen.
+/// Twice the area, from the sides along which the edge functions step.
 #[inline(always)]
-fn small_area<S: Simd>(simd: S, u: [I32<S>; 2], v: [I32<S>; 2]) -> (Area<S>, Mask<S>) {
-    let area = u[0] * v[1] - u[1] * v[0];
-    let clockwise = area.simd_gt(I32::splat(simd, 0));
-    (Area::Small(area.abs()), clockwise)
+fn small_area<S: Simd>(right: [I32<S>; 2], down: [I32<S>; 2]) -> Area<S> {
+    Area::Small((right[0] * down[1] - right[1] * down[0]).abs())
 }
 
-#[inline(always)]
-fn wide_area<S: Simd>(u: [I32<S>; 2], v: [I32<S>; 2]) -> (Area<S>, Mask<S>) {
-    let simd = u[0].token();
-    let [u, v]: [[[i32; LANES]; 2]; 2] = [u.each(Into::into), v.each(Into::into)];
-    let area: [f64; LANES] = lanes_of(
-        #[inline(always)]
-        |lane| f64::from(u[0][lane]) * f64::from(v[1][lane]) - f64::from(u[1][lane]) * f64::from(v[0][lane]),
-    );
-    let sign = area.each(
-        #[inline(always)]
-        |area| if area > 0.0 { 1 } else { 0 },
-    );
-    let clockwise = I32::simd_from(simd, sign).simd_gt(I32::splat(simd, 0));
-    (Area::Wide(area.map(f64::abs)), clockwise)
+#[cold]
+fn wide_area<S: Simd>(right: [I32<S>; 2], down: [I32<S>; 2]) -> Area<S> {
+    let [right, down]: [[Row; 2]; 2] = [right.each(Into::into), down.each(Into::into)];
+    let side = |of: &[Row; 2], edge: usize, lane: usize| f64::from(of[edge][lane]);
+    Area::Wide(std::array::from_fn(|lane| {
+        let area =
+            side(&right, 0, lane) * side(&down, 1, lane) - side(&right, 1, lane) * side(&down, 0, lane);
+        area.abs()
+    }))
 }
 
 /// The largest power of two not above a normal positive number.

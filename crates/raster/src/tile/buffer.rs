@@ -104,6 +104,11 @@ impl VisibilityBuffer {
         (pixel / LANES * self.samples + sample) * LANES + pixel % LANES
     }
 
+    /// What is seen: group by group, sample by sample, eight lanes.
+    pub(crate) fn winners(&self) -> &[u32] {
+        &self.winner[..self.span * self.samples]
+    }
+
     /// How many pixels the arrays hold.
     pub(crate) fn span(&self) -> usize {
         self.span

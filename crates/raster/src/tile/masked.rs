@@ -5,7 +5,7 @@ use super::buffer::NOBODY;
 use super::visibility::single;
 use super::{Covering, Scratch, TileArea};
 use crate::frame::FrameView;
-use crate::shade::{Job, ShadeContext, Work};
+use crate::shade::{Job, Work, mask_jobs};
 use std::ops::Range;
 
 /// Masked fragments are asked for in portions of about this many, to bound
@@ -153,15 +153,13 @@ pub(super) fn cover_masked(
 /// Asks the mask of one draw about its waiting fragments and lets those that
 /// exist compete.
 fn settle(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch, waiting: &mut Vec<Waiting>) {
-    let Some(first) = waiting.first() else {
+    if waiting.is_empty() {
         return;
-    };
-    let draw = frame.draw_of(scratch.places[first.place as usize]);
-    let context = ShadeContext { frame, area: *area, places: &scratch.places, draw };
+    }
     scratch.kept.clear();
     scratch.kept.resize(scratch.work.len(), 0);
-    let pipeline = frame.pipeline(draw);
-    pipeline.mask(frame.token, &context, &scratch.jobs, &scratch.work, &mut scratch.kept);
+    let Scratch { shading, places, jobs, work, kept, .. } = scratch;
+    mask_jobs(frame, area, shading, (places, jobs, work), kept);
     scratch.stats.samples_masked += scratch.work.len() as u64;
     for fragment in waiting.drain(..) {
         let at = (fragment.pixel as usize, fragment.sample as usize);

@@ -14,13 +14,13 @@ mod tiny;
 mod visibility;
 
 pub(crate) use area::{MAX_SIDE, TileArea};
-pub(crate) use buffer::{BEHIND_ALL, NOBODY};
+pub(crate) use buffer::{BEHIND_ALL, NOBODY, VisibilityBuffer};
 pub(crate) use cover::Counts;
 pub(crate) use covering::Covering;
 pub(crate) use depth::DepthPlane;
 pub(crate) use edge::Edge;
 pub(crate) use masked::for_each_seen;
-pub(crate) use scratch::{EdgePixel, PIXELS, Scratch};
+pub(crate) use scratch::{PIXELS, Scratch};
 
 use crate::Surface;
 use crate::frame::FrameView;
@@ -47,15 +47,10 @@ pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
     scratch.buffer.clear(&area, frame.grid.pattern.count());
     visibility::resolve_visibility(frame, &area, scratch, &surfaces);
     if frame.wants.color {
-        let early = surfaces.translucent.is_empty().then_some(frame.wants.early).flatten();
-        match early {
-            Some(encoding) => shade::shade_to_codes(frame, &area, scratch, encoding),
-            None => {
-                shade::shade_to_colors(frame, &area, scratch);
-                if !surfaces.translucent.is_empty() {
-                    blend::blend_translucent(frame, &area, scratch, surfaces.translucent);
-                }
-            }
+        let early = surfaces.translucent.is_empty().then_some(frame.wants.bytes).flatten();
+        shade::shade_tile(frame, &area, scratch, early);
+        if !surfaces.translucent.is_empty() {
+            blend::blend_translucent(frame, &area, scratch, surfaces.translucent);
         }
         resolve::resolve(frame, &area, scratch, (bands, early));
     } else {

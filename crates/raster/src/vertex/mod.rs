@@ -13,6 +13,7 @@ pub(crate) use used::UsedVertices;
 use crate::LanePipeline;
 use crate::clip::{COORDINATE_MAX, Outcode, W_MIN};
 use crate::pipeline::ScalarPipeline;
+use crate::shade::stride;
 use crate::simd::{Each, F32, LANES, Mask, Simd, Token, at_level, prelude::*};
 use crate::viewport::Viewport;
 use std::ops::Range;
@@ -72,9 +73,9 @@ pub(crate) fn run<S: Simd, P: LanePipeline>(
     let together = if matches!(used, UsedVertices::Range(_)) { LANES } else { 1 };
     for (group, places) in places.chunks_mut(together).enumerate() {
         let first = used.index(slots.start + group * together);
-        let (rows, rest) = std::mem::take(&mut varyings).split_at_mut(places.len() * P::VARYINGS);
+        let (rows, rest) = std::mem::take(&mut varyings).split_at_mut(places.len() * stride(P::VARYINGS));
         varyings = rest;
-        let mut lanes = VertexLanes::new(first, places.len(), rows, P::VARYINGS);
+        let mut lanes = VertexLanes::new(first, places.len(), rows, stride(P::VARYINGS));
         let position = pipeline.vertices(simd, &mut lanes);
         place(simd, position, viewport, guard, places);
     }

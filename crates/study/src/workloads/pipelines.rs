@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::shading::{BASE_COLOR, blinn_phong, lambert_lanes, lit};
-use trigon_raster::simd::{F32, Simd, prelude::*};
+use trigon_raster::simd::{Each, F32, Simd, prelude::*};
 use trigon_raster::{FragmentLanes, LanePipeline, Sampler, Texture, VertexLanes};
 
 /// Each triangle in its own colour.
@@ -23,8 +23,20 @@ impl LanePipeline for Flat<'_> {
 
     #[inline(always)]
     fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
-        let [r, g, b, a] = self.0.mesh.colors[fragments.primitives()[0] as usize];
-        [unorm(simd, r), unorm(simd, g), unorm(simd, b), unorm(simd, a)]
+        let colors = fragments.primitives().each(
+            #[inline(always)]
+            |primitive| self.0.mesh.colors[primitive as usize],
+        );
+        [0, 1, 2, 3].each(
+            #[inline(always)]
+            |channel| {
+                let bytes = colors.each(
+                    #[inline(always)]
+                    |color| f32::from(color[channel]),
+                );
+                F32::simd_from(simd, bytes) / 255.0
+            },
+        )
     }
 }
 
@@ -110,11 +122,6 @@ impl LanePipeline for Textured<'_> {
         let [r, g, b, _] = self.texture.sample_lanes(simd, [u, v], [ux, vx], [uy, vy], &sampler);
         opaque(simd, [r * light, g * light, b * light])
     }
-}
-
-#[inline(always)]
-fn unorm<S: Simd>(simd: S, byte: u8) -> F32<S> {
-    F32::splat(simd, f32::from(byte) / 255.0)
 }
 
 /// Vertices with light at them: the varying `index`.

@@ -1,0 +1,69 @@
+//! Fragments by the triangle: those that wait for their mask, or to be blended.
+
+use super::task::{Fragment, Task};
+use super::{Job, ShadeContext, ShadeOutput, Shading, Work};
+use crate::bin::Place;
+use crate::frame::FrameView;
+use crate::tile::TileArea;
+
+/// So many triangles at most are ready at a time, to bound memory.
+const READY: usize = 1024;
+
+/// Shades jobs in the order of their draws.
+pub(crate) fn shade_jobs(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    shading: &mut Shading,
+    (places, jobs, work): (&[Place], &[Job], &[Work]),
+    output: &mut ShadeOutput<'_>,
+) {
+    for_each_part(frame, area, shading, (places, jobs, work), |context, shading| {
+        let Shading { records, columns, fragments, .. } = shading;
+        let task = Task::of_fragments(records, 0, fragments);
+        frame.pipeline(context.draw).shade(frame.token, context, (&task, columns), output);
+    });
+}
+
+/// Asks the masks of jobs: 1 or 0 at each output's place.
+pub(crate) fn mask_jobs(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    shading: &mut Shading,
+    (places, jobs, work): (&[Place], &[Job], &[Work]),
+    kept: &mut [u8],
+) {
+    for_each_part(frame, area, shading, (places, jobs, work), |context, shading| {
+        let Shading { records, columns, fragments, .. } = shading;
+        let task = Task::of_fragments(records, 0, fragments);
+        frame.pipeline(context.draw).mask(frame.token, context, (&task, columns), kept);
+    });
+}
+
+/// Visits the jobs, some of one draw at a time, their triangles and fragments made
+/// ready in `shading`.
+fn for_each_part(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    shading: &mut Shading,
+    (places, jobs, work): (&[Place], &[Job], &[Work]),
+    mut visit: impl FnMut(&ShadeContext<'_>, &mut Shading),
+) {
+    let mut rest = jobs;
+    while let Some(first) = rest.first() {
+        let draw = frame.draw_of(places[first.place as usize]);
+        let end = frame.plan.draws[draw].ordinals.end;
+        let same = rest.partition_point(|job| places[job.place as usize].ordinal < end);
+        let (part, after) = rest.split_at(same.min(READY));
+        shading.seen.clear();
+        shading.seen.extend(part.iter().map(|job| job.place));
+        shading.fragments.clear();
+        for (slot, job) in part.iter().enumerate() {
+            let fragments = work[job.work.clone()].iter().map(|&work| Fragment { slot: slot as u32, work });
+            shading.fragments.extend(fragments);
+        }
+        let context = ShadeContext { frame, area: *area, places, draw };
+        shading.records.fill(frame.token, &context, &shading.seen);
+        visit(&context, shading);
+        rest = after;
+    }
+}

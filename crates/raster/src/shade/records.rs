@@ -1,0 +1,382 @@
+//! Visible triangles made ready for shading: a record of numbers for each, from
+//! which vectors of pixels take their columns.
+
+use super::ShadeContext;
+use super::weights::perspective;
+use crate::bin::Place;
+use crate::setup::{Column, Corners, Kind, SMALL, SetupTriangle, small_lanes, sorted_columns};
+use crate::simd::{
+    Each, F32, I32, LANES, Mask, Row, Simd, Token, at_level, inlined, lanes_of, prelude::*, transpose,
+};
+
+/// Columns of the row that every vector loads.
+pub(super) mod hot {
+    /// The first of the sorted vertices from the tile's corner, in 1/256 pixel: x in
+    /// the low half, y in the high one. Like the steps only of triangles that are
+    /// not wide.
+    pub(crate) const POINT: usize = 0;
+    /// Steps of the edge functions opposite vertices 1 and 2: to the right in the
+    /// low half, down in the high one.
+    pub(crate) const STEPS: usize = 1;
+    /// The vertices' 1/w over a power of two near the largest.
+    pub(crate) const Q: usize = 3;
+    pub(crate) const FLAGS: usize = 6;
+    pub(crate) const PRIMITIVE: usize = 7;
+    /// How many there are.
+    pub(crate) const COUNT: usize = 8;
+}
+
+/// Columns of the two rows that few vectors load.
+pub(super) mod cold {
+    /// As in the hot row, each number by itself.
+    pub(crate) const POINT: usize = 0;
+    pub(crate) const RIGHT: usize = 2;
+    pub(crate) const DOWN: usize = 4;
+    /// The power of two.
+    pub(crate) const SCALE: usize = 6;
+    /// The triangle among the tile's.
+    pub(crate) const PLACE: usize = 7;
+    /// Depths of the vertices.
+    pub(crate) const DEPTH: usize = 8;
+    /// How many there are.
+    pub(crate) const COUNT: usize = 16;
+}
+
+/// Bits of a record's flags. The lowest six tell which corners the vertices are,
+/// two bits each.
+pub(super) mod flag {
+    /// It shows its back.
+    pub(crate) const BACK: i32 = 1 << 6;
+    /// It has edges to measure a distance to.
+    pub(crate) const EDGES: i32 = 1 << 7;
+    /// It needs more than 32 bits.
+    pub(crate) const WIDE: i32 = 1 << 8;
+    /// Its vertices were made by a cut.
+    pub(crate) const CUT: i32 = 1 << 9;
+}
+
+/// Records of triangles of one draw: the hot row, rows of the varyings of the
+/// vertices, two cold rows.
+#[derive(Default)]
+pub(crate) struct Records {
+    rows: Vec<Row>,
+    shape: Shape,
+}
+
+/// How a record is laid out.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Shape {
+    /// All of its rows.
+    size: usize,
+    /// The first of them, that every vector loads.
+    pub(super) loaded: usize,
+    /// From how many numbers on the next vertex's varyings start.
+    pub(super) stride: usize,
+}
+
+impl Records {
+    /// Makes records of some of the tile's triangles, all of the context's draw.
+    pub(crate) fn fill(&mut self, token: Token, context: &ShadeContext<'_>, seen: &[u32]) {
+        let stride = context.stride();
+        let loaded = 1 + (3 * stride).div_ceil(LANES);
+        self.shape = Shape { size: loaded + cold::COUNT / LANES, loaded, stride };
+        let length = seen.len() * self.shape.size;
+        if self.rows.len() < length {
+            self.rows.resize(length, [0; LANES]);
+        }
+        let shape = self.shape;
+        at_level!(token, simd => {
+            for (seen, rows) in seen.chunks(LANES).zip(self.rows.chunks_mut(LANES * shape.size)) {
+                eight(simd, context, seen, (rows, shape));
+            }
+        });
+    }
+
+    #[inline(always)]
+    pub(super) fn shape(&self) -> Shape {
+        self.shape
+    }
+
+    /// The rows of a triangle that every vector loads.
+    #[inline(always)]
+    pub(super) fn of(&self, slot: u32) -> &[Row] {
+        &self.rows[slot as usize * self.shape.size..][..self.shape.loaded]
+    }
+
+    /// The cold columns of eight triangles.
+    #[inline(always)]
+    pub(super) fn cold<S: Simd>(&self, simd: S, slots: [u32; LANES]) -> [Row; cold::COUNT] {
+        let mut columns = [[0; LANES]; cold::COUNT];
+        for (half, columns) in columns.as_chunks_mut().0.iter_mut().enumerate() {
+            let rows = slots.each(
+                #[inline(always)]
+                |slot| &self.rows[slot as usize * self.shape.size + self.shape.loaded + half],
+            );
+            transpose(simd, rows, columns);
+        }
+        columns
+    }
+}
+
+/// Eight triangles, their vertices sorted.
+struct Sorted<S: Simd> {
+    x: [I32<S>; 3],
+    y: [I32<S>; 3],
+    depth: [F32<S>; 3],
+    inverse_w: [F32<S>; 3],
+    /// The corners that the vertices are, or that the columns of cut weights
+    /// belong to.
+    corners: [Row; 3],
+    /// Where the sorted vertices run clockwise on the screen.
+    clockwise: Mask<S>,
+    /// All but the corners.
+    flags: I32<S>,
+}
+
+/// Records of up to eight triangles.
+#[inline(always)]
+fn eight<S: Simd>(simd: S, context: &ShadeContext<'_>, seen: &[u32], (rows, shape): (&mut [Row], Shape)) {
+    let numbers = lanes_of(
+        #[inline(always)]
+        |lane| *seen.get(lane).unwrap_or(&seen[0]),
+    );
+    let places = numbers.each(
+        #[inline(always)]
+        |number| context.places[number as usize],
+    );
+    let first = context.plan().ordinals.start;
+    let primitives = places.each(
+        #[inline(always)]
+        |place| place.ordinal - first,
+    );
+    let indices = context.geometry().corners_of(primitives);
+    let sorted = if places.iter().all(|place| place.is_whole()) {
+        whole(simd, context, indices)
+    } else {
+        simd.vectorize(
+            #[inline(always)]
+            || made(simd, context, places),
+        )
+    };
+    let mut columns = heads(simd, context, &sorted);
+    let [hot, cold, _] = &mut columns;
+    hot[hot::PRIMITIVE] = primitives.each(u32::cast_signed);
+    cold[cold::PLACE] = numbers.each(u32::cast_signed);
+    for (columns, row) in columns.iter().zip([0, shape.loaded, shape.loaded + 1]) {
+        let mut turned = [[0; LANES]; LANES];
+        transpose(simd, columns.each_ref(), &mut turned);
+        for (record, turned) in rows.chunks_exact_mut(shape.size).zip(turned) {
+            record[row] = turned;
+        }
+    }
+    if shape.stride == 0 {
+        return;
+    }
+    let records = rows.chunks_exact_mut(shape.size).take(seen.len());
+    for (lane, record) in records.enumerate() {
+        let values = record[1..].as_flattened_mut();
+        for (corner, values) in sorted.corners.iter().zip(values.chunks_exact_mut(shape.stride)) {
+            let varyings = context.varyings_of(indices[lane][corner[lane] as usize & 3], shape.stride);
+            copy(varyings, values);
+        }
+    }
+}
+
+/// Copies varyings, by four where there are that many.
+#[inline(always)]
+fn copy(from: &[f32], to: &mut [i32]) {
+    if from.len() < 4 {
+        for (to, from) in to.iter_mut().zip(from) {
+            *to = from.to_bits().cast_signed();
+        }
+    }
+    for (to, from) in to.as_chunks_mut::<4>().0.iter_mut().zip(from.as_chunks::<4>().0) {
+        *to = from.each(
+            #[inline(always)]
+            |value| value.to_bits().cast_signed(),
+        );
+    }
+}
+
+/// Triangles that are primitives as they are.
+#[inline(always)]
+fn whole<S: Simd>(simd: S, context: &ShadeContext<'_>, indices: [[u32; 3]; LANES]) -> Sorted<S> {
+    let vertices = context.vertices();
+    let columns = [0, 1, 2].each(
+        #[inline(always)]
+        |corner| {
+            let vertices = indices.each(
+                #[inline(always)]
+                |indices| vertices.get(indices[corner]),
+            );
+            Column::new(simd, vertices, corner as i32)
+        },
+    );
+    let (columns, reversed) = sorted_columns(columns);
+    let [x, y] = [
+        columns.each(
+            #[inline(always)]
+            |column| column.x,
+        ),
+        columns.each(
+            #[inline(always)]
+            |column| column.y,
+        ),
+    ];
+    let zero = I32::splat(simd, 0);
+    let wide = !small_lanes(simd, &columns);
+    let clockwise = if wide.any_true() {
+        clockwise_wide(simd, x, y)
+    } else {
+        ((x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0])).simd_gt(zero)
+    };
+    let bit = inlined(
+        #[inline(always)]
+        |(mask, bit): (Mask<S>, i32)| mask.select(I32::splat(simd, bit), zero),
+    );
+    Sorted {
+        x,
+        y,
+        depth: columns.each(
+            #[inline(always)]
+            |column| column.depth(),
+        ),
+        inverse_w: columns.each(
+            #[inline(always)]
+            |column| column.inverse_w(),
+        ),
+        corners: columns.each(
+            #[inline(always)]
+            |column| column.corner.into(),
+        ),
+        clockwise,
+        flags: bit((clockwise ^ reversed, flag::BACK)) | bit((wide, flag::WIDE)) | flag::EDGES,
+    }
+}
+
+/// Triangles of which some were made by cutting, or from lines and points.
+#[inline(always)]
+fn made<S: Simd>(simd: S, context: &ShadeContext<'_>, places: [Place; LANES]) -> Sorted<S> {
+    let triangles = places.each(
+        #[inline(always)]
+        |place| context.frame.triangle(place),
+    );
+    let column = inlined(
+        #[inline(always)]
+        |(vertex, member): (usize, usize)| {
+            let values = triangles.each_ref().each(
+                #[inline(always)]
+                |triangle| triangle.vertices[vertex].0[member],
+            );
+            I32::simd_from(simd, values)
+        },
+    );
+    let of_vertices = inlined(
+        #[inline(always)]
+        |member: usize| {
+            [0, 1, 2].each(
+                #[inline(always)]
+                |vertex| column((vertex, member)),
+            )
+        },
+    );
+    let (x, y) = (of_vertices(0), of_vertices(1));
+    Sorted {
+        x,
+        y,
+        depth: of_vertices(2).each(
+            #[inline(always)]
+            |bits| bits.bitcast(),
+        ),
+        inverse_w: of_vertices(3).each(
+            #[inline(always)]
+            |bits| bits.bitcast(),
+        ),
+        corners: [0, 1, 2].each(
+            #[inline(always)]
+            |vertex| triangles.each_ref().each(|triangle| i32::from(corner_of(triangle, vertex))),
+        ),
+        clockwise: clockwise_wide(simd, x, y),
+        flags: I32::simd_from(simd, triangles.each_ref().each(flags_of)),
+    }
+}
+
+fn corner_of(triangle: &SetupTriangle, vertex: usize) -> u8 {
+    match triangle.corners {
+        Corners::Whole(corners) => corners[vertex],
+        Corners::Cut { order, .. } => order[vertex],
+    }
+}
+
+fn flags_of(triangle: &SetupTriangle) -> i32 {
+    let is_wide = [0, 1].into_iter().any(|axis| {
+        let [low, high] = triangle.extent(axis);
+        high - low >= SMALL
+    });
+    let is_cut = matches!(triangle.corners, Corners::Cut { .. });
+    let flags = [
+        (!triangle.front_facing, flag::BACK),
+        (triangle.kind == Kind::Triangle, flag::EDGES),
+        (is_wide, flag::WIDE),
+        (is_cut, flag::CUT),
+    ];
+    flags.into_iter().filter(|(is_set, _)| *is_set).fold(0, |flags, (_, flag)| flags | flag)
+}
+
+/// Where the vertices run clockwise, for triangles of any size.
+#[inline(always)]
+fn clockwise_wide<S: Simd>(simd: S, x: [I32<S>; 3], y: [I32<S>; 3]) -> Mask<S> {
+    let [ux, uy, vx, vy]: [Row; 4] = [x[1] - x[0], y[1] - y[0], x[2] - x[0], y[2] - y[0]].each(Into::into);
+    let sign = lanes_of(
+        #[inline(always)]
+        |lane| {
+            // Differences of up to 2^25: their products are exact in f64.
+            let [ux, uy, vx, vy] = [ux, uy, vx, vy].each(
+                #[inline(always)]
+                |column| f64::from(column[lane]),
+            );
+            i32::from(ux * vy - uy * vx > 0.0)
+        },
+    );
+    I32::simd_from(simd, sign).simd_gt(I32::splat(simd, 0))
+}
+
+/// The columns of the hot row and of the cold ones, without the ids.
+#[inline(always)]
+fn heads<S: Simd>(simd: S, context: &ShadeContext<'_>, sorted: &Sorted<S>) -> [[Row; LANES]; 3] {
+    let Sorted { x, y, depth, inverse_w, corners, clockwise, flags } = sorted;
+    let turned = inlined(
+        #[inline(always)]
+        |value: I32<S>| clockwise.select(value, -value),
+    );
+    let [left, top] = context.area.origin;
+    let point = [x[0] - left * 256, y[0] - top * 256];
+    // The edge from vertex 2 to 0, and that from 0 to 1.
+    let right = [turned(y[2] - y[0]), turned(y[0] - y[1])];
+    let down = [turned(x[0] - x[2]), turned(x[1] - x[0])];
+    let (q, scale) = perspective(simd, *inverse_w);
+    let [a, b, c] = corners.each(
+        #[inline(always)]
+        |corner| I32::simd_from(simd, corner),
+    );
+    let flags = *flags | a | (b << 2) | (c << 4);
+    let both = inlined(
+        #[inline(always)]
+        |[low, high]: [I32<S>; 2]| (low & 0xffff) | (high << 16),
+    );
+    let steps = [both([right[0], down[0]]), both([right[1], down[1]])];
+    let bits = [q[0], q[1], q[2], depth[0], depth[1], depth[2], scale].each(
+        #[inline(always)]
+        |value| value.bitcast::<I32<S>>(),
+    );
+    let none = I32::splat(simd, 0);
+    let columns = [
+        [both(point), steps[0], steps[1], bits[0], bits[1], bits[2], flags, none],
+        [point[0], point[1], right[0], right[1], down[0], down[1], bits[6], none],
+        [bits[3], bits[4], bits[5], none, none, none, none, none],
+    ];
+    columns.each(
+        #[inline(always)]
+        |columns| columns.each(Into::into),
+    )
+}

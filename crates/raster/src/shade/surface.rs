@@ -1,0 +1,127 @@
+//! Shades every visible triangle of a tile once at every pixel that sees it.
+
+use super::shading::{Run, Shading};
+use super::task::{Fragment, Task};
+use super::visible::{divide, list};
+use super::{Encoding, ShadeContext, ShadeOutput, Work};
+use crate::frame::FrameView;
+use crate::simd::{LANES, at_level};
+use crate::tile::{Scratch, TileArea};
+
+/// Shades all pixels of a tile: to bytes if an encoding is given, else in linear
+/// light. What covers a part of its pixel is left in linear light in any case.
+pub(crate) fn shade_tile(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    scratch: &mut Scratch,
+    encoding: Option<Encoding>,
+) {
+    let Scratch { buffer, shading, places, stats, .. } = scratch;
+    stats.pixels_shaded += at_level!(frame.token, simd => list(simd, buffer, places.len(), shading)) as u64;
+    divide(frame, buffer, places, shading);
+    let runs = std::mem::take(&mut shading.runs);
+    for run in &runs {
+        let context = ShadeContext { frame, area: *area, places, draw: run.draw };
+        shading.records.fill(frame.token, &context, &shading.seen[run.slots.clone()]);
+        let winners = (buffer.winners(), LANES * buffer.samples);
+        if frame.pipeline(run.draw).is_flat() {
+            shade_flat(&context, shading, (run, winners), encoding);
+        } else {
+            shade_run(&context, shading, (run, winners), encoding);
+        }
+    }
+    shading.runs = runs;
+}
+
+/// What groups see, and from group to group how many samples there are.
+type Winners<'w> = (&'w [u32], usize);
+
+fn shade_run(
+    context: &ShadeContext<'_>,
+    shading: &mut Shading,
+    (run, winners): (&Run, Winners<'_>),
+    encoding: Option<Encoding>,
+) {
+    let Shading { records, columns, slots, groups, fragments, parts, codes, colors, .. } = shading;
+    let pipeline = context.frame.pipeline(context.draw);
+    let base = run.slots.start as u32;
+    let task = Task {
+        records,
+        base,
+        groups: &groups[run.groups.clone()],
+        winners,
+        slots,
+        fragments: &fragments[run.fragments.clone()],
+    };
+    let mut output = match encoding {
+        Some(encoding) => ShadeOutput::Codes(codes, encoding),
+        None => ShadeOutput::Colors(colors),
+    };
+    pipeline.shade(context.frame.token, context, (&task, columns), &mut output);
+    if !run.parts.is_empty() {
+        let task = Task::of_fragments(records, base, &parts[run.parts.clone()]);
+        let mut output = ShadeOutput::Colors(colors);
+        pipeline.shade(context.frame.token, context, (&task, columns), &mut output);
+    }
+}
+
+/// One colour for each triangle, and that for all of its pixels.
+fn shade_flat(
+    context: &ShadeContext<'_>,
+    shading: &mut Shading,
+    (run, (winners, step)): (&Run, Winners<'_>),
+    encoding: Option<Encoding>,
+) {
+    shade_triangles(context, shading, run.slots.len(), encoding);
+    let Shading { slots, groups, fragments, parts, codes, colors, flat_codes, flat_colors, .. } = shading;
+    let base = run.slots.start as u32;
+    for group in &groups[run.groups.clone()] {
+        let number = group.number as usize;
+        let pixels = number * LANES..(number + 1) * LANES;
+        let seen = &winners[number * step..][..LANES];
+        // What sees nothing is written over later.
+        let slot = |winner: u32| slots.get(winner as usize).copied().unwrap_or(group.slot) - base;
+        if encoding.is_some() {
+            for (code, &winner) in codes[pixels].iter_mut().zip(seen) {
+                *code = flat_codes[slot(winner) as usize];
+            }
+        } else {
+            for (color, &winner) in colors[pixels].iter_mut().zip(seen) {
+                *color = flat_colors[slot(winner) as usize];
+            }
+        }
+    }
+    for &Fragment { slot, work } in &fragments[run.fragments.clone()] {
+        match encoding {
+            Some(_) => codes[work.output as usize] = flat_codes[(slot - base) as usize],
+            None => colors[work.output as usize] = flat_colors[(slot - base) as usize],
+        }
+    }
+    for &Fragment { slot, work } in &parts[run.parts.clone()] {
+        colors[work.output as usize] = flat_colors[(slot - base) as usize];
+    }
+}
+
+/// The colours of so many flat triangles.
+fn shade_triangles(
+    context: &ShadeContext<'_>,
+    shading: &mut Shading,
+    count: usize,
+    encoding: Option<Encoding>,
+) {
+    let Shading { records, columns, flat, flat_codes, flat_colors, .. } = shading;
+    flat.clear();
+    flat.extend((0..count).map(|slot| Fragment { slot: slot as u32, work: Work::anywhere(0, false, slot) }));
+    let whole = count.next_multiple_of(LANES);
+    if flat_colors.len() < whole {
+        flat_colors.resize(whole, [0.0; 4]);
+        flat_codes.resize(whole, 0);
+    }
+    let frame = context.frame;
+    let task = Task::of_fragments(records, 0, flat);
+    let mut output = ShadeOutput::Colors(flat_colors);
+    frame.pipeline(context.draw).shade(frame.token, context, (&task, columns), &mut output);
+    if let Some(encoding) = encoding {
+        at_level!(frame.token, simd => encoding.encode_all(simd, &flat_colors[..whole], flat_codes));
+    }
+}
