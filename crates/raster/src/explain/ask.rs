@@ -2,7 +2,7 @@
 
 use crate::bin::Place;
 use crate::frame::FrameView;
-use crate::shade::{Job, ShadeContext, ShadeOutput, Work, shade_jobs};
+use crate::shade::{Job, ShadeOutput, Shading, Work, mask_jobs, shade_jobs};
 use crate::tile::TileArea;
 use trigon_math::Vec4;
 
@@ -24,10 +24,9 @@ impl PixelInTile {
 /// Whether a masked triangle exists at a pixel that it covers.
 pub(super) fn mask(frame: &FrameView<'_>, pixel: PixelInTile, place: Place) -> bool {
     let (job, work) = pixel.alone(frame);
-    let draw = frame.draw_of(place);
-    let context = ShadeContext { frame, area: pixel.area, places: &[place], draw };
     let mut kept = [0];
-    frame.pipeline(draw).mask(frame.token, &context, &[job], &[work], &mut kept);
+    let list: (&[_], &[_], &[_]) = (&[place], &[job], &[work]);
+    mask_jobs(frame, &pixel.area, &mut Shading::new(), list, &mut kept);
     kept != [0]
 }
 
@@ -35,6 +34,8 @@ pub(super) fn mask(frame: &FrameView<'_>, pixel: PixelInTile, place: Place) -> b
 pub(super) fn color(frame: &FrameView<'_>, pixel: PixelInTile, place: Place) -> Vec4 {
     let (job, work) = pixel.alone(frame);
     let mut colors = [[0.0; 4]];
-    shade_jobs(frame, &pixel.area, (&[place], &[job], &[work]), &mut ShadeOutput::Colors(&mut colors));
+    let list: (&[_], &[_], &[_]) = (&[place], &[job], &[work]);
+    let mut output = ShadeOutput::Colors(&mut colors);
+    shade_jobs(frame, &pixel.area, &mut Shading::new(), list, &mut output);
     Vec4::from_array(colors[0])
 }
