@@ -169,7 +169,7 @@ fn set_up(
             for (draw, range) in plan.parts(chunk.ordinals.clone()) {
                 let recorded = &pass[draw.draw];
                 let vertices = DrawVertices {
-                    used: &draw.used,
+                    slots: draw.used.slots(),
                     places: &places[draw.places..draw.places + draw.used.len()],
                     pipeline: recorded.pipeline,
                     token: how.token,

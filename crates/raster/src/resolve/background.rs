@@ -2,8 +2,8 @@
 
 use crate::frame::FrameView;
 use crate::pass::Background;
-use crate::shade::Encoding;
-use crate::simd::LANES;
+use crate::shade::{Encoding, Shading};
+use crate::simd::{LANES, U32, at_level, prelude::*};
 use crate::target::Bands;
 use crate::tile::{NOBODY, Scratch, TileArea};
 use trigon_math::{UVec2, Vec4};
@@ -79,41 +79,61 @@ pub(super) fn lay_codes(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Sc
         Background::Color(_) => Some(encode(frame.background_of(UVec2::ZERO))),
         Background::PerPixel(_) => None,
     };
-    for_each_empty(scratch, |scratch, pixel| {
-        let at = TileArea::pixel_at(pixel);
-        if let Some(code) = constant {
-            scratch.shading.codes[pixel] = code;
-        } else if area.contains(at) {
-            scratch.shading.codes[pixel] = encode(frame.background_at(area, at));
+    for_each_empty(frame, scratch, |shading, group, lanes| {
+        let codes = &mut shading.codes[group * LANES..][..LANES];
+        match constant {
+            Some(code) if lanes == 0xff => codes.fill(code),
+            Some(code) => bits(lanes).for_each(|lane| codes[lane] = code),
+            None => {
+                for (lane, at) in within(area, group, lanes) {
+                    codes[lane] = encode(frame.background_at(area, at));
+                }
+            }
         }
     });
 }
 
 /// Puts the background's colour into all pixels of which every sample sees it.
 pub(super) fn lay_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) {
-    for_each_empty(scratch, |scratch, pixel| {
-        let at = TileArea::pixel_at(pixel);
-        if area.contains(at) {
-            scratch.shading.colors[pixel] = frame.background_at(area, at).to_array();
+    for_each_empty(frame, scratch, |shading, group, lanes| {
+        for (lane, at) in within(area, group, lanes) {
+            shading.colors[group * LANES + lane] = frame.background_at(area, at).to_array();
         }
     });
 }
 
-/// Visits the pixels whose first sample sees nobody. (With several samples those
-/// that are edge pixels get their colour afterwards.)
+/// Visits the groups with pixels whose first sample sees nobody, and tells which
+/// they are. (With several samples those that are edge pixels get their colour
+/// afterwards.)
 #[inline(always)]
-fn for_each_empty(scratch: &mut Scratch, mut visit: impl FnMut(&mut Scratch, usize)) {
-    let samples = scratch.buffer.samples;
-    for group in 0..scratch.buffer.span() / LANES {
-        let first = group * samples * LANES;
-        let winners: [u32; LANES] = std::array::from_fn(|lane| scratch.buffer.winner[first + lane]);
-        if !winners.contains(&NOBODY) {
-            continue;
-        }
-        for (lane, winner) in winners.into_iter().enumerate() {
-            if winner == NOBODY {
-                visit(scratch, group * LANES + lane);
+fn for_each_empty(
+    frame: &FrameView<'_>,
+    scratch: &mut Scratch,
+    mut visit: impl FnMut(&mut Shading, usize, u64),
+) {
+    let Scratch { buffer, shading, .. } = scratch;
+    at_level!(frame.token, simd => {
+        for (group, rows) in buffer.winners().chunks_exact(LANES * buffer.samples).enumerate() {
+            let empty = U32::from_slice(simd, &rows[..LANES]).simd_eq(U32::splat(simd, NOBODY));
+            if empty.any_true() {
+                visit(shading, group, empty.to_bitmask());
             }
         }
-    }
+    });
+}
+
+/// The lanes of a group that lie in the picture, with their places in the tile.
+fn within(area: &TileArea, group: usize, lanes: u64) -> impl Iterator<Item = (usize, [usize; 2])> {
+    bits(lanes)
+        .map(move |lane| (lane, TileArea::pixel_at(group * LANES + lane)))
+        .filter(|&(_, at)| area.contains(at))
+}
+
+/// The numbers of the bits that are set.
+fn bits(mut lanes: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = (lanes != 0).then_some(lanes.trailing_zeros() as usize)?;
+        lanes &= lanes - 1;
+        Some(lane)
+    })
 }

@@ -9,7 +9,7 @@ pub(crate) use mean::{mean, saturated};
 
 use crate::frame::FrameView;
 use crate::shade::{EdgePixel, Encoding, Shading};
-use crate::simd::at_level;
+use crate::simd::{Each, at_level};
 use crate::target::Bands;
 use crate::tile::{NOBODY, Scratch, TileArea};
 use trigon_math::Vec4;
@@ -54,14 +54,22 @@ fn copy_codes(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: 
         // Up to a whole group first.
         let head = row.len().min(columns.start.next_multiple_of(4) - columns.start);
         let (head, row) = row.split_at_mut(head);
-        let mut x = columns.start;
-        for pixels in std::iter::once(head).chain(row.chunks_mut(4)) {
-            let index = TileArea::index_of([x, y]);
-            for (pixel, code) in pixels.iter_mut().zip(&scratch.shading.codes[index..]) {
-                *pixel = code.to_le_bytes();
-            }
-            x += pixels.len();
+        copy_some(head, &scratch.shading.codes[TileArea::index_of([columns.start, y])..]);
+        let (fours, tail) = row.as_chunks_mut::<4>();
+        let mut x = columns.start + head.len();
+        for pixels in fours {
+            let codes = scratch.shading.codes[TileArea::index_of([x, y])..].first_chunk::<4>();
+            *pixels = codes.expect("groups are whole").each(u32::to_le_bytes);
+            x += 4;
         }
+        copy_some(tail, &scratch.shading.codes[TileArea::index_of([x.min(area.size[0] - 1), y])..]);
+    }
+}
+
+/// Copies fewer pixels than are in a row of a group.
+fn copy_some(pixels: &mut [[u8; 4]], codes: &[u32]) {
+    for (pixel, code) in pixels.iter_mut().zip(codes) {
+        *pixel = code.to_le_bytes();
     }
 }
 

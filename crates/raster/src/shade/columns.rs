@@ -73,7 +73,7 @@ impl Columns {
         }
         let special = I32::simd_from(simd, self.hot()[hot::FLAGS]) & (flag::CUT | flag::WIDE);
         if special.simd_gt(I32::splat(simd, 0)).any_true() {
-            self.cold = records.cold(simd, slots);
+            self.cold = records.cold(simd, context, slots);
             self.load_cuts(context);
         }
     }

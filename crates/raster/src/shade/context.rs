@@ -5,7 +5,7 @@ use crate::frame::{DrawPlan, FrameView};
 use crate::geometry::Geometry;
 use crate::simd::{I32, Simd, U32, prelude::*};
 use crate::tile::TileArea;
-use crate::vertex::DrawVertices;
+use crate::vertex::{DrawVertices, Slots};
 use std::ops::Range;
 
 /// What a shader has to know of the frame.
@@ -35,19 +35,34 @@ impl<'f> ShadeContext<'f> {
         self.frame.vertices(self.draw)
     }
 
-    /// The varyings of a vertex that exists, by the index that the draw uses.
+    /// The varyings of the draw's vertices.
     #[inline(always)]
-    pub(crate) fn varyings_of(&self, index: u32, stride: usize) -> &'f [f32] {
-        let plan = self.plan();
-        let slot = plan.used.slot(index).expect("what is seen has its vertices");
-        let start = plan.varyings + slot * stride;
-        &self.frame.varyings[start..start + stride]
+    pub(crate) fn varyings(&self) -> DrawVaryings<'f> {
+        let (plan, stride) = (self.plan(), self.stride());
+        let values = &self.frame.varyings[plan.varyings..plan.varyings + plan.used.len() * stride];
+        DrawVaryings { slots: plan.used.slots(), values, stride }
     }
 
     /// From how many f32 on the next vertex's varyings start.
     #[inline(always)]
     pub(crate) fn stride(&self) -> usize {
         self.frame.pipeline(self.draw).stride()
+    }
+}
+
+/// Looks up varyings by the indices that a draw uses.
+#[derive(Clone, Copy)]
+pub(crate) struct DrawVaryings<'f> {
+    slots: Slots<'f>,
+    values: &'f [f32],
+    stride: usize,
+}
+
+impl<'f> DrawVaryings<'f> {
+    /// The varyings of a vertex that exists.
+    #[inline(always)]
+    pub(crate) fn of(&self, index: u32) -> &'f [f32] {
+        &self.values[self.slots.of(index) * self.stride..][..self.stride]
     }
 }
 

@@ -19,6 +19,9 @@ pub(crate) trait AnyPipeline: Sync {
     /// they are copied by four; fewer where there are fewer.
     fn stride(&self) -> usize;
 
+    /// Whether fragments are asked for everything that there is to know.
+    fn asks_all(&self) -> bool;
+
     /// Whether a triangle has the same colour all over.
     fn is_flat(&self) -> bool;
 
@@ -63,6 +66,10 @@ impl<P: LanePipeline> AnyPipeline for P {
     fn stride(&self) -> usize {
         const { assert!(P::VARYINGS <= MAX_VARYINGS, "a pipeline has at most MAX_VARYINGS varyings") };
         stride(P::VARYINGS)
+    }
+
+    fn asks_all(&self) -> bool {
+        P::SCALAR
     }
 
     fn is_flat(&self) -> bool {

@@ -1,7 +1,7 @@
 //! What a pipeline knows when it shades eight pixels.
 
 use super::ShadeContext;
-use super::records::{Records, flag, hot};
+use super::records::{Records, cold, flag, hot};
 use super::weights::Weights;
 use crate::simd::{Each, F32, I32, LANES, Row, Simd, greater, lesser, prelude::*};
 use crate::{Fragment, Varyings};
@@ -45,6 +45,11 @@ impl<S: Simd> FragmentLanes<'_, S> {
         lesser(greater(value, low), high)
     }
 
+    #[inline(always)]
+    fn cold(&self) -> [Row; cold::COUNT] {
+        self.records.cold(self.simd, &self.context, self.slots)
+    }
+
     /// A varying at the three corners.
     #[inline(always)]
     fn corners(&self, index: usize) -> [F32<S>; 3] {
@@ -81,13 +86,13 @@ impl<S: Simd> FragmentLanes<'_, S> {
     /// 1/w, interpolated; > 0.
     #[inline(always)]
     pub fn inverse_w(&self) -> F32<S> {
-        self.place.inverse_w(self.simd, &self.records.cold(self.simd, self.slots))
+        self.place.inverse_w(self.simd, &self.cold())
     }
 
     /// Reversed depth: 1 at the near plane, 0 at the far plane or infinity.
     #[inline(always)]
     pub fn depth(&self) -> F32<S> {
-        self.place.depth(self.simd, &self.records.cold(self.simd, self.slots))
+        self.place.depth(self.simd, &self.cold())
     }
 
     /// Where the fragments lie in pixels of the target, x to the right, y down;
@@ -119,7 +124,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
             rows.set(index, [self.varying(index), dx, dy]);
         }
         let [x, y]: [[f32; LANES]; 2] = self.position().each(Into::into);
-        let cold = self.records.cold(self.simd, self.slots);
+        let cold = self.cold();
         let depth: [f32; LANES] = self.place.depth(self.simd, &cold).into();
         let inverse_w: [f32; LANES] = self.place.inverse_w(self.simd, &cold).into();
         let geometry = self.context.geometry();

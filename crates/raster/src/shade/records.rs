@@ -56,11 +56,13 @@ pub(super) mod flag {
 }
 
 /// Records of triangles of one draw: the hot row, rows of the varyings of the
-/// vertices, two cold rows.
+/// vertices, and perhaps two cold rows.
 #[derive(Default)]
 pub(crate) struct Records {
     rows: Vec<Row>,
     shape: Shape,
+    /// The triangles among the tile's.
+    seen: Vec<u32>,
 }
 
 /// How a record is laid out.
@@ -79,7 +81,11 @@ impl Records {
     pub(crate) fn fill(&mut self, token: Token, context: &ShadeContext<'_>, seen: &[u32]) {
         let stride = context.stride();
         let loaded = 1 + (3 * stride).div_ceil(LANES);
-        self.shape = Shape { size: loaded + cold::COUNT / LANES, loaded, stride };
+        let is_asked_all = context.frame.pipeline(context.draw).asks_all();
+        let size = loaded + if is_asked_all { cold::COUNT / LANES } else { 0 };
+        self.shape = Shape { size, loaded, stride };
+        self.seen.clear();
+        self.seen.extend_from_slice(seen);
         let length = seen.len() * self.shape.size;
         if self.rows.len() < length {
             self.rows.resize(length, [0; LANES]);
@@ -105,17 +111,50 @@ impl Records {
 
     /// The cold columns of eight triangles.
     #[inline(always)]
-    pub(super) fn cold<S: Simd>(&self, simd: S, slots: [u32; LANES]) -> [Row; cold::COUNT] {
-        let mut columns = [[0; LANES]; cold::COUNT];
-        for (half, columns) in columns.as_chunks_mut().0.iter_mut().enumerate() {
-            let rows = slots.each(
-                #[inline(always)]
-                |slot| &self.rows[slot as usize * self.shape.size + self.shape.loaded + half],
-            );
-            transpose(simd, rows, columns);
-        }
-        columns
+    pub(super) fn cold<S: Simd>(
+        &self,
+        simd: S,
+        context: &ShadeContext<'_>,
+        slots: [u32; LANES],
+    ) -> [Row; cold::COUNT] {
+        // Apart, so that it is compiled once.
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let seen = slots.each(
+                    #[inline(always)]
+                    |slot| self.seen[slot as usize],
+                );
+                let mut columns = [[0; LANES]; cold::COUNT];
+                if self.shape.size == self.shape.loaded {
+                    let sorted = made(simd, context, places(context, seen));
+                    let [_, first, second] = heads(simd, context, &sorted);
+                    columns[..LANES].copy_from_slice(&first);
+                    columns[LANES..].copy_from_slice(&second);
+                } else {
+                    for (half, columns) in columns.as_chunks_mut().0.iter_mut().enumerate() {
+                        let row = self.shape.loaded + half;
+                        let rows = slots.each(
+                            #[inline(always)]
+                            |slot| &self.rows[slot as usize * self.shape.size + row],
+                        );
+                        transpose(simd, rows, columns);
+                    }
+                }
+                columns[cold::PLACE] = seen.each(u32::cast_signed);
+                columns
+            },
+        )
     }
+}
+
+/// Eight of the tile's triangles.
+#[inline(always)]
+fn places(context: &ShadeContext<'_>, seen: [u32; LANES]) -> [Place; LANES] {
+    seen.each(
+        #[inline(always)]
+        |number| context.places[number as usize],
+    )
 }
 
 /// Eight triangles, their vertices sorted.
@@ -140,10 +179,7 @@ fn eight<S: Simd>(simd: S, context: &ShadeContext<'_>, seen: &[u32], (rows, shap
         #[inline(always)]
         |lane| *seen.get(lane).unwrap_or(&seen[0]),
     );
-    let places = numbers.each(
-        #[inline(always)]
-        |number| context.places[number as usize],
-    );
+    let places = places(context, numbers);
     let first = context.plan().ordinals.start;
     let primitives = places.each(
         #[inline(always)]
@@ -159,10 +195,9 @@ fn eight<S: Simd>(simd: S, context: &ShadeContext<'_>, seen: &[u32], (rows, shap
         )
     };
     let mut columns = heads(simd, context, &sorted);
-    let [hot, cold, _] = &mut columns;
-    hot[hot::PRIMITIVE] = primitives.each(u32::cast_signed);
-    cold[cold::PLACE] = numbers.each(u32::cast_signed);
-    for (columns, row) in columns.iter().zip([0, shape.loaded, shape.loaded + 1]) {
+    columns[0][hot::PRIMITIVE] = primitives.each(u32::cast_signed);
+    let kept = if shape.size == shape.loaded { 1 } else { 3 };
+    for (columns, row) in columns.iter().zip([0, shape.loaded, shape.loaded + 1]).take(kept) {
         let mut turned = [[0; LANES]; LANES];
         transpose(simd, columns.each_ref(), &mut turned);
         for (record, turned) in rows.chunks_exact_mut(shape.size).zip(turned) {
@@ -172,12 +207,12 @@ fn eight<S: Simd>(simd: S, context: &ShadeContext<'_>, seen: &[u32], (rows, shap
     if shape.stride == 0 {
         return;
     }
+    let varyings = context.varyings();
     let records = rows.chunks_exact_mut(shape.size).take(seen.len());
     for (lane, record) in records.enumerate() {
         let values = record[1..].as_flattened_mut();
         for (corner, values) in sorted.corners.iter().zip(values.chunks_exact_mut(shape.stride)) {
-            let varyings = context.varyings_of(indices[lane][corner[lane] as usize & 3], shape.stride);
-            copy(varyings, values);
+            copy(varyings.of(indices[lane][corner[lane] as usize]), values);
         }
     }
 }

@@ -5,6 +5,7 @@ use super::shading::{EdgePixel, Run, Shading};
 use super::task::{Fragment, Group};
 use crate::bin::Place;
 use crate::frame::FrameView;
+use crate::samples::MAX_SAMPLES;
 use crate::simd::{LANES, Mask, Simd, U32, prelude::*};
 use crate::tile::{NOBODY, PIXELS, VisibilityBuffer};
 
@@ -61,15 +62,17 @@ fn number<S: Simd>(simd: S, winners: &[u32], places: usize, shading: &mut Shadin
     slots.clear();
     // One more, for nobody.
     slots.resize(places + 1, 0);
-    let mut last = NOBODY;
-    for row in winners.chunks_exact(LANES) {
-        if U32::from_slice(simd, row).simd_eq(U32::splat(simd, last)).all_true() {
+    let mut last = U32::splat(simd, NOBODY);
+    for row in winners.as_chunks::<LANES>().0 {
+        let lanes = U32::simd_from(simd, *row);
+        // As before: often with several samples, and within large triangles.
+        if lanes.simd_eq(last).all_true() {
             continue;
         }
         for &winner in row {
             slots[(winner as usize).min(places)] = 1;
         }
-        last = row[LANES - 1];
+        last = lanes;
     }
     slots.truncate(places);
     seen.resize(places, 0);
@@ -97,19 +100,21 @@ fn push_lanes(shading: &mut Shading, (group, winners): (usize, &[u32]), mut lane
 /// Lists pixels whose samples see different triangles: each triangle's colour gets
 /// a place of its own, and the samples name theirs.
 #[inline(always)]
-fn push_edges(shading: &mut Shading, (group, winners): (usize, &[u32]), mut lanes: u64) {
+fn push_edges(shading: &mut Shading, (group, rows): (usize, &[u32]), mut lanes: u64) {
     let Shading { slots, parts, edge_pixels, sample_colors, .. } = shading;
+    let rows = rows.as_chunks::<LANES>().0;
+    let mut names = [NOBODY; MAX_SAMPLES];
+    let names = &mut names[..rows.len()];
     while lanes != 0 {
         let lane = lanes.trailing_zeros() as usize;
         lanes &= lanes - 1;
         let pixel = group * LANES + lane;
-        let start = sample_colors.len();
-        edge_pixels.push(EdgePixel { pixel: pixel as u32, first: start as u32 });
-        let samples = || winners.iter().skip(lane).step_by(LANES).copied();
-        for (sample, winner) in samples().enumerate() {
-            let color = match samples().take(sample).position(|before| before == winner) {
+        edge_pixels.push(EdgePixel { pixel: pixel as u32, first: sample_colors.len() as u32 });
+        for (sample, row) in rows.iter().enumerate() {
+            let winner = row[lane];
+            names[sample] = match rows[..sample].iter().position(|row| row[lane] == winner) {
                 _ if winner == NOBODY => NOBODY,
-                Some(before) => sample_colors[start + before],
+                Some(before) => names[before],
                 None => {
                     let place = PIXELS + parts.len();
                     let slot = slots[winner as usize];
@@ -117,8 +122,8 @@ fn push_edges(shading: &mut Shading, (group, winners): (usize, &[u32]), mut lane
                     place as u32
                 }
             };
-            sample_colors.push(color);
         }
+        sample_colors.extend_from_slice(names);
     }
 }
 

@@ -79,8 +79,8 @@ impl Cover<'_> {
         let walk = Walk { covering, lanes, place };
         let [columns, rows] = [covering.columns, covering.rows];
         let small = columns[1] - columns[0] < 8 && rows[1] - rows[0] < 8;
-        for block_y in rows[0] >> 3..=rows[1] >> 3 {
-            for block_x in columns[0] >> 3..=columns[1] >> 3 {
+        for block_y in rows[0] >> 3..(rows[1] >> 3) + 1 {
+            for block_x in columns[0] >> 3..(columns[1] >> 3) + 1 {
                 let [left, top] = [block_x * 8, block_y * 8];
                 let block = (block_y as usize) * BLOCKS + block_x as usize;
                 let mut inside = false;
@@ -202,7 +202,7 @@ impl Cover<'_> {
         [left, top]: [i32; 2],
     ) -> u64 {
         let clip = |[first, last]: [i32; 2], start: i32, shift: i32| {
-            ((first.max(start) - start) >> shift)..=((last.min(start + 7) - start) >> shift)
+            ((first.max(start) - start) >> shift)..((last.min(start + 7) - start) >> shift) + 1
         };
         let mut looked_at = 0;
         let mut wrote = false;

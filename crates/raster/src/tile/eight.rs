@@ -1,5 +1,6 @@
 //! Eight small triangles of a tile made ready at once.
 
+use super::micro::MICRO;
 use super::{Covering, DepthPlane, TileArea};
 use crate::samples::{MAX_SAMPLES, SamplePattern};
 use crate::setup::{Column, small_lanes, sorted_columns};
@@ -12,21 +13,23 @@ pub(super) struct Eight {
     /// Edge functions at the tile's corner, with the bias of the top-left rule.
     corner: [[i32; LANES]; 3],
     /// The same at the first sample of the first pixel, over 256.
-    first: [[i32; LANES]; 3],
-    right: [[i32; LANES]; 3],
-    down: [[i32; LANES]; 3],
+    pub(super) first: [[i32; LANES]; 3],
+    pub(super) right: [[i32; LANES]; 3],
+    pub(super) down: [[i32; LANES]; 3],
     /// First and last columns and rows.
-    pixels: [[[i32; LANES]; 2]; 2],
-    anchor: [[i32; LANES]; 2],
-    value: [f32; LANES],
-    slopes: [[f64; LANES]; 2],
-    low: [f32; LANES],
+    pub(super) pixels: [[[i32; LANES]; 2]; 2],
+    pub(super) anchor: [[i32; LANES]; 2],
+    pub(super) value: [f32; LANES],
+    pub(super) slopes: [[f64; LANES]; 2],
+    pub(super) low: [f32; LANES],
     /// The greatest depths.
     pub(super) high: [f32; LANES],
     /// The lanes whose triangles are small.
     pub(super) small: u64,
     /// Those of them that may have samples in the tile.
     pub(super) live: u64,
+    /// Whether all that are live reach over a few pixels only.
+    pub(super) micro: bool,
 }
 
 /// Triangles that reach over fewer pixels than this each way are not worth asking
@@ -49,7 +52,7 @@ impl Eight {
         simd: S,
         area: &TileArea,
         pattern: SamplePattern,
-        vertices: [[&ScreenVertex; LANES]; 3],
+        (vertices, count): ([[&ScreenVertex; LANES]; 3], usize),
     ) -> Self {
         let [a, b, c] = vertices;
         let columns = [(a, 0), (b, 1), (c, 2)].each(
@@ -72,8 +75,9 @@ impl Eight {
             #[inline(always)]
             |column| column.depth(),
         );
-        let (pixels, live) = pixels(simd, area, pattern, [a, b, c]);
-        let small = small_lanes(simd, &[a, b, c]).to_bitmask();
+        let (pixels, live, few) = pixels(simd, area, pattern, [a, b, c]);
+        let small = small_lanes(simd, &[a, b, c]).to_bitmask() & ((1 << count) - 1);
+        let live = live.to_bitmask() & small;
         Self {
             corner: edges.each(
                 #[inline(always)]
@@ -101,7 +105,8 @@ impl Eight {
             low: lesser(lesser(za, zb), zc).into(),
             high: greater(greater(za, zb), zc).into(),
             small,
-            live: live.to_bitmask() & small,
+            live,
+            micro: small.count_ones() as usize == count && live & !few.to_bitmask() == 0,
         }
     }
 
@@ -204,23 +209,27 @@ fn edge<S: Simd>(
     [value - inclusive.select(zero, I32::splat(simd, 1)), right, down]
 }
 
-/// The pixels of the tile that may have a sample in the triangles.
+/// The pixels of the tile that may have a sample in the triangles, where there are
+/// any, and where there are few.
 #[inline(always)]
 fn pixels<S: Simd>(
     simd: S,
     area: &TileArea,
     pattern: SamplePattern,
     [a, b, c]: [Column<S>; 3],
-) -> ([[[i32; LANES]; 2]; 2], Mask<S>) {
+) -> ([[[i32; LANES]; 2]; 2], Mask<S>, Mask<S>) {
     let columns = range(simd, area, pattern, 0, [a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x)]);
     let rows = range(simd, area, pattern, 1, [a.y, c.y]);
     let live = columns[0].simd_le(columns[1]) & rows[0].simd_le(rows[1]);
+    let most = I32::splat(simd, MICRO);
+    let few = (columns[1] - columns[0]).simd_lt(most) & (rows[1] - rows[0]).simd_lt(most);
     (
         [columns, rows].each(
             #[inline(always)]
             |range| range.each(Into::into),
         ),
         live,
+        few,
     )
 }
 
@@ -304,7 +313,7 @@ mod tests {
             });
             for token in SimdLevel::ALL.into_iter().filter_map(SimdLevel::token) {
                 let columns = [0, 1, 2].map(|corner| std::array::from_fn(|lane| &vertices[lane][corner]));
-                let eight = at_level!(token, simd => Eight::new(simd, &area, pattern, columns));
+                let eight = at_level!(token, simd => Eight::new(simd, &area, pattern, (columns, 8)));
                 for (lane, &vertices) in vertices.iter().enumerate() {
                     let triangle = SetupTriangle::whole(vertices, 0);
                     if eight.small >> lane & 1 == 0 || triangle.doubled_area() == 0 {

@@ -8,6 +8,7 @@ mod depth;
 mod edge;
 mod eight;
 mod masked;
+mod micro;
 mod scratch;
 mod store;
 mod tiny;

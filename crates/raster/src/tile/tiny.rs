@@ -23,8 +23,8 @@ impl Cover<'_> {
         let [columns, rows] = [tiny.columns, tiny.rows];
         // Worth it where several groups may be saved.
         let refresh = columns[1] - columns[0] + rows[1] - rows[0] > 8;
-        for block_y in rows[0] >> 3..=rows[1] >> 3 {
-            for block_x in columns[0] >> 3..=columns[1] >> 3 {
+        for block_y in rows[0] >> 3..(rows[1] >> 3) + 1 {
+            for block_x in columns[0] >> 3..(columns[1] >> 3) + 1 {
                 let block = block_y as usize * BLOCKS + block_x as usize;
                 if self.hierarchical {
                     let bounds = buffer.blocks[block];
@@ -65,10 +65,10 @@ impl Cover<'_> {
             },
         );
         let zero = I32::splat(simd, 0);
-        for row in rows[0]..=rows[1] {
+        for row in rows[0]..rows[1] + 1 {
             let [mut a, mut b, mut c] = edges;
             let mut depths = tiny.depth.row(simd, self.point([first[0], corner[1] + row * 2], 0));
-            for column in columns[0]..=columns[1] {
+            for column in columns[0]..columns[1] + 1 {
                 let covered = (a | b | c).simd_ge(zero);
                 if covered.any_true() {
                     let depth = depths.here(simd);

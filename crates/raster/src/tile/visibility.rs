@@ -2,7 +2,7 @@
 
 use super::cover::Cover;
 use super::eight::Eight;
-use super::{Counts, Covering, Scratch, Surfaces, TileArea, masked};
+use super::{Counts, Covering, Scratch, Surfaces, TileArea, VisibilityBuffer, masked};
 use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::simd::{Each, LANES, Simd, at_level, lanes_of};
@@ -44,64 +44,50 @@ fn cover_opaque<S: Simd, const MULTI: bool>(
         hierarchical: frame.hierarchical,
         precedes: &precedes,
     };
-    let mut ready = Ready::default();
-    for (number, &place) in places[..opaque].iter().enumerate() {
-        if number == ready.end {
-            ready.refill(simd, frame, area, &places[..opaque], number);
-        }
-        let covering = match ready.lane(number) {
-            None => single(frame, area, place),
-            Some((eight, lane)) => {
-                if cover.tile_hides(buffer, eight.high[lane]) {
-                    counts.tiles_rejected += 1;
-                    continue;
-                }
-                if !MULTI && let Some(tiny) = eight.tiny(lane) {
-                    cover.tiny(simd, &tiny, number as u32, buffer, counts);
-                    continue;
-                }
-                eight.covering(lane, frame.grid.pattern)
+    let places = &places[..opaque];
+    let mut start = 0;
+    while start < opaque {
+        let together = side_by_side(frame, &places[start..]);
+        let eight = (together > 0).then(|| eight(simd, frame, area, &places[start..start + together]));
+        let end = start + together.max(1);
+        if !MULTI && let Some(eight) = eight.as_ref().filter(|eight| eight.micro) {
+            cover.micro(simd, eight, start as u32, buffer, counts);
+        } else {
+            for number in start..end {
+                let lane = eight.as_ref().map(|eight| (eight, number - start));
+                cover_one::<S, MULTI>(simd, frame, &cover, lane, (places[number], number), (buffer, counts));
             }
-        };
-        if let Some(covering) = covering {
-            cover.triangle::<S, MULTI>(simd, &covering, number as u32, buffer, counts);
         }
+        start = end;
     }
 }
 
-/// Triangles that were made ready together.
-#[derive(Default)]
-struct Ready {
-    start: usize,
-    end: usize,
-    eight: Option<Eight>,
-}
-
-impl Ready {
-    /// Makes the triangles from number `start` on ready, up to eight.
-    #[inline(always)]
-    fn refill<S: Simd>(
-        &mut self,
-        simd: S,
-        frame: &FrameView<'_>,
-        area: &TileArea,
-        places: &[Place],
-        start: usize,
-    ) {
-        let count = side_by_side(frame, &places[start..]);
-        self.start = start;
-        self.end = start + count.max(1);
-        self.eight = match count {
-            0 => None,
-            _ => Some(eight(simd, frame, area, &places[start..start + count])),
-        };
-    }
-
-    /// Where a triangle is, if it is small.
-    #[inline(always)]
-    fn lane(&self, number: usize) -> Option<(&Eight, usize)> {
-        let lane = number - self.start;
-        self.eight.as_ref().filter(|eight| eight.small >> lane & 1 != 0).map(|eight| (eight, lane))
+/// One triangle, perhaps a lane of eight that are ready.
+#[inline(always)]
+fn cover_one<S: Simd, const MULTI: bool>(
+    simd: S,
+    frame: &FrameView<'_>,
+    cover: &Cover<'_>,
+    ready: Option<(&Eight, usize)>,
+    (place, number): (Place, usize),
+    (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
+) {
+    let covering = match ready.filter(|(eight, lane)| eight.small >> lane & 1 != 0) {
+        None => single(frame, &cover.area, place),
+        Some((eight, lane)) => {
+            if cover.tile_hides(buffer, eight.high[lane]) {
+                counts.tiles_rejected += 1;
+                return;
+            }
+            if !MULTI && let Some(tiny) = eight.tiny(lane) {
+                cover.tiny(simd, &tiny, number as u32, buffer, counts);
+                return;
+            }
+            eight.covering(lane, frame.grid.pattern)
+        }
+    };
+    if let Some(covering) = covering {
+        cover.triangle::<S, MULTI>(simd, &covering, number as u32, buffer, counts);
     }
 }
 
@@ -150,7 +136,7 @@ fn eight_apart<S: Simd>(simd: S, frame: &FrameView<'_>, area: &TileArea, places:
             )
         },
     );
-    Eight::new(simd, area, frame.grid.pattern, columns)
+    Eight::new(simd, area, frame.grid.pattern, (columns, places.len()))
 }
 
 /// One triangle of the tile.

@@ -1,6 +1,6 @@
 //! The vertices of one draw after the vertex stage.
 
-use super::{ScreenVertex, UsedVertices};
+use super::{ScreenVertex, Slots};
 use crate::clip::Outcode;
 use crate::shade::AnyPipeline;
 use crate::simd::Token;
@@ -12,7 +12,7 @@ static MISSING: ScreenVertex = ScreenVertex([ScreenVertex::NOWHERE, Outcode::INV
 /// Looks up a draw's vertices by the indices that the draw uses.
 #[derive(Clone, Copy)]
 pub(crate) struct DrawVertices<'a> {
-    pub(crate) used: &'a UsedVertices,
+    pub(crate) slots: Slots<'a>,
     pub(crate) places: &'a [ScreenVertex],
     pub(crate) pipeline: &'a dyn AnyPipeline,
     pub(crate) token: Token,
@@ -22,11 +22,7 @@ impl DrawVertices<'_> {
     /// The vertex of an index; one without a place and invalid if there is none.
     #[inline(always)]
     pub(crate) fn get(&self, index: u32) -> &ScreenVertex {
-        let slot = match self.used {
-            UsedVertices::Range(range) => (index as usize).wrapping_sub(range.start),
-            UsedVertices::Listed(_) => self.used.slot(index).unwrap_or(usize::MAX),
-        };
-        self.places.get(slot).unwrap_or(&MISSING)
+        self.places.get(self.slots.of(index)).unwrap_or(&MISSING)
     }
 
     /// The planes that a vertex lies beyond; none for one that needs no cutting.

@@ -8,7 +8,7 @@ mod used;
 pub(crate) use draw::DrawVertices;
 pub use lanes::VertexLanes;
 pub(crate) use screen::ScreenVertex;
-pub(crate) use used::UsedVertices;
+pub(crate) use used::{Slots, UsedVertices};
 
 use crate::LanePipeline;
 use crate::clip::{COORDINATE_MAX, Outcode, W_MIN};

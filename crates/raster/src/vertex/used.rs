@@ -55,17 +55,36 @@ impl UsedVertices {
         }
     }
 
-    /// The slot of a vertex; `None` if the draw has no such vertex.
-    #[inline]
-    pub(crate) fn slot(&self, index: u32) -> Option<usize> {
+    /// How slots are looked up.
+    pub(crate) fn slots(&self) -> Slots<'_> {
         match self {
-            Self::Range(range) => {
-                let index = index as usize;
-                range.contains(&index).then(|| index - range.start)
-            }
-            Self::Listed(indices) => indices.binary_search(&index).ok(),
+            Self::Range(range) => Slots { start: range.start as u32, listed: None },
+            Self::Listed(indices) => Slots { start: 0, listed: Some(indices) },
         }
     }
+}
+
+/// Looks up the slots of vertices.
+#[derive(Clone, Copy)]
+pub(crate) struct Slots<'a> {
+    start: u32,
+    listed: Option<&'a [u32]>,
+}
+
+impl Slots<'_> {
+    /// The slot of a vertex; beyond the last slot if the draw has no such vertex.
+    #[inline(always)]
+    pub(crate) fn of(self, index: u32) -> usize {
+        match self.listed {
+            None => index.wrapping_sub(self.start) as usize,
+            Some(listed) => search(listed, index),
+        }
+    }
+}
+
+#[cold]
+fn search(listed: &[u32], index: u32) -> usize {
+    listed.binary_search(&index).unwrap_or(usize::MAX)
 }
 
 #[cfg(test)]
@@ -83,10 +102,10 @@ mod tests {
         ] {
             let used = UsedVertices::new(&indices, count);
             for &index in &indices {
-                let slot = used.slot(index);
+                let slot = used.slots().of(index);
                 let exists = (index as usize) < count;
-                assert_eq!(slot.is_some(), exists, "vertex {index} of {count} in {used:?}");
-                assert!(slot.is_none_or(|slot| used.index(slot) == index as usize), "slot of {index}");
+                assert_eq!(slot < used.len(), exists, "vertex {index} of {count} in {used:?}");
+                assert!(!exists || used.index(slot) == index as usize, "slot of {index}");
             }
         }
     }

@@ -1,0 +1,216 @@
+//! Triangles of a pixel or a few, eight at a time with one in each lane: most of
+//! what a fine mesh is made of.
+
+use super::area::{BLOCKS, GROUPS};
+use super::buffer::{NOBODY, VisibilityBuffer};
+use super::cover::{Counts, Cover};
+use super::eight::Eight;
+use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, lesser, prelude::*};
+use fearless_simd::f64x4;
+
+/// Triangles that reach over no more pixels than this each way.
+pub(super) const MICRO: i32 = 4;
+
+/// Depths of the lanes' triangles along a row of pixels.
+struct Depths<S: Simd> {
+    /// In two halves: the planes at the row, and their steps.
+    row: [f64x4<S>; 2],
+    right: [f64x4<S>; 2],
+    low: F32<S>,
+    high: F32<S>,
+}
+
+impl Cover<'_> {
+    /// Triangles with one sample to a pixel; the first of them has number `first`.
+    #[inline(always)]
+    pub(super) fn micro<S: Simd>(
+        &self,
+        simd: S,
+        eight: &Eight,
+        first: u32,
+        buffer: &mut VisibilityBuffer,
+        counts: &mut Counts,
+    ) {
+        let live = self.not_hidden(simd, eight, buffer, counts);
+        if !live.any_true() {
+            return;
+        }
+        buffer.settle();
+        counts.groups += u64::from(live.to_bitmask().count_ones());
+        let column = |values: &[i32; LANES]| I32::simd_from(simd, *values);
+        let [left, right] = eight.pixels[0].each_ref().each(column);
+        let [top, bottom] = eight.pixels[1].each_ref().each(column);
+        let (steps_right, steps_down) =
+            (eight.right.each_ref().each(column), eight.down.each_ref().each(column));
+        let mut edges = [0, 1, 2].each(
+            #[inline(always)]
+            |k| column(&eight.first[k]) + steps_right[k] * left + steps_down[k] * top,
+        );
+        for down in 0..MICRO {
+            let y = top + down;
+            let in_row = live & y.simd_le(bottom);
+            if !in_row.any_true() {
+                return;
+            }
+            let depths = self.depths(simd, eight, y);
+            let mut values = edges;
+            for across in 0..MICRO {
+                let x = left + across;
+                let here = in_row & x.simd_le(right);
+                if !here.any_true() {
+                    break;
+                }
+                let [a, b, c] = values;
+                let covered = here & (a | b | c).simd_ge(I32::splat(simd, 0));
+                if covered.any_true() {
+                    let depth = self.depths_at(simd, eight, &depths, x);
+                    self.scatter(covered, (eight, first), (depth, index_of(x, y)), buffer);
+                }
+                for (value, step) in values.iter_mut().zip(steps_right) {
+                    *value += step;
+                }
+            }
+            for (edge, step) in edges.iter_mut().zip(steps_down) {
+                *edge += step;
+            }
+        }
+    }
+
+    /// The lanes that may be seen in the tile.
+    #[inline(always)]
+    fn not_hidden<S: Simd>(
+        &self,
+        simd: S,
+        eight: &Eight,
+        buffer: &mut VisibilityBuffer,
+        counts: &mut Counts,
+    ) -> Mask<S> {
+        let live = Mask::from_bitmask(simd, eight.live);
+        if !self.hierarchical {
+            return live;
+        }
+        let farthest = F32::splat(simd, buffer.farthest_of_all(&self.area));
+        let high = F32::simd_from(simd, eight.high);
+        let hidden = if self.in_order { high.simd_le(farthest) } else { high.simd_lt(farthest) };
+        counts.tiles_rejected += u64::from((live & hidden).to_bitmask().count_ones());
+        live & !hidden
+    }
+
+    /// The planes of depth at a row of each lane: the formula of
+    /// [`DepthPlane`](super::DepthPlane).
+    #[inline(always)]
+    fn depths<S: Simd>(&self, simd: S, eight: &Eight, y: I32<S>) -> Depths<S> {
+        let dy = self.steps(simd, (y, 1), &eight.anchor);
+        let value = halves(simd, F32::simd_from(simd, eight.value));
+        let slopes = eight.slopes.each_ref().each(
+            #[inline(always)]
+            |slopes| doubles(simd, slopes),
+        );
+        let [right, down] = slopes;
+        Depths {
+            row: [value[0] + down[0] * dy[0], value[1] + down[1] * dy[1]],
+            right,
+            low: F32::simd_from(simd, eight.low),
+            high: F32::simd_from(simd, eight.high),
+        }
+    }
+
+    #[inline(always)]
+    fn depths_at<S: Simd>(&self, simd: S, eight: &Eight, depths: &Depths<S>, x: I32<S>) -> F32<S> {
+        let dx = self.steps(simd, (x, 0), &eight.anchor);
+        let [low, high] = [0, 1].each(
+            #[inline(always)]
+            |half| depths.row[half] + depths.right[half] * dx[half],
+        );
+        lesser(greater(simd.narrow_f64x4(low, high), depths.low), depths.high)
+    }
+
+    /// How far pixels' samples lie from the triangles' first vertices on an axis, in
+    /// 1/256 pixel. Small whole numbers: exact in f32, too.
+    #[inline(always)]
+    fn steps<S: Simd>(
+        &self,
+        simd: S,
+        (pixel, axis): (I32<S>, usize),
+        anchor: &[[i32; LANES]; 2],
+    ) -> [f64x4<S>; 2] {
+        let place = ((pixel + self.area.origin[axis]) << 8) + self.offsets[0][axis];
+        halves(simd, (place - I32::simd_from(simd, anchor[axis])).to_float())
+    }
+
+    /// Lets the covered lanes compete, each for its own pixel.
+    #[inline(always)]
+    fn scatter<S: Simd>(
+        &self,
+        covered: Mask<S>,
+        (eight, first): (&Eight, u32),
+        (depth, index): (F32<S>, I32<S>),
+        buffer: &mut VisibilityBuffer,
+    ) {
+        let depth: [f32; LANES] = depth.into();
+        let index: [i32; LANES] = index.into();
+        let mut lanes = covered.to_bitmask();
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize & (LANES - 1);
+            lanes &= lanes - 1;
+            let (at, place) = (index[lane] as usize, first + lane as u32);
+            let there = buffer.depth[at];
+            if depth[lane] > there || (depth[lane] == there && self.wins_tie(place, buffer.winner[at])) {
+                buffer.depth[at] = depth[lane];
+                buffer.winner[at] = place;
+                buffer.note_write(at / (GROUPS * LANES), eight.high[lane]);
+            }
+        }
+    }
+
+    /// Whether a triangle is seen before another of equal depth, in whatever order
+    /// they come.
+    #[cold]
+    fn wins_tie(&self, place: u32, winner: u32) -> bool {
+        if self.in_order {
+            winner != NOBODY && place < winner
+        } else {
+            winner == NOBODY || (self.precedes)(place, winner)
+        }
+    }
+}
+
+/// The numbers of pixels in the tile: see
+/// [`TileArea::index_of`](super::TileArea::index_of).
+#[inline(always)]
+fn index_of<S: Simd>(x: I32<S>, y: I32<S>) -> I32<S> {
+    let block = (y >> 3) * BLOCKS as i32 + (x >> 3);
+    let group = (y & 6) + ((x >> 2) & 1);
+    (((block << 3) + group) << 3) + ((y & 1) << 2) + (x & 3)
+}
+
+/// Eight f32 as two times four f64.
+#[inline(always)]
+fn halves<S: Simd>(simd: S, value: F32<S>) -> [f64x4<S>; 2] {
+    let (low, high) = simd.widen_f32x8(value);
+    [low, high]
+}
+
+#[inline(always)]
+fn doubles<S: Simd>(simd: S, values: &[f64; LANES]) -> [f64x4<S>; 2] {
+    let [a, b, c, d, e, f, g, h] = *values;
+    [f64x4::simd_from(simd, [a, b, c, d]), f64x4::simd_from(simd, [e, f, g, h])]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::{SimdLevel, at_level};
+    use crate::tile::TileArea;
+
+    #[test]
+    fn numbers_of_pixels_agree() {
+        let token = SimdLevel::best().token().expect("the best level is there");
+        for y in 0..64 {
+            for x in 0..64 {
+                let index = at_level!(token, simd => index_of(I32::splat(simd, x), I32::splat(simd, y))[0]);
+                assert_eq!(index as usize, TileArea::index_of([x as usize, y as usize]), "{x} {y}");
+            }
+        }
+    }
+}
