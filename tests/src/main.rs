@@ -1,6 +1,7 @@
 //! The workspace tests, one module per subject.
 
 mod camera;
+mod certify;
 mod clipping;
 mod corpus;
 mod coverage;

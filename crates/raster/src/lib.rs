@@ -90,6 +90,7 @@
 
 mod bin;
 mod blend;
+mod certify;
 mod clip;
 mod draw;
 mod explain;
@@ -117,6 +118,7 @@ mod varyings;
 mod vertex;
 mod viewport;
 
+pub use certify::{Certainty, Certificate, Tolerance};
 pub use draw::{Culling, Draw, Lines, PointShape, Points, Surface};
 pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,

@@ -186,7 +186,7 @@ impl<'f> Trial<'f> {
     fn number_layers(&self, entrants: &mut [Entrant]) {
         let mut layers: Vec<&mut Entrant> =
             entrants.iter_mut().filter(|entrant| entrant.is(Verdict::Layer(0))).collect();
-        layers.sort_by(|a, b| self.from_behind(a, b));
+        layers.sort_by(|a, b| self.back_to_front(a, b));
         let mut joints = Joints::default();
         joints.collect(self.frame, layers.iter().map(|layer| layer.place));
         let mut number = 0;
@@ -200,7 +200,7 @@ impl<'f> Trial<'f> {
         }
     }
 
-    fn from_behind(&self, a: &Entrant, b: &Entrant) -> Ordering {
+    fn back_to_front(&self, a: &Entrant, b: &Entrant) -> Ordering {
         let depth = a.depth().partial_cmp(&b.depth()).unwrap_or(Ordering::Equal);
         depth.then_with(|| self.frame.compare(b.place, a.place))
     }
@@ -212,7 +212,7 @@ impl<'f> Trial<'f> {
             Verdict::OutsideEdge(_) | Verdict::OutsideDisc => 3,
             _ => 2,
         };
-        rank(a).cmp(&rank(b)).then_with(|| self.from_behind(b, a))
+        rank(a).cmp(&rank(b)).then_with(|| self.back_to_front(b, a))
     }
 }
 

@@ -1,0 +1,217 @@
+//! Lists everything that may be seen if vertices are off, also what the frame
+//! itself has dropped.
+
+use super::contender::{Contender, Contenders, Corner};
+use super::outline::{area_slack, doubled_area};
+use super::tolerance::Tolerance;
+use crate::clip;
+use crate::frame::{DrawPlan, FrameView};
+use crate::geometry::Shape;
+use crate::line::drawable_size;
+use crate::vertex::{DrawVertices, ScreenVertex, nearer};
+use crate::{Culling, PointShape, Surface};
+use trigon_math::{ClipVolume, Fixed, FixedPoint, clip_segment};
+
+/// Everything that may be seen.
+pub(super) fn contenders(frame: &FrameView<'_>, tolerance: Tolerance) -> Contenders {
+    let volume = clip::volume(frame.grid.viewport);
+    let mut contenders = Contenders::default();
+    for (number, plan) in frame.plan.draws.iter().enumerate() {
+        let mut gather = Gather {
+            frame,
+            volume: &volume,
+            vertices: frame.vertices(number),
+            surface: frame.pass[plan.draw].geometry.surface,
+            drift: drift(tolerance.position() * f64::from(frame.supersampling)),
+            depth_ulps: tolerance.depth_ulps(),
+            contenders: &mut contenders,
+        };
+        gather.draw(plan);
+    }
+    contenders
+}
+
+/// How far snapped places move, in units of the grid, if the places are off by so
+/// many pixels: rounding adds less than one unit, and units are whole.
+fn drift(pixels: f64) -> i32 {
+    if pixels > 0.0 { (256.0 * pixels).floor() as i32 + 1 } else { 0 }
+}
+
+struct Gather<'f> {
+    frame: &'f FrameView<'f>,
+    volume: &'f ClipVolume,
+    vertices: DrawVertices<'f>,
+    surface: Surface,
+    drift: i32,
+    depth_ulps: u32,
+    contenders: &'f mut Contenders,
+}
+
+impl Gather<'_> {
+    fn draw(&mut self, plan: &DrawPlan) {
+        let supersampling = f64::from(self.frame.supersampling);
+        match self.frame.pass[plan.draw].geometry.shape {
+            Shape::Triangles { triangles, culling, .. } => {
+                triangles.iter().for_each(|&indices| self.triangle(indices, culling));
+            }
+            Shape::Lines { segments, width, toward_eye } => {
+                // In units of the grid; see `reach_of_line`.
+                let half_width = f64::from(drawable_size(width)) * supersampling * 128.0;
+                segments.iter().for_each(|&indices| self.segment(indices, half_width, toward_eye));
+            }
+            Shape::Points { points, size, shape, toward_eye } => {
+                let half = (f64::from(drawable_size(size)) * supersampling * 128.0).round() as i32;
+                let is_disc = shape == PointShape::Round;
+                points.iter().for_each(|&index| self.point(index, (half, is_disc), toward_eye));
+            }
+        }
+    }
+
+    fn triangle(&mut self, indices: [u32; 3], culling: Culling) {
+        let outcodes = indices.map(|index| self.vertices.outcode(index));
+        if outcodes.iter().any(|outcode| outcode.is_invalid()) {
+            return;
+        }
+        let whole = !outcodes.iter().any(|outcode| outcode.cuts());
+        let (corners, winding) = if whole { (self.corners(indices), 1) } else { self.cut(indices) };
+        if corners.len() < 3 {
+            return;
+        }
+        let area = doubled_area(&corners) * winding;
+        let certain = area.abs() > area_slack(&corners, i64::from(self.drift));
+        let (is_drawn, is_hidden) = match culling {
+            Culling::None => (true, false),
+            Culling::Back => (area < 0, certain && area > 0),
+            Culling::Front => (area > 0, certain && area < 0),
+        };
+        if !is_hidden {
+            let is_kept = if whole { self.stays_whole(&corners) } else { certain };
+            self.push(&corners, is_drawn && is_kept, false);
+        }
+    }
+
+    /// The corners of a triangle that needs no cutting.
+    fn corners(&self, indices: [u32; 3]) -> Vec<Corner> {
+        indices.iter().map(|&index| self.corner(*self.vertices.get(index), 0.0)).collect()
+    }
+
+    /// What cutting leaves of a triangle, and -1 if it turns it over.
+    fn cut(&self, indices: [u32; 3]) -> (Vec<Corner>, i64) {
+        let positions = indices.map(|index| self.vertices.position(index));
+        let cut = clip::cut_triangle(positions, self.volume);
+        let places = cut.polygon.vertices().iter();
+        let places = places.filter_map(|v| ScreenVertex::of(v.position, self.frame.grid.viewport));
+        (places.map(|vertex| self.corner(vertex, 0.0)).collect(), cut.winding)
+    }
+
+    /// A line lies around its segment: where exactly is not looked at.
+    fn segment(&mut self, indices: [u32; 2], half_width: f64, toward_eye: f32) {
+        let outcodes = indices.map(|index| self.vertices.outcode(index));
+        if outcodes.iter().any(|outcode| outcode.is_invalid()) {
+            return;
+        }
+        let ends = if outcodes.iter().any(|outcode| outcode.cuts()) {
+            let positions = indices.map(|index| self.vertices.position(index));
+            let viewport = self.frame.grid.viewport;
+            let place = |end: trigon_math::ClipVertex<2>| ScreenVertex::of(end.position, viewport);
+            clip_segment(positions, self.volume).map(|ends| ends.map(place))
+        } else {
+            Some(indices.map(|index| Some(*self.vertices.get(index))))
+        };
+        if let Some([Some(a), Some(b)]) = ends {
+            let corners = [a, b].map(|end| self.corner(end, toward_eye));
+            let drift = self.drift.saturating_add(reach_of_line(half_width));
+            let line = Contender { drift, ..self.contender(false, false) };
+            self.contenders.push(&corners, line);
+        }
+    }
+
+    fn point(&mut self, index: u32, (half, is_disc): (i32, bool), toward_eye: f32) {
+        let outcode = self.vertices.outcode(index);
+        if outcode.is_invalid() || outcode.cuts() {
+            return;
+        }
+        let centre = *self.vertices.get(index);
+        let whole = self.stays_whole(&[self.corner(centre, 0.0)]);
+        let [column, row] = centre.raw();
+        let corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(|[x, y]| {
+            let moved = |raw: i32, by: i32| Fixed::from_raw(raw + by * half);
+            self.corner(centre.at(FixedPoint::new(moved(column, x), moved(row, y))), toward_eye)
+        });
+        self.push(&corners, whole, is_disc);
+    }
+
+    fn push(&mut self, corners: &[Corner], is_sure: bool, is_disc: bool) {
+        let contender = self.contender(is_sure, is_disc);
+        self.contenders.push(corners, contender);
+    }
+
+    fn contender(&self, is_sure: bool, is_disc: bool) -> Contender {
+        // What a plane may come to cut has corners elsewhere, on the same outline.
+        let drift = if is_sure { self.drift } else { self.drift + 1 };
+        Contender { first: 0, count: 0, drift, surface: self.surface, is_sure, is_disc }
+    }
+
+    fn corner(&self, vertex: ScreenVertex, toward_eye: f32) -> Corner {
+        let steps = i64::from(self.depth_ulps);
+        let at = |steps: i64| nearer(stepped(vertex.depth(), steps), toward_eye);
+        Corner { vertex: vertex.with_depth(at(0)), low: at(-steps), high: at(steps) }
+    }
+
+    /// Whether no corner may come to lie beyond a plane that cuts.
+    fn stays_whole(&self, corners: &[Corner]) -> bool {
+        let viewport = self.frame.grid.viewport;
+        let bands = viewport.guard();
+        let sides = [viewport.width, viewport.height];
+        let within = |vertex: ScreenVertex, axis: usize| {
+            // From the middle, in units of the grid.
+            let half = 128.0 * f64::from(sides[axis]);
+            let place = f64::from(vertex.raw()[axis]) - half;
+            place.abs() + f64::from(self.drift + 1) < f64::from(bands[axis].factor()) * half
+        };
+        corners.iter().all(|corner| corner.high <= 1.0 && (0..2).all(|axis| within(corner.vertex, axis)))
+    }
+}
+
+/// How far a line's corners lie from its ends at most, on each axis, in units of
+/// the grid: half its width along, and across that times at most 1 for the slope
+/// and the square root of 2 for the cut ends; then they are rounded.
+fn reach_of_line(half_width: f64) -> i32 {
+    (2.5 * half_width).ceil() as i32 + 1
+}
+
+/// The depth so many units in the last place further on.
+fn stepped(depth: f32, steps: i64) -> f32 {
+    let magnitude = i64::from(depth.abs().to_bits());
+    let number = if depth < 0.0 { -magnitude } else { magnitude } + steps;
+    let largest = i64::from(f32::MAX.to_bits());
+    let value = f32::from_bits(number.abs().min(largest) as u32);
+    if number < 0 { -value } else { value }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_units_in_the_last_place() {
+        for depth in [0.5_f32, 1.0, 1e-30, -2.5, 0.0] {
+            assert_eq!(stepped(depth, 0), depth, "no step from {depth}");
+            assert_eq!(stepped(depth, 2), depth.next_up().next_up(), "two up from {depth}");
+            assert_eq!(stepped(depth, -2), depth.next_down().next_down(), "two down from {depth}");
+        }
+    }
+
+    #[test]
+    fn snapped_places_move_by_less_than_a_unit_more() {
+        for (pixels, units) in [(0.0, 0), (1e-9, 1), (1.0 / 512.0, 1), (1.0 / 256.0, 2), (0.01, 3)] {
+            assert_eq!(drift(pixels), units, "{pixels} pixels");
+            for i in 0..1000 {
+                let place = f64::from(i) * 0.000_37;
+                let moved = Fixed::from_f64(place + pixels).unwrap().raw();
+                let by = moved - Fixed::from_f64(place).unwrap().raw();
+                assert!(by <= units, "{place} by {pixels} pixels moves {by} units");
+            }
+        }
+    }
+}
