@@ -33,7 +33,7 @@ pub enum DepthTest {
 /// tile is the largest whole number of pixels that fits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TileSize {
-    /// 64 by 64, and 32 by 32 from four samples on: what a worker keeps of a tile
+    /// 64 by 64, and 32 by 32 from eight samples on: what a worker keeps of a tile
     /// fits into the caches nearest to it.
     #[default]
     Automatic,
@@ -50,7 +50,7 @@ pub enum TileSize {
 impl TileSize {
     pub(crate) fn pixels(self, samples: u32) -> u32 {
         match self {
-            Self::Automatic if samples >= 4 => 32,
+            Self::Automatic if samples >= 8 => 32,
             Self::Automatic | Self::Pixels64 => 64,
             Self::Pixels8 => 8,
             Self::Pixels16 => 16,

@@ -64,6 +64,14 @@ impl SetupTriangle {
         orientation_fixed(a, b, c)
     }
 
+    /// The greatest depth of the vertices.
+    #[inline]
+    pub(crate) fn nearest(&self) -> f32 {
+        let [a, b, c] = self.vertices.map(ScreenVertex::depth);
+        let greater = |a: f32, b: f32| if b > a { b } else { a };
+        greater(greater(a, b), c)
+    }
+
     /// The least and the greatest coordinate of an axis in 1/256 pixel.
     #[inline]
     pub(crate) fn extent(&self, axis: usize) -> [i32; 2] {

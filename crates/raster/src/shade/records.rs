@@ -204,32 +204,58 @@ fn eight<S: Simd>(simd: S, context: &ShadeContext<'_>, seen: &[u32], (rows, shap
             record[row] = turned;
         }
     }
-    if shape.stride == 0 {
-        return;
+    let corners = lanes_of(
+        #[inline(always)]
+        |lane| {
+            sorted.corners.each_ref().each(
+                #[inline(always)]
+                |corner| indices[lane][corner[lane] as usize],
+            )
+        },
+    );
+    let records = rows.chunks_exact_mut(shape.size).zip(&corners[..seen.len()]);
+    // The commonest by themselves, so that they are copied without a loop.
+    match shape.stride {
+        0 => {}
+        1 => copy_varyings::<1>(context, records),
+        2 => copy_varyings::<2>(context, records),
+        4 => copy_varyings::<4>(context, records),
+        8 => copy_varyings::<8>(context, records),
+        _ => copy_long_varyings(context, records),
     }
+}
+
+/// Puts the varyings of the corners into records: `STRIDE` of each.
+#[inline(always)]
+fn copy_varyings<'r, const STRIDE: usize>(
+    context: &ShadeContext<'_>,
+    records: impl Iterator<Item = (&'r mut [Row], &'r [u32; 3])>,
+) {
     let varyings = context.varyings();
-    let records = rows.chunks_exact_mut(shape.size).take(seen.len());
-    for (lane, record) in records.enumerate() {
-        let values = record[1..].as_flattened_mut();
-        for (corner, values) in sorted.corners.iter().zip(values.chunks_exact_mut(shape.stride)) {
-            copy(varyings.of(indices[lane][corner[lane] as usize]), values);
+    for (record, corners) in records {
+        let values = record[1..].as_flattened_mut().as_chunks_mut::<STRIDE>().0;
+        for (values, &corner) in values.iter_mut().zip(corners) {
+            let from = varyings.of(corner).first_chunk::<STRIDE>();
+            for (to, from) in values.iter_mut().zip(from.expect("varyings are this long")) {
+                *to = from.to_bits().cast_signed();
+            }
         }
     }
 }
 
-/// Copies varyings, by four where there are that many.
-#[inline(always)]
-fn copy(from: &[f32], to: &mut [i32]) {
-    if from.len() < 4 {
-        for (to, from) in to.iter_mut().zip(from) {
-            *to = from.to_bits().cast_signed();
+/// As [`copy_varyings`], for any number of whole fours.
+fn copy_long_varyings<'r>(
+    context: &ShadeContext<'_>,
+    records: impl Iterator<Item = (&'r mut [Row], &'r [u32; 3])>,
+) {
+    let varyings = context.varyings();
+    for (record, corners) in records {
+        let values = record[1..].as_flattened_mut().chunks_exact_mut(context.stride());
+        for (values, &corner) in values.zip(corners) {
+            for (to, from) in values.iter_mut().zip(varyings.of(corner)) {
+                *to = from.to_bits().cast_signed();
+            }
         }
-    }
-    for (to, from) in to.as_chunks_mut::<4>().0.iter_mut().zip(from.as_chunks::<4>().0) {
-        *to = from.each(
-            #[inline(always)]
-            |value| value.to_bits().cast_signed(),
-        );
     }
 }
 

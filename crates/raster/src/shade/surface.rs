@@ -79,6 +79,14 @@ fn shade_flat(
         let number = group.number as usize;
         let pixels = number * LANES..(number + 1) * LANES;
         let seen = &winners[number * step..][..LANES];
+        if seen.iter().all(|&winner| winner == seen[0]) {
+            let slot = (group.slot - base) as usize;
+            match encoding {
+                Some(_) => codes[pixels].fill(flat_codes[slot]),
+                None => colors[pixels].fill(flat_colors[slot]),
+            }
+            continue;
+        }
         // What sees nothing is written over later.
         let slot = |winner: u32| slots.get(winner as usize).copied().unwrap_or(group.slot) - base;
         if encoding.is_some() {

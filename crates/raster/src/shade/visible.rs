@@ -89,7 +89,7 @@ fn number<S: Simd>(simd: S, winners: &[u32], places: usize, shading: &mut Shadin
 #[inline(always)]
 fn push_lanes(shading: &mut Shading, (group, winners): (usize, &[u32]), mut lanes: u64) {
     while lanes != 0 {
-        let lane = lanes.trailing_zeros() as usize;
+        let lane = lanes.trailing_zeros() as usize % LANES;
         lanes &= lanes - 1;
         let pixel = group * LANES + lane;
         let slot = shading.slots[winners[lane] as usize];
@@ -106,7 +106,7 @@ fn push_edges(shading: &mut Shading, (group, rows): (usize, &[u32]), mut lanes: 
     let mut names = [NOBODY; MAX_SAMPLES];
     let names = &mut names[..rows.len()];
     while lanes != 0 {
-        let lane = lanes.trailing_zeros() as usize;
+        let lane = lanes.trailing_zeros() as usize % LANES;
         lanes &= lanes - 1;
         let pixel = group * LANES + lane;
         edge_pixels.push(EdgePixel { pixel: pixel as u32, first: sample_colors.len() as u32 });

@@ -37,6 +37,33 @@ struct Walk<'c, S: Simd> {
     place: u32,
 }
 
+impl<S: Simd> Walk<'_, S> {
+    /// The edge functions at the pixels of a group, but for what the samples add.
+    /// Partial sums may wrap around; the sum fits.
+    #[inline(always)]
+    fn edges_at(&self, [x, y]: [i32; 2]) -> [I32<S>; 3] {
+        let Covering { right, down, .. } = self.covering;
+        [0, 1, 2].each(
+            #[inline(always)]
+            |k| self.lanes[k] + right[k].wrapping_mul(x).wrapping_add(down[k].wrapping_mul(y)),
+        )
+    }
+
+    /// Which pixels lie inside of all edges, with what a sample adds.
+    #[inline(always)]
+    fn inside(&self, simd: S, edges: [I32<S>; 3], starts: [i32; 3]) -> Mask<S> {
+        let [a, b, c] = [edges[0] + starts[0], edges[1] + starts[1], edges[2] + starts[2]];
+        (a | b | c).simd_ge(I32::splat(simd, 0))
+    }
+
+    /// Whether a sample of any of the pixels may be covered.
+    #[inline(always)]
+    fn may_cover(&self, simd: S, edges: [I32<S>; 3]) -> bool {
+        let Covering { range: [_, greatest], special, .. } = self.covering;
+        special.is_some() || self.inside(simd, edges, *greatest).any_true()
+    }
+}
+
 impl Cover<'_> {
     /// Whether something at `depth` cannot be seen before something at
     /// `farthest`.
@@ -51,7 +78,8 @@ impl Cover<'_> {
         self.hierarchical && self.hides(buffer.farthest_of_all(&self.area), depth)
     }
 
-    /// Lets a triangle compete for the samples that it covers.
+    /// Lets a triangle that the tile does not hide as a whole compete for the samples
+    /// that it covers.
     #[inline(always)]
     pub(crate) fn triangle<S: Simd, const MULTI: bool>(
         &self,
@@ -61,10 +89,6 @@ impl Cover<'_> {
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) {
-        if self.tile_hides(buffer, covering.depth.high) {
-            counts.tiles_rejected += 1;
-            return;
-        }
         if self.fills_tile(covering, buffer) {
             counts.tiles_filled += 1;
             buffer.fill_with(covering.depth.low, place);
@@ -90,7 +114,7 @@ impl Cover<'_> {
                         continue;
                     }
                 } else {
-                    let [outside, within] = covering.block_sides(self.offsets.len(), [left, top]);
+                    let [outside, within] = covering.block_sides([left, top]);
                     if outside
                         || (self.hierarchical && self.block_hides(covering, buffer, block, [left, top]))
                     {
@@ -206,13 +230,18 @@ impl Cover<'_> {
         };
         let mut looked_at = 0;
         let mut wrote = false;
+        let samples = if MULTI { buffer.samples } else { 1 };
         for row in clip(walk.covering.rows, top, 1) {
             for column in clip(walk.covering.columns, left, 2) {
                 let first = [left + column * 4, top + row * 2];
+                let edges = walk.edges_at(first);
+                looked_at += 1;
+                if MULTI && !walk.may_cover(simd, edges) {
+                    continue;
+                }
                 let group = block * 8 + (row * 2 + column) as usize;
-                let samples = if MULTI { buffer.samples } else { 1 };
                 for sample in 0..samples {
-                    let covered = self.covered(simd, walk, first, sample);
+                    let covered = self.covered(simd, walk, (edges, first), sample);
                     if !covered.any_true() {
                         continue;
                     }
@@ -220,7 +249,6 @@ impl Cover<'_> {
                     let at = (group * samples + sample) * LANES;
                     wrote |= self.compete(simd, walk.place, (covered, depth), buffer, at);
                 }
-                looked_at += 1;
             }
         }
         if wrote {
@@ -231,22 +259,17 @@ impl Cover<'_> {
 
     /// Which pixels of a group the triangle covers at a sample.
     #[inline(always)]
-    fn covered<S: Simd>(&self, simd: S, walk: &Walk<'_, S>, first: [i32; 2], sample: usize) -> Mask<S> {
-        let covering = walk.covering;
-        if covering.special.is_some() {
-            return self.covered_specially(simd, covering, first, sample);
+    fn covered<S: Simd>(
+        &self,
+        simd: S,
+        walk: &Walk<'_, S>,
+        (edges, first): ([I32<S>; 3], [i32; 2]),
+        sample: usize,
+    ) -> Mask<S> {
+        if walk.covering.special.is_some() {
+            return self.covered_specially(simd, walk.covering, first, sample);
         }
-        let [a, b, c] = [0, 1, 2].each(
-            #[inline(always)]
-            |k| {
-                // Partial sums may wrap around; the sum fits.
-                let start = covering.starts[sample][k]
-                    .wrapping_add(covering.right[k].wrapping_mul(first[0]))
-                    .wrapping_add(covering.down[k].wrapping_mul(first[1]));
-                walk.lanes[k] + start
-            },
-        );
-        (a | b | c).simd_ge(I32::splat(simd, 0))
+        walk.inside(simd, edges, walk.covering.starts[sample])
     }
 
     #[cold]

@@ -14,6 +14,8 @@ use crate::setup::{Kind, SetupTriangle};
 pub(crate) struct Covering {
     /// For each sample of a pixel the edge functions at the tile's first pixel.
     pub(crate) starts: [[i32; 3]; MAX_SAMPLES],
+    /// The least and the greatest of those of all samples.
+    pub(crate) range: [[i32; 3]; 2],
     /// Steps of a pixel.
     pub(crate) right: [i32; 3],
     pub(crate) down: [i32; 3],
@@ -75,6 +77,7 @@ impl Covering {
         let (columns, rows) = (range(0)?, range(1)?);
         let mut covering = Self {
             starts: [[0; 3]; MAX_SAMPLES],
+            range: [[0; 3]; 2],
             right: [0; 3],
             down: [0; 3],
             columns,
@@ -93,9 +96,9 @@ impl Covering {
     }
 
     /// Whether a block, whose first pixel is given, lies outside of an edge, and
-    /// whether inside of all; for the first `samples` of each pixel.
+    /// whether inside of all.
     #[inline(always)]
-    pub(crate) fn block_sides(&self, samples: usize, [x, y]: [i32; 2]) -> [bool; 2] {
+    pub(crate) fn block_sides(&self, [x, y]: [i32; 2]) -> [bool; 2] {
         if self.special.is_some() {
             return [false, false];
         }
@@ -106,14 +109,9 @@ impl Covering {
             let far = |step: i32| step.wrapping_mul(7);
             let grow = far(right.max(0)).wrapping_add(far(down.max(0)));
             let shrink = far(right.min(0)).wrapping_add(far(down.min(0)));
-            let (mut least, mut greatest) = (i32::MAX, i32::MIN);
-            for starts in &self.starts[..samples] {
-                let value = starts[k].wrapping_add(at);
-                least = least.min(value.wrapping_add(shrink));
-                greatest = greatest.max(value.wrapping_add(grow));
-            }
-            outside |= greatest < 0;
-            inside &= least >= 0;
+            let [least, greatest] = self.range.map(|starts| starts[k].wrapping_add(at));
+            outside |= greatest.wrapping_add(grow) < 0;
+            inside &= least.wrapping_add(shrink) >= 0;
         }
         [outside, inside]
     }
@@ -153,6 +151,9 @@ impl Covering {
             // than the span.
             start[k] = ((edge.at(point) + edge.bias()) >> 8) as i32;
         }
+        let starts = || self.starts[..grid.pattern.count()].iter().map(|start| start[k]);
+        let [low, high] = &mut self.range;
+        (low[k], high[k]) = (starts().fold(i32::MAX, i32::min), starts().fold(i32::MIN, i32::max));
         Some((greatest - least) >> 8 >= i64::from(i32::MAX))
     }
 }

@@ -63,25 +63,16 @@ impl DepthPlane {
         down + self.right * f64::from(x - self.anchor[0])
     }
 
-    /// A row of groups whose first point is given.
-    #[inline(always)]
-    pub(crate) fn row<S: Simd>(&self, simd: S, [x, y]: [i32; 2]) -> DepthRow<S> {
-        let row = |y: i32| self.value + self.down * f64::from(y - self.anchor[1]);
-        let columns = f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]);
-        DepthRow {
-            columns: f64x4::splat(simd, f64::from(x - self.anchor[0])) + columns,
-            right: f64x4::splat(simd, self.right),
-            upper: f64x4::splat(simd, row(y)),
-            lower: f64x4::splat(simd, row(y + 256)),
-            low: F32::splat(simd, self.low),
-            high: F32::splat(simd, self.high),
-        }
-    }
-
     /// The depths at a group of pixels, 4 by 2, whose first point is given.
     #[inline(always)]
-    pub(crate) fn group<S: Simd>(&self, simd: S, point: [i32; 2]) -> F32<S> {
-        self.row(simd, point).here(simd)
+    pub(crate) fn group<S: Simd>(&self, simd: S, [x, y]: [i32; 2]) -> F32<S> {
+        let row = |y: i32| self.value + self.down * f64::from(y - self.anchor[1]);
+        let columns = f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]);
+        let columns = f64x4::splat(simd, f64::from(x - self.anchor[0])) + columns;
+        let steps = f64x4::splat(simd, self.right) * columns;
+        let [upper, lower] = [row(y), row(y + 256)];
+        let depth = simd.narrow_f64x4(f64x4::splat(simd, upper) + steps, f64x4::splat(simd, lower) + steps);
+        lesser(greater(depth, F32::splat(simd, self.low)), F32::splat(simd, self.high))
     }
 
     /// Bounds of the depths in a rectangle of points, ends included.
@@ -96,34 +87,6 @@ impl DepthPlane {
         let greatest = self.at([end(right, 0), end(down, 1)]);
         // Other points may be rounded by a little more.
         [self.low.max(least.next_down().next_down()), self.high.min(greatest.next_up().next_up())]
-    }
-}
-
-/// Depths along a row of groups of pixels.
-pub(crate) struct DepthRow<S: Simd> {
-    /// Columns relative to the anchor: whole numbers, so that stepping along
-    /// rounds nothing.
-    columns: f64x4<S>,
-    right: f64x4<S>,
-    upper: f64x4<S>,
-    lower: f64x4<S>,
-    low: F32<S>,
-    high: F32<S>,
-}
-
-impl<S: Simd> DepthRow<S> {
-    /// The depths of the group.
-    #[inline(always)]
-    pub(crate) fn here(&self, simd: S) -> F32<S> {
-        let steps = self.right * self.columns;
-        let depth = simd.narrow_f64x4(self.upper + steps, self.lower + steps);
-        lesser(greater(depth, self.low), self.high)
-    }
-
-    /// On to the next group.
-    #[inline(always)]
-    pub(crate) fn step(&mut self, simd: S) {
-        self.columns += f64x4::splat(simd, 1024.0);
     }
 }
 

@@ -11,7 +11,7 @@ use fearless_simd::f64x4;
 /// What [`Covering`] needs of eight small triangles.
 pub(super) struct Eight {
     /// Edge functions at the tile's corner, with the bias of the top-left rule.
-    corner: [[i32; LANES]; 3],
+    pub(super) corner: [[i32; LANES]; 3],
     /// The same at the first sample of the first pixel, over 256.
     pub(super) first: [[i32; LANES]; 3],
     pub(super) right: [[i32; LANES]; 3],
@@ -28,6 +28,8 @@ pub(super) struct Eight {
     pub(super) small: u64,
     /// Those of them that may have samples in the tile.
     pub(super) live: u64,
+    /// The lanes whose triangles reach over a few blocks only.
+    tiny: u64,
     /// Whether all that are live reach over a few pixels only.
     pub(super) micro: bool,
 }
@@ -35,16 +37,6 @@ pub(super) struct Eight {
 /// Triangles that reach over fewer pixels than this each way are not worth asking
 /// whether blocks lie outside of them.
 const TINY: i32 = 24;
-
-/// A triangle of a few blocks: as [`Covering`], for one sample.
-pub(super) struct Tiny {
-    pub(super) start: [i32; 3],
-    pub(super) right: [i32; 3],
-    pub(super) down: [i32; 3],
-    pub(super) columns: [i32; 2],
-    pub(super) rows: [i32; 2],
-    pub(super) depth: DepthPlane,
-}
 
 impl Eight {
     #[inline(always)]
@@ -75,7 +67,7 @@ impl Eight {
             #[inline(always)]
             |column| column.depth(),
         );
-        let (pixels, live, few) = pixels(simd, area, pattern, [a, b, c]);
+        let (pixels, live, [tiny, few]) = pixels(simd, area, pattern, [a, b, c]);
         let small = small_lanes(simd, &[a, b, c]).to_bitmask() & ((1 << count) - 1);
         let live = live.to_bitmask() & small;
         Self {
@@ -106,34 +98,15 @@ impl Eight {
             high: greater(greater(za, zb), zc).into(),
             small,
             live,
+            tiny: tiny.to_bitmask(),
             micro: small.count_ones() as usize == count && live & !few.to_bitmask() == 0,
         }
     }
 
-    /// The triangle of one lane with one sample to a pixel, if it has one in the
-    /// tile and reaches over a few blocks only.
+    /// Whether the triangle of a lane is live and reaches over a few blocks only.
     #[inline(always)]
-    pub(super) fn tiny(&self, lane: usize) -> Option<Tiny> {
-        let [[left, right], [top, bottom]] = self.pixels.each_ref().each(
-            #[inline(always)]
-            |range| [range[0][lane], range[1][lane]],
-        );
-        if self.live >> lane & 1 == 0 || right - left >= TINY || bottom - top >= TINY {
-            return None;
-        }
-        let at = [&self.first, &self.right, &self.down];
-        let [start, right_steps, down] = at.each(
-            #[inline(always)]
-            |columns| [columns[0][lane], columns[1][lane], columns[2][lane]],
-        );
-        Some(Tiny {
-            start,
-            right: right_steps,
-            down,
-            columns: [left, right],
-            rows: [top, bottom],
-            depth: self.plane(lane),
-        })
+    pub(super) fn is_tiny(&self, lane: usize) -> bool {
+        self.live & self.tiny & 1 << lane != 0
     }
 
     #[inline(always)]
@@ -164,14 +137,20 @@ impl Eight {
             },
         );
         let mut starts = [[0; 3]; MAX_SAMPLES];
+        let mut range = [[i32::MAX; 3], [i32::MIN; 3]];
         for (start, [x, y]) in starts.iter_mut().zip(pattern.offsets()) {
             *start = [0, 1, 2].each(
                 #[inline(always)]
                 |k| (corner[k] + right[k] * x + down[k] * y) >> 8,
             );
+            for k in 0..3 {
+                range[0][k] = range[0][k].min(start[k]);
+                range[1][k] = range[1][k].max(start[k]);
+            }
         }
         Some(Covering {
             starts,
+            range,
             right,
             down,
             columns: self.pixels[0].each(
@@ -210,26 +189,31 @@ fn edge<S: Simd>(
 }
 
 /// The pixels of the tile that may have a sample in the triangles, where there are
-/// any, and where there are few.
+/// any, and where they are fewer than [`TINY`] and than [`MICRO`] each way.
 #[inline(always)]
 fn pixels<S: Simd>(
     simd: S,
     area: &TileArea,
     pattern: SamplePattern,
     [a, b, c]: [Column<S>; 3],
-) -> ([[[i32; LANES]; 2]; 2], Mask<S>, Mask<S>) {
+) -> ([[[i32; LANES]; 2]; 2], Mask<S>, [Mask<S>; 2]) {
     let columns = range(simd, area, pattern, 0, [a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x)]);
     let rows = range(simd, area, pattern, 1, [a.y, c.y]);
     let live = columns[0].simd_le(columns[1]) & rows[0].simd_le(rows[1]);
-    let most = I32::splat(simd, MICRO);
-    let few = (columns[1] - columns[0]).simd_lt(most) & (rows[1] - rows[0]).simd_lt(most);
+    let within = [TINY, MICRO].each(
+        #[inline(always)]
+        |most| {
+            let most = I32::splat(simd, most);
+            (columns[1] - columns[0]).simd_lt(most) & (rows[1] - rows[0]).simd_lt(most)
+        },
+    );
     (
         [columns, rows].each(
             #[inline(always)]
             |range| range.each(Into::into),
         ),
         live,
-        few,
+        within,
     )
 }
 

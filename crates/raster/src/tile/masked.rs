@@ -29,7 +29,7 @@ pub(crate) fn for_each_sample(
     let offsets = frame.grid.pattern.offsets();
     for block in blocks_of(columns, rows) {
         let corner = [block[0].start / 8 * 8, block[1].start / 8 * 8].map(|v| v as i32);
-        let [outside, inside] = covering.block_sides(offsets.len(), corner);
+        let [outside, inside] = covering.block_sides(corner);
         if outside {
             continue;
         }

@@ -5,6 +5,7 @@ use super::eight::Eight;
 use super::{Counts, Covering, Scratch, Surfaces, TileArea, VisibilityBuffer, masked};
 use crate::bin::Place;
 use crate::frame::FrameView;
+use crate::setup::SetupTriangle;
 use crate::simd::{Each, LANES, Simd, at_level, lanes_of};
 
 /// Finds the nearest opaque or masked triangle at every sample.
@@ -73,14 +74,21 @@ fn cover_one<S: Simd, const MULTI: bool>(
     (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
 ) {
     let covering = match ready.filter(|(eight, lane)| eight.small >> lane & 1 != 0) {
-        None => single(frame, &cover.area, place),
+        None => {
+            let triangle = frame.triangle(place);
+            if cover.tile_hides(buffer, triangle.nearest()) {
+                counts.tiles_rejected += 1;
+                return;
+            }
+            covering_apart(frame, &cover.area, &triangle)
+        }
         Some((eight, lane)) => {
             if cover.tile_hides(buffer, eight.high[lane]) {
                 counts.tiles_rejected += 1;
                 return;
             }
-            if !MULTI && let Some(tiny) = eight.tiny(lane) {
-                cover.tiny(simd, &tiny, number as u32, buffer, counts);
+            if eight.is_tiny(lane) {
+                cover.tiny::<S, MULTI>(simd, (eight, lane), number as u32, buffer, counts);
                 return;
             }
             eight.covering(lane, frame.grid.pattern)
@@ -140,7 +148,12 @@ fn eight_apart<S: Simd>(simd: S, frame: &FrameView<'_>, area: &TileArea, places:
 }
 
 /// One triangle of the tile.
-#[inline(never)]
 pub(super) fn single(frame: &FrameView<'_>, area: &TileArea, place: Place) -> Option<Covering> {
-    Covering::new(&frame.triangle(place), &frame.grid, area)
+    covering_apart(frame, area, &frame.triangle(place))
+}
+
+/// Not inlined, so that it is compiled once.
+#[inline(never)]
+fn covering_apart(frame: &FrameView<'_>, area: &TileArea, triangle: &SetupTriangle) -> Option<Covering> {
+    Covering::new(triangle, &frame.grid, area)
 }
