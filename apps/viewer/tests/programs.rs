@@ -259,7 +259,7 @@ fn a_senseless_command_line_exits_with_2() {
         ("corner.obj --camera-position 0.5,0.5,0.5 --output o.png", "looks nowhere"),
         ("--background-color=blurple", "CSS name"),
         ("--simd=mmx", "scalar, sse2, avx2, avx512 and neon"),
-        (ELSEWHERE, "does not support the SIMD level"),
+        (ELSEWHERE, "is not to be had"),
     ] {
         let said = folder.said(flags, 2);
         assert!(said.contains(words), "`{flags}`: {said}");

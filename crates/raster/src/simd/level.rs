@@ -1,6 +1,8 @@
 //! Which vector instructions a frame is drawn with.
 
-use fearless_simd::{Fallback, Level};
+#[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
+use fearless_simd::Fallback;
+use fearless_simd::Level;
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
@@ -8,7 +10,8 @@ use thiserror::Error;
 /// A set of vector instructions. Every level draws the same bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SimdLevel {
-    /// None: one number at a time. For comparison.
+    /// None: one number at a time. For comparison; where the processor has vectors
+    /// it is there only with the feature `scalar`.
     Scalar,
     /// x86-64's own 128 bits.
     Sse2,
@@ -27,8 +30,12 @@ pub enum SimdLevelError {
     /// There is no level of that name.
     #[error("no such SIMD level: it is one of scalar, sse2, avx2, avx512 and neon")]
     Unknown,
-    /// This processor lacks the instructions.
-    #[error("this processor does not support the SIMD level {0}: take another, or leave it to be chosen")]
+    /// This processor lacks the instructions, or the crate was built without the
+    /// feature `scalar`.
+    #[error(
+        "the SIMD level {0} is not to be had: this processor lacks it, or it is `scalar` and the feature of \
+         that name is off; take another, or leave it to be chosen"
+    )]
     Unsupported(SimdLevel),
 }
 
@@ -50,7 +57,10 @@ impl SimdLevel {
     /// The proof that the processor has it.
     pub(crate) fn token(self) -> Option<Token> {
         match self {
+            #[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
             Self::Scalar => Some(Token::Scalar(Fallback::new())),
+            #[cfg(not(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64")))))]
+            Self::Scalar => None,
             #[cfg(target_arch = "x86_64")]
             Self::Sse2 => Level::new().as_sse2().map(Token::Sse2),
             #[cfg(target_arch = "x86_64")]
@@ -90,6 +100,7 @@ impl FromStr for SimdLevel {
 /// A level that the processor has.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Token {
+    #[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
     Scalar(Fallback),
     #[cfg(target_arch = "x86_64")]
     Sse2(fearless_simd::x86::Sse2),
@@ -106,6 +117,7 @@ macro_rules! at_level {
     ($token:expr, $simd:ident => $body:expr) => {{
         use fearless_simd::Simd as _;
         match $token {
+            #[cfg(any(feature = "scalar", not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
             $crate::simd::Token::Scalar($simd) => $simd.vectorize(
                 #[inline(always)]
                 || $body,
