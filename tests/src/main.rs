@@ -1,5 +1,6 @@
 //! The workspace tests, one module per subject.
 
+mod blending;
 mod camera;
 mod certify;
 mod clipping;
@@ -13,6 +14,7 @@ mod explain;
 mod goldens;
 mod interpolation;
 mod manifest;
+mod masks;
 mod multisampling;
 mod paint2d;
 mod pipelines;
@@ -21,5 +23,6 @@ mod same_bytes;
 mod scene;
 mod scissor;
 mod simd_levels;
+mod smooth_lines;
 mod targets;
 mod triangulation;

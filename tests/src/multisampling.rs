@@ -42,7 +42,7 @@ pub(crate) fn standard_positions(samples: u32) -> &'static [Raw] {
 }
 
 /// Where the samples of a pixel lie on the grid.
-fn sample_points(samples: u32, [x, y]: [i32; 2]) -> impl Iterator<Item = Raw> {
+pub(crate) fn sample_points(samples: u32, [x, y]: [i32; 2]) -> impl Iterator<Item = Raw> {
     standard_positions(samples).iter().map(move |offset| [256 * x + 16 * offset[0], 256 * y + 16 * offset[1]])
 }
 

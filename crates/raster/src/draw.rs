@@ -24,8 +24,16 @@ pub enum Surface {
     #[default]
     Opaque,
     /// Hides what is behind, wherever [`Pipeline::mask`](crate::Pipeline::mask)
-    /// says that there is something.
+    /// says that there is something. It is asked once for each triangle and
+    /// pixel: at the centre if the triangle covers it, else at the
+    /// lowest-numbered sample that it covers.
     Masked,
+    /// As [`Masked`](Self::Masked), with the mask asked at every sample instead
+    /// of once for each pixel: with several samples
+    /// ([`Target::with_samples`](crate::Target::with_samples)) the outline that
+    /// the mask draws is as smooth as a triangle's, for as many questions as
+    /// there are samples. The colour is still found once for each pixel.
+    MaskedPerSample,
     /// Laid over what is behind, by alpha. Fragments of all translucent draws
     /// are ordered per sample, whatever order they were recorded in. They write
     /// no depth and no ids.
@@ -68,12 +76,49 @@ impl<'a, P> Draw<'a, P> {
     }
 }
 
+/// How the outline of a line or a point meets the pixels that it crosses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Outline {
+    /// Each sample is covered or not.
+    #[default]
+    Sharp,
+    /// Each sample is covered by the share of a pixel around it, and the
+    /// pipeline's colour times that share is laid over what is behind, as by
+    /// [`Surface::Translucent`] whatever the draw's surface: no depth and no ids
+    /// are written, and no mask is asked.
+    ///
+    /// A line is all that lies within half its width of the segment, so its ends
+    /// are round, and covers at a distance of d pixels from the segment
+    /// `min(width, 1, width/2 + 1/2 - d)`, at least 0: exact for a line along an axis,
+    /// and the same total in any direction but for the sampling. Widths below
+    /// one pixel fade, down to nothing at 0. Of segments that share a vertex the
+    /// one that covers most of a sample paints it, so that a polyline is one
+    /// shape, its joints round.
+    ///
+    /// A round point covers as a line without length, times its size below one
+    /// pixel; a square one by its exact area.
+    ///
+    /// With supersampling a pixel is one of the finer grid.
+    AntiAliased,
+}
+
+impl Outline {
+    /// The surface of a draw that has one.
+    pub(crate) fn surface(self, surface: Surface) -> Surface {
+        match self {
+            Self::Sharp => surface,
+            Self::AntiAliased => Surface::Translucent,
+        }
+    }
+}
+
 /// Straight segments.
 ///
 /// A segment is x-major if it is at least as wide as high on the screen, else
 /// y-major. It covers the parallelogram that its width spans across the minor
 /// direction, prolonged at both ends by half the width: exact, and the same
-/// from either end. Without supersampling, a width of 1 pixel or less draws
+/// from either end. (Anti-aliased lines are told of at
+/// [`Outline::AntiAliased`].) Without supersampling, a width of 1 pixel or less draws
 /// exactly one pixel per step of the major direction, both ends included.
 /// Where segments that share a vertex overlap, only one of them paints a
 /// sample: the nearer one, or for translucent lines the later one; so a
@@ -89,9 +134,11 @@ pub struct Lines<'a, P> {
     pub ids: Option<&'a [u32]>,
     /// The object id.
     pub object: u32,
-    /// Width in output pixels, whatever the supersampling; below 1 counts as 1,
-    /// above 4096 as 4096.
+    /// Width in output pixels, whatever the supersampling; below 1 counts as 1
+    /// unless it is anti-aliased, above 4096 as 4096.
     pub width: f32,
+    /// Sharp or anti-aliased.
+    pub outline: Outline,
     /// A share of the distance by which the line is drawn nearer to the eye
     /// than it is, so that it shows on the surface that it lies in; 0 for a
     /// line that is tested as it is. The depth is multiplied by one plus this
@@ -111,6 +158,7 @@ impl<'a, P> Lines<'a, P> {
             ids: None,
             object: 0,
             width: 1.0,
+            outline: Outline::default(),
             toward_eye: 0.0,
             surface: Surface::default(),
         }
@@ -141,9 +189,11 @@ pub struct Points<'a, P> {
     pub ids: Option<&'a [u32]>,
     /// The object id.
     pub object: u32,
-    /// Diameter or edge in output pixels; below 1 counts as 1, above 4096 as
-    /// 4096.
+    /// Diameter or edge in output pixels; below 1 counts as 1 unless it is
+    /// anti-aliased, above 4096 as 4096.
     pub size: f32,
+    /// Sharp or anti-aliased.
+    pub outline: Outline,
     /// Round or square.
     pub shape: PointShape,
     /// As [`Lines::toward_eye`].
@@ -161,6 +211,7 @@ impl<'a, P> Points<'a, P> {
             ids: None,
             object: 0,
             size,
+            outline: Outline::default(),
             shape: PointShape::default(),
             toward_eye: 0.0,
             surface: Surface::default(),

@@ -1,13 +1,13 @@
 //! What was recorded, without the pipeline: indices and ids.
 
 use crate::simd::{Each, LANES};
-use crate::{Culling, EdgeFlags, PointShape, Surface};
+use crate::{Culling, EdgeFlags, Outline, PointShape, Surface};
 
 /// The primitives of one draw.
 pub(crate) enum Shape<'a> {
     Triangles { triangles: &'a [[u32; 3]], edge_flags: Option<&'a [EdgeFlags]>, culling: Culling },
-    Lines { segments: &'a [[u32; 2]], width: f32, toward_eye: f32 },
-    Points { points: &'a [u32], size: f32, shape: PointShape, toward_eye: f32 },
+    Lines { segments: &'a [[u32; 2]], width: f32, outline: Outline, toward_eye: f32 },
+    Points { points: &'a [u32], size: f32, shape: PointShape, outline: Outline, toward_eye: f32 },
 }
 
 /// One draw's primitives with what identifies them.

@@ -119,7 +119,7 @@ mod vertex;
 mod viewport;
 
 pub use certify::{Certainty, Certificate, Tolerance};
-pub use draw::{Culling, Draw, Lines, PointShape, Points, Surface};
+pub use draw::{Culling, Draw, Lines, Outline, PointShape, Points, Surface};
 pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,
 };

@@ -70,15 +70,17 @@ impl<'a> Pass<'a> {
 
     /// Records lines.
     pub fn lines<P: LanePipeline>(&mut self, lines: Lines<'a, P>) -> &mut Self {
-        let Lines { pipeline, segments, ids, object, width, toward_eye, surface } = lines;
-        let shape = Shape::Lines { segments, width, toward_eye };
+        let Lines { pipeline, segments, ids, object, width, outline, toward_eye, surface } = lines;
+        let shape = Shape::Lines { segments, width, outline, toward_eye };
+        let surface = outline.surface(surface);
         self.record(pipeline, Geometry { shape, faces: ids, object, surface })
     }
 
     /// Records points.
     pub fn points<P: LanePipeline>(&mut self, points: Points<'a, P>) -> &mut Self {
-        let Points { pipeline, points, ids, object, size, shape, toward_eye, surface } = points;
-        let shape = Shape::Points { points, size, shape, toward_eye };
+        let Points { pipeline, points, ids, object, size, shape, outline, toward_eye, surface } = points;
+        let shape = Shape::Points { points, size, shape, outline, toward_eye };
+        let surface = outline.surface(surface);
         self.record(pipeline, Geometry { shape, faces: ids, object, surface })
     }
 

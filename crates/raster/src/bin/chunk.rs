@@ -1,7 +1,8 @@
 //! A run of the frame's primitives, set up and sorted into tiles.
 
 use super::{Grid, TileRange};
-use crate::setup::{CutWeights, SetupTriangle};
+use crate::line::Stroke;
+use crate::setup::{CutWeights, Kind, SetupTriangle};
 use crate::{Stats, Surface};
 use std::ops::Range;
 
@@ -78,6 +79,8 @@ pub(crate) struct Chunk {
     pub(crate) extras: Vec<SetupTriangle>,
     /// Weights of the corners at the vertices of cut triangles.
     pub(crate) weights: Vec<CutWeights>,
+    /// What the anti-aliased lines and points cover.
+    strokes: Vec<Stroke>,
     pub(crate) stats: Stats,
     /// (tile, entry) in the order of the primitives.
     pairs: Vec<(u32, Entry)>,
@@ -95,6 +98,7 @@ impl Chunk {
         self.surface = surface;
         self.extras.clear();
         self.weights.clear();
+        self.strokes.clear();
         self.stats = Stats::default();
         self.pairs.clear();
         self.large.clear();
@@ -119,6 +123,25 @@ impl Chunk {
         } else {
             let pairs = &mut self.pairs;
             grid.for_each_tile(triangle, |tile| pairs.push((tile, entry)));
+        }
+    }
+
+    /// Keeps a stroke for the triangles around it.
+    pub(crate) fn keep_stroke(&mut self, stroke: Stroke) -> Kind {
+        self.strokes.push(stroke);
+        Kind::Stroke(self.strokes.len() as u32 - 1)
+    }
+
+    /// One of its strokes.
+    pub(crate) fn stroke(&self, index: u32) -> &Stroke {
+        &self.strokes[index as usize]
+    }
+
+    /// The stroke that one of the chunk's own triangles lies around.
+    pub(crate) fn stroke_of(&self, extra: usize) -> Option<&Stroke> {
+        match self.extras[extra].kind {
+            Kind::Stroke(index) => Some(self.stroke(index)),
+            _ => None,
         }
     }
 

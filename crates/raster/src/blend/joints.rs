@@ -3,44 +3,103 @@
 
 use crate::bin::Place;
 use crate::frame::FrameView;
-use crate::setup::Kind;
+use crate::geometry::Shape;
+use crate::pass::Recorded;
+use crate::setup::SetupTriangle;
+use crate::tile::TileView;
+use std::ops::Range;
 
-/// An end of a segment: its draw, its vertex, and the segment.
-type Joint = [u32; 3];
+/// An end of a segment: its draw, its vertex, the segment, and one of its
+/// triangles in the tile.
+type Joint = [u32; 4];
 
-/// The ends of all segments at a sample, in order.
+/// The ends of all segments of a tile, in order.
 #[derive(Default)]
-pub(crate) struct Joints(Vec<Joint>);
+pub(super) struct Joints(Vec<Joint>);
 
 impl Joints {
-    pub(crate) fn collect(&mut self, frame: &FrameView<'_>, places: impl Iterator<Item = Place>) {
+    /// Lists the segments among a tile's triangles.
+    pub(super) fn collect(&mut self, tile: &TileView<'_>, places: Range<usize>) {
         self.0.clear();
-        for place in places {
-            self.0.extend(ends(frame, place).into_iter().flatten());
+        let is_lines = |draw: &Recorded<'_>| matches!(draw.geometry.shape, Shape::Lines { .. });
+        if tile.frame.pass.iter().any(is_lines) {
+            let ends = |place| Some(Segment::of(tile.frame, tile.places[place])?.ends(place));
+            self.0.extend(places.filter_map(ends).flatten());
+            self.0.sort_unstable();
         }
-        self.0.sort_unstable();
     }
 
-    /// Whether a triangle is of a segment that leaves this sample to a later one
-    /// of the same draw that it is joined to.
-    pub(crate) fn leaves(&self, frame: &FrameView<'_>, place: Place) -> bool {
-        ends(frame, place).into_iter().flatten().any(|[draw, vertex, primitive]| {
-            // The last that meets in this vertex; the segment itself is among them.
-            let after = self.0.partition_point(|joint| *joint <= [draw, vertex, u32::MAX]);
-            self.0[after - 1][2] > primitive
+    /// The triangles of other segments that share a vertex with that of a
+    /// triangle and come near it; whether they belong to later segments, too.
+    pub(super) fn beside<'j>(
+        &'j self,
+        tile: TileView<'j>,
+        place: usize,
+    ) -> impl Iterator<Item = (usize, bool)> + 'j {
+        let segment = if self.0.is_empty() { None } else { Segment::of(tile.frame, tile.places[place]) };
+        let ends = segment.map(|segment| segment.ends(place));
+        let extent = move |place: usize| extents(&tile.frame.triangle(tile.places[place]));
+        let own = ends.map(|_| extent(place));
+        ends.into_iter().flatten().flat_map(move |[draw, vertex, primitive, _]| {
+            let start = self.0.partition_point(|joint| *joint < [draw, vertex, 0, 0]);
+            let here = self.0[start..].iter().take_while(move |joint| joint[..2] == [draw, vertex]);
+            let others = here.filter(move |joint| joint[2] != primitive);
+            others
+                .filter(move |joint| own.is_some_and(|own| meet(own, extent(joint[3] as usize))))
+                .map(move |joint| (joint[3] as usize, joint[2] > primitive))
         })
     }
 }
 
-/// The two ends of a line's triangle.
-fn ends(frame: &FrameView<'_>, place: Place) -> Option<[Joint; 2]> {
-    let triangle = &frame.chunk_of(place).extras[place.extra()?];
-    let ends = || {
-        let draw = frame.draw_of(place);
-        let plan = &frame.plan.draws[draw];
-        let primitive = triangle.ordinal - plan.ordinals.start;
-        let [from, to, _] = frame.pass[plan.draw].geometry.corners(primitive);
-        [from, to].map(|vertex| [plan.draw as u32, vertex, primitive])
-    };
-    (triangle.kind == Kind::Line).then(ends)
+/// A segment, by one of its triangles.
+struct Segment {
+    draw: u32,
+    primitive: u32,
+    vertices: [u32; 2],
+}
+
+impl Segment {
+    fn of(frame: &FrameView<'_>, place: Place) -> Option<Self> {
+        place.extra()?;
+        let plan = &frame.plan.draws[frame.draw_of(place)];
+        let geometry = &frame.pass[plan.draw].geometry;
+        let segment = || {
+            let primitive = place.ordinal - plan.ordinals.start;
+            let [from, to, _] = geometry.corners(primitive);
+            Self { draw: plan.draw as u32, primitive, vertices: [from, to] }
+        };
+        matches!(geometry.shape, Shape::Lines { .. }).then(segment)
+    }
+
+    fn ends(&self, place: usize) -> [Joint; 2] {
+        self.vertices.map(|vertex| [self.draw, vertex, self.primitive, place as u32])
+    }
+}
+
+/// Whether a sample is painted by another segment that is joined to this one: the
+/// other covers more of it, or as much and is the later one.
+#[inline(always)]
+pub(super) fn prevails((other, is_later): (f32, bool), own: f32) -> bool {
+    other > own || (other == own && is_later)
+}
+
+/// Whether a triangle leaves a sample to another one. Of both the share that they
+/// cover is given.
+pub(crate) fn leaves(frame: &FrameView<'_>, (own, coverage): (Place, f32), other: (Place, f32)) -> bool {
+    let segments = Segment::of(frame, own).zip(Segment::of(frame, other.0));
+    segments.is_some_and(|(a, b)| {
+        let joined = a.draw == b.draw && a.vertices.iter().any(|vertex| b.vertices.contains(vertex));
+        joined && prevails((other.1, b.primitive > a.primitive), coverage)
+    })
+}
+
+/// Ranges of columns and of rows.
+type Extents = [[i32; 2]; 2];
+
+fn extents(triangle: &SetupTriangle) -> Extents {
+    [0, 1].map(|axis| triangle.extent(axis))
+}
+
+fn meet(a: Extents, b: Extents) -> bool {
+    (0..2).all(|axis| a[axis][0] <= b[axis][1] && b[axis][0] <= a[axis][1])
 }

@@ -1,59 +1,91 @@
-//! Translucent fragments: gathered, ordered by (depth, object, face) at each
-//! sample, and laid over what is there from back to front.
+//! Translucent fragments, laid over what is there from back to front at each
+//! sample, in the order of (depth, object, face).
 //!
 //! The order is total, so it depends neither on the order of draws nor on
-//! threads. A band of eight rows is done at a time, and where layers are very
-//! many a part of one, to bound the memory that they take: a sample's layers
-//! are never parted, so the result does not depend on it.
+//! threads. Each sample keeps the farthest layers that it has room for; they are
+//! shaded, laid, and the next are looked for in front of the last one, until none
+//! is left: depth peeling with k layers at a time (L. Bavoil et al., "Multi-Fragment
+//! Effects on the GPU using the k-Buffer", 2007; C. Everitt, "Interactive
+//! Order-Independent Transparency", 2001), but from the back, where what has been
+//! laid is final. So any number of layers is exact in bounded memory, and the
+//! result does not depend on the bound.
 //!
-//! With several samples a fragment is shaded once for its triangle and pixel,
-//! like an opaque one, and laid over each sample that it covers and that nothing
-//! hides; it stores no depth and no ids.
+//! The first round looks at the whole tile at once; blocks where that was not
+//! enough get rounds of their own, few enough at a time that all that waits has
+//! room, down to single blocks.
+//!
+//! With several samples a fragment is shaded once for its triangle and pixel (and
+//! round), like an opaque one, and laid over each sample that it covers and that
+//! nothing hides; it stores no depth and no ids.
 
+mod gather;
 mod joints;
+mod list;
+mod order;
+mod runs;
 mod samples;
 
-pub(crate) use joints::Joints;
+pub(crate) use joints::leaves;
 
-use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::resolve::saturated;
-use crate::shade::{Job, ShadeOutput, Work, shade_jobs};
-use crate::tile::{Scratch, TileArea, for_each_seen};
-use std::cmp::Ordering;
+use crate::shade::{ShadeOutput, Shading, shade_jobs};
+use crate::simd::LANES;
+use crate::tile::{Blocks, Scratch, TileArea, TileView};
+use gather::Beside;
+use joints::Joints;
+use list::Fragments;
+use order::DepthOrder;
+use runs::{Layer, ROOM, Runs};
 use std::ops::Range;
 use trigon_math::Vec4;
 
-const BAND: usize = 8;
+/// So many layers of a sample have room in the first round.
+const USUAL_DEPTH: usize = 8;
 
-/// Beyond this many fragments at a time a region is done in parts: a few
-/// megabytes, and 512 layers over a whole band.
-const MOST_WAITING: usize = 1 << 18;
-
-/// A fragment that waits for its turn at one sample.
-#[derive(Clone, Copy)]
-struct Waiting {
-    /// Index of the sample in the tile's buffer.
-    sample: u32,
-    depth: f32,
-    place: u32,
-    /// Which colour it has.
-    color: u32,
-}
+/// Pixels of a block.
+const BLOCK: usize = 64;
 
 /// What blending keeps from tile to tile.
 #[derive(Default)]
 pub(crate) struct Layers {
-    waiting: Vec<Waiting>,
-    order: Vec<u32>,
-    jobs: Vec<Job>,
-    work: Vec<Work>,
+    runs: Runs,
+    fragments: Fragments,
     colors: Vec<[f32; 4]>,
     joints: Joints,
+    /// The segments joined to the one that is looked at.
+    beside: Vec<Beside>,
+    /// For each triangle the blocks that it may be seen in.
+    blocks: Vec<Blocks>,
+    /// For each sample the last layer that was laid; of blocks that have had a
+    /// round.
+    last: Vec<Layer>,
 }
 
-/// A rectangle of pixels of a tile: columns and rows, ends excluded.
-type Region = [Range<usize>; 2];
+/// What one round works on.
+struct Round {
+    blocks: Blocks,
+    /// For each block of the tile where its samples begin among the round's.
+    starts: [usize; BLOCK],
+    /// Whether layers have been laid before.
+    again: bool,
+}
+
+impl Round {
+    fn new(blocks: Blocks, samples: usize, again: bool) -> Self {
+        let mut starts = [0; BLOCK];
+        for (number, block) in blocks.iter().enumerate() {
+            starts[block] = number * BLOCK * samples;
+        }
+        Self { blocks, starts, again }
+    }
+
+    /// Where the first sample of a group of a block is among the round's.
+    #[inline(always)]
+    fn group(&self, group: usize, sample: usize, samples: usize) -> usize {
+        self.starts[group / 8] + ((group % 8) * samples + sample) * LANES
+    }
+}
 
 /// Lays the translucent triangles of a tile over its colours.
 pub(crate) fn blend_translucent(
@@ -63,120 +95,127 @@ pub(crate) fn blend_translucent(
     places: Range<usize>,
 ) {
     samples::expand(frame, area, scratch);
-    let mut layers = std::mem::take(&mut scratch.layers);
-    for first in (0..area.size[1]).step_by(BAND) {
-        let rows = first..area.size[1].min(first + BAND);
-        blend_region(frame, area, scratch, &mut layers, (places.clone(), [0..area.size[0], rows]));
-    }
-    scratch.layers = layers;
+    let Scratch { buffer, places: all, layers, samples, shading, stats, .. } = scratch;
+    let tile = TileView { frame, area, buffer, places: all };
+    stats.pixels_shaded += layers.blend(tile, places, shading, samples);
     samples::collapse(frame, scratch);
 }
 
-fn blend_region(
-    frame: &FrameView<'_>,
-    area: &TileArea,
-    scratch: &mut Scratch,
-    layers: &mut Layers,
-    (places, region): (Range<usize>, Region),
-) {
-    if gather(frame, area, scratch, layers, (places.clone(), region.clone())) {
-        if !layers.waiting.is_empty() {
-            shade(frame, area, scratch, layers);
-            scratch.stats.pixels_shaded += layers.work.len() as u64;
-            sort(frame, &scratch.places, layers);
-            lay_over(frame, &scratch.places, layers, &mut scratch.samples);
+impl Layers {
+    /// Lays all layers of a tile over its samples; how many fragments were shaded.
+    fn blend(
+        &mut self,
+        tile: TileView<'_>,
+        places: Range<usize>,
+        shading: &mut Shading,
+        colors: &mut [Vec4],
+    ) -> u64 {
+        self.joints.collect(&tile, places.clone());
+        self.blocks.clear();
+        self.blocks.resize(places.len(), Blocks::ALL);
+        let samples = tile.buffer.samples;
+        let (mut left, mut depth, mut again) = (Blocks::of(tile.area), USUAL_DEPTH, false);
+        let mut shaded = 0;
+        while !left.is_empty() {
+            let at_once = (ROOM / (BLOCK * samples * depth)).max(1);
+            let (mut rest, mut deepest) = (Blocks::NONE, 0);
+            while !left.is_empty() {
+                let round = Round::new(left.take(at_once), samples, again);
+                self.runs.reset(round.blocks.len() * BLOCK * samples, ROOM);
+                self.gather(tile, &round, places.clone());
+                self.list(tile, &round);
+                self.shade(tile, shading);
+                shaded += self.fragments.len() as u64;
+                let (blocks, waiting) = self.lay(tile, &round, colors);
+                rest = rest.union(blocks);
+                deepest = deepest.max(waiting);
+            }
+            (left, depth, again) = (rest, deepest, true);
         }
-        return;
+        shaded
     }
-    for half in halves(region).into_iter().flatten() {
-        blend_region(frame, area, scratch, layers, (places.clone(), half));
+
+    /// Puts the layers that were kept in order and lists their fragments.
+    fn list(&mut self, tile: TileView<'_>, round: &Round) {
+        let Self { runs, fragments, .. } = self;
+        let samples = tile.buffer.samples;
+        let order = DepthOrder { frame: tile.frame, places: tile.places };
+        fragments.reset(tile.places.len());
+        for block in round.blocks.iter() {
+            for pixel in block * BLOCK..(block + 1) * BLOCK {
+                // With one sample no fragment is named twice.
+                let first = if samples == 1 { usize::MAX } else { fragments.len() };
+                for sample in 0..samples {
+                    let at = round.group(pixel / LANES, sample, samples) + pixel % LANES;
+                    fragments.name(pixel, first, runs.sorted(order, at));
+                }
+            }
+        }
+        fragments.sort(samples > 1);
+    }
+
+    fn shade(&mut self, tile: TileView<'_>, shading: &mut Shading) {
+        let Self { fragments, colors, .. } = self;
+        if colors.len() < fragments.len() {
+            colors.resize(fragments.len(), [0.0; 4]);
+        }
+        let jobs = (tile.places, fragments.jobs.as_slice(), fragments.work.as_slice());
+        shade_jobs(tile.frame, tile.area, shading, jobs, &mut ShadeOutput::Colors(colors));
+    }
+
+    /// Lays the layers of a round; the blocks in which more are waiting, and the
+    /// most that wait at one sample.
+    fn lay(&mut self, tile: TileView<'_>, round: &Round, samples: &mut [Vec4]) -> (Blocks, usize) {
+        let (mut rest, mut deepest) = (Blocks::NONE, 0);
+        let count = BLOCK * tile.buffer.samples;
+        for block in round.blocks.iter() {
+            let start = round.starts[block];
+            let mut waiting = 0;
+            for (at, color) in samples[block * count..(block + 1) * count].iter_mut().enumerate() {
+                let layers = self.runs.of(start + at);
+                if !layers.is_empty() {
+                    *color = laid_over(*color, layers, &self.colors);
+                    waiting = waiting.max(self.runs.waiting(start + at));
+                }
+            }
+            if waiting > 0 {
+                rest.insert(block);
+                deepest = deepest.max(waiting);
+                self.keep_last(start, block * count..(block + 1) * count, round.again);
+            }
+        }
+        (rest, deepest)
+    }
+
+    /// Notes what lies on top at the samples of a block.
+    fn keep_last(&mut self, start: usize, samples: Range<usize>, again: bool) {
+        if self.last.len() < samples.end {
+            self.last.resize(samples.end, Layer::default());
+        }
+        // In front of nothing all is left.
+        let nothing = Layer { depth: f32::NEG_INFINITY, ..Layer::default() };
+        for (at, last) in self.last[samples].iter_mut().enumerate() {
+            match self.runs.of(start + at).last() {
+                Some(layer) => *last = *layer,
+                None if again => {}
+                None => *last = nothing,
+            }
+        }
     }
 }
 
-/// Both halves, one above or beside the other; `None` if there is only one
-/// pixel.
-fn halves([columns, rows]: Region) -> Option<[Region; 2]> {
-    let cut = |range: &Range<usize>| {
-        let middle = range.start + range.len() / 2;
-        [range.start..middle, middle..range.end]
+/// A colour under layers, the first of which lies behind.
+#[inline(always)]
+fn laid_over(behind: Vec4, layers: &[Layer], colors: &[[f32; 4]]) -> Vec4 {
+    let over = |below: Vec4, layer: &Layer| {
+        let source = Vec4::from_array(colors[layer.color as usize]) * layer.coverage;
+        source + below * (1.0 - source.w)
     };
-    if rows.len() > 1 {
-        Some(cut(&rows).map(|rows| [columns.clone(), rows]))
-    } else if columns.len() > 1 {
-        Some(cut(&columns).map(|columns| [columns, rows.clone()]))
+    let color = layers.iter().fold(behind, over);
+    if color.is_finite() {
+        // Then it was so all the time.
+        color
     } else {
-        None
-    }
-}
-
-/// The fragments that nothing opaque hides. False if they are too many to be
-/// done at once, and the region can be halved.
-fn gather(
-    frame: &FrameView<'_>,
-    area: &TileArea,
-    scratch: &Scratch,
-    layers: &mut Layers,
-    (places, region): (Range<usize>, Region),
-) -> bool {
-    let most = if halves(region.clone()).is_some() { MOST_WAITING } else { usize::MAX };
-    let Layers { waiting, jobs, work, .. } = layers;
-    waiting.clear();
-    jobs.clear();
-    work.clear();
-    for place in places {
-        if waiting.len() > most {
-            return false;
-        }
-        let start = work.len();
-        for_each_seen(frame, area, scratch, (place, region.clone()), |pixel, sample, depth| {
-            // The samples of a pixel come one after another.
-            if work[start..].last().is_none_or(|last: &Work| last.pixel() != pixel) {
-                work.push(Work::anywhere(pixel, frame.is_multisampled(), work.len()));
-            }
-            let sample = scratch.buffer.index(pixel, sample) as u32;
-            waiting.push(Waiting { sample, depth, place: place as u32, color: work.len() as u32 - 1 });
-        });
-        if work.len() > start {
-            jobs.push(Job { place: place as u32, work: start..work.len() });
-        }
-    }
-    waiting.len() <= most
-}
-
-fn shade(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch, layers: &mut Layers) {
-    let Scratch { shading, places, .. } = scratch;
-    layers.colors.clear();
-    layers.colors.resize(layers.work.len(), [0.0; 4]);
-    let mut output = ShadeOutput::Colors(&mut layers.colors);
-    shade_jobs(frame, area, shading, (places, &layers.jobs, &layers.work), &mut output);
-}
-
-/// By sample, then from back to front.
-fn sort(frame: &FrameView<'_>, places: &[Place], layers: &mut Layers) {
-    let Layers { waiting, order, .. } = layers;
-    order.clear();
-    order.extend(0..waiting.len() as u32);
-    order.sort_unstable_by(|&a, &b| {
-        let (a, b) = (&waiting[a as usize], &waiting[b as usize]);
-        let depth = || a.depth.partial_cmp(&b.depth).unwrap_or(Ordering::Equal);
-        // Of equal depths the smaller key is in front, so later.
-        let key = || frame.compare(places[b.place as usize], places[a.place as usize]);
-        a.sample.cmp(&b.sample).then_with(depth).then_with(key)
-    });
-}
-
-fn lay_over(frame: &FrameView<'_>, places: &[Place], layers: &mut Layers, samples: &mut [Vec4]) {
-    let Layers { waiting, order, colors, joints, .. } = layers;
-    let place = |layer: u32| places[waiting[layer as usize].place as usize];
-    for at_sample in order.chunk_by(|&a, &b| waiting[a as usize].sample == waiting[b as usize].sample) {
-        let color = &mut samples[waiting[at_sample[0] as usize].sample as usize];
-        joints.collect(frame, at_sample.iter().map(|&layer| place(layer)));
-        for &layer in at_sample {
-            if joints.leaves(frame, place(layer)) {
-                continue;
-            }
-            let source = Vec4::from_array(colors[waiting[layer as usize].color as usize]);
-            *color = saturated(source + *color * (1.0 - source.w));
-        }
+        layers.iter().fold(behind, |below, layer| saturated(over(below, layer)))
     }
 }

@@ -7,9 +7,9 @@ use super::tolerance::Tolerance;
 use crate::clip;
 use crate::frame::{DrawPlan, FrameView};
 use crate::geometry::Shape;
-use crate::line::drawable_size;
+use crate::line::half_size;
 use crate::vertex::{DrawVertices, ScreenVertex, nearer};
-use crate::{Culling, PointShape, Surface};
+use crate::{Culling, Outline, PointShape, Surface};
 use trigon_math::{ClipVolume, Fixed, FixedPoint, clip_segment};
 
 /// Everything that may be seen.
@@ -49,20 +49,20 @@ struct Gather<'f> {
 
 impl Gather<'_> {
     fn draw(&mut self, plan: &DrawPlan) {
-        let supersampling = f64::from(self.frame.supersampling);
+        let supersampling = self.frame.supersampling;
         match self.frame.pass[plan.draw].geometry.shape {
             Shape::Triangles { triangles, culling, .. } => {
                 triangles.iter().for_each(|&indices| self.triangle(indices, culling));
             }
-            Shape::Lines { segments, width, toward_eye } => {
-                // In units of the grid; see `reach_of_line`.
-                let half_width = f64::from(drawable_size(width)) * supersampling * 128.0;
+            Shape::Lines { segments, width, outline, toward_eye } => {
+                let half_width = half_size((width, outline), supersampling);
                 segments.iter().for_each(|&indices| self.segment(indices, half_width, toward_eye));
             }
-            Shape::Points { points, size, shape, toward_eye } => {
-                let half = (f64::from(drawable_size(size)) * supersampling * 128.0).round() as i32;
-                let is_disc = shape == PointShape::Round;
-                points.iter().for_each(|&index| self.point(index, (half, is_disc), toward_eye));
+            Shape::Points { points, size, shape, outline, toward_eye } => {
+                let half = half_size((size, outline), supersampling).round() as i32;
+                // What covers a share of a sample is never certain.
+                let form = (outline == Outline::Sharp).then_some(shape);
+                points.iter().for_each(|&index| self.point(index, (half, form), toward_eye));
             }
         }
     }
@@ -126,7 +126,7 @@ impl Gather<'_> {
         }
     }
 
-    fn point(&mut self, index: u32, (half, is_disc): (i32, bool), toward_eye: f32) {
+    fn point(&mut self, index: u32, (half, form): (i32, Option<PointShape>), toward_eye: f32) {
         let outcode = self.vertices.outcode(index);
         if outcode.is_invalid() || outcode.cuts() {
             return;
@@ -138,7 +138,7 @@ impl Gather<'_> {
             let moved = |raw: i32, by: i32| Fixed::from_raw(raw + by * half);
             self.corner(centre.at(FixedPoint::new(moved(column, x), moved(row, y))), toward_eye)
         });
-        self.push(&corners, whole, is_disc);
+        self.push(&corners, whole && form.is_some(), form == Some(PointShape::Round));
     }
 
     fn push(&mut self, corners: &[Corner], is_sure: bool, is_disc: bool) {

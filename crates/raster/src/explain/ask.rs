@@ -21,9 +21,12 @@ impl PixelInTile {
     }
 }
 
-/// Whether a masked triangle exists at a pixel that it covers.
-pub(super) fn mask(frame: &FrameView<'_>, pixel: PixelInTile, place: Place) -> bool {
+/// Whether a masked triangle exists at a pixel that it covers, or at one of the
+/// pixel's samples.
+pub(super) fn mask(frame: &FrameView<'_>, pixel: PixelInTile, sample: Option<usize>, place: Place) -> bool {
     let (job, work) = pixel.alone(frame);
+    let at = |sample| Work::at_sample(TileArea::index_of(pixel.at), sample, 0);
+    let work = sample.map_or(work, at);
     let mut kept = [0];
     let list: (&[_], &[_], &[_]) = (&[place], &[job], &[work]);
     mask_jobs(frame, &pixel.area, &mut Shading::new(), list, &mut kept);

@@ -38,7 +38,8 @@ pub enum Verdict {
     /// The sample lies outside of this edge, an index into
     /// [`edges`](FragmentExplanation::edges): the one that it is furthest from.
     OutsideEdge(usize),
-    /// The sample lies in the square around a round point but not in the disc.
+    /// The sample lies in the square around a round point but not in the disc; or
+    /// in the rectangle around something anti-aliased that covers nothing of it.
     OutsideDisc,
 }
 

@@ -4,8 +4,9 @@ use super::ask::{self, PixelInTile};
 use super::{EdgeExplanation, FragmentExplanation, PrimitiveKind, SampleExplanation, Verdict};
 use crate::Surface;
 use crate::bin::Place;
-use crate::blend::Joints;
+use crate::blend::leaves;
 use crate::frame::FrameView;
+use crate::line::Form;
 use crate::resolve::saturated;
 use crate::setup::{Corners, Kind, SetupTriangle};
 use crate::tile::{BEHIND_ALL, Covering, Edge};
@@ -21,6 +22,8 @@ pub(super) struct Trial<'f> {
 /// A triangle at a sample, still with its name.
 struct Entrant {
     place: Place,
+    /// The share that it covers, if it covers the sample.
+    coverage: f32,
     fragment: FragmentExplanation,
 }
 
@@ -55,7 +58,7 @@ impl<'f> Trial<'f> {
         self.number_layers(&mut entrants);
         for entrant in &mut entrants {
             if matches!(entrant.fragment.verdict, Verdict::Won | Verdict::Layer(_)) {
-                entrant.fragment.color = Some(ask::color(frame, pixel, entrant.place));
+                entrant.fragment.color = Some(ask::color(frame, pixel, entrant.place) * entrant.coverage);
             }
         }
         entrants.sort_by(|a, b| self.in_telling_order(a, b));
@@ -82,13 +85,20 @@ impl<'f> Trial<'f> {
         let mut fragment = self.describe(*place, triangle, point);
         let covering = Covering::new(triangle, &self.frame.grid, &pixel.area);
         let at = pixel.at.map(|v| v as i32);
-        if let Some(covering) = covering.filter(|covering| covering.covers(at, number, point)) {
+        let stroke = place.extra().and_then(|extra| self.frame.chunk_of(*place).stroke_of(extra));
+        let coverage = stroke.map_or(1.0, |stroke| stroke.coverage_at(point) as f32);
+        let covers = |covering: &Covering| coverage > 0.0 && covering.covers(at, number, point);
+        if let Some(covering) = covering.filter(covers) {
             fragment.is_covered = true;
             fragment.depth = Some(covering.depth.at(point));
-            let is_there = || fragment.surface != Surface::Masked || ask::mask(self.frame, pixel, *place);
-            fragment.verdict = if is_there() { Verdict::Hidden } else { Verdict::MaskedAway };
+            let is_there = match fragment.surface {
+                Surface::Opaque | Surface::Translucent => true,
+                Surface::Masked => ask::mask(self.frame, pixel, None, *place),
+                Surface::MaskedPerSample => ask::mask(self.frame, pixel, Some(number), *place),
+            };
+            fragment.verdict = if is_there { Verdict::Hidden } else { Verdict::MaskedAway };
         }
-        Some(Entrant { place: *place, fragment })
+        Some(Entrant { place: *place, coverage, fragment })
     }
 
     /// A triangle that misses the sample, until it is known to cover it.
@@ -106,7 +116,7 @@ impl<'f> Trial<'f> {
             object: geometry.object,
             face: geometry.face(primitive),
             primitive,
-            kind: kind_of(triangle.kind),
+            kind: self.kind_of(place, triangle),
             surface: geometry.surface,
             is_cut: self.is_cut(place, triangle),
             front_facing: triangle.front_facing,
@@ -117,6 +127,20 @@ impl<'f> Trial<'f> {
             margin: None,
             color: None,
             verdict: shut_out(&edges),
+        }
+    }
+
+    fn kind_of(&self, place: Place, triangle: &SetupTriangle) -> PrimitiveKind {
+        match triangle.kind {
+            Kind::Triangle => PrimitiveKind::Triangle,
+            Kind::Line => PrimitiveKind::Line,
+            Kind::SquarePoint => PrimitiveKind::SquarePoint,
+            Kind::RoundPoint => PrimitiveKind::RoundPoint,
+            Kind::Stroke(index) => match self.frame.chunk_of(place).stroke(index).form() {
+                Form::Line => PrimitiveKind::Line,
+                Form::Square => PrimitiveKind::SquarePoint,
+                Form::Round => PrimitiveKind::RoundPoint,
+            },
         }
     }
 
@@ -187,11 +211,10 @@ impl<'f> Trial<'f> {
         let mut layers: Vec<&mut Entrant> =
             entrants.iter_mut().filter(|entrant| entrant.is(Verdict::Layer(0))).collect();
         layers.sort_by(|a, b| self.back_to_front(a, b));
-        let mut joints = Joints::default();
-        joints.collect(self.frame, layers.iter().map(|layer| layer.place));
+        let shares: Vec<_> = layers.iter().map(|layer| (layer.place, layer.coverage)).collect();
         let mut number = 0;
-        for layer in layers {
-            if joints.leaves(self.frame, layer.place) {
+        for (layer, own) in layers.into_iter().zip(&shares) {
+            if shares.iter().any(|other| leaves(self.frame, *own, *other)) {
                 layer.fragment.verdict = Verdict::LeftToJoint;
             } else {
                 layer.fragment.verdict = Verdict::Layer(number);
@@ -234,15 +257,6 @@ fn order_of(triangle: &SetupTriangle) -> [usize; 3] {
             [0, 1, 2].map(|corner| corners.iter().position(|&c| c == corner).expect("corners are 0, 1 and 2"))
         }
         _ => [0, 1, 2],
-    }
-}
-
-fn kind_of(kind: Kind) -> PrimitiveKind {
-    match kind {
-        Kind::Triangle => PrimitiveKind::Triangle,
-        Kind::Line => PrimitiveKind::Line,
-        Kind::SquarePoint => PrimitiveKind::SquarePoint,
-        Kind::RoundPoint => PrimitiveKind::RoundPoint,
     }
 }
 

@@ -198,14 +198,14 @@ fn set_up_part(mut setup: Setup<'_>, shape: &Shape<'_>, axis: u32, token: Token,
             let triangles = &triangles[range.start as usize..range.end as usize];
             at_level!(token, simd => set_up_triangles(simd, &mut setup, range.start, triangles));
         }
-        Shape::Lines { segments, width, toward_eye } => {
-            let style = LineStyle::new(width, toward_eye, axis, multisampled);
+        Shape::Lines { segments, width, outline, toward_eye } => {
+            let style = LineStyle::new((width, outline), toward_eye, axis, multisampled);
             for index in range {
                 setup.segment(index, segments[index as usize], style);
             }
         }
-        Shape::Points { points, size, shape, toward_eye } => {
-            let style = PointStyle::new(size, shape, toward_eye, axis);
+        Shape::Points { points, size, shape, outline, toward_eye } => {
+            let style = PointStyle::new((size, outline), shape, toward_eye, axis);
             for index in range {
                 setup.point(index, points[index as usize], style);
             }

@@ -4,7 +4,15 @@
 //! The parallelogram spans the width across the minor direction and is closed
 //! by cuts along it, so that a line one pixel wide has one pixel in each step
 //! of its major direction, as in Direct3D and OpenGL.
+//!
+//! An anti-aliased line is a rectangle around all that it covers a part of; how
+//! much that is, is found sample by sample (see [`Stroke`]).
 
+mod stroke;
+
+pub(crate) use stroke::{Form, Stroke};
+
+use crate::Outline;
 use crate::setup::{Candidate, CutWeights, Kind, Setup};
 use crate::vertex::{ScreenVertex, nearer};
 use trigon_math::{ClipVertex, Fixed, FixedPoint, clip_segment};
@@ -23,10 +31,34 @@ pub(crate) fn drawable_size(size: f32) -> f32 {
     }
 }
 
+/// An anti-aliased width or size: within 0 and [`SIZE_MAX`] pixels, and 1 for what
+/// is no number.
+pub(crate) fn smooth_size(size: f32) -> f32 {
+    if size >= 1.0 || size.is_nan() {
+        drawable_size(size)
+    } else if size > 0.0 {
+        size
+    } else {
+        0.0
+    }
+}
+
+/// How far a line or point reaches from its middle, along an axis of its own, in
+/// units of the grid: half its size, and for an anti-aliased one as far as it covers
+/// a part of a pixel, and a unit more, so that snapping cuts nothing off.
+pub(crate) fn half_size((size, outline): (f32, Outline), supersampling: u32) -> f64 {
+    match outline {
+        Outline::Sharp => f64::from(drawable_size(size)) * f64::from(supersampling) * 128.0,
+        Outline::AntiAliased => Stroke::reach(f64::from(smooth_size(size)) * f64::from(supersampling)) + 1.0,
+    }
+}
+
 /// How a draw's segments look.
 #[derive(Clone, Copy)]
 pub(crate) struct LineStyle {
-    /// Half the width, in units of the grid.
+    /// The width in pixels of the grid, if it is anti-aliased.
+    smooth: Option<f64>,
+    /// See [`half_size`].
     half_width: f64,
     /// Whether each step of the major direction gets exactly one pixel.
     single: bool,
@@ -34,10 +66,17 @@ pub(crate) struct LineStyle {
 }
 
 impl LineStyle {
-    pub(crate) fn new(width: f32, toward_eye: f32, supersampling: u32, multisampled: bool) -> Self {
-        let width = drawable_size(width);
-        let half_width = f64::from(width) * f64::from(supersampling) * 128.0;
-        Self { half_width, single: width == 1.0 && supersampling == 1 && !multisampled, toward_eye }
+    pub(crate) fn new(
+        (width, outline): (f32, Outline),
+        toward_eye: f32,
+        supersampling: u32,
+        multisampled: bool,
+    ) -> Self {
+        let smooth = f64::from(smooth_size(width)) * f64::from(supersampling);
+        let smooth = (outline == Outline::AntiAliased).then_some(smooth);
+        let half_width = half_size((width, outline), supersampling);
+        let single = drawable_size(width) == 1.0 && supersampling == 1 && !multisampled;
+        Self { smooth, half_width, single, toward_eye }
     }
 }
 
@@ -80,10 +119,17 @@ impl Setup<'_> {
         let swapped = ends[0].1[0] < ends[1].1[0];
         let corners = if swapped { [1, 0, 0] } else { [0, 1, 1] };
         let weights = ends.map(|(_, [a, b])| if swapped { [b, a, 0.0] } else { [a, b, 0.0] });
-        let Some(outline) = outline(ends.map(|(end, _)| end.point()), style) else {
+        let stroke = style.smooth.map(|width| Stroke::line(ends.map(|(end, _)| end.raw()), width));
+        let points = ends.map(|(end, _)| end.point());
+        let outline = match &stroke {
+            Some(stroke) => rectangle(points, stroke, style.half_width),
+            None => outline(points, style),
+        };
+        let Some(outline) = outline else {
             self.chunk.stats.outside += 1;
             return;
         };
+        let kind = stroke.map_or(Kind::Line, |stroke| self.chunk.keep_stroke(stroke));
         let vertex = |end: usize, side: usize| {
             let vertex = ends[end].0.at(outline[end][side]);
             vertex.with_depth(nearer(vertex.depth(), style.toward_eye))
@@ -93,7 +139,7 @@ impl Setup<'_> {
                 vertices: [a, b, c].map(|(end, side)| vertex(end, side)),
                 primitive,
                 corners,
-                kind: Kind::Line,
+                kind,
                 front_facing: true,
             };
             let shares: CutWeights = [a, b, c].map(|(end, _): (usize, usize)| weights[end]);
@@ -136,5 +182,21 @@ fn outline(ends: [FixedPoint; 2], style: LineStyle) -> Option<[[FixedPoint; 2]; 
     Some([
         [corner(from, -along, -across)?, corner(from, -along, across)?],
         [corner(to, along, -across)?, corner(to, along, across)?],
+    ])
+}
+
+/// The corners of the rectangle around an anti-aliased segment, in the order of
+/// [`outline`]'s.
+fn rectangle(ends: [FixedPoint; 2], stroke: &Stroke, reach: f64) -> Option<[[FixedPoint; 2]; 2]> {
+    let [dx, dy] = stroke.direction().map(|v| v * reach);
+    let corner = |end: FixedPoint, along: f64, across: f64| {
+        let x = f64::from(end.x.raw()) + along * dx - across * dy;
+        let y = f64::from(end.y.raw()) + along * dy + across * dx;
+        Some(FixedPoint::new(Fixed::from_f64(x / 256.0)?, Fixed::from_f64(y / 256.0)?))
+    };
+    let [from, to] = ends;
+    Some([
+        [corner(from, -1.0, -1.0)?, corner(from, -1.0, 1.0)?],
+        [corner(to, 1.0, -1.0)?, corner(to, 1.0, 1.0)?],
     ])
 }

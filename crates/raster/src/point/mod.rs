@@ -1,10 +1,11 @@
 //! Points become squares: two triangles each; for a disc the tile looks at the
-//! distance from the centre, too.
+//! distance from the centre, and for anti-aliased ones at what they cover (see
+//! [`Stroke`]).
 
-use crate::PointShape;
-use crate::line::drawable_size;
+use crate::line::{Form, Stroke, half_size, smooth_size};
 use crate::setup::{Candidate, Kind, Setup};
 use crate::vertex::{ScreenVertex, nearer};
+use crate::{Outline, PointShape};
 use trigon_math::{Fixed, FixedPoint};
 
 /// How a draw's points look.
@@ -13,17 +14,26 @@ pub(crate) struct PointStyle {
     /// Half the size, in units of the grid.
     half: i32,
     kind: Kind,
+    /// The size in pixels of the grid, if it is anti-aliased.
+    smooth: Option<f64>,
     toward_eye: f32,
 }
 
 impl PointStyle {
-    pub(crate) fn new(size: f32, shape: PointShape, toward_eye: f32, supersampling: u32) -> Self {
-        let half = f64::from(drawable_size(size)) * f64::from(supersampling) * 128.0;
+    pub(crate) fn new(
+        (size, outline): (f32, Outline),
+        shape: PointShape,
+        toward_eye: f32,
+        supersampling: u32,
+    ) -> Self {
+        let smooth = f64::from(smooth_size(size)) * f64::from(supersampling);
+        let smooth = (outline == Outline::AntiAliased).then_some(smooth);
+        let half = half_size((size, outline), supersampling);
         let kind = match shape {
             PointShape::Round => Kind::RoundPoint,
             PointShape::Square => Kind::SquarePoint,
         };
-        Self { half: half.round() as i32, kind, toward_eye }
+        Self { half: half.round() as i32, kind, smooth, toward_eye }
     }
 }
 
@@ -48,12 +58,16 @@ impl Setup<'_> {
             let moved = |raw: i32, by: i32| Fixed::from_raw(raw + by * style.half);
             centre.at(FixedPoint::new(moved(column, x), moved(row, y)))
         };
+        let kind = style.smooth.map_or(style.kind, |size| {
+            let form = if style.kind == Kind::RoundPoint { Form::Round } else { Form::Square };
+            self.chunk.keep_stroke(Stroke::point([column, row], size, form))
+        });
         for other in [vertex(1, -1), vertex(-1, 1)] {
             let candidate = Candidate {
                 vertices: [vertex(-1, -1), other, vertex(1, 1)],
                 primitive,
                 corners: [0, 0, 0],
-                kind: style.kind,
+                kind,
                 front_facing: true,
             };
             self.push(candidate, None);

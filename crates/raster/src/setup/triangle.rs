@@ -11,6 +11,9 @@ pub(crate) enum Kind {
     SquarePoint,
     /// Half of the square around a disc.
     RoundPoint,
+    /// Half of the rectangle around an anti-aliased line or point: the index among
+    /// its chunk's strokes.
+    Stroke(u32),
 }
 
 /// How the vertices of a set-up triangle come from the corners of the

@@ -71,13 +71,15 @@ impl<'f> DrawVaryings<'f> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Work {
     /// Index of the pixel in the tile; bit 12 is set if the triangle may not
-    /// cover the pixel's centre.
+    /// cover the pixel's centre; from bit 13 on one more than the number of the
+    /// sample, if it is to be that one.
     spot: u32,
     pub(crate) output: u32,
 }
 
 impl Work {
     const PARTLY: u32 = 12;
+    const SAMPLE: u32 = 13;
 
     /// At the centre if the triangle covers it, else at the lowest-numbered
     /// sample that it covers; `partly` if the centre may not be covered.
@@ -86,27 +88,28 @@ impl Work {
         Self { spot: pixel as u32 | u32::from(partly) << Self::PARTLY, output: output as u32 }
     }
 
-    /// The pixel and whether it may be covered partly, as one number.
+    /// At one of the pixel's samples.
+    #[inline(always)]
+    pub(crate) fn at_sample(pixel: usize, sample: usize, output: usize) -> Self {
+        Self { spot: pixel as u32 | (sample as u32 + 1) << Self::SAMPLE, output: output as u32 }
+    }
+
+    /// The pixel and where in it, as one number.
     #[inline(always)]
     pub(crate) fn spot(self) -> u32 {
         self.spot
     }
 
-    /// The index of the pixel in the tile.
+    /// The corners of eight pixels in 1/256 pixel from the tile's; and, unless all
+    /// are shaded at their centres for sure, the samples that they are shaded at:
+    /// one more than their numbers, 0 where the triangle decides.
     #[inline(always)]
-    pub(crate) fn pixel(self) -> usize {
-        (self.spot & ((1 << Self::PARTLY) - 1)) as usize
-    }
-
-    /// The corners of eight pixels in 1/256 pixel from the tile's, and whether one
-    /// of them may be covered partly.
-    #[inline(always)]
-    pub(crate) fn corners<S: Simd>(spots: U32<S>) -> ([I32<S>; 2], bool) {
+    pub(crate) fn corners<S: Simd>(spots: U32<S>) -> ([I32<S>; 2], Option<I32<S>>) {
         let simd = spots.token();
         let spots: I32<S> = spots.bitcast();
-        let partly = spots.simd_ge(I32::splat(simd, 1 << Self::PARTLY)).any_true();
+        let anywhere = spots.simd_ge(I32::splat(simd, 1 << Self::PARTLY)).any_true();
         let [x, y] = TileArea::pixels_at(spots & ((1 << Self::PARTLY) - 1));
-        ([x << 8, y << 8], partly)
+        ([x << 8, y << 8], anywhere.then(|| spots >> Self::SAMPLE))
     }
 }
 

@@ -99,8 +99,9 @@ fn fragments<'v, S: Simd>(
     }
 }
 
-/// Where up to eight pixels are shaded, in 1/256 pixel from the tile's corner: at their centre, or if
-/// their triangle does not cover it at the lowest-numbered sample that it covers.
+/// Where up to eight pixels are shaded, in 1/256 pixel from the tile's corner: at
+/// the sample that is asked for; else at their centre, or if their triangle does
+/// not cover it at the lowest-numbered sample that it covers.
 #[inline(always)]
 fn points<S: Simd>(
     simd: S,
@@ -108,22 +109,24 @@ fn points<S: Simd>(
     triangle: &TriangleLanes<'_, S>,
     spots: U32<S>,
 ) -> [I32<S>; 2] {
-    let (corners, partly) = Work::corners(spots);
+    let (corners, samples) = Work::corners(spots);
     let centre = corners.each(
         #[inline(always)]
         |column| column + 128,
     );
-    if !partly {
+    let Some(samples) = samples else {
         return centre;
-    }
+    };
+    let free = samples.simd_eq(I32::splat(simd, 0));
     let covered = triangle.covers(simd, centre);
-    if covered.all_true() {
+    if (free & covered).all_true() {
         return centre;
     }
     let mut points = centre;
-    for offset in context.frame.grid.pattern.offsets().iter().rev() {
+    for (index, offset) in context.frame.grid.pattern.offsets().iter().enumerate().rev() {
         let sample = [corners[0] + offset[0], corners[1] + offset[1]];
-        let here = !covered & triangle.covers(simd, sample);
+        let found = free & !covered & triangle.covers(simd, sample);
+        let here = found | samples.simd_eq(I32::splat(simd, index as i32 + 1));
         points = [0, 1].each(
             #[inline(always)]
             |axis| here.select(sample[axis], points[axis]),

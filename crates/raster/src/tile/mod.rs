@@ -1,6 +1,7 @@
 //! A tile in one visit: visibility, shading, blending, resolve.
 
 mod area;
+mod blocks;
 mod buffer;
 mod cover;
 mod covering;
@@ -10,18 +11,21 @@ mod eight;
 mod masked;
 mod micro;
 mod scratch;
+mod seen;
 mod store;
 mod tiny;
 mod visibility;
 
 pub(crate) use area::{MAX_SIDE, TileArea};
+pub(crate) use blocks::Blocks;
 pub(crate) use buffer::{BEHIND_ALL, NOBODY, VisibilityBuffer};
 pub(crate) use cover::Counts;
 pub(crate) use covering::Covering;
 pub(crate) use depth::DepthPlane;
 pub(crate) use edge::Edge;
-pub(crate) use masked::for_each_seen;
 pub(crate) use scratch::{PIXELS, Scratch};
+pub(crate) use seen::{Candidate, SampleGroup, TileView, lane_point};
+pub(crate) use visibility::single;
 
 use crate::Surface;
 use crate::frame::FrameView;
@@ -67,7 +71,7 @@ fn collect(frame: &FrameView<'_>, scratch: &mut Scratch, tile: u32) -> Surfaces 
         chunk.collect(&frame.grid, tile, &mut scratch.places);
         let first = match chunk.surface {
             Surface::Opaque => 0,
-            Surface::Masked => 1,
+            Surface::Masked | Surface::MaskedPerSample => 1,
             Surface::Translucent => 2,
         };
         ends[first..].fill(scratch.places.len());

@@ -2,11 +2,11 @@
 //! nothing allocates once it is warm.
 
 use super::buffer::VisibilityBuffer;
-use super::masked::Waiting;
+use super::masked::Questions;
 use crate::Stats;
 use crate::bin::Place;
 use crate::blend::Layers;
-use crate::shade::{Job, Shading, Work};
+use crate::shade::Shading;
 use trigon_math::Vec4;
 
 /// A worker's own memory.
@@ -15,18 +15,13 @@ pub(crate) struct Scratch {
     pub(crate) places: Vec<Place>,
     pub(crate) buffer: VisibilityBuffer,
     pub(crate) shading: Shading,
-    /// Fragments that wait for their masks, by triangle.
-    pub(crate) jobs: Vec<Job>,
-    pub(crate) work: Vec<Work>,
     /// Colours of samples, where something translucent is laid over them.
     pub(crate) samples: Vec<Vec4>,
     pub(crate) layers: Layers,
-    /// Masked fragments that wait for the answers of their masks.
-    pub(super) waiting: Vec<Waiting>,
+    pub(super) questions: Questions,
     /// Whether all pixels of the tile have their colour, the background's
     /// included.
     pub(crate) blended: bool,
-    pub(crate) kept: Vec<u8>,
     pub(crate) stats: Stats,
 }
 
@@ -39,13 +34,10 @@ impl Scratch {
             places: Vec::new(),
             buffer: VisibilityBuffer::new(),
             shading: Shading::new(),
-            jobs: Vec::new(),
-            work: Vec::new(),
             samples: Vec::new(),
             layers: Layers::default(),
-            waiting: Vec::new(),
+            questions: Questions::default(),
             blended: false,
-            kept: Vec::new(),
             stats: Stats::default(),
         }
     }

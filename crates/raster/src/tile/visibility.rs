@@ -148,7 +148,7 @@ fn eight_apart<S: Simd>(simd: S, frame: &FrameView<'_>, area: &TileArea, places:
 }
 
 /// One triangle of the tile.
-pub(super) fn single(frame: &FrameView<'_>, area: &TileArea, place: Place) -> Option<Covering> {
+pub(crate) fn single(frame: &FrameView<'_>, area: &TileArea, place: Place) -> Option<Covering> {
     covering_apart(frame, area, &frame.triangle(place))
 }
 

@@ -1,0 +1,138 @@
+//! Which layers lie at each sample, in front of those that have been laid.
+
+use super::joints::prevails;
+use super::order::DepthOrder;
+use super::runs::{Layer, Order};
+use super::{Layers, Round};
+use crate::line::Stroke;
+use crate::simd::{LANES, Simd, at_level, prelude::*};
+use crate::tile::{Blocks, Candidate, Covering, SampleGroup, TileView, single};
+use std::ops::Range;
+
+/// A triangle of a tile.
+struct Shape {
+    covering: Covering,
+    place: u32,
+    /// What it covers, if that is no matter of yes or no.
+    stroke: Option<Stroke>,
+}
+
+/// A triangle of another segment that meets this one.
+pub(super) struct Beside {
+    shape: Shape,
+    is_later: bool,
+}
+
+impl Shape {
+    fn new(tile: TileView<'_>, place: usize) -> Option<Self> {
+        let at = tile.places[place];
+        let covering = single(tile.frame, tile.area, at)?;
+        let stroke = at.extra().and_then(|extra| tile.frame.chunk_of(at).stroke_of(extra).copied());
+        Some(Self { covering, place: place as u32, stroke })
+    }
+
+    fn candidate(&self) -> Candidate<'_> {
+        Candidate { covering: &self.covering, place: self.place }
+    }
+
+    /// The share that it covers at the samples of a group.
+    #[inline(always)]
+    fn coverage(&self, group: SampleGroup) -> [f32; LANES] {
+        self.stroke.as_ref().map_or([1.0; LANES], |stroke| stroke.coverage(group.point))
+    }
+}
+
+impl Layers {
+    /// Keeps the farthest layers that are left in the blocks of a round.
+    pub(super) fn gather(&mut self, tile: TileView<'_>, round: &Round, places: Range<usize>) {
+        let first = places.start;
+        let mut beside = std::mem::take(&mut self.beside);
+        for place in places {
+            if self.blocks[place - first].intersection(round.blocks).is_empty() {
+                continue;
+            }
+            beside.clear();
+            beside.extend(
+                self.joints.beside(tile, place).filter_map(|(place, is_later)| {
+                    Some(Beside { shape: Shape::new(tile, place)?, is_later })
+                }),
+            );
+            let seen = Shape::new(tile, place).map_or(Blocks::NONE, |shape| {
+                at_level!(tile.frame.token, simd => self.gather_one(simd, tile, round, &shape, &beside))
+            });
+            let blocks = &mut self.blocks[place - first];
+            *blocks = blocks.without(round.blocks).union(seen);
+        }
+        self.beside = beside;
+    }
+
+    /// One triangle; the blocks of the round in which it is seen.
+    #[inline(always)]
+    fn gather_one<S: Simd>(
+        &mut self,
+        simd: S,
+        tile: TileView<'_>,
+        round: &Round,
+        shape: &Shape,
+        beside: &[Beside],
+    ) -> Blocks {
+        let Self { runs, last, .. } = self;
+        let order = DepthOrder { frame: tile.frame, places: tile.places };
+        let samples = tile.buffer.samples;
+        let mut blocks = Blocks::NONE;
+        tile.for_each_seen(
+            simd,
+            shape.candidate(),
+            round.blocks,
+            #[inline(always)]
+            |group, seen, depth| {
+                blocks.insert(group.group / 8);
+                let coverage = shape.coverage(group);
+                let mut lanes = seen.to_bitmask();
+                if shape.stroke.is_some() {
+                    lanes &= where_of(|lane| coverage[lane] > 0.0);
+                }
+                for beside in beside {
+                    lanes &= !beside.paints(simd, tile, group, &coverage);
+                }
+                let depth: [f32; LANES] = depth.into();
+                let first = round.group(group.group, group.sample, samples);
+                let in_buffer = (group.group * samples + group.sample) * LANES;
+                while lanes != 0 {
+                    let lane = lanes.trailing_zeros() as usize;
+                    lanes &= lanes - 1;
+                    let (depth, coverage) = (depth[lane], coverage[lane]);
+                    let layer = Layer { depth, place: shape.place, coverage, color: 0 };
+                    if !round.again || order.is_behind(&last[in_buffer + lane], &layer) {
+                        runs.push(order, first + lane, layer);
+                    }
+                }
+            },
+        );
+        blocks
+    }
+}
+
+impl Beside {
+    /// The lanes of a group that it paints instead of one with this coverage.
+    #[inline(always)]
+    fn paints<S: Simd>(
+        &self,
+        simd: S,
+        tile: TileView<'_>,
+        group: SampleGroup,
+        coverage: &[f32; LANES],
+    ) -> u64 {
+        let Some((seen, _)) = tile.look(simd, self.shape.candidate(), group) else {
+            return 0;
+        };
+        let own = self.shape.coverage(group);
+        seen.to_bitmask() & where_of(|lane| prevails((own[lane], self.is_later), coverage[lane]))
+    }
+}
+
+/// The lanes of which something holds.
+#[inline(always)]
+fn where_of(holds: impl Fn(usize) -> bool) -> u64 {
+    (0..LANES).fold(0, |lanes, lane| lanes | u64::from(holds(lane)) << lane)
+}

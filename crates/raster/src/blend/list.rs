@@ -1,0 +1,77 @@
+//! The fragments of some layers, each listed once for its triangle and pixel, and
+//! by triangle: what shading works off.
+
+use super::runs::Layer;
+use crate::shade::{Job, Work};
+
+/// Fragments that are to be shaded.
+#[derive(Default)]
+pub(super) struct Fragments {
+    /// Triangle and pixel of each, in the order of the colours.
+    listed: Vec<(u32, u32)>,
+    /// For each triangle the last fragment that was listed.
+    latest: Vec<u32>,
+    /// For each triangle how many fragments it has; then where its next one goes.
+    counts: Vec<u32>,
+    pub(super) jobs: Vec<Job>,
+    pub(super) work: Vec<Work>,
+}
+
+impl Fragments {
+    /// Empties the list, for so many triangles.
+    pub(super) fn reset(&mut self, places: usize) {
+        self.listed.clear();
+        self.counts.clear();
+        self.counts.resize(places, 0);
+        if self.latest.len() < places {
+            self.latest.resize(places, 0);
+        }
+    }
+
+    /// Gives layers of a pixel's samples their colours' numbers; `first` is that of
+    /// the pixel's first colour.
+    #[inline(always)]
+    pub(super) fn name(&mut self, pixel: usize, first: usize, layers: &mut [Layer]) {
+        for layer in layers {
+            let place = layer.place as usize;
+            let latest = self.latest[place] as usize;
+            // Another sample of the pixel may have named it already.
+            let named = latest >= first && self.listed.get(latest).is_some_and(|at| at.0 == layer.place);
+            layer.color = if named { latest as u32 } else { self.list(pixel, layer.place) };
+        }
+    }
+
+    #[inline(always)]
+    fn list(&mut self, pixel: usize, place: u32) -> u32 {
+        let color = self.listed.len() as u32;
+        self.listed.push((place, pixel as u32));
+        self.latest[place as usize] = color;
+        self.counts[place as usize] += 1;
+        color
+    }
+
+    /// How many are listed.
+    pub(super) fn len(&self) -> usize {
+        self.listed.len()
+    }
+
+    /// Sorts them by triangle, by counting.
+    pub(super) fn sort(&mut self, partly: bool) {
+        self.jobs.clear();
+        let mut start = 0;
+        for (place, count) in self.counts.iter_mut().enumerate().filter(|(_, count)| **count > 0) {
+            let end = start + *count as usize;
+            self.jobs.push(Job { place: place as u32, work: start..end });
+            *count = start as u32;
+            start = end;
+        }
+        if self.work.len() < start {
+            self.work.resize(start, Work::default());
+        }
+        for (color, &(place, pixel)) in self.listed.iter().enumerate() {
+            let next = &mut self.counts[place as usize];
+            self.work[*next as usize] = Work::anywhere(pixel as usize, partly, color);
+            *next += 1;
+        }
+    }
+}

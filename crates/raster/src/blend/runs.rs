@@ -1,0 +1,170 @@
+//! The farthest layers that are left at each sample, in memory of a fixed size.
+//!
+//! What a sample has no room for waits for another round, and that one takes what
+//! lies in front of the last layer of this. So layers are laid from back to front
+//! however many fit at a time, and the picture does not depend on it.
+
+use std::cmp::Ordering;
+
+/// Layers that all samples together have room for: three quarters of a megabyte
+/// with what is kept beside each, and eight for every sample of the largest tile.
+pub(super) const ROOM: usize = 1 << 15;
+
+/// One translucent fragment at one sample.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Layer {
+    pub(super) depth: f32,
+    /// Index among the tile's triangles.
+    pub(super) place: u32,
+    /// The share that it covers, 0 to 1.
+    pub(super) coverage: f32,
+    /// Which colour it has, once that is known.
+    pub(super) color: u32,
+}
+
+/// An order of layers, from back to front.
+pub(super) trait Order: Copy {
+    /// Less if `a` lies behind `b`. Equal is a layer only to itself.
+    fn compare(&self, a: &Layer, b: &Layer) -> Ordering;
+
+    /// Whether `a` lies behind `b`.
+    #[inline(always)]
+    fn is_behind(&self, a: &Layer, b: &Layer) -> bool {
+        self.compare(a, b).is_lt()
+    }
+}
+
+/// What is kept at one sample.
+#[derive(Clone, Copy, Default)]
+struct Run {
+    len: u32,
+    /// How many layers found no room. If any did, the first half of the room
+    /// holds the farthest of all, in order, and all that is kept lies behind the
+    /// last of those.
+    waiting: u32,
+}
+
+/// The layers of some samples.
+#[derive(Default)]
+pub(super) struct Runs {
+    layers: Vec<Layer>,
+    runs: Vec<Run>,
+    /// How many layers each sample has room for, at least 2.
+    room: usize,
+}
+
+impl Runs {
+    /// Empties all, and shares `total` layers out among `samples`.
+    pub(super) fn reset(&mut self, samples: usize, total: usize) {
+        self.room = (total / samples).max(2);
+        self.runs.clear();
+        self.runs.resize(samples, Run::default());
+        let needed = self.room * samples;
+        if self.layers.len() < needed {
+            self.layers.resize(needed, Layer::default());
+        }
+    }
+
+    /// Keeps a layer if it is among the farthest of its sample.
+    #[inline(always)]
+    pub(super) fn push(&mut self, order: impl Order, sample: usize, layer: Layer) {
+        let Run { len, waiting } = self.runs[sample];
+        if waiting == 0 && (len as usize) < self.room {
+            self.layers[sample * self.room + len as usize] = layer;
+            self.runs[sample].len += 1;
+        } else {
+            self.push_to_full(order, sample, layer);
+        }
+    }
+
+    #[inline(never)]
+    fn push_to_full(&mut self, order: impl Order, sample: usize, layer: Layer) {
+        let half = self.room / 2;
+        let run = &mut self.runs[sample];
+        let layers = &mut self.layers[sample * self.room..(sample + 1) * self.room];
+        if run.waiting > 0 && !order.is_behind(&layer, &layers[half - 1]) {
+            run.waiting += 1;
+            return;
+        }
+        if run.len as usize == self.room {
+            layers.sort_unstable_by(|a, b| order.compare(a, b));
+            run.waiting += (self.room - half) as u32;
+            run.len = half as u32;
+            if !order.is_behind(&layer, &layers[half - 1]) {
+                run.waiting += 1;
+                return;
+            }
+        }
+        layers[run.len as usize] = layer;
+        run.len += 1;
+    }
+
+    /// The layers of a sample from back to front.
+    #[inline(always)]
+    pub(super) fn sorted(&mut self, order: impl Order, sample: usize) -> &mut [Layer] {
+        let start = sample * self.room;
+        let layers = &mut self.layers[start..start + self.runs[sample].len as usize];
+        if !layers.is_sorted_by(|a, b| order.is_behind(a, b)) {
+            layers.sort_unstable_by(|a, b| order.compare(a, b));
+        }
+        layers
+    }
+
+    /// The layers of a sample as they are.
+    #[inline(always)]
+    pub(super) fn of(&self, sample: usize) -> &[Layer] {
+        let start = sample * self.room;
+        &self.layers[start..start + self.runs[sample].len as usize]
+    }
+
+    /// How many layers of a sample found no room.
+    #[inline(always)]
+    pub(super) fn waiting(&self, sample: usize) -> usize {
+        self.runs[sample].waiting as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// By depth, then by place.
+    #[derive(Clone, Copy)]
+    struct ByDepth;
+
+    impl Order for ByDepth {
+        fn compare(&self, a: &Layer, b: &Layer) -> Ordering {
+            a.depth.total_cmp(&b.depth).then(a.place.cmp(&b.place))
+        }
+    }
+
+    /// What is laid, round by round, with room for so many layers at a time.
+    fn peeled(layers: &[Layer], room: usize) -> Vec<u32> {
+        let (mut runs, mut laid) = (Runs::default(), Vec::<Layer>::new());
+        loop {
+            runs.reset(2, 2 * room);
+            let last = laid.last().copied();
+            let is_left = |layer: &&Layer| last.is_none_or(|last| ByDepth.is_behind(&last, layer));
+            let left = layers.iter().filter(is_left);
+            left.for_each(|&layer| runs.push(ByDepth, 1, layer));
+            laid.extend_from_slice(runs.sorted(ByDepth, 1));
+            assert!(runs.of(0).is_empty(), "the other sample is left alone");
+            if runs.waiting(1) == 0 {
+                return laid.iter().map(|layer| layer.place).collect();
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn layers_come_in_order_however_many_have_room(depths in proptest::collection::vec(0..50_u8, 0..200), room in 2..40_usize) {
+            let layer = |(place, depth): (u32, &u8)| Layer { depth: f32::from(*depth), place, ..Layer::default() };
+            let mut layers: Vec<_> = (0..).zip(&depths).map(layer).collect();
+            let found = peeled(&layers, room);
+            layers.sort_by(|a, b| ByDepth.compare(a, b));
+            let expected: Vec<_> = layers.iter().map(|layer| layer.place).collect();
+            prop_assert_eq!(found, expected);
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! Where a triangle is seen in front of what a tile holds: the walk of masked
+//! and translucent triangles, eight samples at a time.
+
+use super::blocks::Blocks;
+use super::buffer::{NOBODY, VisibilityBuffer};
+use super::{Covering, TileArea};
+use crate::bin::Place;
+use crate::frame::FrameView;
+use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, lanes_of, prelude::*};
+
+/// A tile whose opaque triangles are settled.
+#[derive(Clone, Copy)]
+pub(crate) struct TileView<'t> {
+    pub(crate) frame: &'t FrameView<'t>,
+    pub(crate) area: &'t TileArea,
+    pub(crate) buffer: &'t VisibilityBuffer,
+    /// The tile's triangles.
+    pub(crate) places: &'t [Place],
+}
+
+/// A triangle with its index among the tile's.
+#[derive(Clone, Copy)]
+pub(crate) struct Candidate<'c> {
+    pub(crate) covering: &'c Covering,
+    pub(crate) place: u32,
+}
+
+/// The samples of one number in a group of pixels: four columns, two rows.
+#[derive(Clone, Copy)]
+pub(crate) struct SampleGroup {
+    /// The number of the group in the tile.
+    pub(crate) group: usize,
+    pub(crate) sample: usize,
+    /// Column and row of its first pixel in the tile.
+    first: [i32; 2],
+    /// The place in 1/256 pixel of its first sample.
+    pub(crate) point: [i32; 2],
+}
+
+impl SampleGroup {
+    /// The number of a lane's pixel in the tile.
+    #[inline(always)]
+    pub(crate) fn pixel(&self, lane: usize) -> usize {
+        self.group * LANES + lane
+    }
+}
+
+impl TileView<'_> {
+    /// Calls `visit` for all samples of some blocks at which a triangle is seen:
+    /// group by group, sample by sample, with the lanes where it is and the
+    /// depths.
+    #[inline(always)]
+    pub(crate) fn for_each_seen<S: Simd>(
+        &self,
+        simd: S,
+        candidate: Candidate<'_>,
+        blocks: Blocks,
+        mut visit: impl FnMut(SampleGroup, Mask<S>, F32<S>),
+    ) {
+        let covering = candidate.covering;
+        for block in blocks.within(covering.columns, covering.rows) {
+            let corner = Blocks::corner(block);
+            let [outside, inside] = covering.block_sides(corner);
+            if outside || self.hides_block(block, covering) {
+                continue;
+            }
+            for (row, column) in groups(covering, corner) {
+                let first = [corner[0] + column * 4, corner[1] + row * 2];
+                for sample in 0..self.buffer.samples {
+                    let group = block * 8 + (row * 2 + column) as usize;
+                    let group = SampleGroup { group, sample, first, point: self.point(first, sample) };
+                    let covered = match inside {
+                        true => self.within_picture(simd, first),
+                        false => self.covered(simd, covering, group),
+                    };
+                    if let Some((seen, depth)) = self.seen(simd, candidate, covered, group) {
+                        visit(group, seen, depth);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The lanes of a group at which a triangle is seen, with its depths; `None`
+    /// if there are none.
+    #[inline(always)]
+    pub(crate) fn look<S: Simd>(
+        &self,
+        simd: S,
+        candidate: Candidate<'_>,
+        group: SampleGroup,
+    ) -> Option<(Mask<S>, F32<S>)> {
+        let covered = self.covered(simd, candidate.covering, group);
+        self.seen(simd, candidate, covered, group)
+    }
+
+    /// Whether a triangle at this depth is seen in front of a sample of the
+    /// buffer.
+    #[inline]
+    pub(super) fn is_seen(&self, index: usize, depth: f32, place: u32) -> bool {
+        let there = self.buffer.depth[index];
+        depth > there || (depth == there && self.wins_tie(place, self.buffer.winner[index]))
+    }
+
+    fn wins_tie(&self, place: u32, winner: u32) -> bool {
+        let precedes = || self.frame.precedes(self.places[place as usize], self.places[winner as usize]);
+        winner == NOBODY || precedes()
+    }
+
+    #[inline(always)]
+    fn hides_block(&self, block: usize, covering: &Covering) -> bool {
+        self.frame.hierarchical && self.buffer.blocks[block].farthest > covering.depth.high
+    }
+
+    #[inline(always)]
+    fn point(&self, pixel: [i32; 2], sample: usize) -> [i32; 2] {
+        let offset = self.frame.grid.pattern.offsets()[sample];
+        [0, 1].each(
+            #[inline(always)]
+            |axis| (self.area.origin[axis] + pixel[axis]) * 256 + offset[axis],
+        )
+    }
+
+    /// The lanes of a group that lie in the picture.
+    #[inline(always)]
+    fn within_picture<S: Simd>(&self, simd: S, [x, y]: [i32; 2]) -> Mask<S> {
+        let [width, height] = self.area.size.each(
+            #[inline(always)]
+            |side| side as i32,
+        );
+        if x + 4 <= width && y + 2 <= height {
+            return Mask::splat(simd, true);
+        }
+        let (columns, rows) = columns_and_rows(simd);
+        columns.simd_lt(I32::splat(simd, width - x)) & rows.simd_lt(I32::splat(simd, height - y))
+    }
+
+    /// The lanes of a group that a triangle covers, in the picture.
+    #[inline(always)]
+    fn covered<S: Simd>(&self, simd: S, covering: &Covering, group: SampleGroup) -> Mask<S> {
+        let covered = match &covering.special {
+            None => {
+                let (columns, rows) = columns_and_rows(simd);
+                let [a, b, c] = [0, 1, 2].each(
+                    #[inline(always)]
+                    |k| {
+                        // Partial sums may wrap around; the sum fits.
+                        let start = covering.starts[group.sample][k]
+                            .wrapping_add(covering.right[k].wrapping_mul(group.first[0]))
+                            .wrapping_add(covering.down[k].wrapping_mul(group.first[1]));
+                        columns * covering.right[k] + rows * covering.down[k] + start
+                    },
+                );
+                (a | b | c).simd_ge(I32::splat(simd, 0))
+            }
+            Some(special) => {
+                let lanes: [i32; LANES] = lanes_of(
+                    #[inline(always)]
+                    |lane| i32::from(special.covers(lane_point(group.point, lane))),
+                );
+                I32::simd_from(simd, lanes).simd_gt(I32::splat(simd, 0))
+            }
+        };
+        covered & self.within_picture(simd, group.first)
+    }
+
+    /// The covered lanes that are nearer than what is there.
+    #[inline(always)]
+    fn seen<S: Simd>(
+        &self,
+        simd: S,
+        candidate: Candidate<'_>,
+        covered: Mask<S>,
+        group: SampleGroup,
+    ) -> Option<(Mask<S>, F32<S>)> {
+        if !covered.any_true() {
+            return None;
+        }
+        let depth = candidate.covering.depth.group(simd, group.point);
+        let index = (group.group * self.buffer.samples + group.sample) * LANES;
+        let there = F32::from_slice(simd, &self.buffer.depth[index..index + LANES]);
+        let mut seen = covered & depth.simd_gt(there);
+        let ties = covered & depth.simd_eq(there);
+        if ties.any_true() {
+            let won = self.won_ties(candidate.place, ties.to_bitmask(), index);
+            seen |= Mask::from_bitmask(simd, won);
+        }
+        seen.any_true().then_some((seen, depth))
+    }
+
+    /// Which of the lanes of equal depth have the smaller key.
+    #[cold]
+    fn won_ties(&self, place: u32, ties: u64, index: usize) -> u64 {
+        let wins =
+            |lane: &usize| ties >> lane & 1 != 0 && self.wins_tie(place, self.buffer.winner[index + lane]);
+        (0..LANES).filter(wins).fold(0, |won, lane| won | 1 << lane)
+    }
+}
+
+/// The columns and rows of the lanes in their group.
+#[inline(always)]
+fn columns_and_rows<S: Simd>(simd: S) -> (I32<S>, I32<S>) {
+    (lane_numbers(simd) & 3, lane_numbers(simd) >> 2)
+}
+
+/// The point of a lane, from that of the first.
+#[inline(always)]
+pub(crate) fn lane_point([x, y]: [i32; 2], lane: usize) -> [i32; 2] {
+    [x + (lane as i32 & 3) * 256, y + (lane as i32 >> 2) * 256]
+}
+
+/// Rows and columns of the groups of a block that a triangle may touch.
+#[inline(always)]
+fn groups(covering: &Covering, [left, top]: [i32; 2]) -> impl Iterator<Item = (i32, i32)> {
+    let clip = |[first, last]: [i32; 2], start: i32, shift: i32| {
+        ((first.max(start) - start) >> shift)..=((last.min(start + 7) - start) >> shift)
+    };
+    let columns = clip(covering.columns, left, 2);
+    clip(covering.rows, top, 1).flat_map(move |row| columns.clone().map(move |column| (row, column)))
+}
