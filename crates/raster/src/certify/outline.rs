@@ -218,7 +218,7 @@ impl Side {
 
 /// Twice the signed area of an outline, exactly.
 pub(super) fn doubled_area(corners: &[Corner]) -> i64 {
-    let points: Vec<_> = corners.iter().map(|corner| corner.vertex.point()).collect();
+    let points: Vec<_> = corners.iter().map(|corner| corner.vertex).collect();
     crate::setup::doubled_area(&points)
 }
 

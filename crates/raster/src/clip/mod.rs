@@ -19,6 +19,10 @@ pub(crate) fn volume(viewport: Viewport) -> ClipVolume {
     before_the_eye.with(HalfSpace::NEAR).with_bands(horizontal, vertical)
 }
 
+/// The most vertices that are left of a triangle: one more for w > 0, the near
+/// plane and each side of the guard band.
+pub(crate) const MOST_VERTICES: usize = 3 + 6;
+
 /// What is left of a triangle.
 pub(crate) struct CutTriangle {
     pub(crate) polygon: ClipPolygon,

@@ -102,7 +102,7 @@ impl<'f> FrameView<'f> {
         let plan = &self.plan.draws[draw];
         let places = &self.places[plan.places..plan.places + plan.used.len()];
         let pipeline = self.pass[plan.draw].pipeline;
-        DrawVertices { slots: plan.used.slots(), places, pipeline, token: self.token }
+        DrawVertices { slots: self.plan.slots(plan), places, pipeline, token: self.token }
     }
 
     /// A triangle of a tile, ready.

@@ -3,7 +3,7 @@
 use crate::Surface;
 use crate::bin::Chunk;
 use crate::pass::Recorded;
-use crate::vertex::UsedVertices;
+use crate::vertex::{Slots, UsedVertices};
 use std::ops::Range;
 
 /// How many primitives a chunk holds: enough to be worth a worker's while, few
@@ -30,6 +30,8 @@ pub(crate) struct DrawPlan {
 #[derive(Default)]
 pub(crate) struct Plan {
     pub(crate) draws: Vec<DrawPlan>,
+    /// The vertices of those draws that use few of many.
+    listed: Vec<u32>,
     /// How many places and varyings there are in all.
     pub(crate) vertices: usize,
     pub(crate) varyings: usize,
@@ -43,10 +45,11 @@ impl Plan {
     /// their ordinals.
     pub(crate) fn make(&mut self, recorded: &[Recorded<'_>], chunks: &mut Vec<Chunk>) -> usize {
         self.draws.clear();
+        self.listed.clear();
         (self.vertices, self.varyings) = (0, 0);
         self.draws.extend((0..recorded.len()).map(|draw| {
             let Recorded { geometry, pipeline } = &recorded[draw];
-            let used = UsedVertices::new(geometry.indices(), pipeline.vertex_count());
+            let used = UsedVertices::new(geometry.indices(), pipeline.vertex_count(), &mut self.listed);
             DrawPlan { draw, ordinals: 0..0, used, places: 0, varyings: 0 }
         }));
         // Equal keys stay in the order of the pass.
@@ -121,6 +124,12 @@ impl Plan {
             let end = ordinals.end.min(plan.ordinals.end) - plan.ordinals.start;
             (plan, start..end)
         })
+    }
+
+    /// How the vertices of a draw are looked up.
+    #[inline(always)]
+    pub(crate) fn slots(&self, draw: &DrawPlan) -> Slots<'_> {
+        draw.used.slots(&self.listed)
     }
 
     /// The draw of a primitive.

@@ -49,7 +49,8 @@ pub(crate) fn draw(arena: &mut Arena, pass: &Pass<'_>, target: &mut Target<'_>, 
     let view = prepare(arena, pass, target, how);
     let mut stats = count(view.plan, view.chunks);
     let bands = Bands::new(target, view.grid.size / view.supersampling);
-    scratches.resize_with(how.workers.count(), Scratch::new);
+    // Those of workers that rest in this frame are kept.
+    scratches.resize_with(how.workers.count().max(scratches.len()), Scratch::new);
     draw_tiles(&view, &bands, how.workers, &mut scratches);
     for scratch in &mut scratches {
         stats += std::mem::take(&mut scratch.stats);
@@ -147,7 +148,7 @@ fn run_vertices(
     how.workers.run(plan.vertices > VERTICES, |_| {
         while let Some((draw, slots, places, varyings)) = next() {
             let pipeline = pass[draw.draw].pipeline;
-            pipeline.run_vertices(how.token, &draw.used, slots, viewport, (places, varyings));
+            pipeline.run_vertices(how.token, plan.slots(draw), slots, viewport, (places, varyings));
         }
     });
 }
@@ -169,7 +170,7 @@ fn set_up(
             for (draw, range) in plan.parts(chunk.ordinals.clone()) {
                 let recorded = &pass[draw.draw];
                 let vertices = DrawVertices {
-                    slots: draw.used.slots(),
+                    slots: plan.slots(draw),
                     places: &places[draw.places..draw.places + draw.used.len()],
                     pipeline: recorded.pipeline,
                     token: how.token,

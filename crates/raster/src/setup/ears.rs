@@ -4,34 +4,40 @@
 //! then cover samples twice or leave some out; ears chosen by exact orientation
 //! do not.
 
-use trigon_math::{FixedPoint, orientation_fixed};
+use crate::clip::MOST_VERTICES;
+use crate::vertex::ScreenVertex;
+use trigon_math::orientation_fixed;
 
 /// Twice the signed area of a closed polygon, exactly.
-pub(crate) fn doubled_area(points: &[FixedPoint]) -> i64 {
-    let Some((&first, rest)) = points.split_first() else {
-        return 0;
-    };
-    rest.windows(2).map(|edge| orientation_fixed(first, edge[0], edge[1])).sum()
+pub(crate) fn doubled_area(points: &[ScreenVertex]) -> i64 {
+    (2..points.len()).map(|i| doubled(points, [0, i - 1, i])).sum()
+}
+
+fn doubled(points: &[ScreenVertex], [a, b, c]: [usize; 3]) -> i64 {
+    orientation_fixed(points[a].point(), points[b].point(), points[c].point())
 }
 
 /// Calls `ear` with the indices of each triangle of the polygon, in the
 /// polygon's own winding; together they cover it once. Triangles without area
 /// are left out.
-pub(crate) fn cut_ears(points: &[FixedPoint], mut ear: impl FnMut([usize; 3])) {
+pub(crate) fn cut_ears(points: &[ScreenVertex], mut ear: impl FnMut([usize; 3])) {
     let sign = doubled_area(points).signum();
     if sign == 0 {
         return;
     }
-    let mut ring: Vec<usize> = (0..points.len()).collect();
+    let mut indices: [usize; MOST_VERTICES] = std::array::from_fn(|index| index);
+    let mut ring = &mut indices[..points.len()];
     while ring.len() >= 3 {
-        let Some(tip) = find_ear(points, &ring, sign) else {
+        let Some(tip) = find_ear(points, ring, sign) else {
             return;
         };
-        let corners = corners_at(&ring, tip);
+        let corners = corners_at(ring, tip);
         if turn(points, corners) * sign > 0 {
             ear(corners);
         }
-        ring.remove(tip);
+        ring.copy_within(tip + 1.., tip);
+        let rest = ring.len() - 1;
+        ring = &mut ring[..rest];
     }
 }
 
@@ -40,14 +46,14 @@ fn corners_at(ring: &[usize], tip: usize) -> [usize; 3] {
     [ring[(tip + count - 1) % count], ring[tip], ring[(tip + 1) % count]]
 }
 
-fn turn(points: &[FixedPoint], [a, b, c]: [usize; 3]) -> i64 {
-    orientation_fixed(points[a], points[b], points[c]).signum()
+fn turn(points: &[ScreenVertex], corners: [usize; 3]) -> i64 {
+    doubled(points, corners).signum()
 }
 
 /// A vertex that can be cut off: flat, or turning inwards with no other vertex
 /// in its triangle. If rounding has folded the ring so that there is none, any
 /// vertex that turns the right way.
-fn find_ear(points: &[FixedPoint], ring: &[usize], sign: i64) -> Option<usize> {
+fn find_ear(points: &[ScreenVertex], ring: &[usize], sign: i64) -> Option<usize> {
     let turn_at = |tip: usize| turn(points, corners_at(ring, tip)) * sign;
     let free = |&tip: &usize| match turn_at(tip) {
         0 => true,
@@ -62,8 +68,8 @@ fn find_ear(points: &[FixedPoint], ring: &[usize], sign: i64) -> Option<usize> {
 
 /// Whether a point lies in the triangle, or on the edge that cutting it off
 /// would make, and is none of its corners.
-fn strictly_inside(points: &[FixedPoint], [a, b, c]: [usize; 3], other: usize, sign: i64) -> bool {
-    if [points[a], points[b], points[c]].contains(&points[other]) {
+fn strictly_inside(points: &[ScreenVertex], [a, b, c]: [usize; 3], other: usize, sign: i64) -> bool {
+    if [a, b, c].iter().any(|&corner| points[corner].raw() == points[other].raw()) {
         return false;
     }
     turn(points, [a, b, other]) * sign > 0
@@ -74,11 +80,11 @@ fn strictly_inside(points: &[FixedPoint], [a, b, c]: [usize; 3], other: usize, s
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trigon_math::Fixed;
+    use trigon_math::{Fixed, FixedPoint};
 
-    fn polygon(points: &[(i32, i32)]) -> Vec<FixedPoint> {
+    fn polygon(points: &[(i32, i32)]) -> Vec<ScreenVertex> {
         let point = |&(x, y): &(i32, i32)| FixedPoint::new(Fixed::from_raw(x), Fixed::from_raw(y));
-        points.iter().map(point).collect()
+        points.iter().map(|p| ScreenVertex::new(point(p), 0.5, 1.0)).collect()
     }
 
     fn check(points: &[(i32, i32)], ears: usize) {
@@ -88,8 +94,8 @@ mod tests {
                 points.reverse();
             }
             let (mut area, mut count) = (0, 0);
-            cut_ears(&points, |[a, b, c]| {
-                area += orientation_fixed(points[a], points[b], points[c]);
+            cut_ears(&points, |corners| {
+                area += doubled(&points, corners);
                 count += 1;
             });
             assert_eq!(area, doubled_area(&points), "the ears add up to the polygon");

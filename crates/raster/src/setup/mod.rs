@@ -83,18 +83,18 @@ impl Setup<'_> {
         let cut = clip::cut_triangle(positions, self.volume);
         let vertices = cut.polygon.vertices();
         self.chunk.stats.clipped += 1;
-        let Some(screen) = self.snap(vertices) else {
+        let mut places = [ScreenVertex::default(); clip::MOST_VERTICES];
+        let Some(screen) = self.snap(vertices, &mut places) else {
             self.chunk.stats.outside += 1;
             return;
         };
-        let points: Vec<_> = screen.iter().map(|vertex| vertex.point()).collect();
         // Sorting the corners may have turned the triangle over.
-        let area = doubled_area(&points) * cut.winding;
+        let area = doubled_area(screen) * cut.winding;
         if self.is_culled(area) {
             self.chunk.stats.culled += 1;
             return;
         }
-        cut_ears(&points, |ear| {
+        cut_ears(screen, |ear| {
             let candidate = Candidate {
                 vertices: ear.map(|i| screen[i]),
                 primitive,
@@ -107,9 +107,12 @@ impl Setup<'_> {
     }
 
     /// `None` if nothing is left, or a vertex has no place on the grid.
-    fn snap(&self, vertices: &[ClipVertex]) -> Option<Vec<ScreenVertex>> {
-        let screen = |v: &ClipVertex| ScreenVertex::of(v.position, self.grid.viewport);
-        (vertices.len() >= 3).then(|| vertices.iter().map(screen).collect())?
+    fn snap<'p>(&self, vertices: &[ClipVertex], places: &'p mut [ScreenVertex]) -> Option<&'p [ScreenVertex]> {
+        let places = &mut places[..vertices.len()];
+        for (place, vertex) in places.iter_mut().zip(vertices) {
+            *place = ScreenVertex::of(vertex.position, self.grid.viewport)?;
+        }
+        (places.len() >= 3).then_some(places)
     }
 
     fn is_culled(&self, area: i64) -> bool {

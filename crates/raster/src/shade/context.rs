@@ -40,7 +40,7 @@ impl<'f> ShadeContext<'f> {
     pub(crate) fn varyings(&self) -> DrawVaryings<'f> {
         let (plan, stride) = (self.plan(), self.stride());
         let values = &self.frame.varyings[plan.varyings..plan.varyings + plan.used.len() * stride];
-        DrawVaryings { slots: plan.used.slots(), values, stride }
+        DrawVaryings { slots: self.frame.plan.slots(plan), values, stride }
     }
 
     /// From how many f32 on the next vertex's varyings start.

@@ -6,7 +6,7 @@ use super::task::Task;
 use super::{MAX_VARYINGS, ShadeContext, ShadeOutput, run, scalar};
 use crate::LanePipeline;
 use crate::simd::{Token, at_level};
-use crate::vertex::{self, ScreenVertex, UsedVertices};
+use crate::vertex::{self, ScreenVertex, Slots};
 use crate::viewport::Viewport;
 use std::ops::Range;
 use trigon_math::Vec4;
@@ -29,7 +29,7 @@ pub(crate) trait AnyPipeline: Sync {
     fn run_vertices(
         &self,
         token: Token,
-        used: &UsedVertices,
+        used: Slots<'_>,
         slots: Range<usize>,
         viewport: Viewport,
         out: (&mut [ScreenVertex], &mut [f32]),
@@ -79,7 +79,7 @@ impl<P: LanePipeline> AnyPipeline for P {
     fn run_vertices(
         &self,
         token: Token,
-        used: &UsedVertices,
+        used: Slots<'_>,
         slots: Range<usize>,
         viewport: Viewport,
         out: (&mut [ScreenVertex], &mut [f32]),

@@ -22,9 +22,9 @@ pub struct FragmentLanes<'a, S: Simd> {
     pub(crate) point: [I32<S>; 2],
     /// The columns that are always loaded, of the triangles' records.
     pub(crate) hot: &'a [Row; hot::COUNT],
-    pub(crate) slots: [u32; LANES],
+    pub(crate) slots: &'a [u32; LANES],
     pub(crate) records: &'a Records,
-    pub(crate) context: ShadeContext<'a>,
+    pub(crate) context: &'a ShadeContext<'a>,
 }
 
 impl<S: Simd> FragmentLanes<'_, S> {
@@ -47,7 +47,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
 
     #[inline(always)]
     fn cold(&self) -> [Row; cold::COUNT] {
-        self.records.cold(self.simd, &self.context, self.slots)
+        self.records.cold(self.simd, self.context, *self.slots)
     }
 
     /// A varying at the three corners.

@@ -79,9 +79,9 @@ pub(super) fn for_each_vector<S: Simd>(
 #[inline(always)]
 fn fragments<'v, S: Simd>(
     simd: S,
-    context: &ShadeContext<'v>,
+    context: &'v ShadeContext<'v>,
     (records, columns): (&'v Records, &'v Columns),
-    vector: &Vector<'_>,
+    vector: &'v Vector<'_>,
 ) -> FragmentLanes<'v, S> {
     let triangles = TriangleLanes::load(simd, columns);
     let point = points(simd, context, &triangles, U32::simd_from(simd, vector.spots));
@@ -93,9 +93,9 @@ fn fragments<'v, S: Simd>(
         stride: records.shape().stride,
         place: triangles.at(simd, point),
         point,
-        slots: vector.slots,
+        slots: &vector.slots,
         records,
-        context: *context,
+        context,
     }
 }
 

@@ -2,7 +2,7 @@
 //! fragments of a list.
 
 use super::{Records, Work};
-use crate::simd::{LANES, Simd, U32, lanes_of, prelude::*};
+use crate::simd::{LANES, Simd, U32, lane_numbers, lanes_of, prelude::*};
 use crate::tile::NOBODY;
 
 /// A fragment of a list, with the record of its triangle.
@@ -100,10 +100,7 @@ impl<'t> Task<'t> {
                     |lane| self.slots.get(winners[lane] as usize).copied().unwrap_or(group.slot) - self.base,
                 )
             },
-            spots: lanes_of(
-                #[inline(always)]
-                |lane| (pixel + lane) as u32,
-            ),
+            spots: (lane_numbers(simd) + pixel as i32).bitcast::<U32<S>>().into(),
             active: !lanes.simd_eq(U32::splat(simd, NOBODY)).to_bitmask() & 0xff,
             destination: Destination::Group(pixel),
         }

@@ -69,10 +69,18 @@ fn number<S: Simd>(simd: S, winners: &[u32], places: usize, shading: &mut Shadin
         if lanes.simd_eq(last).all_true() {
             continue;
         }
-        for &winner in row {
-            slots[(winner as usize).min(places)] = 1;
-        }
+        let mut others = !lanes.simd_eq(last).to_bitmask() & 0xff;
         last = lanes;
+        if others.count_ones() > 3 {
+            for &winner in row {
+                slots[(winner as usize).min(places)] = 1;
+            }
+            continue;
+        }
+        while others != 0 {
+            slots[(row[others.trailing_zeros() as usize % LANES] as usize).min(places)] = 1;
+            others &= others - 1;
+        }
     }
     slots.truncate(places);
     seen.resize(places, 0);
@@ -112,6 +120,10 @@ fn push_edges(shading: &mut Shading, (group, rows): (usize, &[u32]), mut lanes: 
         edge_pixels.push(EdgePixel { pixel: pixel as u32, first: sample_colors.len() as u32 });
         for (sample, row) in rows.iter().enumerate() {
             let winner = row[lane];
+            if sample > 0 && winner == rows[sample - 1][lane] {
+                names[sample] = names[sample - 1];
+                continue;
+            }
             names[sample] = match rows[..sample].iter().position(|row| row[lane] == winner) {
                 _ if winner == NOBODY => NOBODY,
                 Some(before) => names[before],

@@ -30,20 +30,60 @@ pub type Mask<S> = fearless_simd::mask32x8<S>;
 use fearless_simd::prelude::*;
 
 /// The smaller of two; the second where they are equal or one is no number.
-/// (`min` leaves the sign of zero and the fate of a NaN to the machine.)
+/// (`min` leaves the sign of zero and the fate of a NaN to the machine: where that
+/// is x86, it does just this.)
 #[inline(always)]
 pub fn lesser<S: Simd>(a: F32<S>, b: F32<S>) -> F32<S> {
-    a.simd_lt(b).select(a, b)
+    if is_x86(a.token()) { a.min(b) } else { a.simd_lt(b).select(a, b) }
 }
 
 /// The larger of two; the second where they are equal or one is no number.
 #[inline(always)]
 pub fn greater<S: Simd>(a: F32<S>, b: F32<S>) -> F32<S> {
-    a.simd_gt(b).select(a, b)
+    if is_x86(a.token()) { a.max(b) } else { a.simd_gt(b).select(a, b) }
+}
+
+/// Whether a level runs x86's own instructions; known when it is compiled.
+#[inline(always)]
+fn is_x86<S: Simd>(simd: S) -> bool {
+    #[cfg(target_arch = "x86_64")]
+    return matches!(simd.level(), fearless_simd::Level::Sse2(_) | fearless_simd::Level::Avx2(_));
+    #[cfg(not(target_arch = "x86_64"))]
+    {
+        let _ = simd;
+        false
+    }
 }
 
 /// 0, 1, 2 … 7.
 #[inline(always)]
 pub fn lane_numbers<S: Simd>(simd: S) -> I32<S> {
     I32::simd_from(simd, [0, 1, 2, 3, 4, 5, 6, 7])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lesser_and_greater_are_comparisons_at_every_level() {
+        let values = [0.0, -0.0, 1.0, -2.5, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MIN_POSITIVE];
+        for (token, shift) in SimdLevel::ALL
+            .into_iter()
+            .filter_map(SimdLevel::token)
+            .flat_map(|token| (0..8).map(move |shift| (token, shift)))
+        {
+            let others: [f32; 8] = std::array::from_fn(|lane| values[(lane + shift) % 8]);
+            let (least, greatest): ([f32; 8], [f32; 8]) = at_level!(token, simd => {
+                let (a, b) = (F32::simd_from(simd, values), F32::simd_from(simd, others));
+                (lesser(a, b).into(), greater(a, b).into())
+            });
+            for lane in 0..8 {
+                let (a, b) = (values[lane], others[lane]);
+                let (less, more) = (if a < b { a } else { b }, if a > b { a } else { b });
+                assert_eq!(least[lane].to_bits(), less.to_bits(), "lesser of {a} and {b} at {token:?}");
+                assert_eq!(greatest[lane].to_bits(), more.to_bits(), "greater of {a} and {b} at {token:?}");
+            }
+        }
+    }
 }

@@ -156,7 +156,7 @@ impl Cover<'_> {
         buffer: &mut VisibilityBuffer,
     ) {
         if !MULTI {
-            self.tiny_sample(simd, steps, (edges, way), group * LANES, buffer);
+            self.tiny_sample(simd, steps, (edges, way, [0, 0]), group * LANES, buffer);
             return;
         }
         let [a, b, c] = steps.samples.greatest;
@@ -167,21 +167,19 @@ impl Cover<'_> {
         let [first, ..] = *self.offsets else { return };
         for (sample, (offset, add)) in self.offsets.iter().zip(steps.samples.edges).enumerate() {
             let edges = [edges[0] + add[0], edges[1] + add[1], edges[2] + add[2]];
-            let way = [0, 1].each(
-                #[inline(always)]
-                |axis| way[axis] + f64::from(offset[axis] - first[axis]),
-            );
-            self.tiny_sample(simd, steps, (edges, way), (group * buffer.samples + sample) * LANES, buffer);
+            let further = [offset[0] - first[0], offset[1] - first[1]];
+            let at = (group * buffer.samples + sample) * LANES;
+            self.tiny_sample(simd, steps, (edges, way, further), at, buffer);
         }
     }
 
-    /// One sample of each pixel of a group.
+    /// One sample of each pixel of a group, so much further than the way leads.
     #[inline(always)]
     fn tiny_sample<S: Simd>(
         &self,
         simd: S,
         steps: &Steps<S>,
-        ([a, b, c], [dx, dy]): ([I32<S>; 3], [f64x4<S>; 2]),
+        ([a, b, c], [dx, dy], further): ([I32<S>; 3], [f64x4<S>; 2], [i32; 2]),
         at: usize,
         buffer: &mut VisibilityBuffer,
     ) {
@@ -190,6 +188,7 @@ impl Cover<'_> {
             return;
         }
         let [right, down] = steps.slopes;
+        let (dx, dy) = (dx + f64::from(further[0]), dy + f64::from(further[1]));
         let across = right * dx;
         let upper = steps.value + down * dy + across;
         let lower = steps.value + down * (dy + 256.0) + across;

@@ -64,13 +64,13 @@ pub(crate) fn nearer(depth: f32, share: f32) -> f32 {
 pub(crate) fn run<S: Simd, P: LanePipeline>(
     simd: S,
     pipeline: &P,
-    (used, slots): (&UsedVertices, Range<usize>),
+    (used, slots): (Slots<'_>, Range<usize>),
     viewport: Viewport,
     (places, mut varyings): (&mut [ScreenVertex], &mut [f32]),
 ) {
     let guard = viewport.guard();
     // Listed vertices do not lie side by side.
-    let together = if matches!(used, UsedVertices::Range(_)) { LANES } else { 1 };
+    let together = if used.are_consecutive() { LANES } else { 1 };
     for (group, places) in places.chunks_mut(together).enumerate() {
         let first = used.index(slots.start + group * together);
         let (rows, rest) = std::mem::take(&mut varyings).split_at_mut(places.len() * stride(P::VARYINGS));
@@ -85,7 +85,7 @@ pub(crate) fn run<S: Simd, P: LanePipeline>(
 pub(crate) fn run_scalar(
     token: Token,
     (pipeline, stride): (&dyn ScalarPipeline, usize),
-    (used, slots): (&UsedVertices, Range<usize>),
+    (used, slots): (Slots<'_>, Range<usize>),
     viewport: Viewport,
     (places, mut varyings): (&mut [ScreenVertex], &mut [f32]),
 ) {
