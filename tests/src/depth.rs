@@ -156,6 +156,41 @@ proptest! {
     }
 }
 
+#[test]
+fn stages_are_timed_only_on_request() {
+    let heap = heap(1);
+    let triangles: Vec<_> = (0..600).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let mut pass = Pass::new();
+    pass.triangles(Draw::new(&heap, &triangles));
+    for timed in [false, true] {
+        let mut target = Samples::ONE.target([SIDE as u32; 2], &[Output::Linear]);
+        let settings = ExecuteSettings { timed, ..Default::default() };
+        let times = rasterizer(&settings).draw(&pass, &mut target).times;
+        let stages = [times.vertices, times.set_up, times.visibility, times.shading, times.resolve];
+        assert!(stages.iter().all(|time| time.is_zero() != timed), "{timed}: {times:?}");
+        assert!(times.blending.is_zero(), "nothing is translucent");
+    }
+}
+
+/// The depth that stands for the background was once seen before it where faces are
+/// not listed in their order, and not elsewhere.
+#[test]
+fn the_backgrounds_own_depth_is_not_seen_in_any_order_of_faces() {
+    let corners = [[0, 0], [SIDE * 512, 0], [0, SIDE * 512]];
+    let values = Values::ones(corners.map(|point| clip_position(point, -f32::MIN_POSITIVE)));
+    for faces in [[0, 1], [1, 0]] {
+        for surface in [Surface::Opaque, Surface::Masked, Surface::Translucent] {
+            let mut pass = Pass::new();
+            let draw = Draw::new(&values, &[[0, 1, 2], [0, 1, 2]]);
+            pass.triangles(Draw { culling: Culling::None, surface, faces: Some(&faces), ..draw });
+            let mut target = Samples::ONE.target([SIDE as u32; 2], &[Output::Linear]);
+            let stats = rasterizer(&ExecuteSettings::default()).draw(&pass, &mut target);
+            assert_eq!(stats.set_up, 2, "it is not left out before");
+            assert_eq!(stats.pixels_shaded, 0, "{faces:?} {surface:?}");
+        }
+    }
+}
+
 /// Behind the far plane nothing is drawn, on it everything.
 #[test]
 fn the_far_plane_belongs_to_the_view() {

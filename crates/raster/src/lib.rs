@@ -92,6 +92,7 @@ mod bin;
 mod blend;
 mod certify;
 mod clip;
+mod clock;
 mod draw;
 mod explain;
 mod fragment;
@@ -119,6 +120,7 @@ mod vertex;
 mod viewport;
 
 pub use certify::{Certainty, Certificate, Tolerance};
+pub use clock::StageTimes;
 pub use draw::{Culling, Draw, Lines, Outline, PointShape, Points, Surface};
 pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,

@@ -35,7 +35,8 @@ impl Rasterizer {
     /// Everything up to the tiles of what [`draw`](Self::draw) would do.
     pub(crate) fn prepare<'f>(&'f mut self, pass: &'f Pass<'_>, target: &Target<'_>) -> FrameView<'f> {
         let tile_size = self.settings.tile_size.pixels(target.samples());
-        let how = How { token: self.token, workers: &self.workers, tile_size, hierarchical: true };
+        let how =
+            How { token: self.token, workers: &self.workers, tile_size, hierarchical: true, timed: false };
         prepare(&mut self.arena, pass, target, how)
     }
 
@@ -49,7 +50,9 @@ impl Rasterizer {
         let alone = Workers::new(std::num::NonZeroUsize::new(1));
         let workers = if pass.is_worth_sharing(target) { &self.workers } else { &alone };
         let hierarchical = self.settings.depth_test == crate::DepthTest::Hierarchical;
-        draw(&mut self.arena, pass, target, How { token: self.token, workers, tile_size, hierarchical })
+        let timed = self.settings.timed;
+        let how = How { token: self.token, workers, tile_size, hierarchical, timed };
+        draw(&mut self.arena, pass, target, how)
     }
 }
 

@@ -1,9 +1,10 @@
-//! What a frame took, in counts.
+//! What a frame took, in counts and in time.
 
+use crate::StageTimes;
 use crate::tile::Counts;
 use std::ops::AddAssign;
 
-/// Counts of one executed pass. Lines and points count as the triangles that
+/// Counts of one executed pass, and its times. Lines and points count as the triangles that
 /// they are made of, from `set_up` on.
 ///
 /// The counts of triangles and samples do not depend on the number of threads;
@@ -46,6 +47,8 @@ pub struct Stats {
     pub pixels_shaded: u64,
     /// Fragments whose mask was asked.
     pub samples_masked: u64,
+    /// How long the stages took, if asked for.
+    pub times: StageTimes,
 }
 
 impl AddAssign for Stats {
@@ -66,6 +69,7 @@ impl AddAssign for Stats {
         self.groups_tested += other.groups_tested;
         self.pixels_shaded += other.pixels_shaded;
         self.samples_masked += other.samples_masked;
+        self.times += other.times;
     }
 }
 

@@ -12,7 +12,7 @@ use std::io::Write;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use trigon_raster::simd::SimdLevel;
-use trigon_raster::{DepthTest, ExecuteSettings, Rasterizer, TileSize};
+use trigon_raster::{DepthTest, ExecuteSettings, Rasterizer, StageTimes, TileSize};
 use trigon_study::workloads::{Canvas, Scene, Timings, Workload};
 
 /// Draw the workloads over and over, and print how long a frame takes.
@@ -36,6 +36,9 @@ struct Arguments {
     /// How many frames to time
     #[arg(long, value_name = "N", default_value = "12")]
     repetitions: usize,
+    /// Tell how long each stage of a frame takes, too
+    #[arg(long)]
+    stages: bool,
     /// Save the pictures in this folder
     #[arg(long, value_name = "FOLDER")]
     png: Option<PathBuf>,
@@ -64,6 +67,7 @@ impl Arguments {
             simd: self.simd,
             tile_size: self.tile.unwrap_or_default(),
             depth_test: if self.late { DepthTest::Late } else { DepthTest::Hierarchical },
+            timed: self.stages,
         }
     }
 
@@ -112,6 +116,22 @@ impl Line<'_> {
     }
 }
 
+/// The stages of the last frame in milliseconds; those in tiles summed over the
+/// threads.
+fn stage_line(times: StageTimes) -> String {
+    let StageTimes { vertices, set_up, visibility, shading, blending, resolve } = times;
+    let stages = [
+        ("vertices", vertices),
+        ("set-up and bins", set_up),
+        ("visibility", visibility),
+        ("shading", shading),
+        ("blending", blending),
+        ("resolve", resolve),
+    ];
+    let parts = stages.map(|(name, time)| format!("{name} {:.2}", time.as_secs_f64() * 1e3));
+    format!("# {}", parts.join(", "))
+}
+
 fn save(folder: &Path, workload: Workload, scene: &Scene, pixels: &[[u8; 4]]) -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(folder)?;
     let path = folder.join(format!("trigon-{}.png", workload.name()));
@@ -134,9 +154,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         for &threads in &arguments.threads {
             let rasterizer = Rasterizer::new(arguments.settings(threads))?;
             let mut canvas = Canvas::new(rasterizer, &scene, &mut pixels)?;
-            let timings = Timings::of_frames(arguments.repetitions, || canvas.draw(&scene));
+            let mut stages = StageTimes::default();
+            let timings = Timings::of_frames(arguments.repetitions, || stages = canvas.draw(&scene).times);
             let line = Line { workload, threads, work: workload.work(&scene), timings: &timings };
             println!("{}", if arguments.csv { line.csv() } else { line.text() });
+            if arguments.stages {
+                println!("{}", stage_line(stages));
+            }
             if let Some(path) = &arguments.samples {
                 append(path, &line.samples())?;
             }

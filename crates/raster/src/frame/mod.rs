@@ -6,6 +6,7 @@ mod stages;
 pub(crate) use plan::{DrawPlan, Plan};
 pub(crate) use stages::{Arena, How, draw, prepare};
 
+use crate::StageTimes;
 use crate::bin::{Chunk, Grid, Place, TileRange};
 use crate::paint2d::Rect;
 use crate::pass::{Background, Recorded};
@@ -45,6 +46,9 @@ pub(crate) struct FrameView<'f> {
     pub(crate) wants: Wants,
     pub(crate) token: Token,
     pub(crate) hierarchical: bool,
+    pub(crate) timed: bool,
+    /// How long the stages before the tiles took.
+    pub(crate) times: StageTimes,
 }
 
 impl<'f> FrameView<'f> {

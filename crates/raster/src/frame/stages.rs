@@ -4,6 +4,7 @@
 use super::{FrameView, Plan, Wants};
 use crate::bin::{Chunk, Grid};
 use crate::clip;
+use crate::clock::Clock;
 use crate::geometry::Shape;
 use crate::line::LineStyle;
 use crate::pass::{Pass, Recorded};
@@ -16,7 +17,7 @@ use crate::target::Bands;
 use crate::tile::{Scratch, draw_tile};
 use crate::vertex::{DrawVertices, ScreenVertex};
 use crate::viewport::Viewport;
-use crate::{Culling, Stats, Target};
+use crate::{Culling, StageTimes, Stats, Target};
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -41,13 +42,14 @@ pub(crate) struct How<'w> {
     pub(crate) workers: &'w Workers,
     pub(crate) tile_size: u32,
     pub(crate) hierarchical: bool,
+    pub(crate) timed: bool,
 }
 
 /// Draws a pass into a target.
 pub(crate) fn draw(arena: &mut Arena, pass: &Pass<'_>, target: &mut Target<'_>, how: How<'_>) -> Stats {
     let mut scratches = std::mem::take(&mut arena.scratches);
     let view = prepare(arena, pass, target, how);
-    let mut stats = count(view.plan, view.chunks);
+    let mut stats = Stats { times: view.times, ..count(view.plan, view.chunks) };
     let bands = Bands::new(target, view.grid.size / view.supersampling);
     // Those of workers that rest in this frame are kept.
     scratches.resize_with(how.workers.count().max(scratches.len()), Scratch::new);
@@ -75,8 +77,11 @@ pub(crate) fn prepare<'f>(
     let chunks = &mut chunks[..used];
     places.resize(plan.vertices, ScreenVertex::default());
     varyings.resize(plan.varyings, 0.0);
+    let mut clock = Clock::new(how.timed);
     run_vertices(&pass.draws, plan, viewport, how, (places, varyings));
+    let vertices = clock.lap();
     set_up(&pass.draws, plan, places, (&grid, axis), how, chunks);
+    let times = StageTimes { vertices, set_up: clock.lap(), ..StageTimes::default() };
     FrameView {
         pass: &pass.draws,
         background: pass.background,
@@ -90,6 +95,8 @@ pub(crate) fn prepare<'f>(
         wants: wants(target),
         token: how.token,
         hierarchical: how.hierarchical,
+        timed: how.timed,
+        times,
     }
 }
 

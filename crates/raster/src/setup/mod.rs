@@ -107,7 +107,11 @@ impl Setup<'_> {
     }
 
     /// `None` if nothing is left, or a vertex has no place on the grid.
-    fn snap<'p>(&self, vertices: &[ClipVertex], places: &'p mut [ScreenVertex]) -> Option<&'p [ScreenVertex]> {
+    fn snap<'p>(
+        &self,
+        vertices: &[ClipVertex],
+        places: &'p mut [ScreenVertex],
+    ) -> Option<&'p [ScreenVertex]> {
         let places = &mut places[..vertices.len()];
         for (place, vertex) in places.iter_mut().zip(vertices) {
             *place = ScreenVertex::of(vertex.position, self.grid.viewport)?;

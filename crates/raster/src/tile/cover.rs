@@ -351,7 +351,7 @@ impl Cover<'_> {
     /// Which of the lanes of equal depth have the smaller key.
     #[cold]
     fn won_ties(&self, place: u32, ties: u64, winners: &[u32]) -> u64 {
-        let wins = |winner: u32| winner == NOBODY || (self.precedes)(place, winner);
+        let wins = |winner: u32| winner != NOBODY && (self.precedes)(place, winner);
         winners
             .iter()
             .enumerate()

@@ -170,7 +170,7 @@ impl Cover<'_> {
         if self.in_order {
             winner != NOBODY && place < winner
         } else {
-            winner == NOBODY || (self.precedes)(place, winner)
+            winner != NOBODY && (self.precedes)(place, winner)
         }
     }
 }

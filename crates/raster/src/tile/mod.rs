@@ -28,6 +28,7 @@ pub(crate) use seen::{Candidate, SampleGroup, TileView, lane_point};
 pub(crate) use visibility::single;
 
 use crate::Surface;
+use crate::clock::Clock;
 use crate::frame::FrameView;
 use crate::target::Bands;
 use crate::{blend, resolve, shade};
@@ -49,18 +50,22 @@ pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
         return;
     }
     scratch.stats.tiles += 1;
+    let mut clock = Clock::new(frame.timed);
     scratch.buffer.clear(&area, frame.grid.pattern.count());
     visibility::resolve_visibility(frame, &area, scratch, &surfaces);
+    scratch.stats.times.visibility += clock.lap();
+    let mut early = None;
     if frame.wants.color {
-        let early = surfaces.translucent.is_empty().then_some(frame.wants.bytes).flatten();
+        early = surfaces.translucent.is_empty().then_some(frame.wants.bytes).flatten();
         shade::shade_tile(frame, &area, scratch, early);
+        scratch.stats.times.shading += clock.lap();
         if !surfaces.translucent.is_empty() {
             blend::blend_translucent(frame, &area, scratch, surfaces.translucent);
+            scratch.stats.times.blending += clock.lap();
         }
-        resolve::resolve(frame, &area, scratch, (bands, early));
-    } else {
-        resolve::resolve(frame, &area, scratch, (bands, None));
     }
+    resolve::resolve(frame, &area, scratch, (bands, early));
+    scratch.stats.times.resolve += clock.lap();
 }
 
 /// Lists the triangles of a tile.

@@ -104,7 +104,7 @@ impl TileView<'_> {
 
     fn wins_tie(&self, place: u32, winner: u32) -> bool {
         let precedes = || self.frame.precedes(self.places[place as usize], self.places[winner as usize]);
-        winner == NOBODY || precedes()
+        winner != NOBODY && precedes()
     }
 
     #[inline(always)]

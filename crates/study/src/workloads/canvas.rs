@@ -3,7 +3,7 @@
 use super::pipelines::{BlinnPhong, Flat, Gouraud, Textured};
 use super::{Scene, Shading};
 use trigon_math::Vec4;
-use trigon_raster::{Background, Draw, LanePipeline, Pass, Rasterizer, Target, TargetError};
+use trigon_raster::{Background, Draw, LanePipeline, Pass, Rasterizer, Stats, Target, TargetError};
 
 /// The caller's pixels and what it takes to draw into them, kept from frame to
 /// frame.
@@ -28,9 +28,9 @@ impl<'a> Canvas<'a> {
         Ok(Self { rasterizer, target })
     }
 
-    /// Draws one frame of a scene of the same size and samples; the picture is
-    /// complete when this returns.
-    pub fn draw(&mut self, scene: &Scene) {
+    /// Draws one frame of a scene of the same size and samples, and tells what it
+    /// took; the picture is complete when this returns.
+    pub fn draw(&mut self, scene: &Scene) -> Stats {
         match &scene.shading {
             Shading::Flat => self.draw_with(&Flat(scene), scene),
             Shading::Gouraud => self.draw_with(&Gouraud(scene), scene),
@@ -39,11 +39,11 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    fn draw_with(&mut self, pipeline: &impl LanePipeline, scene: &Scene) {
+    fn draw_with(&mut self, pipeline: &impl LanePipeline, scene: &Scene) -> Stats {
         let background = Vec4::from(Scene::BACKGROUND.map(f32::from)) / 255.0;
         let mut pass = Pass::new();
         pass.background(Background::Color(background));
         pass.triangles(Draw { culling: scene.culling, ..Draw::new(pipeline, &scene.mesh.triangles) });
-        self.rasterizer.draw(&pass, &mut self.target);
+        self.rasterizer.draw(&pass, &mut self.target)
     }
 }
