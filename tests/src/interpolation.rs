@@ -4,11 +4,14 @@ use crate::coverage_support::{Raw, SIDE, draw, pixel};
 use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::{Vec4, elementary};
-use trigon_raster::{Culling, Draw, Fragment, Pass, Pipeline, VertexOutput};
+use trigon_raster::simd::{Each, F32, Simd};
+use trigon_raster::{
+    Culling, Draw, Fragment, FragmentLanes, LanePipeline, Pass, Pipeline, VertexLanes, VertexOutput,
+};
 
 /// A triangle with a value at each corner; a fragment shows the value and its
 /// derivatives.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Probe {
     points: [Raw; 3],
     w: [f32; 3],
@@ -23,12 +26,7 @@ impl Pipeline for Probe {
     }
 
     fn vertex(&self, index: usize) -> VertexOutput<f32> {
-        let w = self.w[index];
-        let unit = f64::from(SIDE * 128);
-        let [x, y] = self.points[index].map(f64::from);
-        let at = |ndc: f64| (ndc * f64::from(w)) as f32;
-        let position = Vec4::new(at(x / unit - 1.0), at(1.0 - y / unit), 0.5 * w, w);
-        VertexOutput { position, varyings: self.values[index] }
+        VertexOutput { position: self.position(index), varyings: self.values[index] }
     }
 
     fn fragment(&self, fragment: &Fragment<f32>) -> Vec4 {
@@ -36,8 +34,66 @@ impl Pipeline for Probe {
     }
 }
 
+/// The same in lanes.
+struct LaneProbe {
+    /// x, y, z, w and the values of the vertices.
+    columns: [[f32; 3]; 5],
+}
+
+impl LanePipeline for LaneProbe {
+    const VARYINGS: usize = 1;
+
+    fn vertex_count(&self) -> usize {
+        3
+    }
+
+    #[inline(always)]
+    fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
+        let [x, y, z, w, value] = self.columns.each_ref().each(
+            #[inline(always)]
+            |column| vertices.load(simd, column),
+        );
+        vertices.set(0, value);
+        [x, y, z, w]
+    }
+
+    #[inline(always)]
+    fn fragments<S: Simd>(&self, _: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+        let [ddx, ddy] = fragments.gradient(0);
+        [fragments.varying(0), ddx, ddy, fragments.inverse_w()]
+    }
+}
+
+/// The fragments' colours with the centres of their pixels.
+fn seen<P: LanePipeline>(pipeline: &P) -> Vec<([f64; 2], Vec4)> {
+    let mut pass = Pass::new();
+    pass.triangles(Draw { culling: Culling::None, ..Draw::new(pipeline, &[[0, 1, 2]]) });
+    let pictures = draw(&pass);
+    let ids = pictures.triangles.expect("asked for");
+    let seen = pictures.linear.expect("asked for").into_iter().enumerate().filter(|(i, _)| ids[*i] == 0);
+    seen.map(|(index, color)| (pixel(index).map(|v| f64::from(v) + 0.5), color)).collect()
+}
+
 impl Probe {
-    /// The shares of the corners at a point of the screen, in pixels.
+    fn position(&self, index: usize) -> Vec4 {
+        let w = self.w[index];
+        let unit = f64::from(SIDE * 128);
+        let [x, y] = self.points[index].map(f64::from);
+        let at = |ndc: f64| (ndc * f64::from(w)) as f32;
+        Vec4::new(at(x / unit - 1.0), at(1.0 - y / unit), 0.5 * w, w)
+    }
+
+    fn in_lanes(&self) -> LaneProbe {
+        let column = |axis: usize| [0, 1, 2].map(|vertex| self.position(vertex)[axis]);
+        LaneProbe { columns: [column(0), column(1), column(2), column(3), self.values] }
+    }
+
+    /// The same triangle with other values.
+    fn with_values(&self, values: [f32; 3]) -> Self {
+        Self { values, ..self.clone() }
+    }
+
+    /// The shares of the corners of a point of the screen, in pixels.
     fn weights(&self, [x, y]: [f64; 2]) -> [f64; 3] {
         let [a, b, c] = self.points.map(|point| point.map(|v| f64::from(v) / 256.0));
         let cross = |o: [f64; 2], p: [f64; 2]| (o[0] - x) * (p[1] - y) - (o[1] - y) * (p[0] - x);
@@ -53,14 +109,18 @@ impl Probe {
         (sum(&|i| f64::from(self.values[i]) / f64::from(self.w[i])) / inverse_w, inverse_w)
     }
 
-    /// The fragments' colours with the centres of their pixels.
+    /// The shares of the corners in a value there: those above by 1/w.
+    fn shares(&self, at: [f64; 2]) -> [f64; 3] {
+        let weights = self.weights(at);
+        let over_w = [0, 1, 2].map(|i| weights[i] / f64::from(self.w[i]));
+        over_w.map(|share| share / over_w.iter().sum::<f64>())
+    }
+
+    /// The fragments of the scalar form, then those of the form in lanes.
     fn fragments(&self) -> Vec<([f64; 2], Vec4)> {
-        let mut pass = Pass::new();
-        pass.triangles(Draw { culling: Culling::None, ..Draw::new(self, &[[0, 1, 2]]) });
-        let pictures = draw(&pass);
-        let ids = pictures.triangles.expect("asked for");
-        let seen = pictures.linear.expect("asked for").into_iter().enumerate().filter(|(i, _)| ids[*i] == 0);
-        seen.map(|(index, color)| (pixel(index).map(|v| f64::from(v) + 0.5), color)).collect()
+        let mut fragments = seen(self);
+        fragments.extend(seen(&self.in_lanes()));
+        fragments
     }
 }
 
@@ -79,6 +139,15 @@ fn probe() -> impl Strategy<Value = Probe> {
         .prop_map(|(points, w, values)| Probe { points, w, values })
 }
 
+/// What one rounding to f32 is off by at most, relative.
+const UNIT: f64 = 1.0 / (1 << 24) as f64;
+
+/// What a corner's share is off by at most, relative, since nothing is subtracted:
+/// one rounding each for the edge function, for 1/w and for their product; one more
+/// in each of two sums; one in the reciprocal of the sum and one in the product
+/// with it: 3 and 3 + 2 + 1 + 1. The half is for products of errors.
+const ROUNDED: f64 = 10.5 * UNIT;
+
 proptest! {
     #![proptest_config(cases(200))]
 
@@ -87,13 +156,30 @@ proptest! {
         let largest = probe.values.iter().fold(0.0, |a: f64, &v| a.max(f64::from(v).abs()));
         for (at, color) in probe.fragments() {
             let (value, inverse_w) = probe.expected(at);
-            // Six roundings on the way to each share, three for the sum, and
-            // nothing cancels before the values do.
-            let bound = largest * 12.0 * f64::from(f32::EPSILON);
+            // Each share is within ROUNDED; then come a product and two sums.
+            let bound = largest * (ROUNDED + 3.0 * UNIT);
             let error = f64::from(color.x) - value;
             prop_assert!(error.abs() <= bound, "{} instead of {value} at {at:?}", color.x);
+            // Five roundings in the sum of the shares, that of the area, and two in
+            // the product and the quotient.
             let error = f64::from(color.w) / inverse_w - 1.0;
-            prop_assert!(error.abs() < 8.0 * f64::from(f32::EPSILON), "1/w is off by {error}");
+            prop_assert!(error.abs() <= 8.5 * UNIT, "1/w is off by {error}");
+        }
+    }
+
+    /// A value that is 1 at one corner and 0 at the others is that corner's share.
+    #[test]
+    fn values_are_convex_combinations(probe in probe()) {
+        let of = |values| probe.with_values(values).fragments();
+        let drawn = [of([1.0, 0.0, 0.0]), of([0.0, 1.0, 0.0]), of([0.0, 0.0, 1.0])];
+        for (fragment, &(at, _)) in drawn[0].iter().enumerate() {
+            let shares = drawn.each_ref().map(|fragments| f64::from(fragments[fragment].1.x));
+            for (share, expected) in shares.into_iter().zip(probe.shares(at)) {
+                let error = (share - expected).abs();
+                prop_assert!(error <= ROUNDED * expected, "{share} instead of {expected} at {at:?}");
+            }
+            let excess = shares.iter().sum::<f64>() - 1.0;
+            prop_assert!(excess.abs() <= ROUNDED, "the shares at {at:?} sum to 1 + {excess}");
         }
     }
 
@@ -108,7 +194,7 @@ proptest! {
 
     #[test]
     fn a_constant_stays_exactly_that(probe in probe(), value in -1e6_f32..1e6) {
-        let probe = Probe { values: [value; 3], ..probe };
+        let probe = probe.with_values([value; 3]);
         for (_, color) in probe.fragments() {
             prop_assert_eq!(color.truncate().to_array(), [value, 0.0, 0.0]);
         }
