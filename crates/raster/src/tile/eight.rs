@@ -67,7 +67,7 @@ impl Eight {
             #[inline(always)]
             |column| column.depth(),
         );
-        let (pixels, live, [tiny, few]) = pixels(simd, area, pattern, [a, b, c]);
+        let Pixels { ranges, live, tiny, micro } = pixels(simd, area, pattern, [a, b, c]);
         let small = small_lanes(simd, &[a, b, c]).to_bitmask() & ((1 << count) - 1);
         let live = live.to_bitmask() & small;
         Self {
@@ -90,7 +90,7 @@ impl Eight {
                 #[inline(always)]
                 |[_, _, down]| down.into(),
             ),
-            pixels,
+            pixels: ranges,
             anchor: [a.x.into(), a.y.into()],
             value: za.into(),
             slopes: depth_slopes(simd, [a, b, c]),
@@ -99,7 +99,7 @@ impl Eight {
             small,
             live,
             tiny: tiny.to_bitmask(),
-            micro: small.count_ones() as usize == count && live & !few.to_bitmask() == 0,
+            micro: small.count_ones() as usize == count && live & !micro.to_bitmask() == 0,
         }
     }
 
@@ -188,15 +188,19 @@ fn edge<S: Simd>(
     [value - inclusive.select(zero, I32::splat(simd, 1)), right, down]
 }
 
-/// The pixels of the tile that may have a sample in the triangles, where there are
-/// any, and where they are fewer than [`TINY`] and than [`MICRO`] each way.
+/// Pixels of the tile that may have a sample in the triangles.
+struct Pixels<S: Simd> {
+    /// First and last columns and rows.
+    ranges: [[[i32; LANES]; 2]; 2],
+    /// Where there are any.
+    live: Mask<S>,
+    /// Where they are fewer than [`TINY`] and than [`MICRO`] each way.
+    tiny: Mask<S>,
+    micro: Mask<S>,
+}
+
 #[inline(always)]
-fn pixels<S: Simd>(
-    simd: S,
-    area: &TileArea,
-    pattern: SamplePattern,
-    [a, b, c]: [Column<S>; 3],
-) -> ([[[i32; LANES]; 2]; 2], Mask<S>, [Mask<S>; 2]) {
+fn pixels<S: Simd>(simd: S, area: &TileArea, pattern: SamplePattern, [a, b, c]: [Column<S>; 3]) -> Pixels<S> {
     let columns = range(simd, area, pattern, 0, [a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x)]);
     let rows = range(simd, area, pattern, 1, [a.y, c.y]);
     let live = columns[0].simd_le(columns[1]) & rows[0].simd_le(rows[1]);
@@ -207,14 +211,11 @@ fn pixels<S: Simd>(
             (columns[1] - columns[0]).simd_lt(most) & (rows[1] - rows[0]).simd_lt(most)
         },
     );
-    (
-        [columns, rows].each(
-            #[inline(always)]
-            |range| range.each(Into::into),
-        ),
-        live,
-        within,
-    )
+    let ranges = [columns, rows].each(
+        #[inline(always)]
+        |range| range.each(Into::into),
+    );
+    Pixels { ranges, live, tiny: within[0], micro: within[1] }
 }
 
 /// The first and last pixel on an axis that may have a sample between two

@@ -54,9 +54,9 @@ fn cover_opaque<S: Simd, const MULTI: bool>(
         if !MULTI && let Some(eight) = eight.as_ref().filter(|eight| eight.micro) {
             cover.micro(simd, eight, start as u32, buffer, counts);
         } else {
-            for number in start..end {
-                let lane = eight.as_ref().map(|eight| (eight, number - start));
-                cover_one::<S, MULTI>(simd, frame, &cover, lane, (places[number], number), (buffer, counts));
+            for (lane, &place) in places[start..end].iter().enumerate() {
+                let ready = eight.as_ref().map(|eight| (eight, lane));
+                cover_one::<S, MULTI>(simd, frame, &cover, ready, (place, start + lane), (buffer, counts));
             }
         }
         start = end;
