@@ -32,6 +32,10 @@ fn coverage(points: &[Raw], segments: &[[u32; 2]], width: f32) -> Vec<f32> {
     pictures.linear.expect("asked for").iter().map(|color| color.x).collect()
 }
 
+fn length(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
 /// The distance of a pixel's centre from a segment, in pixels.
 fn distance([from, to]: [Raw; 2], pixel: Raw) -> f64 {
     let place = |point: Raw| point.map(|v| f64::from(v) / 256.0);
@@ -39,12 +43,12 @@ fn distance([from, to]: [Raw; 2], pixel: Raw) -> f64 {
     let (ab, ap) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let square = ab[0] * ab[0] + ab[1] * ab[1];
     let share = if square > 0.0 { ((ap[0] * ab[0] + ap[1] * ab[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
-    (ap[0] - share * ab[0]).hypot(ap[1] - share * ab[1])
+    length(ap[0] - share * ab[0], ap[1] - share * ab[1])
 }
 
 /// What [`Outline::AntiAliased`] says of a line.
 fn expected(distance: f64, width: f64) -> f64 {
-    (width / 2.0 + 0.5 - distance).min(width).min(1.0).max(0.0)
+    (width / 2.0 + 0.5 - distance).min(width).clamp(0.0, 1.0)
 }
 
 proptest! {
@@ -99,7 +103,7 @@ proptest! {
         let coverage = coverage(&ends, &[[0, 1]], width);
         let [dx, dy] = [0, 1].map(|axis| f64::from(to[axis] - from[axis]));
         prop_assume!(dy.abs() < dx);
-        let cosine = dx / dx.hypot(dy);
+        let cosine = dx / length(dx, dy);
         for step in 17..48 {
             let pixels = (0..SIDE).map(|other| if turned { step * SIDE + other } else { other * SIDE + step });
             let sum: f64 = pixels.map(|index| f64::from(coverage[index as usize])).sum();
