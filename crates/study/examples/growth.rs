@@ -1,0 +1,134 @@
+//! How the cost of a frame grows, with triangles and with pixels, as a table and as plots:
+//!
+//! `cargo run --release -p trigon-study --example growth -- --svg docs/images`
+
+#![expect(clippy::print_stdout, reason = "a table is what this is for")]
+
+use clap::Parser;
+use plotters::prelude::*;
+use std::error::Error;
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use trigon_math::UVec2;
+use trigon_raster::{ExecuteSettings, Rasterizer};
+use trigon_study::workloads::{Canvas, Grid, Scene, Shading, Timings};
+
+/// Draw a torus of ever more triangles and a knot on ever more pixels.
+#[derive(Parser)]
+struct Arguments {
+    /// How many threads to draw with
+    #[arg(long, value_name = "N", default_value = "1")]
+    threads: NonZeroUsize,
+    /// The most triangles
+    #[arg(long, value_name = "N", default_value = "50000000")]
+    triangles: u32,
+    /// The most pixels in a row
+    #[arg(long, value_name = "N", default_value = "16384")]
+    side: u32,
+    /// Save plots in this folder
+    #[arg(long, value_name = "FOLDER")]
+    svg: Option<PathBuf>,
+}
+
+/// What is varied, and how long frames take.
+struct Growth {
+    name: &'static str,
+    /// What the horizontal axis counts.
+    unit: &'static str,
+    /// (count, milliseconds).
+    points: Vec<(f64, f64)>,
+}
+
+impl Growth {
+    fn new(name: &'static str, unit: &'static str) -> Self {
+        println!("{name}: {unit}, ms, ns for each");
+        Self { name, unit, points: Vec::new() }
+    }
+
+    fn push(&mut self, count: f64, milliseconds: f64) {
+        println!("{count:.0}, {milliseconds:.3}, {:.2}", milliseconds * 1e6 / count);
+        self.points.push((count, milliseconds));
+    }
+
+    /// A plot with logarithmic axes, and the line of a cost that is proportional to
+    /// the count.
+    fn save(&self, folder: &Path) -> Result<(), Box<dyn Error>> {
+        fs::create_dir_all(folder)?;
+        let path = folder.join(format!("growth-{}.svg", self.name));
+        let root = SVGBackend::new(&path, (640, 420)).into_drawing_area();
+        root.fill(&WHITE)?;
+        let [first, last] = [self.points[0], self.points[self.points.len() - 1]];
+        let low = last.1 / last.0 * first.0;
+        let mut chart = ChartBuilder::on(&root)
+            .margin(12)
+            .caption(format!("Time of a frame by {}", self.unit), ("sans-serif", 18))
+            .x_label_area_size(40)
+            .y_label_area_size(60)
+            .build_cartesian_2d(
+                (first.0..last.0).log_scale(),
+                (low.min(first.1) * 0.7..last.1 * 1.4).log_scale(),
+            )?;
+        chart.configure_mesh().x_desc(self.unit).y_desc("ms").draw()?;
+        chart
+            .draw_series(LineSeries::new([(first.0, low), last], BLACK.mix(0.4)))?
+            .label("proportional")
+            .legend(|(x, y)| PathElement::new([(x, y), (x + 16, y)], BLACK.mix(0.4)));
+        chart
+            .draw_series(LineSeries::new(self.points.iter().copied(), &BLUE))?
+            .label("measured")
+            .legend(|(x, y)| PathElement::new([(x, y), (x + 16, y)], BLUE));
+        chart.draw_series(self.points.iter().map(|&point| Circle::new(point, 3, BLUE.filled())))?;
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperLeft)
+            .background_style(WHITE)
+            .draw()?;
+        Ok(root.present()?)
+    }
+}
+
+/// The median time of a frame in milliseconds.
+fn frame_time(scene: &Scene, threads: NonZeroUsize) -> Result<f64, Box<dyn Error>> {
+    let settings = ExecuteSettings { threads: Some(threads), ..Default::default() };
+    let mut pixels = vec![[0; 4]; scene.pixel_count()];
+    let mut canvas = Canvas::new(Rasterizer::new(settings)?, scene, &mut pixels)?;
+    Ok(Timings::of_frames(5, || _ = canvas.draw(scene)).median())
+}
+
+/// W2 with other numbers of triangles.
+fn by_triangles(arguments: &Arguments) -> Result<Growth, Box<dyn Error>> {
+    let mut growth = Growth::new("triangles", "triangles");
+    let most = f64::from(arguments.triangles);
+    let steps = [1e4, 1e5, 1e6, 1e7].into_iter().flat_map(|power| [power, 2.0 * power, 5.0 * power]);
+    for wanted in steps.take_while(|&count| count <= most) {
+        // Twice as many quads along the ring as around it, as in W2.
+        let around = (wanted / 4.0).sqrt().round() as u32;
+        let scene = Scene::torus(Grid { along: 2 * around, around });
+        growth.push(scene.mesh.triangles.len() as f64, frame_time(&scene, arguments.threads)?);
+    }
+    Ok(growth)
+}
+
+/// W3 on other numbers of pixels.
+fn by_pixels(arguments: &Arguments) -> Result<Growth, Box<dyn Error>> {
+    let mut growth = Growth::new("pixels", "pixels of the picture");
+    let mut scene = Scene::knot(Shading::BlinnPhong);
+    let mut side = 256;
+    while side <= arguments.side {
+        scene.size = UVec2::splat(side);
+        growth.push(scene.pixel_count() as f64, frame_time(&scene, arguments.threads)?);
+        side *= 2;
+    }
+    Ok(growth)
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments = Arguments::parse();
+    for growth in [by_triangles(&arguments)?, by_pixels(&arguments)?] {
+        if let Some(folder) = &arguments.svg {
+            growth.save(folder)?;
+        }
+    }
+    Ok(())
+}
