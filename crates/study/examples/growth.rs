@@ -93,7 +93,7 @@ fn frame_time(scene: &Scene, threads: NonZeroUsize) -> Result<f64, Box<dyn Error
     let settings = ExecuteSettings { threads: Some(threads), ..Default::default() };
     let mut pixels = vec![[0; 4]; scene.pixel_count()];
     let mut canvas = Canvas::new(Rasterizer::new(settings)?, scene, &mut pixels)?;
-    Ok(Timings::of_frames(5, || _ = canvas.draw(scene)).median())
+    Ok(Timings::of_frames(5, || canvas.draw(scene)).median())
 }
 
 /// W2 with other numbers of triangles.

@@ -14,7 +14,7 @@ impl Timings {
     ///
     /// A frame of more than 1.5 s is warmed up twice and repeated five times at
     /// most. These are the rules by which the other renderers were timed.
-    pub fn of_frames(repetitions: usize, mut frame: impl FnMut()) -> Self {
+    pub fn of_frames<R>(repetitions: usize, mut frame: impl FnMut() -> R) -> Self {
         const LONG: f64 = 1500.0;
         const ENOUGH_OF_LONG: usize = 5;
         let mut time = || {
