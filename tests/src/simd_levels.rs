@@ -21,7 +21,11 @@ fn a_level_that_the_processor_lacks_is_refused() {
         let expected = if level.is_supported() { Ok(()) } else { Err(SimdLevelError::Unsupported(level)) };
         assert_eq!(made, expected, "{level}");
     }
-    assert!(SimdLevel::Scalar.is_supported(), "everywhere");
+    assert_eq!(
+        SimdLevel::Scalar.is_supported(),
+        cfg!(feature = "scalar"),
+        "everywhere, where it is built in"
+    );
     assert!(SimdLevel::best().is_supported(), "the best of them");
     let foreign = if cfg!(target_arch = "aarch64") { SimdLevel::Avx2 } else { SimdLevel::Neon };
     assert!(!foreign.is_supported(), "{foreign} is another architecture's");

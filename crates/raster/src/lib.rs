@@ -115,12 +115,12 @@ mod stats;
 mod target;
 mod texture;
 mod tile;
+mod ulps;
 mod varyings;
 mod vertex;
 mod viewport;
 
 pub use certify::{Certainty, Certificate, Tolerance};
-pub use clock::StageTimes;
 pub use draw::{Culling, Draw, Lines, Outline, PointShape, Points, Surface};
 pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,
@@ -136,7 +136,7 @@ pub use settings::{DepthTest, ExecuteSettings, TileSize};
 #[doc(hidden)]
 pub use shade::RawFragment;
 pub use shade::{FragmentLanes, MAX_VARYINGS};
-pub use stats::Stats;
+pub use stats::{StageTimes, Stats};
 pub use target::{MAX_SAMPLES_PER_AXIS, MAX_TARGET_SIZE, Output, Pictures, Target, TargetError};
 pub use texture::{
     Dual, Filter, MAX_ANISOTROPY, MAX_TEXTURE_SIZE, MipFilter, Sampler, Texture, TextureError, TextureFormat,

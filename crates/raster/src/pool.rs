@@ -13,6 +13,9 @@ pub(crate) struct Workers {
 const MOST: usize = 256;
 
 impl Workers {
+    /// The calling thread.
+    pub(crate) const ALONE: Self = Self { others: None, count: 1 };
+
     /// As many threads as asked for, or as the machine runs at once; fewer if
     /// no more can be had.
     pub(crate) fn new(threads: Option<NonZeroUsize>) -> Self {

@@ -7,7 +7,8 @@ use crate::{ExecuteSettings, Pass, Stats, Target};
 
 /// Draws passes: threads and memory that are kept from frame to frame.
 ///
-/// A frame that is no larger than the last ones allocates nothing.
+/// A frame that is no larger than the last ones allocates nothing, but for what
+/// several threads take to be told of their work.
 pub struct Rasterizer {
     settings: ExecuteSettings,
     token: Token,
@@ -47,8 +48,7 @@ impl Rasterizer {
     /// outputs alone: the settings change no byte.
     pub fn draw(&mut self, pass: &Pass<'_>, target: &mut Target<'_>) -> Stats {
         let tile_size = self.settings.tile_size.pixels(target.samples());
-        let alone = Workers::new(std::num::NonZeroUsize::new(1));
-        let workers = if pass.is_worth_sharing(target) { &self.workers } else { &alone };
+        let workers = if pass.is_worth_sharing(target) { &self.workers } else { &Workers::ALONE };
         let hierarchical = self.settings.depth_test == crate::DepthTest::Hierarchical;
         let timed = self.settings.timed;
         let how = How { token: self.token, workers, tile_size, hierarchical, timed };

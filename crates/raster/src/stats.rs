@@ -1,11 +1,11 @@
 //! What a frame took, in counts and in time.
 
-use crate::StageTimes;
 use crate::tile::Counts;
 use std::ops::AddAssign;
+use std::time::Duration;
 
-/// Counts of one executed pass, and its times. Lines and points count as the triangles that
-/// they are made of, from `set_up` on.
+/// Counts of one executed pass, and its times. Lines and points count as the
+/// triangles that they are made of, from `set_up` on.
 ///
 /// The counts of triangles and samples do not depend on the number of threads;
 /// `binned` and `tiles` depend on the tile size.
@@ -41,7 +41,8 @@ pub struct Stats {
     /// Blocks that a triangle covers all of.
     pub blocks_accepted: u64,
     /// Groups of 4 by 2 pixels that were tested sample by sample, outside of
-    /// accepted blocks.
+    /// accepted blocks; a triangle of a few pixels, which is tested pixel by pixel,
+    /// counts as one.
     pub groups_tested: u64,
     /// Fragments that were shaded.
     pub pixels_shaded: u64,
@@ -81,5 +82,35 @@ impl Stats {
         self.blocks_rejected += counts.blocks_rejected;
         self.blocks_accepted += counts.blocks_accepted;
         self.groups_tested += counts.groups;
+    }
+}
+
+/// How long the stages of a frame took: of vertices and set-up the time that
+/// passed, of those in tiles the sum over all threads. Zero unless
+/// [`ExecuteSettings::timed`](crate::ExecuteSettings::timed) asks for it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StageTimes {
+    /// Running vertices.
+    pub vertices: Duration,
+    /// Setting up triangles and sorting them into tiles.
+    pub set_up: Duration,
+    /// Coverage, depth and masks.
+    pub visibility: Duration,
+    /// Shading what is visible.
+    pub shading: Duration,
+    /// Shading and laying over what is translucent.
+    pub blending: Duration,
+    /// Averaging samples, encoding, and writing to the target.
+    pub resolve: Duration,
+}
+
+impl AddAssign for StageTimes {
+    fn add_assign(&mut self, other: Self) {
+        self.vertices += other.vertices;
+        self.set_up += other.set_up;
+        self.visibility += other.visibility;
+        self.shading += other.shading;
+        self.blending += other.blending;
+        self.resolve += other.resolve;
     }
 }

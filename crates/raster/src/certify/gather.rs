@@ -8,6 +8,7 @@ use crate::clip;
 use crate::frame::{DrawPlan, FrameView};
 use crate::geometry::Shape;
 use crate::line::half_size;
+use crate::ulps;
 use crate::vertex::{DrawVertices, ScreenVertex, nearer};
 use crate::{Culling, Outline, PointShape, Surface};
 use trigon_math::{ClipVolume, Fixed, FixedPoint, clip_segment};
@@ -154,7 +155,7 @@ impl Gather<'_> {
 
     fn corner(&self, vertex: ScreenVertex, toward_eye: f32) -> Corner {
         let steps = i64::from(self.depth_ulps);
-        let at = |steps: i64| nearer(stepped(vertex.depth(), steps), toward_eye);
+        let at = |steps: i64| nearer(ulps::stepped(vertex.depth(), steps), toward_eye);
         Corner { vertex: vertex.with_depth(at(0)), low: at(-steps), high: at(steps) }
     }
 
@@ -180,27 +181,9 @@ fn reach_of_line(half_width: f64) -> i32 {
     (2.5 * half_width).ceil() as i32 + 1
 }
 
-/// The depth so many units in the last place further on.
-fn stepped(depth: f32, steps: i64) -> f32 {
-    let magnitude = i64::from(depth.abs().to_bits());
-    let number = if depth < 0.0 { -magnitude } else { magnitude } + steps;
-    let largest = i64::from(f32::MAX.to_bits());
-    let value = f32::from_bits(number.abs().min(largest) as u32);
-    if number < 0 { -value } else { value }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn steps_are_units_in_the_last_place() {
-        for depth in [0.5_f32, 1.0, 1e-30, -2.5, 0.0] {
-            assert_eq!(stepped(depth, 0), depth, "no step from {depth}");
-            assert_eq!(stepped(depth, 2), depth.next_up().next_up(), "two up from {depth}");
-            assert_eq!(stepped(depth, -2), depth.next_down().next_down(), "two down from {depth}");
-        }
-    }
 
     #[test]
     fn snapped_places_move_by_less_than_a_unit_more() {

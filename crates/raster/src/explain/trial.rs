@@ -10,6 +10,7 @@ use crate::line::Form;
 use crate::resolve::saturated;
 use crate::setup::{Corners, Kind, SetupTriangle};
 use crate::tile::{BEHIND_ALL, Covering, Edge};
+use crate::ulps;
 use std::cmp::Ordering;
 use trigon_math::Vec4;
 
@@ -184,7 +185,7 @@ impl<'f> Trial<'f> {
             entrant.fragment.verdict = verdict;
             let rival = if winner == Some(i) { depths[1] } else { depths[0] };
             let pair = entrant.fragment.depth.zip(rival);
-            entrant.fragment.margin = pair.map(|(ours, theirs)| steps(ours) - steps(theirs));
+            entrant.fragment.margin = pair.map(|(ours, theirs)| ulps::place(ours) - ulps::place(theirs));
         }
     }
 
@@ -273,22 +274,4 @@ fn shut_out(edges: &[EdgeExplanation; 3]) -> Verdict {
     outside
         .min_by(|&a, &b| edges[a].distance.total_cmp(&edges[b].distance))
         .map_or(Verdict::OutsideDisc, Verdict::OutsideEdge)
-}
-
-/// The number of a depth among all f32, so that neighbours differ by 1.
-fn steps(depth: f32) -> i64 {
-    let magnitude = i64::from(depth.abs().to_bits());
-    if depth < 0.0 { -magnitude } else { magnitude }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn neighbouring_depths_are_one_step_apart() {
-        for depth in [0.25_f32, 1.0, 1e-30, -3.5, 0.0] {
-            assert_eq!(steps(depth.next_up()) - steps(depth), 1, "after {depth}");
-        }
-    }
 }

@@ -10,7 +10,7 @@ pub(crate) use mean::{mean, saturated};
 use crate::frame::FrameView;
 use crate::shade::{EdgePixel, Encoding, Shading};
 use crate::simd::{Each, at_level};
-use crate::target::Bands;
+use crate::target::{Band, Bands};
 use crate::tile::{NOBODY, Scratch, TileArea};
 use trigon_math::Vec4;
 
@@ -121,61 +121,64 @@ fn for_each_edge(
 /// Writes the outputs of colour, pixel by pixel.
 fn store_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: &Bands<'_>) {
     let axis = frame.supersampling as usize;
-    let [left, top] = area.origin.map(|v| v as u32 / frame.supersampling);
-    let (mut band, first) = bands.lock([left, top]);
-    let [columns, rows] = frame.drawn_part(area);
-    for y in rows {
-        for x in columns.clone() {
-            let color = match axis {
-                1 => Vec4::from_array(scratch.shading.colors[TileArea::index_of([x, y])]),
-                _ => {
-                    let cells = (0..axis * axis).map(|i| [x * axis + i % axis, y * axis + i / axis]);
-                    let colors =
-                        cells.map(|cell| Vec4::from_array(scratch.shading.colors[TileArea::index_of(cell)]));
-                    mean(colors, axis * axis)
-                }
-            };
-            let index = first + y * bands.width() + x;
-            if let Some(pixel) = band.linear.get_mut(index) {
-                *pixel = color;
+    let color_of = |cell| Vec4::from_array(scratch.shading.colors[TileArea::index_of(cell)]);
+    for_each_drawn(frame, area, bands, |band, index, [x, y]| {
+        let color = match axis {
+            1 => color_of([x, y]),
+            _ => {
+                let cells = (0..axis * axis).map(|i| [x * axis + i % axis, y * axis + i / axis]);
+                mean(cells.map(color_of), axis * axis)
             }
-            if let Some(pixel) = band.srgb8.get_mut(index) {
-                *pixel = Encoding::Srgb8.encode(color);
-            }
-            if let Some(pixel) = band.unorm8.get_mut(index) {
-                *pixel = Encoding::Unorm8.encode(color);
-            }
+        };
+        if let Some(pixel) = band.linear.get_mut(index) {
+            *pixel = color;
         }
-    }
+        if let Some(pixel) = band.srgb8.get_mut(index) {
+            *pixel = Encoding::Srgb8.encode(color);
+        }
+        if let Some(pixel) = band.unorm8.get_mut(index) {
+            *pixel = Encoding::Unorm8.encode(color);
+        }
+    });
 }
 
 /// Writes depth and ids, each from one sample of the pixel.
 fn store_visibility(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: &Bands<'_>) {
     let axis = frame.supersampling as usize;
-    let [left, top] = area.origin.map(|v| v as u32 / frame.supersampling);
-    let (mut band, first) = bands.lock([left, top]);
+    for_each_drawn(frame, area, bands, |band, index, [x, y]| {
+        let pixel = TileArea::index_of([x * axis + axis / 2, y * axis + axis / 2]);
+        let sample = scratch.buffer.index(pixel, 0);
+        if let Some(depth) = band.depth.get_mut(index) {
+            let seen = scratch.buffer.depth[sample];
+            // The background is behind 0; and -0 becomes 0.
+            *depth = if seen > 0.0 { seen } else { 0.0 };
+        }
+        if frame.wants.ids {
+            let ids = frame.ids(scratch, sample);
+            for (plane, id) in [&mut band.objects, &mut band.faces, &mut band.triangles].into_iter().zip(ids)
+            {
+                if let Some(place) = plane.get_mut(index) {
+                    *place = id;
+                }
+            }
+        }
+    });
+}
+
+/// Visits the target's pixels that a tile draws: their band, their index in it, and
+/// their column and row from the tile's first.
+#[inline(always)]
+fn for_each_drawn(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    bands: &Bands<'_>,
+    mut visit: impl FnMut(&mut Band<'_>, usize, [usize; 2]),
+) {
+    let (mut band, first) = bands.lock(area.origin.map(|v| v as u32 / frame.supersampling));
     let [columns, rows] = frame.drawn_part(area);
     for y in rows {
         for x in columns.clone() {
-            let pixel = TileArea::index_of([x * axis + axis / 2, y * axis + axis / 2]);
-            let sample = scratch.buffer.index(pixel, 0);
-            let index = first + y * bands.width() + x;
-            if let Some(depth) = band.depth.get_mut(index) {
-                let seen = scratch.buffer.depth[sample];
-                // The background is behind 0; and -0 becomes 0.
-                *depth = if seen > 0.0 { seen } else { 0.0 };
-            }
-            if frame.wants.ids {
-                let ids = frame.ids(scratch, sample);
-                let band = &mut *band;
-                for (plane, id) in
-                    [&mut band.objects, &mut band.faces, &mut band.triangles].into_iter().zip(ids)
-                {
-                    if let Some(place) = plane.get_mut(index) {
-                        *place = id;
-                    }
-                }
-            }
+            visit(&mut band, first + y * bands.width() + x, [x, y]);
         }
     }
 }

@@ -11,6 +11,7 @@ mod records;
 mod run;
 mod scalar;
 mod shading;
+mod sorted;
 mod surface;
 mod task;
 mod visible;

@@ -2,12 +2,9 @@
 //! which vectors of pixels take their columns.
 
 use super::ShadeContext;
-use super::weights::perspective;
+use super::sorted::Sorted;
 use crate::bin::Place;
-use crate::setup::{Column, Corners, Kind, SMALL, SetupTriangle, small_lanes, sorted_columns};
-use crate::simd::{
-    Each, F32, I32, LANES, Mask, Row, Simd, Token, at_level, inlined, lanes_of, prelude::*, transpose,
-};
+use crate::simd::{Each, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
 
 /// Columns of the row that every vector loads.
 pub(super) mod hot {
@@ -127,8 +124,8 @@ impl Records {
                 );
                 let mut columns = [[0; LANES]; cold::COUNT];
                 if self.shape.size == self.shape.loaded {
-                    let sorted = made(simd, context, places(context, seen));
-                    let [_, first, second] = heads(simd, context, &sorted);
+                    let sorted = Sorted::made(simd, context, places(context, seen));
+                    let [_, first, second] = sorted.heads(simd, context.area.origin);
                     columns[..LANES].copy_from_slice(&first);
                     columns[LANES..].copy_from_slice(&second);
                 } else {
@@ -157,21 +154,6 @@ fn places(context: &ShadeContext<'_>, seen: [u32; LANES]) -> [Place; LANES] {
     )
 }
 
-/// Eight triangles, their vertices sorted.
-struct Sorted<S: Simd> {
-    x: [I32<S>; 3],
-    y: [I32<S>; 3],
-    depth: [F32<S>; 3],
-    inverse_w: [F32<S>; 3],
-    /// The corners that the vertices are, or that the columns of cut weights
-    /// belong to.
-    corners: [Row; 3],
-    /// Where the sorted vertices run clockwise on the screen.
-    clockwise: Mask<S>,
-    /// All but the corners.
-    flags: I32<S>,
-}
-
 /// Records of up to eight triangles.
 #[inline(always)]
 fn eight<S: Simd>(simd: S, context: &ShadeContext<'_>, seen: &[u32], (rows, shape): (&mut [Row], Shape)) {
@@ -187,14 +169,14 @@ fn eight<S: Simd>(simd: S, context: &ShadeContext<'_>, seen: &[u32], (rows, shap
     );
     let indices = context.geometry().corners_of(primitives);
     let sorted = if places.iter().all(|place| place.is_whole()) {
-        whole(simd, context, indices)
+        Sorted::whole(simd, context, indices)
     } else {
         simd.vectorize(
             #[inline(always)]
-            || made(simd, context, places),
+            || Sorted::made(simd, context, places),
         )
     };
-    let mut columns = heads(simd, context, &sorted);
+    let mut columns = sorted.heads(simd, context.area.origin);
     columns[0][hot::PRIMITIVE] = primitives.each(u32::cast_signed);
     let kept = if shape.size == shape.loaded { 1 } else { 3 };
     for (columns, row) in columns.iter().zip([0, shape.loaded, shape.loaded + 1]).take(kept) {
@@ -257,187 +239,4 @@ fn copy_long_varyings<'r>(
             }
         }
     }
-}
-
-/// Triangles that are primitives as they are.
-#[inline(always)]
-fn whole<S: Simd>(simd: S, context: &ShadeContext<'_>, indices: [[u32; 3]; LANES]) -> Sorted<S> {
-    let vertices = context.vertices();
-    let columns = [0, 1, 2].each(
-        #[inline(always)]
-        |corner| {
-            let vertices = indices.each(
-                #[inline(always)]
-                |indices| vertices.get(indices[corner]),
-            );
-            Column::new(simd, vertices, corner as i32)
-        },
-    );
-    let (columns, reversed) = sorted_columns(columns);
-    let [x, y] = [
-        columns.each(
-            #[inline(always)]
-            |column| column.x,
-        ),
-        columns.each(
-            #[inline(always)]
-            |column| column.y,
-        ),
-    ];
-    let zero = I32::splat(simd, 0);
-    let wide = !small_lanes(simd, &columns);
-    let clockwise = if wide.any_true() {
-        clockwise_wide(simd, x, y)
-    } else {
-        ((x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0])).simd_gt(zero)
-    };
-    let bit = inlined(
-        #[inline(always)]
-        |(mask, bit): (Mask<S>, i32)| mask.select(I32::splat(simd, bit), zero),
-    );
-    Sorted {
-        x,
-        y,
-        depth: columns.each(
-            #[inline(always)]
-            |column| column.depth(),
-        ),
-        inverse_w: columns.each(
-            #[inline(always)]
-            |column| column.inverse_w(),
-        ),
-        corners: columns.each(
-            #[inline(always)]
-            |column| column.corner.into(),
-        ),
-        clockwise,
-        flags: bit((clockwise ^ reversed, flag::BACK)) | bit((wide, flag::WIDE)) | flag::EDGES,
-    }
-}
-
-/// Triangles of which some were made by cutting, or from lines and points.
-#[inline(always)]
-fn made<S: Simd>(simd: S, context: &ShadeContext<'_>, places: [Place; LANES]) -> Sorted<S> {
-    let triangles = places.each(
-        #[inline(always)]
-        |place| context.frame.triangle(place),
-    );
-    let column = inlined(
-        #[inline(always)]
-        |(vertex, member): (usize, usize)| {
-            let values = triangles.each_ref().each(
-                #[inline(always)]
-                |triangle| triangle.vertices[vertex].0[member],
-            );
-            I32::simd_from(simd, values)
-        },
-    );
-    let of_vertices = inlined(
-        #[inline(always)]
-        |member: usize| {
-            [0, 1, 2].each(
-                #[inline(always)]
-                |vertex| column((vertex, member)),
-            )
-        },
-    );
-    let (x, y) = (of_vertices(0), of_vertices(1));
-    Sorted {
-        x,
-        y,
-        depth: of_vertices(2).each(
-            #[inline(always)]
-            |bits| bits.bitcast(),
-        ),
-        inverse_w: of_vertices(3).each(
-            #[inline(always)]
-            |bits| bits.bitcast(),
-        ),
-        corners: [0, 1, 2].each(
-            #[inline(always)]
-            |vertex| triangles.each_ref().each(|triangle| i32::from(corner_of(triangle, vertex))),
-        ),
-        clockwise: clockwise_wide(simd, x, y),
-        flags: I32::simd_from(simd, triangles.each_ref().each(flags_of)),
-    }
-}
-
-fn corner_of(triangle: &SetupTriangle, vertex: usize) -> u8 {
-    match triangle.corners {
-        Corners::Whole(corners) => corners[vertex],
-        Corners::Cut { order, .. } => order[vertex],
-    }
-}
-
-fn flags_of(triangle: &SetupTriangle) -> i32 {
-    let is_wide = [0, 1].into_iter().any(|axis| {
-        let [low, high] = triangle.extent(axis);
-        high - low >= SMALL
-    });
-    let is_cut = matches!(triangle.corners, Corners::Cut { .. });
-    let flags = [
-        (!triangle.front_facing, flag::BACK),
-        (triangle.kind == Kind::Triangle, flag::EDGES),
-        (is_wide, flag::WIDE),
-        (is_cut, flag::CUT),
-    ];
-    flags.into_iter().filter(|(is_set, _)| *is_set).fold(0, |flags, (_, flag)| flags | flag)
-}
-
-/// Where the vertices run clockwise, for triangles of any size.
-#[inline(always)]
-fn clockwise_wide<S: Simd>(simd: S, x: [I32<S>; 3], y: [I32<S>; 3]) -> Mask<S> {
-    let [ux, uy, vx, vy]: [Row; 4] = [x[1] - x[0], y[1] - y[0], x[2] - x[0], y[2] - y[0]].each(Into::into);
-    let sign = lanes_of(
-        #[inline(always)]
-        |lane| {
-            // Differences of up to 2^25: their products are exact in f64.
-            let [ux, uy, vx, vy] = [ux, uy, vx, vy].each(
-                #[inline(always)]
-                |column| f64::from(column[lane]),
-            );
-            i32::from(ux * vy - uy * vx > 0.0)
-        },
-    );
-    I32::simd_from(simd, sign).simd_gt(I32::splat(simd, 0))
-}
-
-/// The columns of the hot row and of the cold ones, without the ids.
-#[inline(always)]
-fn heads<S: Simd>(simd: S, context: &ShadeContext<'_>, sorted: &Sorted<S>) -> [[Row; LANES]; 3] {
-    let Sorted { x, y, depth, inverse_w, corners, clockwise, flags } = sorted;
-    let turned = inlined(
-        #[inline(always)]
-        |value: I32<S>| clockwise.select(value, -value),
-    );
-    let [left, top] = context.area.origin;
-    let point = [x[0] - left * 256, y[0] - top * 256];
-    // The edge from vertex 2 to 0, and that from 0 to 1.
-    let right = [turned(y[2] - y[0]), turned(y[0] - y[1])];
-    let down = [turned(x[0] - x[2]), turned(x[1] - x[0])];
-    let (q, scale) = perspective(simd, *inverse_w);
-    let [a, b, c] = corners.each(
-        #[inline(always)]
-        |corner| I32::simd_from(simd, corner),
-    );
-    let flags = *flags | a | (b << 2) | (c << 4);
-    let both = inlined(
-        #[inline(always)]
-        |[low, high]: [I32<S>; 2]| (low & 0xffff) | (high << 16),
-    );
-    let steps = [both([right[0], down[0]]), both([right[1], down[1]])];
-    let bits = [q[0], q[1], q[2], depth[0], depth[1], depth[2], scale].each(
-        #[inline(always)]
-        |value| value.bitcast::<I32<S>>(),
-    );
-    let none = I32::splat(simd, 0);
-    let columns = [
-        [both(point), steps[0], steps[1], bits[0], bits[1], bits[2], flags, none],
-        [point[0], point[1], right[0], right[1], down[0], down[1], bits[6], none],
-        [bits[3], bits[4], bits[5], none, none, none, none, none],
-    ];
-    columns.each(
-        #[inline(always)]
-        |columns| columns.each(Into::into),
-    )
 }

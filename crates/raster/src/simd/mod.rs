@@ -55,6 +55,13 @@ fn is_x86<S: Simd>(simd: S) -> bool {
     }
 }
 
+/// Eight f32 as two times four f64.
+#[inline(always)]
+pub(crate) fn widened<S: Simd>(value: F32<S>) -> [fearless_simd::f64x4<S>; 2] {
+    let (low, high) = value.token().widen_f32x8(value);
+    [low, high]
+}
+
 /// 0, 1, 2 … 7.
 #[inline(always)]
 pub fn lane_numbers<S: Simd>(simd: S) -> I32<S> {

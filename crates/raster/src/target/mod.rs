@@ -3,7 +3,7 @@
 mod bands;
 mod plane;
 
-pub(crate) use bands::Bands;
+pub(crate) use bands::{Band, Bands};
 
 use crate::samples::SamplePattern;
 use plane::Plane;

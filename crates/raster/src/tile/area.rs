@@ -1,6 +1,6 @@
 //! Where a tile lies, and how its pixels lie in memory.
 
-use crate::simd::{I32, Simd};
+use crate::simd::{Each, I32, Simd};
 
 /// The most pixels in a row or a column of a tile.
 pub(crate) const MAX_SIDE: usize = 64;
@@ -51,6 +51,15 @@ impl TileArea {
         let x = (index & 3) | ((index >> 1) & 4) | ((index >> 3) & 0x38);
         let y = ((index >> 2) & 1) | ((index >> 3) & 6) | ((index >> 6) & 0x38);
         [x, y]
+    }
+
+    /// The place in 1/256 pixel of a pixel's sample at an offset.
+    #[inline(always)]
+    pub(crate) fn point(&self, pixel: [i32; 2], offset: [i32; 2]) -> [i32; 2] {
+        [0, 1].each(
+            #[inline(always)]
+            |axis| (self.origin[axis] + pixel[axis]) * 256 + offset[axis],
+        )
     }
 
     /// Whether a pixel of the tile lies in the picture.

@@ -4,7 +4,7 @@ use super::area::{BLOCKS, TileArea};
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::covering::Covering;
 use super::store::{store, store_where};
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, lanes_of, prelude::*};
+use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
 
 /// What all triangles of a tile have in common.
 pub(crate) struct Cover<'f> {
@@ -266,30 +266,10 @@ impl Cover<'_> {
         (edges, first): ([I32<S>; 3], [i32; 2]),
         sample: usize,
     ) -> Mask<S> {
-        if walk.covering.special.is_some() {
-            return self.covered_specially(simd, walk.covering, first, sample);
+        match &walk.covering.special {
+            Some(special) => special.covers_group(simd, self.point(first, sample)),
+            None => walk.inside(simd, edges, walk.covering.starts[sample]),
         }
-        walk.inside(simd, edges, walk.covering.starts[sample])
-    }
-
-    #[cold]
-    fn covered_specially<S: Simd>(
-        &self,
-        simd: S,
-        covering: &Covering,
-        first: [i32; 2],
-        sample: usize,
-    ) -> Mask<S> {
-        let [x, y] = self.point(first, sample);
-        let special = covering.special.as_ref();
-        let lanes: [i32; LANES] = lanes_of(
-            #[inline(always)]
-            |lane| {
-                let point = [x + (lane as i32 & 3) * 256, y + (lane as i32 >> 2) * 256];
-                i32::from(special.is_none_or(|special| special.covers(point)))
-            },
-        );
-        I32::simd_from(simd, lanes).simd_gt(I32::splat(simd, 0))
     }
 
     #[inline(always)]
@@ -299,12 +279,8 @@ impl Cover<'_> {
 
     /// The point of a pixel's sample in 1/256 pixel.
     #[inline(always)]
-    pub(super) fn point(&self, pixel: [i32; 2], sample: usize) -> [i32; 2] {
-        let offset = self.offsets[sample];
-        [0, 1].each(
-            #[inline(always)]
-            |axis| (self.area.origin[axis] + pixel[axis]) * 256 + offset[axis],
-        )
+    fn point(&self, pixel: [i32; 2], sample: usize) -> [i32; 2] {
+        self.area.point(pixel, self.offsets[sample])
     }
 
     /// Writes the covered lanes that are nearer than what is there; whether

@@ -4,6 +4,7 @@ use super::{DepthPlane, Edge, TileArea};
 use crate::bin::Grid;
 use crate::samples::MAX_SAMPLES;
 use crate::setup::{Kind, SetupTriangle};
+use crate::simd::{I32, LANES, Mask, Simd, lanes_of, prelude::*};
 
 /// What coverage needs of a triangle in one tile.
 ///
@@ -40,6 +41,19 @@ impl Special {
         self.edges.iter().all(|edge| edge.at(point) + edge.bias() >= 0)
             && self.disc.is_none_or(|disc| disc.covers(point))
     }
+
+    /// Which pixels of a group are covered, from the point of the first one's sample.
+    #[cold]
+    pub(crate) fn covers_group<S: Simd>(&self, simd: S, point: [i32; 2]) -> Mask<S> {
+        let lanes: [i32; LANES] = lanes_of(|lane| i32::from(self.covers(lane_point(point, lane))));
+        I32::simd_from(simd, lanes).simd_gt(I32::splat(simd, 0))
+    }
+}
+
+/// The point of a lane, from that of the first.
+#[inline(always)]
+pub(crate) fn lane_point([x, y]: [i32; 2], lane: usize) -> [i32; 2] {
+    [x + (lane as i32 & 3) * 256, y + (lane as i32 >> 2) * 256]
 }
 
 /// The round outline of a point.

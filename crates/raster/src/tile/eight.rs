@@ -4,7 +4,7 @@ use super::micro::MICRO;
 use super::{Covering, DepthPlane, TileArea};
 use crate::samples::{MAX_SAMPLES, SamplePattern};
 use crate::setup::{Column, small_lanes, sorted_columns};
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lesser, prelude::*};
+use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lesser, prelude::*, widened};
 use crate::vertex::ScreenVertex;
 use fearless_simd::f64x4;
 
@@ -242,11 +242,11 @@ fn range<S: Simd>(
 fn depth_slopes<S: Simd>(simd: S, [a, b, c]: [Column<S>; 3]) -> [[f64; LANES]; 2] {
     let [ux, uy, vx, vy] = [b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y].each(
         #[inline(always)]
-        |step| halves(simd, step.to_float::<F32<S>>()),
+        |step| widened(step.to_float::<F32<S>>()),
     );
     let [za, zb, zc] = [a, b, c].each(
         #[inline(always)]
-        |column| halves(simd, column.depth()),
+        |column| widened(column.depth()),
     );
     let mut result = [[0.0; LANES]; 2];
     for half in 0..2 {
@@ -260,13 +260,6 @@ fn depth_slopes<S: Simd>(simd: S, [a, b, c]: [Column<S>; 3]) -> [[f64; LANES]; 2
         down.store_slice(&mut result[1][place]);
     }
     result
-}
-
-/// Eight f32 as two times four f64.
-#[inline(always)]
-fn halves<S: Simd>(simd: S, value: F32<S>) -> [f64x4<S>; 2] {
-    let (low, high) = simd.widen_f32x8(value);
-    [low, high]
 }
 
 #[cfg(test)]

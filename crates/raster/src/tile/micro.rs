@@ -5,7 +5,7 @@ use super::area::{BLOCKS, GROUPS};
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::cover::{Counts, Cover};
 use super::eight::Eight;
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, lesser, prelude::*};
+use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, lesser, prelude::*, widened};
 use fearless_simd::f64x4;
 
 /// Triangles that reach over no more pixels than this each way.
@@ -101,7 +101,7 @@ impl Cover<'_> {
     #[inline(always)]
     fn depths<S: Simd>(&self, simd: S, eight: &Eight, y: I32<S>) -> Depths<S> {
         let dy = self.steps(simd, (y, 1), &eight.anchor);
-        let value = halves(simd, F32::simd_from(simd, eight.value));
+        let value = widened(F32::simd_from(simd, eight.value));
         let slopes = eight.slopes.each_ref().each(
             #[inline(always)]
             |slopes| doubles(simd, slopes),
@@ -135,7 +135,7 @@ impl Cover<'_> {
         anchor: &[[i32; LANES]; 2],
     ) -> [f64x4<S>; 2] {
         let place = ((pixel + self.area.origin[axis]) << 8) + self.offsets[0][axis];
-        halves(simd, (place - I32::simd_from(simd, anchor[axis])).to_float())
+        widened((place - I32::simd_from(simd, anchor[axis])).to_float())
     }
 
     /// Lets the covered lanes compete, each for its own pixel.
@@ -182,13 +182,6 @@ fn index_of<S: Simd>(x: I32<S>, y: I32<S>) -> I32<S> {
     let block = (y >> 3) * BLOCKS as i32 + (x >> 3);
     let group = (y & 6) + ((x >> 2) & 1);
     (((block << 3) + group) << 3) + ((y & 1) << 2) + (x & 3)
-}
-
-/// Eight f32 as two times four f64.
-#[inline(always)]
-fn halves<S: Simd>(simd: S, value: F32<S>) -> [f64x4<S>; 2] {
-    let (low, high) = simd.widen_f32x8(value);
-    [low, high]
 }
 
 #[inline(always)]

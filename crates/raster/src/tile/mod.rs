@@ -20,11 +20,11 @@ pub(crate) use area::{MAX_SIDE, TileArea};
 pub(crate) use blocks::Blocks;
 pub(crate) use buffer::{BEHIND_ALL, NOBODY, VisibilityBuffer};
 pub(crate) use cover::Counts;
-pub(crate) use covering::Covering;
+pub(crate) use covering::{Covering, lane_point};
 pub(crate) use depth::DepthPlane;
 pub(crate) use edge::Edge;
 pub(crate) use scratch::{PIXELS, Scratch};
-pub(crate) use seen::{Candidate, SampleGroup, TileView, lane_point};
+pub(crate) use seen::{Candidate, SampleGroup, TileView};
 pub(crate) use visibility::single;
 
 use crate::Surface;

@@ -6,7 +6,7 @@ use super::buffer::{NOBODY, VisibilityBuffer};
 use super::{Covering, TileArea};
 use crate::bin::Place;
 use crate::frame::FrameView;
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, lanes_of, prelude::*};
+use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
 
 /// A tile whose opaque triangles are settled.
 #[derive(Clone, Copy)]
@@ -66,9 +66,9 @@ impl TileView<'_> {
             }
             for (row, column) in groups(covering, corner) {
                 let first = [corner[0] + column * 4, corner[1] + row * 2];
-                for sample in 0..self.buffer.samples {
+                for (sample, &offset) in self.frame.grid.pattern.offsets().iter().enumerate() {
                     let group = block * 8 + (row * 2 + column) as usize;
-                    let group = SampleGroup { group, sample, first, point: self.point(first, sample) };
+                    let group = SampleGroup { group, sample, first, point: self.area.point(first, offset) };
                     let covered = match inside {
                         true => self.within_picture(simd, first),
                         false => self.covered(simd, covering, group),
@@ -112,15 +112,6 @@ impl TileView<'_> {
         self.frame.hierarchical && self.buffer.blocks[block].farthest > covering.depth.high
     }
 
-    #[inline(always)]
-    fn point(&self, pixel: [i32; 2], sample: usize) -> [i32; 2] {
-        let offset = self.frame.grid.pattern.offsets()[sample];
-        [0, 1].each(
-            #[inline(always)]
-            |axis| (self.area.origin[axis] + pixel[axis]) * 256 + offset[axis],
-        )
-    }
-
     /// The lanes of a group that lie in the picture.
     #[inline(always)]
     fn within_picture<S: Simd>(&self, simd: S, [x, y]: [i32; 2]) -> Mask<S> {
@@ -153,13 +144,7 @@ impl TileView<'_> {
                 );
                 (a | b | c).simd_ge(I32::splat(simd, 0))
             }
-            Some(special) => {
-                let lanes: [i32; LANES] = lanes_of(
-                    #[inline(always)]
-                    |lane| i32::from(special.covers(lane_point(group.point, lane))),
-                );
-                I32::simd_from(simd, lanes).simd_gt(I32::splat(simd, 0))
-            }
+            Some(special) => special.covers_group(simd, group.point),
         };
         covered & self.within_picture(simd, group.first)
     }
@@ -201,12 +186,6 @@ impl TileView<'_> {
 #[inline(always)]
 fn columns_and_rows<S: Simd>(simd: S) -> (I32<S>, I32<S>) {
     (lane_numbers(simd) & 3, lane_numbers(simd) >> 2)
-}
-
-/// The point of a lane, from that of the first.
-#[inline(always)]
-pub(crate) fn lane_point([x, y]: [i32; 2], lane: usize) -> [i32; 2] {
-    [x + (lane as i32 & 3) * 256, y + (lane as i32 >> 2) * 256]
 }
 
 /// Rows and columns of the groups of a block that a triangle may touch.

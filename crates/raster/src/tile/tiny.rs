@@ -117,12 +117,10 @@ impl Cover<'_> {
                 steps.lanes[k] + start
             },
         );
+        let point = self.area.point(part.pixel, self.offsets[0]);
         let [dx, dy] = [0, 1].each(
             #[inline(always)]
-            |axis| {
-                let place = (self.area.origin[axis] + part.pixel[axis]) * 256 + self.offsets[0][axis];
-                f64x4::splat(simd, f64::from(place - eight.anchor[axis][lane]))
-            },
+            |axis| f64x4::splat(simd, f64::from(point[axis] - eight.anchor[axis][lane])),
         );
         let dx = dx + f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]);
         let mut dy = dy;
