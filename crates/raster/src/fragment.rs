@@ -51,14 +51,20 @@ impl<V> Fragment<V> {
     /// wireframe that can never fight with its own surface.
     #[inline]
     pub fn nearest_edge(&self) -> f32 {
-        let mut nearest = f32::INFINITY;
-        for (i, &distance) in self.edge_distances.iter().enumerate() {
-            if self.edge_flags.contains(i) && distance < nearest {
-                nearest = distance;
-            }
-        }
-        nearest
+        nearest_edge(self.edge_distances, self.edge_flags)
     }
+}
+
+/// The least of the distances that are flagged; infinite if none is.
+#[inline]
+pub(crate) fn nearest_edge(distances: [f32; 3], flags: EdgeFlags) -> f32 {
+    let mut nearest = f32::INFINITY;
+    for (i, distance) in distances.into_iter().enumerate() {
+        if flags.contains(i) && distance < nearest {
+            nearest = distance;
+        }
+    }
+    nearest
 }
 
 /// Which edges of a triangle are edges of the face that it belongs to, and

@@ -86,7 +86,8 @@ impl<P: Pipeline> ScalarPipeline for P {
 /// everywhere keep the promise of equal bytes: `+ - * /`, square root,
 /// comparison and selection; no fused multiply-add.
 pub trait LanePipeline: Sync {
-    /// How many f32 are interpolated from the vertices to the fragments.
+    /// How many f32 are interpolated from the vertices to the fragments; see
+    /// [`varyings`](Self::varyings).
     const VARYINGS: usize;
 
     /// Whether [`fragments`](Self::fragments) is asked only once for each visible
@@ -95,6 +96,14 @@ pub trait LanePipeline: Sync {
 
     /// Whether [`masks`](Self::masks) says anything.
     const MASKED: bool = false;
+
+    /// How many f32 this draw interpolates: [`VARYINGS`](Self::VARYINGS), unless the
+    /// pipeline knows only when it is made. At most
+    /// [`MAX_VARYINGS`](crate::MAX_VARYINGS), and always the same.
+    #[inline(always)]
+    fn varyings(&self) -> usize {
+        Self::VARYINGS
+    }
 
     /// How many vertices there are; indices beyond are dropped with their
     /// triangle.

@@ -64,8 +64,9 @@ impl<P: LanePipeline> AnyPipeline for P {
     }
 
     fn stride(&self) -> usize {
-        const { assert!(P::VARYINGS <= MAX_VARYINGS, "a pipeline has at most MAX_VARYINGS varyings") };
-        stride(P::VARYINGS)
+        let varyings = P::varyings(self);
+        assert!(varyings <= MAX_VARYINGS, "a pipeline has at most {MAX_VARYINGS} varyings, not {varyings}");
+        stride(varyings)
     }
 
     fn asks_all(&self) -> bool {
@@ -99,7 +100,7 @@ impl<P: LanePipeline> AnyPipeline for P {
             let pipeline = self.as_scalar().expect("a scalar pipeline");
             Vec4::from_array(pipeline.run_vertex(vertex, &mut varyings))
         } else {
-            at_level!(token, simd => vertex::position(simd, self, vertex, &mut varyings[..P::VARYINGS]))
+            at_level!(token, simd => vertex::position(simd, self, vertex, &mut varyings[..P::varyings(self)]))
         }
     }
 

@@ -3,7 +3,8 @@
 use super::ShadeContext;
 use super::records::{Records, cold, flag, hot};
 use super::weights::Weights;
-use crate::simd::{Each, F32, I32, LANES, Row, Simd, greater, lesser, prelude::*};
+use crate::fragment::nearest_edge;
+use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, lanes_of, lesser, prelude::*};
 use crate::{Fragment, Varyings};
 use trigon_math::{UVec2, Vec2};
 
@@ -113,6 +114,33 @@ impl<S: Simd> FragmentLanes<'_, S> {
     #[inline(always)]
     pub fn primitives(&self) -> [u32; LANES] {
         self.hot[hot::PRIMITIVE].each(i32::cast_unsigned)
+    }
+
+    /// Whether the corners wind counter-clockwise on the screen; see
+    /// [`Fragment::front_facing`].
+    #[inline(always)]
+    pub fn front_facing(&self) -> Mask<S> {
+        let flags = I32::simd_from(self.simd, self.hot[hot::FLAGS]);
+        (flags & flag::BACK).simd_eq(I32::splat(self.simd, 0))
+    }
+
+    /// The distance in pixels to the nearest edge of the face; see
+    /// [`Fragment::nearest_edge`].
+    #[inline(always)]
+    pub fn nearest_edge(&self) -> F32<S> {
+        let supersampling = self.context.frame.supersampling as f32;
+        let opposite: [[f32; LANES]; 3] = self.place.distances.each(Into::into);
+        let geometry = self.context.geometry();
+        let nearest = lanes_of(
+            #[inline(always)]
+            |lane| {
+                let distances = opposite.map(|distance| distance[lane] / supersampling);
+                let primitive = self.hot[hot::PRIMITIVE][lane].cast_unsigned();
+                let distances = edge_distances(self.hot[hot::FLAGS][lane], distances);
+                nearest_edge(distances, geometry.edge_flags(primitive))
+            },
+        );
+        F32::simd_from(self.simd, nearest)
     }
 
     /// Calls `visit` with each active lane as a fragment of its own.

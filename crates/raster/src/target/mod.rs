@@ -151,6 +151,33 @@ impl<'a> Target<'a> {
         Ok(self)
     }
 
+    /// The same with the picture of [`Output::Depth`] in the caller's memory.
+    ///
+    /// # Errors
+    /// [`TargetError::Length`] if there are not `width * height` pixels.
+    pub fn with_depth(mut self, pixels: &'a mut [f32]) -> Result<Self, TargetError> {
+        self.depth = self.borrowed(pixels)?;
+        Ok(self)
+    }
+
+    /// The same with the picture of [`Output::Object`] in the caller's memory.
+    ///
+    /// # Errors
+    /// [`TargetError::Length`] if there are not `width * height` pixels.
+    pub fn with_objects(mut self, pixels: &'a mut [u32]) -> Result<Self, TargetError> {
+        self.objects = self.borrowed(pixels)?;
+        Ok(self)
+    }
+
+    /// The same with the picture of [`Output::Face`] in the caller's memory.
+    ///
+    /// # Errors
+    /// [`TargetError::Length`] if there are not `width * height` pixels.
+    pub fn with_faces(mut self, pixels: &'a mut [u32]) -> Result<Self, TargetError> {
+        self.faces = self.borrowed(pixels)?;
+        Ok(self)
+    }
+
     fn borrowed<T>(&self, pixels: &'a mut [T]) -> Result<Plane<'a, T>, TargetError> {
         let needed = self.width as usize * self.height as usize;
         if pixels.len() == needed {

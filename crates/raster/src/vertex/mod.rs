@@ -68,14 +68,14 @@ pub(crate) fn run<S: Simd, P: LanePipeline>(
     viewport: Viewport,
     (places, mut varyings): (&mut [ScreenVertex], &mut [f32]),
 ) {
-    let guard = viewport.guard();
+    let (guard, stride) = (viewport.guard(), stride(pipeline.varyings()));
     // Listed vertices do not lie side by side.
     let together = if used.are_consecutive() { LANES } else { 1 };
     for (group, places) in places.chunks_mut(together).enumerate() {
         let first = used.index(slots.start + group * together);
-        let (rows, rest) = std::mem::take(&mut varyings).split_at_mut(places.len() * stride(P::VARYINGS));
+        let (rows, rest) = std::mem::take(&mut varyings).split_at_mut(places.len() * stride);
         varyings = rest;
-        let mut lanes = VertexLanes::new(first, places.len(), rows, stride(P::VARYINGS));
+        let mut lanes = VertexLanes::new(first, places.len(), rows, stride);
         let position = pipeline.vertices(simd, &mut lanes);
         place(simd, position, viewport, guard, places);
     }
@@ -114,7 +114,7 @@ pub(crate) fn position<S: Simd, P: LanePipeline>(
     vertex: usize,
     varyings: &mut [f32],
 ) -> Vec4 {
-    let mut lanes = VertexLanes::new(vertex, 1, varyings, P::VARYINGS);
+    let mut lanes = VertexLanes::new(vertex, 1, varyings, pipeline.varyings());
     let [x, y, z, w] = pipeline.vertices(simd, &mut lanes);
     Vec4::new(x[0], y[0], z[0], w[0])
 }
