@@ -6,9 +6,9 @@
 
 use trigon_math::{Vec2, Vec3, Vec4};
 
-use crate::MeshError;
+use crate::{MeshError, MorphTarget, SkinWeights};
 
-/// Optional values on the corners and faces of a [`Mesh`](crate::Mesh).
+/// Optional values on the corners, faces and vertices of a [`Mesh`](crate::Mesh).
 ///
 /// Corners are numbered through all faces, see
 /// [`Mesh::face_corners`](crate::Mesh::face_corners).
@@ -17,6 +17,11 @@ pub struct Attributes {
     /// Shading normals per corner. They need not be of unit length; one that
     /// is zero or not finite counts as "none given here".
     pub corner_normals: Option<Vec<Vec3>>,
+    /// Tangents per corner, which normal maps refer to: a unit vector along
+    /// growing u, and in `w` the handedness, 1 or −1, so that the bitangent
+    /// `normal × tangent · w` points up in the picture, against v. See
+    /// [`Mesh::generate_tangents`](crate::Mesh::generate_tangents).
+    pub corner_tangents: Option<Vec<Vec4>>,
     /// Texture coordinates per corner, in any number of sets. (0, 0) is the
     /// upper left corner of the picture and v points down, as in glTF.
     pub uv_sets: Vec<Vec<Vec2>>,
@@ -28,11 +33,15 @@ pub struct Attributes {
     /// Which faces are shaded smoothly where no corner normal is given.
     /// Absent: all are flat.
     pub face_smooth: Option<Vec<bool>>,
+    /// The joints that each vertex follows.
+    pub skin: Option<SkinWeights>,
+    /// Shapes that the mesh can move towards.
+    pub morph_targets: Vec<MorphTarget>,
 }
 
 impl Attributes {
-    /// Checks that every list has one value per corner or face.
-    pub(crate) fn check(&self, corners: usize, faces: usize) -> Result<(), MeshError> {
+    /// Checks that every list has one value per corner, face or vertex.
+    pub(crate) fn check(&self, vertices: usize, corners: usize, faces: usize) -> Result<(), MeshError> {
         let check = |attribute, element, expected, found: Option<usize>| match found {
             Some(found) if found != expected => {
                 Err(MeshError::AttributeLength { attribute, element, expected, found })
@@ -41,6 +50,8 @@ impl Attributes {
         };
         let normals = self.corner_normals.as_ref().map(Vec::len);
         check("corner_normals", "corners", corners, normals)?;
+        let tangents = self.corner_tangents.as_ref().map(Vec::len);
+        check("corner_tangents", "corners", corners, tangents)?;
         for set in &self.uv_sets {
             check("uv_sets", "corners", corners, Some(set.len()))?;
         }
@@ -49,7 +60,17 @@ impl Attributes {
         let materials = self.face_materials.as_ref().map(Vec::len);
         check("face_materials", "faces", faces, materials)?;
         let smooth = self.face_smooth.as_ref().map(Vec::len);
-        check("face_smooth", "faces", faces, smooth)
+        check("face_smooth", "faces", faces, smooth)?;
+        check("skin", "vertices", vertices, self.skin.as_ref().map(SkinWeights::vertex_count))?;
+        for target in &self.morph_targets {
+            // Deltas name only what they move, so they may reach less far.
+            let beyond = |bound: usize, count: usize| Some(if bound > count { bound } else { count });
+            check("morph_targets", "vertices", vertices, beyond(target.positions.bound(), vertices))?;
+            for deltas in [&target.normals, &target.tangents] {
+                check("morph_targets", "corners", corners, beyond(deltas.bound(), corners))?;
+            }
+        }
+        Ok(())
     }
 
     /// Moves every corner value: the new corner `i` has what the old corner
@@ -61,8 +82,16 @@ impl Attributes {
         if let Some(normals) = &mut self.corner_normals {
             *normals = reordered(normals, order);
         }
+        if let Some(tangents) = &mut self.corner_tangents {
+            *tangents = reordered(tangents, order);
+        }
         for set in &mut self.uv_sets {
             *set = reordered(set, order);
+        }
+        for target in &mut self.morph_targets {
+            for deltas in [&mut target.normals, &mut target.tangents] {
+                *deltas = deltas.reordered(order.len(), order.iter().copied());
+            }
         }
         if let Some(colors) = &mut self.corner_colors {
             *colors = reordered(colors, order);

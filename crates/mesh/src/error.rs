@@ -55,7 +55,7 @@ pub enum MeshError {
     AttributeLength {
         /// The field of [`Attributes`](crate::Attributes).
         attribute: &'static str,
-        /// What it is stored on: "corners" or "faces".
+        /// What it is stored on: "corners", "faces" or "vertices".
         element: &'static str,
         /// How many the mesh has.
         expected: usize,

@@ -47,6 +47,7 @@
 
 mod attributes;
 mod builder;
+mod deform;
 mod edges;
 mod error;
 mod groups;
@@ -55,6 +56,7 @@ mod normals;
 pub mod primitives;
 mod render_mesh;
 mod smooth;
+mod tangents;
 mod topology;
 mod transform;
 mod triangulate;
@@ -63,6 +65,7 @@ mod weld;
 
 pub use attributes::Attributes;
 pub use builder::MeshBuilder;
+pub use deform::{Deformed, Deltas, MorphTarget, SkinWeights};
 pub use error::MeshError;
 pub use mesh::Mesh;
 

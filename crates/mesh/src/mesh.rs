@@ -165,19 +165,19 @@ impl Mesh {
         Bounds3::from_points(self.positions.iter().map(|p| p.as_dvec3()))
     }
 
-    /// The values on corners and faces.
+    /// The values on corners, faces and vertices.
     pub fn attributes(&self) -> &Attributes {
         &self.attributes
     }
 
-    /// Replaces all values on corners and faces.
+    /// Replaces all values on corners, faces and vertices.
     ///
     /// # Errors
     ///
-    /// A list that has not one value per corner or face. The mesh keeps what
+    /// A list that has not one value per corner, face or vertex. The mesh keeps what
     /// it had.
     pub fn set_attributes(&mut self, attributes: Attributes) -> Result<(), MeshError> {
-        attributes.check(self.corner_count(), self.face_count())?;
+        attributes.check(self.vertex_count(), self.corner_count(), self.face_count())?;
         self.attributes = attributes;
         Ok(())
     }

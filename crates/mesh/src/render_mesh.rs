@@ -7,7 +7,7 @@
 use trigon_math::{Vec2, Vec3, Vec4};
 
 use crate::weld::weld;
-use crate::{Mesh, Triangulation};
+use crate::{Mesh, MorphTarget, SkinWeights, Triangulation};
 
 /// A mesh as triangles over welded corners. All lists of vertex values have
 /// the same length, all lists of triangles too.
@@ -17,10 +17,16 @@ pub struct RenderMesh {
     pub positions: Vec<Vec3>,
     /// Of unit length.
     pub normals: Vec<Vec3>,
+    /// See [`Attributes::corner_tangents`](crate::Attributes::corner_tangents).
+    pub tangents: Option<Vec<Vec4>>,
     /// One list per set of texture coordinates.
     pub uv_sets: Vec<Vec<Vec2>>,
     /// Linear light, straight alpha.
     pub colors: Option<Vec<Vec4>>,
+    /// The joints that each vertex follows.
+    pub skin: Option<SkinWeights>,
+    /// Shapes to move towards; see [`RenderMesh::deform`].
+    pub morph_targets: Vec<MorphTarget>,
     /// Vertices, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
     /// The polygon that each triangle is a part of.
@@ -45,17 +51,24 @@ impl RenderMesh {
             *triangle = triangle.map(|corner| welded.vertex_of_corner[corner as usize]);
         }
         let corners = &welded.corner_of_vertex;
-        let position = |&corner: &u32| {
-            let vertex = mesh.corner_vertices()[corner as usize];
-            mesh.positions()[vertex as usize]
+        let vertex = |&corner: &u32| mesh.corner_vertices()[corner as usize];
+        let position = |corner: &u32| mesh.positions()[vertex(corner) as usize];
+        let morph = |target: &MorphTarget| MorphTarget {
+            name: target.name.clone(),
+            positions: target.positions.reordered(mesh.vertex_count(), corners.iter().map(vertex)),
+            normals: target.normals.reordered(mesh.corner_count(), corners.iter().copied()),
+            tangents: target.tangents.reordered(mesh.corner_count(), corners.iter().copied()),
         };
         let slots = attributes.face_materials.as_deref();
         let slot = |&face: &u32| slots.map_or(0, |slots| slots[face as usize]);
         RenderMesh {
             positions: corners.iter().map(position).collect(),
             normals: pick(&normals, corners),
+            tangents: attributes.corner_tangents.as_ref().map(|tangents| pick(tangents, corners)),
             uv_sets: attributes.uv_sets.iter().map(|set| pick(set, corners)).collect(),
             colors: attributes.corner_colors.as_ref().map(|c| pick(c, corners)),
+            skin: attributes.skin.as_ref().map(|skin| skin.reordered(corners.iter().map(vertex))),
+            morph_targets: attributes.morph_targets.iter().map(morph).collect(),
             triangle_materials: triangle_faces.iter().map(slot).collect(),
             triangles,
             triangle_faces,

@@ -1,6 +1,6 @@
 //! Baking a transform into the vertices.
 
-use trigon_math::{DAffine3, DMat3, Vec3};
+use trigon_math::{DAffine3, DMat3, Vec3, Vec4};
 
 use crate::Mesh;
 use crate::normals::unit_or_zero;
@@ -20,7 +20,8 @@ impl Mesh {
     ///
     /// A transform that flattens space to a plane leaves the normals of that
     /// plane; one that leaves a line or a point makes normals zero, which
-    /// counts as "none given".
+    /// counts as "none given". Morph targets follow; skin weights stay as they
+    /// are, and the skin's inverse bind matrices are for the caller to change.
     pub fn transform(&mut self, transform: &DAffine3) {
         for position in self.positions_mut() {
             *position = transform.transform_point3(position.as_dvec3()).as_vec3();
@@ -31,14 +32,41 @@ impl Mesh {
             normal_matrix *= -1.0;
             self.flip_faces();
         }
-        for normal in self.attributes_mut().corner_normals.iter_mut().flatten() {
-            *normal = transformed_normal(&normal_matrix, *normal);
+        let attributes = self.attributes_mut();
+        for target in &mut attributes.morph_targets {
+            target.positions.map(|_, delta| (transform.matrix3 * delta.as_dvec3()).as_vec3());
+            let normals = attributes.corner_normals.as_deref();
+            target.normals.map(|corner, delta| {
+                let base = normals.map_or(Vec3::ZERO, |normals| normals[corner as usize]);
+                transformed_delta(&normal_matrix, base, delta)
+            });
+            let tangents = attributes.corner_tangents.as_deref();
+            target.tangents.map(|corner, delta| {
+                let base = tangents.map_or(Vec3::ZERO, |tangents| tangents[corner as usize].truncate());
+                transformed_delta(&transform.matrix3, base, delta)
+            });
+        }
+        for normal in attributes.corner_normals.iter_mut().flatten() {
+            *normal = transformed_direction(&normal_matrix, *normal);
+        }
+        let handedness = if mirrors { -1.0 } else { 1.0 };
+        for tangent in attributes.corner_tangents.iter_mut().flatten() {
+            let direction = transformed_direction(&transform.matrix3, tangent.truncate());
+            *tangent = Vec4::from((direction, tangent.w * handedness));
         }
     }
 }
 
-fn transformed_normal(matrix: &DMat3, normal: Vec3) -> Vec3 {
-    unit_or_zero(*matrix * normal.as_dvec3()).as_vec3()
+fn transformed_direction(matrix: &DMat3, direction: Vec3) -> Vec3 {
+    unit_or_zero(*matrix * direction.as_dvec3()).as_vec3()
+}
+
+/// What is to be added to a transformed direction, which becomes a unit vector,
+/// so that the sum points where the transformed sum did.
+fn transformed_delta(matrix: &DMat3, base: Vec3, delta: Vec3) -> Vec3 {
+    let length = (*matrix * base.as_dvec3()).length();
+    let scale = if length > 0.0 && length.is_finite() { 1.0 / length } else { 1.0 };
+    (*matrix * delta.as_dvec3() * scale).as_vec3()
 }
 
 /// The matrix of cofactors: determinant times inverse transpose, but defined

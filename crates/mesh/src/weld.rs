@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use trigon_math::{Vec2, Vec3, Vec4};
 
 use crate::Mesh;
+use crate::deform::classes;
 use crate::groups::Groups;
 
 /// Groups of up to so many corners are compared one with another; larger ones
@@ -84,7 +85,12 @@ fn link_large(group: &mut [u32], compare: &Comparison, first_alike: &mut [u32]) 
 struct Comparison<'a> {
     normals: &'a [Vec3],
     uv_sets: &'a [Vec<Vec2>],
+    /// Empty when the mesh has none.
     colors: &'a [Vec4],
+    /// Empty when the mesh has none.
+    tangents: &'a [Vec4],
+    /// What morph targets do to each corner; empty when there are none.
+    morphs: Vec<u32>,
 }
 
 impl<'a> Comparison<'a> {
@@ -94,6 +100,11 @@ impl<'a> Comparison<'a> {
             normals,
             uv_sets: &attributes.uv_sets,
             colors: attributes.corner_colors.as_deref().unwrap_or(&[]),
+            tangents: attributes.corner_tangents.as_deref().unwrap_or(&[]),
+            morphs: match attributes.morph_targets.as_slice() {
+                [] => Vec::new(),
+                targets => classes(targets, mesh.corner_count()),
+            },
         }
     }
 
@@ -101,7 +112,10 @@ impl<'a> Comparison<'a> {
         let [a, b] = [a as usize, b as usize];
         bits(self.normals[a].to_array()) == bits(self.normals[b].to_array())
             && self.uv_sets.iter().all(|set| bits(set[a].to_array()) == bits(set[b].to_array()))
-            && (self.colors.is_empty() || bits(self.colors[a].to_array()) == bits(self.colors[b].to_array()))
+            && [self.colors, self.tangents]
+                .iter()
+                .all(|values| values.is_empty() || bits(values[a].to_array()) == bits(values[b].to_array()))
+            && (self.morphs.is_empty() || self.morphs[a] == self.morphs[b])
     }
 
     /// Some total order in which only corners that agree are equal.
@@ -111,9 +125,11 @@ impl<'a> Comparison<'a> {
         for set in self.uv_sets {
             order = order.then_with(|| by_bits(set[a].to_array(), set[b].to_array()));
         }
-        if !self.colors.is_empty() {
-            let [a, b] = [self.colors[a], self.colors[b]];
-            order = order.then_with(|| by_bits(a.to_array(), b.to_array()));
+        for values in [self.colors, self.tangents].into_iter().filter(|values| !values.is_empty()) {
+            order = order.then_with(|| by_bits(values[a].to_array(), values[b].to_array()));
+        }
+        if !self.morphs.is_empty() {
+            order = order.then(self.morphs[a].cmp(&self.morphs[b]));
         }
         order
     }

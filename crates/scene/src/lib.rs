@@ -25,6 +25,7 @@
 //! # Ok::<(), trigon_scene::RenderError>(())
 //! ```
 
+mod animation;
 mod arena;
 mod background;
 mod frame;
@@ -35,19 +36,22 @@ mod render;
 mod scene;
 mod settings;
 mod showcase;
+mod skin;
 mod transform;
 mod views;
 
+pub use animation::{Animation, Channel, Curve, Interpolation, NodePose, Pose, Property};
 pub use arena::{Arena, Id};
 pub use background::Background;
 pub use frame::{Frame, Hit};
 pub use light::{Light, LightKind};
-pub use material::{AlphaMode, Material, Shading, TextureBinding};
+pub use material::{AlphaMode, Material, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding};
 pub use node::Node;
 pub use render::{RenderError, Renderer, render};
-pub use scene::{MaterialId, MeshAsset, MeshId, NodeId, Scene, SceneError, TextureAsset, TextureId};
+pub use scene::{MaterialId, MeshAsset, MeshId, NodeId, Scene, SceneError, SkinId, TextureAsset, TextureId};
 pub use settings::{Lighting, MAX_SIZE, Outputs, RenderSettings, Style};
 pub use showcase::showcase;
+pub use skin::{Skin, SkinPose};
 pub use transform::Transform;
 pub use trigon_raster::simd::{SimdLevel, SimdLevelError};
 pub use trigon_raster::{Filter, MipFilter, Sampler, Stats, Texture, TextureError, TextureFormat, Wrap};

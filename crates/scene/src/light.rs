@@ -1,11 +1,17 @@
 //! Lights: what they send out, in which unit.
 //!
 //! A light's `intensity` is what a perfectly white, perfectly diffuse surface
-//! shows when the light meets it head-on (a point light: from one metre away).
-//! 1 is the white of the display. Photometric units differ by the factor π of
-//! a Lambertian surface: `io` divides glTF's lux and candela by π.
+//! shows when the light meets it head-on (a point or spot light: from one metre
+//! away). 1 is the white of the display. Photometric units differ by the factor
+//! π of a Lambertian surface: `io` divides glTF's lux and candela by π.
+//!
+//! How light falls off with distance and towards the rim of a cone is that of
+//! the glTF extension KHR_lights_punctual, section "Range Property" and
+//! "Inner and Outer Cone Angles".
 
-use trigon_math::Vec3;
+use std::f32::consts::FRAC_PI_4;
+
+use trigon_math::{Vec3, elementary};
 
 /// The kinds of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,9 +20,15 @@ pub enum LightKind {
     Ambient,
     /// Parallel light along the −Z axis of its node, like the sun's.
     Directional,
-    /// From the origin of its node in all directions, falling off with the
-    /// square of the distance.
+    /// From the origin of its node in all directions.
     Point,
+    /// From the origin of its node in a cone around its −Z axis.
+    Spot {
+        /// Radians from the axis to where the light begins to fade: 0 to `outer`.
+        inner: f32,
+        /// Radians from the axis to where there is none: up to π/2.
+        outer: f32,
+    },
 }
 
 /// A light. Its place and direction come from the node that holds it.
@@ -28,22 +40,31 @@ pub struct Light {
     pub color: Vec3,
     /// What a white surface shows; see the head of this file.
     pub intensity: f32,
+    /// Metres beyond which a point or spot light does not shine; infinite by
+    /// default. See [`Light::falloff`].
+    pub range: f32,
 }
 
 impl Light {
     /// White light from everywhere.
     pub fn ambient(intensity: f32) -> Self {
-        Self { kind: LightKind::Ambient, color: Vec3::ONE, intensity }
+        Self { kind: LightKind::Ambient, color: Vec3::ONE, intensity, range: f32::INFINITY }
     }
 
     /// White parallel light along the node's −Z axis.
     pub fn directional(intensity: f32) -> Self {
-        Self { kind: LightKind::Directional, color: Vec3::ONE, intensity }
+        Self { kind: LightKind::Directional, ..Self::ambient(intensity) }
     }
 
     /// White light from the node's origin.
     pub fn point(intensity: f32) -> Self {
-        Self { kind: LightKind::Point, color: Vec3::ONE, intensity }
+        Self { kind: LightKind::Point, ..Self::ambient(intensity) }
+    }
+
+    /// White light in a cone around the node's −Z axis, bright in its middle
+    /// and fading to nothing at π/4 from the axis.
+    pub fn spot(intensity: f32) -> Self {
+        Self { kind: LightKind::Spot { inner: 0.0, outer: FRAC_PI_4 }, ..Self::ambient(intensity) }
     }
 
     /// The same light in another colour (linear RGB).
@@ -51,10 +72,77 @@ impl Light {
         Self { color, ..self }
     }
 
+    /// The same light with another range in metres.
+    pub fn with_range(self, range: f32) -> Self {
+        Self { range, ..self }
+    }
+
+    /// The share of a point or spot light that arrives at a distance, which is
+    /// given squared, in square metres: `clamp(1 − (d / range)⁴, 0, 1) / d²`.
+    /// 0 where that is not a number: on the light itself, and infinitely far.
+    pub fn falloff(&self, distance_squared: f32) -> f32 {
+        let inverse = 1.0 / distance_squared;
+        if !(distance_squared > 0.0 && inverse.is_finite()) {
+            return 0.0;
+        }
+        // An infinite range, and one that is no positive number, limits nothing.
+        let relative = if self.range > 0.0 { distance_squared / (self.range * self.range) } else { 0.0 };
+        let window = 1.0 - relative * relative;
+        if window > 0.0 { window * inverse } else { 0.0 }
+    }
+
+    /// `(scale, offset)` of a spot light's cone. At an angle θ from its axis
+    /// the light is `clamp(cos θ · scale + offset, 0, 1)²` of what it is on it.
+    /// Light of other kinds has (0, 1): the same everywhere.
+    pub fn cone(&self) -> (f32, f32) {
+        // The specification's bound: below it, a cone has a hard rim.
+        const NARROWEST: f32 = 0.001;
+        let LightKind::Spot { inner, outer } = self.kind else { return (0.0, 1.0) };
+        let (inner, outer) = (elementary::cos_f32(inner), elementary::cos_f32(outer));
+        let fading = inner - outer;
+        let scale = 1.0 / if fading > NARROWEST { fading } else { NARROWEST };
+        (scale, -outer * scale)
+    }
+
     /// Linear RGB that a white surface shows; never negative, never NaN.
     pub(crate) fn radiance(&self) -> Vec3 {
         let value = self.color * self.intensity;
         let clean = |channel: f32| if channel > 0.0 && channel.is_finite() { channel } else { 0.0 };
         Vec3::new(clean(value.x), clean(value.y), clean(value.z))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn light_falls_off_as_the_extension_says() {
+        let light = Light::point(1.0).with_range(4.0);
+        assert_eq!(light.falloff(4.0), (1.0 - 0.0625) / 4.0, "at 2 m of 4");
+        assert_eq!(light.falloff(16.0), 0.0, "at its range");
+        assert_eq!(light.falloff(25.0), 0.0, "beyond");
+        assert_eq!(Light::point(1.0).falloff(4.0), 0.25, "without a range");
+        for distance in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e-45] {
+            assert_eq!(light.falloff(distance), 0.0, "no direction at {distance}");
+        }
+        assert_eq!(Light::point(1.0).with_range(f32::NAN).falloff(4.0), 0.25, "no number limits nothing");
+    }
+
+    #[test]
+    fn a_cone_fades_between_its_angles() {
+        let light = Light { kind: LightKind::Spot { inner: 0.3, outer: 0.6 }, ..Light::spot(1.0) };
+        let (scale, offset) = light.cone();
+        let share = |angle: f32| {
+            let linear = (elementary::cos_f32(angle) * scale + offset).clamp(0.0, 1.0);
+            linear * linear
+        };
+        assert_eq!((share(0.0), share(0.25), share(0.65)), (1.0, 1.0, 0.0), "inside, and outside");
+        let (inner, outer) = (elementary::cos(0.3), elementary::cos(0.6));
+        let exact = (elementary::cos(0.45) - outer) / (inner - outer);
+        assert!((f64::from(share(0.45)) - exact * exact).abs() < 1e-6, "half way: {}", share(0.45));
+        assert_eq!(Light::point(1.0).cone(), (0.0, 1.0), "a point light has no cone");
+        let sharp = Light { kind: LightKind::Spot { inner: 0.6, outer: 0.6 }, ..light };
+        assert!(sharp.cone().0.is_finite(), "a hard rim is no division by zero");
     }
 }

@@ -4,7 +4,7 @@ use trigon_camera::Projection;
 use trigon_math::DVec3;
 
 use crate::light::Light;
-use crate::scene::{MaterialId, MeshId, NodeId};
+use crate::scene::{MaterialId, MeshId, NodeId, SkinId};
 use crate::transform::Transform;
 
 /// A place in the scene. What it holds moves, turns and scales with it, and so
@@ -20,6 +20,13 @@ pub struct Node {
     /// The materials of the mesh's slots. A slot beyond the list, or with a
     /// removed material, is drawn with the default material.
     pub materials: Vec<MaterialId>,
+    /// The joints that the mesh follows, if it has skin weights; it is then
+    /// drawn where they put it, see `Scene::skin_pose`.
+    pub skin: Option<SkinId>,
+    /// How far the mesh is moved towards each of its morph targets: usually 0
+    /// to 1, but any value adds that many times the difference. Targets
+    /// beyond the list are at 0.
+    pub morph_weights: Vec<f32>,
     /// The light that stands here, shining along −Z where it has a direction.
     pub light: Option<Light>,
     /// The camera that stands here, looking along −Z with +Y up.
@@ -38,6 +45,8 @@ impl Default for Node {
             transform: Transform::IDENTITY,
             mesh: None,
             materials: Vec::new(),
+            skin: None,
+            morph_weights: Vec::new(),
             light: None,
             camera: None,
             visible: true,

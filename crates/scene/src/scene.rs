@@ -6,14 +6,16 @@ use std::sync::{Arc, OnceLock};
 
 use thiserror::Error;
 use trigon_camera::{Camera, Projection};
-use trigon_math::{Bounds3, DAffine3, DMat3, DQuat, DVec3};
+use trigon_math::{Bounds3, DAffine3, DMat3, DQuat, DVec3, Vec3};
 use trigon_mesh::Mesh;
 use trigon_raster::Texture;
 
+use crate::animation::Animation;
 use crate::arena::{Arena, Id};
 use crate::material::Material;
 use crate::node::Node;
 use crate::render::Geometry;
+use crate::skin::{Skin, SkinPose};
 
 /// Names a node.
 pub type NodeId = Id<Node>;
@@ -21,6 +23,8 @@ pub type NodeId = Id<Node>;
 pub type MeshId = Id<MeshAsset>;
 /// Names a material.
 pub type MaterialId = Id<Material>;
+/// Names a skin.
+pub type SkinId = Id<Skin>;
 /// Names a texture.
 pub type TextureId = Id<TextureAsset>;
 
@@ -42,17 +46,19 @@ impl MeshAsset {
 
     /// The smallest box around the vertices that faces, edges or points use.
     pub fn bounds(&self) -> Bounds3 {
-        *self.bounds.get_or_init(|| {
-            // Stray vertices of a file must not push the model out of the picture.
-            let used = self.mesh.edges().as_flattened().iter().chain(self.mesh.loose_points());
-            Bounds3::from_points(used.map(|&vertex| self.mesh.positions()[vertex as usize].as_dvec3()))
-        })
+        *self.bounds.get_or_init(|| used_bounds(&self.mesh, self.mesh.positions()))
     }
 
     /// What is drawn of it; made at the first use.
     pub(crate) fn geometry(&self) -> &Geometry {
         self.geometry.get_or_init(|| Arc::new(Geometry::new(&self.mesh)))
     }
+}
+
+/// Stray vertices of a file must not push the model out of the picture.
+fn used_bounds(mesh: &Mesh, positions: &[Vec3]) -> Bounds3 {
+    let used = mesh.edges().as_flattened().iter().chain(mesh.loose_points());
+    Bounds3::from_points(used.map(|&vertex| positions[vertex as usize].as_dvec3()))
 }
 
 /// A texture as the scene shares it between materials.
@@ -90,6 +96,10 @@ pub struct Scene {
     pub materials: Arena<Material>,
     /// Shared textures.
     pub textures: Arena<TextureAsset>,
+    /// Joints that meshes follow.
+    pub skins: Arena<Skin>,
+    /// Movements of the nodes, to be asked for by [`Scene::pose`].
+    pub animations: Vec<Animation>,
     nodes: Arena<Node>,
 }
 
@@ -244,9 +254,26 @@ impl Scene {
         for (id, node) in self.nodes.iter() {
             let (Some(world), Some(mesh)) = (transforms[id.index()], node.mesh) else { continue };
             let Some(asset) = self.meshes.get(mesh) else { continue };
-            bounds = bounds.union(asset.bounds().transformed(&world));
+            let posed = self.posed_bounds(id, node, asset);
+            let (local, world) = posed.unwrap_or_else(|| (asset.bounds(), world));
+            bounds = bounds.union(local.transformed(&world));
         }
         bounds
+    }
+
+    /// The box around a mesh that follows joints or is moved towards morph
+    /// targets, and its map into the world; none when it is at rest.
+    fn posed_bounds(&self, id: NodeId, node: &Node, asset: &MeshAsset) -> Option<(Bounds3, DAffine3)> {
+        let attributes = asset.mesh.attributes();
+        let pose = attributes.skin.as_ref().and_then(|_| self.skin_pose(id));
+        let is_morphed =
+            !attributes.morph_targets.is_empty() && node.morph_weights.iter().any(|&weight| weight != 0.0);
+        if pose.is_none() && !is_morphed {
+            return None;
+        }
+        let pose = pose.unwrap_or_else(|| SkinPose { world: self.world_transform(id), palette: Vec::new() });
+        let positions = asset.mesh.deformed_positions(&node.morph_weights, &pose.palette);
+        Some((used_bounds(&asset.mesh, &positions), pose.world))
     }
 
     /// The cameras that stand in the scene, in the order of their nodes: what

@@ -84,6 +84,7 @@ fn convert(root: &Root, index: usize, images: &Images, warnings: &mut Warnings) 
             _ => AlphaMode::Opaque,
         },
         double_sided: from.double_sided,
+        ..Material::default()
     }
 }
 
@@ -127,7 +128,7 @@ fn approximate(base: Vec3, metallic: f32, roughness: f32) -> Shading {
     let squared = roughness * roughness;
     let shininess = 2.0 / (squared * squared) - 2.0;
     let reflected = Vec3::splat(DIELECTRIC).lerp(base * 0.5, metallic);
-    Shading::BlinnPhong { specular: reflected * ((shininess + 8.0) / 8.0 * (1.0 - squared)), shininess }
+    Shading::blinn_phong(reflected * ((shininess + 8.0) / 8.0 * (1.0 - squared)), shininess)
 }
 
 fn bind(root: &Root, info: &texture::Info, images: &Images) -> Option<TextureBinding> {

@@ -206,6 +206,7 @@ impl Cutter<'_> {
             corner_colors: self.colors(sources),
             face_materials: (slots > 1).then_some(face_slots),
             face_smooth: is_smooth.then(|| face_groups.iter().map(|&group| group != 0).collect()),
+            ..Attributes::default()
         }
     }
 

@@ -222,7 +222,7 @@ fn shading(model: Option<u8>, specular: Option<Vec3>, shininess: Option<f64>) ->
     const MOST: f64 = 1000.0;
     match specular {
         Some(specular) if specular != Vec3::ZERO && !matches!(model, Some(0 | 1)) => {
-            Shading::BlinnPhong { specular, shininess: shininess.unwrap_or(30.0).clamp(0.0, MOST) as f32 }
+            Shading::blinn_phong(specular, shininess.unwrap_or(30.0).clamp(0.0, MOST) as f32)
         }
         _ => Shading::Lambert,
     }
@@ -252,11 +252,7 @@ mod tests {
         assert_eq!(material.name, "my wood", "spaces stay");
         assert_eq!(material.base_color, Vec4::new(1.0, 0.0, 0.0, 0.5), "colour and alpha");
         assert_eq!(material.alpha_mode, AlphaMode::Blend, "d below 1");
-        assert_eq!(
-            material.shading,
-            Shading::BlinnPhong { specular: Vec3::ONE, shininess: 50.0 },
-            "highlight"
-        );
+        assert_eq!(material.shading, Shading::blinn_phong(Vec3::ONE, 50.0), "highlight");
         assert_eq!(texture.as_ref().expect("a texture").1.file, "a b.png", "the name");
     }
 

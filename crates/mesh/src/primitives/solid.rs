@@ -80,9 +80,8 @@ impl Solid {
         let set = mesh.set_attributes(Attributes {
             corner_normals: curved.then_some(self.normals),
             uv_sets: vec![self.uvs],
-            corner_colors: None,
-            face_materials: None,
             face_smooth: curved.then_some(self.smooth),
+            ..Attributes::default()
         });
         set.expect("every face brought one value for each of its corners");
         mesh

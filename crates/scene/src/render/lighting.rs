@@ -104,7 +104,7 @@ impl Lights {
                 let towards = to_camera.transform_vector3(DVec3::Z).normalize_or_zero().as_vec3();
                 self.directional.push(Directional { towards, radiance });
             }
-            LightKind::Point => {
+            LightKind::Point | LightKind::Spot { .. } => {
                 self.point.push(Point { position: to_camera.translation.as_vec3(), radiance });
             }
         }
@@ -150,13 +150,13 @@ fn reflectance(surface: &LitPoint, towards: Vec3, albedo: Vec3, shading: &Shadin
         return Vec3::ZERO;
     }
     match *shading {
-        Shading::BlinnPhong { specular, shininess } => {
+        Shading::BlinnPhong { specular, shininess, .. } => {
             let half = (towards + surface.view).normalize_or_zero();
             let facing = surface.normal.dot(half);
             let highlight = if facing > 0.0 { elementary::pow_f32(facing, shininess) } else { 0.0 };
             (albedo + specular * highlight) * cosine
         }
-        Shading::Lambert | Shading::Unlit => albedo * cosine,
+        Shading::Lambert | Shading::Unlit | Shading::MetallicRoughness(_) => albedo * cosine,
     }
 }
 

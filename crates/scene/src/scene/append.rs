@@ -1,9 +1,11 @@
 //! Putting one scene into another: several files in one picture.
 
 use super::{NodeId, Scene};
+use crate::animation::{Animation, Channel};
 use crate::arena::{Arena, Id};
 use crate::material::Material;
 use crate::node::Node;
+use crate::skin::Skin;
 
 impl Scene {
     /// Adds everything that another scene holds, placed as it is there. Meshes
@@ -27,20 +29,17 @@ impl Scene {
         let textures = NewIds::new(&other.textures, |asset| self.textures.insert(asset.clone()));
         let materials = NewIds::new(&other.materials, |material| {
             let mut material = material.clone();
-            if let Some(binding) = &mut material.base_color_texture {
-                match textures.get(binding.texture) {
-                    Some(texture) => binding.texture = texture,
-                    None => material.base_color_texture = None,
-                }
-            }
+            material.exchange_textures(|texture| textures.get(texture));
             self.materials.insert(material)
         });
+        let skins = NewIds::new(&other.skins, |skin| self.skins.insert(skin.clone()));
         // A slot whose material was removed is drawn with the default one; its
         // old id must not find a stranger here.
         let mut default = None;
         let nodes = NewIds::new(&other.nodes, |node| {
             let mut node = Node { parent: None, children: Vec::new(), ..node.clone() };
             node.mesh = node.mesh.and_then(|mesh| meshes.get(mesh));
+            node.skin = node.skin.and_then(|skin| skins.get(skin));
             for id in &mut node.materials {
                 let missing = || *default.get_or_insert_with(|| self.materials.insert(Material::default()));
                 *id = materials.get(*id).unwrap_or_else(missing);
@@ -52,7 +51,27 @@ impl Scene {
             place.parent = node.parent.and_then(|parent| nodes.get(parent));
             place.children = node.children.iter().filter_map(|&child| nodes.get(child)).collect();
         }
+        self.append_movements(other, &nodes, &skins);
         nodes.0.into_iter().flatten().map(|(_, new)| new).collect()
+    }
+}
+
+impl Scene {
+    /// Skins and animations: what refers to nodes by their ids.
+    fn append_movements(&mut self, other: &Self, nodes: &NewIds<Node>, skins: &NewIds<Skin>) {
+        // A removed joint must find nothing here, and no stranger.
+        let nobody = self.nodes.insert(Node::default());
+        self.nodes.remove(nobody);
+        for (id, skin) in other.skins.iter() {
+            let Some(copy) = skins.get(id).and_then(|id| self.skins.get_mut(id)) else { continue };
+            copy.joints = skin.joints.iter().map(|&joint| nodes.get(joint).unwrap_or(nobody)).collect();
+        }
+        for animation in &other.animations {
+            let moved =
+                |channel: &Channel| Some(Channel { node: nodes.get(channel.node)?, ..channel.clone() });
+            let channels = animation.channels.iter().filter_map(moved).collect();
+            self.animations.push(Animation { name: animation.name.clone(), channels });
+        }
     }
 }
 
@@ -81,6 +100,7 @@ mod tests {
     use trigon_mesh::primitives;
 
     use super::*;
+    use crate::animation::{Curve, Interpolation, Property};
 
     #[test]
     fn nodes_keep_their_parents_meshes_and_materials() {
@@ -107,5 +127,27 @@ mod tests {
         assert_eq!(color(0).truncate(), Vec3::X, "its own material");
         assert_eq!(color(1), Material::default().base_color, "no stranger's");
         assert_eq!(scene.bounds().max, DVec3::new(1.5, 1.5, 0.5), "drawn where it was");
+    }
+
+    #[test]
+    fn joints_and_channels_name_the_new_nodes() {
+        let mut other = Scene::new();
+        let (joint, gone) = (other.add(Node::default().at(DVec3::X)), other.add(Node::default()));
+        let skin = other.skins.insert(Skin { joints: vec![gone, joint], ..Skin::default() });
+        other.add(Node { skin: Some(skin), ..Node::default() });
+        other.remove(gone);
+        let curve = Curve::new(Interpolation::Step, 3, vec![0.0], vec![0.0, 5.0, 0.0]).expect("a curve");
+        let channel = |node| Channel { node, property: Property::Translation, curve: curve.clone() };
+        other.animations =
+            vec![Animation { name: "up".to_owned(), channels: vec![channel(gone), channel(joint)] }];
+
+        let mut scene = Scene::new();
+        scene.add(Node::default().at(DVec3::splat(9.0)));
+        let added = scene.append(&other);
+        let pose = scene.skin_pose(added[1]).expect("the skin came along");
+        assert_eq!(pose.palette[0].translation, Vec3::ZERO, "nobody's");
+        assert_eq!(pose.palette[1].translation, Vec3::X, "the joint's");
+        let pose = scene.pose(&scene.animations[0], 0.0);
+        assert_eq!(pose.nodes.keys().collect::<Vec<_>>(), [&added[0]], "the one that is there");
     }
 }

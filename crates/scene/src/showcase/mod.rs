@@ -128,7 +128,7 @@ fn exhibits() -> Vec<Exhibit> {
 }
 
 fn glossy(specular: f32, shininess: f32) -> Shading {
-    Shading::BlinnPhong { specular: Vec3::splat(specular), shininess }
+    Shading::blinn_phong(Vec3::splat(specular), shininess)
 }
 
 impl Exhibit {

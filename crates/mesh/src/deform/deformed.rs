@@ -1,0 +1,118 @@
+//! A mesh in a pose: morph targets first, then the skin, as glTF orders them
+//! (glTF 2.0 specification, sections 3.7.2.2 and 3.7.3).
+
+use trigon_math::glam::Affine3;
+use trigon_math::{Mat3, Vec3, Vec4};
+
+use super::{Deltas, MorphTarget, SkinWeights};
+use crate::{Mesh, RenderMesh};
+
+/// The vertices of a [`RenderMesh`] in a pose. Keep it to use its memory again.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Deformed {
+    /// Metres, in the space that the palette leads to.
+    pub positions: Vec<Vec3>,
+    /// Of unit length.
+    pub normals: Vec<Vec3>,
+    /// Unit vectors with their handedness; empty when the mesh has none.
+    pub tangents: Vec<Vec4>,
+}
+
+impl RenderMesh {
+    /// Whether a pose can change it.
+    pub fn is_deformable(&self) -> bool {
+        self.skin.is_some() || !self.morph_targets.is_empty()
+    }
+
+    /// The vertices with each morph target added `weights[i]` times and then
+    /// moved by the palette, one map for each joint.
+    ///
+    /// A target beyond the weights, or with one that is not finite, adds
+    /// nothing; a joint beyond the palette stays where it is, and without a
+    /// palette the skin is not followed. Normals turn by the inverse transpose
+    /// of the blended map. Where a normal or tangent vanishes, it is as before.
+    pub fn deform(&self, weights: &[f32], palette: &[Affine3], into: &mut Deformed) {
+        into.positions.clone_from(&self.positions);
+        into.normals.clone_from(&self.normals);
+        into.tangents.clear();
+        into.tangents.extend(self.tangents.iter().flatten());
+        for (target, weight) in weighted(&self.morph_targets, weights) {
+            add(&target.positions, weight, &mut into.positions);
+            add(&target.normals, weight, &mut into.normals);
+            if !into.tangents.is_empty() {
+                for (vertex, delta) in target.tangents.iter() {
+                    into.tangents[vertex as usize] += (delta * weight).extend(0.0);
+                }
+            }
+        }
+        let skin = self.skin.as_ref().filter(|_| !palette.is_empty());
+        for vertex in 0..into.positions.len() {
+            let map = skin.map_or(Affine3::IDENTITY, |skin| blended(skin, vertex, palette));
+            if skin.is_some() {
+                into.positions[vertex] = map.transform_point3(into.positions[vertex]);
+            }
+            let normal = inverse_transpose(&map.matrix3) * into.normals[vertex];
+            into.normals[vertex] = unit_or(normal, self.normals[vertex]);
+            if let (Some(tangent), Some(rest)) =
+                (into.tangents.get_mut(vertex), self.tangents.as_ref().map(|list| list[vertex]))
+            {
+                let direction = unit_or(map.matrix3 * tangent.truncate(), rest.truncate());
+                *tangent = direction.extend(if map.matrix3.determinant() < 0.0 { -rest.w } else { rest.w });
+            }
+        }
+    }
+}
+
+impl Mesh {
+    /// The positions of all vertices in a pose; see [`RenderMesh::deform`].
+    pub fn deformed_positions(&self, weights: &[f32], palette: &[Affine3]) -> Vec<Vec3> {
+        let attributes = self.attributes();
+        let mut positions = self.positions().to_vec();
+        for (target, weight) in weighted(&attributes.morph_targets, weights) {
+            add(&target.positions, weight, &mut positions);
+        }
+        if let Some(skin) = attributes.skin.as_ref().filter(|_| !palette.is_empty()) {
+            for (vertex, position) in positions.iter_mut().enumerate() {
+                *position = blended(skin, vertex, palette).transform_point3(*position);
+            }
+        }
+        positions
+    }
+}
+
+fn weighted<'t>(
+    targets: &'t [MorphTarget],
+    weights: &'t [f32],
+) -> impl Iterator<Item = (&'t MorphTarget, f32)> {
+    targets.iter().zip(weights.iter().copied()).filter(|(_, weight)| weight.is_finite() && *weight != 0.0)
+}
+
+fn add(deltas: &Deltas, weight: f32, to: &mut [Vec3]) {
+    for (index, delta) in deltas.iter() {
+        to[index as usize] += delta * weight;
+    }
+}
+
+/// The weighted sum of the maps of a vertex's joints.
+fn blended(skin: &SkinWeights, vertex: usize, palette: &[Affine3]) -> Affine3 {
+    let mut sum = Affine3 { matrix3: Mat3::ZERO, translation: Vec3::ZERO };
+    for (joint, weight) in skin.influences(vertex).filter(|&(_, weight)| weight != 0.0) {
+        let map = palette.get(usize::from(joint)).copied().unwrap_or(Affine3::IDENTITY);
+        sum.matrix3 += map.matrix3 * weight;
+        sum.translation += map.translation * weight;
+    }
+    sum
+}
+
+/// A matrix that turns normals as the inverse transpose does, and exists for
+/// flattened shapes, too: cofactors with the sign of the determinant.
+fn inverse_transpose(matrix: &Mat3) -> Mat3 {
+    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
+    let cofactors = Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
+    if matrix.determinant() < 0.0 { -cofactors } else { cofactors }
+}
+
+fn unit_or(vector: Vec3, otherwise: Vec3) -> Vec3 {
+    let length = vector.length();
+    if length > 0.0 && length.is_finite() { vector / length } else { otherwise }
+}

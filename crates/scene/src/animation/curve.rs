@@ -1,0 +1,247 @@
+//! Keyframes, and what is between them (glTF 2.0 specification, appendix C).
+
+use trigon_math::DQuat;
+use trigon_math::elementary;
+
+/// What is between two keyframes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Interpolation {
+    /// The value of the earlier one.
+    Step,
+    /// A straight line; for rotations the shortest way round, evenly fast.
+    #[default]
+    Linear,
+    /// A cubic Hermite spline through tangents of the file's own.
+    CubicSpline,
+}
+
+/// Vectors of one width over time.
+///
+/// Guaranteed: at least one keyframe, times that are finite and increase, and
+/// one value a keyframe, or three with cubic splines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    interpolation: Interpolation,
+    width: usize,
+    times: Vec<f32>,
+    values: Vec<f32>,
+}
+
+/// Where a time is among the keyframes.
+#[derive(Clone, Copy)]
+enum Place {
+    /// At one, or beyond the first or last.
+    At(usize),
+    /// Between one and the next.
+    Between {
+        from: usize,
+        /// 0 at the earlier, 1 at the later.
+        share: f64,
+        /// Seconds from one to the other.
+        seconds: f64,
+    },
+}
+
+impl Curve {
+    /// A curve of vectors with `width` numbers. `times` are seconds. `values`
+    /// has one vector a keyframe; with cubic splines three: the tangent that
+    /// arrives, the value, the tangent that leaves, both per second.
+    ///
+    /// None when the lengths do not match, there is no keyframe, a time is not
+    /// finite, or they do not increase. Values that are not finite become 0.
+    pub fn new(
+        interpolation: Interpolation,
+        width: usize,
+        times: Vec<f32>,
+        mut values: Vec<f32>,
+    ) -> Option<Self> {
+        let each = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
+        let needed = times.len().checked_mul(each)?.checked_mul(width)?;
+        let increase = times.windows(2).all(|pair| pair[0] < pair[1]);
+        if times.is_empty() || width == 0 || values.len() != needed || !increase || !times[0].is_finite() {
+            return None;
+        }
+        if !times[times.len() - 1].is_finite() {
+            return None;
+        }
+        values.iter_mut().filter(|value| !value.is_finite()).for_each(|value| *value = 0.0);
+        Some(Self { interpolation, width, times, values })
+    }
+
+    /// How many numbers a vector has.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// What is between keyframes.
+    pub fn interpolation(&self) -> Interpolation {
+        self.interpolation
+    }
+
+    /// The times of the keyframes in seconds, increasing.
+    pub fn times(&self) -> &[f32] {
+        &self.times
+    }
+
+    /// The vector at a time in seconds. Before the first keyframe, and at a
+    /// time that is no number, it is the first one's; after the last, the last's.
+    pub fn at(&self, time: f64) -> Vec<f64> {
+        let place = self.locate(time);
+        (0..self.width).map(|channel| self.component(place, channel)).collect()
+    }
+
+    /// [`Self::at`] for vectors of three numbers; missing ones are 0.
+    pub(super) fn vector(&self, time: f64) -> [f64; 3] {
+        let place = self.locate(time);
+        [0, 1, 2].map(|channel| if channel < self.width { self.component(place, channel) } else { 0.0 })
+    }
+
+    /// The curve as a rotation, its vectors as quaternions (x, y, z, w): linear
+    /// ones turn about one axis, and the result is a unit quaternion. None when
+    /// vectors have not four numbers, or the result has no length.
+    pub(super) fn rotation(&self, time: f64) -> Option<DQuat> {
+        if self.width != 4 {
+            return None;
+        }
+        let place = self.locate(time);
+        match (self.interpolation, place) {
+            (Interpolation::Linear, Place::Between { from, share, .. }) => {
+                slerp(self.quaternion(Place::At(from))?, self.quaternion(Place::At(from + 1))?, share)
+            }
+            _ => self.quaternion(place),
+        }
+    }
+
+    fn quaternion(&self, place: Place) -> Option<DQuat> {
+        let [x, y, z, w] = [0, 1, 2, 3].map(|channel| self.component(place, channel));
+        unit(DQuat::from_xyzw(x, y, z, w))
+    }
+
+    fn locate(&self, time: f64) -> Place {
+        // So many keyframes are not after the time.
+        let passed = self.times.partition_point(|&key| f64::from(key) <= time);
+        if passed == 0 || passed == self.times.len() {
+            return Place::At(passed.saturating_sub(1));
+        }
+        let (start, end) = (f64::from(self.times[passed - 1]), f64::from(self.times[passed]));
+        let seconds = end - start;
+        Place::Between { from: passed - 1, share: (time - start) / seconds, seconds }
+    }
+
+    fn component(&self, place: Place, channel: usize) -> f64 {
+        let (each, middle) = if self.interpolation == Interpolation::CubicSpline { (3, 1) } else { (1, 0) };
+        let number =
+            |key: usize, part: usize| f64::from(self.values[(key * each + part) * self.width + channel]);
+        let (from, t, seconds) = match place {
+            Place::At(key) => return number(key, middle),
+            Place::Between { from, share, seconds } => (from, share, seconds),
+        };
+        let (start, end) = (number(from, middle), number(from + 1, middle));
+        match self.interpolation {
+            Interpolation::Step => start,
+            Interpolation::Linear => start * (1.0 - t) + end * t,
+            Interpolation::CubicSpline => {
+                let (leaving, arriving) = (seconds * number(from, 2), seconds * number(from + 1, 0));
+                let (square, cube) = (t * t, t * t * t);
+                (2.0 * cube - 3.0 * square + 1.0) * start
+                    + (cube - 2.0 * square + t) * leaving
+                    + (3.0 * square - 2.0 * cube) * end
+                    + (cube - square) * arriving
+            }
+        }
+    }
+}
+
+/// Spherical linear interpolation of unit quaternions, the shorter way.
+fn slerp(from: DQuat, to: DQuat, t: f64) -> Option<DQuat> {
+    // Nearer than this, the sine in the denominator loses more than the chord
+    // differs from the arc.
+    const NEAR: f64 = 1.0 - 1e-9;
+    let cosine = from.dot(to);
+    let (to, cosine) = if cosine < 0.0 { (-to, -cosine) } else { (to, cosine) };
+    if cosine > NEAR {
+        return unit(from * (1.0 - t) + to * t);
+    }
+    let angle = elementary::acos(cosine);
+    let sine = elementary::sin(angle);
+    let (early, late) = (elementary::sin(angle * (1.0 - t)) / sine, elementary::sin(angle * t) / sine);
+    unit(from * early + to * late)
+}
+
+fn unit(rotation: DQuat) -> Option<DQuat> {
+    let length = rotation.length();
+    (length > 0.0 && length.is_finite()).then(|| rotation / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(interpolation: Interpolation, width: usize, times: &[f32], values: &[f32]) -> Curve {
+        Curve::new(interpolation, width, times.to_vec(), values.to_vec()).expect("a curve")
+    }
+
+    #[test]
+    fn steps_and_lines_hold_beyond_their_ends() {
+        let (times, values) = ([1.0, 2.0, 4.0], [10.0, 20.0, 0.0]);
+        let check = |interpolation, expected: [(f64, f64); 7]| {
+            let curve = curve(interpolation, 1, &times, &values);
+            for (time, value) in expected {
+                assert_eq!(curve.at(time), [value], "{interpolation:?} at {time}");
+            }
+        };
+        let nan = f64::NAN;
+        let step =
+            [(0.0, 10.0), (1.0, 10.0), (1.75, 10.0), (2.0, 20.0), (3.0, 20.0), (9.0, 0.0), (nan, 10.0)];
+        check(Interpolation::Step, step);
+        let line =
+            [(0.0, 10.0), (1.0, 10.0), (1.75, 17.5), (2.0, 20.0), (3.0, 10.0), (9.0, 0.0), (nan, 10.0)];
+        check(Interpolation::Linear, line);
+    }
+
+    #[test]
+    fn a_cubic_spline_is_the_hermite_polynomial() {
+        // t³ from 0 to 2 seconds: value 0 and 8, slope 0 and 12. A cubic is met exactly.
+        let curve = curve(Interpolation::CubicSpline, 1, &[0.0, 2.0], &[9.0, 0.0, 0.0, 12.0, 8.0, 9.0]);
+        for time in [0.0, 0.3, 1.0, 1.7, 2.0] {
+            let [value] = curve.at(time)[..] else { panic!("one number") };
+            assert!((value - time * time * time).abs() < 1e-14, "{value} at {time}");
+        }
+    }
+
+    #[test]
+    fn linear_rotations_turn_evenly_and_the_short_way() {
+        let turn = |angle: f64| {
+            let (sine, cosine) = elementary::sin_cos(angle / 2.0);
+            [0.0, sine as f32, 0.0, cosine as f32]
+        };
+        let mut values = [turn(0.0), turn(1.0)].concat();
+        for negated in [false, true] {
+            if negated {
+                values[4..].iter_mut().for_each(|value| *value = -*value);
+            }
+            let curve = curve(Interpolation::Linear, 4, &[0.0, 1.0], &values);
+            let rotation = curve.rotation(0.25).expect("a rotation");
+            let (sine, cosine) = elementary::sin_cos(0.125);
+            let exact = DQuat::from_xyzw(0.0, sine, 0.0, cosine);
+            assert!((rotation - exact).length() < 1e-7, "a quarter of the way: {rotation}");
+        }
+        let still = curve(Interpolation::Linear, 4, &[0.0, 1.0], &[turn(0.5), turn(0.5)].concat());
+        assert!(still.rotation(0.5).expect("a rotation").is_normalized(), "no division by zero");
+        let none = curve(Interpolation::Linear, 4, &[0.0], &[0.0; 4]);
+        assert_eq!(none.rotation(0.0), None, "no length, no rotation");
+    }
+
+    #[test]
+    fn broken_curves_are_refused() {
+        let new = |times: &[f32], values: usize| {
+            Curve::new(Interpolation::Linear, 3, times.to_vec(), vec![0.0; values]).is_some()
+        };
+        assert!(new(&[0.0, 1.0], 6), "the right length");
+        assert!(!new(&[0.0, 1.0], 5), "too short");
+        assert!(!new(&[], 0), "no keyframe");
+        assert!(!new(&[1.0, 1.0], 6), "two at one time");
+        assert!(!new(&[0.0, f32::NAN], 6) && !new(&[f32::NAN], 3), "not a number");
+        assert!(!new(&[0.0, f32::INFINITY], 6) && !new(&[f32::NEG_INFINITY, 0.0], 6), "not finite");
+    }
+}

@@ -1,0 +1,82 @@
+//! Shading models: how a surface answers to light.
+
+use trigon_math::Vec3;
+
+use super::TextureBinding;
+
+/// How a surface answers to light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shading {
+    /// The base colour as it is; light does not matter.
+    Unlit,
+    /// Diffuse reflection: base colour × N·L (Lambert 1760).
+    Lambert,
+    /// Lambert plus a highlight `specular · (N·H)^shininess · N·L`
+    /// (Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977).
+    BlinnPhong {
+        /// Linear RGB of the highlight; may exceed 1 for sharp highlights.
+        specular: Vec3,
+        /// The exponent: 0 is as wide as the diffuse light, 1000 a pinprick.
+        shininess: f32,
+        /// RGB multiplies `specular`; the picture holds colours.
+        specular_texture: Option<TextureBinding>,
+    },
+    /// A microfacet surface between metal and dielectric: GGX specular over
+    /// Lambert diffuse, as glTF 2.0 defines it (appendix B).
+    MetallicRoughness(MetallicRoughness),
+}
+
+impl Shading {
+    /// Blinn-Phong without a texture.
+    pub fn blinn_phong(specular: Vec3, shininess: f32) -> Self {
+        Self::BlinnPhong { specular, shininess, specular_texture: None }
+    }
+
+    /// The textures that it looks up, in the order of its fields.
+    pub(super) fn textures_mut(&mut self) -> Vec<&mut Option<TextureBinding>> {
+        match self {
+            Self::Unlit | Self::Lambert => Vec::new(),
+            Self::BlinnPhong { specular_texture, .. } => vec![specular_texture],
+            Self::MetallicRoughness(model) => {
+                vec![&mut model.texture, &mut model.specular_texture, &mut model.specular_color_texture]
+            }
+        }
+    }
+}
+
+/// The metallic-roughness model of glTF 2.0 with KHR_materials_specular. The
+/// index of refraction, which says how much a dielectric reflects head-on, is
+/// the material's: rays of refraction need it too.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MetallicRoughness {
+    /// 0 is a dielectric, 1 a metal, whose base colour is that of its highlights.
+    pub metallic: f32,
+    /// Perceptual roughness, 0 (a mirror) to 1 (matt); the α of GGX is its square.
+    pub roughness: f32,
+    /// Green multiplies `roughness`, blue `metallic`; the picture holds data.
+    pub texture: Option<TextureBinding>,
+    /// How much of its highlight a dielectric shows, 0 to 1.
+    pub specular: f32,
+    /// Alpha multiplies `specular`; the picture holds data.
+    pub specular_texture: Option<TextureBinding>,
+    /// Linear RGB of a dielectric's highlight seen head-on; at least 0, and
+    /// limited so that no more is reflected than arrives.
+    pub specular_color: Vec3,
+    /// RGB multiplies `specular_color`; the picture holds colours.
+    pub specular_color_texture: Option<TextureBinding>,
+}
+
+impl Default for MetallicRoughness {
+    /// A dielectric, half rough.
+    fn default() -> Self {
+        Self {
+            metallic: 0.0,
+            roughness: 0.5,
+            texture: None,
+            specular: 1.0,
+            specular_texture: None,
+            specular_color: Vec3::ONE,
+            specular_color_texture: None,
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! Textures as a material uses them.
+
+use trigon_math::glam::Affine2;
+use trigon_raster::Sampler;
+
+use crate::scene::TextureId;
+
+/// A texture, how its coordinates are found, and how it is sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextureBinding {
+    /// The picture. Whether its bytes are colours or data is its own format
+    /// (`Texture::format`); a picture that is used both ways is two textures.
+    pub texture: TextureId,
+    /// Which of the mesh's UV sets. A mesh without it shows no texture.
+    pub uv_set: usize,
+    /// Applied to the coordinates before sampling (v grows downwards).
+    pub transform: Affine2,
+    /// Wrapping and filtering.
+    pub sampler: Sampler,
+}
+
+impl TextureBinding {
+    /// The texture on the first UV set, repeated and filtered.
+    pub fn new(texture: TextureId) -> Self {
+        Self { texture, uv_set: 0, transform: Affine2::IDENTITY, sampler: Sampler::default() }
+    }
+}
+
+/// A picture of directions that bends the normals of a surface: red, green and
+/// blue, 0 to 1, stand for x, y and z from −1 to 1 along tangent, bitangent and
+/// normal; green points up in the picture, against v (as in glTF 2.0, section
+/// 3.9.3). A mesh without tangents gets them from the binding's UV set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalMap {
+    /// The directions; the picture holds data.
+    pub binding: TextureBinding,
+    /// Multiplies x and y before the direction is made a unit vector; 1
+    /// leaves them as they are, 0 flattens, negative values turn bumps inside out.
+    pub scale: f32,
+}
+
+/// A picture of how much light from everywhere reaches the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Occlusion {
+    /// Red is the share that arrives; the picture holds data. Light from
+    /// lamps is not reduced.
+    pub binding: TextureBinding,
+    /// 0 (no effect) to 1 (as in the picture): the factor on ambient light is
+    /// `1 + strength · (red − 1)`.
+    pub strength: f32,
+}

@@ -1,0 +1,109 @@
+//! Skins: meshes that follow other nodes, their joints.
+//!
+//! The vertices of a skinned mesh are where its joints put them; the placement
+//! of its own node does not matter, as glTF defines it (glTF 2.0 specification,
+//! section 3.7.3.3). What is far from the origin is taken out in f64 before
+//! anything becomes f32.
+
+use trigon_math::glam::{Affine3, DAffine3};
+use trigon_math::{DVec3, Mat3};
+
+use crate::scene::{NodeId, Scene};
+
+/// The joints of a skin, which the mesh's skin weights count.
+#[derive(Clone, Debug, Default)]
+pub struct Skin {
+    /// For people; need not be unique.
+    pub name: String,
+    /// A joint that was removed stays where the mesh is.
+    pub joints: Vec<NodeId>,
+    /// For each joint the map from the mesh into the joint's space in the pose
+    /// in which the two were bound; identity where there is none.
+    pub inverse_bind_matrices: Vec<DAffine3>,
+}
+
+/// A skinned mesh at one moment: what `RenderMesh::deform` needs, and where the
+/// result is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SkinPose {
+    /// Places the deformed mesh in the world. Its determinant tells the
+    /// winding of the faces, as for any mesh.
+    pub world: DAffine3,
+    /// For each joint the map from the mesh at rest to the deformed mesh.
+    pub palette: Vec<Affine3>,
+}
+
+impl Scene {
+    /// The pose of a node's skin; none when it has no skin, or that is gone.
+    ///
+    /// The deformed mesh is in the node's own space, so that large worlds stay
+    /// precise and mirrored ones mirrored. A node that is flattened has no such
+    /// space: then it is around the first joint.
+    pub fn skin_pose(&self, id: NodeId) -> Option<SkinPose> {
+        let skin = self.skins.get(self.node(id)?.skin?)?;
+        let joints: Vec<DAffine3> = skin.joints.iter().map(|&joint| self.world_transform(joint)).collect();
+        let own = self.world_transform(id);
+        let around = joints.first().map_or(DVec3::ZERO, |joint| joint.translation);
+        let world = if is_invertible(&own) { own } else { DAffine3::from_translation(around) };
+        let to_own = world.inverse();
+        let entry = |(index, joint): (usize, &DAffine3)| {
+            if self.node(skin.joints[index]).is_none() {
+                return Affine3::IDENTITY;
+            }
+            let bind = skin.inverse_bind_matrices.get(index).copied().unwrap_or(DAffine3::IDENTITY);
+            narrowed(&(to_own * *joint * bind))
+        };
+        Some(SkinPose { world, palette: joints.iter().enumerate().map(entry).collect() })
+    }
+}
+
+fn is_invertible(map: &DAffine3) -> bool {
+    let determinant = map.matrix3.determinant();
+    determinant != 0.0 && determinant.is_finite() && map.inverse().is_finite()
+}
+
+fn narrowed(map: &DAffine3) -> Affine3 {
+    let matrix = &map.matrix3;
+    Affine3 {
+        matrix3: Mat3::from_cols(matrix.x_axis.as_vec3(), matrix.y_axis.as_vec3(), matrix.z_axis.as_vec3()),
+        translation: map.translation.as_vec3(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::node::Node;
+
+    #[test]
+    fn a_skin_far_from_the_origin_keeps_its_joints_apart() {
+        let far = DVec3::splat(1e7);
+        let mut scene = Scene::new();
+        let root = scene.add(Node::default().at(far));
+        let joint = scene.add_child(root, Node::default().at(DVec3::new(0.125, 0.0, 0.0))).expect("a root");
+        let gone = scene.add(Node::default());
+        scene.remove(gone);
+        let skin = Skin { joints: vec![joint, gone], ..Skin::default() };
+        let skin = scene.skins.insert(skin);
+        let body = scene.add_child(root, Node { skin: Some(skin), ..Node::default() }).expect("a root");
+        let pose = scene.skin_pose(body).expect("it has a skin");
+        assert_eq!(pose.world.translation, far, "in the node's space");
+        assert_eq!(pose.palette[0].translation.to_array(), [0.125, 0.0, 0.0], "exact");
+        assert_eq!(pose.palette[1], Affine3::IDENTITY, "a removed joint");
+        assert_eq!(scene.skin_pose(root), None, "no skin");
+    }
+
+    #[test]
+    fn a_flattened_node_does_not_flatten_what_its_joints_place() {
+        let mut scene = Scene::new();
+        let joint = scene.add(Node::default().at(DVec3::X));
+        let skin = scene.skins.insert(Skin { joints: vec![joint], ..Skin::default() });
+        let mut node = Node { skin: Some(skin), ..Node::default() };
+        node.transform.scale_by(DVec3::ZERO);
+        let body = scene.add(node);
+        let pose = scene.skin_pose(body).expect("it has a skin");
+        let world = pose.world * DAffine3::from_translation(pose.palette[0].translation.as_dvec3());
+        assert_eq!(world.translation, DVec3::X, "where the joint is");
+        assert_eq!(pose.palette[0].matrix3, Mat3::IDENTITY, "in its size");
+    }
+}
