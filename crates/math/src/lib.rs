@@ -31,6 +31,7 @@
 //! ```
 
 mod bounds;
+mod bvh;
 pub mod clip;
 pub mod color;
 pub mod elementary;
@@ -50,6 +51,7 @@ pub use fixed::{Fixed, FixedPoint};
 pub use predicates::{Orientation, orientation, orientation_fixed};
 
 pub use bounds::Bounds3;
+pub use bvh::{Bvh, Ray, RayHit};
 pub use clip::{Band, ClipPolygon, ClipVertex, ClipVolume, HalfSpace, Outcode, clip_segment, clip_triangle};
 
 pub use frustum::{Frustum, FrustumSide};

@@ -1,0 +1,148 @@
+//! Building: triangles are parted where that is expected to save most tests.
+
+use std::ops::Range;
+
+use glam::Vec3;
+
+use super::{Bvh, Node};
+
+/// More bins part better and build slower; beyond sixteen hardly anything is won.
+const BINS: usize = 16;
+
+/// Leaves of at most this many triangles are not parted further.
+const LEAF: usize = 4;
+
+/// The box and the middle of one triangle.
+#[derive(Clone, Copy)]
+struct Item {
+    min: Vec3,
+    max: Vec3,
+    number: u32,
+}
+
+impl Item {
+    /// Twice the middle of the box.
+    fn middle(&self) -> Vec3 {
+        self.min + self.max
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Extent {
+    min: Vec3,
+    max: Vec3,
+}
+
+impl Extent {
+    const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+
+    fn add(&mut self, min: Vec3, max: Vec3) {
+        self.min = Vec3::select(min.cmplt(self.min), min, self.min);
+        self.max = Vec3::select(max.cmpgt(self.max), max, self.max);
+    }
+
+    fn of(items: &[Item]) -> Self {
+        let mut extent = Self::EMPTY;
+        items.iter().for_each(|item| extent.add(item.min, item.max));
+        extent
+    }
+
+    /// Half the area of its sides; 0 where it is empty.
+    fn half_area(&self) -> f32 {
+        let size = self.max - self.min;
+        if size.x >= 0.0 { size.x * size.y + size.y * size.z + size.z * size.x } else { 0.0 }
+    }
+}
+
+impl Bvh {
+    /// A hierarchy over triangles, numbered in their order. Triangles with a
+    /// coordinate that is not finite are met by no ray.
+    pub fn new(triangles: &[[Vec3; 3]]) -> Self {
+        let usable = |corners: &[Vec3; 3]| corners.iter().all(|corner| corner.is_finite());
+        let numbered = (0_u32..).zip(triangles).filter(|(_, corners)| usable(corners));
+        let mut items: Vec<Item> = numbered.map(|(number, corners)| item(number, corners)).collect();
+        let mut nodes = Vec::with_capacity(items.len());
+        let count = items.len();
+        part(&mut items, 0..count, &mut nodes);
+        let numbers: Vec<u32> = items.iter().map(|item| item.number).collect();
+        let triangles = numbers.iter().map(|&number| triangles[number as usize]).collect();
+        Self { nodes, triangles, numbers }
+    }
+}
+
+fn item(number: u32, corners: &[Vec3; 3]) -> Item {
+    let mut extent = Extent::EMPTY;
+    corners.iter().for_each(|&corner| extent.add(corner, corner));
+    Item { min: extent.min, max: extent.max, number }
+}
+
+/// Adds the nodes of a range of items, which it puts in order. The depth of the
+/// recursion is bounded by parting in the middle where bins do not part well.
+fn part(items: &mut [Item], range: Range<usize>, nodes: &mut Vec<Node>) {
+    if range.is_empty() {
+        return;
+    }
+    let Extent { min, max } = Extent::of(&items[range.clone()]);
+    let number = nodes.len();
+    nodes.push(Node { min, max, next: range.start as u32, count: range.len() as u32 });
+    if range.len() <= LEAF {
+        return;
+    }
+    let middle = range.start + parted(&mut items[range.clone()]);
+    part(items, range.start..middle, nodes);
+    nodes[number].next = nodes.len() as u32;
+    nodes[number].count = 0;
+    part(items, middle..range.end, nodes);
+}
+
+/// Puts the items of one side before those of the other; how many the first has.
+fn parted(items: &mut [Item]) -> usize {
+    let mut middles = Extent::EMPTY;
+    items.iter().for_each(|item| middles.add(item.middle(), item.middle()));
+    let size = middles.max - middles.min;
+    let axis = size.to_array().into_iter().enumerate().fold((0, 0.0), |best, (axis, size)| {
+        if size > best.1 { (axis, size) } else { best }
+    });
+    let half = items.len() / 2;
+    let (axis, size) = axis;
+    let scale = BINS as f32 / size;
+    if size <= 0.0 || !scale.is_finite() {
+        return half;
+    }
+    let bin = |item: &Item| {
+        let place = (item.middle()[axis] - middles.min[axis]) * scale;
+        if place < BINS as f32 { place as usize } else { BINS - 1 }
+    };
+    let border = border(items, bin);
+    // Stable, so that the order is one.
+    items.sort_by_key(|item| bin(item) >= border);
+    let first = items.partition_point(|item| bin(item) < border);
+    // A lopsided tree is deep: no side gets less than a sixteenth.
+    let least = items.len() / 16 + 1;
+    if (least..=items.len() - least).contains(&first) {
+        return first;
+    }
+    items.sort_by(|a, b| a.middle()[axis].total_cmp(&b.middle()[axis]));
+    half
+}
+
+/// The first bin of the second side, where areas times counts are least.
+fn border(items: &[Item], bin: impl Fn(&Item) -> usize) -> usize {
+    let mut bins = [(Extent::EMPTY, 0_usize); BINS];
+    for item in items {
+        let (extent, count) = &mut bins[bin(item)];
+        extent.add(item.min, item.max);
+        *count += 1;
+    }
+    let mut costs = [0.0_f32; BINS];
+    for backwards in [false, true] {
+        let (mut extent, mut count) = (Extent::EMPTY, 0);
+        for step in 1..BINS {
+            let (border, added) = if backwards { (BINS - step, BINS - step) } else { (step, step - 1) };
+            extent.add(bins[added].0.min, bins[added].0.max);
+            count += bins[added].1;
+            costs[border] += extent.half_area() * count as f32;
+        }
+    }
+    (1..BINS).fold(1, |best, border| if costs[border] < costs[best] { border } else { best })
+}
