@@ -2,12 +2,15 @@
 
 use std::fmt;
 
+use trigon_raster::TargetError;
+
 use crate::arena::Arena;
 use crate::node::Node;
 use crate::scene::NodeId;
+use crate::settings::RenderSettings;
 
 /// A finished picture. Rows run from the top, pixels from the left.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Default, PartialEq)]
 pub struct Frame {
     /// Pixels.
     pub width: u32,
@@ -70,6 +73,18 @@ impl Frame {
         Some(Hit { node, face: face.map(|face| face as usize) })
     }
 
+    /// Makes room for what a picture is to hold, in the memory that is there.
+    pub(crate) fn make_room(&mut self, settings: &RenderSettings) -> Result<(), TargetError> {
+        let RenderSettings { width, height, outputs, .. } = *settings;
+        (self.width, self.height) = (width, height);
+        let pixels = width as usize * height as usize;
+        let full = TargetError::Memory { width, height };
+        resize(&mut self.color, 4 * pixels, 0).ok_or(full)?;
+        resize_optional(&mut self.depth, outputs.depth, pixels, 0.0).ok_or(full)?;
+        resize_optional(&mut self.object_ids, outputs.ids, pixels, u32::MAX).ok_or(full)?;
+        resize_optional(&mut self.face_ids, outputs.ids, pixels, u32::MAX).ok_or(full)
+    }
+
     fn index(&self, x: u32, y: u32) -> usize {
         assert!(
             x < self.width && y < self.height,
@@ -79,4 +94,20 @@ impl Frame {
         );
         y as usize * self.width as usize + x as usize
     }
+}
+
+/// Gives a list a length; `None` without memory.
+fn resize<T: Clone>(list: &mut Vec<T>, length: usize, value: T) -> Option<()> {
+    list.try_reserve_exact(length.saturating_sub(list.len())).ok()?;
+    list.resize(length, value);
+    Some(())
+}
+
+/// The same for a list that is there only when it is wanted.
+fn resize_optional<T: Clone>(list: &mut Option<Vec<T>>, wanted: bool, length: usize, value: T) -> Option<()> {
+    if !wanted {
+        *list = None;
+        return Some(());
+    }
+    resize(list.get_or_insert_default(), length, value)
 }

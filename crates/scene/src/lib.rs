@@ -49,7 +49,7 @@ pub use material::{AlphaMode, Material, MetallicRoughness, NormalMap, Occlusion,
 pub use node::Node;
 pub use render::{RenderError, Renderer, render};
 pub use scene::{MaterialId, MeshAsset, MeshId, NodeId, Scene, SceneError, SkinId, TextureAsset, TextureId};
-pub use settings::{Lighting, MAX_SIZE, Outputs, RenderSettings, Style};
+pub use settings::{Lighting, MAX_SIZE, Outputs, Reflection, RenderSettings, ShadingModel, Style};
 pub use showcase::showcase;
 pub use skin::{Skin, SkinPose};
 pub use transform::Transform;

@@ -38,6 +38,33 @@ pub enum Lighting {
     Studio,
 }
 
+/// Where on a surface light is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ShadingModel {
+    /// Once for each triangle, in its middle.
+    Flat,
+    /// At the vertices, and interpolated. Of the textures only that of the base
+    /// colour and that of the emission are shown.
+    Gouraud,
+    /// At each pixel.
+    #[default]
+    Phong,
+}
+
+/// By which law surfaces answer to light. Unlit ones stay so.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Reflection {
+    /// By the one that the material names.
+    #[default]
+    Material,
+    /// Diffuse light only.
+    Lambert,
+    /// Diffuse light and Blinn's highlights, as wide as the material's.
+    BlinnPhong,
+    /// GGX, as rough as the material's highlights are wide.
+    MetallicRoughness,
+}
+
 /// What a picture holds beside its colours. What is not asked for is not
 /// computed and not allocated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -74,6 +101,10 @@ pub struct RenderSettings {
     pub lighting: Lighting,
     /// Factor for every light, the studio's too; 1 leaves them as they are.
     pub light_intensity: f32,
+    /// Where on surfaces light is found.
+    pub shading: ShadingModel,
+    /// By which law surfaces answer to it.
+    pub reflection: Reflection,
     /// Beside the colours.
     pub outputs: Outputs,
     /// At most this many threads; `None` for one per core. The picture does
@@ -98,6 +129,8 @@ impl RenderSettings {
             edge_color: Vec3::splat(0.02),
             lighting: Lighting::default(),
             light_intensity: 1.0,
+            shading: ShadingModel::default(),
+            reflection: Reflection::default(),
             outputs: Outputs::default(),
             threads: None,
             simd: None,

@@ -1,8 +1,6 @@
 //! Which draws a picture needs, each with the pipeline that its material and
 //! mesh call for and no more.
 
-use std::ops::Range;
-
 use trigon_camera::Camera;
 use trigon_math::{DAffine3, Vec3};
 use trigon_raster::Culling;
@@ -11,11 +9,9 @@ use super::geometry::{Geometry, Run};
 use super::lighting::Lights;
 use super::placement::{Eye, Placement};
 use super::record::{Dots, Record, Segments, Triangles};
-use super::surface::{
-    ColorPart, Colored, Coverage, EdgeOverlay, LightPart, Lit, Rays, Surface, TexturePart, Textured,
-};
+use super::surface::{Dressed, EdgeOverlay, Occasion, Rays, Surface};
 use super::wire::{HiddenLine, Wire};
-use crate::material::{AlphaMode, Material, Shading, TextureBinding};
+use crate::material::{AlphaMode, Material};
 use crate::node::Node;
 use crate::scene::{MeshAsset, Scene};
 use crate::settings::{RenderSettings, Style};
@@ -102,23 +98,66 @@ impl<'s> Composer<'s> {
         id.and_then(|&id| self.scene.materials.get(id)).unwrap_or(&self.default_material)
     }
 
-    /// The triangles of one slot, with the parts that its material calls for.
-    fn surface<'c>(&'c self, object: &Object<'s>, run: &Run) -> Box<dyn Record + 'c> {
+    fn occasion(&self) -> Occasion<'_> {
+        let RenderSettings { shading, reflection, .. } = *self.settings;
+        Occasion { scene: self.scene, lights: &self.lights, rays: self.rays, shading, reflection }
+    }
+
+    /// The triangles of one slot in their material.
+    fn surface<'c>(&'c self, object: &Object<'s>, run: &Run) -> Box<dyn Record + 'c>
+    where
+        's: 'c,
+    {
         let material = self.material(object, run.slot);
-        let part = Part { composer: self, material, run: run.triangles.clone() };
-        if material.shading == Shading::Unlit {
-            return part.with_texture(object, ());
+        let geometry = match &material.normal_map {
+            Some(map) => object.geometry.with_tangents(object.asset.mesh(), map.binding.uv_set),
+            None => object.geometry,
+        };
+        let dressed = Dressed::new(material, &geometry.columns, &self.occasion());
+        let draw = Run { slot: run.slot, triangles: run.triangles.clone() };
+        let shows_edges = self.settings.style == Style::SurfaceWithEdges;
+        let masked = matches!(material.alpha_mode, AlphaMode::Mask { .. });
+        if dressed.is_flat() && !shows_edges && !masked {
+            self.dressed::<true>(object, geometry, &draw, (material, dressed))
+        } else {
+            self.dressed::<false>(object, geometry, &draw, (material, dressed))
         }
-        let lit = Lit {
-            normals: &object.geometry.mesh.normals,
-            to_camera: object.place.to_camera,
-            normal_to_camera: object.place.normal_to_camera,
+    }
+
+    fn dressed<'c, const FLAT: bool>(
+        &'c self,
+        object: &Object<'s>,
+        geometry: &'s Geometry,
+        run: &Run,
+        (material, dressed): (&Material, Dressed<'c>),
+    ) -> Box<dyn Record + 'c>
+    where
+        's: 'c,
+    {
+        let shows_edges = self.settings.style == Style::SurfaceWithEdges;
+        let triangles = &geometry.triangles[run.triangles.clone()];
+        let Dressed { look, layout, illumination } = dressed;
+        let pipeline = Surface::<FLAT> {
+            columns: &geometry.columns,
+            triangles,
+            place: object.place,
+            layout,
+            look,
+            illumination,
             rays: self.rays,
             lights: &self.lights,
-            shading: material.shading,
-            front: object.place.front,
+            edges: shows_edges.then(|| self.edge_overlay()),
         };
-        part.with_texture(object, lit)
+        let flags = shows_edges.then(|| &geometry.edge_flags(object.asset.mesh())[run.triangles.clone()]);
+        Box::new(Triangles {
+            pipeline,
+            triangles,
+            faces: &geometry.faces[run.triangles.clone()],
+            edge_flags: flags,
+            object: object.index,
+            culling: if material.double_sided { Culling::None } else { object.place.cull_back },
+            surface: surface_of(material.alpha_mode),
+        })
     }
 
     fn edge_overlay(&self) -> EdgeOverlay {
@@ -126,19 +165,19 @@ impl<'s> Composer<'s> {
     }
 
     fn hidden_line<'c>(&'c self, object: &Object<'s>) -> Box<dyn Record + 'c> {
-        let mesh = &object.geometry.mesh;
+        let geometry = object.geometry;
         let pipeline = HiddenLine {
-            positions: &mesh.positions,
+            columns: &geometry.columns,
             to_clip: object.place.to_clip,
             background: self.settings.background,
             height: self.settings.height,
             edges: self.edge_overlay(),
         };
-        let flags = object.geometry.edge_flags(object.asset.mesh());
+        let flags = geometry.edge_flags(object.asset.mesh());
         Box::new(Triangles {
             pipeline,
-            triangles: &mesh.triangles,
-            faces: &mesh.triangle_faces,
+            triangles: &geometry.triangles,
+            faces: &geometry.faces,
             edge_flags: Some(flags),
             object: object.index,
             culling: Culling::None,
@@ -172,88 +211,11 @@ impl<'s> Composer<'s> {
     }
 }
 
-/// The triangles of one slot while their pipeline is being composed, one
-/// optional part after the other.
-struct Part<'c, 's> {
-    composer: &'c Composer<'s>,
-    material: &'c Material,
-    run: Range<usize>,
-}
-
-impl<'c> Part<'c, '_> {
-    fn with_texture<'s: 'c>(&self, object: &Object<'s>, light: impl LightPart + 'c) -> Box<dyn Record + 'c> {
-        let textured = self.material.base_color_texture.as_ref().and_then(|binding| {
-            let asset = self.composer.scene.textures.get(binding.texture)?;
-            let uvs = object.geometry.mesh.uv_sets.get(binding.uv_set)?;
-            Some(self.textured(uvs, &asset.texture, binding))
-        });
-        match textured {
-            Some(texture) => self.with_color(object, light, texture),
-            None => self.with_color(object, light, ()),
-        }
-    }
-
-    fn textured(
-        &self,
-        uvs: &'c [trigon_math::Vec2],
-        texture: &'c trigon_raster::Texture,
-        binding: &'c TextureBinding,
-    ) -> Textured<'c> {
-        Textured { uvs, texture, binding }
-    }
-
-    fn with_color<'s: 'c>(
-        &self,
-        object: &Object<'s>,
-        light: impl LightPart + 'c,
-        texture: impl TexturePart + 'c,
-    ) -> Box<dyn Record + 'c> {
-        match &object.geometry.mesh.colors {
-            Some(colors) => self.complete(object, light, texture, Colored(colors)),
-            None => self.complete(object, light, texture, ()),
-        }
-    }
-
-    fn complete<'s: 'c>(
-        &self,
-        object: &Object<'s>,
-        light: impl LightPart + 'c,
-        texture: impl TexturePart + 'c,
-        color: impl ColorPart + 'c,
-    ) -> Box<dyn Record + 'c> {
-        let (mesh, material) = (&object.geometry.mesh, self.material);
-        let (surface, coverage, cutoff) = answer_to_alpha(material.alpha_mode);
-        let show_edges = self.composer.settings.style == Style::SurfaceWithEdges;
-        let pipeline = Surface {
-            positions: &mesh.positions,
-            to_clip: object.place.to_clip,
-            light,
-            texture,
-            color,
-            base_color: material.base_color,
-            emissive: material.emissive,
-            cutoff,
-            coverage,
-            edges: show_edges.then(|| self.composer.edge_overlay()),
-        };
-        let flags = show_edges.then(|| &object.geometry.edge_flags(object.asset.mesh())[self.run.clone()]);
-        Box::new(Triangles {
-            pipeline,
-            triangles: &mesh.triangles[self.run.clone()],
-            faces: &mesh.triangle_faces[self.run.clone()],
-            edge_flags: flags,
-            object: object.index,
-            culling: if material.double_sided { Culling::None } else { object.place.cull_back },
-            surface,
-        })
-    }
-}
-
-/// How the rasterizer and the pipeline treat an alpha mode.
-fn answer_to_alpha(mode: AlphaMode) -> (trigon_raster::Surface, Coverage, f32) {
+/// How the rasterizer treats an alpha mode.
+fn surface_of(mode: AlphaMode) -> trigon_raster::Surface {
     match mode {
-        AlphaMode::Opaque => (trigon_raster::Surface::Opaque, Coverage::Opaque, 0.0),
-        AlphaMode::Mask { cutoff } => (trigon_raster::Surface::Masked, Coverage::Opaque, cutoff),
-        AlphaMode::Blend => (trigon_raster::Surface::Translucent, Coverage::Translucent, 0.0),
+        AlphaMode::Opaque => trigon_raster::Surface::Opaque,
+        AlphaMode::Mask { .. } => trigon_raster::Surface::Masked,
+        AlphaMode::Blend => trigon_raster::Surface::Translucent,
     }
 }

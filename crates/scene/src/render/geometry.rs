@@ -6,19 +6,26 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use trigon_mesh::{Mesh, RenderMesh};
+use trigon_mesh::{Attributes, Mesh, RenderMesh};
 use trigon_raster::EdgeFlags;
+
+use super::columns::Columns;
 
 /// A mesh as it is drawn.
 #[derive(Debug)]
 pub(crate) struct Geometry {
-    /// Its triangles are ordered by material slot.
-    pub(crate) mesh: RenderMesh,
+    pub(crate) columns: Columns,
+    /// Vertices, ordered by material slot.
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// The polygon that each triangle is a part of.
+    pub(crate) faces: Vec<u32>,
     /// The triangles of each slot, in the order of the slots.
     pub(crate) runs: Vec<Run>,
     /// Where each triangle was in the triangulation; `None` when in place.
     order: Option<Vec<u32>>,
     edge_flags: OnceLock<Vec<EdgeFlags>>,
+    /// The same with tangents, made when a normal map asks for them.
+    tangential: OnceLock<Box<Geometry>>,
 }
 
 /// Triangles that share a material slot.
@@ -37,8 +44,31 @@ impl Geometry {
             permute(&mut mesh.triangle_faces, order);
             permute(&mut mesh.triangle_materials, order);
         }
-        let runs = runs(&mesh.triangle_materials);
-        Self { mesh, runs, order, edge_flags: OnceLock::new() }
+        Self {
+            columns: Columns::new(&mesh),
+            runs: runs(&mesh.triangle_materials),
+            triangles: mesh.triangles,
+            faces: mesh.triangle_faces,
+            order,
+            edge_flags: OnceLock::new(),
+            tangential: OnceLock::new(),
+        }
+    }
+
+    /// The mesh as a normal map on a UV set needs it: with the tangents that it
+    /// has, or else with tangents made at the first use. Of several UV sets the
+    /// first that asks is served; the others get its tangents.
+    pub(crate) fn with_tangents(&self, source: &Mesh, uv_set: usize) -> &Self {
+        if self.columns.tangents.is_some() {
+            return self;
+        }
+        self.tangential.get_or_init(|| {
+            let mut mesh = source.clone();
+            let corner_tangents = source.generate_tangents(uv_set);
+            let attributes = Attributes { corner_tangents, ..source.attributes().clone() };
+            mesh.set_attributes(attributes).expect("there is a tangent for each corner");
+            Box::new(Self::new(&mesh))
+        })
     }
 
     /// For each triangle, which of its edges are edges of its polygon. Only

@@ -3,8 +3,10 @@
 //!
 //! A picture is a pure function of scene, camera and settings.
 
+mod columns;
 mod compose;
 mod geometry;
+mod lanes;
 mod lighting;
 mod placement;
 mod record;
@@ -17,7 +19,7 @@ use thiserror::Error;
 use trigon_camera::Camera;
 use trigon_math::UVec2;
 use trigon_raster::simd::SimdLevelError;
-use trigon_raster::{ExecuteSettings, Output, Pass, Rasterizer, Stats, Target, TargetError};
+use trigon_raster::{ExecuteSettings, Pass, Rasterizer, Stats, Target, TargetError};
 
 use crate::background::Background;
 use crate::frame::Frame;
@@ -35,10 +37,10 @@ pub enum RenderError {
     Simd(#[from] SimdLevelError),
 }
 
-/// Draws pictures one after the other and keeps its memory between them.
+/// Draws pictures one after the other and keeps its threads and memory between
+/// them.
 #[derive(Default)]
 pub struct Renderer {
-    target: Option<Target<'static>>,
     rasterizer: Option<Rasterizer>,
     stats: Stats,
 }
@@ -59,20 +61,43 @@ impl Renderer {
         camera: &Camera,
         settings: &RenderSettings,
     ) -> Result<Frame, RenderError> {
-        let mut target = self.target(settings)?;
+        let mut frame = Frame::default();
+        self.render_into(scene, camera, settings, &mut frame)?;
+        Ok(frame)
+    }
+
+    /// As [`render`](Self::render), into a frame whose memory is used again. What
+    /// it held does not matter; after an error it holds nothing of use.
+    ///
+    /// # Errors
+    /// When the size or the number of samples is out of range.
+    pub fn render_into(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        settings: &RenderSettings,
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
+        let blank = blank(settings)?;
+        frame.make_room(settings)?;
+        let rasterizer = self.rasterizer(settings)?;
         let composer = compose::Composer::new(scene, camera, settings);
         let draws = composer.draws();
-        let rows = background_rows(&settings.background, settings.height);
-        let behind = |pixel: UVec2| rows[pixel.y as usize];
+        let (background, height) = (settings.background, settings.height);
+        let behind = |pixel: UVec2| background.row(pixel.y, height);
         let mut pass = Pass::new();
-        pass.background(trigon_raster::Background::PerPixel(&behind));
+        pass.background(match background {
+            Background::Gradient { .. } => trigon_raster::Background::PerPixel(&behind),
+            Background::Color(_) | Background::Transparent => {
+                trigon_raster::Background::Color(background.row(0, height))
+            }
+        });
         for draw in &draws {
             draw.record(&mut pass);
         }
-        self.stats = self.rasterizer(settings)?.draw(&pass, &mut target);
-        let frame = frame(&target, camera, settings);
-        self.target = Some(target);
-        Ok(frame)
+        self.stats = rasterizer.draw(&pass, &mut onto(blank, frame)?);
+        measure_depth(frame, camera, settings);
+        Ok(())
     }
 
     /// What the last picture took, in counts.
@@ -90,29 +115,6 @@ impl Renderer {
         };
         Ok(self.rasterizer.insert(rasterizer))
     }
-
-    /// The last picture's target when it fits, or a new one.
-    fn target(&mut self, settings: &RenderSettings) -> Result<Target<'static>, RenderError> {
-        let fits = |target: &Target<'static>| {
-            (target.width(), target.height()) == (settings.width, settings.height)
-                && target.samples_per_axis() == settings.samples_per_axis
-                && target.samples() == settings.samples
-                && target.depth().is_some() == settings.outputs.depth
-                && target.objects().is_some() == settings.outputs.ids
-        };
-        if let Some(target) = self.target.take().filter(fits) {
-            return Ok(target);
-        }
-        let mut outputs = vec![Output::Srgb8];
-        if settings.outputs.depth {
-            outputs.push(Output::Depth);
-        }
-        if settings.outputs.ids {
-            outputs.extend([Output::Object, Output::Face]);
-        }
-        let target = Target::new(settings.width, settings.height, &outputs)?;
-        Ok(target.with_samples_per_axis(settings.samples_per_axis)?.with_samples(settings.samples)?)
-    }
 }
 
 /// Draws one picture. To draw many, keep a [`Renderer`].
@@ -123,15 +125,31 @@ pub fn render(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Resu
     Renderer::new().render(scene, camera, settings)
 }
 
-fn background_rows(background: &Background, height: u32) -> Vec<trigon_math::Vec4> {
-    (0..height).map(|y| background.row(y, height)).collect()
+/// A target of the right size and samples that keeps nothing.
+fn blank<'a>(settings: &RenderSettings) -> Result<Target<'a>, TargetError> {
+    let target = Target::new(settings.width, settings.height, &[])?;
+    target.with_samples_per_axis(settings.samples_per_axis)?.with_samples(settings.samples)
 }
 
-fn frame(target: &Target<'_>, camera: &Camera, settings: &RenderSettings) -> Frame {
-    let color = target.srgb8().expect("colour is always asked for").as_flattened().to_vec();
+/// A target that draws into a frame.
+fn onto<'a>(blank: Target<'a>, frame: &'a mut Frame) -> Result<Target<'a>, TargetError> {
+    let mut target = blank.with_srgb8(frame.color.as_chunks_mut().0)?;
+    if let Some(depth) = &mut frame.depth {
+        target = target.with_depth(depth)?;
+    }
+    if let Some(objects) = &mut frame.object_ids {
+        target = target.with_objects(objects)?;
+    }
+    if let Some(faces) = &mut frame.face_ids {
+        target = target.with_faces(faces)?;
+    }
+    Ok(target)
+}
+
+/// From stored depths to metres.
+fn measure_depth(frame: &mut Frame, camera: &Camera, settings: &RenderSettings) {
     let distance = placement::DepthToDistance::new(&camera.projection, settings.aspect());
-    let depth = target.depth().map(|depth| depth.iter().map(|&depth| distance.at(depth)).collect());
-    let (width, height) = (settings.width, settings.height);
-    let (object_ids, face_ids) = (target.objects().map(<[u32]>::to_vec), target.faces().map(<[u32]>::to_vec));
-    Frame { width, height, color, depth, object_ids, face_ids }
+    for depth in frame.depth.iter_mut().flatten() {
+        *depth = distance.at(*depth);
+    }
 }

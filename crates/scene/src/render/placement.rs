@@ -8,21 +8,33 @@ use super::surface::Side;
 
 /// The maps of one node, ready for the vertex stage.
 #[derive(Clone, Copy)]
-pub(super) struct Placement {
-    pub(super) to_clip: Mat4,
-    pub(super) to_camera: Mat4,
+pub(crate) struct Placement {
+    pub(crate) to_clip: Mat4,
+    pub(crate) to_camera: Mat4,
     /// Turns normals; the result has any length.
-    pub(super) normal_to_camera: Mat3,
+    pub(crate) normal_to_camera: Mat3,
     /// The side to drop so that backs are: a mirroring placement turns the
     /// winding over.
-    pub(super) cull_back: Culling,
+    pub(crate) cull_back: Culling,
     /// The side that a triangle shows when it winds counter-clockwise on the
     /// screen.
-    pub(super) front: Side,
+    pub(crate) front: Side,
+}
+
+impl Placement {
+    /// Turns what runs along a surface; the result has any length.
+    pub(crate) fn tangent_to_camera(&self) -> Mat3 {
+        Mat3::from_mat4(self.to_camera)
+    }
+
+    /// By what the side of the bitangent is multiplied: a mirror exchanges sides.
+    pub(crate) fn handedness(&self) -> f32 {
+        if self.front == Side::Front { 1.0 } else { -1.0 }
+    }
 }
 
 /// Everything about the camera that placements need.
-pub(super) struct Eye {
+pub(crate) struct Eye {
     position: DVec3,
     /// The rotation alone: the eye is subtracted before it is applied.
     turn: DMat3,
@@ -32,7 +44,7 @@ pub(super) struct Eye {
 }
 
 impl Eye {
-    pub(super) fn new(camera: &Camera, aspect: f64) -> Self {
+    pub(crate) fn new(camera: &Camera, aspect: f64) -> Self {
         let turn = DMat3::from_quat(camera.orientation.conjugate());
         let projection = camera.projection.matrix(aspect);
         let frustum = Frustum::from_clip_matrix(&projection);
@@ -41,20 +53,20 @@ impl Eye {
 
     /// Whether a box at a place of the world may be in view; `false` is a proof
     /// that nothing in it is.
-    pub(super) fn may_see(&self, bounds: &Bounds3, world: &DAffine3) -> bool {
+    pub(crate) fn may_see(&self, bounds: &Bounds3, world: &DAffine3) -> bool {
         self.frustum.intersects(&bounds.transformed(&self.to_camera(world)))
     }
 
     /// A map of the world in camera space. Large translations cancel before
     /// anything is rounded to f32.
-    pub(super) fn to_camera(&self, world: &DAffine3) -> DAffine3 {
+    pub(crate) fn to_camera(&self, world: &DAffine3) -> DAffine3 {
         DAffine3 {
             matrix3: self.turn * world.matrix3,
             translation: self.turn * (world.translation - self.position),
         }
     }
 
-    pub(super) fn place(&self, world: &DAffine3) -> Placement {
+    pub(crate) fn place(&self, world: &DAffine3) -> Placement {
         let to_camera = self.to_camera(world);
         let mirrored = to_camera.matrix3.determinant() < 0.0;
         Placement {

@@ -1,6 +1,6 @@
 //! Draws that own their pipelines, until they are recorded in a pass.
 
-use trigon_raster::{Culling, Draw, EdgeFlags, Lines, Pass, Pipeline, Points, Surface};
+use trigon_raster::{Culling, Draw, EdgeFlags, LanePipeline, Lines, Pass, Points, Surface};
 
 use super::wire::Wire;
 
@@ -20,7 +20,7 @@ pub(super) struct Triangles<'s, P> {
     pub(super) surface: Surface,
 }
 
-impl<P: Pipeline> Record for Triangles<'_, P> {
+impl<P: LanePipeline> Record for Triangles<'_, P> {
     fn record<'a>(&'a self, pass: &mut Pass<'a>) {
         pass.triangles(Draw {
             faces: Some(self.faces),

@@ -2,8 +2,11 @@
 //! do nothing but hide what is behind them.
 
 use trigon_math::{Mat4, Vec3, Vec4};
-use trigon_raster::{Fragment, Pipeline, VertexOutput};
+use trigon_raster::simd::{Each, F32, LANES, Simd, prelude::*};
+use trigon_raster::{Fragment, FragmentLanes, LanePipeline, Pipeline, VertexLanes, VertexOutput};
 
+use super::columns::Columns;
+use super::lanes::mapped;
 use super::surface::EdgeOverlay;
 use crate::background::Background;
 
@@ -34,7 +37,7 @@ impl Pipeline for Wire<'_> {
 /// Faces painted like the background, with their edges on them: a drawing
 /// without its hidden lines.
 pub(super) struct HiddenLine<'a> {
-    pub(super) positions: &'a [Vec3],
+    pub(super) columns: &'a Columns,
     pub(super) to_clip: Mat4,
     pub(super) background: Background,
     /// Of the picture, in pixels.
@@ -42,19 +45,37 @@ pub(super) struct HiddenLine<'a> {
     pub(super) edges: EdgeOverlay,
 }
 
-impl Pipeline for HiddenLine<'_> {
-    type Varyings = ();
+impl LanePipeline for HiddenLine<'_> {
+    const VARYINGS: usize = 0;
 
     fn vertex_count(&self) -> usize {
-        self.positions.len()
+        self.columns.vertex_count()
     }
 
-    fn vertex(&self, index: usize) -> VertexOutput<()> {
-        VertexOutput { position: self.to_clip * self.positions[index].extend(1.0), varyings: () }
+    #[inline(always)]
+    fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
+        let [x, y, z] = &self.columns.positions;
+        let position = [vertices.load(simd, x), vertices.load(simd, y), vertices.load(simd, z)];
+        mapped(&self.to_clip, position)
     }
 
-    fn fragment(&self, fragment: &Fragment<()>) -> Vec4 {
-        let paper = self.background.row(fragment.pixel.y, self.height);
-        self.edges.over(paper, fragment.nearest_edge())
+    #[inline(always)]
+    fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+        let rows: [f32; LANES] = fragments.position()[1].into();
+        let papers = rows.each(
+            #[inline(always)]
+            |y| self.background.row(y as u32, self.height).to_array(),
+        );
+        let paper = [0, 1, 2, 3].each(
+            #[inline(always)]
+            |channel| {
+                let values = papers.each(
+                    #[inline(always)]
+                    |paper| paper[channel],
+                );
+                F32::simd_from(simd, values)
+            },
+        );
+        self.edges.over(simd, paper, fragments.nearest_edge())
     }
 }

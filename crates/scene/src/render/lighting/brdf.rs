@@ -1,0 +1,217 @@
+//! The microfacet surface of glTF 2.0, appendix B: the GGX distribution (B.
+//! Walter et al., "Microfacet Models for Refraction through Rough Surfaces",
+//! 2007), the height-correlated shadowing of E. Heitz ("Understanding the
+//! Masking-Shadowing Function in Microfacet-Based BRDFs", 2014) and Fresnel's law
+//! as C. Schlick approximates it (1994).
+//!
+//! All terms are multiplied by π, so that a light of radiance 1 shows a white
+//! Lambertian surface as 1; see the head of `light.rs`.
+
+use trigon_raster::simd::{F32, Simd, greater, prelude::*};
+
+use crate::render::lanes::{V3, exp2, fifth_power, mix, positive, saturated};
+
+/// What a microfacet surface is like at eight points.
+#[derive(Clone, Copy)]
+pub(crate) struct Microfacets<S: Simd> {
+    /// Reflected head-on, linear RGB.
+    pub(crate) head_on: V3<S>,
+    /// Reflected at grazing angles.
+    pub(crate) grazing: F32<S>,
+    /// Perceptual roughness, 0…1.
+    pub(crate) roughness: F32<S>,
+}
+
+/// The least α (the square of the roughness) that lamps see: a lamp without
+/// size would leave no highlight at all on a perfect mirror.
+const ALPHA_LEAST: f32 = 1e-3;
+
+impl<S: Simd> Microfacets<S> {
+    /// The part of the light that is reflected without entering, where `cosine`
+    /// is that between the light and the microfacets that mirror it.
+    #[inline(always)]
+    pub(crate) fn fresnel(&self, cosine: F32<S>) -> V3<S> {
+        let grazing = fifth_power(1.0 - saturated(cosine));
+        let [r, g, b] = self.head_on;
+        [mix(r, self.grazing, grazing), mix(g, self.grazing, grazing), mix(b, self.grazing, grazing)]
+    }
+
+    /// π · D · V: the highlight without Fresnel's law and without N·L. All
+    /// cosines are above 0.
+    #[inline(always)]
+    pub(crate) fn highlight(&self, [n_dot_l, n_dot_v, n_dot_h]: [F32<S>; 3]) -> F32<S> {
+        let alpha = self.roughness * self.roughness;
+        let alpha = greater(alpha, F32::splat(alpha.token(), ALPHA_LEAST));
+        let square = alpha * alpha;
+        let width = (n_dot_h * square - n_dot_h) * n_dot_h + 1.0;
+        // D of the specification times π: the π of both cancel.
+        let distribution = square / (width * width);
+        let towards_view = n_dot_l * ((n_dot_v - n_dot_v * square) * n_dot_v + square).sqrt();
+        let towards_light = n_dot_v * ((n_dot_l - n_dot_l * square) * n_dot_l + square).sqrt();
+        distribution * 0.5 / (towards_view + towards_light)
+    }
+
+    /// How a surface answers light that is the same all around: shares of what is
+    /// mirrored, RGB, single and repeated reflection together, and of what is left
+    /// for the diffuse part.
+    ///
+    /// The single reflection is the fit of B. Karis ("Physically Based Shading on
+    /// Mobile", 2014), the repeated one that of C. Fdez-Agüera ("A Multiple-
+    /// Scattering Microfacet Model for Real-Time Image-based Lighting", 2019):
+    /// nothing is lost, so white surfaces vanish in a white room.
+    #[inline(always)]
+    pub(crate) fn surrounded(&self, n_dot_v: F32<S>) -> Surrounded<S> {
+        let [scale, offset] = self.single_reflection(saturated(n_dot_v));
+        let all = scale + offset;
+        let lost = 1.0 - all;
+        let mut answer = Surrounded { single: self.head_on, repeated: self.head_on, diffuse: self.head_on };
+        for channel in 0..3 {
+            let head_on = self.head_on[channel];
+            let single = head_on * scale + self.grazing * offset;
+            let average = head_on + (self.grazing - head_on) * (1.0 / 21.0);
+            let repeated = single * average * lost / (1.0 - average * lost);
+            answer.single[channel] = single;
+            answer.repeated[channel] = repeated;
+            answer.diffuse[channel] = positive(1.0 - single - repeated);
+        }
+        answer
+    }
+
+    /// Factor of what is reflected head-on, and of what is at grazing angles.
+    #[inline(always)]
+    fn single_reflection(&self, n_dot_v: F32<S>) -> [F32<S>; 2] {
+        let r = self.roughness;
+        let [x, y, z, w] = [1.0 - r, r * -0.0275 + 0.0425, r * -0.572 + 1.04, r * 0.022 - 0.04];
+        let squared = x * x;
+        let falling = exp2(n_dot_v * -9.28);
+        let least = squared.simd_lt(falling).select(squared, falling);
+        let a = least * x + y;
+        [a * -1.04 + z, positive(a * 1.04 + w)]
+    }
+}
+
+/// See [`Microfacets::surrounded`].
+#[derive(Clone, Copy)]
+pub(crate) struct Surrounded<S: Simd> {
+    /// Of the light from the mirror direction, blurred by the roughness.
+    pub(crate) single: V3<S>,
+    /// Of the light from everywhere, after repeated reflection.
+    pub(crate) repeated: V3<S>,
+    /// Left over for the diffuse part.
+    pub(crate) diffuse: V3<S>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fearless_simd::Fallback;
+    use trigon_math::{Vec3, elementary};
+
+    fn surface(roughness: f32, head_on: f32) -> Microfacets<Fallback> {
+        let simd = Fallback::new();
+        let splat = |value| F32::splat(simd, value);
+        Microfacets { head_on: [splat(head_on); 3], grazing: splat(1.0), roughness: splat(roughness) }
+    }
+
+    /// The integral over all microfacets of D · G₁ · max(v·h, 0) / n·v, which is 1
+    /// whatever the roughness: no light is lost or won before it is shadowed on
+    /// its way out (Heitz 2014, equation 22, the "weak white furnace test").
+    fn furnace(roughness: f32, n_dot_v: f64) -> f64 {
+        let simd = Fallback::new();
+        let (rings, sectors) = (600, 256);
+        let view = [(1.0 - n_dot_v * n_dot_v).sqrt(), n_dot_v];
+        let mut total = 0.0;
+        for ring in 0..rings {
+            // Denser near the pole, where smooth surfaces have all of theirs.
+            let t = (f64::from(ring) + 0.5) / f64::from(rings);
+            let (cosine, step) = (1.0 - t * t * t, 3.0 * t * t / f64::from(rings));
+            let sine = (1.0 - cosine * cosine).sqrt();
+            // With light and view along the normal, V is 1/4: what is left is π · D.
+            let [one, n_dot_h] = [1.0, cosine as f32].map(|value| F32::splat(simd, value));
+            let highlight = surface(roughness, 1.0).highlight([one, one, n_dot_h])[0];
+            let distribution = f64::from(highlight) * 4.0 / std::f64::consts::PI;
+            let mut around = 0.0;
+            for sector in 0..sectors {
+                let angle = std::f64::consts::TAU * (f64::from(sector) + 0.5) / f64::from(sectors);
+                let v_dot_h = view[0] * sine * elementary::cos(angle) + view[1] * cosine;
+                around += v_dot_h.max(0.0);
+            }
+            total += distribution * around * step * std::f64::consts::TAU / f64::from(sectors);
+        }
+        let alpha = f64::from(roughness) * f64::from(roughness);
+        let tangent = (1.0 - n_dot_v * n_dot_v) / (n_dot_v * n_dot_v);
+        let masking = 2.0 / (1.0 + (1.0 + alpha * alpha * tangent).sqrt());
+        total * masking / n_dot_v
+    }
+
+    #[test]
+    fn microfacets_reflect_all_light_before_it_is_shadowed() {
+        for roughness in [0.3, 0.5, 0.8, 1.0] {
+            for n_dot_v in [0.3, 0.6, 0.95] {
+                let total = furnace(roughness, n_dot_v);
+                assert!((total - 1.0).abs() < 0.01, "roughness {roughness}, cosine {n_dot_v}: {total}");
+            }
+        }
+    }
+
+    /// The integral of the whole highlight over all directions of light.
+    fn albedo(roughness: f32, n_dot_v: f32) -> f64 {
+        let simd = Fallback::new();
+        let view = Vec3::new((1.0 - n_dot_v * n_dot_v).sqrt(), 0.0, n_dot_v);
+        let (rings, sectors) = (400_u16, 256_u16);
+        let mut total = 0.0;
+        for (ring, sector) in (0..rings).flat_map(|ring| (0..sectors).map(move |sector| (ring, sector))) {
+            let cosine = (f32::from(ring) + 0.5) / f32::from(rings);
+            let angle = std::f32::consts::TAU * (f32::from(sector) + 0.5) / f32::from(sectors);
+            let sine = (1.0 - cosine * cosine).sqrt();
+            let light =
+                Vec3::new(sine * elementary::cos_f32(angle), sine * elementary::sin_f32(angle), cosine);
+            let half = (light + view).normalize();
+            let splat = |value| F32::splat(simd, value);
+            let cosines = [splat(cosine), splat(n_dot_v), splat(half.z)];
+            let highlight = surface(roughness, 1.0).highlight(cosines)[0] * cosine;
+            total += f64::from(highlight) * 2.0 / (f64::from(rings) * f64::from(sectors));
+        }
+        total
+    }
+
+    #[test]
+    fn no_more_light_leaves_than_arrives() {
+        for roughness in [0.25, 0.4, 0.6, 0.8, 1.0] {
+            for n_dot_v in [0.1, 0.4, 0.7, 1.0] {
+                let albedo = albedo(roughness, n_dot_v);
+                assert!(albedo <= 1.01, "roughness {roughness}, cosine {n_dot_v}: {albedo}");
+            }
+        }
+        let smooth = albedo(0.25, 0.7);
+        assert!((smooth - 1.0).abs() < 0.01, "a smooth one shadows nearly nothing: {smooth}");
+    }
+
+    #[test]
+    fn the_fit_of_the_single_reflection_follows_the_integral() {
+        for roughness in [0.3, 0.6, 0.9] {
+            for n_dot_v in [0.3, 0.6, 0.9] {
+                let [scale, offset] =
+                    surface(roughness, 1.0).single_reflection(F32::splat(Fallback::new(), n_dot_v));
+                let (fit, exact) = (f64::from((scale + offset)[0]), albedo(roughness, n_dot_v));
+                assert!((fit - exact).abs() < 0.12, "roughness {roughness}, {n_dot_v}: {fit}, not {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn white_surfaces_vanish_in_a_white_room() {
+        let simd = Fallback::new();
+        for (roughness, head_on) in [(0.0, 1.0), (0.5, 1.0), (1.0, 1.0), (0.2, 0.04), (0.9, 0.04)] {
+            for n_dot_v in [0.05, 0.5, 1.0] {
+                let answer = surface(roughness, head_on).surrounded(F32::splat(simd, n_dot_v));
+                let total = (answer.single[0] + answer.repeated[0] + answer.diffuse[0])[0];
+                assert!((total - 1.0).abs() < 0.01, "{roughness} {head_on} {n_dot_v}: {total} of 1");
+                assert!(
+                    answer.diffuse[0][0] < 0.01 || head_on < 1.0,
+                    "a metal leaves nothing for diffuse light"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! The lights of a picture, gathered once, and what they make of a surface.
+
+mod brdf;
+mod lamp;
+mod sum;
+
+pub(crate) use brdf::Microfacets;
+pub(crate) use lamp::Lamp;
+pub(crate) use sum::{Answer, Clear, LitPoints, Reflected, Visibility};
+
+use trigon_math::{DAffine3, Vec3};
+
+use super::placement::Eye;
+use crate::light::LightKind;
+use crate::scene::Scene;
+use crate::settings::Lighting;
+
+/// The light from everywhere in the studio: enough to see shapes in the shade.
+const STUDIO_AMBIENT: Vec3 = Vec3::splat(0.1);
+
+/// All lights of a picture.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Lights {
+    /// From everywhere alike, linear RGB.
+    pub(crate) ambient: Vec3,
+    pub(crate) lamps: Vec<Lamp>,
+}
+
+impl Lights {
+    /// The lights that the settings and the scene call for. `transforms` is
+    /// the scene's table of visible nodes.
+    pub(crate) fn gather(
+        scene: &Scene,
+        transforms: &[Option<DAffine3>],
+        eye: &Eye,
+        lighting: Lighting,
+    ) -> Self {
+        let mut lights = Self::default();
+        if lighting != Lighting::Studio {
+            for (id, node) in scene.nodes().iter() {
+                let (Some(light), Some(world)) = (&node.light, &transforms[id.index()]) else { continue };
+                if light.kind == LightKind::Ambient {
+                    lights.ambient += light.radiance();
+                }
+                lights.lamps.extend(Lamp::new(light, id.index() as u32, &eye.to_camera(world)));
+            }
+        }
+        match lighting {
+            Lighting::Studio => return Self::studio(),
+            Lighting::Automatic if lights.is_dark() => return Self::studio(),
+            // Formats such as glTF know no ambient light; without any, the sides
+            // that no light reaches would be black holes.
+            Lighting::Automatic if lights.ambient == Vec3::ZERO => lights.ambient = STUDIO_AMBIENT,
+            Lighting::Automatic | Lighting::Scene => {}
+        }
+        lights
+    }
+
+    fn is_dark(&self) -> bool {
+        self.ambient == Vec3::ZERO && self.lamps.is_empty()
+    }
+
+    /// A key light from the upper left, a weak fill from the right, a rim
+    /// light from behind, and a little light from everywhere. All of it moves
+    /// with the camera, so that no side of a model is ever dark.
+    fn studio() -> Self {
+        let key = Lamp::studio(Vec3::new(-0.55, 0.65, 0.55), 0.78);
+        let fill = Lamp::studio(Vec3::new(0.85, 0.05, 0.5), 0.16);
+        let rim = Lamp::studio(Vec3::new(0.25, 0.75, -0.6), 0.25);
+        Self { ambient: STUDIO_AMBIENT, lamps: vec![key, fill, rim] }
+    }
+
+    /// Every light this many times as bright; a factor that is no positive
+    /// number puts them out.
+    pub(crate) fn scaled(mut self, factor: f32) -> Self {
+        let factor = if factor > 0.0 && factor.is_finite() { factor } else { 0.0 };
+        self.ambient *= factor;
+        self.lamps.iter_mut().for_each(|lamp| lamp.radiance *= factor);
+        self
+    }
+
+    /// Whether it matters where a surface is, and not only how it is turned.
+    pub(crate) fn need_position(&self) -> bool {
+        self.lamps.iter().any(Lamp::needs_position)
+    }
+
+    /// Whether a white surface is grey everywhere.
+    pub(crate) fn are_grey(&self) -> bool {
+        let Vec3 { x, y, z } = self.ambient;
+        x == y && y == z && self.lamps.iter().all(Lamp::is_grey)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::light::Light;
+    use crate::render::lanes::{V3, splat};
+    use fearless_simd::Fallback;
+    use trigon_math::DVec3;
+
+    /// What a white Lambertian surface two metres away shows, seen and lit head-on.
+    fn shown(lights: &Lights) -> Vec3 {
+        let simd = Fallback::new();
+        let at = |vector| -> V3<Fallback> { splat(simd, vector) };
+        let points = LitPoints { position: at(Vec3::NEG_Z * 2.0), normal: at(Vec3::Z), view: at(Vec3::Z) };
+        let reflected = lights.reflected(simd, &points, &Answer::Lambert, &Clear);
+        Vec3::from(reflected.diffuse.map(|channel| channel[0]))
+    }
+
+    fn lamp(light: Light, to_camera: DAffine3) -> Lights {
+        Lights { lamps: Lamp::new(&light, 0, &to_camera).into_iter().collect(), ..Lights::default() }
+    }
+
+    #[test]
+    fn a_white_surface_head_on_shows_the_intensity() {
+        let shown_by = |light| shown(&lamp(light, DAffine3::IDENTITY));
+        assert_eq!(shown_by(Light::directional(0.5)), Vec3::splat(0.5), "directional");
+        assert_eq!(shown_by(Light::point(1.0)), Vec3::splat(0.25), "a quarter at two metres");
+    }
+
+    #[test]
+    fn intensity_is_a_factor_for_every_light() {
+        let shown = |factor| shown(&Lights::studio().scaled(factor));
+        assert_eq!(shown(2.0), shown(1.0) * 2.0, "twice as bright");
+        assert_eq!(shown(f32::NAN), Vec3::ZERO, "no number, no light");
+    }
+
+    #[test]
+    fn a_light_on_the_surface_gives_no_nan() {
+        let there = DAffine3::from_translation(DVec3::new(0.0, 0.0, -2.0));
+        assert_eq!(shown(&lamp(Light::point(1.0), there)), Vec3::ZERO, "no direction, no light");
+    }
+
+    #[test]
+    fn light_from_behind_does_not_reach_the_surface() {
+        let turned = DAffine3::from_quat(trigon_math::DQuat::from_xyzw(0.0, 1.0, 0.0, 0.0));
+        assert_eq!(shown(&lamp(Light::directional(1.0), turned)), Vec3::ZERO, "from behind");
+    }
+}

@@ -1,0 +1,130 @@
+//! The sum over lamps: what reaches the eye from eight points of a surface.
+
+use trigon_math::Vec3;
+use trigon_raster::simd::{F32, Simd, prelude::*};
+
+use super::{Lights, Microfacets};
+use crate::render::lanes::{V3, dot, normalized, positive, pow, product, scaled, sum, tinted};
+
+/// Eight points of a surface, in camera space.
+#[derive(Clone, Copy)]
+pub(crate) struct LitPoints<S: Simd> {
+    pub(crate) position: V3<S>,
+    /// Of unit length, or zero, which no light reaches.
+    pub(crate) normal: V3<S>,
+    /// Unit vectors towards the eye.
+    pub(crate) view: V3<S>,
+}
+
+/// How a surface answers to light at eight points.
+#[derive(Clone, Copy)]
+pub(crate) enum Answer<S: Simd> {
+    /// Base colour × N·L.
+    Lambert,
+    /// See [`Shading::BlinnPhong`](crate::Shading::BlinnPhong).
+    BlinnPhong { specular: V3<S>, shininess: F32<S> },
+    /// See [`Shading::MetallicRoughness`](crate::Shading::MetallicRoughness).
+    Microfacets(Microfacets<S>),
+}
+
+/// Light on its way to the eye.
+#[derive(Clone, Copy)]
+pub(crate) struct Reflected<S: Simd> {
+    /// To be multiplied by the diffuse colour.
+    pub(crate) diffuse: V3<S>,
+    /// Highlights.
+    pub(crate) specular: V3<S>,
+}
+
+impl<S: Simd> Reflected<S> {
+    #[inline(always)]
+    pub(crate) fn none(simd: S) -> Self {
+        let zero = F32::splat(simd, 0.0);
+        Self { diffuse: [zero; 3], specular: [zero; 3] }
+    }
+
+    /// Adds light of which `diffuse` and `specular` go to the eye.
+    #[inline(always)]
+    fn add(&mut self, light: V3<S>, diffuse: V3<S>, specular: V3<S>) {
+        self.diffuse = sum(self.diffuse, product(light, diffuse));
+        self.specular = sum(self.specular, product(light, specular));
+    }
+}
+
+/// How much of a lamp's light is not kept away on its way to eight points.
+pub(crate) trait Visibility<S: Simd> {
+    /// The share that arrives from the lamp of this number; `lit` tells the lanes
+    /// for which it matters.
+    fn share(&self, lamp: usize, points: &LitPoints<S>, towards: V3<S>) -> Option<F32<S>>;
+}
+
+/// Nothing is in the way.
+pub(crate) struct Clear;
+
+impl<S: Simd> Visibility<S> for Clear {
+    #[inline(always)]
+    fn share(&self, _: usize, _: &LitPoints<S>, _: V3<S>) -> Option<F32<S>> {
+        None
+    }
+}
+
+impl Lights {
+    /// The light of all lamps that a surface sends to the eye.
+    #[inline(always)]
+    pub(crate) fn reflected<S: Simd>(
+        &self,
+        simd: S,
+        points: &LitPoints<S>,
+        answer: &Answer<S>,
+        visibility: &impl Visibility<S>,
+    ) -> Reflected<S> {
+        let mut reflected = Reflected::none(simd);
+        for (number, lamp) in self.lamps.iter().enumerate() {
+            let arriving = lamp.arriving(simd, points.position);
+            let cosine = positive(dot(points.normal, arriving.towards));
+            let mut share = arriving.share * cosine;
+            if !share.simd_gt(0.0).any_true() {
+                continue;
+            }
+            if let Some(visible) = visibility.share(number, points, arriving.towards) {
+                share *= visible;
+            }
+            answer.add(&mut reflected, points, (lamp.radiance, share), (arriving.towards, cosine));
+        }
+        reflected
+    }
+}
+
+impl<S: Simd> Answer<S> {
+    /// Adds a lamp's light: its radiance, and the share that arrives times N·L.
+    #[inline(always)]
+    fn add(
+        &self,
+        reflected: &mut Reflected<S>,
+        points: &LitPoints<S>,
+        (radiance, share): (Vec3, F32<S>),
+        (towards, n_dot_l): (V3<S>, F32<S>),
+    ) {
+        let light = tinted(share, radiance);
+        match self {
+            Self::Lambert => reflected.diffuse = sum(reflected.diffuse, light),
+            Self::BlinnPhong { specular, shininess } => {
+                let half = normalized(sum(towards, points.view));
+                let highlight = pow(positive(dot(points.normal, half)), *shininess);
+                let one = [F32::splat(share.token(), 1.0); 3];
+                reflected.add(light, one, scaled(*specular, highlight));
+            }
+            Self::Microfacets(facets) => {
+                /// Where the surface is seen edge-on, V would divide by zero.
+                const LEAST_COSINE: f32 = 1e-4;
+                let half = normalized(sum(towards, points.view));
+                let n_dot_v = dot(points.normal, points.view).abs() + LEAST_COSINE;
+                let n_dot_h = positive(dot(points.normal, half));
+                let fresnel = facets.fresnel(dot(points.view, half));
+                let highlight = facets.highlight([n_dot_l + LEAST_COSINE, n_dot_v, n_dot_h]);
+                let [r, g, b] = fresnel;
+                reflected.add(light, [1.0 - r, 1.0 - g, 1.0 - b], scaled(fresnel, highlight));
+            }
+        }
+    }
+}

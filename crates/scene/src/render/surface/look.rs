@@ -1,0 +1,179 @@
+//! A material made ready for its draw: factors, textures with the places of
+//! their coordinates, and what they make of a surface at eight points.
+
+use trigon_math::{Vec3, Vec4};
+use trigon_raster::simd::{F32, Simd, prelude::*};
+use trigon_raster::{Sampler, Texture};
+
+use super::values::Values;
+use crate::render::lanes::{V3, lesser_of_one, mix, product, splat};
+use crate::render::lighting::{Answer, Microfacets};
+
+/// A texture and where its coordinates lie.
+#[derive(Clone, Copy)]
+pub(crate) struct Map<'a> {
+    pub(crate) texture: &'a Texture,
+    pub(crate) sampler: Sampler,
+    /// The varying that holds u; v is the next.
+    pub(crate) at: usize,
+}
+
+/// A material made ready.
+#[derive(Clone)]
+pub(crate) struct Look<'a> {
+    /// Linear RGB and straight alpha.
+    pub(crate) base_color: Vec4,
+    pub(crate) base_map: Option<Map<'a>>,
+    /// Multiplies the vertices' colours.
+    pub(crate) model: Model<'a>,
+    /// With the factor of x and y.
+    pub(crate) normal_map: Option<(Map<'a>, f32)>,
+    /// With its strength.
+    pub(crate) occlusion_map: Option<(Map<'a>, f32)>,
+    pub(crate) emissive: Vec3,
+    pub(crate) emissive_map: Option<Map<'a>>,
+    /// Alpha below this is a hole, where the draw is masked.
+    pub(crate) cutoff: f32,
+    pub(crate) coverage: Coverage,
+}
+
+/// What a surface's alpha does to its colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Coverage {
+    /// Alpha is 1 whatever the material says.
+    Opaque,
+    /// Alpha is what the material says.
+    Translucent,
+}
+
+/// The factors and textures of a [`Shading`](crate::Shading).
+#[derive(Clone)]
+pub(crate) enum Model<'a> {
+    Lambert,
+    BlinnPhong { specular: Vec3, shininess: f32, map: Option<Map<'a>> },
+    Microfacets(Box<MicrofacetModel<'a>>),
+}
+
+/// The factors and textures of [`MetallicRoughness`](crate::MetallicRoughness).
+#[derive(Clone)]
+pub(crate) struct MicrofacetModel<'a> {
+    pub(crate) metallic: f32,
+    pub(crate) roughness: f32,
+    pub(crate) map: Option<Map<'a>>,
+    /// What a dielectric reflects head-on, before `specular` and not limited.
+    pub(crate) head_on: Vec3,
+    pub(crate) specular: f32,
+    pub(crate) specular_map: Option<Map<'a>>,
+    pub(crate) specular_color_map: Option<Map<'a>>,
+}
+
+impl Map<'_> {
+    /// RGBA at eight points.
+    #[inline(always)]
+    pub(crate) fn look_up<S: Simd>(&self, simd: S, values: &impl Values<S>) -> [F32<S>; 4] {
+        let uv = [values.varying(self.at), values.varying(self.at + 1)];
+        let [[ux, uy], [vx, vy]] = [values.gradient(self.at), values.gradient(self.at + 1)];
+        self.texture.sample_lanes(simd, uv, [ux, vx], [uy, vy], &self.sampler)
+    }
+
+    /// The same in a function of its own: for textures that few materials have.
+    pub(crate) fn look_up_apart<S: Simd>(&self, simd: S, values: &impl Values<S>) -> [F32<S>; 4] {
+        simd.vectorize(
+            #[inline(always)]
+            || self.look_up(simd, values),
+        )
+    }
+}
+
+impl Look<'_> {
+    /// Linear RGB and straight alpha before lighting.
+    #[inline(always)]
+    pub(crate) fn albedo<S: Simd>(
+        &self,
+        simd: S,
+        color: Option<usize>,
+        values: &impl Values<S>,
+    ) -> [F32<S>; 4] {
+        let mut albedo = match &self.base_map {
+            Some(map) => {
+                let [r, g, b, a] = map.look_up(simd, values);
+                let factor = self.base_color;
+                if factor == Vec4::ONE {
+                    [r, g, b, a]
+                } else {
+                    [r * factor.x, g * factor.y, b * factor.z, a * factor.w]
+                }
+            }
+            None => {
+                let [r, g, b] = splat(simd, self.base_color.truncate());
+                [r, g, b, F32::splat(simd, self.base_color.w)]
+            }
+        };
+        if let Some(at) = color {
+            for (channel, albedo) in albedo.iter_mut().enumerate() {
+                *albedo *= values.varying(at + channel);
+            }
+        }
+        albedo
+    }
+
+    /// How the surface answers to light, and which share of its base colour is
+    /// diffuse. Without values only factors count.
+    #[inline(always)]
+    pub(crate) fn answer<S: Simd>(
+        &self,
+        simd: S,
+        albedo: V3<S>,
+        values: Option<&impl Values<S>>,
+    ) -> (Answer<S>, F32<S>) {
+        let one = F32::splat(simd, 1.0);
+        match &self.model {
+            Model::Lambert => (Answer::Lambert, one),
+            Model::BlinnPhong { specular, shininess, map } => {
+                let mut specular = splat(simd, *specular);
+                if let (Some(map), Some(values)) = (map, values) {
+                    let [r, g, b, _] = map.look_up_apart(simd, values);
+                    specular = product(specular, [r, g, b]);
+                }
+                (Answer::BlinnPhong { specular, shininess: F32::splat(simd, *shininess) }, one)
+            }
+            Model::Microfacets(model) => model.answer(simd, albedo, values),
+        }
+    }
+}
+
+impl MicrofacetModel<'_> {
+    #[inline(always)]
+    fn answer<S: Simd>(
+        &self,
+        simd: S,
+        [r, g, b]: V3<S>,
+        values: Option<&impl Values<S>>,
+    ) -> (Answer<S>, F32<S>) {
+        let [mut roughness, mut metallic, mut specular] =
+            [self.roughness, self.metallic, self.specular].map(|factor| F32::splat(simd, factor));
+        let mut dielectric = splat(simd, self.head_on);
+        if let Some(values) = values {
+            if let Some(map) = &self.map {
+                let [_, green, blue, _] = map.look_up_apart(simd, values);
+                roughness *= green;
+                metallic *= blue;
+            }
+            if let Some(map) = &self.specular_map {
+                specular *= map.look_up_apart(simd, values)[3];
+            }
+            if let Some(map) = &self.specular_color_map {
+                let [red, green, blue, _] = map.look_up_apart(simd, values);
+                dielectric = product(dielectric, [red, green, blue]);
+            }
+        }
+        let [x, y, z] = dielectric;
+        let head_on = [
+            mix(lesser_of_one(x) * specular, r, metallic),
+            mix(lesser_of_one(y) * specular, g, metallic),
+            mix(lesser_of_one(z) * specular, b, metallic),
+        ];
+        let grazing = mix(specular, F32::splat(simd, 1.0), metallic);
+        (Answer::Microfacets(Microfacets { head_on, grazing, roughness }), 1.0 - metallic)
+    }
+}

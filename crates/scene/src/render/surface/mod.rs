@@ -1,0 +1,223 @@
+//! The pipeline that draws faces, in vectors of eight.
+//!
+//! One pipeline serves all looks: what a material or its light does not ask for
+//! costs a branch for each group of eight pixels, and is neither fetched nor
+//! interpolated. A second form of it, `FLAT`, is asked once for each visible
+//! triangle: for faces of one colour.
+
+mod dress;
+mod facet;
+mod layout;
+mod light;
+mod look;
+mod values;
+
+pub(crate) use dress::{Dressed, Occasion};
+pub(crate) use layout::{Layout, LightSlots};
+pub(crate) use light::Illumination;
+pub(crate) use look::{Coverage, Look, Map, MicrofacetModel, Model};
+pub(crate) use values::{Values, three};
+
+use trigon_math::Vec3;
+use trigon_raster::simd::{F32, Mask, Simd, prelude::*};
+use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
+
+use super::columns::Columns;
+use super::lanes::{V3, mapped, moved, normalized, saturated, splat, sum, tinted, turned};
+use super::lighting::{Lights, Reflected};
+use super::placement::Placement;
+
+/// Faces of one mesh in one material.
+pub(crate) struct Surface<'a, const FLAT: bool> {
+    pub(crate) columns: &'a Columns,
+    /// All of the draw, for facets.
+    pub(crate) triangles: &'a [[u32; 3]],
+    pub(crate) place: Placement,
+    pub(crate) layout: Layout,
+    pub(crate) look: Look<'a>,
+    pub(crate) illumination: Illumination,
+    /// Whether rays of view meet in the camera, or run parallel.
+    pub(crate) rays: Rays,
+    pub(crate) lights: &'a Lights,
+    pub(crate) edges: Option<EdgeOverlay>,
+}
+
+/// A side of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Side {
+    Front,
+    Back,
+}
+
+/// How rays of view run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Rays {
+    /// Perspective.
+    Meeting,
+    /// Orthographic.
+    Parallel,
+}
+
+/// Edges drawn on the surface, in shading: they cannot fight with it for depth.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct EdgeOverlay {
+    pub(crate) color: Vec3,
+    /// Pixels.
+    pub(crate) half_width: f32,
+}
+
+impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
+    /// Laid out when the draw is made.
+    const VARYINGS: usize = 0;
+    const FLAT: bool = FLAT;
+    const MASKED: bool = !FLAT;
+
+    #[inline(always)]
+    fn varyings(&self) -> usize {
+        self.layout.count
+    }
+
+    fn vertex_count(&self) -> usize {
+        self.columns.vertex_count()
+    }
+
+    #[inline(always)]
+    fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
+        let position = load(simd, vertices, &self.columns.positions);
+        // A flat one interpolates nothing: the rest is not even compiled.
+        if !FLAT && self.layout.count > 0 {
+            self.set_varyings(simd, vertices, position);
+        }
+        mapped(&self.place.to_clip, position)
+    }
+
+    #[inline(always)]
+    fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+        if FLAT { self.facet_color(simd, fragments) } else { self.color(simd, fragments) }
+    }
+
+    #[inline(always)]
+    fn masks<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> Mask<S> {
+        let alpha = self.look.albedo(simd, self.layout.color, fragments)[3];
+        alpha.simd_ge(F32::splat(simd, self.look.cutoff))
+    }
+}
+
+impl<const FLAT: bool> Surface<'_, FLAT> {
+    #[inline(always)]
+    fn set_varyings<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>, position: V3<S>) {
+        let Self { layout, columns, place, .. } = self;
+        for coordinates in &layout.coordinates {
+            let [u, v] = load(simd, vertices, &columns.uv_sets[coordinates.uv_set]);
+            let (matrix, offset) = (coordinates.transform.matrix2, coordinates.transform.translation);
+            vertices.set(coordinates.at, u * matrix.x_axis.x + v * matrix.y_axis.x + offset.x);
+            vertices.set(coordinates.at + 1, u * matrix.x_axis.y + v * matrix.y_axis.y + offset.y);
+        }
+        if let Some(at) = layout.position {
+            set(vertices, at, moved(&place.to_camera, position));
+        }
+        if let Some(at) = layout.normal {
+            let normal = load(simd, vertices, &columns.normals);
+            set(vertices, at, normalized(turned(&place.normal_to_camera, normal)));
+        }
+        if let (Some(at), Some([x, y, z, sign])) = (layout.tangent, &columns.tangents) {
+            let tangent = [x, y, z].map(|column| vertices.load(simd, column));
+            set(vertices, at, normalized(turned(&place.tangent_to_camera(), tangent)));
+            vertices.set(at + 3, vertices.load(simd, sign) * place.handedness());
+        }
+        if let (Some(at), Some(colors)) = (layout.color, &columns.colors) {
+            set(vertices, at, load(simd, vertices, colors));
+        }
+        if let Some(slots) = layout.light {
+            self.set_light(simd, vertices, slots, position);
+        }
+    }
+
+    /// The colour of eight pixels.
+    #[inline(always)]
+    fn color<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+        let [r, g, b, alpha] = self.look.albedo(simd, self.layout.color, fragments);
+        let shaded = match self.illumination {
+            Illumination::None => [r, g, b],
+            Illumination::AtVertices => self.interpolated(fragments, [r, g, b]),
+            Illumination::InPixels => self.lit(simd, fragments, [r, g, b]),
+            Illumination::OnFacets => self.lit_facets(simd, fragments, [r, g, b]),
+        };
+        let shaded = self.with_emission(simd, fragments, shaded);
+        self.finished(simd, fragments, shaded, alpha)
+    }
+
+    #[inline(always)]
+    fn with_emission<S: Simd>(&self, simd: S, values: &impl Values<S>, shaded: V3<S>) -> V3<S> {
+        let emissive = self.look.emissive;
+        match &self.look.emissive_map {
+            Some(map) => {
+                let [r, g, b, _] = map.look_up_apart(simd, values);
+                sum(shaded, [r * emissive.x, g * emissive.y, b * emissive.z])
+            }
+            None if emissive == Vec3::ZERO => shaded,
+            None => sum(shaded, splat(simd, emissive)),
+        }
+    }
+
+    /// Alpha, and edges on it.
+    #[inline(always)]
+    fn finished<S: Simd>(
+        &self,
+        simd: S,
+        fragments: &FragmentLanes<'_, S>,
+        [r, g, b]: V3<S>,
+        alpha: F32<S>,
+    ) -> [F32<S>; 4] {
+        let color = match self.look.coverage {
+            Coverage::Opaque => [r, g, b, F32::splat(simd, 1.0)],
+            Coverage::Translucent => {
+                let alpha = saturated(alpha);
+                [r * alpha, g * alpha, b * alpha, alpha]
+            }
+        };
+        match self.edges {
+            None => color,
+            Some(edges) => edges.over(simd, color, fragments.nearest_edge()),
+        }
+    }
+}
+
+impl EdgeOverlay {
+    /// The edge's colour over the surface's, fading out over one pixel.
+    #[inline(always)]
+    pub(crate) fn over<S: Simd>(&self, simd: S, color: [F32<S>; 4], distance: F32<S>) -> [F32<S>; 4] {
+        let edge = saturated(F32::splat(simd, self.half_width + 0.5) - distance);
+        let [red, green, blue] = tinted(edge, self.color);
+        let [r, g, b, a] = color;
+        let rest = 1.0 - edge;
+        [r * rest + red, g * rest + green, b * rest + blue, a * rest + edge]
+    }
+}
+
+/// Sums of light and colours.
+#[inline(always)]
+fn shown<S: Simd>(reflected: &Reflected<S>, [r, g, b]: V3<S>) -> V3<S> {
+    let [[dr, dg, db], [sr, sg, sb]] = [reflected.diffuse, reflected.specular];
+    [r * dr + sr, g * dg + sg, b * db + sb]
+}
+
+#[inline(always)]
+fn load<S: Simd, const N: usize>(
+    simd: S,
+    vertices: &VertexLanes<'_>,
+    columns: &[Vec<f32>; N],
+) -> [F32<S>; N] {
+    let mut values = [F32::splat(simd, 0.0); N];
+    for (value, column) in values.iter_mut().zip(columns) {
+        *value = vertices.load(simd, column);
+    }
+    values
+}
+
+#[inline(always)]
+fn set<S: Simd, const N: usize>(vertices: &mut VertexLanes<'_>, at: usize, values: [F32<S>; N]) {
+    for (index, value) in values.into_iter().enumerate() {
+        vertices.set(at + index, value);
+    }
+}
