@@ -22,7 +22,7 @@ fn main() -> ExitCode {
 }
 
 fn print(loaded: &Loaded) {
-    let Loaded { scene, warnings, files, format } = loaded;
+    let Loaded { scene, warnings, files, format, .. } = loaded;
     println!("{}: {format:?}", files[0].display());
     for (id, node) in scene.nodes().iter() {
         let mesh = node.mesh.and_then(|mesh| scene.meshes().get(mesh));

@@ -16,4 +16,6 @@ pub(crate) struct Import<'a> {
     pub(crate) folder: Folder,
     pub(crate) warnings: Warnings,
     pub(crate) scene: Scene,
+    /// Of all scenes in the file.
+    pub(crate) scene_names: Vec<String>,
 }

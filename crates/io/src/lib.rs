@@ -1,5 +1,5 @@
-//! Model and picture files for trigon: OBJ with MTL, glTF and GLB, PNG and JPEG
-//! in; PNG out.
+//! Model and picture files for trigon: OBJ with MTL, glTF and GLB, PNG,
+//! JPEG and WebP in; PNG out.
 //!
 //! A file becomes a [`Scene`](trigon_scene::Scene) and a list of warnings. What
 //! cannot be used is an error. Both name the file, the place in it, and what to
@@ -56,7 +56,7 @@ pub use error::{LoadError, LoadErrorKind, Place};
 pub use format::{Format, Reader, readers};
 pub use limits::Limits;
 pub use load::{Loaded, load, load_from_slice};
-pub use options::{LoadOptions, Progress, ProgressHook, Stage};
+pub use options::{LoadOptions, Progress, ProgressHook, SceneChoice, Stage};
 pub use picture::{Picture, load_image};
 pub use png::{Pixels, WriteError, encode_png, write_png};
 pub use warning::Warning;

@@ -17,6 +17,9 @@ use crate::warning::{Warning, Warnings};
 pub struct Loaded {
     /// What the file holds.
     pub scene: Scene,
+    /// The names of all scenes of the file, in its order; `scene` holds one of
+    /// them. Empty for formats without scenes.
+    pub scene_names: Vec<String>,
     /// What is missing from it, and why.
     pub warnings: Vec<Warning>,
     /// Every file that was read, the model first: what to watch for changes.
@@ -69,15 +72,22 @@ fn import(path: &Path, bytes: &[u8], folder: Folder, options: &LoadOptions<'_>) 
     let format = detect_format(path, bytes).map_err(|what| {
         LoadError::new(LoadErrorKind::Unsupported, path, what, format!("convert it; {}", supported()))
     })?;
-    let mut import = Import { path, options, folder, warnings: Warnings::about(path), scene: Scene::new() };
+    let mut import = Import {
+        path,
+        options,
+        folder,
+        warnings: Warnings::about(path),
+        scene: Scene::new(),
+        scene_names: Vec::new(),
+    };
     match format {
         Format::Obj => crate::obj::import_obj(&mut import, bytes)?,
         Format::Gltf => crate::gltf::import_gltf(&mut import, bytes)?,
         Format::Glb => crate::gltf::import_glb(&mut import, bytes)?,
     }
     options.report(path, Stage::Textures, 1.0)?;
-    let Import { folder, warnings, scene, .. } = import;
-    Ok(Loaded { scene, warnings: warnings.into_list(), files: folder.into_files(), format })
+    let Import { folder, warnings, scene, scene_names, .. } = import;
+    Ok(Loaded { scene, scene_names, warnings: warnings.into_list(), files: folder.into_files(), format })
 }
 
 /// The error for a file that the user named and that was not read.

@@ -31,11 +31,23 @@ pub struct Progress {
 /// with an error of the kind `Cancelled`.
 pub type ProgressHook<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
 
+/// One of several scenes of a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SceneChoice {
+    /// By its number, from 0.
+    Index(usize),
+    /// By its name; of several with the same name the first.
+    Name(String),
+}
+
 /// How to load a file.
 #[derive(Clone, Default)]
 pub struct LoadOptions<'a> {
     /// How much the file may ask for.
     pub limits: Limits,
+    /// The scene to load of a file that has several; without it the one that
+    /// the file itself shows. Formats without scenes take no notice.
+    pub scene: Option<SceneChoice>,
     /// Follows the progress, and may cancel.
     pub progress: Option<ProgressHook<'a>>,
 }
@@ -43,7 +55,12 @@ pub struct LoadOptions<'a> {
 impl fmt::Debug for LoadOptions<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let progress = self.progress.map(|_| "a callback");
-        f.debug_struct("LoadOptions").field("limits", &self.limits).field("progress", &progress).finish()
+        let Self { limits, scene, .. } = self;
+        f.debug_struct("LoadOptions")
+            .field("limits", limits)
+            .field("scene", scene)
+            .field("progress", &progress)
+            .finish()
     }
 }
 

@@ -1,4 +1,4 @@
-//! Pictures in: PNG and JPEG to 8-bit RGBA, within limits.
+//! Pictures in: PNG, JPEG and WebP to 8-bit RGBA, within limits.
 //!
 //! What a picture is, its first bytes decide, never its name or what a model
 //! claims about it.
@@ -27,7 +27,7 @@ pub struct Picture {
     pub rgba: Vec<u8>,
 }
 
-/// Reads a PNG or JPEG file. 16-bit channels are rounded to 8, grey is
+/// Reads a PNG, JPEG or WebP file. 16-bit channels are rounded to 8, grey is
 /// spread to three channels, a missing alpha is opaque.
 ///
 /// # Errors
@@ -38,7 +38,7 @@ pub fn load_image(path: impl AsRef<Path>, limits: &Limits) -> Result<Picture, Lo
     let bytes =
         Folder::none(limits).read_model(path).map_err(|refusal| crate::load::refused(path, &refusal))?;
     decode_picture(&bytes, limits)
-        .map_err(|why| LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as PNG or JPEG"))
+        .map_err(|why| LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as PNG, JPEG or WebP"))
 }
 
 /// Width and height as the picture claims them, if it is one within the limits.
@@ -85,13 +85,13 @@ pub(crate) fn placeholder() -> Picture {
 /// The format by the first bytes.
 fn picture_format(bytes: &[u8]) -> Result<ImageFormat, String> {
     match image::guess_format(bytes) {
-        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => Ok(format),
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => Ok(format),
         Ok(format) => {
-            Err(format!("pictures of the format {format:?} are not supported yet, only PNG and JPEG are"))
+            Err(format!("pictures of the format {format:?} are not supported, only PNG, JPEG and WebP are"))
         }
         Err(_) if bytes.is_empty() => Err("the picture is an empty file".to_owned()),
         Err(_) if bytes.starts_with(b"\xabKTX 20\xbb\r\n\x1a\n") => {
-            Err("KTX2 pictures are not supported yet, only PNG and JPEG are".to_owned())
+            Err("KTX2 pictures are not supported, only PNG, JPEG and WebP are".to_owned())
         }
         Err(_) if bytes.starts_with(b"version https://git-lfs") => {
             Err("the picture is a Git LFS pointer; run `git lfs pull`".to_owned())
@@ -142,7 +142,7 @@ mod tests {
         for (bytes, word) in [
             (&b""[..], "empty"),
             (b"hello, world", "no known"),
-            (b"RIFF\x10\0\0\0WEBPVP8 ", "WebP"),
+            (b"GIF89a\x01\0\x01\0", "Gif"),
             (half, "picture"),
         ] {
             let why = decode_picture(bytes, &Limits::default()).expect_err("no picture");

@@ -24,6 +24,27 @@ pub(crate) struct Request {
     pub(crate) file: PathBuf,
     pub(crate) place: Place,
     pub(crate) bytes: PictureBytes,
+    pub(crate) purpose: Purpose,
+}
+
+/// What a picture is for: how its bytes are meant, and whether its loss must show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Purpose {
+    /// The colour of a surface, which nobody may overlook when it is missing.
+    BaseColor,
+    /// Another colour.
+    Color,
+    /// Numbers, such as directions or roughness.
+    Data,
+}
+
+impl Purpose {
+    pub(crate) fn format(self) -> TextureFormat {
+        match self {
+            Self::BaseColor | Self::Color => TextureFormat::Srgb,
+            Self::Data => TextureFormat::Linear,
+        }
+    }
 }
 
 /// The bytes of a picture file: its own, or some of a buffer that many share.
@@ -42,11 +63,11 @@ impl PictureBytes {
 }
 
 /// Decodes pictures and adds them to the scene, in order. A broken one becomes
-/// a warning and a checkerboard that nobody overlooks.
+/// a warning, and a checkerboard where it is the colour of a surface.
 pub(crate) fn add_textures(
     import: &mut Import<'_>,
     requests: &[Request],
-) -> Result<Vec<TextureId>, LoadError> {
+) -> Result<Vec<Option<TextureId>>, LoadError> {
     let done = AtomicUsize::new(0);
     let (path, options) = (import.path, import.options);
     let fits = within_budget(requests, &options.limits);
@@ -58,24 +79,31 @@ pub(crate) fn add_textures(
         )?;
         let picture =
             fits.and_then(|()| decode_picture(request.bytes.get(), &options.limits).map_err(broken));
-        Ok(picture.and_then(|picture| to_texture(picture).map_err(broken)))
+        Ok(picture.and_then(|picture| to_texture(picture, request.purpose).map_err(broken)))
     };
     let decoded: Vec<Result<Texture, Fault>> =
         requests.par_iter().zip(fits).map(decode).collect::<Result<_, LoadError>>()?;
     let mut ids = Vec::with_capacity(requests.len());
     let mut stand_in = None;
     for (request, result) in requests.iter().zip(decoded) {
-        ids.push(match result {
-            Ok(texture) => import.scene.add_texture(request.name.clone(), texture),
-            Err((why, remedy)) => {
-                let what = format!("picture \"{}\" is shown as a checkerboard: {why}", request.name);
-                import.warnings.push_about(&request.file, request.place.clone(), what, remedy);
-                *stand_in.get_or_insert_with(|| {
-                    let texture = to_texture(placeholder()).expect("the placeholder is a small picture");
-                    import.scene.add_texture("placeholder", texture)
-                })
+        let (why, remedy) = match result {
+            Ok(texture) => {
+                ids.push(Some(import.scene.add_texture(request.name.clone(), texture)));
+                continue;
             }
-        });
+            Err(fault) => fault,
+        };
+        let must_show = request.purpose == Purpose::BaseColor;
+        let instead = if must_show { "shown as a checkerboard" } else { "left out" };
+        let what = format!("picture \"{}\" is {instead}: {why}", request.name);
+        import.warnings.push_about(&request.file, request.place.clone(), what, remedy);
+        ids.push(must_show.then(|| {
+            *stand_in.get_or_insert_with(|| {
+                let texture = to_texture(placeholder(), Purpose::BaseColor);
+                let texture = texture.expect("the placeholder is a small picture");
+                import.scene.add_texture("placeholder", texture)
+            })
+        }));
     }
     Ok(ids)
 }
@@ -84,7 +112,7 @@ pub(crate) fn add_textures(
 type Fault = (String, &'static str);
 
 fn broken(why: String) -> Fault {
-    (why, "save it as PNG or JPEG")
+    (why, "save it as PNG, JPEG or WebP")
 }
 
 /// Which pictures are decoded, by what their headers claim: in order, until all
@@ -104,8 +132,7 @@ fn within_budget(requests: &[Request], limits: &Limits) -> Vec<Result<(), Fault>
     requests.iter().map(&mut admit).collect()
 }
 
-fn to_texture(picture: Picture) -> Result<Texture, String> {
+fn to_texture(picture: Picture, purpose: Purpose) -> Result<Texture, String> {
     let texels = picture.rgba.chunks_exact(4).map(|texel| [texel[0], texel[1], texel[2], texel[3]]).collect();
-    Texture::new(picture.width, picture.height, texels, TextureFormat::Srgb)
-        .map_err(|error| error.to_string())
+    Texture::new(picture.width, picture.height, texels, purpose.format()).map_err(|error| error.to_string())
 }

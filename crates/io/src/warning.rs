@@ -41,6 +41,7 @@ pub(crate) fn counted(count: usize, kind: &str) -> String {
     let plural = match kind {
         "vertex" => "vertices".to_owned(),
         "index" => "indices".to_owned(),
+        "bind matrix" => "bind matrices".to_owned(),
         regular => format!("{regular}s"),
     };
     format!("{count} {}", if count == 1 { kind } else { &plural })

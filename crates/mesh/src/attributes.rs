@@ -19,7 +19,8 @@ pub struct Attributes {
     pub corner_normals: Option<Vec<Vec3>>,
     /// Tangents per corner, which normal maps refer to: a unit vector along
     /// growing u, and in `w` the handedness, 1 or −1, so that the bitangent
-    /// `normal × tangent · w` points up in the picture, against v. See
+    /// `normal × tangent · w` points up in the picture, against v. One that is
+    /// zero counts as "none given here". See
     /// [`Mesh::generate_tangents`](crate::Mesh::generate_tangents).
     pub corner_tangents: Option<Vec<Vec4>>,
     /// Texture coordinates per corner, in any number of sets. (0, 0) is the

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use trigon_math::{Bounds3, Vec3};
+use trigon_math::{Bounds3, Vec3, Vec4};
 
 use crate::edges::{Edges, NO_EDGE};
 use crate::{Attributes, MeshBuilder, MeshError};
@@ -179,6 +179,21 @@ impl Mesh {
     pub fn set_attributes(&mut self, attributes: Attributes) -> Result<(), MeshError> {
         attributes.check(self.vertex_count(), self.corner_count(), self.face_count())?;
         self.attributes = attributes;
+        Ok(())
+    }
+
+    /// Replaces the tangents of the corners.
+    ///
+    /// # Errors
+    ///
+    /// A list that has not one tangent per corner. The mesh keeps what it had.
+    pub fn set_corner_tangents(&mut self, tangents: Vec<Vec4>) -> Result<(), MeshError> {
+        let (expected, found) = (self.corner_count(), tangents.len());
+        if found != expected {
+            let (attribute, element) = ("corner_tangents", "corners");
+            return Err(MeshError::AttributeLength { attribute, element, expected, found });
+        }
+        self.attributes.corner_tangents = Some(tangents);
         Ok(())
     }
 

@@ -9,7 +9,7 @@ use gltf_json::Root;
 use gltf_json::accessor::{ComponentType, Type};
 use gltf_json::validation::Checked;
 
-use super::buffers::{Buffers, Unplaced, Unread};
+use super::buffers::{Buffers, Bytes, Unplaced, Unread};
 use crate::error::{LoadErrorKind, Place};
 use crate::folder::Folder;
 
@@ -253,9 +253,6 @@ impl Accessors<'_, '_> {
         self.buffers.view(self.root, view, self.folder)
     }
 }
-
-/// A buffer and the range of a view in it.
-type Bytes = (std::sync::Arc<[u8]>, std::ops::Range<usize>);
 
 fn malformed(index: usize, what: String) -> Unplaced {
     Unplaced(

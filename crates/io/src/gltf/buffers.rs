@@ -2,10 +2,15 @@
 //! the model's folder. Each buffer is read when the first accessor or image
 //! needs it.
 
+use std::collections::HashMap;
+use std::ops::Range;
+use std::path::Path;
 use std::sync::Arc;
 
 use gltf_json::Root;
 
+use super::compressed::compressed_view;
+use super::meshopt;
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::folder::{Folder, Lookup};
 use crate::uri::{Reference, parse_reference, quotable};
@@ -20,31 +25,61 @@ pub(crate) struct Unread {
 pub(crate) struct Buffers<'a> {
     binary: Option<&'a [u8]>,
     read: Vec<Option<Arc<[u8]>>>,
+    /// The views that were compressed.
+    decoded: HashMap<usize, Arc<[u8]>>,
 }
+
+/// A buffer and the range of a view in it.
+pub(crate) type Bytes = (Arc<[u8]>, Range<usize>);
 
 impl<'a> Buffers<'a> {
     pub(crate) fn new(root: &Root, binary: Option<&'a [u8]>) -> Self {
-        Self { binary, read: vec![None; root.buffers.len()] }
+        Self { binary, read: vec![None; root.buffers.len()], decoded: HashMap::new() }
     }
 
-    /// How many bytes the buffers that were needed so far have.
+    /// How many bytes the buffers that were needed so far have, and what was
+    /// decoded of them.
     pub(crate) fn bytes_read(&self) -> usize {
-        self.read.iter().flatten().map(|bytes| bytes.len()).sum()
+        self.read.iter().flatten().chain(self.decoded.values()).map(|bytes| bytes.len()).sum()
     }
 
     /// The bytes of a buffer view, at a checked index. At least as long as the
     /// view claims.
-    pub(crate) fn view(
-        &mut self,
-        root: &Root,
-        index: usize,
-        folder: &mut Folder,
-    ) -> Result<(Arc<[u8]>, std::ops::Range<usize>), Unplaced> {
+    pub(crate) fn view(&mut self, root: &Root, index: usize, folder: &mut Folder) -> Result<Bytes, Unplaced> {
         let view = &root.buffer_views[index];
+        if let Some(bytes) = self.decode(root, index, folder)? {
+            let whole = 0..bytes.len();
+            return Ok((bytes, whole));
+        }
         let buffer = self.buffer(root, view.buffer.value(), folder)?;
         let start = view.byte_offset.map_or(0, |offset| offset.0) as usize;
         // Checked against the buffer's claim, and the claim against its bytes.
         Ok((buffer, start..start + view.byte_length.0 as usize))
+    }
+
+    /// The bytes of a compressed view; none when it is plain.
+    fn decode(
+        &mut self,
+        root: &Root,
+        index: usize,
+        folder: &mut Folder,
+    ) -> Result<Option<Arc<[u8]>>, Unplaced> {
+        if let Some(bytes) = self.decoded.get(&index) {
+            return Ok(Some(bytes.clone()));
+        }
+        let broken =
+            |kind, what, remedy| Unplaced(Place::Item("bufferView", index), Unread { kind, what, remedy });
+        let malformed = |what| broken(LoadErrorKind::Malformed, what, "compress or export the model again");
+        let Some(view) = compressed_view(root, index).map_err(malformed)? else { return Ok(None) };
+        folder
+            .account(view.decoded_length() as u64)
+            .map_err(|refusal| broken(LoadErrorKind::Limit, refusal.to_string(), refusal.remedy()))?;
+        let buffer = self.buffer(root, view.buffer, folder)?;
+        let bytes: Arc<[u8]> = meshopt::decode(&view.layout, &buffer[view.range])
+            .map_err(|why| malformed(format!("its compressed bytes are invalid: {why}")))?
+            .into();
+        self.decoded.insert(index, bytes.clone());
+        Ok(Some(bytes))
     }
 
     fn buffer(&mut self, root: &Root, index: usize, folder: &mut Folder) -> Result<Arc<[u8]>, Unplaced> {
@@ -83,7 +118,7 @@ impl<'a> Buffers<'a> {
 pub(crate) struct Unplaced(pub(crate) Place, pub(crate) Unread);
 
 impl Unplaced {
-    pub(crate) fn into_error(self, path: &std::path::Path) -> LoadError {
+    pub(crate) fn into_error(self, path: &Path) -> LoadError {
         LoadError::new(self.1.kind, path, self.1.what, self.1.remedy).at(self.0)
     }
 }
@@ -109,10 +144,10 @@ pub(crate) fn read_reference(
                 .map_err(|refusal| unread(LoadErrorKind::Limit, &refusal, refusal.remedy()))?;
             Ok((bytes, None))
         }
-        Ok(Reference::Path(name)) => match folder.read(std::path::Path::new(""), &name, lookup) {
+        Ok(Reference::Path(name)) => match folder.read(Path::new(""), &name, lookup) {
             Ok(found) => Ok((found.bytes, found.respelled.then(|| found.path.display().to_string()))),
             // Some exporters write names as they are, percent signs and all.
-            Err(refusal) if name != uri => match folder.read(std::path::Path::new(""), uri, lookup) {
+            Err(refusal) if name != uri => match folder.read(Path::new(""), uri, lookup) {
                 Ok(found) => Ok((found.bytes, None)),
                 Err(_) => Err(unread(kind_of(&refusal), &refusal, refusal.remedy())),
             },

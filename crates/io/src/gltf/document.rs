@@ -14,6 +14,11 @@ pub(crate) struct Document {
     pub(crate) root: Root,
     /// The transforms of the nodes: gltf-json rounds them to f32.
     pub(crate) transforms: Vec<RawTransform>,
+    /// The names of each mesh's morph targets, where the file has any: by
+    /// convention in the mesh's `extras`.
+    pub(crate) target_names: Vec<Vec<String>>,
+    /// How many animation channels move something other than a node.
+    pub(crate) foreign_channels: usize,
 }
 
 /// A node's transform as the file has it.
@@ -28,8 +33,23 @@ pub(crate) struct RawTransform {
 
 #[derive(Default, Deserialize)]
 #[serde(default)]
-struct RawNodes {
+struct RawDocument {
     nodes: Vec<RawTransform>,
+    meshes: Vec<RawMesh>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct RawMesh {
+    /// Anything at all.
+    extras: Value,
+}
+
+impl RawMesh {
+    fn target_names(&self) -> Vec<String> {
+        let names = self.extras.get("targetNames").and_then(Value::as_array);
+        names.into_iter().flatten().map(|name| name.as_str().unwrap_or_default().to_owned()).collect()
+    }
 }
 
 /// What can be said of a file before all of it is understood.
@@ -58,13 +78,14 @@ pub(crate) fn parse_document(path: &Path, json: &[u8]) -> Result<Document, LoadE
     }
     let preview: Preview = serde_json::from_slice(json).map_err(|error| json_error(path, &error))?;
     check_version(path, &preview)?;
-    let root = match serde_json::from_slice(json) {
-        Ok(root) => root,
+    let (root, foreign_channels) = match serde_json::from_slice(json) {
+        Ok(root) => (root, 0),
         // The first error has the line; the second try has legal oddities mended.
         Err(error) => parse_mended(json).ok_or_else(|| json_error(path, &error))?,
     };
-    let raw: RawNodes = serde_json::from_slice(json).map_err(|error| json_error(path, &error))?;
-    Ok(Document { root, transforms: raw.nodes })
+    let raw: RawDocument = serde_json::from_slice(json).map_err(|error| json_error(path, &error))?;
+    let target_names = raw.meshes.iter().map(RawMesh::target_names).collect();
+    Ok(Document { root, transforms: raw.nodes, target_names, foreign_channels })
 }
 
 fn json_error(path: &Path, error: &serde_json::Error) -> LoadError {
@@ -90,8 +111,9 @@ fn check_version(path: &Path, preview: &Preview) -> Result<(), LoadError> {
 }
 
 /// Parses once more without `extras` (which may be anything, where gltf-json
-/// wants objects) and with the lists that may be absent.
-fn parse_mended(json: &[u8]) -> Option<Root> {
+/// wants objects), with the lists that may be absent, and without animation
+/// channels that move no node; of these it returns the number.
+fn parse_mended(json: &[u8]) -> Option<(Root, usize)> {
     let mut value: Value = serde_json::from_slice(json).ok()?;
     let mut waiting = vec![&mut value];
     while let Some(next) = waiting.pop() {
@@ -107,7 +129,14 @@ fn parse_mended(json: &[u8]) -> Option<Root> {
     for scene in value.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten() {
         scene.as_object_mut()?.entry("nodes").or_insert(Value::Array(Vec::new()));
     }
-    serde_json::from_value(value).ok()
+    let mut foreign = 0;
+    for animation in value.get_mut("animations").and_then(Value::as_array_mut).into_iter().flatten() {
+        let Some(channels) = animation.get_mut("channels").and_then(Value::as_array_mut) else { continue };
+        let before = channels.len();
+        channels.retain(|channel| channel.pointer("/target/node").is_some());
+        foreign += before - channels.len();
+    }
+    Some((serde_json::from_value(value).ok()?, foreign))
 }
 
 #[cfg(test)]

@@ -5,18 +5,29 @@ use std::path::Path;
 use gltf_json::Root;
 
 use crate::error::{LoadError, LoadErrorKind, Place};
-use crate::warning::{Warnings, counted};
+use crate::warning::Warnings;
 
 /// Read in full.
-const READ: &[&str] =
-    &["KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_unlit"];
+const READ: &[&str] = &[
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
+    "KHR_texture_transform",
+];
 
 /// Pictures in formats that are not read: the geometry is shown all the same,
 /// with a fallback or a checkerboard on it.
 const PICTURES: &[&str] = &[
     "KHR_texture_basisu",
     "KHR_texture_ktx",
-    "EXT_texture_webp",
     "EXT_texture_avif",
     "MSFT_texture_dds",
     "GOOGLE_texture_basis",
@@ -43,7 +54,7 @@ pub(crate) fn check_extensions(path: &Path, root: &Root, warnings: &mut Warnings
         if !known {
             warnings.push(
                 Place::Whole,
-                format!("the extension {name} is not drawn yet"),
+                format!("the extension {name} is not drawn"),
                 "bake what it adds into the base colour or the mesh if it matters",
             );
         }
@@ -55,33 +66,9 @@ fn remedy(missing: &[&str]) -> &'static str {
     let has = |part: &str| missing.iter().any(|name| name.contains(part));
     if has("draco") {
         "re-export without Draco compression, or decompress it with `gltf-transform dedup in.glb out.glb`"
-    } else if has("meshopt") {
-        "re-export without meshopt compression, or decompress it with `gltf-transform dedup in.glb out.glb`"
     } else if has("materials") {
         "re-export with plain metallic-roughness materials"
     } else {
         "re-export without it"
     }
-}
-
-/// Says once each what the file has and trigon does not draw yet.
-pub(crate) fn warn_of_undrawn(root: &Root, warnings: &mut Warnings) {
-    let mut warn = |count: usize, kind: &str, what: &str| {
-        if count > 0 {
-            let remedy = "export the model in the pose to be shown";
-            warnings.push(Place::Whole, format!("{} {what}", counted(count, kind)), remedy);
-        }
-    };
-    let primitives = || root.meshes.iter().flat_map(|mesh| &mesh.primitives);
-    let is_morphed = |primitive: &&gltf_json::mesh::Primitive| {
-        primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty())
-    };
-    let skinned = root.nodes.iter().filter(|node| node.skin.is_some()).count();
-    warn(root.animations.len(), "animation", "not played yet: the rest pose is shown");
-    warn(skinned, "skin", "not followed yet: the bind pose is shown");
-    warn(
-        primitives().filter(is_morphed).count(),
-        "primitive",
-        "with morph targets that are not drawn yet: the base shape is shown",
-    );
 }

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use gltf_json::Root;
 
-use crate::error::{LoadError, Place};
-use crate::limits::Limits;
+use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::options::{LoadOptions, SceneChoice};
 
 /// The nodes to load, and how they hang together.
 pub(crate) struct Hierarchy {
@@ -20,8 +20,12 @@ pub(crate) struct Hierarchy {
     pub(crate) order: Vec<usize>,
 }
 
-pub(crate) fn find_hierarchy(path: &Path, root: &Root, limits: &Limits) -> Result<Hierarchy, LoadError> {
-    let count = root.nodes.len();
+pub(crate) fn find_hierarchy(
+    path: &Path,
+    root: &Root,
+    options: &LoadOptions<'_>,
+) -> Result<Hierarchy, LoadError> {
+    let (limits, count) = (&options.limits, root.nodes.len());
     if count > limits.nodes {
         return Err(LoadError::limit(path, format!("it has {count} nodes; the limit is {}", limits.nodes)));
     }
@@ -47,7 +51,8 @@ pub(crate) fn find_hierarchy(path: &Path, root: &Root, limits: &Limits) -> Resul
             ),
         ));
     }
-    let (included, order) = reach(root, scene_roots(root, &parents));
+    let scene = chosen_scene(path, root, options.scene.as_ref())?;
+    let (included, order) = reach(root, scene_roots(root, scene, &parents));
     for parent in &mut parents {
         *parent = parent.filter(|&parent| included[parent]);
     }
@@ -74,10 +79,43 @@ fn find_depths(root: &Root, parents: &[Option<usize>]) -> Vec<Option<usize>> {
     depths
 }
 
-/// The roots of the default scene, or of the first; all roots when the file
-/// has no scenes.
-fn scene_roots(root: &Root, parents: &[Option<usize>]) -> Vec<usize> {
-    let scene = root.scene.map_or(0, |scene| scene.value());
+/// The name of each scene.
+pub(crate) fn scene_names(root: &Root) -> Vec<String> {
+    let name = |(index, scene): (usize, &gltf_json::Scene)| {
+        scene.name.clone().unwrap_or_else(|| format!("scene {index}"))
+    };
+    root.scenes.iter().enumerate().map(name).collect()
+}
+
+/// The scene that was asked for, else the default one, else the first.
+fn chosen_scene(path: &Path, root: &Root, choice: Option<&SceneChoice>) -> Result<usize, LoadError> {
+    let names = scene_names(root);
+    let (found, wanted) = match choice {
+        None => return Ok(root.scene.map_or(0, |scene| scene.value())),
+        Some(SceneChoice::Index(index)) => {
+            (Some(*index).filter(|&index| index < names.len()), format!("scene {index}"))
+        }
+        Some(SceneChoice::Name(name)) => {
+            (names.iter().position(|other| other == name), format!("scene \"{name}\""))
+        }
+    };
+    found.ok_or_else(|| {
+        const MOST_NAMES: usize = 8;
+        let mut listed = names.iter().take(MOST_NAMES).cloned().collect::<Vec<_>>().join("\", \"");
+        if names.len() > MOST_NAMES {
+            listed.push_str("\", …");
+        }
+        let remedy = if names.is_empty() {
+            "load it without a choice".to_owned()
+        } else {
+            format!("choose one of \"{listed}\"")
+        };
+        LoadError::new(LoadErrorKind::Empty, path, format!("there is no {wanted}"), remedy)
+    })
+}
+
+/// The roots of a scene; all roots when the file has no scenes.
+fn scene_roots(root: &Root, scene: usize, parents: &[Option<usize>]) -> Vec<usize> {
     match root.scenes.get(scene) {
         Some(scene) => scene.nodes.iter().map(|node| node.value()).collect(),
         None => (0..parents.len()).filter(|&node| parents[node].is_none()).collect(),

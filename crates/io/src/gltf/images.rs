@@ -1,67 +1,89 @@
 //! Images of the document, for the textures that materials use.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 use gltf_json::Root;
 use gltf_json::texture::{MagFilter, MinFilter, WrappingMode};
 use serde_json::Value;
-use trigon_raster::{Filter, MipFilter, Sampler, Wrap};
+use trigon_raster::{Filter, MipFilter, Sampler, TextureFormat, Wrap};
 use trigon_scene::TextureId;
 
 use super::accessor::valid;
 use super::buffers::{Buffers, Unread, read_reference};
 use super::references::source_of;
+use super::slots::SlotTexture;
 use crate::error::{LoadError, Place};
 use crate::folder::Lookup;
 use crate::import::Import;
-use crate::textures::{PictureBytes, Request, add_textures};
+use crate::textures::{PictureBytes, Purpose, Request, add_textures};
 
-/// For each image of the document its texture, if it is used and was found.
+/// The textures that images of the document became: one for colours, one for
+/// data, as they are used.
 pub(crate) struct Images {
-    ids: Vec<Option<TextureId>>,
+    ids: BTreeMap<(usize, bool), TextureId>,
+}
+
+/// An image, and whether its bytes are data.
+fn key(image: usize, format: TextureFormat) -> (usize, bool) {
+    (image, format == TextureFormat::Linear)
 }
 
 impl Images {
-    /// Reads and decodes the images behind some textures, each once.
+    /// Reads the images behind some textures, and decodes each once for
+    /// colours and once for data, where it is used so.
     pub(crate) fn read(
         import: &mut Import<'_>,
         root: &Root,
         buffers: &mut Buffers<'_>,
-        textures: &[usize],
+        textures: &[SlotTexture],
     ) -> Result<Self, LoadError> {
-        let mut wanted = vec![false; root.images.len()];
-        for &texture in textures {
-            match image_of(root, texture) {
-                Some(image) => wanted[image] = true,
-                None => import.warnings.push(
-                    Place::Item("texture", texture),
-                    "it has no image and is not drawn",
-                    "export the model again",
-                ),
-            }
-        }
-        let (mut requests, mut indices) = (Vec::new(), vec![None; root.images.len()]);
+        let wanted = wanted_images(import, root, textures);
+        let (mut requests, mut indices) = (Vec::new(), BTreeMap::new());
         // Many images may be one picture: it is read, decoded and kept once.
         let mut known = HashMap::new();
-        for image in (0..wanted.len()).filter(|&image| wanted[image]) {
+        for ((image, is_data), purpose) in wanted {
             let from = &root.images[image];
-            let source = (&from.uri, from.buffer_view.map(|view| view.value()));
-            indices[image] = *known.entry(source).or_insert_with(|| {
+            let source = (&from.uri, from.buffer_view.map(|view| view.value()), is_data);
+            let index = *known.entry(source).or_insert_with(|| {
                 let bytes = read_image(import, root, buffers, image)?;
                 let (name, place) = (image_name(root, image), Place::Item("image", image));
-                requests.push(Request { name, file: import.path.to_owned(), place, bytes });
+                requests.push(Request { name, file: import.path.to_owned(), place, bytes, purpose });
                 Some(requests.len() - 1)
             });
+            indices.extend(index.map(|index| ((image, is_data), index)));
         }
         let ids = add_textures(import, &requests)?;
-        Ok(Self { ids: indices.into_iter().map(|index| index.map(|index| ids[index])).collect() })
+        let ids = indices.into_iter().filter_map(|(key, index)| Some((key, ids[index]?))).collect();
+        Ok(Self { ids })
     }
 
     /// The texture of the scene for a texture of the document.
-    pub(crate) fn get(&self, root: &Root, texture: usize) -> Option<TextureId> {
-        self.ids[image_of(root, texture)?]
+    pub(crate) fn get(&self, root: &Root, texture: usize, format: TextureFormat) -> Option<TextureId> {
+        self.ids.get(&key(image_of(root, texture)?, format)).copied()
     }
+}
+
+/// Which images are needed, and what for: a colour of a surface before others.
+fn wanted_images(
+    import: &mut Import<'_>,
+    root: &Root,
+    textures: &[SlotTexture],
+) -> BTreeMap<(usize, bool), Purpose> {
+    let mut wanted = BTreeMap::new();
+    for from in textures {
+        let Some(image) = image_of(root, from.texture) else {
+            let place = Place::Item("texture", from.texture);
+            import.warnings.push(place, "it has no image and is not drawn", "export the model again");
+            continue;
+        };
+        let purpose = from.slot.purpose();
+        let known = wanted.entry(key(image, purpose.format())).or_insert(purpose);
+        if purpose == Purpose::BaseColor {
+            *known = purpose;
+        }
+    }
+    wanted
 }
 
 /// The image that a texture shows: the plain one, else one in a format that an

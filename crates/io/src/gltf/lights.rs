@@ -1,9 +1,9 @@
 //! KHR_lights_punctual.
 
-use gltf_json::extensions::scene::khr_lights_punctual::{Light as JsonLight, Type};
+use gltf_json::extensions::scene::khr_lights_punctual::{Light as JsonLight, Spot, Type};
 use gltf_json::{Node, Root};
 use trigon_math::Vec3;
-use trigon_scene::Light;
+use trigon_scene::{Light, LightKind};
 
 use super::accessor::valid;
 use crate::error::Place;
@@ -36,17 +36,30 @@ pub(crate) fn convert_light(root: &Root, node: &Node, warnings: &mut Warnings) -
         Some(Type::Directional) => Light::directional(intensity),
         Some(Type::Point) => Light::point(intensity),
         Some(Type::Spot) => {
-            warnings.push(
-                place(),
-                "spot lights are not drawn yet; it shines in all directions",
-                "aim at the same effect with a point or directional light",
-            );
-            Light::point(intensity)
+            let (inner, outer) = cone(light, &place, warnings);
+            Light { kind: LightKind::Spot { inner, outer }, ..Light::spot(intensity) }
         }
         None => {
             warnings.push(place(), "its type is unknown and it is left out", "export the model again");
             return None;
         }
     };
-    Some(plain.with_color(Vec3::from(light.color)))
+    let range = light.range.filter(|&range| range > 0.0 && range.is_finite());
+    Some(plain.with_color(Vec3::from(light.color)).with_range(range.unwrap_or(f32::INFINITY)))
+}
+
+/// Inner and outer angle of a spot light in radians, mended where they
+/// contradict the extension: 0 ≤ inner < outer ≤ π/2.
+fn cone(light: &JsonLight, place: impl Fn() -> Place, warnings: &mut Warnings) -> (f32, f32) {
+    const WIDEST: f32 = std::f32::consts::FRAC_PI_2;
+    let spot = light.spot.clone().unwrap_or(Spot { inner_cone_angle: 0.0, outer_cone_angle: WIDEST / 2.0 });
+    let (inner, outer) = (spot.inner_cone_angle, spot.outer_cone_angle);
+    if 0.0 <= inner && inner < outer && outer <= WIDEST {
+        return (inner, outer);
+    }
+    let what = format!("its cone from {inner} to {outer} is not within 0 and π/2 and is mended");
+    warnings.push(place(), what, "export the model again");
+    let within = |angle: f32, most: f32| if angle.is_finite() { angle.clamp(0.0, most) } else { 0.0 };
+    let outer = within(outer, WIDEST);
+    (within(inner, outer), outer)
 }

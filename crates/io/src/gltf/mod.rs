@@ -1,24 +1,32 @@
 //! glTF 2.0 and GLB.
 //!
 //! `container` (the GLB) → `document` (JSON) → `extensions`, `references`,
-//! `hierarchy` (all checks) → `mesh` with `accessor` and `buffers` →
-//! `materials` with `images` → nodes. Nothing is followed that was not checked,
-//! and nothing is recursive.
+//! `hierarchy` (all checks) → `mesh` with `accessor`, `buffers` and `meshopt` →
+//! `materials` with `slots` and `images` → `nodes` with `instances` → `skins`
+//! and `animations`. Nothing is followed that was not checked, and nothing is
+//! recursive.
 
 mod accessor;
+mod animations;
 mod buffers;
 mod cameras;
+mod compressed;
 mod container;
 mod document;
 mod extensions;
 mod hierarchy;
 mod images;
+mod instances;
 mod lights;
 mod materials;
 mod mesh;
+mod meshopt;
 mod nodes;
 mod primitive;
+mod reader;
 mod references;
+mod skins;
+mod slots;
 
 use std::collections::BTreeSet;
 
@@ -28,7 +36,8 @@ use accessor::Accessors;
 use buffers::Buffers;
 use document::Document;
 use hierarchy::Hierarchy;
-use mesh::BuiltMesh;
+use mesh::{BuiltMesh, Needs};
+use reader::Reader;
 
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::import::Import;
@@ -50,16 +59,20 @@ fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<&[u8]>) -> 
     let root = &document.root;
     extensions::check_extensions(import.path, root, &mut import.warnings)?;
     references::check_references(import.path, root)?;
-    let hierarchy = hierarchy::find_hierarchy(import.path, root, &import.options.limits)?;
-    extensions::warn_of_undrawn(root, &mut import.warnings);
+    let hierarchy = hierarchy::find_hierarchy(import.path, root, import.options)?;
+    import.scene_names = hierarchy::scene_names(root);
     let mut buffers = Buffers::new(root, binary);
-    let meshes = build_meshes(import, &document, &hierarchy, &mut buffers)?;
+    let mut spent = 0;
+    let meshes = build_meshes(import, &document, &hierarchy, &mut buffers, &mut spent)?;
     let used: BTreeSet<Option<usize>> =
         meshes.iter().flatten().flat_map(|mesh| mesh.materials.iter().copied()).collect();
     let used: Vec<Option<usize>> = used.into_iter().collect();
     let materials = materials::add_materials(import, root, &mut buffers, &used)?;
-    nodes::add_nodes(import, &document, &hierarchy, meshes, &materials);
-    Ok(())
+    let placed = nodes::add_nodes(import, &document, &hierarchy, meshes, &materials);
+    let mut reader = Reader { root, buffers, spent };
+    nodes::add_instances(import, &mut reader, &placed)?;
+    skins::add_skins(import, &mut reader, &placed)?;
+    animations::add_animations(import, &mut reader, &placed)
 }
 
 /// The meshes that the nodes use, by their index in the document.
@@ -68,13 +81,14 @@ fn build_meshes(
     document: &Document,
     hierarchy: &Hierarchy,
     buffers: &mut Buffers<'_>,
+    spent: &mut usize,
 ) -> Result<Vec<Option<BuiltMesh>>, LoadError> {
     let root = &document.root;
     let mut meshes: Vec<Option<BuiltMesh>> = root.meshes.iter().map(|_| None).collect();
     let used: BTreeSet<usize> =
         hierarchy.order.iter().filter_map(|&node| Some(root.nodes[node].mesh?.value())).collect();
     let limits = &import.options.limits;
-    let (mut spent, mut drawable) = (0, false);
+    let mut drawable = false;
     for (done, &index) in used.iter().enumerate() {
         import.options.report(import.path, Stage::Geometry, done as f32 / used.len() as f32)?;
         let most = limits.vertices.max(limits.corners);
@@ -84,10 +98,11 @@ fn build_meshes(
             folder: &mut import.folder,
             most,
             most_corners: limits.corners,
-            spent: &mut spent,
+            spent,
         };
-        let sets = |material| materials::texture_set(root, material);
-        let built = mesh::build_mesh(&mut accessors, index, &sets, &mut import.warnings)
+        let needs = |material| Needs::of(&materials::slot_textures_of(root, material));
+        let names = document.target_names.get(index).map_or(&[][..], Vec::as_slice);
+        let built = mesh::build_mesh(&mut accessors, index, names, &needs, &mut import.warnings)
             .map_err(|unplaced| unplaced.into_error(import.path))?;
         let mesh = &built.mesh;
         if mesh.vertex_count() > limits.vertices {
@@ -116,13 +131,22 @@ fn check_placed(
         |mesh: &Mesh| mesh.corner_count() + 2 * mesh.loose_edges().len() + mesh.loose_points().len();
     let each: Vec<usize> =
         meshes.iter().map(|built| built.as_ref().map_or(0, |built| corners(&built.mesh))).collect();
-    let (mut placed, limit) = (0_usize, import.options.limits.corners);
+    let (mut placed, mut copies, limit) = (0_usize, 0_usize, import.options.limits.corners);
     for &node in &hierarchy.order {
-        placed = placed.saturating_add(root.nodes[node].mesh.map_or(0, |mesh| each[mesh.value()]));
+        let times = instances::instance_count(root, node);
+        copies = copies.saturating_add(times - 1);
+        let corners = root.nodes[node].mesh.map_or(0, |mesh| each[mesh.value()]);
+        placed = placed.saturating_add(corners.saturating_mul(times));
         if placed > limit {
             let what = format!("with it, the nodes place more than {limit} corners");
             return Err(LoadError::limit(import.path, what).at(Place::Item("node", node)));
         }
+    }
+    let nodes = hierarchy.order.len().saturating_add(copies);
+    if nodes > import.options.limits.nodes {
+        let what =
+            format!("with its instances it has {nodes} nodes; the limit is {}", import.options.limits.nodes);
+        return Err(LoadError::limit(import.path, what));
     }
     Ok(())
 }

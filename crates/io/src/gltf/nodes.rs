@@ -9,22 +9,44 @@ use trigon_scene::{MaterialId, MeshId, Node, NodeId, Transform};
 use super::cameras::convert_camera;
 use super::document::{Document, RawTransform};
 use super::hierarchy::Hierarchy;
+use super::instances::{has_instances, read_instances};
 use super::lights::convert_light;
-use super::mesh::BuiltMesh;
-use crate::error::Place;
+use super::mesh::{BuiltMesh, default_weights};
+use super::reader::Reader;
+use crate::error::{LoadError, Place};
 use crate::import::Import;
 use crate::warning::Warnings;
 
 /// What a node needs of its mesh.
 type PlacedMesh = (MeshId, Vec<MaterialId>);
 
-pub(crate) fn add_nodes(
+/// The nodes of the document that are in the scene now.
+pub(crate) struct Placed<'d> {
+    pub(crate) document: &'d Document,
+    /// For each node of the document; none when its scene does not reach it.
+    pub(crate) ids: Vec<Option<NodeId>>,
+    /// How many morph targets the mesh of each node has.
+    pub(crate) target_counts: Vec<usize>,
+}
+
+impl Placed<'_> {
+    /// The nodes of the document with their ids.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = (usize, NodeId)> {
+        self.ids.iter().enumerate().filter_map(|(index, id)| Some((index, (*id)?)))
+    }
+}
+
+pub(crate) fn add_nodes<'d>(
     import: &mut Import<'_>,
-    document: &Document,
+    document: &'d Document,
     hierarchy: &Hierarchy,
     meshes: Vec<Option<BuiltMesh>>,
     materials: &BTreeMap<Option<usize>, MaterialId>,
-) {
+) -> Placed<'d> {
+    let target_counts: Vec<usize> = meshes
+        .iter()
+        .map(|built| built.as_ref().map_or(0, |built| built.mesh.attributes().morph_targets.len()))
+        .collect();
     let meshes: Vec<Option<PlacedMesh>> = meshes
         .into_iter()
         .enumerate()
@@ -43,6 +65,32 @@ pub(crate) fn add_nodes(
         ids[index] = Some(import.scene.add(node));
     }
     hang_up(import, document, hierarchy, &ids);
+    let targets_of = |node: &gltf_json::Node| node.mesh.map_or(0, |mesh| target_counts[mesh.value()]);
+    let target_counts = document.root.nodes.iter().map(targets_of).collect();
+    Placed { document, ids, target_counts }
+}
+
+/// Hangs the copies of instanced nodes on them; the nodes themselves then draw
+/// nothing. Copies come after all nodes of the file, whose indices stay theirs.
+pub(crate) fn add_instances(
+    import: &mut Import<'_>,
+    reader: &mut Reader<'_, '_>,
+    placed: &Placed<'_>,
+) -> Result<(), LoadError> {
+    let root = &placed.document.root;
+    for (index, id) in placed.nodes().filter(|&(index, _)| has_instances(root, index)) {
+        let transforms = reader.read(import, |accessors, _| read_instances(accessors, index))?;
+        let Some(node) = import.scene.node_mut(id) else { continue };
+        let (mesh, materials) = (node.mesh.take(), std::mem::take(&mut node.materials));
+        let (name, weights) = (node.name.clone(), node.morph_weights.clone());
+        for (number, transform) in transforms.into_iter().enumerate() {
+            let mut copy = Node::default().with_name(format!("{name} {number}")).with_transform(transform);
+            (copy.mesh, copy.materials) = (mesh, materials.clone());
+            copy.morph_weights.clone_from(&weights);
+            import.scene.add_child(id, copy).expect("the node was added just now");
+        }
+    }
+    Ok(())
 }
 
 /// Hangs children on their parents, the deepest first: every parent is then
@@ -70,6 +118,11 @@ fn convert_node(
     let mut node = Node::default().with_name(name).with_transform(transform);
     if let Some((mesh, materials)) = from.mesh.and_then(|mesh| meshes[mesh.value()].clone()) {
         (node.mesh, node.materials) = (Some(mesh), materials);
+    }
+    if let Some(mesh) = from.mesh {
+        let own =
+            from.weights.as_ref().map(|weights| weights.iter().copied().filter(|w| w.is_finite()).collect());
+        node.morph_weights = own.unwrap_or_else(|| default_weights(&document.root, mesh.value()));
     }
     node.light = convert_light(&document.root, from, &mut import.warnings);
     node.camera = convert_camera(&document.root, from, &mut import.warnings);

@@ -6,6 +6,7 @@ use std::path::Path;
 use gltf_json::validation::USize64;
 use gltf_json::{Root, buffer};
 
+use super::slots::slot_textures;
 use crate::error::{LoadError, Place};
 
 /// The texture index that gltf-json uses for "none".
@@ -32,6 +33,7 @@ fn check(root: &Root) -> Result<(), Fault> {
     }
     check_meshes(root)?;
     check_nodes(root)?;
+    check_movements(root)?;
     check_appearance(root)
 }
 
@@ -65,7 +67,11 @@ fn check_meshes(root: &Root) -> Result<(), Fault> {
             let place = || Place::Named(format!("mesh {mesh_index}, primitive {index}"));
             let accessors = root.accessors.len();
             let attributes = primitive.attributes.values().map(|accessor| accessor.value());
-            for accessor in attributes.chain(primitive.indices.map(|indices| indices.value())) {
+            let targets = primitive.targets.iter().flatten();
+            let targets = targets.flat_map(|target| [target.positions, target.normals, target.tangents]);
+            let targets = targets.flatten().map(|accessor| accessor.value());
+            let indices = primitive.indices.map(|indices| indices.value());
+            for accessor in attributes.chain(targets).chain(indices) {
                 within(place, "accessor", Some(accessor), accessors)?;
             }
             within(
@@ -83,6 +89,7 @@ fn check_nodes(root: &Root) -> Result<(), Fault> {
     for (index, node) in root.nodes.iter().enumerate() {
         let place = || Place::Item("node", index);
         within(place, "mesh", node.mesh.map(|mesh| mesh.value()), root.meshes.len())?;
+        within(place, "skin", node.skin.map(|skin| skin.value()), root.skins.len())?;
         within(place, "camera", node.camera.map(|camera| camera.value()), root.cameras.len())?;
         within(place, "light", super::lights::light_index(node), super::lights::light_count(root))?;
         for child in node.children.iter().flatten() {
@@ -97,15 +104,35 @@ fn check_nodes(root: &Root) -> Result<(), Fault> {
     within(|| Place::Whole, "scene", root.scene.map(|scene| scene.value()), root.scenes.len())
 }
 
+fn check_movements(root: &Root) -> Result<(), Fault> {
+    let (nodes, accessors) = (root.nodes.len(), root.accessors.len());
+    for (index, skin) in root.skins.iter().enumerate() {
+        let place = || Place::Item("skin", index);
+        for joint in &skin.joints {
+            within(place, "node", Some(joint.value()), nodes)?;
+        }
+        within(place, "accessor", skin.inverse_bind_matrices.map(|matrices| matrices.value()), accessors)?;
+    }
+    for (index, animation) in root.animations.iter().enumerate() {
+        let place = || Place::Item("animation", index);
+        for channel in &animation.channels {
+            within(place, "sampler", Some(channel.sampler.value()), animation.samplers.len())?;
+            within(place, "node", Some(channel.target.node.value()), nodes)?;
+        }
+        for sampler in &animation.samplers {
+            within(place, "accessor", Some(sampler.input.value()), accessors)?;
+            within(place, "accessor", Some(sampler.output.value()), accessors)?;
+        }
+    }
+    Ok(())
+}
+
 fn check_appearance(root: &Root) -> Result<(), Fault> {
     for (index, material) in root.materials.iter().enumerate() {
-        let texture = material.pbr_metallic_roughness.base_color_texture.as_ref();
-        within(
-            || Place::Item("material", index),
-            "texture",
-            texture.map(|info| info.index.value()),
-            root.textures.len(),
-        )?;
+        for from in slot_textures(material) {
+            let place = || Place::Item("material", index);
+            within(place, "texture", Some(from.texture), root.textures.len())?;
+        }
     }
     for (index, texture) in root.textures.iter().enumerate() {
         let place = || Place::Item("texture", index);

@@ -16,7 +16,7 @@ use crate::error::{LoadError, Place};
 use crate::folder::{Found, Lookup};
 use crate::import::Import;
 use crate::refusal::Refusal;
-use crate::textures::{PictureBytes, Request, add_textures};
+use crate::textures::{PictureBytes, Purpose, Request, add_textures};
 
 /// Adds the materials that faces use. The result has one entry per name of the
 /// record; `None` where no library knows it.
@@ -148,11 +148,17 @@ impl Textures {
             if index == requests.len() {
                 let (name, place) = (map.file.clone(), Place::Line(*line));
                 let bytes = PictureBytes::Own(found.bytes);
-                requests.push(Request { name, file: material.file.clone(), place, bytes });
+                requests.push(Request {
+                    name,
+                    file: material.file.clone(),
+                    place,
+                    bytes,
+                    purpose: Purpose::BaseColor,
+                });
             }
         }
         let ids = add_textures(import, &requests)?;
-        Ok(Self { ids: keys.into_iter().map(|(key, index)| (key, ids[index])).collect() })
+        Ok(Self { ids: keys.into_iter().filter_map(|(key, index)| Some((key, ids[index]?))).collect() })
     }
 
     fn bind(&self, material: &MtlMaterial, map: &MapStatement) -> Option<TextureBinding> {

@@ -2,6 +2,8 @@
 
 mod gltf;
 mod hooks;
+mod material;
+mod movement;
 mod obj;
 mod texture;
 

@@ -11,7 +11,7 @@ use crate::{warnings, warns_once};
 /// Red, green above; blue, white below.
 const PIXELS: [u8; 12] = [255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255];
 
-fn png() -> Vec<u8> {
+pub(crate) fn png() -> Vec<u8> {
     let mut bytes = Vec::new();
     encode_png(&mut bytes, 2, 2, Pixels::Rgb8(&PIXELS)).expect("memory takes it");
     bytes
@@ -31,7 +31,7 @@ fn color_at(loaded: &Loaded, uv: Vec2) -> Vec3 {
     texture.sample(binding.transform.transform_point2(uv), Vec2::ZERO, Vec2::ZERO, &sampler).truncate()
 }
 
-fn textured_square() -> Doc {
+pub(crate) fn textured_square() -> Doc {
     let mut doc = Doc::square();
     let uv = doc.floats("VEC2", &[0., 1., 1., 1., 1., 0., 0., 0.]);
     let view = doc.view(&png());
@@ -94,9 +94,10 @@ fn samplers_and_texture_transforms_arrive() {
 #[test]
 fn broken_and_foreign_pictures_become_a_checkerboard() {
     for (bytes, word) in [
-        (b"RIFF\x10\0\0\0WEBPVP8 ".to_vec(), "WebP"),
+        (b"RIFF\x10\0\0\0WEBPVP8 ".to_vec(), "picture"),
+        (b"GIF89a\x01\0\x01\0".to_vec(), "Gif"),
         (b"\xabKTX 20\xbb\r\n\x1a\n".to_vec(), "KTX2"),
-        (png()[..40].to_vec(), "picture"),
+        (png()[..40].to_vec(), "too early"),
     ] {
         let mut doc = textured_square();
         let view = doc.view(&bytes);

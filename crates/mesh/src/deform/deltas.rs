@@ -19,12 +19,22 @@ impl Deltas {
         Self::from_pairs((0u32..).zip(values))
     }
 
+    /// From elements and what each gets; of several for one element the last.
+    /// Vectors that are zero or not finite add nothing.
+    pub fn new(mut pairs: Vec<(u32, Vec3)>) -> Self {
+        pairs.reverse();
+        pairs.sort_by_key(|&(index, _)| index);
+        pairs.dedup_by_key(|&mut (index, _)| index);
+        Self::from_pairs(pairs.into_iter())
+    }
+
+    /// The elements increase.
     fn from_pairs(pairs: impl Iterator<Item = (u32, Vec3)>) -> Self {
         let (indices, values) = pairs.filter(|(_, value)| value.is_finite() && *value != Vec3::ZERO).unzip();
         Self { indices, values }
     }
 
-    /// The elements that get something, and what.
+    /// The elements that get something, and what; the elements increase.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = (u32, Vec3)> + '_ {
         self.indices.iter().copied().zip(self.values.iter().copied())
     }
@@ -41,7 +51,7 @@ impl Deltas {
 
     /// One more than the last element that gets something.
     pub(crate) fn bound(&self) -> usize {
-        self.indices.iter().max().map_or(0, |&last| last as usize + 1)
+        self.indices.last().map_or(0, |&last| last as usize + 1)
     }
 
     /// The same for other elements: new element `i` is as `order[i]` was, one
@@ -108,6 +118,7 @@ mod tests {
         let deltas = Deltas::from_dense([Vec3::ZERO, Vec3::X, Vec3::splat(f32::NAN), Vec3::Y, -Vec3::ZERO]);
         assert_eq!(deltas.iter().collect::<Vec<_>>(), [(1, Vec3::X), (3, Vec3::Y)], "two of five");
         assert_eq!(deltas.bound(), 4, "one more than the last");
+        assert_eq!(Deltas::new(vec![(3, Vec3::X), (1, Vec3::X), (3, Vec3::Y)]), deltas, "the last counts");
         let turned = deltas.reordered(5, [3, 3, 0, 1].into_iter());
         assert_eq!(
             turned.iter().collect::<Vec<_>>(),

@@ -1,0 +1,247 @@
+//! The mesh under construction: parts welded into one.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use trigon_math::{Vec2, Vec3, Vec4};
+use trigon_mesh::{Attributes, Deltas, MeshBuilder, MorphTarget, SkinWeights};
+
+use super::BuiltMesh;
+use super::movement::delta;
+use super::part::Part;
+
+/// The mesh under construction.
+pub(super) struct Draft {
+    builder: MeshBuilder,
+    /// The vertex at a place that moves in a certain way.
+    welded: HashMap<([u32; 3], u32), u32>,
+    movements: Movements,
+    attributes: Attributes,
+    face_materials: Vec<u32>,
+    materials: Vec<Option<usize>>,
+    slots: HashMap<Option<usize>, u32>,
+    /// The corners of each part.
+    pub(super) corners: Vec<Range<usize>>,
+    pub(super) flat: usize,
+    pub(super) non_finite: usize,
+}
+
+impl Draft {
+    pub(super) fn new(parts: &[Part], target_names: &[String]) -> Self {
+        let sum = |count: fn(&Part) -> usize| parts.iter().map(count).sum::<usize>();
+        let (vertices, faces) = (sum(|part| part.positions.len()), sum(|part| part.elements.triangles.len()));
+        let any = |has: fn(&Part) -> bool| parts.iter().any(has);
+        let sets = parts.iter().map(|part| part.uv_sets.len()).max().unwrap_or(0);
+        let attributes = Attributes {
+            corner_normals: any(|part| part.normals.is_some()).then(|| Vec::with_capacity(3 * faces)),
+            corner_tangents: any(|part| part.tangents.is_some()).then(|| Vec::with_capacity(3 * faces)),
+            corner_colors: any(|part| part.colors.is_some()).then(|| Vec::with_capacity(3 * faces)),
+            uv_sets: (0..sets).map(|_| Vec::with_capacity(3 * faces)).collect(),
+            ..Attributes::default()
+        };
+        Self {
+            builder: MeshBuilder::with_capacity(vertices, faces, 3 * faces),
+            welded: HashMap::with_capacity(vertices),
+            movements: Movements::new(parts, target_names),
+            attributes,
+            face_materials: Vec::with_capacity(faces),
+            materials: Vec::new(),
+            slots: HashMap::new(),
+            corners: Vec::new(),
+            flat: 0,
+            non_finite: 0,
+        }
+    }
+
+    pub(super) fn add(&mut self, part: &Part) {
+        let slot = *self.slots.entry(part.material).or_insert_with(|| {
+            self.materials.push(part.material);
+            self.materials.len() as u32 - 1
+        });
+        let first_corner = self.builder.corner_count();
+        let vertices: Vec<Option<u32>> = (0..part.positions.len()).map(|v| self.weld(part, v)).collect();
+        for corners in &part.elements.triangles {
+            let [Some(a), Some(b), Some(c)] = corners.map(|corner| vertices[corner as usize]) else {
+                self.non_finite += 1;
+                continue;
+            };
+            match self.builder.push_face(&[a, b, c]) {
+                Ok(_) => {
+                    self.face_materials.push(slot);
+                    corners.iter().for_each(|&corner| self.add_corner(part, corner as usize));
+                }
+                Err(_) => self.flat += usize::from(!part.is_strip),
+            }
+        }
+        self.corners.push(first_corner..self.builder.corner_count());
+        self.add_loose(part, &vertices);
+    }
+
+    fn add_loose(&mut self, part: &Part, vertices: &[Option<u32>]) {
+        for edge in &part.elements.edges {
+            if let [Some(from), Some(to)] = edge.map(|end| vertices[end as usize])
+                && from != to
+            {
+                self.builder.push_loose_edge(from, to).expect("both vertices exist and differ");
+            }
+        }
+        for vertex in part.elements.points.iter().filter_map(|&point| vertices[point as usize]) {
+            self.builder.push_loose_point(vertex).expect("the vertex exists");
+        }
+    }
+
+    /// The vertex at a place; `None` where there is no place.
+    fn weld(&mut self, part: &Part, vertex: usize) -> Option<u32> {
+        let position = part.positions[vertex];
+        if !position.is_finite() {
+            return None;
+        }
+        let way = self.movements.way(part, vertex);
+        let key = (position.to_array().map(bits), way);
+        Some(*self.welded.entry(key).or_insert_with(|| {
+            let new = self.builder.push_vertex(position);
+            self.movements.push_vertex(part, vertex, new);
+            new
+        }))
+    }
+
+    fn add_corner(&mut self, part: &Part, corner: usize) {
+        self.movements.push_corner(part, corner);
+        if let Some(list) = &mut self.attributes.corner_normals {
+            let normal = part.normals.as_ref().map_or(Vec3::ZERO, |normals| Vec3::from(normals[corner]));
+            list.push(if normal.is_finite() { normal } else { Vec3::ZERO });
+        }
+        if let Some(list) = &mut self.attributes.corner_tangents {
+            let tangent = part.tangents.as_ref().map_or(Vec4::ZERO, |tangents| Vec4::from(tangents[corner]));
+            list.push(sound_tangent(tangent));
+        }
+        if let Some(list) = &mut self.attributes.corner_colors {
+            let color = part.colors.as_ref().map_or(Vec4::ONE, |colors| Vec4::from(colors[corner]));
+            list.push(if color.is_finite() { color.clamp(Vec4::ZERO, Vec4::ONE) } else { Vec4::ONE });
+        }
+        for (set, list) in self.attributes.uv_sets.iter_mut().enumerate() {
+            let values = part.uv_sets.get(set).and_then(|values| values.get(corner));
+            let uv = values.map_or(Vec2::ZERO, |&uv| Vec2::from(uv));
+            list.push(if uv.is_finite() { uv } else { Vec2::ZERO });
+        }
+    }
+
+    pub(super) fn finish(mut self) -> BuiltMesh {
+        let mut mesh = self.builder.build();
+        if self.materials.len() > 1 {
+            self.attributes.face_materials = Some(self.face_materials);
+        }
+        (self.attributes.skin, self.attributes.morph_targets) = self.movements.finish();
+        mesh.set_attributes(self.attributes).expect("one value per accepted vertex, corner and face");
+        BuiltMesh { mesh, materials: self.materials }
+    }
+}
+
+/// Adding zero makes −0 and +0 the same.
+fn bits(value: f32) -> u32 {
+    (value + 0.0).to_bits()
+}
+
+/// A unit vector with a handedness, or zero.
+fn sound_tangent(tangent: Vec4) -> Vec4 {
+    let direction = tangent.truncate().normalize_or_zero();
+    if direction == Vec3::ZERO || !tangent.is_finite() {
+        return Vec4::ZERO;
+    }
+    direction.extend(if tangent.w < 0.0 { -1.0 } else { 1.0 })
+}
+
+/// How the vertices move.
+struct Movements {
+    per_vertex: usize,
+    joints: Vec<u16>,
+    weights: Vec<f32>,
+    targets: Vec<Target>,
+    /// A number for each way to move; 0 is not at all.
+    ways: HashMap<Vec<u32>, u32>,
+}
+
+#[derive(Default)]
+struct Target {
+    name: String,
+    positions: Vec<(u32, Vec3)>,
+    normals: Vec<(u32, Vec3)>,
+    tangents: Vec<(u32, Vec3)>,
+    corner_count: u32,
+}
+
+impl Movements {
+    fn new(parts: &[Part], target_names: &[String]) -> Self {
+        let per_vertex = parts.iter().filter_map(|part| part.skin.as_ref()).map(|skin| skin.per_vertex).max();
+        let count = parts.iter().map(|part| part.targets.len()).max().unwrap_or(0);
+        let name = |index: usize| target_names.get(index).cloned().unwrap_or_default();
+        let target = |index| Target { name: name(index), ..Target::default() };
+        Self {
+            per_vertex: per_vertex.unwrap_or(0),
+            joints: Vec::new(),
+            weights: Vec::new(),
+            targets: (0..count).map(target).collect(),
+            ways: HashMap::new(),
+        }
+    }
+
+    /// A number that vertices share exactly when they move the same way.
+    fn way(&mut self, part: &Part, vertex: usize) -> u32 {
+        if part.skin.is_none() && part.targets.is_empty() {
+            return 0;
+        }
+        let mut key = Vec::new();
+        for (joint, weight) in part.skin.iter().flat_map(|skin| skin.of_vertex(vertex)) {
+            key.extend([u32::from(joint), bits(weight)]);
+        }
+        for (index, target) in part.targets.iter().enumerate() {
+            let delta = delta(target.positions.as_ref(), vertex);
+            if delta != Vec3::ZERO {
+                key.push(index as u32);
+                key.extend(delta.to_array().map(bits));
+            }
+        }
+        let next = self.ways.len() as u32 + 1;
+        *self.ways.entry(key).or_insert(next)
+    }
+
+    fn push_vertex(&mut self, part: &Part, vertex: usize, new: u32) {
+        let filled = self.joints.len() + self.per_vertex;
+        for (joint, weight) in part.skin.iter().flat_map(|skin| skin.of_vertex(vertex)) {
+            self.joints.push(joint);
+            self.weights.push(weight);
+        }
+        self.joints.resize(filled, 0);
+        self.weights.resize(filled, 0.0);
+        for (to, from) in self.targets.iter_mut().zip(&part.targets) {
+            push(&mut to.positions, new, delta(from.positions.as_ref(), vertex));
+        }
+    }
+
+    fn push_corner(&mut self, part: &Part, vertex: usize) {
+        for (index, to) in self.targets.iter_mut().enumerate() {
+            let corner = to.corner_count;
+            to.corner_count += 1;
+            let Some(from) = part.targets.get(index) else { continue };
+            push(&mut to.normals, corner, delta(from.normals.as_ref(), vertex));
+            push(&mut to.tangents, corner, delta(from.tangents.as_ref(), vertex));
+        }
+    }
+
+    fn finish(self) -> (Option<SkinWeights>, Vec<MorphTarget>) {
+        let target = |from: Target| MorphTarget {
+            name: from.name,
+            positions: Deltas::new(from.positions),
+            normals: Deltas::new(from.normals),
+            tangents: Deltas::new(from.tangents),
+        };
+        let skin = SkinWeights::new(self.per_vertex, self.joints, self.weights);
+        (skin, self.targets.into_iter().map(target).collect())
+    }
+}
+
+fn push(list: &mut Vec<(u32, Vec3)>, index: u32, delta: Vec3) {
+    if delta != Vec3::ZERO {
+        list.push((index, delta));
+    }
+}

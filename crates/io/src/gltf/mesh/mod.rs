@@ -1,0 +1,96 @@
+//! Meshes of the document: primitives become one polygon mesh with a material
+//! slot for each material.
+//!
+//! Vertices at the same place that move the same way are one vertex: glTF
+//! splits them wherever a normal or texture coordinate jumps, and the shape
+//! would fall apart into loose pieces.
+//!
+//! `part` (one primitive, decoded) with `movement` (its skin and morph
+//! targets) → `draft` (all of them welded) → `tangents` (where normal maps
+//! need them and the file has none).
+
+mod draft;
+mod movement;
+mod part;
+mod tangents;
+
+use gltf_json::Root;
+use trigon_mesh::Mesh;
+
+use super::accessor::Accessors;
+use super::buffers::Unplaced;
+use super::slots::{Slot, SlotTexture};
+use crate::error::Place;
+use crate::warning::Warnings;
+use draft::Draft;
+use part::read_primitive;
+
+/// A mesh, and what its slots hold.
+pub(crate) struct BuiltMesh {
+    pub(crate) mesh: Mesh,
+    /// The material of each slot: an index of the document, or the default.
+    pub(crate) materials: Vec<Option<usize>>,
+}
+
+/// What a material wants of the meshes that it covers.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Needs {
+    /// The UV sets that its textures are looked up in.
+    pub(crate) uv_sets: Vec<u32>,
+    /// The one of its normal map.
+    pub(crate) tangents_of: Option<u32>,
+}
+
+impl Needs {
+    pub(crate) fn of(textures: &[SlotTexture]) -> Self {
+        let mut uv_sets: Vec<u32> = textures.iter().map(|texture| texture.uv_set).collect();
+        uv_sets.sort_unstable();
+        uv_sets.dedup();
+        let normal = textures.iter().find(|texture| texture.slot == Slot::Normal);
+        Self { uv_sets, tangents_of: normal.map(|texture| texture.uv_set) }
+    }
+}
+
+/// Reads a mesh. `needs` says what a material wants of it.
+pub(crate) fn build_mesh(
+    accessors: &mut Accessors<'_, '_>,
+    index: usize,
+    target_names: &[String],
+    needs: &dyn Fn(Option<usize>) -> Needs,
+    warnings: &mut Warnings,
+) -> Result<BuiltMesh, Unplaced> {
+    let mut parts = Vec::new();
+    for (number, primitive) in accessors.root.meshes[index].primitives.iter().enumerate() {
+        let place = Place::Named(format!("mesh {index}, primitive {number}"));
+        if let Some(part) = read_primitive(accessors, primitive, place, needs, warnings)? {
+            parts.push(part);
+        }
+    }
+    let mut draft = Draft::new(&parts, target_names);
+    for part in &parts {
+        draft.add(part);
+    }
+    let place = || Place::Item("mesh", index);
+    warnings.push_counted(
+        draft.non_finite,
+        place(),
+        "a triangle has a vertex that is not finite and is left out",
+        "export the model again",
+    );
+    warnings.push_counted(
+        draft.flat,
+        place(),
+        "a triangle has fewer than 3 different vertices and is left out",
+        "remove doubles and export again if a hole shows",
+    );
+    let corners = std::mem::take(&mut draft.corners);
+    let mut built = draft.finish();
+    tangents::complete(&mut built.mesh, &parts, &corners);
+    Ok(built)
+}
+
+/// The weights of a mesh's morph targets where a node has none of its own.
+pub(crate) fn default_weights(root: &Root, mesh: usize) -> Vec<f32> {
+    let weights = root.meshes[mesh].weights.clone().unwrap_or_default();
+    weights.into_iter().map(|weight| if weight.is_finite() { weight } else { 0.0 }).collect()
+}

@@ -1,0 +1,199 @@
+//! One primitive of a mesh, decoded.
+
+use gltf_json::accessor::Type;
+use gltf_json::mesh::{Mode, Primitive, Semantic};
+use gltf_json::validation::Checked;
+use trigon_math::Vec3;
+
+use super::Needs;
+use super::movement::{PartSkin, PartTarget, read_skin, read_targets};
+use crate::error::{LoadErrorKind, Place};
+use crate::gltf::accessor::{Accessors, valid};
+use crate::gltf::buffers::{Unplaced, Unread};
+use crate::gltf::primitive::{Elements, corner_count, elements};
+use crate::warning::{Warnings, counted};
+
+/// A primitive, decoded.
+pub(super) struct Part {
+    pub(super) positions: Vec<Vec3>,
+    pub(super) normals: Option<Vec<[f32; 3]>>,
+    /// Only where a normal map needs them.
+    pub(super) tangents: Option<Vec<[f32; 4]>>,
+    pub(super) uv_sets: Vec<Vec<[f32; 2]>>,
+    pub(super) colors: Option<Vec<[f32; 4]>>,
+    pub(super) skin: Option<PartSkin>,
+    pub(super) targets: Vec<PartTarget>,
+    pub(super) elements: Elements,
+    pub(super) material: Option<usize>,
+    pub(super) needs: Needs,
+    /// Strips repeat vertices on purpose, to jump.
+    pub(super) is_strip: bool,
+}
+
+/// How many UV sets are read in any case, and at most.
+const UV_SETS: u32 = 2;
+const MOST_UV_SETS: u32 = 8;
+
+pub(super) fn read_primitive(
+    accessors: &mut Accessors<'_, '_>,
+    primitive: &Primitive,
+    place: Place,
+    needs: &dyn Fn(Option<usize>) -> Needs,
+    warnings: &mut Warnings,
+) -> Result<Option<Part>, Unplaced> {
+    let Some(position_index) = find(primitive, Semantic::Positions) else {
+        warnings.push(place, "it has no POSITION and is not drawn", "export the model again");
+        return Ok(None);
+    };
+    let Some(mode) = valid(&primitive.mode) else {
+        warnings.push(place, "its mode is unknown and it is not drawn", "export the model again");
+        return Ok(None);
+    };
+    check_bounds(accessors, position_index)?;
+    let positions = accessors.vectors::<3>(position_index, &[Type::Vec3])?;
+    let elements = read_elements(accessors, primitive, mode, positions.len(), &place, warnings)?;
+    let material = primitive.material.map(|material| material.value());
+    let needs = needs(material);
+    let mut optional = Optional { accessors, primitive, vertices: positions.len(), place: &place, warnings };
+    let normals = optional.read::<3>(Semantic::Normals, "NORMAL", &[Type::Vec3])?;
+    let tangents = match (&normals, needs.tangents_of) {
+        // Without normals the file's tangents are to be ignored.
+        (Some(_), Some(_)) => optional.read::<4>(Semantic::Tangents, "TANGENT", &[Type::Vec4])?,
+        _ => None,
+    };
+    let colors = optional.read::<4>(Semantic::Colors(0), "COLOR_0", &[Type::Vec3, Type::Vec4])?;
+    let uv_sets = optional.uv_sets(&needs.uv_sets)?;
+    let skin = read_skin(&mut optional)?;
+    let targets = read_targets(&mut optional, tangents.is_some())?;
+    Ok(Some(Part {
+        positions: positions.into_iter().map(Vec3::from).collect(),
+        normals,
+        tangents,
+        uv_sets,
+        colors,
+        skin,
+        targets,
+        elements,
+        material,
+        needs,
+        is_strip: matches!(mode, Mode::TriangleStrip),
+    }))
+}
+
+fn find(primitive: &Primitive, semantic: Semantic) -> Option<usize> {
+    primitive.attributes.get(&Checked::Valid(semantic)).map(|accessor| accessor.value())
+}
+
+/// The bounds of POSITION need not be there, but must have three numbers.
+fn check_bounds(accessors: &Accessors<'_, '_>, index: usize) -> Result<(), Unplaced> {
+    let accessor = &accessors.root.accessors[index];
+    for (name, bound) in [("min", &accessor.min), ("max", &accessor.max)] {
+        let Some(bound) = bound else { continue };
+        let numbers = bound.as_array().map_or(0, Vec::len);
+        if numbers != 3 {
+            let what = format!("POSITION {name} has {numbers} numbers and should have 3");
+            return Err(malformed(Place::Item("accessor", index), what));
+        }
+    }
+    Ok(())
+}
+
+fn malformed(place: Place, what: String) -> Unplaced {
+    let remedy = "export the model again";
+    Unplaced(place, Unread { kind: LoadErrorKind::Malformed, what, remedy })
+}
+
+/// The triangles, edges and points, all of whose indices exist.
+fn read_elements(
+    accessors: &mut Accessors<'_, '_>,
+    primitive: &Primitive,
+    mode: Mode,
+    vertices: usize,
+    place: &Place,
+    warnings: &mut Warnings,
+) -> Result<Elements, Unplaced> {
+    let indices = match primitive.indices {
+        Some(indices) => accessors.indices(indices.value())?,
+        None => (0..vertices as u32).collect(),
+    };
+    accessors.spend(vertices.max(corner_count(mode, indices.len())), place)?;
+    if let Some(beyond) = indices.iter().find(|&&vertex| vertex as usize >= vertices) {
+        let has = counted(vertices, "vertex");
+        let what = format!("index {beyond} leads nowhere; the primitive has {has}");
+        return Err(malformed(place.clone(), what));
+    }
+    let elements = elements(mode, &indices);
+    if elements.left_over > 0 {
+        let count = counted(elements.left_over, "index");
+        let what = format!("{count} at the end left over, too few for a whole element");
+        warnings.push(place.clone(), what, "export the model again");
+    }
+    Ok(elements)
+}
+
+/// Reads attributes that a primitive can do without.
+pub(super) struct Optional<'o, 'a, 'b> {
+    pub(super) accessors: &'o mut Accessors<'a, 'b>,
+    pub(super) primitive: &'o Primitive,
+    pub(super) vertices: usize,
+    pub(super) place: &'o Place,
+    pub(super) warnings: &'o mut Warnings,
+}
+
+impl Optional<'_, '_, '_> {
+    pub(super) fn read<const N: usize>(
+        &mut self,
+        semantic: Semantic,
+        name: &str,
+        allowed: &[Type],
+    ) -> Result<Option<Vec<[f32; N]>>, Unplaced> {
+        find(self.primitive, semantic).map_or(Ok(None), |index| self.read_accessor(index, name, allowed))
+    }
+
+    /// None, and a warning, when there is not one value a vertex.
+    pub(super) fn read_accessor<const N: usize>(
+        &mut self,
+        index: usize,
+        name: &str,
+        allowed: &[Type],
+    ) -> Result<Option<Vec<[f32; N]>>, Unplaced> {
+        let count = self.accessors.count(index);
+        if count != self.vertices as u64 {
+            let what = format!("{name} has {count} values for {} vertices and is ignored", self.vertices);
+            self.warn(what);
+            return Ok(None);
+        }
+        self.accessors.vectors(index, allowed).map(Some)
+    }
+
+    pub(super) fn warn(&mut self, what: impl Into<String>) {
+        self.warnings.push(self.place.clone(), what, "export the model again");
+    }
+
+    /// The UV sets; those that a material wants and the primitive lacks are
+    /// copies of the first. Later sets keep their number: an absent one before
+    /// them is empty.
+    fn uv_sets(&mut self, wanted: &[u32]) -> Result<Vec<Vec<[f32; 2]>>, Unplaced> {
+        let last = wanted.iter().copied().filter(|&set| set < MOST_UV_SETS).max();
+        let mut sets = Vec::new();
+        for set in 0..UV_SETS.max(last.map_or(0, |last| last + 1)) {
+            sets.push(self.read::<2>(Semantic::TexCoords(set), "TEXCOORD", &[Type::Vec2])?);
+        }
+        for &set in wanted {
+            if sets.get(set as usize).is_some_and(Option::is_some) {
+                continue;
+            }
+            let instead =
+                if sets[0].is_some() { "TEXCOORD_0 is used" } else { "the texture shows one colour" };
+            let what = format!("a texture of it wants TEXCOORD_{set}, which is missing; {instead}");
+            self.warnings.push(self.place.clone(), what, "export the model with that UV map");
+            if (set as usize) < sets.len() {
+                sets[set as usize] = sets[0].clone();
+            }
+        }
+        while sets.last().is_some_and(Option::is_none) {
+            sets.pop();
+        }
+        Ok(sets.into_iter().map(Option::unwrap_or_default).collect())
+    }
+}

@@ -1,0 +1,80 @@
+//! EXT_meshopt_compression and KHR_meshopt_compression: buffer views whose
+//! bytes are compressed. Written from the specification of the latter (Khronos,
+//! draft of 2025), which includes the former.
+//!
+//! `attributes`, `triangles` and `indices` are its three modes, `filters` what
+//! may follow the first. Every read is checked, and memory grows with what was
+//! decoded, never with what was claimed.
+
+mod attributes;
+mod filters;
+mod indices;
+mod stream;
+mod triangles;
+
+pub(crate) use filters::Filter;
+
+/// How a view is compressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mode {
+    /// Elements of any kind, byte for byte.
+    Attributes,
+    /// Indices of a triangle list.
+    Triangles,
+    /// Other indices.
+    Indices,
+}
+
+/// What a compressed view holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Layout {
+    pub(crate) mode: Mode,
+    pub(crate) filter: Filter,
+    /// Elements.
+    pub(crate) count: usize,
+    /// Bytes of an element.
+    pub(crate) stride: usize,
+}
+
+/// Why a stream is none.
+pub(crate) type Broken = &'static str;
+
+/// Decodes a view: `count · stride` bytes.
+pub(crate) fn decode(layout: &Layout, bytes: &[u8]) -> Result<Vec<u8>, Broken> {
+    layout.check()?;
+    let mut decoded = match layout.mode {
+        Mode::Attributes => attributes::decode(bytes, layout.count, layout.stride)?,
+        Mode::Triangles => written(&triangles::decode(bytes, layout.count)?, layout.stride),
+        Mode::Indices => written(&indices::decode(bytes, layout.count)?, layout.stride),
+    };
+    layout.filter.apply(&mut decoded, layout.stride);
+    Ok(decoded)
+}
+
+impl Layout {
+    /// The conditions that the extension states.
+    fn check(&self) -> Result<(), Broken> {
+        let Self { mode, filter, count, stride } = *self;
+        match mode {
+            Mode::Attributes if stride == 0 || stride > 256 || stride % 4 != 0 => {
+                Err("elements must have 4 to 256 bytes, a multiple of 4")
+            }
+            Mode::Attributes if !filter.fits(stride) => {
+                Err("the filter does not fit the size of the elements")
+            }
+            Mode::Attributes => Ok(()),
+            _ if stride != 2 && stride != 4 => Err("indices must have 2 or 4 bytes"),
+            _ if filter != Filter::None => Err("indices cannot have a filter"),
+            Mode::Triangles if !count.is_multiple_of(3) => Err("the indices are not whole triangles"),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Indices as little-endian bytes, the low ones of each.
+fn written(indices: &[u32], stride: usize) -> Vec<u8> {
+    indices.iter().flat_map(|index| index.to_le_bytes().into_iter().take(stride)).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,147 @@
+//! Mode 1: each triangle is a byte that says which edge and which vertex of
+//! recent ones it has again, and few bytes where that does not do.
+
+use super::Broken;
+use super::stream::{Stream, unzigzag};
+
+const HEADER: u8 = 0xe1;
+/// The table of frequent pairs.
+const TAIL: usize = 16;
+
+pub(super) fn decode(bytes: &[u8], count: usize) -> Result<Vec<u32>, Broken> {
+    let (header, mut body, table) = Stream::open(bytes, TAIL)?;
+    if header != HEADER {
+        return Err("it does not begin as a list of triangles does");
+    }
+    let is_pair = |&byte: &u8| byte >> 4 != 0xf && byte & 0xf != 0xf;
+    if !table.iter().all(is_pair) || table[14] != 0 || table[15] != 0 {
+        return Err("its table of vertices is invalid");
+    }
+    let codes = body.take(count / 3)?;
+    let mut decoder =
+        Decoder { data: body, table, next: 0, last: 0, edges: Recent::new(), vertices: Recent::new() };
+    let mut indices = Vec::with_capacity(count);
+    for &code in codes {
+        indices.extend(decoder.triangle(code)?);
+    }
+    decoder.data.finish()?;
+    Ok(indices)
+}
+
+/// The last sixteen of something.
+struct Recent<T> {
+    ring: [Option<T>; 16],
+    /// Where the next one goes.
+    at: usize,
+}
+
+impl<T: Copy> Recent<T> {
+    fn new() -> Self {
+        Self { ring: [None; 16], at: 0 }
+    }
+
+    fn push(&mut self, item: T) {
+        self.ring[self.at] = Some(item);
+        self.at = (self.at + 1) % 16;
+    }
+
+    /// 0 is the last one, 15 the one that goes next.
+    fn get(&self, back: u8) -> Result<T, Broken> {
+        let index = (self.at + 15 - usize::from(back & 15)) % 16;
+        self.ring[index].ok_or("it refers to something before its start")
+    }
+}
+
+struct Decoder<'b> {
+    data: Stream<'b>,
+    table: &'b [u8],
+    /// The index that no triangle has had yet.
+    next: u32,
+    /// The last index that was written out.
+    last: u32,
+    edges: Recent<(u32, u32)>,
+    vertices: Recent<u32>,
+}
+
+impl Decoder<'_> {
+    fn triangle(&mut self, code: u8) -> Result<[u32; 3], Broken> {
+        let (high, low) = (code >> 4, code & 0xf);
+        match high {
+            0xf if low < 0xe => self.from_table(self.table[usize::from(low)]),
+            0xf => self.from_data(low == 0xf),
+            _ => self.beside_edge(high, low),
+        }
+    }
+
+    /// A recent edge and one more vertex.
+    fn beside_edge(&mut self, edge: u8, vertex: u8) -> Result<[u32; 3], Broken> {
+        let (a, b) = self.edges.get(edge)?;
+        let c = match vertex {
+            0 => self.fresh(),
+            1..=0xc => self.vertices.get(vertex)?,
+            0xd => self.beside_last(u32::MAX),
+            0xe => self.beside_last(1),
+            _ => self.written()?,
+        };
+        self.edges.push((c, b));
+        self.edges.push((a, c));
+        if !(1..=0xc).contains(&vertex) {
+            self.vertices.push(c);
+        }
+        Ok([a, b, c])
+    }
+
+    /// A new vertex and a frequent pair of others.
+    fn from_table(&mut self, pair: u8) -> Result<[u32; 3], Broken> {
+        let a = self.fresh();
+        let b = self.new_or_recent(pair >> 4)?;
+        let c = self.new_or_recent(pair & 0xf)?;
+        Ok(self.remember([a, b, c], pair))
+    }
+
+    /// Three vertices, told one by one.
+    fn from_data(&mut self, is_first_written: bool) -> Result<[u32; 3], Broken> {
+        let pair = self.data.byte()?;
+        if pair == 0 {
+            self.next = 0;
+        }
+        let a = if is_first_written { self.written()? } else { self.fresh() };
+        let mut other = |code: u8| if code == 0xf { self.written() } else { self.new_or_recent(code) };
+        let (b, c) = (other(pair >> 4)?, other(pair & 0xf)?);
+        Ok(self.remember([a, b, c], pair))
+    }
+
+    /// All three edges, and the vertices that are not recent ones already.
+    fn remember(&mut self, [a, b, c]: [u32; 3], pair: u8) -> [u32; 3] {
+        self.edges.push((b, a));
+        self.edges.push((c, b));
+        self.edges.push((a, c));
+        self.vertices.push(a);
+        for (code, vertex) in [(pair >> 4, b), (pair & 0xf, c)] {
+            if code == 0 || code == 0xf {
+                self.vertices.push(vertex);
+            }
+        }
+        [a, b, c]
+    }
+
+    fn new_or_recent(&mut self, code: u8) -> Result<u32, Broken> {
+        if code == 0 { Ok(self.fresh()) } else { self.vertices.get(code - 1) }
+    }
+
+    fn fresh(&mut self) -> u32 {
+        let index = self.next;
+        self.next = self.next.wrapping_add(1);
+        index
+    }
+
+    fn beside_last(&mut self, step: u32) -> u32 {
+        self.last = self.last.wrapping_add(step);
+        self.last
+    }
+
+    fn written(&mut self) -> Result<u32, Broken> {
+        let delta = unzigzag(self.data.varint()?);
+        Ok(self.beside_last(delta))
+    }
+}

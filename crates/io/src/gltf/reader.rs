@@ -1,0 +1,38 @@
+//! Reading accessors once the meshes are built: for instances, skins and
+//! animations.
+
+use gltf_json::Root;
+
+use super::accessor::Accessors;
+use super::buffers::{Buffers, Unplaced};
+use crate::error::LoadError;
+use crate::import::Import;
+use crate::warning::Warnings;
+
+/// What accessors are read from.
+pub(crate) struct Reader<'r, 'b> {
+    pub(crate) root: &'r Root,
+    pub(crate) buffers: Buffers<'b>,
+    /// See [`Accessors::spent`].
+    pub(crate) spent: usize,
+}
+
+impl Reader<'_, '_> {
+    /// Calls back with accessors, and with the warnings to add to.
+    pub(crate) fn read<T>(
+        &mut self,
+        import: &mut Import<'_>,
+        read: impl FnOnce(&mut Accessors<'_, '_>, &mut Warnings) -> Result<T, Unplaced>,
+    ) -> Result<T, LoadError> {
+        let limits = &import.options.limits;
+        let mut accessors = Accessors {
+            root: self.root,
+            buffers: &mut self.buffers,
+            folder: &mut import.folder,
+            most: limits.vertices.max(limits.corners),
+            most_corners: limits.corners,
+            spent: &mut self.spent,
+        };
+        read(&mut accessors, &mut import.warnings).map_err(|unplaced| unplaced.into_error(import.path))
+    }
+}

@@ -1,0 +1,122 @@
+//! Skins: joints and their inverse bind matrices.
+
+use gltf_json::accessor::Type;
+use trigon_math::{DAffine3, DMat4, DVec4};
+use trigon_mesh::SkinWeights;
+use trigon_scene::{Node, NodeId, Skin};
+
+use super::accessor::Accessors;
+use super::buffers::Unplaced;
+use super::nodes::Placed;
+use super::reader::Reader;
+use crate::error::{LoadError, Place};
+use crate::import::Import;
+use crate::warning::{Warnings, counted};
+
+/// Reads the matrices of a skin, one for each joint; identity where the file
+/// has none or nonsense.
+fn read_bind_matrices(
+    accessors: &mut Accessors<'_, '_>,
+    index: usize,
+    warnings: &mut Warnings,
+) -> Result<Vec<DAffine3>, Unplaced> {
+    let skin = &accessors.root.skins[index];
+    let Some(accessor) = skin.inverse_bind_matrices else { return Ok(Vec::new()) };
+    let place = || Place::Item("skin", index);
+    accessors.spend(skin.joints.len(), &place())?;
+    let read = accessors.vectors::<16>(accessor.value(), &[Type::Mat4])?;
+    if read.len() < skin.joints.len() {
+        let what =
+            format!("{} for {}", counted(read.len(), "bind matrix"), counted(skin.joints.len(), "joint"));
+        warnings.push(place(), format!("{what}; the others are the identity"), "export the model again");
+    }
+    let mut broken = 0;
+    let mut convert = |columns: &[f32; 16]| {
+        let matrix = DMat4::from_cols_array(&columns.map(f64::from));
+        let is_affine = matrix.is_finite() && matrix.row(3) == DVec4::W;
+        broken += usize::from(!is_affine);
+        if matrix.is_finite() { DAffine3::from_mat4(matrix) } else { DAffine3::IDENTITY }
+    };
+    let matrices = read.iter().take(skin.joints.len()).map(&mut convert).collect();
+    let what = "a bind matrix is not finite, or its last row is not 0 0 0 1; it is mended";
+    warnings.push_counted(broken, place(), what, "export the model again");
+    Ok(matrices)
+}
+
+/// Adds the skins that placed nodes use, and hands them to these nodes.
+pub(crate) fn add_skins(
+    import: &mut Import<'_>,
+    reader: &mut Reader<'_, '_>,
+    placed: &Placed<'_>,
+) -> Result<(), LoadError> {
+    let root = &placed.document.root;
+    let mut skins = vec![None; root.skins.len()];
+    // Joints that the scene does not show find nothing.
+    let nobody = import.scene.add(Node::default());
+    import.scene.remove(nobody);
+    for (node, id) in placed.nodes() {
+        let Some(index) = root.nodes[node].skin.map(|skin| skin.value()) else { continue };
+        let skin = match skins[index] {
+            Some(skin) => skin,
+            None => {
+                let matrices = reader
+                    .read(import, |accessors, warnings| read_bind_matrices(accessors, index, warnings))?;
+                let skin = convert(import, placed, index, nobody, matrices);
+                *skins[index].insert(import.scene.skins.insert(skin))
+            }
+        };
+        warn_of_joints(import, id, Place::Item("node", node), root.skins[index].joints.len());
+        if let Some(node) = import.scene.node_mut(id) {
+            node.skin = Some(skin);
+        }
+    }
+    Ok(())
+}
+
+fn convert(
+    import: &mut Import<'_>,
+    placed: &Placed<'_>,
+    index: usize,
+    nobody: NodeId,
+    inverse_bind_matrices: Vec<DAffine3>,
+) -> Skin {
+    let from = &placed.document.root.skins[index];
+    let joints: Vec<Option<NodeId>> = from.joints.iter().map(|joint| placed.ids[joint.value()]).collect();
+    let lost = joints.iter().filter(|joint| joint.is_none()).count();
+    if lost > 0 {
+        let what = format!(
+            "{} outside the scene; what follows them stays where the mesh is",
+            counted(lost, "joint")
+        );
+        import.warnings.push(Place::Item("skin", index), what, "put all joints in the scene of the mesh");
+    }
+    Skin {
+        name: from.name.clone().unwrap_or_else(|| format!("skin {index}")),
+        joints: joints.into_iter().map(|joint| joint.unwrap_or(nobody)).collect(),
+        inverse_bind_matrices,
+    }
+}
+
+/// Says when the mesh of a node and its skin do not fit together.
+fn warn_of_joints(import: &mut Import<'_>, id: NodeId, place: Place, joints: usize) {
+    let what = match joint_bound(import, id) {
+        None => "it has a skin, and its mesh has no joints and weights: it is drawn unskinned".to_owned(),
+        Some(bound) if bound > joints => {
+            let last = bound - 1;
+            format!(
+                "its mesh follows joint {last} of {joints}; what follows no joint stays where the mesh is"
+            )
+        }
+        Some(_) => return,
+    };
+    import.warnings.push(place, what, "export the model again");
+}
+
+/// One more than the last joint that a node's mesh follows; none when it
+/// follows none.
+fn joint_bound(import: &Import<'_>, id: NodeId) -> Option<usize> {
+    let mesh = import.scene.meshes().get(import.scene.node(id)?.mesh?)?;
+    let skin: &SkinWeights = mesh.mesh().attributes().skin.as_ref()?;
+    let followed = skin.joints().iter().zip(skin.weights()).filter(|(_, weight)| **weight > 0.0);
+    Some(followed.map(|(&joint, _)| usize::from(joint) + 1).max().unwrap_or(0))
+}

@@ -1,0 +1,102 @@
+//! The textures of a material of the document: which there are, what each is
+//! for, and where in a mesh their coordinates are.
+
+use gltf_json::extensions::texture::TextureTransform;
+use gltf_json::{Material, texture};
+use serde_json::{Map, Value};
+use trigon_math::glam::{Affine2, Mat2};
+use trigon_math::{Vec2, elementary};
+
+use crate::textures::Purpose;
+
+/// What a texture of a material says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Slot {
+    BaseColor,
+    MetallicRoughness,
+    Normal,
+    Occlusion,
+    Emissive,
+    Specular,
+    SpecularColor,
+    Transmission,
+}
+
+impl Slot {
+    pub(crate) fn purpose(self) -> Purpose {
+        match self {
+            Self::BaseColor => Purpose::BaseColor,
+            Self::Emissive | Self::SpecularColor => Purpose::Color,
+            Self::MetallicRoughness
+            | Self::Normal
+            | Self::Occlusion
+            | Self::Specular
+            | Self::Transmission => Purpose::Data,
+        }
+    }
+}
+
+/// A texture in its slot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SlotTexture {
+    pub(crate) slot: Slot,
+    /// Of the document.
+    pub(crate) texture: usize,
+    pub(crate) uv_set: u32,
+    pub(crate) transform: Affine2,
+}
+
+/// All textures of a material.
+pub(crate) fn slot_textures(material: &Material) -> Vec<SlotTexture> {
+    let pbr = &material.pbr_metallic_roughness;
+    let extensions = material.extensions.as_ref();
+    let specular = extensions.and_then(|extensions| extensions.specular.as_ref());
+    let transmission = extensions.and_then(|extensions| extensions.transmission.as_ref());
+    let plain = [
+        (Slot::BaseColor, pbr.base_color_texture.as_ref()),
+        (Slot::MetallicRoughness, pbr.metallic_roughness_texture.as_ref()),
+        (Slot::Emissive, material.emissive_texture.as_ref()),
+        (Slot::Specular, specular.and_then(|specular| specular.specular_texture.as_ref())),
+        (Slot::SpecularColor, specular.and_then(|specular| specular.specular_color_texture.as_ref())),
+        (Slot::Transmission, transmission.and_then(|from| from.transmission_texture.as_ref())),
+    ];
+    let mut list: Vec<SlotTexture> =
+        plain.into_iter().filter_map(|(slot, info)| Some(from_info(slot, info?))).collect();
+    if let Some(normal) = &material.normal_texture {
+        let others = normal.extensions.as_ref().map(|extensions| &extensions.others);
+        let transform = others.and_then(loose_transform);
+        list.push(in_slot(Slot::Normal, normal.index.value(), normal.tex_coord, transform.as_ref()));
+    }
+    if let Some(occlusion) = &material.occlusion_texture {
+        let others = occlusion.extensions.as_ref().map(|extensions| &extensions.others);
+        let transform = others.and_then(loose_transform);
+        list.push(in_slot(Slot::Occlusion, occlusion.index.value(), occlusion.tex_coord, transform.as_ref()));
+    }
+    list
+}
+
+fn from_info(slot: Slot, info: &texture::Info) -> SlotTexture {
+    let transform = info.extensions.as_ref().and_then(|extensions| extensions.texture_transform.as_ref());
+    in_slot(slot, info.index.value(), info.tex_coord, transform)
+}
+
+fn in_slot(slot: Slot, texture: usize, tex_coord: u32, transform: Option<&TextureTransform>) -> SlotTexture {
+    let uv_set = transform.and_then(|transform| transform.tex_coord).unwrap_or(tex_coord);
+    SlotTexture { slot, texture, uv_set, transform: transform.map_or(Affine2::IDENTITY, to_affine) }
+}
+
+/// gltf-json knows the extension in some places only.
+fn loose_transform(others: &Map<String, Value>) -> Option<TextureTransform> {
+    serde_json::from_value(others.get("KHR_texture_transform")?.clone()).ok()
+}
+
+/// KHR_texture_transform: translation · rotation · scale, turning
+/// counter-clockwise with v pointing down.
+fn to_affine(from: &TextureTransform) -> Affine2 {
+    let (sine, cosine) = elementary::sin_cos(f64::from(from.rotation.0));
+    let (sine, cosine) = (sine as f32, cosine as f32);
+    let (scale, offset) = (Vec2::from(from.scale.0), Vec2::from(from.offset.0));
+    let matrix = Mat2::from_cols(Vec2::new(cosine, -sine) * scale.x, Vec2::new(sine, cosine) * scale.y);
+    let affine = Affine2::from_mat2_translation(matrix, offset);
+    if affine.is_finite() { affine } else { Affine2::IDENTITY }
+}
