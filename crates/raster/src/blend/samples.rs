@@ -11,11 +11,10 @@ use trigon_math::Vec4;
 /// Gives every sample the colour of what it sees.
 pub(super) fn expand(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) {
     let Scratch { buffer, shading, samples, .. } = scratch;
-    let Shading { colors, edge_pixels, sample_colors, .. } = shading;
     let count = buffer.samples;
     samples.clear();
     samples.resize(buffer.span() * count, Vec4::ZERO);
-    for (pixel, color) in colors.iter().enumerate().take(buffer.span()) {
+    for (pixel, color) in shading.colors.iter().enumerate().take(buffer.span()) {
         let place = TileArea::pixel_at(pixel);
         if !area.contains(place) {
             continue;
@@ -29,14 +28,11 @@ pub(super) fn expand(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scrat
             };
         }
     }
-    if count > 1 {
-        for edge in edge_pixels {
-            for sample in 0..count {
-                let color = sample_colors[edge.first as usize + sample];
-                if color != NOBODY {
-                    let index = buffer.index(edge.pixel as usize, sample);
-                    samples[index] = Vec4::from_array(colors[color as usize]);
-                }
+    for edges in &shading.edge_groups {
+        for (sample, names) in edges.names(shading, count).iter().enumerate() {
+            for lane in edges.lanes().filter(|&lane| names[lane] != NOBODY) {
+                let index = buffer.index(edges.number as usize * LANES + lane, sample);
+                samples[index] = Vec4::from_array(shading.colors[names[lane] as usize]);
             }
         }
     }
@@ -46,9 +42,9 @@ pub(super) fn expand(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scrat
 /// colour then, and none is an edge pixel.
 pub(super) fn collapse(frame: &FrameView<'_>, scratch: &mut Scratch) {
     let Scratch { buffer, shading, samples, .. } = scratch;
-    let Shading { colors, edge_pixels, .. } = shading;
+    let Shading { colors, edge_groups, .. } = shading;
     let count = frame.grid.pattern.count();
-    edge_pixels.clear();
+    edge_groups.clear();
     for (pixel, color) in colors.iter_mut().enumerate().take(buffer.span()) {
         let first = buffer.index(pixel, 0);
         let of_pixel = (0..count).map(|sample| samples[first + sample * LANES]);

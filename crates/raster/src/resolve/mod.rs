@@ -2,13 +2,14 @@
 //! ids.
 
 mod background;
+mod edges;
 mod mean;
 
 pub(crate) use background::fill_background;
 pub(crate) use mean::{mean, saturated};
 
 use crate::frame::FrameView;
-use crate::shade::{EdgePixel, Encoding, Shading};
+use crate::shade::{Encoding, Shading};
 use crate::simd::{Each, at_level};
 use crate::target::{Band, Bands};
 use crate::tile::{NOBODY, Scratch, TileArea};
@@ -23,7 +24,7 @@ pub(crate) fn resolve(
 ) {
     if let Some(encoding) = early {
         background::lay_codes(frame, area, scratch, encoding);
-        average_codes(frame, area, scratch, encoding);
+        edges::average_codes(frame, area, &mut scratch.shading, encoding);
         copy_codes(frame, area, scratch, bands);
     } else if frame.wants.color {
         finish_colors(frame, area, scratch);
@@ -80,42 +81,7 @@ fn finish_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) 
         return;
     }
     background::lay_colors(frame, area, scratch);
-    for_each_edge(frame, area, &mut scratch.shading, |shading, pixel, color| {
-        shading.colors[pixel] = color.to_array();
-    });
-}
-
-/// Gives the pixels whose samples see different triangles their bytes.
-fn average_codes(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch, encoding: Encoding) {
-    for_each_edge(frame, area, &mut scratch.shading, |shading, pixel, color| {
-        shading.codes[pixel] = u32::from_le_bytes(encoding.encode(color));
-    });
-}
-
-/// Visits the pixels whose samples see different triangles, with the mean of the
-/// samples.
-fn for_each_edge(
-    frame: &FrameView<'_>,
-    area: &TileArea,
-    shading: &mut Shading,
-    mut visit: impl FnMut(&mut Shading, usize, Vec4),
-) {
-    let samples = frame.grid.pattern.count();
-    for edge in 0..shading.edge_pixels.len() {
-        let EdgePixel { pixel, first } = shading.edge_pixels[edge];
-        let at = TileArea::pixel_at(pixel as usize);
-        if !area.contains(at) {
-            continue;
-        }
-        let Shading { sample_colors, colors, .. } = &*shading;
-        let names = &sample_colors[first as usize..first as usize + samples];
-        let of_samples = names.iter().map(|&name| match name {
-            NOBODY => frame.background_at(area, at),
-            name => Vec4::from_array(colors[name as usize]),
-        });
-        let color = mean(of_samples, samples);
-        visit(shading, pixel as usize, color);
-    }
+    edges::average_colors(frame, area, &mut scratch.shading);
 }
 
 /// Writes the outputs of colour, pixel by pixel.

@@ -1,10 +1,47 @@
 //! The columns of eight pixels' triangles, from their records.
 
-use super::records::{Records, cold, flag, hot};
+use super::records::{Records, cold, hot};
+use super::task::Vector;
 use super::weights::CutColumns;
 use super::{MAX_VARYINGS, ShadeContext};
 use crate::setup::Corners;
-use crate::simd::{Each, I32, LANES, Row, Simd, U32, prelude::*, transpose};
+use crate::simd::{Each, I32, LANES, Mask, Row, Simd, U32, prelude::*, transpose};
+
+/// Up to so many triangles are loaded side by side.
+const TRIANGLES: usize = 4;
+
+/// The triangles of eight pixels, if they are few.
+struct Few<S: Simd> {
+    count: usize,
+    /// The numbers of their records; the first stands in for those that are not.
+    slots: [u32; TRIANGLES],
+    /// The lanes of all but the first.
+    masks: [Mask<S>; TRIANGLES - 1],
+}
+
+impl<S: Simd> Few<S> {
+    #[inline(always)]
+    fn find(simd: S, vector: &Vector<'_>) -> Option<Self> {
+        let lanes = U32::simd_from(simd, vector.names);
+        let name = |lanes: u64| vector.names[lanes.trailing_zeros() as usize % LANES];
+        let first = name(vector.active);
+        let mut others = !lanes.simd_eq(U32::splat(simd, first)).to_bitmask() & vector.active;
+        let slot = vector.slot(first);
+        let masks = [Mask::splat(simd, false); TRIANGLES - 1];
+        let mut few = Self { count: 1, slots: [slot; TRIANGLES], masks };
+        for (slot, mask) in few.slots[1..].iter_mut().zip(&mut few.masks) {
+            if others == 0 {
+                return Some(few);
+            }
+            let name = name(others);
+            *mask = lanes.simd_eq(U32::splat(simd, name));
+            *slot = vector.slot(name);
+            few.count += 1;
+            others &= !mask.to_bitmask();
+        }
+        (others == 0).then_some(few)
+    }
+}
 
 /// A row of eight numbers for each column of a record, the triangles of eight
 /// pixels side by side.
@@ -12,7 +49,9 @@ pub(crate) struct Columns {
     rows: Vec<Row>,
     /// Filled only for vectors with a wide or cut triangle.
     pub(super) cold: [Row; cold::COUNT],
-    pub(super) cut: CutColumns,
+    cut: CutColumns,
+    /// Whether one of them is cut.
+    is_cut: bool,
     /// The one triangle that all lanes hold.
     uniform: Option<u32>,
 }
@@ -20,9 +59,10 @@ pub(crate) struct Columns {
 impl Columns {
     pub(crate) fn new() -> Self {
         Self {
-            rows: vec![[0; LANES]; hot::COUNT + (3 * MAX_VARYINGS).next_multiple_of(LANES)],
+            rows: vec![[0; LANES]; (hot::COUNT + 3 * MAX_VARYINGS).next_multiple_of(LANES)],
             cold: [[0; LANES]; cold::COUNT],
             cut: [[[0.0; LANES]; 3]; 3],
+            is_cut: false,
             uniform: None,
         }
     }
@@ -44,6 +84,13 @@ impl Columns {
         &self.rows[hot::COUNT..]
     }
 
+    /// The corners' weights at the vertices, if a triangle is cut, and some are
+    /// special.
+    #[inline(always)]
+    pub(super) fn cut(&self) -> Option<&CutColumns> {
+        self.is_cut.then_some(&self.cut)
+    }
+
     /// Loads the records of eight pixels.
     #[inline(always)]
     pub(super) fn load<S: Simd>(
@@ -51,62 +98,79 @@ impl Columns {
         simd: S,
         context: &ShadeContext<'_>,
         records: &Records,
-        slots: [u32; LANES],
+        vector: &Vector<'_>,
     ) {
-        let first = slots[0];
-        if U32::simd_from(simd, slots).simd_eq(U32::splat(simd, first)).all_true() {
-            if self.uniform == Some(first) {
-                return;
+        match Few::find(simd, vector) {
+            Some(Few { count: 1, slots: [slot, ..], .. }) => {
+                if self.uniform == Some(slot) {
+                    return;
+                }
+                self.uniform = Some(slot);
+                self.mix(simd, records, [slot], []);
             }
-            self.uniform = Some(first);
-            self.spread(records.of(first));
-        } else {
-            self.uniform = None;
-            // The commonest by themselves, so that no row is looked for.
-            match records.shape().loaded {
-                1 => self.gather::<S, 1>(simd, records, slots),
-                2 => self.gather::<S, 2>(simd, records, slots),
-                3 => self.gather::<S, 3>(simd, records, slots),
-                4 => self.gather::<S, 4>(simd, records, slots),
-                _ => self.gather_any(simd, records, slots),
+            few => {
+                self.uniform = None;
+                match few {
+                    Some(Few { count: 2, slots: [a, b, ..], masks: [mask, ..] }) => {
+                        self.mix(simd, records, [a, b], [mask]);
+                    }
+                    Some(Few { count: 3, slots: [a, b, c, _], masks: [second, third, _] }) => {
+                        self.mix(simd, records, [a, b, c], [second, third]);
+                    }
+                    Some(few) => self.mix(simd, records, few.slots, few.masks),
+                    None => self.gather_apart(simd, records, vector),
+                }
             }
         }
-        let special = I32::simd_from(simd, self.hot()[hot::FLAGS]) & (flag::CUT | flag::WIDE);
-        if special.simd_gt(I32::splat(simd, 0)).any_true() {
-            self.cold = records.cold(simd, context, slots);
+        if self.any_special(simd) {
+            self.cold = records.cold(simd, context, vector.slots());
             self.load_cuts(context);
         }
     }
 
-    /// One record for all lanes.
+    /// Whether a triangle is wide or cut: no other has steps of 0.
     #[inline(always)]
-    fn spread(&mut self, record: &[Row]) {
-        for (columns, row) in self.rows.as_chunks_mut::<LANES>().0.iter_mut().zip(record) {
-            for (column, &value) in columns.iter_mut().zip(row) {
-                *column = [value; LANES];
+    pub(super) fn any_special<S: Simd>(&self, simd: S) -> bool {
+        let hot = self.hot();
+        let steps = I32::simd_from(simd, hot[hot::STEPS]) | I32::simd_from(simd, hot[hot::STEPS + 1]);
+        steps.simd_eq(I32::splat(simd, 0)).any_true()
+    }
+
+    /// The first record, and the others in the lanes of their masks.
+    #[inline(always)]
+    fn mix<S: Simd, const COUNT: usize, const OTHERS: usize>(
+        &mut self,
+        simd: S,
+        records: &Records,
+        slots: [u32; COUNT],
+        masks: [Mask<S>; OTHERS],
+    ) {
+        let records = slots.map(|slot| records.of(slot));
+        let columns = self.rows.as_chunks_mut::<LANES>().0.iter_mut();
+        for (number, columns) in columns.take(records[0].len()).enumerate() {
+            let rows = records.map(|record| &record[number]);
+            for (index, column) in columns.iter_mut().enumerate() {
+                let mut values = I32::splat(simd, rows[0][index]);
+                for (row, mask) in rows[1..].iter().zip(masks) {
+                    values = mask.select(I32::splat(simd, row[index]), values);
+                }
+                *column = values.into();
             }
         }
     }
 
-    /// Records of `SIZE` rows.
+    /// Apart, so that it takes no registers where it is not needed.
     #[inline(always)]
-    fn gather<S: Simd, const SIZE: usize>(&mut self, simd: S, records: &Records, slots: [u32; LANES]) {
-        let sources = slots.each(
+    fn gather_apart<S: Simd>(&mut self, simd: S, records: &Records, vector: &Vector<'_>) {
+        simd.vectorize(
             #[inline(always)]
-            |slot| records.of(slot).first_chunk::<SIZE>().expect("records have this size"),
+            || self.gather(simd, records, vector.slots()),
         );
-        let columns = self.rows.as_chunks_mut::<LANES>().0.iter_mut().take(SIZE);
-        for (number, columns) in columns.enumerate() {
-            let rows = sources.each(
-                #[inline(always)]
-                |source| &source[number],
-            );
-            transpose(simd, rows, columns);
-        }
     }
 
+    /// The records of any triangles.
     #[inline(always)]
-    fn gather_any<S: Simd>(&mut self, simd: S, records: &Records, slots: [u32; LANES]) {
+    fn gather<S: Simd>(&mut self, simd: S, records: &Records, slots: [u32; LANES]) {
         let sources = slots.each(
             #[inline(always)]
             |slot| records.of(slot),
@@ -125,6 +189,7 @@ impl Columns {
     /// corners in all other lanes.
     #[cold]
     fn load_cuts(&mut self, context: &ShadeContext<'_>) {
+        self.is_cut = false;
         for lane in 0..LANES {
             let place = context.places[self.cold[cold::PLACE][lane] as usize];
             let cut = place.extra().and_then(|extra| {
@@ -134,6 +199,7 @@ impl Columns {
                     Corners::Whole(_) => None,
                 }
             });
+            self.is_cut |= cut.is_some();
             let weights = cut.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
             for (columns, weights) in self.cut.iter_mut().zip(weights) {
                 for (column, weight) in columns.iter_mut().zip(weights) {

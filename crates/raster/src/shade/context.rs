@@ -38,15 +38,15 @@ impl<'f> ShadeContext<'f> {
     /// The varyings of the draw's vertices.
     #[inline(always)]
     pub(crate) fn varyings(&self) -> DrawVaryings<'f> {
-        let (plan, stride) = (self.plan(), self.stride());
+        let (plan, stride) = (self.plan(), self.frame.pipeline(self.draw).stride());
         let values = &self.frame.varyings[plan.varyings..plan.varyings + plan.used.len() * stride];
         DrawVaryings { slots: self.frame.plan.slots(plan), values, stride }
     }
 
-    /// From how many f32 on the next vertex's varyings start.
+    /// How many varyings a vertex has.
     #[inline(always)]
-    pub(crate) fn stride(&self) -> usize {
-        self.frame.pipeline(self.draw).stride()
+    pub(crate) fn varying_count(&self) -> usize {
+        self.frame.pipeline(self.draw).varyings()
     }
 }
 
@@ -86,6 +86,13 @@ impl Work {
     #[inline(always)]
     pub(crate) fn anywhere(pixel: usize, partly: bool, output: usize) -> Self {
         Self { spot: pixel as u32 | u32::from(partly) << Self::PARTLY, output: output as u32 }
+    }
+
+    /// Spots as [`anywhere`](Self::anywhere) gives them for triangles that may not
+    /// cover the centres.
+    #[inline(always)]
+    pub(crate) fn partly<S: Simd>(spots: U32<S>) -> U32<S> {
+        spots | 1 << Self::PARTLY
     }
 
     /// At one of the pixel's samples.

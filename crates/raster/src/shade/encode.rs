@@ -1,6 +1,6 @@
 //! Linear light to bytes.
 
-use crate::simd::{Each, F32, I32, LANES, Simd, U32, greater, lanes_of, lesser, prelude::*, transposed};
+use crate::simd::{Each, F32, I32, LANES, Simd, U32, channels, greater, lanes_of, lesser, prelude::*};
 use trigon_math::{Vec4, color};
 
 /// What the bytes of a picture mean.
@@ -31,20 +31,7 @@ impl Encoding {
     pub(crate) fn encode_all<S: Simd>(self, simd: S, colors: &[[f32; 4]], codes: &mut [u32]) {
         let groups = colors.as_chunks::<LANES>().0;
         for (colors, codes) in groups.iter().zip(codes.as_chunks_mut::<LANES>().0) {
-            let bits = colors.each_ref().each(
-                #[inline(always)]
-                |color| {
-                    color.each(
-                        #[inline(always)]
-                        |channel| channel.to_bits() as i32,
-                    )
-                },
-            );
-            let color = transposed(simd, bits.each_ref()).each(
-                #[inline(always)]
-                |channel| channel.bitcast::<F32<S>>(),
-            );
-            *codes = self.encode_lanes(simd, color);
+            *codes = self.encode_lanes(simd, channels(simd, colors.each_ref()));
         }
     }
 

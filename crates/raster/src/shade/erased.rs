@@ -19,6 +19,9 @@ pub(crate) trait AnyPipeline: Sync {
     /// they are copied by four; fewer where there are fewer.
     fn stride(&self) -> usize;
 
+    /// How many f32 are interpolated.
+    fn varyings(&self) -> usize;
+
     /// Whether fragments are asked for everything that there is to know.
     fn asks_all(&self) -> bool;
 
@@ -67,6 +70,10 @@ impl<P: LanePipeline> AnyPipeline for P {
         let varyings = P::varyings(self);
         assert!(varyings <= MAX_VARYINGS, "a pipeline has at most {MAX_VARYINGS} varyings, not {varyings}");
         stride(varyings)
+    }
+
+    fn varyings(&self) -> usize {
+        P::varyings(self)
     }
 
     fn asks_all(&self) -> bool {

@@ -1,7 +1,8 @@
 //! What a pipeline knows when it shades eight pixels.
 
 use super::ShadeContext;
-use super::records::{Records, cold, flag, hot};
+use super::records::{Records, Tag, cold, flag};
+use super::task::Vector;
 use super::weights::Weights;
 use crate::fragment::nearest_edge;
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, lanes_of, lesser, prelude::*};
@@ -14,17 +15,14 @@ use trigon_math::{UVec2, Vec2};
 /// not [active](Self::active) hold something, and what they give is ignored.
 pub struct FragmentLanes<'a, S: Simd> {
     pub(crate) simd: S,
-    pub(crate) active: u64,
-    /// The varyings at the corners: `stride` for each of three.
-    pub(crate) varyings: &'a [Row],
-    pub(crate) stride: usize,
+    /// The varyings at the corners: `count` for each of three.
+    pub(super) varyings: &'a [Row],
+    pub(super) count: usize,
     pub(crate) place: Weights<S>,
     /// In 1/256 internal pixel from the tile's corner.
     pub(crate) point: [I32<S>; 2],
-    /// The columns that are always loaded, of the triangles' records.
-    pub(crate) hot: &'a [Row; hot::COUNT],
-    pub(crate) slots: &'a [u32; LANES],
-    pub(crate) records: &'a Records,
+    pub(super) vector: &'a Vector<'a>,
+    pub(super) records: &'a Records,
     pub(crate) context: &'a ShadeContext<'a>,
 }
 
@@ -32,7 +30,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
     /// The lanes that are asked for: bit `i` for lane `i`, at least one.
     #[inline(always)]
     pub fn active(&self) -> u64 {
-        self.active
+        self.vector.active
     }
 
     /// The varying `index`, perspective-correct, within the range of the
@@ -48,7 +46,15 @@ impl<S: Simd> FragmentLanes<'_, S> {
 
     #[inline(always)]
     fn cold(&self) -> [Row; cold::COUNT] {
-        self.records.cold(self.simd, self.context, *self.slots)
+        self.records.cold(self.simd, self.context, self.vector.slots())
+    }
+
+    #[inline(always)]
+    fn tags(&self) -> [Tag; LANES] {
+        self.vector.slots().each(
+            #[inline(always)]
+            |slot| self.records.tag(slot),
+        )
     }
 
     /// A varying at the three corners.
@@ -57,7 +63,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
         [0, 1, 2].each(
             #[inline(always)]
             |corner| {
-                let row = self.varyings[corner * self.stride + index];
+                let row = self.varyings[corner * self.count + index];
                 I32::simd_from(self.simd, row).bitcast()
             },
         )
@@ -113,15 +119,21 @@ impl<S: Simd> FragmentLanes<'_, S> {
     /// The index of the triangle, segment or point in its draw, for each lane.
     #[inline(always)]
     pub fn primitives(&self) -> [u32; LANES] {
-        self.hot[hot::PRIMITIVE].each(i32::cast_unsigned)
+        self.tags().each(
+            #[inline(always)]
+            |tag| tag.primitive,
+        )
     }
 
     /// Whether the corners wind counter-clockwise on the screen; see
     /// [`Fragment::front_facing`].
     #[inline(always)]
     pub fn front_facing(&self) -> Mask<S> {
-        let flags = I32::simd_from(self.simd, self.hot[hot::FLAGS]);
-        (flags & flag::BACK).simd_eq(I32::splat(self.simd, 0))
+        let flags = self.tags().each(
+            #[inline(always)]
+            |tag| tag.flags,
+        );
+        (I32::simd_from(self.simd, flags) & flag::BACK).simd_eq(I32::splat(self.simd, 0))
     }
 
     /// The distance in pixels to the nearest edge of the face; see
@@ -130,14 +142,13 @@ impl<S: Simd> FragmentLanes<'_, S> {
     pub fn nearest_edge(&self) -> F32<S> {
         let supersampling = self.context.frame.supersampling as f32;
         let opposite: [[f32; LANES]; 3] = self.place.distances.each(Into::into);
-        let geometry = self.context.geometry();
+        let (geometry, tags) = (self.context.geometry(), self.tags());
         let nearest = lanes_of(
             #[inline(always)]
             |lane| {
                 let distances = opposite.map(|distance| distance[lane] / supersampling);
-                let primitive = self.hot[hot::PRIMITIVE][lane].cast_unsigned();
-                let distances = edge_distances(self.hot[hot::FLAGS][lane], distances);
-                nearest_edge(distances, geometry.edge_flags(primitive))
+                let Tag { primitive, flags } = tags[lane];
+                nearest_edge(edge_distances(flags, distances), geometry.edge_flags(primitive))
             },
         );
         F32::simd_from(self.simd, nearest)
@@ -147,7 +158,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
     #[inline(always)]
     pub(crate) fn for_each(&self, mut visit: impl FnMut(usize, RawFragment<'_>)) {
         let mut rows = Rows::new();
-        for index in 0..self.stride {
+        for index in 0..self.count {
             let [dx, dy] = self.gradient(index);
             rows.set(index, [self.varying(index), dx, dy]);
         }
@@ -158,9 +169,9 @@ impl<S: Simd> FragmentLanes<'_, S> {
         let geometry = self.context.geometry();
         let supersampling = self.context.frame.supersampling as f32;
         let distances: [[f32; LANES]; 3] = self.place.distances.each(Into::into);
-        for lane in (0..LANES).filter(|lane| self.active >> lane & 1 != 0) {
-            let primitive = self.hot[hot::PRIMITIVE][lane].cast_unsigned();
-            let flags = self.hot[hot::FLAGS][lane];
+        let tags = self.tags();
+        for lane in (0..LANES).filter(|lane| self.active() >> lane & 1 != 0) {
+            let Tag { primitive, flags } = tags[lane];
             let opposite = distances.map(|d| d[lane] / supersampling);
             let fragment = Fragment {
                 varyings: (),
@@ -176,7 +187,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
                 edge_distances: edge_distances(flags, opposite),
                 edge_flags: geometry.edge_flags(primitive),
             };
-            let [varyings, ddx, ddy] = rows.of(lane, self.stride);
+            let [varyings, ddx, ddy] = rows.of(lane, self.count);
             visit(lane, RawFragment { fragment, varyings, ddx, ddy });
         }
     }

@@ -2,6 +2,7 @@
 
 mod columns;
 mod context;
+mod edges;
 mod encode;
 mod erased;
 mod fragment_lanes;
@@ -18,11 +19,12 @@ mod visible;
 mod weights;
 
 pub(crate) use context::{Job, ShadeContext, Work};
+pub(crate) use edges::EdgeGroup;
 pub(crate) use encode::Encoding;
 pub(crate) use erased::{AnyPipeline, stride};
 pub use fragment_lanes::{FragmentLanes, MAX_VARYINGS, RawFragment};
 pub(crate) use list::{mask_jobs, shade_jobs};
 pub(crate) use output::ShadeOutput;
 use records::Records;
-pub(crate) use shading::{EdgePixel, Shading};
+pub(crate) use shading::Shading;
 pub(crate) use surface::shade_tile;

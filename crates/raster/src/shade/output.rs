@@ -6,8 +6,8 @@ use crate::simd::{Each, F32, LANES, Simd, lanes_of};
 
 /// The colours of a tile's pixels or fragments.
 pub(crate) enum ShadeOutput<'a> {
-    /// As bytes at once: nothing is blended or averaged.
-    Codes(&'a mut [u32], Encoding),
+    /// As bytes at once; and edge pixels of groups in linear light.
+    Codes(&'a mut [u32], Encoding, &'a mut [[f32; 4]]),
     /// In linear light.
     Colors(&'a mut [[f32; 4]]),
 }
@@ -17,10 +17,15 @@ impl ShadeOutput<'_> {
     #[inline(always)]
     pub(super) fn write<S: Simd>(&mut self, simd: S, color: [F32<S>; 4], to: Destination<'_>) {
         match self {
-            Self::Codes(codes, encoding) => {
+            Self::Codes(codes, encoding, colors) => {
                 let encoded = encoding.encode_lanes(simd, color);
                 match to {
-                    Destination::Group(first) => codes[first..first + LANES].copy_from_slice(&encoded),
+                    Destination::Group(first, has_edges) => {
+                        codes[first..first + LANES].copy_from_slice(&encoded);
+                        if has_edges {
+                            colors[first..first + LANES].copy_from_slice(&rows(color));
+                        }
+                    }
                     Destination::Listed(fragments) => {
                         for (fragment, code) in fragments.iter().zip(encoded) {
                             codes[fragment.work.output as usize] = code;
@@ -31,7 +36,7 @@ impl ShadeOutput<'_> {
             Self::Colors(colors) => {
                 let rows = rows(color);
                 match to {
-                    Destination::Group(first) => colors[first..first + LANES].copy_from_slice(&rows),
+                    Destination::Group(first, _) => colors[first..first + LANES].copy_from_slice(&rows),
                     Destination::Listed(fragments) => {
                         for (fragment, color) in fragments.iter().zip(rows) {
                             colors[fragment.work.output as usize] = color;

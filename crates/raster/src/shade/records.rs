@@ -6,21 +6,19 @@ use super::sorted::Sorted;
 use crate::bin::Place;
 use crate::simd::{Each, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
 
-/// Columns of the row that every vector loads.
+/// The columns that every vector loads before those of varyings.
 pub(super) mod hot {
     /// The first of the sorted vertices from the tile's corner, in 1/256 pixel: x in
     /// the low half, y in the high one. Like the steps only of triangles that are
     /// not wide.
     pub(crate) const POINT: usize = 0;
     /// Steps of the edge functions opposite vertices 1 and 2: to the right in the
-    /// low half, down in the high one.
+    /// low half, down in the high one. Nothing for triangles that are wide or cut.
     pub(crate) const STEPS: usize = 1;
     /// The vertices' 1/w over a power of two near the largest.
     pub(crate) const Q: usize = 3;
-    pub(crate) const FLAGS: usize = 6;
-    pub(crate) const PRIMITIVE: usize = 7;
     /// How many there are.
-    pub(crate) const COUNT: usize = 8;
+    pub(crate) const COUNT: usize = 6;
 }
 
 /// Columns of the two rows that few vectors load.
@@ -52,11 +50,21 @@ pub(super) mod flag {
     pub(crate) const CUT: i32 = 1 << 9;
 }
 
-/// Records of triangles of one draw: the hot row, rows of the varyings of the
-/// vertices, and perhaps two cold rows.
+/// What few pipelines ask of a triangle.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Tag {
+    /// The index of the triangle, segment or point in its draw.
+    pub(super) primitive: u32,
+    /// See [`flag`].
+    pub(super) flags: i32,
+}
+
+/// Records of triangles of one draw: the hot columns and the varyings of the
+/// vertices in whole rows, and perhaps two cold rows.
 #[derive(Default)]
 pub(crate) struct Records {
     rows: Vec<Row>,
+    tags: Vec<Tag>,
     shape: Shape,
     /// The triangles among the tile's.
     seen: Vec<u32>,
@@ -69,28 +77,32 @@ pub(super) struct Shape {
     size: usize,
     /// The first of them, that every vector loads.
     pub(super) loaded: usize,
-    /// From how many numbers on the next vertex's varyings start.
-    pub(super) stride: usize,
+    /// How many varyings each vertex has.
+    pub(super) varyings: usize,
 }
 
 impl Records {
     /// Makes records of some of the tile's triangles, all of the context's draw.
     pub(crate) fn fill(&mut self, token: Token, context: &ShadeContext<'_>, seen: &[u32]) {
-        let stride = context.stride();
-        let loaded = 1 + (3 * stride).div_ceil(LANES);
+        let varyings = context.varying_count();
+        let loaded = (hot::COUNT + 3 * varyings).div_ceil(LANES);
         let is_asked_all = context.frame.pipeline(context.draw).asks_all();
         let size = loaded + if is_asked_all { cold::COUNT / LANES } else { 0 };
-        self.shape = Shape { size, loaded, stride };
+        self.shape = Shape { size, loaded, varyings };
         self.seen.clear();
         self.seen.extend_from_slice(seen);
         let length = seen.len() * self.shape.size;
         if self.rows.len() < length {
             self.rows.resize(length, [0; LANES]);
         }
+        if self.tags.len() < seen.len() {
+            self.tags.resize(seen.len(), Tag::default());
+        }
         let shape = self.shape;
         at_level!(token, simd => {
-            for (seen, rows) in seen.chunks(LANES).zip(self.rows.chunks_mut(LANES * shape.size)) {
-                eight(simd, context, seen, (rows, shape));
+            let rows = self.rows.chunks_mut(LANES * shape.size);
+            for ((seen, rows), tags) in seen.chunks(LANES).zip(rows).zip(self.tags.chunks_mut(LANES)) {
+                eight(simd, context, seen, (rows, shape), tags);
             }
         });
     }
@@ -98,6 +110,11 @@ impl Records {
     #[inline(always)]
     pub(super) fn shape(&self) -> Shape {
         self.shape
+    }
+
+    #[inline(always)]
+    pub(super) fn tag(&self, slot: u32) -> Tag {
+        self.tags[slot as usize]
     }
 
     /// The rows of a triangle that every vector loads.
@@ -156,7 +173,13 @@ fn places(context: &ShadeContext<'_>, seen: [u32; LANES]) -> [Place; LANES] {
 
 /// Records of up to eight triangles.
 #[inline(always)]
-fn eight<S: Simd>(simd: S, context: &ShadeContext<'_>, seen: &[u32], (rows, shape): (&mut [Row], Shape)) {
+fn eight<S: Simd>(
+    simd: S,
+    context: &ShadeContext<'_>,
+    seen: &[u32],
+    (rows, shape): (&mut [Row], Shape),
+    tags: &mut [Tag],
+) {
     let numbers = lanes_of(
         #[inline(always)]
         |lane| *seen.get(lane).unwrap_or(&seen[0]),
@@ -176,8 +199,11 @@ fn eight<S: Simd>(simd: S, context: &ShadeContext<'_>, seen: &[u32], (rows, shap
             || Sorted::made(simd, context, places),
         )
     };
-    let mut columns = sorted.heads(simd, context.area.origin);
-    columns[0][hot::PRIMITIVE] = primitives.each(u32::cast_signed);
+    let columns = sorted.heads(simd, context.area.origin);
+    let flags: Row = sorted.flags(simd).into();
+    for ((tag, primitive), flags) in tags.iter_mut().zip(primitives).zip(flags) {
+        *tag = Tag { primitive, flags };
+    }
     let kept = if shape.size == shape.loaded { 1 } else { 3 };
     for (columns, row) in columns.iter().zip([0, shape.loaded, shape.loaded + 1]).take(kept) {
         let mut turned = [[0; LANES]; LANES];
@@ -197,42 +223,44 @@ fn eight<S: Simd>(simd: S, context: &ShadeContext<'_>, seen: &[u32], (rows, shap
     );
     let records = rows.chunks_exact_mut(shape.size).zip(&corners[..seen.len()]);
     // The commonest by themselves, so that they are copied without a loop.
-    match shape.stride {
+    match shape.varyings {
         0 => {}
         1 => copy_varyings::<1>(context, records),
         2 => copy_varyings::<2>(context, records),
+        3 => copy_varyings::<3>(context, records),
         4 => copy_varyings::<4>(context, records),
+        6 => copy_varyings::<6>(context, records),
         8 => copy_varyings::<8>(context, records),
-        _ => copy_long_varyings(context, records),
+        _ => copy_many_varyings(context, records),
     }
 }
 
-/// Puts the varyings of the corners into records: `STRIDE` of each.
+/// Puts the varyings of the corners into records: `COUNT` of each.
 #[inline(always)]
-fn copy_varyings<'r, const STRIDE: usize>(
+fn copy_varyings<'r, const COUNT: usize>(
     context: &ShadeContext<'_>,
     records: impl Iterator<Item = (&'r mut [Row], &'r [u32; 3])>,
 ) {
     let varyings = context.varyings();
     for (record, corners) in records {
-        let values = record[1..].as_flattened_mut().as_chunks_mut::<STRIDE>().0;
+        let values = record.as_flattened_mut()[hot::COUNT..].as_chunks_mut::<COUNT>().0;
         for (values, &corner) in values.iter_mut().zip(corners) {
-            let from = varyings.of(corner).first_chunk::<STRIDE>();
-            for (to, from) in values.iter_mut().zip(from.expect("varyings are this long")) {
+            let from = varyings.of(corner).first_chunk::<COUNT>();
+            for (to, from) in values.iter_mut().zip(from.expect("varyings are this many")) {
                 *to = from.to_bits().cast_signed();
             }
         }
     }
 }
 
-/// As [`copy_varyings`], for any number of whole fours.
-fn copy_long_varyings<'r>(
+/// As [`copy_varyings`], for any number.
+fn copy_many_varyings<'r>(
     context: &ShadeContext<'_>,
     records: impl Iterator<Item = (&'r mut [Row], &'r [u32; 3])>,
 ) {
     let varyings = context.varyings();
     for (record, corners) in records {
-        let values = record[1..].as_flattened_mut().chunks_exact_mut(context.stride());
+        let values = record.as_flattened_mut()[hot::COUNT..].chunks_exact_mut(context.varying_count());
         for (values, &corner) in values.zip(corners) {
             for (to, from) in values.iter_mut().zip(varyings.of(corner)) {
                 *to = from.to_bits().cast_signed();

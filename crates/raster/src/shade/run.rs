@@ -67,7 +67,7 @@ pub(super) fn for_each_vector<S: Simd>(
             #[inline(always)]
             || {
                 let vector = task.vector(simd, number);
-                columns.load(simd, context, task.records, vector.slots);
+                columns.load(simd, context, task.records, &vector);
                 vector
             },
         );
@@ -87,13 +87,11 @@ fn fragments<'v, S: Simd>(
     let point = points(simd, context, &triangles, U32::simd_from(simd, vector.spots));
     FragmentLanes {
         simd,
-        active: vector.active,
-        hot: columns.hot(),
         varyings: columns.varyings(),
-        stride: records.shape().stride,
+        count: records.shape().varyings,
         place: triangles.at(simd, point),
         point,
-        slots: &vector.slots,
+        vector,
         records,
         context,
     }

@@ -2,18 +2,11 @@
 
 use super::Records;
 use super::columns::Columns;
+use super::edges::EdgeGroup;
 use super::task::{Fragment, Group};
+use crate::simd::LANES;
 use crate::tile::PIXELS;
 use std::ops::Range;
-
-/// A pixel whose samples see different triangles, under multisampling.
-#[derive(Clone, Copy)]
-pub(crate) struct EdgePixel {
-    pub(crate) pixel: u32,
-    /// Where the colours of its samples are named in
-    /// [`sample_colors`](Shading::sample_colors).
-    pub(crate) first: u32,
-}
 
 /// What is visible of one draw.
 pub(super) struct Run {
@@ -48,12 +41,15 @@ pub(crate) struct Shading {
     pub(super) flat_colors: Vec<[f32; 4]>,
     /// Pixels as bytes.
     pub(crate) codes: Vec<u32>,
-    /// Pixels in linear light, and from [`PIXELS`] on the colours of
-    /// [`parts`](Self::parts).
+    /// Pixels in linear light, edge pixels with what their first samples see; and
+    /// from [`PIXELS`] on what other samples of edge pixels see.
     pub(crate) colors: Vec<[f32; 4]>,
-    pub(crate) edge_pixels: Vec<EdgePixel>,
-    /// For each sample of each edge pixel an index into the colours.
-    pub(crate) sample_colors: Vec<u32>,
+    /// How many of the latter there are.
+    pub(super) part_colors: usize,
+    /// Groups with pixels whose samples see different triangles.
+    pub(crate) edge_groups: Vec<EdgeGroup>,
+    /// For each of their samples and pixels an index into the colours.
+    pub(super) sample_colors: Vec<[u32; LANES]>,
 }
 
 impl Shading {
@@ -72,7 +68,8 @@ impl Shading {
             flat_colors: Vec::new(),
             codes: vec![0; PIXELS],
             colors: vec![[0.0; 4]; PIXELS],
-            edge_pixels: Vec::new(),
+            part_colors: 0,
+            edge_groups: Vec::new(),
             sample_colors: Vec::new(),
         }
     }

@@ -126,11 +126,21 @@ impl<S: Simd> Sorted<S> {
         }
     }
 
-    /// The columns of the hot row and of the cold ones, without the ids, in a tile
-    /// that begins at this pixel.
+    /// All that [`flag`] names.
+    #[inline(always)]
+    pub(super) fn flags(&self, simd: S) -> I32<S> {
+        let [a, b, c] = self.corners.each(
+            #[inline(always)]
+            |corner| I32::simd_from(simd, corner),
+        );
+        self.flags | a | (b << 2) | (c << 4)
+    }
+
+    /// The hot columns and the cold ones, without the ids, in a tile that begins at
+    /// this pixel.
     #[inline(always)]
     pub(super) fn heads(&self, simd: S, [left, top]: [i32; 2]) -> [[Row; LANES]; 3] {
-        let Self { x, y, depth, inverse_w, corners, clockwise, flags } = self;
+        let Self { x, y, depth, inverse_w, clockwise, flags, .. } = self;
         let turned = inlined(
             #[inline(always)]
             |value: I32<S>| clockwise.select(value, -value),
@@ -140,23 +150,22 @@ impl<S: Simd> Sorted<S> {
         let right = [turned(y[2] - y[0]), turned(y[0] - y[1])];
         let down = [turned(x[0] - x[2]), turned(x[1] - x[0])];
         let (q, scale) = perspective(simd, *inverse_w);
-        let [a, b, c] = corners.each(
-            #[inline(always)]
-            |corner| I32::simd_from(simd, corner),
-        );
-        let flags = *flags | a | (b << 2) | (c << 4);
         let both = inlined(
             #[inline(always)]
             |[low, high]: [I32<S>; 2]| (low & 0xffff) | (high << 16),
         );
-        let steps = [both([right[0], down[0]]), both([right[1], down[1]])];
+        let none = I32::splat(simd, 0);
+        let special = (*flags & (flag::WIDE | flag::CUT)).simd_gt(none);
+        let steps = [both([right[0], down[0]]), both([right[1], down[1]])].each(
+            #[inline(always)]
+            |steps| special.select(none, steps),
+        );
         let bits = [q[0], q[1], q[2], depth[0], depth[1], depth[2], scale].each(
             #[inline(always)]
             |value| value.bitcast::<I32<S>>(),
         );
-        let none = I32::splat(simd, 0);
         let columns = [
-            [both(point), steps[0], steps[1], bits[0], bits[1], bits[2], flags, none],
+            [both(point), steps[0], steps[1], bits[0], bits[1], bits[2], none, none],
             [point[0], point[1], right[0], right[1], down[0], down[1], bits[6], none],
             [bits[3], bits[4], bits[5], none, none, none, none, none],
         ];

@@ -54,7 +54,7 @@ fn shade_run(
         fragments: &fragments[run.fragments.clone()],
     };
     let mut output = match encoding {
-        Some(encoding) => ShadeOutput::Codes(codes, encoding),
+        Some(encoding) => ShadeOutput::Codes(codes, encoding, colors),
         None => ShadeOutput::Colors(colors),
     };
     pipeline.shade(context.frame.token, context, (&task, columns), &mut output);
@@ -81,21 +81,27 @@ fn shade_flat(
         let seen = &winners[number * step..][..LANES];
         if seen.iter().all(|&winner| winner == seen[0]) {
             let slot = (group.slot - base) as usize;
-            match encoding {
-                Some(_) => codes[pixels].fill(flat_codes[slot]),
-                None => colors[pixels].fill(flat_colors[slot]),
+            if encoding.is_some() {
+                codes[pixels.clone()].fill(flat_codes[slot]);
+            }
+            if encoding.is_none() || group.edges != 0 {
+                colors[pixels].fill(flat_colors[slot]);
             }
             continue;
         }
-        // What sees nothing is written over later.
-        let slot = |winner: u32| slots.get(winner as usize).copied().unwrap_or(group.slot) - base;
+        // What others get than those asked for is written over later.
+        let slot = |lane: usize| {
+            let is_asked = group.lanes >> lane & 1 != 0;
+            (if is_asked { slots[seen[lane] as usize] } else { group.slot } - base) as usize
+        };
         if encoding.is_some() {
-            for (code, &winner) in codes[pixels].iter_mut().zip(seen) {
-                *code = flat_codes[slot(winner) as usize];
+            for (lane, code) in codes[pixels.clone()].iter_mut().enumerate() {
+                *code = flat_codes[slot(lane)];
             }
-        } else {
-            for (color, &winner) in colors[pixels].iter_mut().zip(seen) {
-                *color = flat_colors[slot(winner) as usize];
+        }
+        if encoding.is_none() || group.edges != 0 {
+            for (lane, color) in colors[pixels].iter_mut().enumerate() {
+                *color = flat_colors[slot(lane)];
             }
         }
     }

@@ -2,7 +2,7 @@
 //! fragments of a list.
 
 use super::{Records, Work};
-use crate::simd::{LANES, Simd, U32, lane_numbers, lanes_of, prelude::*};
+use crate::simd::{Each, LANES, Mask, Simd, U32, lane_numbers, lanes_of, prelude::*};
 use crate::tile::NOBODY;
 
 /// A fragment of a list, with the record of its triangle.
@@ -12,12 +12,16 @@ pub(crate) struct Fragment {
     pub(crate) work: Work,
 }
 
-/// A group of pixels that see one draw, or the background.
+/// A group of pixels of which some see one draw.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Group {
     /// The record of one of its triangles.
     pub(crate) slot: u32,
     pub(crate) number: u32,
+    /// The pixels whose first samples see the draw, by their lanes.
+    pub(crate) lanes: u32,
+    /// Those of them whose other samples do not all see the same.
+    pub(crate) edges: u32,
 }
 
 /// What is to be shaded of one draw in a tile.
@@ -36,27 +40,58 @@ pub(crate) struct Task<'t> {
 /// Where the colours of a vector go.
 #[derive(Clone, Copy)]
 pub(crate) enum Destination<'t> {
-    /// To eight places from this one on; what those get that see nothing will be
-    /// written over.
-    Group(usize),
+    /// To eight places from this one on, and whether some are edge pixels, which are
+    /// needed in linear light. What others get than those asked for will be written
+    /// over.
+    Group(usize, bool),
     Listed(&'t [Fragment]),
 }
 
 /// Eight pixels to be shaded together.
 pub(super) struct Vector<'t> {
-    pub(super) slots: [u32; LANES],
+    /// What the lanes see, by names that stand for records.
+    pub(super) names: [u32; LANES],
+    named: Names<'t>,
     pub(super) spots: [u32; LANES],
     /// The lanes that are asked for.
     pub(super) active: u64,
     pub(super) destination: Destination<'t>,
 }
 
+/// How records are named.
+#[derive(Clone, Copy)]
+enum Names<'t> {
+    /// By their numbers.
+    Slots,
+    /// By the winners that see them, whose slots are listed; the number of the first
+    /// record; and the slot of what sees nothing.
+    Winners(&'t [u32], u32, u32),
+}
+
 impl<'t> Vector<'t> {
+    /// The number of the record that a name stands for.
+    #[inline(always)]
+    pub(super) fn slot(&self, name: u32) -> u32 {
+        match self.named {
+            Names::Slots => name,
+            Names::Winners(slots, base, none) => slots.get(name as usize).copied().unwrap_or(none) - base,
+        }
+    }
+
+    /// The numbers of the lanes' records.
+    #[inline(always)]
+    pub(super) fn slots(&self) -> [u32; LANES] {
+        self.names.each(
+            #[inline(always)]
+            |name| self.slot(name),
+        )
+    }
+
     /// The fragments of a list; none for a group.
     #[inline(always)]
     pub(super) fn fragments(&self) -> &'t [Fragment] {
         match self.destination {
-            Destination::Group(_) => &[],
+            Destination::Group(..) => &[],
             Destination::Listed(fragments) => fragments,
         }
     }
@@ -86,23 +121,22 @@ impl<'t> Task<'t> {
     #[inline(always)]
     fn group<S: Simd>(&self, simd: S, group: &Group) -> Vector<'t> {
         let (winners, step) = self.winners;
-        let winners = &winners[group.number as usize * step..][..LANES];
-        let first = winners[0];
-        let lanes = U32::from_slice(simd, winners);
+        let winners =
+            winners[group.number as usize * step..].first_chunk().expect("a group has eight pixels");
+        let active = u64::from(group.lanes);
+        let names =
+            Mask::from_bitmask(simd, active).select(U32::simd_from(simd, *winners), U32::splat(simd, NOBODY));
         let pixel = group.number as usize * LANES;
-        let same = lanes.simd_eq(U32::splat(simd, first)).all_true();
+        let mut spots = (lane_numbers(simd) + pixel as i32).bitcast();
+        if group.edges != 0 {
+            spots = Mask::from_bitmask(simd, u64::from(group.edges)).select(Work::partly(spots), spots);
+        }
         Vector {
-            slots: if same {
-                [group.slot - self.base; LANES]
-            } else {
-                lanes_of(
-                    #[inline(always)]
-                    |lane| self.slots.get(winners[lane] as usize).copied().unwrap_or(group.slot) - self.base,
-                )
-            },
-            spots: (lane_numbers(simd) + pixel as i32).bitcast::<U32<S>>().into(),
-            active: !lanes.simd_eq(U32::splat(simd, NOBODY)).to_bitmask() & 0xff,
-            destination: Destination::Group(pixel),
+            names: names.into(),
+            named: Names::Winners(self.slots, self.base, group.slot),
+            spots: spots.into(),
+            active,
+            destination: Destination::Group(pixel, group.edges != 0),
         }
     }
 
@@ -112,10 +146,11 @@ impl<'t> Task<'t> {
         // Lanes to spare repeat the first.
         let lane = |lane: usize| fragments.get(lane).unwrap_or(&fragments[0]);
         Vector {
-            slots: lanes_of(
+            names: lanes_of(
                 #[inline(always)]
                 |number| lane(number).slot - self.base,
             ),
+            named: Names::Slots,
             spots: lanes_of(
                 #[inline(always)]
                 |number| lane(number).work.spot(),

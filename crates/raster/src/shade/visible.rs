@@ -1,11 +1,11 @@
 //! Which triangles of a tile are seen, and at which pixels.
 
 use super::Work;
-use super::shading::{EdgePixel, Run, Shading};
+use super::edges::push_edges;
+use super::shading::{Run, Shading};
 use super::task::{Fragment, Group};
 use crate::bin::Place;
 use crate::frame::FrameView;
-use crate::samples::MAX_SAMPLES;
 use crate::simd::{LANES, Mask, Simd, U32, prelude::*};
 use crate::tile::{NOBODY, PIXELS, VisibilityBuffer};
 
@@ -26,8 +26,9 @@ pub(super) fn list<S: Simd>(
     shading.groups.clear();
     shading.fragments.clear();
     shading.parts.clear();
-    shading.edge_pixels.clear();
+    shading.edge_groups.clear();
     shading.sample_colors.clear();
+    shading.part_colors = 0;
     let mut pixels = 0;
     for (group, rows) in winners.chunks_exact(LANES * buffer.samples).enumerate() {
         let (first, others) = rows.split_at(LANES);
@@ -37,22 +38,26 @@ pub(super) fn list<S: Simd>(
             #[inline(always)]
             |agree, row| agree & lanes.simd_eq(U32::from_slice(simd, row)),
         );
-        let agree = agree.to_bitmask();
-        let seen = !lanes.simd_eq(U32::splat(simd, NOBODY)).to_bitmask() & agree;
+        let edges = !agree.to_bitmask() & 0xff;
+        let seen = !lanes.simd_eq(U32::splat(simd, NOBODY)).to_bitmask() & 0xff;
         pixels += seen.count_ones();
-        if agree == 0xff && seen.count_ones() >= FULL {
+        if seen.count_ones() >= FULL {
             let slot = shading.slots[first[seen.trailing_zeros() as usize] as usize];
-            shading.groups.push(Group { slot, number: group as u32 });
-            continue;
+            let group =
+                Group { slot, number: group as u32, lanes: seen as u32, edges: (seen & edges) as u32 };
+            shading.groups.push(group);
+        } else {
+            push_lanes(shading, (group, first), [seen & !edges, seen & edges]);
         }
-        push_lanes(shading, (group, first), seen);
-        push_edges(shading, (group, rows), !agree & 0xff);
+        if edges != 0 {
+            push_edges(simd, shading, (group, rows), edges);
+        }
     }
-    let needed = PIXELS + shading.parts.len();
+    let needed = PIXELS + shading.part_colors;
     if shading.colors.len() < needed {
         shading.colors.resize(needed, [0.0; 4]);
     }
-    pixels as usize + shading.parts.len()
+    pixels as usize + shading.part_colors
 }
 
 /// Finds the triangles that are seen and numbers them in their order.
@@ -93,49 +98,19 @@ fn number<S: Simd>(simd: S, winners: &[u32], places: usize, shading: &mut Shadin
     seen.truncate(count);
 }
 
-/// Lists some pixels of a group by themselves.
+/// Lists some pixels of a group by themselves: those that see one triangle, and
+/// edge pixels with what their first samples see.
 #[inline(always)]
-fn push_lanes(shading: &mut Shading, (group, winners): (usize, &[u32]), mut lanes: u64) {
-    while lanes != 0 {
-        let lane = lanes.trailing_zeros() as usize % LANES;
-        lanes &= lanes - 1;
-        let pixel = group * LANES + lane;
-        let slot = shading.slots[winners[lane] as usize];
-        shading.fragments.push(Fragment { slot, work: Work::anywhere(pixel, false, pixel) });
-    }
-}
-
-/// Lists pixels whose samples see different triangles: each triangle's colour gets
-/// a place of its own, and the samples name theirs.
-#[inline(always)]
-fn push_edges(shading: &mut Shading, (group, rows): (usize, &[u32]), mut lanes: u64) {
-    let Shading { slots, parts, edge_pixels, sample_colors, .. } = shading;
-    let rows = rows.as_chunks::<LANES>().0;
-    let mut names = [NOBODY; MAX_SAMPLES];
-    let names = &mut names[..rows.len()];
-    while lanes != 0 {
-        let lane = lanes.trailing_zeros() as usize % LANES;
-        lanes &= lanes - 1;
-        let pixel = group * LANES + lane;
-        edge_pixels.push(EdgePixel { pixel: pixel as u32, first: sample_colors.len() as u32 });
-        for (sample, row) in rows.iter().enumerate() {
-            let winner = row[lane];
-            if sample > 0 && winner == rows[sample - 1][lane] {
-                names[sample] = names[sample - 1];
-                continue;
-            }
-            names[sample] = match rows[..sample].iter().position(|row| row[lane] == winner) {
-                _ if winner == NOBODY => NOBODY,
-                Some(before) => names[before],
-                None => {
-                    let place = PIXELS + parts.len();
-                    let slot = slots[winner as usize];
-                    parts.push(Fragment { slot, work: Work::anywhere(pixel, true, place) });
-                    place as u32
-                }
-            };
+fn push_lanes(shading: &mut Shading, (group, winners): (usize, &[u32]), lanes: [u64; 2]) {
+    let Shading { slots, fragments, parts, .. } = shading;
+    for ((list, mut lanes), partly) in [fragments, parts].into_iter().zip(lanes).zip([false, true]) {
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize % LANES;
+            lanes &= lanes - 1;
+            let pixel = group * LANES + lane;
+            let slot = slots[winners[lane] as usize];
+            list.push(Fragment { slot, work: Work::anywhere(pixel, partly, pixel) });
         }
-        sample_colors.extend_from_slice(names);
     }
 }
 
@@ -182,13 +157,11 @@ fn part_groups(buffer: &VisibilityBuffer, shading: &mut Shading) {
         let winners = &buffer.winners()[number * LANES * buffer.samples..][..LANES];
         let run = shading.runs.partition_point(|run| run.slots.end <= group.slot as usize);
         let slots = shading.runs[run].slots.clone();
-        let belongs =
-            |winner: u32| winner == NOBODY || slots.contains(&(shading.slots[winner as usize] as usize));
-        let stays = winners.iter().all(|&winner| belongs(winner));
+        let belongs = |lane: usize| slots.contains(&(shading.slots[winners[lane] as usize] as usize));
+        let stays = (0..LANES).filter(|lane| group.lanes >> lane & 1 != 0).all(belongs);
         if !stays {
-            let seen =
-                (0..LANES).filter(|&lane| winners[lane] != NOBODY).fold(0, |seen, lane| seen | 1 << lane);
-            push_lanes(shading, (number, winners), seen);
+            let lanes = [group.lanes & !group.edges, group.edges].map(u64::from);
+            push_lanes(shading, (number, winners), lanes);
         }
         stays
     });

@@ -10,7 +10,7 @@
 //! for Polygon Texture Mapping and Shading", 1991.)
 
 use super::columns::Columns;
-use super::records::{cold, flag, hot};
+use super::records::{cold, hot};
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, U32, greater, inlined, lesser, prelude::*};
 
 /// The largest ratio of w within a triangle that is told apart; beyond, a
@@ -80,11 +80,6 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
             #[inline(always)]
             |column: usize| I32::simd_from(simd, columns.hot()[column]),
         );
-        let flags = column(hot::FLAGS);
-        let any = inlined(
-            #[inline(always)]
-            |flag: i32| (flags & flag).simd_gt(I32::splat(simd, 0)).any_true(),
-        );
         let low = inlined(
             #[inline(always)]
             |both: I32<S>| (both << 16) >> 16,
@@ -104,7 +99,7 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
             ),
             cut: None,
         };
-        if !any(flag::CUT | flag::WIDE) {
+        if !columns.any_special(simd) {
             return small;
         }
         let column = inlined(
@@ -119,7 +114,7 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
             right,
             down,
             area: wide_area(right, down),
-            cut: any(flag::CUT).then_some(&columns.cut),
+            cut: columns.cut(),
             ..small
         }
     }

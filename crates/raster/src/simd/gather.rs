@@ -1,9 +1,9 @@
 //! Rows become columns of eight lanes, and columns rows. There is no gather
 //! without `unsafe`; loads and a transposition are as fast.
 
-use super::{Each, I32, Simd};
-use fearless_simd::i32x4;
+use super::{Each, F32, I32, Simd};
 use fearless_simd::prelude::*;
+use fearless_simd::{f32x4, i32x4};
 
 /// Eight numbers in memory.
 pub(crate) type Row = [i32; 8];
@@ -11,10 +11,30 @@ pub(crate) type Row = [i32; 8];
 /// The columns of eight rows.
 #[inline(always)]
 pub(crate) fn transposed<S: Simd>(simd: S, rows: [&[i32; 4]; 8]) -> [I32<S>; 4] {
-    let [a, b, c, d, e, f, g, h] = rows.each(
+    columns(
+        simd,
+        rows.each(
+            #[inline(always)]
+            |row| i32x4::simd_from(simd, *row),
+        ),
+    )
+}
+
+/// The channels of eight colours.
+#[inline(always)]
+pub(crate) fn channels<S: Simd>(simd: S, colors: [&[f32; 4]; 8]) -> [F32<S>; 4] {
+    let rows = colors.each(
         #[inline(always)]
-        |row| i32x4::simd_from(simd, *row),
+        |color| f32x4::simd_from(simd, *color).bitcast(),
     );
+    columns(simd, rows).each(
+        #[inline(always)]
+        |channel| channel.bitcast(),
+    )
+}
+
+#[inline(always)]
+fn columns<S: Simd>(simd: S, [a, b, c, d, e, f, g, h]: [i32x4<S>; 8]) -> [I32<S>; 4] {
     let low = transposed_four(simd, [a, b, c, d]);
     let high = transposed_four(simd, [e, f, g, h]);
     [0, 1, 2, 3].each(

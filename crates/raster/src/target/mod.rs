@@ -151,6 +151,15 @@ impl<'a> Target<'a> {
         Ok(self)
     }
 
+    /// The same with the picture of [`Output::Linear`] in the caller's memory.
+    ///
+    /// # Errors
+    /// [`TargetError::Length`] if there are not `width * height` pixels.
+    pub fn with_linear(mut self, pixels: &'a mut [Vec4]) -> Result<Self, TargetError> {
+        self.linear = self.borrowed(pixels)?;
+        Ok(self)
+    }
+
     /// The same with the picture of [`Output::Depth`] in the caller's memory.
     ///
     /// # Errors

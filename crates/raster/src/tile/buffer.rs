@@ -17,8 +17,8 @@ pub(crate) const BEHIND_ALL: f32 = -f32::MIN_POSITIVE;
 pub(crate) struct BlockBounds {
     pub(crate) farthest: f32,
     pub(crate) nearest: f32,
-    /// Whether something has been written since `farthest` was found.
-    pub(crate) stale: bool,
+    /// How many triangles may have been written since `farthest` was found.
+    pub(crate) writes: u32,
 }
 
 /// Depth and winner of each sample of a tile: group by group, sample by sample,
@@ -39,7 +39,7 @@ pub(crate) struct VisibilityBuffer {
 
 impl VisibilityBuffer {
     pub(crate) fn new() -> Self {
-        let bounds = BlockBounds { farthest: 0.0, nearest: 0.0, stale: false };
+        let bounds = BlockBounds { farthest: 0.0, nearest: 0.0, writes: 0 };
         Self {
             depth: Vec::new(),
             winner: Vec::new(),
@@ -81,7 +81,7 @@ impl VisibilityBuffer {
             let length = self.span * self.samples;
             self.depth[..length].fill(depth);
             self.winner[..length].fill(winner);
-            self.blocks.fill(BlockBounds { farthest: depth, nearest: depth, stale: false });
+            self.blocks.fill(BlockBounds { farthest: depth, nearest: depth, writes: 0 });
         }
     }
 
@@ -118,7 +118,7 @@ impl VisibilityBuffer {
     #[inline(always)]
     pub(crate) fn note_write(&mut self, block: usize, nearest: f32) {
         let bounds = &mut self.blocks[block];
-        bounds.stale = true;
+        bounds.writes = bounds.writes.wrapping_add(1);
         bounds.nearest = if nearest > bounds.nearest { nearest } else { bounds.nearest };
     }
 
@@ -135,7 +135,7 @@ impl VisibilityBuffer {
     /// The farthest depth of a block, found anew if that may help.
     #[inline(always)]
     pub(crate) fn farthest_in(&mut self, block: usize) -> f32 {
-        if self.blocks[block].stale {
+        if self.blocks[block].writes > 0 {
             self.refresh(block);
         }
         self.blocks[block].farthest
@@ -153,7 +153,7 @@ impl VisibilityBuffer {
         }
         let farthest = least.into_iter().fold(f32::INFINITY, |a, b| if b < a { b } else { a });
         self.stale |= farthest > self.blocks[block].farthest;
-        self.blocks[block] = BlockBounds { farthest, stale: false, ..self.blocks[block] };
+        self.blocks[block] = BlockBounds { farthest, writes: 0, ..self.blocks[block] };
     }
 
     /// The farthest depth of the tile, found anew from the blocks' if one of

@@ -304,7 +304,7 @@ impl Cover<'_> {
 
     /// The covered lanes that are nearer than what is there.
     #[inline(always)]
-    pub(super) fn seen<S: Simd>(
+    fn seen<S: Simd>(
         &self,
         simd: S,
         place: u32,

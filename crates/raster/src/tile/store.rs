@@ -1,7 +1,7 @@
 //! Writing lanes to the visibility buffer.
 
 use super::buffer::VisibilityBuffer;
-use crate::simd::{F32, LANES, Mask, Simd, U32, prelude::*};
+use crate::simd::{F32, LANES, Mask, Simd, U32, blended, prelude::*};
 
 /// Writes all lanes.
 #[inline(always)]
@@ -11,9 +11,6 @@ pub(super) fn store<S: Simd>(simd: S, place: u32, depth: F32<S>, buffer: &mut Vi
 }
 
 /// Writes some lanes.
-///
-/// A selection followed by a store would become a masked store, which some
-/// processors are slow at (AMD's Zen 3 takes five times as long as for this).
 #[inline(always)]
 pub(super) fn store_where<S: Simd>(
     simd: S,
@@ -31,8 +28,9 @@ pub(super) fn store_where<S: Simd>(
     winner.store_slice(&mut buffer.winner[at..at + LANES]);
 }
 
-/// The bits of `new` where `bits` are set, of `there` elsewhere.
+/// Makes a place the winner in some lanes.
 #[inline(always)]
-fn blended<S: Simd>(bits: U32<S>, there: U32<S>, new: U32<S>) -> U32<S> {
-    there ^ ((there ^ new) & bits)
+pub(super) fn name_where<S: Simd>(simd: S, mask: Mask<S>, place: u32, winners: &mut [u32; LANES]) {
+    let bits = mask.select(U32::splat(simd, u32::MAX), U32::splat(simd, 0));
+    *winners = blended(bits, U32::simd_from(simd, *winners), U32::splat(simd, place)).into();
 }

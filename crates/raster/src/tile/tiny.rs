@@ -1,16 +1,26 @@
 //! Triangles of a few pixels to a few blocks: most triangles of most frames.
+//!
+//! Rows of groups are gone through from end to end, with nothing to be decided on
+//! the way: what a branch would save here, it loses by being hard to foresee.
 
-use super::area::{BLOCKS, GROUPS};
-use super::buffer::VisibilityBuffer;
+use super::area::{BLOCKS, TileArea};
+use super::buffer::{NOBODY, VisibilityBuffer};
 use super::cover::{Counts, Cover};
 use super::eight::Eight;
-use super::store::store_where;
-use crate::samples::MAX_SAMPLES;
-use crate::simd::{Each, F32, I32, LANES, Simd, greater, inlined, lane_numbers, lesser, prelude::*};
+use super::store::name_where;
+use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lane_numbers, lesser, prelude::*};
 use fearless_simd::f64x4;
 
-/// A triangle on its way through a tile: what its blocks have in common.
-struct Steps<S: Simd> {
+/// A block is asked for its farthest depth again after so many triangles: until
+/// it is covered anew, the answer stays the same.
+const WRITES: u32 = 4;
+
+/// A triangle on its way through a tile.
+struct Tiny<S: Simd> {
+    place: u32,
+    /// First and last columns and rows of groups.
+    columns: [usize; 2],
+    rows: [usize; 2],
     /// Edge functions' steps within a group, to the next group, and to the next row
     /// of groups.
     lanes: [I32<S>; 3],
@@ -21,25 +31,15 @@ struct Steps<S: Simd> {
     slopes: [f64x4<S>; 2],
     low: F32<S>,
     high: F32<S>,
-    place: u32,
-    samples: Samples,
 }
 
-/// What the samples of a pixel add to the edge functions at the first of them, if
-/// there are several, and the greatest of that.
-struct Samples {
-    edges: [[i32; 3]; MAX_SAMPLES],
-    greatest: [i32; 3],
-}
-
-/// The part of a block within a triangle's bounding box.
-struct Part {
-    block: usize,
-    /// The first pixel.
-    pixel: [i32; 2],
-    /// Columns and rows of groups in the block, ends excluded.
-    columns: [i32; 2],
-    rows: [i32; 2],
+/// One sample of a triangle's pixels.
+struct Start<S: Simd> {
+    sample: usize,
+    /// The edge functions at the first group.
+    edges: [I32<S>; 3],
+    /// From the triangle's first vertex to the first group, in 1/256 pixel.
+    way: [f64x4<S>; 2],
 }
 
 impl Cover<'_> {
@@ -70,138 +70,165 @@ impl Cover<'_> {
         counts: &mut Counts,
     ) {
         buffer.settle();
-        let offsets = if MULTI { self.offsets } else { &self.offsets[..1] };
-        let steps = eight.steps(simd, lane, place, offsets);
-        let high = eight.high[lane];
-        let [columns, rows] = eight.pixels.each_ref().each(
-            #[inline(always)]
-            |range| [range[0][lane], range[1][lane]],
-        );
-        // Worth it where several groups may be saved.
-        let refresh = columns[1] - columns[0] + rows[1] - rows[0] > 8;
-        for block_y in rows[0] >> 3..(rows[1] >> 3) + 1 {
-            for block_x in columns[0] >> 3..(columns[1] >> 3) + 1 {
-                let block = (block_y as usize * BLOCKS + block_x as usize) % (BLOCKS * BLOCKS);
-                if self.hierarchical {
-                    let bounds = buffer.blocks[block];
-                    let farthest =
-                        if refresh && bounds.stale { buffer.farthest_in(block) } else { bounds.farthest };
-                    if self.hides(farthest, high) {
-                        counts.blocks_rejected += 1;
-                        continue;
-                    }
-                }
-                let part = Part::new(block, [block_x * 8, block_y * 8], [columns, rows]);
-                counts.groups += part.groups();
-                self.tiny_part::<S, MULTI>(simd, (eight, lane), &steps, &part, buffer);
-                buffer.note_write(block, high);
+        if self.hierarchical && self.hides_tiny(eight, lane, buffer) {
+            counts.blocks_rejected += 1;
+            return;
+        }
+        let tiny = eight.tiny(simd, lane, place);
+        counts.groups += tiny.groups();
+        let samples = if MULTI { self.offsets.len() } else { 1 };
+        for sample in 0..samples {
+            let start = self.start(simd, (eight, lane), &tiny, sample);
+            // As many columns as most have without a loop.
+            let ties = match tiny.columns[1] - tiny.columns[0] {
+                0 => rows::<S, MULTI, 1>(simd, &tiny, &start, buffer),
+                1 => rows::<S, MULTI, 2>(simd, &tiny, &start, buffer),
+                2 => rows::<S, MULTI, 3>(simd, &tiny, &start, buffer),
+                _ => rows::<S, MULTI, 0>(simd, &tiny, &start, buffer),
+            };
+            if !self.in_order && ties.any_true() {
+                self.win_ties((eight, lane), (place, sample), buffer);
             }
         }
     }
 
+    /// Gives a triangle those of its samples that others hold at the same depth
+    /// with a larger key.
+    #[cold]
+    fn win_ties(
+        &self,
+        (eight, lane): (&Eight, usize),
+        (place, sample): (u32, usize),
+        buffer: &mut VisibilityBuffer,
+    ) {
+        let Some(covering) = eight.covering(lane, self.offsets) else { return };
+        for y in covering.rows[0]..=covering.rows[1] {
+            for x in covering.columns[0]..=covering.columns[1] {
+                let index = buffer.index(TileArea::index_of([x as usize, y as usize]), sample);
+                let winner = buffer.winner[index];
+                if winner != NOBODY
+                    && covering.covers([x, y], sample, [0, 0])
+                    && covering.depth.at(self.area.point([x, y], self.offsets[sample])) == buffer.depth[index]
+                    && (self.precedes)(place, winner)
+                {
+                    buffer.winner[index] = place;
+                }
+            }
+        }
+    }
+
+    /// Whether all blocks that the triangle reaches over hide it. Of those of others
+    /// the bounds are widened, as if it were seen in each.
     #[inline(always)]
-    fn tiny_part<S: Simd, const MULTI: bool>(
+    fn hides_tiny(&self, eight: &Eight, lane: usize, buffer: &mut VisibilityBuffer) -> bool {
+        let high = eight.high[lane];
+        let [columns, rows] = eight.pixels.each_ref().each(
+            #[inline(always)]
+            |[first, last]| (first[lane] >> 3) as usize % BLOCKS..=(last[lane] >> 3) as usize % BLOCKS,
+        );
+        let mut hidden = true;
+        for row in rows {
+            for column in columns.clone() {
+                let block = row * BLOCKS + column;
+                let bounds = buffer.blocks[block];
+                // What lies before all of a block cannot be hidden by it.
+                let farthest = if bounds.writes >= WRITES && high < bounds.nearest {
+                    buffer.farthest_in(block)
+                } else {
+                    bounds.farthest
+                };
+                if !self.hides(farthest, high) {
+                    hidden = false;
+                    buffer.note_write(block, high);
+                }
+            }
+        }
+        hidden
+    }
+
+    /// Where a sample of the triangle's pixels begins. Whole numbers, so that
+    /// stepping along from there rounds nothing.
+    #[inline(always)]
+    fn start<S: Simd>(
         &self,
         simd: S,
         (eight, lane): (&Eight, usize),
-        steps: &Steps<S>,
-        part: &Part,
-        buffer: &mut VisibilityBuffer,
-    ) {
-        let [x, y] = part.pixel;
-        // Whole numbers, so that stepping along rounds nothing.
-        let mut edges = [0, 1, 2].each(
+        tiny: &Tiny<S>,
+        sample: usize,
+    ) -> Start<S> {
+        let offset = self.offsets[sample];
+        let pixel = [tiny.columns[0] as i32 * 4, tiny.rows[0] as i32 * 2];
+        let edges = [0, 1, 2].each(
             #[inline(always)]
             |k| {
-                let start = eight.first[k][lane] + eight.right[k][lane] * x + eight.down[k][lane] * y;
-                steps.lanes[k] + start
+                let (right, down) = (eight.right[k][lane], eight.down[k][lane]);
+                let first = if sample == 0 {
+                    eight.first[k][lane]
+                } else {
+                    (eight.corner[k][lane] + right * offset[0] + down * offset[1]) >> 8
+                };
+                tiny.lanes[k] + (first + right * pixel[0] + down * pixel[1])
             },
         );
-        let point = self.area.point(part.pixel, self.offsets[0]);
+        let point = self.area.point(pixel, offset);
         let [dx, dy] = [0, 1].each(
             #[inline(always)]
             |axis| f64x4::splat(simd, f64::from(point[axis] - eight.anchor[axis][lane])),
         );
-        let dx = dx + f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]);
-        let mut dy = dy;
-        for row in part.rows[0]..part.rows[1] {
-            let [mut a, mut b, mut c] = edges;
-            let mut dx = dx;
-            for column in part.columns[0]..part.columns[1] {
-                let group = part.block * GROUPS + (row * 2 + column) as usize;
-                self.tiny_group::<S, MULTI>(simd, steps, ([a, b, c], [dx, dy]), group, buffer);
-                a += steps.right[0];
-                b += steps.right[1];
-                c += steps.right[2];
-                dx += 1024.0;
-            }
-            for (edge, step) in edges.iter_mut().zip(steps.down) {
-                *edge += step;
-            }
-            dy += 512.0;
-        }
+        Start { sample, edges, way: [dx + f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]), dy] }
     }
+}
 
-    /// One group, the edge functions and the way from the triangle's first vertex
-    /// at the first samples given.
-    #[inline(always)]
-    fn tiny_group<S: Simd, const MULTI: bool>(
-        &self,
-        simd: S,
-        steps: &Steps<S>,
-        (edges, way): ([I32<S>; 3], [f64x4<S>; 2]),
-        group: usize,
-        buffer: &mut VisibilityBuffer,
-    ) {
-        if !MULTI {
-            self.tiny_sample(simd, steps, (edges, way, [0, 0]), group * LANES, buffer);
-            return;
+/// Lets one sample of the pixels in all rows compete: of `WIDTH` columns of groups if
+/// that is not 0. Tells where something lies at the same depth.
+///
+/// Nothing is called from here: no register has to be given up.
+#[inline(always)]
+fn rows<S: Simd, const MULTI: bool, const WIDTH: usize>(
+    simd: S,
+    tiny: &Tiny<S>,
+    start: &Start<S>,
+    buffer: &mut VisibilityBuffer,
+) -> Mask<S> {
+    let samples = if MULTI { buffer.samples } else { 1 };
+    let width = if WIDTH > 0 { WIDTH } else { tiny.columns[1] - tiny.columns[0] + 1 };
+    let (depths, winners) =
+        (buffer.depth.as_chunks_mut::<LANES>().0, buffer.winner.as_chunks_mut::<LANES>().0);
+    let Start { sample, mut edges, way: [first, mut dy] } = *start;
+    let [right, down] = tiny.slopes;
+    let mut ties = Mask::splat(simd, false);
+    for row in tiny.rows[0]..tiny.rows[1] + 1 {
+        let (upper, lower) = (tiny.value + down * dy, tiny.value + down * (dy + 256.0));
+        let [mut a, mut b, mut c] = edges;
+        let mut dx = first;
+        for column in 0..width {
+            let across = right * dx;
+            let depth = simd.narrow_f64x4(upper + across, lower + across);
+            let depth = lesser(greater(depth, tiny.low), tiny.high);
+            // What is not covered lies behind everything.
+            let covered = (a | b | c).simd_ge(I32::splat(simd, 0));
+            let depth = covered.select(depth, F32::splat(simd, f32::NEG_INFINITY));
+            let at = TileArea::group_of([tiny.columns[0] + column, row]) * samples + sample;
+            let there = F32::simd_from(simd, depths[at]);
+            ties |= depth.simd_eq(there);
+            depths[at] = greater(depth, there).into();
+            name_where(simd, depth.simd_gt(there), tiny.place, &mut winners[at]);
+            a += tiny.right[0];
+            b += tiny.right[1];
+            c += tiny.right[2];
+            dx += 1024.0;
         }
-        let [a, b, c] = steps.samples.greatest;
-        let [a, b, c] = [edges[0] + a, edges[1] + b, edges[2] + c];
-        if !(a | b | c).simd_ge(I32::splat(simd, 0)).any_true() {
-            return;
+        for (edge, step) in edges.iter_mut().zip(tiny.down) {
+            *edge += step;
         }
-        let [first, ..] = *self.offsets else { return };
-        for (sample, (offset, add)) in self.offsets.iter().zip(steps.samples.edges).enumerate() {
-            let edges = [edges[0] + add[0], edges[1] + add[1], edges[2] + add[2]];
-            let further = [offset[0] - first[0], offset[1] - first[1]];
-            let at = (group * buffer.samples + sample) * LANES;
-            self.tiny_sample(simd, steps, (edges, way, further), at, buffer);
-        }
+        dy += 512.0;
     }
-
-    /// One sample of each pixel of a group, so much further than the way leads.
-    #[inline(always)]
-    fn tiny_sample<S: Simd>(
-        &self,
-        simd: S,
-        steps: &Steps<S>,
-        ([a, b, c], [dx, dy], further): ([I32<S>; 3], [f64x4<S>; 2], [i32; 2]),
-        at: usize,
-        buffer: &mut VisibilityBuffer,
-    ) {
-        let covered = (a | b | c).simd_ge(I32::splat(simd, 0));
-        if !covered.any_true() {
-            return;
-        }
-        let [right, down] = steps.slopes;
-        let (dx, dy) = (dx + f64::from(further[0]), dy + f64::from(further[1]));
-        let across = right * dx;
-        let upper = steps.value + down * dy + across;
-        let lower = steps.value + down * (dy + 256.0) + across;
-        let depth = simd.narrow_f64x4(upper, lower);
-        let depth = lesser(greater(depth, steps.low), steps.high);
-        let seen = self.seen(simd, steps.place, (covered, depth), buffer, at);
-        // Where nothing is seen nothing changes: dearer than a branch that is
-        // foreseen, and cheaper than one that is not.
-        store_where(simd, seen, (steps.place, depth), buffer, at);
-    }
+    ties
 }
 
 impl Eight {
     #[inline(always)]
-    fn steps<S: Simd>(&self, simd: S, lane: usize, place: u32, offsets: &[[i32; 2]]) -> Steps<S> {
+    fn tiny<S: Simd>(&self, simd: S, lane: usize, place: u32) -> Tiny<S> {
         let (x, y) = (lane_numbers(simd) & 3, lane_numbers(simd) >> 2);
         let [right, down] = [&self.right, &self.down].each(
             #[inline(always)]
@@ -221,7 +248,19 @@ impl Eight {
                 )
             },
         );
-        Steps {
+        let ends = inlined(
+            #[inline(always)]
+            |(axis, shift): (usize, u32)| {
+                self.pixels[axis].each(
+                    #[inline(always)]
+                    |pixels| (pixels[lane] >> shift) as usize,
+                )
+            },
+        );
+        Tiny {
+            place,
+            columns: ends((0, 2)),
+            rows: ends((1, 1)),
             lanes: [0, 1, 2].each(
                 #[inline(always)]
                 |k| x * right[k] + y * down[k],
@@ -235,51 +274,18 @@ impl Eight {
             ),
             low: F32::splat(simd, self.low[lane]),
             high: F32::splat(simd, self.high[lane]),
-            place,
-            samples: self.samples(lane, offsets),
         }
-    }
-
-    /// What samples at these offsets add; nothing for a single one.
-    #[inline(always)]
-    fn samples(&self, lane: usize, offsets: &[[i32; 2]]) -> Samples {
-        let mut samples = Samples { edges: [[0; 3]; MAX_SAMPLES], greatest: [0; 3] };
-        if offsets.len() > 1 {
-            for (edges, [x, y]) in samples.edges.iter_mut().zip(offsets) {
-                *edges = [0, 1, 2].each(
-                    #[inline(always)]
-                    |k| {
-                        let value = self.corner[k][lane] + self.right[k][lane] * x + self.down[k][lane] * y;
-                        (value >> 8) - self.first[k][lane]
-                    },
-                );
-                for (greatest, &edge) in samples.greatest.iter_mut().zip(&*edges) {
-                    *greatest = if edge > *greatest { edge } else { *greatest };
-                }
-            }
-        }
-        samples
     }
 }
 
-impl Part {
-    #[inline(always)]
-    fn new(block: usize, corner: [i32; 2], [columns, rows]: [[i32; 2]; 2]) -> Self {
-        let columns = ranged(columns, corner[0], 2);
-        let rows = ranged(rows, corner[1], 1);
-        Self { block, pixel: [corner[0] + columns[0] * 4, corner[1] + rows[0] * 2], columns, rows }
-    }
-
-    /// How many groups it has.
+impl<S: Simd> Tiny<S> {
+    /// How many groups of pixels it reaches over.
     #[inline(always)]
     fn groups(&self) -> u64 {
-        ((self.columns[1] - self.columns[0]) * (self.rows[1] - self.rows[0])) as u64
+        let [columns, rows] = [self.columns, self.rows].each(
+            #[inline(always)]
+            |[first, last]| last - first + 1,
+        );
+        (columns * rows) as u64
     }
-}
-
-/// The groups of a block, `start` pixels from the tile's corner, that some pixels
-/// lie in.
-#[inline(always)]
-fn ranged([first, last]: [i32; 2], start: i32, shift: i32) -> [i32; 2] {
-    [(first.max(start) - start) >> shift, ((last.min(start + 7) - start) >> shift) + 1]
 }

@@ -83,15 +83,15 @@ fn cover_one<S: Simd, const MULTI: bool>(
             covering_apart(frame, &cover.area, &triangle)
         }
         Some((eight, lane)) => {
-            if cover.tile_hides(buffer, eight.high[lane]) {
-                counts.tiles_rejected += 1;
-                return;
-            }
             if eight.is_tiny(lane) {
                 cover.tiny::<S, MULTI>(simd, (eight, lane), number as u32, buffer, counts);
                 return;
             }
-            eight.covering(lane, frame.grid.pattern)
+            if cover.tile_hides(buffer, eight.high[lane]) {
+                counts.tiles_rejected += 1;
+                return;
+            }
+            eight.covering(lane, cover.offsets)
         }
     };
     if let Some(covering) = covering {
