@@ -30,9 +30,8 @@ pub struct Reader {
 
 /// Every model format that can be read.
 pub fn readers() -> &'static [Reader] {
-    const GLTF: &str =
-        "node tree, materials, textures, vertex colours, cameras, lights; no animation, skins or morphs yet";
-    const OBJ: &str = "polygons, edges, points, groups, materials, diffuse textures, vertex colours";
+    const GLTF: &str = "node tree, materials and all their textures, cameras, lights, skins, morph targets, animations, instances, meshopt compression; no Draco, no KTX2";
+    const OBJ: &str = "polygons, edges, points, groups, Phong and physically-based materials with their textures, vertex colours";
     const READERS: &[Reader] = &[
         Reader { format: Format::Obj, name: "Wavefront OBJ with MTL", extensions: &["obj"], reads: OBJ },
         Reader { format: Format::Gltf, name: "glTF 2.0", extensions: &["gltf"], reads: GLTF },

@@ -40,6 +40,7 @@ mod folder;
 mod format;
 mod gltf;
 mod import;
+mod layers;
 mod limits;
 mod load;
 mod obj;

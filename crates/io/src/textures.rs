@@ -12,18 +12,20 @@ use trigon_scene::TextureId;
 
 use crate::error::{LoadError, Place};
 use crate::import::Import;
+use crate::layers::{Role, merge};
 use crate::limits::Limits;
 use crate::options::Stage;
 use crate::picture::{Picture, decode_picture, picture_size, placeholder};
 
-/// A picture to decode, and where its name was found.
+/// A texture to make, and where its name was found.
 pub(crate) struct Request {
     /// For people: the picture's file name, or its name in the model.
     pub(crate) name: String,
     /// The file that is to blame when it is broken.
     pub(crate) file: PathBuf,
     pub(crate) place: Place,
-    pub(crate) bytes: PictureBytes,
+    /// The pictures that it is made of.
+    pub(crate) layers: Vec<(Role, PictureBytes)>,
     pub(crate) purpose: Purpose,
 }
 
@@ -71,18 +73,17 @@ pub(crate) fn add_textures(
     let done = AtomicUsize::new(0);
     let (path, options) = (import.path, import.options);
     let fits = within_budget(requests, &options.limits);
-    let decode = |(request, fits): (&Request, Result<(), Fault>)| {
+    let make = |(request, fits): (&Request, Result<(), Fault>)| {
         options.report(
             path,
             Stage::Textures,
             done.fetch_add(1, Ordering::Relaxed) as f32 / requests.len() as f32,
         )?;
-        let picture =
-            fits.and_then(|()| decode_picture(request.bytes.get(), &options.limits).map_err(broken));
+        let picture = fits.and_then(|()| decode(request, &options.limits).map_err(broken));
         Ok(picture.and_then(|picture| to_texture(picture, request.purpose).map_err(broken)))
     };
     let decoded: Vec<Result<Texture, Fault>> =
-        requests.par_iter().zip(fits).map(decode).collect::<Result<_, LoadError>>()?;
+        requests.par_iter().zip(fits).map(make).collect::<Result<_, LoadError>>()?;
     let mut ids = Vec::with_capacity(requests.len());
     let mut stand_in = None;
     for (request, result) in requests.iter().zip(decoded) {
@@ -108,6 +109,11 @@ pub(crate) fn add_textures(
     Ok(ids)
 }
 
+fn decode(request: &Request, limits: &Limits) -> Result<Picture, String> {
+    let layer = |(role, bytes): &(Role, PictureBytes)| Ok((*role, decode_picture(bytes.get(), limits)?));
+    merge(request.layers.iter().map(layer).collect::<Result<_, String>>()?)
+}
+
 /// Why a picture is not shown, and what to do about it.
 type Fault = (String, &'static str);
 
@@ -120,13 +126,15 @@ fn broken(why: String) -> Fault {
 fn within_budget(requests: &[Request], limits: &Limits) -> Vec<Result<(), Fault>> {
     let mut left = limits.total_pixels;
     let mut admit = |request: &Request| {
-        let (width, height) = picture_size(request.bytes.get(), limits).map_err(broken)?;
-        let pixels = u64::from(width) * u64::from(height);
-        left = left.checked_sub(pixels).ok_or_else(|| {
-            let most = limits.total_pixels;
-            let why = format!("with it, the model's pictures have more than {most} pixels");
-            (why, "make the pictures smaller")
-        })?;
+        for (_, bytes) in &request.layers {
+            let (width, height) = picture_size(bytes.get(), limits).map_err(broken)?;
+            let pixels = u64::from(width) * u64::from(height);
+            left = left.checked_sub(pixels).ok_or_else(|| {
+                let most = limits.total_pixels;
+                let why = format!("with it, the model's pictures have more than {most} pixels");
+                (why, "make the pictures smaller")
+            })?;
+        }
         Ok(())
     };
     requests.iter().map(&mut admit).collect()

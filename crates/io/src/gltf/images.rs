@@ -16,6 +16,7 @@ use super::slots::SlotTexture;
 use crate::error::{LoadError, Place};
 use crate::folder::Lookup;
 use crate::import::Import;
+use crate::layers::Role;
 use crate::textures::{PictureBytes, Purpose, Request, add_textures};
 
 /// The textures that images of the document became: one for colours, one for
@@ -48,7 +49,8 @@ impl Images {
             let index = *known.entry(source).or_insert_with(|| {
                 let bytes = read_image(import, root, buffers, image)?;
                 let (name, place) = (image_name(root, image), Place::Item("image", image));
-                requests.push(Request { name, file: import.path.to_owned(), place, bytes, purpose });
+                let layers = vec![(Role::Whole, bytes)];
+                requests.push(Request { name, file: import.path.to_owned(), place, layers, purpose });
                 Some(requests.len() - 1)
             });
             indices.extend(index.map(|index| ((image, is_data), index)));

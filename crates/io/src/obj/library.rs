@@ -1,22 +1,17 @@
-//! Finding what an OBJ refers to: its libraries, the materials it uses, and
-//! their textures.
+//! Finding what an OBJ refers to: its libraries and the materials it uses.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use trigon_math::Vec2;
-use trigon_math::glam::Affine2;
-use trigon_raster::{Sampler, Wrap};
-use trigon_scene::{Material, MaterialId, TextureBinding, TextureId};
+use trigon_scene::{Material, MaterialId};
 
-use super::map_options::MapStatement;
-use super::mtl::{MtlMaterial, parse_mtl};
+use super::mtl::{MapKind, MtlMaterial, parse_mtl};
 use super::record::Record;
+use super::textures::Textures;
 use crate::error::{LoadError, Place};
 use crate::folder::{Found, Lookup};
 use crate::import::Import;
 use crate::refusal::Refusal;
-use crate::textures::{PictureBytes, Purpose, Request, add_textures};
 
 /// Adds the materials that faces use. The result has one entry per name of the
 /// record; `None` where no library knows it.
@@ -50,9 +45,10 @@ pub(crate) fn add_materials(
     let textures = Textures::read(import, wanted.iter().map(|(_, material)| *material))?;
     let mut ids = vec![None; used.len()];
     for (index, from) in wanted {
-        let binding = from.texture.as_ref().and_then(|(_, map)| textures.bind(from, map));
-        let mut material = Material { base_color_texture: binding, ..from.material.clone() };
-        if from.texture.is_some() && binding.is_none() {
+        let mut material = from.material.clone();
+        textures.dress(&mut material, from);
+        let wants_color = from.maps.iter().any(|map| map.kind == MapKind::BaseColor);
+        if wants_color && material.base_color_texture.is_none() {
             soften_without_texture(&mut material);
         }
         ids[index] = Some(import.scene.add_material(material));
@@ -118,86 +114,9 @@ fn find_libraries(import: &mut Import<'_>, names: &str) -> Vec<(String, Result<F
 }
 
 /// `from` and `place` are the file and the line that have the name.
-fn note_respelled(import: &mut Import<'_>, name: &str, found: &Found, from: &Path, place: Place) {
+pub(super) fn note_respelled(import: &mut Import<'_>, name: &str, found: &Found, from: &Path, place: Place) {
     if found.respelled {
         let what = format!("{name} was not found; \"{}\" is used instead", found.path.display());
         import.warnings.push_about(from, place, what, "correct the name there");
-    }
-}
-
-/// The textures of all wanted materials, each read and decoded once.
-struct Textures {
-    ids: HashMap<(PathBuf, String), TextureId>,
-}
-
-impl Textures {
-    fn read<'m>(
-        import: &mut Import<'_>,
-        materials: impl Iterator<Item = &'m MtlMaterial>,
-    ) -> Result<Self, LoadError> {
-        let (mut keys, mut requests, mut by_path) = (HashMap::new(), Vec::new(), HashMap::new());
-        for material in materials {
-            let Some((line, map)) = &material.texture else { continue };
-            let key = key(material, map);
-            if keys.contains_key(&key) {
-                continue;
-            }
-            let Some(found) = find_texture(import, material, *line, map) else { continue };
-            let index = *by_path.entry(found.path.clone()).or_insert(requests.len());
-            keys.insert(key, index);
-            if index == requests.len() {
-                let (name, place) = (map.file.clone(), Place::Line(*line));
-                let bytes = PictureBytes::Own(found.bytes);
-                requests.push(Request {
-                    name,
-                    file: material.file.clone(),
-                    place,
-                    bytes,
-                    purpose: Purpose::BaseColor,
-                });
-            }
-        }
-        let ids = add_textures(import, &requests)?;
-        Ok(Self { ids: keys.into_iter().filter_map(|(key, index)| Some((key, ids[index]?))).collect() })
-    }
-
-    fn bind(&self, material: &MtlMaterial, map: &MapStatement) -> Option<TextureBinding> {
-        let &texture = self.ids.get(&key(material, map))?;
-        let wrap = if map.clamp { Wrap::ClampToEdge } else { Wrap::Repeat };
-        let sampler = Sampler { wrap_u: wrap, wrap_v: wrap, ..Sampler::default() };
-        // The statement counts v upwards: v' = s·v + o; down is 1 − v.
-        let down = Vec2::new(map.offset.x, 1.0 - map.scale.y - map.offset.y);
-        let transform = Affine2::from_scale_angle_translation(map.scale, 0.0, down);
-        Some(TextureBinding { transform, sampler, ..TextureBinding::new(texture) })
-    }
-}
-
-fn key(material: &MtlMaterial, map: &MapStatement) -> (PathBuf, String) {
-    (material.file.clone(), map.file.clone())
-}
-
-/// Looks beside the library, then beside the model.
-fn find_texture(
-    import: &mut Import<'_>,
-    material: &MtlMaterial,
-    line: u64,
-    map: &MapStatement,
-) -> Option<Found> {
-    let beside = import.folder.relative_folder(&material.file);
-    let mut result = import.folder.read(&beside, &map.file, Lookup::Forgiving);
-    if matches!(result, Err(Refusal::Missing)) && !beside.as_os_str().is_empty() {
-        result = import.folder.read(Path::new(""), &map.file, Lookup::Forgiving);
-    }
-    match result {
-        Ok(found) => {
-            let what = format!("texture \"{}\"", map.file);
-            note_respelled(import, &what, &found, &material.file, Place::Line(line));
-            Some(found)
-        }
-        Err(refusal) => {
-            let what = format!("texture \"{}\" is not drawn: {refusal}", map.file);
-            import.warnings.push_about(&material.file, Place::Line(line), what, refusal.remedy());
-            None
-        }
     }
 }

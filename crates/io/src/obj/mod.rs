@@ -2,7 +2,7 @@
 //!
 //! `lines` → `feed` (checks, `index`, `numbers`, `corner`, `oddities`, `record`) → tobj (`parse`) →
 //! `build` (polygons, one node for each object or group). Materials come from
-//! `mtl`, by way of `library`.
+//! `mtl`, by way of `library`, their pictures by way of `textures`.
 
 mod build;
 mod corner;
@@ -17,7 +17,9 @@ mod oddities;
 mod parse;
 mod record;
 mod smoothing;
+mod textures;
 
+use trigon_mesh::Mesh;
 use trigon_scene::{Material, MaterialId, Node, Transform};
 
 use crate::error::LoadError;
@@ -50,13 +52,27 @@ pub(crate) fn import_obj(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), Lo
             part.name.clone_from(&stem);
         }
         let ids = part.materials.iter().map(|material| material.and_then(|index| materials[index as usize]));
-        let materials = ids.map(|id| id.unwrap_or_else(|| plain.id(import))).collect();
+        let materials: Vec<MaterialId> = ids.map(|id| id.unwrap_or_else(|| plain.id(import))).collect();
+        add_tangents(import, &mut part.mesh, &materials);
         let mesh = import.scene.add_mesh(part.name.clone(), part.mesh);
         let mut node = Node::default().with_name(part.name).with_transform(transform);
         (node.mesh, node.materials) = (Some(mesh), materials);
         import.scene.add(node);
     }
     Ok(())
+}
+
+/// Normal maps refer to tangents, which OBJ does not have.
+fn add_tangents(import: &Import<'_>, mesh: &mut Mesh, materials: &[MaterialId]) {
+    let has_normal_map = |&id: &MaterialId| {
+        import.scene.materials.get(id).is_some_and(|material| material.normal_map.is_some())
+    };
+    if !materials.iter().any(has_normal_map) {
+        return;
+    }
+    if let Some(tangents) = mesh.generate_tangents(0) {
+        mesh.set_corner_tangents(tangents).expect("there is one a corner");
+    }
 }
 
 /// The material of faces that have none, made when the first asks.

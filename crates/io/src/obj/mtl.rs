@@ -8,19 +8,57 @@ use std::path::{Path, PathBuf};
 
 use trigon_math::color::srgb_to_linear;
 use trigon_math::{Vec3, Vec4};
-use trigon_scene::{AlphaMode, Material, Shading};
+use trigon_scene::{AlphaMode, Material, MetallicRoughness, Shading};
 
 use super::lines::{Lines, decode_name, plain_bytes, split_keyword, words};
 use super::map_options::{MapStatement, parse_map};
 use crate::error::Place;
 use crate::warning::Warnings;
 
-/// A material as a library describes it, its texture not yet read.
+/// What a `map_…` statement is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum MapKind {
+    BaseColor,
+    Opacity,
+    Specular,
+    Emissive,
+    Roughness,
+    Metallic,
+    Normal,
+    /// Heights by the format, directions by many exporters.
+    Bump,
+}
+
+impl MapKind {
+    fn of(keyword: &str) -> Option<Self> {
+        match keyword.to_ascii_lowercase().as_str() {
+            "map_kd" => Some(Self::BaseColor),
+            "map_d" => Some(Self::Opacity),
+            "map_ks" => Some(Self::Specular),
+            "map_ke" => Some(Self::Emissive),
+            "map_pr" => Some(Self::Roughness),
+            "map_pm" => Some(Self::Metallic),
+            "norm" | "map_norm" | "map_kn" => Some(Self::Normal),
+            "bump" | "map_bump" => Some(Self::Bump),
+            _ => None,
+        }
+    }
+}
+
+/// A texture that a material names.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Map {
+    pub(crate) kind: MapKind,
+    /// Of the library.
+    pub(crate) line: u64,
+    pub(crate) statement: MapStatement,
+}
+
+/// A material as a library describes it, its textures not yet read.
 #[derive(Clone, Debug)]
 pub(crate) struct MtlMaterial {
     pub(crate) material: Material,
-    /// The diffuse texture, and the line that names it.
-    pub(crate) texture: Option<(u64, MapStatement)>,
+    pub(crate) maps: Vec<Map>,
     /// The library.
     pub(crate) file: PathBuf,
 }
@@ -28,8 +66,17 @@ pub(crate) struct MtlMaterial {
 /// What tobj is not told about a material.
 #[derive(Clone, Debug, Default)]
 struct Aside {
-    texture: Option<(u64, MapStatement)>,
+    maps: Vec<Map>,
     transparency: Option<(u64, f32)>,
+    roughness: Option<f32>,
+    metallic: Option<f32>,
+    refraction: Option<f32>,
+}
+
+impl Aside {
+    fn has(&self, kind: MapKind) -> bool {
+        self.maps.iter().any(|map| map.kind == kind)
+    }
 }
 
 /// Reads a library. What is malformed in it becomes a warning.
@@ -85,8 +132,11 @@ impl Cleaner<'_> {
                 Some(model) => self.out.push_str(&format!("illum {model}\n")),
                 None => self.warn(line, "illum has no number"),
             },
-            "map_Kd" | "map_kd" => self.diffuse_map(line, rest),
-            _ => self.other_map(line, keyword, rest),
+            "Pr" | "Pm" | "Ni" => self.aside_number(line, keyword, rest),
+            _ => match MapKind::of(keyword) {
+                Some(kind) => self.map(line, keyword, kind, rest),
+                None => self.other_map(line, keyword, rest),
+            },
         }
     }
 
@@ -118,34 +168,45 @@ impl Cleaner<'_> {
         }
     }
 
-    fn diffuse_map(&mut self, line: u64, rest: &[u8]) {
-        let map = parse_map(&decode_name(rest));
-        if map.file.is_empty() {
-            return self.warn(line, "map_Kd names no file and is ignored");
+    /// The fields of "physically-based" MTL, and the index of refraction.
+    fn aside_number(&mut self, line: u64, keyword: &str, rest: &[u8]) {
+        let Some(value) = numbers(rest).first().copied() else {
+            return self.warn(line, &format!("{keyword} has no number and is ignored"));
+        };
+        let aside = self.aside();
+        match keyword {
+            "Pr" => aside.roughness = Some(value),
+            "Pm" => aside.metallic = Some(value),
+            _ => aside.refraction = Some(value),
         }
-        if !map.ignored.is_empty() {
-            let what = format!(
-                "the options {} of texture \"{}\" are not followed",
-                map.ignored.join(", "),
-                map.file
-            );
-            self.warn(line, &what);
-        }
-        self.aside().texture = Some((line, map));
     }
 
-    /// Textures that are not drawn yet are named; other statements are not.
+    /// Of several for the same purpose the last counts.
+    fn map(&mut self, line: u64, keyword: &str, kind: MapKind, rest: &[u8]) {
+        let statement = parse_map(&decode_name(rest));
+        if statement.file.is_empty() {
+            return self.warn(line, &format!("{keyword} names no file and is ignored"));
+        }
+        if !statement.ignored.is_empty() {
+            let (options, file) = (statement.ignored.join(", "), &statement.file);
+            self.warn(line, &format!("the options {options} of texture \"{file}\" are not followed"));
+        }
+        let maps = &mut self.aside().maps;
+        maps.retain(|map| map.kind != kind);
+        maps.push(Map { kind, line, statement });
+    }
+
+    /// Textures that are not drawn are named; other statements are not.
     fn other_map(&mut self, line: u64, keyword: &str, rest: &[u8]) {
         let lower = keyword.to_ascii_lowercase();
-        if lower.starts_with("map_") || matches!(lower.as_str(), "bump" | "norm" | "disp" | "decal" | "refl")
-        {
+        if lower.starts_with("map_") || matches!(lower.as_str(), "disp" | "decal" | "refl") {
             let file = parse_map(&decode_name(rest)).file;
-            let what = format!("{keyword} \"{file}\" is not drawn yet");
+            let what = format!("{keyword} \"{file}\" is not drawn");
             self.warnings.push_about(
                 self.file,
                 Place::Line(line),
                 what,
-                "only map_Kd is; bake the effect into it",
+                "bake the effect into map_Kd if it matters",
             );
         }
     }
@@ -174,7 +235,7 @@ fn number(word: &[u8]) -> Option<f32> {
 }
 
 fn convert(file: &Path, from: tobj::Material, aside: Aside, warnings: &mut Warnings) -> MtlMaterial {
-    let textured = aside.texture.is_some();
+    let textured = aside.has(MapKind::BaseColor);
     let diffuse = from.diffuse.map(to_linear);
     // Many exporters write black beside a texture that they do not mean to darken.
     let base = match diffuse {
@@ -185,17 +246,53 @@ fn convert(file: &Path, from: tobj::Material, aside: Aside, warnings: &mut Warni
     let alpha = from
         .dissolve
         .map_or_else(|| alpha_from(file, &aside, warnings), |alpha| alpha.clamp(0.0, 1.0) as f32);
+    let specular = white_beside_map(from.specular, aside.has(MapKind::Specular));
     let material = Material {
         name: from.name,
         base_color: Vec4::from((base, alpha)),
-        shading: shading(from.illumination_model, from.specular.map(to_linear), from.shininess),
-        emissive: from.emissive.map_or(Vec3::ZERO, to_linear),
-        alpha_mode: if alpha < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque },
+        shading: metallic_roughness(&aside)
+            .unwrap_or_else(|| shading(from.illumination_model, specular.map(to_linear), from.shininess)),
+        emissive: white_beside_map(from.emissive, aside.has(MapKind::Emissive)).map_or(Vec3::ZERO, to_linear),
+        alpha_mode: match alpha < 1.0 {
+            true => AlphaMode::Blend,
+            // What map_d is used for: leaves and fences.
+            false if aside.has(MapKind::Opacity) => AlphaMode::Mask { cutoff: 0.5 },
+            false => AlphaMode::Opaque,
+        },
+        // Below 1 there is no such matter; many exporters write 0 or 1 for "no matter".
+        ior: aside.refraction.filter(|&ior| ior > 1.0).unwrap_or(Material::default().ior),
         // OBJ does not say which side counts, and many a file has it mixed up.
         double_sided: true,
         ..Material::default()
     };
-    MtlMaterial { material, texture: aside.texture, file: file.to_owned() }
+    MtlMaterial { material, maps: aside.maps, file: file.to_owned() }
+}
+
+/// A colour beside its texture: exporters leave it out, or write black, where
+/// the texture is to be seen as it is.
+fn white_beside_map(color: Option<[f64; 3]>, has_map: bool) -> Option<[f64; 3]> {
+    if has_map && color.is_none_or(|color| color == [0.0; 3]) { Some([1.0; 3]) } else { color }
+}
+
+/// The model of "physically-based" MTL, where a material has any of its fields
+/// (`Pr`, `Pm`, `map_Pr`, `map_Pm`; after the extension by Exocortex).
+fn metallic_roughness(aside: &Aside) -> Option<Shading> {
+    let maps = [MapKind::Roughness, MapKind::Metallic].map(|kind| aside.has(kind));
+    if aside.roughness.is_none() && aside.metallic.is_none() && maps == [false, false] {
+        return None;
+    }
+    let default = MetallicRoughness::default();
+    // Without a number of its own, a texture is to be seen as it is.
+    let factor = |value: Option<f32>, has_map: bool, otherwise: f32| match value {
+        Some(value) if value != 0.0 || !has_map => value.clamp(0.0, 1.0),
+        _ if has_map => 1.0,
+        _ => otherwise,
+    };
+    Some(Shading::MetallicRoughness(MetallicRoughness {
+        roughness: factor(aside.roughness, maps[0], default.roughness),
+        metallic: factor(aside.metallic, maps[1], default.metallic),
+        ..default
+    }))
 }
 
 /// `Tr` is 1 − d. Some exporters write 1 for opaque: nobody means a material
@@ -248,12 +345,13 @@ mod tests {
         let (materials, warnings) =
             parse("newmtl my wood\nKd 1 0 0\nKs 1 1 1\nNs 50\nd 0.5\nillum 2\nmap_Kd -s 2 2 1 a b.png\n");
         assert_eq!(warnings, [""; 0], "nothing to warn of");
-        let MtlMaterial { material, texture, .. } = &materials[0];
+        let MtlMaterial { material, maps, .. } = &materials[0];
         assert_eq!(material.name, "my wood", "spaces stay");
         assert_eq!(material.base_color, Vec4::new(1.0, 0.0, 0.0, 0.5), "colour and alpha");
         assert_eq!(material.alpha_mode, AlphaMode::Blend, "d below 1");
         assert_eq!(material.shading, Shading::blinn_phong(Vec3::ONE, 50.0), "highlight");
-        assert_eq!(texture.as_ref().expect("a texture").1.file, "a b.png", "the name");
+        let [map] = &maps[..] else { panic!("one texture: {maps:?}") };
+        assert_eq!((map.kind, map.statement.file.as_str()), (MapKind::BaseColor, "a b.png"), "the texture");
     }
 
     #[test]
@@ -280,9 +378,29 @@ mod tests {
     }
 
     #[test]
-    fn textures_not_drawn_yet_are_named() {
-        let (_, warnings) = parse("newmtl a\nmap_Bump -bm 1 bump.jpg\nnorm n.png\nmap_d /dev/zero\nmap_Kd\n");
-        for name in ["bump.jpg", "n.png", "/dev/zero", "map_Kd"] {
+    fn physically_based_fields_make_a_metallic_rough_material() {
+        let model = |text: &str| match parse(&format!("newmtl a\nKs 1 1 1\n{text}\n")).0[0].material.shading {
+            Shading::MetallicRoughness(model) => (model.roughness, model.metallic),
+            other => panic!("{text:?} made {other:?}"),
+        };
+        assert_eq!(model("Pr 0.25\nPm 0.75"), (0.25, 0.75), "the numbers");
+        assert_eq!(model("Pm 3"), (0.5, 1.0), "within their range, and a default");
+        assert_eq!(model("map_Pr a.png\nPm 0"), (1.0, 0.0), "a texture as it is");
+        assert_eq!(model("map_Pm a.png\nPm 0"), (0.5, 1.0), "0 beside a texture means nothing");
+    }
+
+    #[test]
+    fn every_map_that_is_drawn_arrives_and_others_are_named() {
+        let text = "newmtl a\nmap_Ks s\nmap_Ke e\nmap_d d\nmap_Bump -bm 1 b\nnorm n\nNi 1.3\nmap_Kd old\nmap_Kd new\n";
+        let (materials, warnings) = parse(text);
+        assert_eq!(warnings, [""; 0], "nothing to warn of");
+        let files: Vec<&str> = materials[0].maps.iter().map(|map| map.statement.file.as_str()).collect();
+        assert_eq!(files, ["s", "e", "d", "b", "n", "new"], "the last of each kind");
+        let material = &materials[0].material;
+        assert_eq!((material.emissive, material.ior), (Vec3::ONE, 1.3), "as the textures are; Ni");
+        assert_eq!(material.alpha_mode, AlphaMode::Mask { cutoff: 0.5 }, "holes");
+        let (_, warnings) = parse("newmtl a\nmap_Ns -bm 1 n.png\ndisp d.png\nmap_Kd\nPr x\n");
+        for name in ["n.png", "d.png", "map_Kd", "Pr"] {
             assert!(warnings.iter().any(|warning| warning.contains(name)), "{name}: {warnings:?}");
         }
     }

@@ -2,8 +2,8 @@
 
 use serde_json::json;
 use trigon_io::{Limits, LoadOptions, Loaded, Pixels, encode_png, load, load_image, write_png};
-use trigon_math::{Vec2, Vec3};
-use trigon_scene::{TextureBinding, Wrap};
+use trigon_math::{Vec2, Vec3, Vec4};
+use trigon_scene::{AlphaMode, Shading, TextureBinding, Wrap};
 
 use crate::gltf::Doc;
 use crate::{warnings, warns_once};
@@ -167,4 +167,72 @@ fn a_name_that_was_mended_is_shown_where_it_stands() {
     let found = load(dir.path().join("a.obj"), &LoadOptions::default()).expect("a model");
     warns_once(&found, "a.mtl, line 2");
     assert!(warnings(&found)[0].contains("A.png"), "{:?}", warnings(&found));
+}
+
+/// An OBJ triangle with a material of these statements, beside `t.png` (the
+/// four colours), `n.png` (directions) and `g.png` (grey).
+fn obj_with(statements: &str) -> Loaded {
+    let dir = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, pixels: &[u8; 3]| {
+        write_png(dir.path().join(name), 1, 1, Pixels::Rgb8(pixels)).expect("a picture");
+    };
+    write("n.png", &[128, 128, 255]);
+    write("g.png", &[51, 51, 51]);
+    write_png(dir.path().join("t.png"), 2, 2, Pixels::Rgb8(&PIXELS)).expect("a picture");
+    std::fs::write(dir.path().join("m.mtl"), format!("newmtl m\n{statements}")).expect("a library");
+    let obj = "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
+    std::fs::write(dir.path().join("a.obj"), obj).expect("a model");
+    load(dir.path().join("a.obj"), &LoadOptions::default()).expect("a model")
+}
+
+/// The first texel that a binding shows.
+fn texel(loaded: &Loaded, binding: Option<TextureBinding>) -> Vec4 {
+    let binding = binding.unwrap_or_else(|| panic!("a texture: {:#?}", warnings(loaded)));
+    let texture = &loaded.scene.textures.get(binding.texture).expect("in the scene").texture;
+    let sampler = trigon_scene::Sampler { magnification: trigon_scene::Filter::Nearest, ..binding.sampler };
+    texture.sample(Vec2::splat(0.01), Vec2::ZERO, Vec2::ZERO, &sampler)
+}
+
+#[test]
+fn maps_of_mtl_become_textures_of_the_material() {
+    let found =
+        obj_with("Ks 1 1 1\nmap_Kd t.png\nmap_Ks t.png\nmap_Ke g.png\nmap_d g.png\nnorm n.png\nbump g.png\n");
+    assert_eq!(warnings(&found), [""; 0], "norm is there, so bump is not asked");
+    let material = found.scene.materials.iter().next().expect("a material").1;
+    assert_eq!(
+        texel(&found, material.base_color_texture),
+        Vec4::new(1.0, 0.0, 0.0, 0.2),
+        "red, alpha by grey"
+    );
+    assert_eq!(material.alpha_mode, AlphaMode::Mask { cutoff: 0.5 }, "with holes");
+    let Shading::BlinnPhong { specular_texture, .. } = material.shading else {
+        panic!("{:?}", material.shading)
+    };
+    assert_eq!(texel(&found, specular_texture), Vec4::new(1.0, 0.0, 0.0, 1.0), "the same picture, opaque");
+    let grey = texel(&found, material.emissive_texture).x;
+    assert!((grey - 0.0331).abs() < 1e-4, "0.2 in sRGB is darker in light: {grey}");
+    let normal = texel(&found, material.normal_map.map(|map| map.binding));
+    assert_eq!(normal, Vec4::new(128.0 / 255.0, 128.0 / 255.0, 1.0, 1.0), "data is not decoded as a colour");
+    let (_, mesh) = found.scene.meshes().iter().next().expect("a mesh");
+    assert!(mesh.mesh().attributes().corner_tangents.is_some(), "a normal map needs tangents");
+}
+
+#[test]
+fn roughness_and_metal_share_a_texture_as_in_gltf() {
+    let found = obj_with("Pr 0.5\nmap_Pr g.png\nmap_Pm t.png\n");
+    let material = found.scene.materials.iter().next().expect("a material").1;
+    let Shading::MetallicRoughness(model) = material.shading else { panic!("{:?}", material.shading) };
+    assert_eq!((model.roughness, model.metallic), (0.5, 1.0), "factors");
+    let texel = texel(&found, model.texture);
+    assert_eq!((texel.y, texel.z), (0.2, 1.0), "green by map_Pr, blue by the red of map_Pm");
+}
+
+#[test]
+fn bump_maps_are_drawn_when_they_are_normal_maps() {
+    let normal_map = |loaded: &Loaded| loaded.scene.materials.iter().next().expect("a material").1.normal_map;
+    let directions = obj_with("map_Bump -bm 1.0 n.png\n");
+    assert!(normal_map(&directions).is_some(), "as Blender writes them");
+    let heights = obj_with("map_Bump -bm 1.0 g.png\n");
+    assert_eq!(normal_map(&heights), None, "heights are not");
+    warns_once(&heights, "height map");
 }

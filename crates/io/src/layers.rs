@@ -1,0 +1,103 @@
+//! Pictures that become one texture: MTL keeps colour and opacity, or
+//! roughness and metal, in files of their own.
+
+use crate::picture::Picture;
+
+/// What a picture says of the texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Role {
+    /// All of it.
+    Whole,
+    /// Its alpha: by the picture's own alpha, or by its grey where that is
+    /// opaque all over.
+    Alpha,
+    /// Its green, as glTF keeps roughness.
+    Roughness,
+    /// Its blue, as glTF keeps metal.
+    Metallic,
+    /// All of it, but only if it shows directions and no heights.
+    Directions,
+}
+
+/// Lays pictures over each other, the first below. Smaller ones are stretched
+/// to the largest; where nothing is said the texture is white.
+pub(crate) fn merge(mut layers: Vec<(Role, Picture)>) -> Result<Picture, String> {
+    match layers.as_slice() {
+        [(Role::Whole, _)] => return Ok(layers.remove(0).1),
+        [(Role::Directions, picture)] if shows_directions(picture) => return Ok(layers.remove(0).1),
+        [(Role::Directions, _)] => {
+            return Err("it is a height map, which is not drawn; only normal maps are".to_owned());
+        }
+        _ => {}
+    }
+    let largest =
+        layers.iter().max_by_key(|(_, picture)| u64::from(picture.width) * u64::from(picture.height));
+    let (width, height) = largest.map_or((1, 1), |(_, picture)| (picture.width, picture.height));
+    let mut merged = Picture { width, height, rgba: vec![255; 4 * width as usize * height as usize] };
+    for (role, layer) in &layers {
+        lay_over(&mut merged, *role, layer);
+    }
+    Ok(merged)
+}
+
+fn lay_over(merged: &mut Picture, role: Role, layer: &Picture) {
+    let has_alpha = layer.rgba.chunks_exact(4).any(|texel| texel[3] != 255);
+    let stretched = |at: usize, from: u32, to: u32| at * from as usize / to as usize;
+    let (width, row) = (merged.width as usize, layer.width as usize);
+    for (index, texel) in merged.rgba.chunks_exact_mut(4).enumerate() {
+        let x = stretched(index % width, layer.width, merged.width);
+        let y = stretched(index / width, layer.height, merged.height);
+        let from = &layer.rgba[4 * (y * row + x)..][..4];
+        match role {
+            Role::Whole | Role::Directions => texel.copy_from_slice(from),
+            Role::Alpha => texel[3] = if has_alpha { from[3] } else { from[0] },
+            Role::Roughness => texel[1] = from[0],
+            Role::Metallic => texel[2] = from[0],
+        }
+    }
+}
+
+/// Whether the colours of a picture are directions: mostly up, which is blue,
+/// and to no side on the whole. Heights are grey.
+fn shows_directions(picture: &Picture) -> bool {
+    let texels = picture.rgba.len() as u64 / 4;
+    let mean = |channel: usize| {
+        let sum: u64 = picture.rgba.iter().skip(channel).step_by(4).map(|&value| u64::from(value)).sum();
+        sum / texels.max(1)
+    };
+    let sideways = 88..=168;
+    mean(2) >= 160 && sideways.contains(&mean(0)) && sideways.contains(&mean(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(width: u32, texels: &[[u8; 4]]) -> Picture {
+        Picture { width, height: texels.len() as u32 / width, rgba: texels.concat() }
+    }
+
+    #[test]
+    fn each_picture_fills_its_channels() {
+        let (color, grey) = ([[1, 2, 3, 255]; 4], [[9, 9, 9, 255], [200, 200, 200, 255]]);
+        let layers = vec![(Role::Whole, picture(2, &color)), (Role::Alpha, picture(2, &grey))];
+        let expected = [[1, 2, 3, 9], [1, 2, 3, 200]].repeat(2);
+        assert_eq!(merge(layers), Ok(picture(2, &expected)), "stretched over two rows");
+        let clear = [[0, 0, 0, 7]];
+        let layers = vec![(Role::Whole, picture(2, &color)), (Role::Alpha, picture(1, &clear))];
+        assert_eq!(merge(layers), Ok(picture(2, &[[1, 2, 3, 7]; 4])), "its own alpha");
+        let layers =
+            vec![(Role::Roughness, picture(1, &[[50; 4]])), (Role::Metallic, picture(1, &[[60; 4]]))];
+        assert_eq!(merge(layers), Ok(picture(1, &[[255, 50, 60, 255]])), "as glTF keeps them");
+    }
+
+    #[test]
+    fn directions_are_told_from_heights() {
+        let up = picture(1, &[[128, 127, 255, 255]]);
+        assert_eq!(merge(vec![(Role::Directions, up.clone())]), Ok(up), "a normal map");
+        for grey in [0, 128, 255] {
+            let heights = picture(1, &[[grey, grey, grey, 255]]);
+            assert!(merge(vec![(Role::Directions, heights)]).is_err(), "heights at {grey}");
+        }
+    }
+}
