@@ -2,6 +2,7 @@
 
 mod gltf;
 mod hooks;
+mod hostile;
 mod material;
 mod movement;
 mod obj;

@@ -38,7 +38,7 @@ fn near(found: DVec3, exact: DVec3) -> bool {
 const TURN: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// The square follows two joints, the second of which is turned and far up.
-fn skinned() -> Doc {
+pub(crate) fn skinned() -> Doc {
     let mut doc = Doc::square();
     let joints = doc.accessor(5121, "VEC4", 4, &[0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0]);
     let weights = doc.floats("VEC4", &[1., 0., 0., 0., 0.25, 0.75, 0., 0., 0.5, 0.5, 0., 0., 1., 0., 0., 0.]);
@@ -171,7 +171,7 @@ fn vertices_that_move_apart_stay_apart() {
 }
 
 /// The node moves, turns, and its mesh morphs.
-fn animated() -> Doc {
+pub(crate) fn animated() -> Doc {
     let mut doc = Doc::square();
     let target = doc.floats("VEC3", &[1.0; 12]);
     doc.primitive()["targets"] = json!([{"POSITION": target}]);
