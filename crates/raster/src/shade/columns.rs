@@ -78,10 +78,12 @@ impl Columns {
         self.rows.first_chunk().expect("there is room for the longest record")
     }
 
-    /// The varyings: those of the first vertex, of the second, of the third.
+    /// The `count` varyings of each vertex.
     #[inline(always)]
-    pub(super) fn varyings(&self) -> &[Row] {
-        &self.rows[hot::COUNT..]
+    pub(super) fn varyings(&self, count: usize) -> [&[Row]; 3] {
+        let (first, others) = self.rows[hot::COUNT..].split_at(count);
+        let (second, others) = others.split_at(count);
+        [first, second, &others[..count]]
     }
 
     /// The corners' weights at the vertices, if a triangle is cut, and some are

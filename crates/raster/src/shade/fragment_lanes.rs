@@ -15,9 +15,8 @@ use trigon_math::{UVec2, Vec2};
 /// not [active](Self::active) hold something, and what they give is ignored.
 pub struct FragmentLanes<'a, S: Simd> {
     pub(crate) simd: S,
-    /// The varyings at the corners: `count` for each of three.
-    pub(super) varyings: &'a [Row],
-    pub(super) count: usize,
+    /// The varyings at each of the three corners: equally many.
+    pub(super) varyings: [&'a [Row]; 3],
     pub(crate) place: Weights<S>,
     /// In 1/256 internal pixel from the tile's corner.
     pub(crate) point: [I32<S>; 2],
@@ -60,12 +59,9 @@ impl<S: Simd> FragmentLanes<'_, S> {
     /// A varying at the three corners.
     #[inline(always)]
     fn corners(&self, index: usize) -> [F32<S>; 3] {
-        [0, 1, 2].each(
+        self.varyings.each(
             #[inline(always)]
-            |corner| {
-                let row = self.varyings[corner * self.count + index];
-                I32::simd_from(self.simd, row).bitcast()
-            },
+            |corner| I32::simd_from(self.simd, corner[index]).bitcast(),
         )
     }
 
@@ -157,8 +153,8 @@ impl<S: Simd> FragmentLanes<'_, S> {
     /// Calls `visit` with each active lane as a fragment of its own.
     #[inline(always)]
     pub(crate) fn for_each(&self, mut visit: impl FnMut(usize, RawFragment<'_>)) {
-        let mut rows = Rows::new();
-        for index in 0..self.count {
+        let (mut rows, count) = (Rows::new(), self.varyings[0].len());
+        for index in 0..count {
             let [dx, dy] = self.gradient(index);
             rows.set(index, [self.varying(index), dx, dy]);
         }
@@ -187,7 +183,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
                 edge_distances: edge_distances(flags, opposite),
                 edge_flags: geometry.edge_flags(primitive),
             };
-            let [varyings, ddx, ddy] = rows.of(lane, self.count);
+            let [varyings, ddx, ddy] = rows.of(lane, count);
             visit(lane, RawFragment { fragment, varyings, ddx, ddy });
         }
     }

@@ -87,8 +87,7 @@ fn fragments<'v, S: Simd>(
     let point = points(simd, context, &triangles, U32::simd_from(simd, vector.spots));
     FragmentLanes {
         simd,
-        varyings: columns.varyings(),
-        count: records.shape().varyings,
+        varyings: columns.varyings(records.shape().varyings),
         place: triangles.at(simd, point),
         point,
         vector,

@@ -76,15 +76,10 @@ fn number<S: Simd>(simd: S, winners: &[u32], places: usize, shading: &mut Shadin
         }
         let mut others = !lanes.simd_eq(last).to_bitmask() & 0xff;
         last = lanes;
-        if others.count_ones() > 3 {
-            for &winner in row {
-                slots[(winner as usize).min(places)] = 1;
-            }
-            continue;
-        }
         while others != 0 {
-            slots[(row[others.trailing_zeros() as usize % LANES] as usize).min(places)] = 1;
-            others &= others - 1;
+            let winner = row[others.trailing_zeros() as usize % LANES];
+            slots[(winner as usize).min(places)] = 1;
+            others &= !lanes.simd_eq(U32::splat(simd, winner)).to_bitmask();
         }
     }
     slots.truncate(places);

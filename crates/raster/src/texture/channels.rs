@@ -7,10 +7,13 @@ use trigon_math::color::srgb8_to_linear;
 /// Red, green, blue and alpha.
 pub(super) type Channels<S> = [F32<S>; 4];
 
+/// The last channel.
+pub(super) const ALPHA: u32 = 3;
+
 /// What the bytes of texels mean.
 pub(super) trait Texels {
-    /// The channels of texels, ready to be mixed.
-    fn channels<S: Simd>(texels: U32<S>) -> Channels<S>;
+    /// A channel, 0 to 3, of texels, ready to be mixed.
+    fn channel<S: Simd>(texels: U32<S>, channel: u32) -> F32<S>;
 }
 
 /// [`TextureFormat::Linear`]. Each channel stays where it lies in the texel:
@@ -20,9 +23,9 @@ pub(super) struct Data;
 
 impl Texels for Data {
     #[inline(always)]
-    fn channels<S: Simd>(texels: U32<S>) -> Channels<S> {
-        let [red, green, blue] = [texels & 0xff, texels & 0xff00, texels & 0x00ff_0000];
-        [float(red), float(green), float(blue), float(texels >> 24)]
+    fn channel<S: Simd>(texels: U32<S>, channel: u32) -> F32<S> {
+        // The sign has no place for a fourth.
+        float(if channel == ALPHA { texels >> 24 } else { texels & (0xff << (8 * channel)) })
     }
 }
 
@@ -31,10 +34,11 @@ pub(super) struct Color;
 
 impl Texels for Color {
     #[inline(always)]
-    fn channels<S: Simd>(texels: U32<S>) -> Channels<S> {
-        let bytes = texels.to_array();
-        let simd = texels.token();
-        [light(simd, &bytes, 0), light(simd, &bytes, 8), light(simd, &bytes, 16), float(texels >> 24)]
+    fn channel<S: Simd>(texels: U32<S>, channel: u32) -> F32<S> {
+        if channel == ALPHA {
+            return float(texels >> 24);
+        }
+        light(texels.token(), &texels.to_array(), 8 * channel)
     }
 }
 
@@ -50,7 +54,6 @@ fn light<S: Simd>(simd: S, texels: &[u32; LANES], shift: u32) -> F32<S> {
 }
 
 #[inline(always)]
-pub(super) fn mix<S: Simd>(a: Channels<S>, b: Channels<S>, share: F32<S>) -> Channels<S> {
-    let [p, q, r, s] = a;
-    [p + (b[0] - p) * share, q + (b[1] - q) * share, r + (b[2] - r) * share, s + (b[3] - s) * share]
+pub(super) fn mix<S: Simd>(a: F32<S>, b: F32<S>, share: F32<S>) -> F32<S> {
+    a + (b - a) * share
 }

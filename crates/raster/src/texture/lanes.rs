@@ -8,11 +8,11 @@
 
 use super::axis::{Filters, reduced_lanes, texel_lanes};
 use super::blocks::{AREA, Footprint, PITCH, SIDE};
-use super::channels::{Channels, Color, Data, Texels, mix};
+use super::channels::{ALPHA, Channels, Color, Data, Texels, mix};
 use super::detail::FootprintLanes;
 use super::{MipFilter, Sampler, Texture, TextureFormat};
 use crate::simd::prelude::*;
-use crate::simd::{F32, I32, LANES, Simd, U32, lesser};
+use crate::simd::{Each, F32, I32, LANES, Simd, U32, lesser};
 use fearless_simd::{f32x4, u64x2};
 
 #[inline(always)]
@@ -139,15 +139,32 @@ impl<'a, S: Simd> Lookup<'a, S> {
     fn value<T: Texels>(&self) -> Channels<S> {
         let finer = self.place(self.finer);
         if !self.share.simd_gt(0.0).any_true() {
-            return finer.filtered::<T>(self.texels(&finer));
+            let texels = self.texels(&finer);
+            return self.channels(
+                #[inline(always)]
+                |channel| finer.filtered::<T>(texels, channel),
+            );
         }
         // Each step waits for the one before. So every step is taken for both
         // levels before the next one: the processor has twice as much to do.
         // Where there is no next level its share is 0.
         let next = self.place(lesser(self.finer + 1.0, last_level(self.simd, self.texture)));
         let (finer_texels, next_texels) = (self.texels(&finer), self.texels(&next));
-        let value = finer.filtered::<T>(finer_texels);
-        mix(value, next.filtered::<T>(next_texels), self.share)
+        self.channels(
+            #[inline(always)]
+            |channel| {
+                let value = finer.filtered::<T>(finer_texels, channel);
+                mix(value, next.filtered::<T>(next_texels, channel), self.share)
+            },
+        )
+    }
+
+    /// All channels, but for alpha if it is the same everywhere.
+    #[inline(always)]
+    fn channels(&self, channel: impl Fn(u32) -> F32<S>) -> Channels<S> {
+        let opaque = F32::splat(self.simd, 255.0);
+        let alpha = if self.texture.opaque { opaque } else { channel(ALPHA) };
+        [channel(0), channel(1), channel(2), alpha]
     }
 
     /// Where in a level the look-up goes.
@@ -191,11 +208,14 @@ struct Place<S: Simd> {
 }
 
 impl<S: Simd> Place<S> {
-    /// The bilinear filter.
+    /// The bilinear filter, of one channel.
     #[inline(always)]
-    fn filtered<T: Texels>(&self, [[a, b], [c, d]]: [[U32<S>; 2]; 2]) -> Channels<S> {
-        let top = mix(T::channels(a), T::channels(b), self.s);
-        mix(top, mix(T::channels(c), T::channels(d), self.s), self.t)
+    fn filtered<T: Texels>(&self, texels: [[U32<S>; 2]; 2], channel: u32) -> F32<S> {
+        let [top, bottom] = texels.each(
+            #[inline(always)]
+            |[left, right]| mix(T::channel(left, channel), T::channel(right, channel), self.s),
+        );
+        mix(top, bottom, self.t)
     }
 }
 

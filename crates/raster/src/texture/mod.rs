@@ -63,6 +63,8 @@ pub enum TextureError {
 pub struct Texture {
     format: TextureFormat,
     blocks: Blocks,
+    /// Whether every texel is opaque: then alpha need not be looked up.
+    opaque: bool,
 }
 
 impl Texture {
@@ -88,8 +90,9 @@ impl Texture {
         if texels.len() != needed {
             return Err(TextureError::Length { given: texels.len(), needed });
         }
+        let opaque = texels.iter().all(|&[.., alpha]| alpha == u8::MAX);
         let base = Rows { width, height, texels };
-        Ok(Self { format, blocks: Blocks::new(base, |rows| mips::halved(rows, format)) })
+        Ok(Self { format, blocks: Blocks::new(base, |rows| mips::halved(rows, format)), opaque })
     }
 
     /// Width of the base level in texels.
