@@ -12,7 +12,9 @@
 //! done
 //! ```
 //!
-//! The first word is `scene` or `hand`, the second `plain` or `textured`.
+//! The first word is `scene` or `hand`, the second `plain` or `textured`; by the scene
+//! also `mapped`: with a normal map, light at each pixel, and the shadow map (1024²)
+//! of the one lamp, which is drawn in the first frame.
 
 #![expect(clippy::print_stdout, reason = "a number is what this is for")]
 
@@ -30,8 +32,8 @@ use trigon_scene::math::{DVec3, Mat4, Vec3, Vec4};
 use trigon_scene::mesh::primitives::{TorusKnot, torus_knot};
 use trigon_scene::mesh::{Mesh, RenderMesh};
 use trigon_scene::{
-    Background, Frame, Light, Lighting, Material, Node, RenderSettings, Renderer, Scene, Shading,
-    ShadingModel,
+    Background, EffectSettings, Frame, Light, Lighting, Material, Node, NormalMap, RenderSettings, Renderer,
+    Scene, Shading, ShadingModel, Shadows, TextureBinding,
 };
 
 const SIZE: [u32; 2] = [1920, 1080];
@@ -46,15 +48,27 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("write: scene|hand plain|textured FRAMES".into());
     };
     let frames: u32 = frames.parse()?;
-    let textured = look == "textured";
+    let look = match look.as_str() {
+        "plain" => Look::Plain,
+        "textured" => Look::Textured,
+        _ => Look::Mapped,
+    };
     let (mesh, camera) = (knot(), camera());
     let times = if by == "scene" {
-        by_scene(mesh, &camera, textured, frames)?
+        by_scene(mesh, &camera, look, frames)?
     } else {
-        by_hand(&mesh, &camera, textured, frames)?
+        by_hand(&mesh, &camera, look, frames)?
     };
-    println!("{by} {look}: {:.3} ms (the shortest of {frames})", times);
+    println!("{by} {look:?}: {times:.3} ms (the shortest of {frames})");
     Ok(())
+}
+
+/// What is drawn on the knot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Look {
+    Plain,
+    Textured,
+    Mapped,
 }
 
 fn knot() -> Mesh {
@@ -86,6 +100,13 @@ fn texture() -> Texture {
     Texture::new(1024, 1024, texels, TextureFormat::Srgb).expect("the size is in range")
 }
 
+/// Normals that tilt to and fro.
+fn bumps() -> Texture {
+    let tilt = |i: u32| (128 + (i % 32).abs_diff(16) * 4 - 32) as u8;
+    let texels = (0..1024).flat_map(|y| (0..1024).map(move |x| [tilt(x), tilt(y), 230, 255])).collect();
+    Texture::new(1024, 1024, texels, TextureFormat::Linear).expect("the size is in range")
+}
+
 /// The shortest time of a frame in milliseconds.
 fn shortest(frames: u32, mut frame: impl FnMut()) -> f64 {
     let time = |_| {
@@ -96,15 +117,17 @@ fn shortest(frames: u32, mut frame: impl FnMut()) -> f64 {
     (0..frames).map(time).fold(f64::INFINITY, f64::min)
 }
 
-fn by_scene(mesh: Mesh, camera: &Camera, textured: bool, frames: u32) -> Result<f64, Box<dyn Error>> {
+fn by_scene(mesh: Mesh, camera: &Camera, look: Look, frames: u32) -> Result<f64, Box<dyn Error>> {
     let mut scene = Scene::new();
     let material = Material { base_color: COLOR.extend(1.0), double_sided: false, ..Material::default() };
-    let material = if textured {
-        let texture = scene.add_texture("checker", texture());
-        let binding = Material::from_texture(texture).base_color_texture;
-        Material { base_color: Vec4::ONE, base_color_texture: binding, shading: Shading::Lambert, ..material }
-    } else {
+    let material = if look == Look::Plain {
         Material { shading: Shading::Unlit, ..material }
+    } else {
+        let base_color_texture = Some(TextureBinding::new(scene.add_texture("checker", texture())));
+        let bumps = (look == Look::Mapped).then(|| scene.add_texture("bumps", bumps()));
+        let normal_map = bumps.map(|bumps| NormalMap { binding: TextureBinding::new(bumps), scale: 1.0 });
+        let shading = Shading::Lambert;
+        Material { base_color: Vec4::ONE, base_color_texture, normal_map, shading, ..material }
     };
     scene.add_object("knot", mesh, material);
     scene.add(Node::from_light(Light::ambient(AMBIENT)));
@@ -113,7 +136,11 @@ fn by_scene(mesh: Mesh, camera: &Camera, textured: bool, frames: u32) -> Result<
         samples_per_axis: 1,
         background: Background::Color(BEHIND),
         lighting: Lighting::Scene,
-        shading: ShadingModel::Gouraud,
+        shading: if look == Look::Mapped { ShadingModel::Phong } else { ShadingModel::Gouraud },
+        effects: EffectSettings {
+            shadows: if look == Look::Mapped { Shadows::Maps { resolution: 1024 } } else { Shadows::Off },
+            ..EffectSettings::default()
+        },
         threads: NonZeroUsize::new(1),
         ..RenderSettings::new(SIZE[0], SIZE[1])
     };
@@ -124,7 +151,7 @@ fn by_scene(mesh: Mesh, camera: &Camera, textured: bool, frames: u32) -> Result<
     }))
 }
 
-fn by_hand(mesh: &Mesh, camera: &Camera, textured: bool, frames: u32) -> Result<f64, Box<dyn Error>> {
+fn by_hand(mesh: &Mesh, camera: &Camera, look: Look, frames: u32) -> Result<f64, Box<dyn Error>> {
     let mesh = RenderMesh::from_mesh(mesh);
     let columns = Columns {
         positions: [0, 1, 2].map(|axis| mesh.positions.iter().map(|at| at[axis]).collect()),
@@ -141,7 +168,7 @@ fn by_hand(mesh: &Mesh, camera: &Camera, textured: bool, frames: u32) -> Result<
     let mut draw = || {
         let mut pass = Pass::new();
         pass.background(Behind::Color(BEHIND.extend(1.0)));
-        if textured {
+        if look == Look::Textured {
             pass.triangles(Draw { culling: Culling::Back, ..Draw::new(&lit, &mesh.triangles) });
         } else {
             pass.triangles(Draw { culling: Culling::Back, ..Draw::new(&plain, &mesh.triangles) });

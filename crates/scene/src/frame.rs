@@ -97,7 +97,7 @@ impl Frame {
 }
 
 /// Gives a list a length; `None` without memory.
-fn resize<T: Clone>(list: &mut Vec<T>, length: usize, value: T) -> Option<()> {
+pub(crate) fn resize<T: Clone>(list: &mut Vec<T>, length: usize, value: T) -> Option<()> {
     list.try_reserve_exact(length.saturating_sub(list.len())).ok()?;
     list.resize(length, value);
     Some(())

@@ -28,6 +28,7 @@
 mod animation;
 mod arena;
 mod background;
+mod effects;
 mod frame;
 mod light;
 mod material;
@@ -43,6 +44,10 @@ mod views;
 pub use animation::{Animation, Channel, Curve, Interpolation, NodePose, Pose, Property};
 pub use arena::{Arena, Id};
 pub use background::Background;
+pub use effects::{
+    Absence, AmbientOcclusion, Cause, Decision, Effect, EffectCounts, EffectPlan, EffectSettings,
+    Environment, EnvironmentError, Fog, Named, Outline, Shadows, Sky, ToneMapping,
+};
 pub use frame::{Frame, Hit};
 pub use light::{Light, LightKind};
 pub use material::{AlphaMode, Material, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding};

@@ -50,7 +50,7 @@ impl MeshAsset {
     }
 
     /// What is drawn of it; made at the first use.
-    pub(crate) fn geometry(&self) -> &Geometry {
+    pub(crate) fn geometry(&self) -> &Arc<Geometry> {
         self.geometry.get_or_init(|| Arc::new(Geometry::new(&self.mesh)))
     }
 }

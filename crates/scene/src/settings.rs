@@ -6,6 +6,7 @@ use trigon_raster::simd::SimdLevel;
 use trigon_math::Vec3;
 
 use crate::background::Background;
+use crate::effects::EffectSettings;
 
 /// The largest width or height of a picture, in pixels.
 pub const MAX_SIZE: u32 = 16384;
@@ -105,6 +106,8 @@ pub struct RenderSettings {
     pub shading: ShadingModel,
     /// By which law surfaces answer to it.
     pub reflection: Reflection,
+    /// Everything beyond surfaces in plain light.
+    pub effects: EffectSettings,
     /// Beside the colours.
     pub outputs: Outputs,
     /// At most this many threads; `None` for one per core. The picture does
@@ -131,6 +134,7 @@ impl RenderSettings {
             light_intensity: 1.0,
             shading: ShadingModel::default(),
             reflection: Reflection::default(),
+            effects: EffectSettings::default(),
             outputs: Outputs::default(),
             threads: None,
             simd: None,

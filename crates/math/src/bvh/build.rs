@@ -100,9 +100,11 @@ fn parted(items: &mut [Item]) -> usize {
     let mut middles = Extent::EMPTY;
     items.iter().for_each(|item| middles.add(item.middle(), item.middle()));
     let size = middles.max - middles.min;
-    let axis = size.to_array().into_iter().enumerate().fold((0, 0.0), |best, (axis, size)| {
-        if size > best.1 { (axis, size) } else { best }
-    });
+    let axis = size
+        .to_array()
+        .into_iter()
+        .enumerate()
+        .fold((0, 0.0), |best, (axis, size)| if size > best.1 { (axis, size) } else { best });
     let half = items.len() / 2;
     let (axis, size) = axis;
     let scale = BINS as f32 / size;

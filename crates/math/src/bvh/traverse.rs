@@ -23,7 +23,8 @@ impl Bvh {
         let mut end = range.end;
         self.visit(ray, range.start, &mut end, |hit, end| {
             let nearer = nearest.is_none_or(|best| {
-                hit.distance < best.distance || (hit.distance == best.distance && hit.triangle < best.triangle)
+                hit.distance < best.distance
+                    || (hit.distance == best.distance && hit.triangle < best.triangle)
             });
             if nearer {
                 *end = hit.distance;
@@ -66,7 +67,8 @@ impl Bvh {
             }
             if node.count == 0 {
                 let second = node.next;
-                let nearer_first = slabs.is_ahead(&self.nodes[number as usize + 1], &self.nodes[second as usize]);
+                let nearer_first =
+                    slabs.is_ahead(&self.nodes[number as usize + 1], &self.nodes[second as usize]);
                 let order = if nearer_first { [second, number + 1] } else { [number + 1, second] };
                 waiting[count..count + 2].copy_from_slice(&order);
                 count += 2;

@@ -2,7 +2,7 @@
 //! vectors reads.
 
 use trigon_math::{Vec2, Vec3, Vec4};
-use trigon_mesh::RenderMesh;
+use trigon_mesh::{Deformed, RenderMesh};
 
 /// The values of a mesh's vertices. All columns have the same length.
 #[derive(Clone, Debug, Default)]
@@ -26,6 +26,23 @@ impl Columns {
             uv_sets: mesh.uv_sets.iter().map(|set| turned(set, Vec2::to_array)).collect(),
             colors: mesh.colors.as_deref().map(|colors| turned(colors, Vec4::to_array)),
         }
+    }
+
+    /// The same vertices in a pose.
+    pub(crate) fn deformed(&self, pose: &Deformed) -> Self {
+        Self {
+            positions: turned(&pose.positions, Vec3::to_array),
+            normals: turned(&pose.normals, Vec3::to_array),
+            tangents: self.tangents.as_ref().map(|_| turned(&pose.tangents, Vec4::to_array)),
+            ..self.clone()
+        }
+    }
+
+    /// Bytes of what a pose changes.
+    pub(crate) fn byte_count(&self) -> usize {
+        let tangents = self.tangents.iter().flatten();
+        let columns = self.positions.iter().chain(&self.normals).chain(tangents);
+        columns.map(|column| size_of_val(column.as_slice())).sum()
     }
 
     pub(crate) fn vertex_count(&self) -> usize {

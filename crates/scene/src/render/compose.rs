@@ -2,15 +2,16 @@
 //! mesh call for and no more.
 
 use trigon_camera::Camera;
-use trigon_math::{DAffine3, Vec3};
+use trigon_math::Vec3;
 use trigon_raster::Culling;
 
 use super::geometry::{Geometry, Run};
-use super::lighting::Lights;
 use super::placement::{Eye, Placement};
 use super::record::{Dots, Record, Segments, Triangles};
+use super::shapes::{Shape, Shapes};
 use super::surface::{Dressed, EdgeOverlay, Occasion, Rays, Surface};
 use super::wire::{HiddenLine, Wire};
+use crate::effects::{Counts, Effect, Scenery};
 use crate::material::{AlphaMode, Material};
 use crate::node::Node;
 use crate::scene::{MeshAsset, Scene};
@@ -23,10 +24,10 @@ const POINT_TO_LINE: f32 = 3.0;
 pub(super) struct Composer<'s> {
     scene: &'s Scene,
     settings: &'s RenderSettings,
-    transforms: Vec<Option<DAffine3>>,
-    eye: Eye,
+    shapes: &'s Shapes,
+    scenery: &'s Scenery,
+    eye: &'s Eye,
     rays: Rays,
-    lights: Lights,
     default_material: Material,
 }
 
@@ -40,43 +41,53 @@ struct Object<'s> {
 }
 
 impl<'s> Composer<'s> {
-    pub(super) fn new(scene: &'s Scene, camera: &Camera, settings: &'s RenderSettings) -> Self {
-        let transforms = scene.visible_transforms();
-        let eye = Eye::new(camera, settings.aspect());
-        let lights =
-            Lights::gather(scene, &transforms, &eye, settings.lighting).scaled(settings.light_intensity);
+    pub(super) fn new(
+        scene: &'s Scene,
+        camera: &Camera,
+        settings: &'s RenderSettings,
+        (shapes, scenery, eye): (&'s Shapes, &'s Scenery, &'s Eye),
+    ) -> Self {
         let rays = if camera.projection.is_orthographic() { Rays::Parallel } else { Rays::Meeting };
-        Self { scene, settings, transforms, eye, rays, lights, default_material: Material::default() }
+        Self { scene, settings, shapes, scenery, eye, rays, default_material: Material::default() }
     }
 
     /// All draws of the picture.
-    pub(super) fn draws(&self) -> Vec<Box<dyn Record + '_>> {
+    pub(super) fn draws(&self, counts: &mut Counts) -> Vec<Box<dyn Record + '_>> {
         let mut draws: Vec<Box<dyn Record>> = Vec::new();
         for (id, node) in self.scene.nodes().iter() {
-            let (Some(world), Some(mesh)) = (&self.transforms[id.index()], node.mesh) else { continue };
-            let Some(asset) = self.scene.meshes().get(mesh) else { continue };
-            if !self.may_show(asset, world) {
+            let Some(shape) = self.shapes.get(id.index()) else { continue };
+            let Some(asset) = node.mesh.and_then(|mesh| self.scene.meshes().get(mesh)) else { continue };
+            if !self.may_show(asset, shape) {
                 continue;
             }
-            let (index, place) = (id.index() as u32, self.eye.place(world));
-            self.object(&Object { index, node, asset, geometry: asset.geometry(), place }, &mut draws);
+            let (index, place) = (id.index() as u32, self.eye.place(&shape.world));
+            self.object(
+                &Object { index, node, asset, geometry: &shape.geometry, place },
+                (&mut draws, counts),
+            );
         }
         draws
     }
 
     /// What is out of view is not prepared. Lines and points reach beyond their
     /// vertices by their width, so only plain surfaces are left out.
-    fn may_show(&self, asset: &MeshAsset, world: &DAffine3) -> bool {
+    fn may_show(&self, asset: &MeshAsset, shape: &Shape) -> bool {
         let mesh = asset.mesh();
         let wires = !mesh.loose_edges().is_empty() || !mesh.loose_points().is_empty();
-        wires || self.settings.style != Style::Surface || self.eye.may_see(&asset.bounds(), world)
+        wires
+            || self.settings.style != Style::Surface
+            || self.eye.may_see(&shape.geometry.bounds(), &shape.world)
     }
 
-    fn object<'c>(&'c self, object: &Object<'s>, draws: &mut Vec<Box<dyn Record + 'c>>) {
+    fn object<'c>(
+        &'c self,
+        object: &Object<'s>,
+        (draws, counts): (&mut Vec<Box<dyn Record + 'c>>, &mut Counts),
+    ) {
         match self.settings.style {
             Style::Surface | Style::SurfaceWithEdges => {
                 let runs = object.geometry.runs.iter();
-                draws.extend(runs.map(|run| self.surface(object, run)));
+                draws.extend(runs.map(|run| self.surface(object, run, counts)));
             }
             Style::HiddenLine => draws.push(self.hidden_line(object)),
             Style::Wireframe => {}
@@ -85,6 +96,7 @@ impl<'s> Composer<'s> {
             // On a surface these fill up what a face cannot paint by itself: the
             // outer half of an edge on the silhouette.
             let edges = &object.asset.mesh().edges()[..object.asset.mesh().face_edge_count()];
+            counts.of(Effect::Edges).bytes += size_of_val(edges) as u64;
             draws.extend(self.segments(object, edges, self.settings.edge_color));
         }
         let color = self.material(object, 0).base_color.truncate();
@@ -100,11 +112,11 @@ impl<'s> Composer<'s> {
 
     fn occasion(&self) -> Occasion<'_> {
         let RenderSettings { shading, reflection, .. } = *self.settings;
-        Occasion { scene: self.scene, lights: &self.lights, rays: self.rays, shading, reflection }
+        Occasion { scene: self.scene, scenery: self.scenery, rays: self.rays, shading, reflection }
     }
 
     /// The triangles of one slot in their material.
-    fn surface<'c>(&'c self, object: &Object<'s>, run: &Run) -> Box<dyn Record + 'c>
+    fn surface<'c>(&'c self, object: &Object<'s>, run: &Run, counts: &mut Counts) -> Box<dyn Record + 'c>
     where
         's: 'c,
     {
@@ -117,6 +129,7 @@ impl<'s> Composer<'s> {
         let draw = Run { slot: run.slot, triangles: run.triangles.clone() };
         let shows_edges = self.settings.style == Style::SurfaceWithEdges;
         let masked = matches!(material.alpha_mode, AlphaMode::Mask { .. });
+        dressed.count(self.scenery, masked, counts);
         if dressed.is_flat() && !shows_edges && !masked {
             self.dressed::<true>(object, geometry, &draw, (material, dressed))
         } else {
@@ -136,18 +149,9 @@ impl<'s> Composer<'s> {
     {
         let shows_edges = self.settings.style == Style::SurfaceWithEdges;
         let triangles = &geometry.triangles[run.triangles.clone()];
-        let Dressed { look, layout, illumination } = dressed;
-        let pipeline = Surface::<FLAT> {
-            columns: &geometry.columns,
-            triangles,
-            place: object.place,
-            layout,
-            look,
-            illumination,
-            rays: self.rays,
-            lights: &self.lights,
-            edges: shows_edges.then(|| self.edge_overlay()),
-        };
+        let mesh = (&geometry.columns, triangles);
+        let mut pipeline = Surface::<FLAT>::new(mesh, object.place, dressed, &self.occasion());
+        pipeline.edges = shows_edges.then(|| self.edge_overlay());
         let flags = shows_edges.then(|| &geometry.edge_flags(object.asset.mesh())[run.triangles.clone()]);
         Box::new(Triangles {
             pipeline,

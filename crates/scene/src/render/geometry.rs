@@ -3,10 +3,13 @@
 //! Made once per mesh, at its first picture, and shared by all nodes that draw
 //! the mesh.
 
+use std::mem::take;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use trigon_mesh::{Attributes, Mesh, RenderMesh};
+use trigon_math::glam::Affine3;
+use trigon_math::{Bounds3, Vec3};
+use trigon_mesh::{Attributes, Deformed, Mesh, RenderMesh};
 use trigon_raster::EdgeFlags;
 
 use super::columns::Columns;
@@ -23,7 +26,10 @@ pub(crate) struct Geometry {
     pub(crate) runs: Vec<Run>,
     /// Where each triangle was in the triangulation; `None` when in place.
     order: Option<Vec<u32>>,
+    bounds: OnceLock<Bounds3>,
     edge_flags: OnceLock<Vec<EdgeFlags>>,
+    /// The mesh at rest, if a pose can change it.
+    rest: Option<Box<RenderMesh>>,
     /// The same with tangents, made when a normal map asks for them.
     tangential: OnceLock<Box<Geometry>>,
 }
@@ -44,15 +50,47 @@ impl Geometry {
             permute(&mut mesh.triangle_faces, order);
             permute(&mut mesh.triangle_materials, order);
         }
+        let runs = runs(&mesh.triangle_materials);
+        let (triangles, faces) = (take(&mut mesh.triangles), take(&mut mesh.triangle_faces));
         Self {
             columns: Columns::new(&mesh),
-            runs: runs(&mesh.triangle_materials),
-            triangles: mesh.triangles,
-            faces: mesh.triangle_faces,
+            runs,
+            triangles,
+            faces,
             order,
+            rest: mesh.is_deformable().then(|| Box::new(mesh)),
+            bounds: OnceLock::new(),
             edge_flags: OnceLock::new(),
             tangential: OnceLock::new(),
         }
+    }
+
+    /// The mesh in a pose; see [`RenderMesh::deform`]. `None` when no pose can
+    /// change it.
+    pub(crate) fn posed(&self, weights: &[f32], palette: &[Affine3]) -> Option<Self> {
+        let rest = self.rest.as_ref()?;
+        let mut deformed = Deformed::default();
+        rest.deform(weights, palette, &mut deformed);
+        Some(Self {
+            columns: self.columns.deformed(&deformed),
+            triangles: self.triangles.clone(),
+            faces: self.faces.clone(),
+            runs: self.runs.clone(),
+            order: self.order.clone(),
+            bounds: OnceLock::new(),
+            edge_flags: self.edge_flags.clone(),
+            rest: None,
+            tangential: OnceLock::new(),
+        })
+    }
+
+    /// The box around all vertices that faces use.
+    pub(crate) fn bounds(&self) -> Bounds3 {
+        *self.bounds.get_or_init(|| {
+            let [x, y, z] = &self.columns.positions;
+            let vertices = x.iter().zip(y).zip(z);
+            Bounds3::from_points(vertices.map(|((&x, &y), &z)| Vec3::new(x, y, z).as_dvec3()))
+        })
     }
 
     /// The mesh as a normal map on a UV set needs it: with the tangents that it

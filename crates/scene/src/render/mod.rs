@@ -6,25 +6,29 @@
 mod columns;
 mod compose;
 mod geometry;
-mod lanes;
-mod lighting;
-mod placement;
+pub(crate) mod lanes;
+pub(crate) mod lighting;
+pub(crate) mod placement;
 mod record;
-mod surface;
+mod shapes;
+mod stage;
+pub(crate) mod surface;
 mod wire;
 
 pub(crate) use geometry::Geometry;
+pub(crate) use shapes::{Shape, Shapes};
 
 use thiserror::Error;
 use trigon_camera::Camera;
-use trigon_math::UVec2;
 use trigon_raster::simd::SimdLevelError;
 use trigon_raster::{ExecuteSettings, Pass, Rasterizer, Stats, Target, TargetError};
 
-use crate::background::Background;
+use crate::effects::{Counts, Effect, EffectCounts, EffectPlan};
 use crate::frame::Frame;
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
+use stage::Kept;
+pub(crate) use stage::Stage;
 
 /// Why a picture cannot be drawn.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
@@ -42,6 +46,9 @@ pub enum RenderError {
 #[derive(Default)]
 pub struct Renderer {
     rasterizer: Option<Rasterizer>,
+    kept: Kept,
+    plan: Option<EffectPlan>,
+    counts: Counts,
     stats: Stats,
 }
 
@@ -80,24 +87,34 @@ impl Renderer {
     ) -> Result<(), RenderError> {
         let blank = blank(settings)?;
         frame.make_room(settings)?;
-        let rasterizer = self.rasterizer(settings)?;
-        let composer = compose::Composer::new(scene, camera, settings);
-        let draws = composer.draws();
-        let (background, height) = (settings.background, settings.height);
-        let behind = |pixel: UVec2| background.row(pixel.y, height);
+        let mut rasterizer = self.rasterizer(settings)?;
+        let stage = Stage::new(scene, camera, settings);
+        let plan = EffectPlan::of_stage(&stage);
+        let mut counts = Counts::default();
+        let scenery = self.kept.scenery(&stage, &plan, &mut rasterizer)?;
+        let composer = compose::Composer::new(scene, camera, settings, (&stage.shapes, &scenery, &stage.eye));
+        let draws = composer.draws(&mut counts);
         let mut pass = Pass::new();
-        pass.background(match background {
-            Background::Gradient { .. } => trigon_raster::Background::PerPixel(&behind),
-            Background::Color(_) | Background::Transparent => {
-                trigon_raster::Background::Color(background.row(0, height))
-            }
-        });
         for draw in &draws {
             draw.record(&mut pass);
         }
-        self.stats = rasterizer.draw(&pass, &mut onto(blank, frame)?);
+        self.stats =
+            self.kept.draw(pass, (settings, &plan), (blank, frame), (&mut rasterizer, &mut counts))?;
         measure_depth(frame, camera, settings);
+        self.kept.count(&scenery, &stage, &mut counts);
+        (self.counts, self.plan) = (counts, Some(plan));
+        self.rasterizer = Some(rasterizer);
         Ok(())
+    }
+
+    /// The plan of the last picture; `None` before the first.
+    pub fn plan(&self) -> Option<&EffectPlan> {
+        self.plan.as_ref()
+    }
+
+    /// What an effect took in the last picture.
+    pub fn effect_counts(&self, effect: Effect) -> EffectCounts {
+        self.counts.get(effect)
     }
 
     /// What the last picture took, in counts.
@@ -106,14 +123,13 @@ impl Renderer {
     }
 
     /// The last picture's rasterizer when its settings fit, or a new one.
-    fn rasterizer(&mut self, settings: &RenderSettings) -> Result<&mut Rasterizer, RenderError> {
+    fn rasterizer(&mut self, settings: &RenderSettings) -> Result<Rasterizer, RenderError> {
         let how = ExecuteSettings { threads: settings.threads, simd: settings.simd, ..Default::default() };
         let kept = self.rasterizer.take().filter(|rasterizer| *rasterizer.settings() == how);
-        let rasterizer = match kept {
+        Ok(match kept {
             Some(rasterizer) => rasterizer,
             None => Rasterizer::new(how)?,
-        };
-        Ok(self.rasterizer.insert(rasterizer))
+        })
     }
 }
 
@@ -131,20 +147,23 @@ fn blank<'a>(settings: &RenderSettings) -> Result<Target<'a>, TargetError> {
     target.with_samples_per_axis(settings.samples_per_axis)?.with_samples(settings.samples)
 }
 
-/// A target that draws into a frame.
-fn onto<'a>(blank: Target<'a>, frame: &'a mut Frame) -> Result<Target<'a>, TargetError> {
-    let mut target = blank.with_srgb8(frame.color.as_chunks_mut().0)?;
-    if let Some(depth) = &mut frame.depth {
+/// A target that also draws what a frame holds beside its colours.
+fn with_outputs<'a>(mut target: Target<'a>, beside: Beside<'a>) -> Result<Target<'a>, TargetError> {
+    let (depth, objects, faces) = beside;
+    if let Some(depth) = depth {
         target = target.with_depth(depth)?;
     }
-    if let Some(objects) = &mut frame.object_ids {
+    if let Some(objects) = objects {
         target = target.with_objects(objects)?;
     }
-    if let Some(faces) = &mut frame.face_ids {
+    if let Some(faces) = faces {
         target = target.with_faces(faces)?;
     }
     Ok(target)
 }
+
+/// Depths, nodes and faces of a frame.
+type Beside<'a> = (&'a mut Option<Vec<f32>>, &'a mut Option<Vec<u32>>, &'a mut Option<Vec<u32>>);
 
 /// From stored depths to metres.
 fn measure_depth(frame: &mut Frame, camera: &Camera, settings: &RenderSettings) {

@@ -137,8 +137,8 @@ pub(crate) fn fifth_power<S: Simd>(value: F32<S>) -> F32<S> {
     square * square * value
 }
 
-/// Held to at most 1.
+/// Held to at most a bound.
 #[inline(always)]
-pub(crate) fn lesser_of_one<S: Simd>(value: F32<S>) -> F32<S> {
-    lesser(value, F32::splat(value.token(), 1.0))
+pub(crate) fn lesser_of<S: Simd>(value: F32<S>, bound: f32) -> F32<S> {
+    lesser(value, F32::splat(value.token(), bound))
 }

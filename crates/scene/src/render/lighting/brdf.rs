@@ -9,7 +9,8 @@
 
 use trigon_raster::simd::{F32, Simd, greater, prelude::*};
 
-use crate::render::lanes::{V3, exp2, fifth_power, mix, positive, saturated};
+use super::reflectance::reflectance;
+use crate::render::lanes::{V3, fifth_power, mix, positive, saturated};
 
 /// What a microfacet surface is like at eight points.
 #[derive(Clone, Copy)]
@@ -55,13 +56,13 @@ impl<S: Simd> Microfacets<S> {
     /// mirrored, RGB, single and repeated reflection together, and of what is left
     /// for the diffuse part.
     ///
-    /// The single reflection is the fit of B. Karis ("Physically Based Shading on
-    /// Mobile", 2014), the repeated one that of C. Fdez-Agüera ("A Multiple-
+    /// The single reflection comes from a table, the repeated one is that of C.
+    /// Fdez-Agüera ("A Multiple-
     /// Scattering Microfacet Model for Real-Time Image-based Lighting", 2019):
     /// nothing is lost, so white surfaces vanish in a white room.
     #[inline(always)]
     pub(crate) fn surrounded(&self, n_dot_v: F32<S>) -> Surrounded<S> {
-        let [scale, offset] = self.single_reflection(saturated(n_dot_v));
+        let [scale, offset] = reflectance(n_dot_v.token(), self.roughness, n_dot_v);
         let all = scale + offset;
         let lost = 1.0 - all;
         let mut answer = Surrounded { single: self.head_on, repeated: self.head_on, diffuse: self.head_on };
@@ -75,18 +76,6 @@ impl<S: Simd> Microfacets<S> {
             answer.diffuse[channel] = positive(1.0 - single - repeated);
         }
         answer
-    }
-
-    /// Factor of what is reflected head-on, and of what is at grazing angles.
-    #[inline(always)]
-    fn single_reflection(&self, n_dot_v: F32<S>) -> [F32<S>; 2] {
-        let r = self.roughness;
-        let [x, y, z, w] = [1.0 - r, r * -0.0275 + 0.0425, r * -0.572 + 1.04, r * 0.022 - 0.04];
-        let squared = x * x;
-        let falling = exp2(n_dot_v * -9.28);
-        let least = squared.simd_lt(falling).select(squared, falling);
-        let a = least * x + y;
-        [a * -1.04 + z, positive(a * 1.04 + w)]
     }
 }
 
@@ -188,13 +177,16 @@ mod tests {
     }
 
     #[test]
-    fn the_fit_of_the_single_reflection_follows_the_integral() {
+    fn the_table_holds_the_integral_of_the_highlight() {
         for roughness in [0.3, 0.6, 0.9] {
             for n_dot_v in [0.3, 0.6, 0.9] {
-                let [scale, offset] =
-                    surface(roughness, 1.0).single_reflection(F32::splat(Fallback::new(), n_dot_v));
-                let (fit, exact) = (f64::from((scale + offset)[0]), albedo(roughness, n_dot_v));
-                assert!((fit - exact).abs() < 0.12, "roughness {roughness}, {n_dot_v}: {fit}, not {exact}");
+                let splat = |value| F32::splat(Fallback::new(), value);
+                let [scale, offset] = reflectance(Fallback::new(), splat(roughness), splat(n_dot_v));
+                let (found, exact) = (f64::from((scale + offset)[0]), albedo(roughness, n_dot_v));
+                assert!(
+                    (found - exact).abs() < 0.015,
+                    "roughness {roughness}, {n_dot_v}: {found}, not {exact}"
+                );
             }
         }
     }

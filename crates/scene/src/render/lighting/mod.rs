@@ -2,18 +2,19 @@
 
 mod brdf;
 mod lamp;
+mod reflectance;
 mod sum;
 
 pub(crate) use brdf::Microfacets;
-pub(crate) use lamp::Lamp;
-pub(crate) use sum::{Answer, Clear, LitPoints, Reflected, Visibility};
+pub(crate) use lamp::{Arriving, Lamp, Source};
+pub(crate) use sum::{Answer, LitPoints, Reflected};
 
 use trigon_math::{DAffine3, Vec3};
 
 use super::placement::Eye;
 use crate::light::LightKind;
 use crate::scene::Scene;
-use crate::settings::Lighting;
+use crate::settings::{Lighting, RenderSettings};
 
 /// The light from everywhere in the studio: enough to see shapes in the shade.
 const STUDIO_AMBIENT: Vec3 = Vec3::splat(0.1);
@@ -23,6 +24,8 @@ const STUDIO_AMBIENT: Vec3 = Vec3::splat(0.1);
 pub(crate) struct Lights {
     /// From everywhere alike, linear RGB.
     pub(crate) ambient: Vec3,
+    /// How many of the scene's lights that is made of.
+    pub(crate) own_ambient: usize,
     pub(crate) lamps: Vec<Lamp>,
 }
 
@@ -33,25 +36,34 @@ impl Lights {
         scene: &Scene,
         transforms: &[Option<DAffine3>],
         eye: &Eye,
-        lighting: Lighting,
+        settings: &RenderSettings,
     ) -> Self {
+        let (lighting, factor) = (settings.lighting, settings.light_intensity);
+        let lights = Self::of_scene(scene, transforms, eye, lighting);
+        match lighting {
+            Lighting::Studio => Self::studio(),
+            // An environment is light, too.
+            Lighting::Automatic if settings.effects.environment.is_some() => lights,
+            Lighting::Automatic if lights.is_dark() => Self::studio(),
+            // Formats such as glTF know no ambient light; without any, the sides
+            // that no light reaches would be black holes.
+            Lighting::Automatic if lights.ambient == Vec3::ZERO => Self { ambient: STUDIO_AMBIENT, ..lights },
+            Lighting::Automatic | Lighting::Scene => lights,
+        }
+        .scaled(factor)
+    }
+
+    fn of_scene(scene: &Scene, transforms: &[Option<DAffine3>], eye: &Eye, lighting: Lighting) -> Self {
         let mut lights = Self::default();
         if lighting != Lighting::Studio {
             for (id, node) in scene.nodes().iter() {
                 let (Some(light), Some(world)) = (&node.light, &transforms[id.index()]) else { continue };
                 if light.kind == LightKind::Ambient {
                     lights.ambient += light.radiance();
+                    lights.own_ambient += 1;
                 }
                 lights.lamps.extend(Lamp::new(light, id.index() as u32, &eye.to_camera(world)));
             }
-        }
-        match lighting {
-            Lighting::Studio => return Self::studio(),
-            Lighting::Automatic if lights.is_dark() => return Self::studio(),
-            // Formats such as glTF know no ambient light; without any, the sides
-            // that no light reaches would be black holes.
-            Lighting::Automatic if lights.ambient == Vec3::ZERO => lights.ambient = STUDIO_AMBIENT,
-            Lighting::Automatic | Lighting::Scene => {}
         }
         lights
     }
@@ -67,7 +79,7 @@ impl Lights {
         let key = Lamp::studio(Vec3::new(-0.55, 0.65, 0.55), 0.78);
         let fill = Lamp::studio(Vec3::new(0.85, 0.05, 0.5), 0.16);
         let rim = Lamp::studio(Vec3::new(0.25, 0.75, -0.6), 0.25);
-        Self { ambient: STUDIO_AMBIENT, lamps: vec![key, fill, rim] }
+        Self { ambient: STUDIO_AMBIENT, own_ambient: 0, lamps: vec![key, fill, rim] }
     }
 
     /// Every light this many times as bright; a factor that is no positive
@@ -94,6 +106,7 @@ impl Lights {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effects::Scenery;
     use crate::light::Light;
     use crate::render::lanes::{V3, splat};
     use fearless_simd::Fallback;
@@ -103,8 +116,10 @@ mod tests {
     fn shown(lights: &Lights) -> Vec3 {
         let simd = Fallback::new();
         let at = |vector| -> V3<Fallback> { splat(simd, vector) };
-        let points = LitPoints { position: at(Vec3::NEG_Z * 2.0), normal: at(Vec3::Z), view: at(Vec3::Z) };
-        let reflected = lights.reflected(simd, &points, &Answer::Lambert, &Clear);
+        let [position, normal] = [at(Vec3::NEG_Z * 2.0), at(Vec3::Z)];
+        let points = LitPoints { position, normal, facing: normal, view: normal };
+        let scenery = Scenery { lights: lights.clone(), ..Scenery::default() };
+        let reflected = scenery.reflected(simd, &points, &Answer::Lambert);
         Vec3::from(reflected.diffuse.map(|channel| channel[0]))
     }
 

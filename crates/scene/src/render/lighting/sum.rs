@@ -3,7 +3,8 @@
 use trigon_math::Vec3;
 use trigon_raster::simd::{F32, Simd, prelude::*};
 
-use super::{Lights, Microfacets};
+use super::Microfacets;
+use crate::effects::Scenery;
 use crate::render::lanes::{V3, dot, normalized, positive, pow, product, scaled, sum, tinted};
 
 /// Eight points of a surface, in camera space.
@@ -12,6 +13,8 @@ pub(crate) struct LitPoints<S: Simd> {
     pub(crate) position: V3<S>,
     /// Of unit length, or zero, which no light reaches.
     pub(crate) normal: V3<S>,
+    /// The same before a normal map bent it: which way the surface lies.
+    pub(crate) facing: V3<S>,
     /// Unit vectors towards the eye.
     pub(crate) view: V3<S>,
 }
@@ -51,24 +54,7 @@ impl<S: Simd> Reflected<S> {
     }
 }
 
-/// How much of a lamp's light is not kept away on its way to eight points.
-pub(crate) trait Visibility<S: Simd> {
-    /// The share that arrives from the lamp of this number; `lit` tells the lanes
-    /// for which it matters.
-    fn share(&self, lamp: usize, points: &LitPoints<S>, towards: V3<S>) -> Option<F32<S>>;
-}
-
-/// Nothing is in the way.
-pub(crate) struct Clear;
-
-impl<S: Simd> Visibility<S> for Clear {
-    #[inline(always)]
-    fn share(&self, _: usize, _: &LitPoints<S>, _: V3<S>) -> Option<F32<S>> {
-        None
-    }
-}
-
-impl Lights {
+impl Scenery {
     /// The light of all lamps that a surface sends to the eye.
     #[inline(always)]
     pub(crate) fn reflected<S: Simd>(
@@ -76,17 +62,16 @@ impl Lights {
         simd: S,
         points: &LitPoints<S>,
         answer: &Answer<S>,
-        visibility: &impl Visibility<S>,
     ) -> Reflected<S> {
         let mut reflected = Reflected::none(simd);
-        for (number, lamp) in self.lamps.iter().enumerate() {
+        for (number, lamp) in self.lights.lamps.iter().enumerate() {
             let arriving = lamp.arriving(simd, points.position);
             let cosine = positive(dot(points.normal, arriving.towards));
             let mut share = arriving.share * cosine;
             if !share.simd_gt(0.0).any_true() {
                 continue;
             }
-            if let Some(visible) = visibility.share(number, points, arriving.towards) {
+            if let Some(visible) = self.share(simd, (number, lamp), points, &arriving) {
                 share *= visible;
             }
             answer.add(&mut reflected, points, (lamp.radiance, share), (arriving.towards, cosine));

@@ -5,9 +5,9 @@
 use trigon_math::Vec3;
 
 use super::{Coverage, Illumination, Layout, LightSlots, Look, Map, MicrofacetModel, Model, Rays};
+use crate::effects::{Counts, Effect, Scenery};
 use crate::material::{AlphaMode, Material, MetallicRoughness, Shading, TextureBinding};
 use crate::render::columns::Columns;
-use crate::render::lighting::Lights;
 use crate::scene::Scene;
 use crate::settings::{Reflection, ShadingModel};
 
@@ -15,7 +15,7 @@ use crate::settings::{Reflection, ShadingModel};
 #[derive(Clone, Copy)]
 pub(crate) struct Occasion<'a> {
     pub(crate) scene: &'a Scene,
-    pub(crate) lights: &'a Lights,
+    pub(crate) scenery: &'a Scenery,
     pub(crate) rays: Rays,
     pub(crate) shading: ShadingModel,
     pub(crate) reflection: Reflection,
@@ -56,11 +56,58 @@ impl<'a> Dressed<'a> {
         Self { look, layout: fitting.layout, illumination }
     }
 
+    /// Adds what each vertex hands on and what each pixel looks up.
+    pub(crate) fn count(&self, scenery: &Scenery, masked: bool, counts: &mut Counts) {
+        let Self { look, layout, .. } = self;
+        let some = |there: bool, count: u64| if there { count } else { 0 };
+        let light = if !scenery.lights.lamps.is_empty() {
+            Effect::Lamps
+        } else if scenery.surroundings.is_some() {
+            Effect::Environment
+        } else {
+            Effect::AmbientLight
+        };
+        let (maps, specular) = match &look.model {
+            Model::Lambert => (0, false),
+            Model::BlinnPhong { map, .. } => (some(map.is_some(), 1), true),
+            Model::Microfacets(model) => {
+                let maps = [&model.map, &model.specular_map, &model.specular_color_map];
+                (maps.iter().filter(|map| map.is_some()).count() as u64, true)
+            }
+        };
+        let position = match () {
+            () if scenery.mist.is_some() => Effect::Fog,
+            () if specular && self.illumination != Illumination::None => Effect::Highlights,
+            () if scenery.shadow_maps.is_some() => Effect::ShadowMaps,
+            () if scenery.shadow_rays => Effect::ShadowRays,
+            () if scenery.ambient_rays.is_some() => Effect::AmbientOcclusion,
+            () => light,
+        };
+        let of_light = layout.light.map_or(0, |slots| slots.len() as u64) + some(layout.normal.is_some(), 3);
+        counts.of(light).attributes += of_light;
+        counts.of(position).attributes += some(layout.position.is_some(), 3);
+        counts.of(Effect::NormalMaps).attributes += some(layout.tangent.is_some(), 4);
+        counts.of(Effect::VertexColors).attributes += some(layout.color.is_some(), 4);
+        counts.of(Effect::Textures).attributes += 2 * layout.coordinates.len() as u64;
+        counts.of(Effect::Textures).look_ups += maps + some(look.base_map.is_some(), 1);
+        counts.of(Effect::Masks).look_ups += some(masked && look.base_map.is_some(), 1);
+        counts.of(Effect::Emission).look_ups += some(look.emissive_map.is_some(), 1);
+        counts.of(Effect::NormalMaps).look_ups += some(look.normal_map.is_some(), 1);
+        counts.of(Effect::OcclusionMaps).look_ups += some(look.occlusion_map.is_some(), 1);
+        counts.of(Effect::Transparency).passes += some(look.coverage == Coverage::Translucent, 1);
+    }
+
     /// Whether a triangle has one colour all over.
     pub(crate) fn is_flat(&self) -> bool {
         let uneven = self.look.base_map.is_some() || self.look.emissive_map.is_some();
         let per_triangle = matches!(self.illumination, Illumination::None | Illumination::OnFacets);
-        per_triangle && !uneven && self.layout.color.is_none()
+        per_triangle && !uneven && self.layout.count == 0
+    }
+
+    /// Leaves nothing but the shape.
+    pub(crate) fn strip(&mut self) {
+        self.layout = Layout::default();
+        (self.look.base_map, self.look.emissive_map) = (None, None);
     }
 }
 
@@ -110,10 +157,13 @@ impl<'a> Fitting<'_, 'a> {
             layout.color = Some(layout.add(4));
         }
         let highlights = !matches!(look.model, Model::Lambert);
+        if occasion.scenery.mist.is_some() {
+            layout.position = Some(layout.add(3));
+        }
         match illumination {
             Illumination::None | Illumination::OnFacets => {}
             Illumination::AtVertices => {
-                let grey = occasion.lights.are_grey() && !matches!(look.model, Model::Microfacets(_));
+                let grey = occasion.scenery.are_grey() && !matches!(look.model, Model::Microfacets(_));
                 let grey = grey && has_grey_highlights(&look.model);
                 let channels = if grey { 1 } else { 3 };
                 let mut slots = LightSlots { at: 0, channels, specular: highlights, two_sided: double_sided };
@@ -123,7 +173,8 @@ impl<'a> Fitting<'_, 'a> {
             Illumination::InPixels => {
                 layout.normal = Some(layout.add(3));
                 let towards_eye = highlights && occasion.rays == Rays::Meeting;
-                if towards_eye || occasion.lights.need_position() {
+                let needed = towards_eye || occasion.scenery.needs_position();
+                if needed && layout.position.is_none() {
                     layout.position = Some(layout.add(3));
                 }
                 if look.normal_map.is_some() {
@@ -172,7 +223,7 @@ fn coverage(mode: AlphaMode) -> Coverage {
 
 impl Reflection {
     /// What a material's answer to light becomes.
-    fn of(self, material: &Material) -> Shading {
+    pub(crate) fn of(self, material: &Material) -> Shading {
         let shading = material.shading;
         match self {
             _ if shading == Shading::Unlit => shading,

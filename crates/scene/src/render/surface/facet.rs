@@ -57,7 +57,8 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         // The side that is seen is the one that is turned to the eye, whichever
         // way the triangle winds.
         let seen = dot(normal, view).simd_ge(0.0);
-        LitPoints { position, normal: select(seen, normal, negated(normal)), view }
+        let normal = select(seen, normal, negated(normal));
+        LitPoints { position, normal, facing: normal, view }
     }
 
     /// The positions of one corner of eight triangles, in the mesh's space.

@@ -7,7 +7,7 @@ use super::{LightSlots, Map, Rays, Side, Surface, Values, load, shown, three};
 use crate::render::lanes::{
     V3, cross, dot, moved, negated, normalized, product, scaled, select, splat, sum, turned,
 };
-use crate::render::lighting::{Answer, Clear, LitPoints, Reflected};
+use crate::render::lighting::{Answer, LitPoints, Reflected};
 
 /// Where light is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,10 +37,10 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         let normal = load(simd, vertices, &self.columns.normals);
         let normal = normalized(turned(&self.place.normal_to_camera, normal));
         let position = moved(&self.place.to_camera, position);
-        let points = LitPoints { position, normal, view: self.view(simd, position) };
+        let points = LitPoints { position, normal, facing: normal, view: self.view(simd, position) };
         self.set_side(simd, vertices, (slots, slots.at), &points);
         if slots.two_sided {
-            let back = LitPoints { normal: negated(normal), ..points };
+            let back = LitPoints { normal: negated(normal), facing: negated(normal), ..points };
             self.set_side(simd, vertices, (slots, slots.at + slots.per_side()), &back);
         }
     }
@@ -113,7 +113,14 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             #[inline(always)]
             || {
                 let points = self.points(simd, fragments);
-                self.shaded(simd, fragments, &points, albedo)
+                let open = match (&self.scenery.ambient_rays, &self.scenery.rays) {
+                    (Some(ambient), Some(scene)) => {
+                        let (place, active) = (fragments.position(), fragments.active());
+                        Some(ambient.open(simd, scene, &points, place, active))
+                    }
+                    _ => None,
+                };
+                self.shaded(simd, fragments, (&points, open), albedo)
             },
         )
     }
@@ -124,17 +131,15 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         &self,
         simd: S,
         values: &impl Values<S>,
-        points: &LitPoints<S>,
+        (points, mut open): (&LitPoints<S>, Option<F32<S>>),
         albedo: V3<S>,
     ) -> V3<S> {
         let (answer, share) = self.look.answer(simd, albedo, Some(values));
-        let open = self.look.occlusion_map.as_ref().map(
-            #[inline(always)]
-            |(map, strength)| {
-                let red = map.look_up_apart(simd, values)[0];
-                (red - 1.0) * *strength + 1.0
-            },
-        );
+        if let Some((map, strength)) = &self.look.occlusion_map {
+            let red = map.look_up_apart(simd, values)[0];
+            let mapped = (red - 1.0) * *strength + 1.0;
+            open = Some(open.map_or(mapped, |open| open * mapped));
+        }
         shown(&self.reflected(simd, points, &answer, open), scaled(albedo, share))
     }
 
@@ -148,17 +153,19 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         answer: &Answer<S>,
         open: Option<F32<S>>,
     ) -> Reflected<S> {
-        let mut reflected = self.lights.reflected(simd, points, answer, &Clear);
-        let mut around = splat(simd, self.lights.ambient);
-        if let Some(open) = open {
-            around = scaled(around, open);
+        let mut reflected = self.scenery.reflected(simd, points, answer);
+        if !self.scenery.has_ambient() {
+            return reflected;
         }
+        let open = open.unwrap_or(F32::splat(simd, 1.0));
+        let around = scaled(self.scenery.around(simd, points.normal), open);
         match answer {
             Answer::Microfacets(facets) => {
                 let shares = facets.surrounded(dot(points.normal, points.view).abs());
                 reflected.diffuse = sum(reflected.diffuse, product(around, shares.diffuse));
-                let mirrored = product(around, sum(shares.single, shares.repeated));
-                reflected.specular = sum(reflected.specular, mirrored);
+                let mirrored = scaled(self.scenery.mirrored(simd, points, facets.roughness), open);
+                let specular = sum(product(mirrored, shares.single), product(around, shares.repeated));
+                reflected.specular = sum(reflected.specular, specular);
             }
             Answer::Lambert | Answer::BlinnPhong { .. } => {
                 reflected.diffuse = sum(reflected.diffuse, around);
@@ -181,12 +188,18 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             #[inline(always)]
             |at| three(fragments, at),
         );
+        let facing = normalized(normal);
         let normal = match (&self.look.normal_map, self.layout.tangent) {
             (Some((map, scale)), Some(at)) => bent(simd, fragments, (map, *scale), (normal, at)),
-            _ => normalized(normal),
+            _ => facing,
         };
-        let normal = select(self.shows_front(fragments), normal, negated(normal));
-        LitPoints { position, normal, view: self.view(simd, position) }
+        let front = self.shows_front(fragments);
+        LitPoints {
+            position,
+            normal: select(front, normal, negated(normal)),
+            facing: select(front, facing, negated(facing)),
+            view: self.view(simd, position),
+        }
     }
 
     /// Unit vectors towards the eye.

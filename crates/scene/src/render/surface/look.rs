@@ -6,7 +6,7 @@ use trigon_raster::simd::{F32, Simd, prelude::*};
 use trigon_raster::{Sampler, Texture};
 
 use super::values::Values;
-use crate::render::lanes::{V3, lesser_of_one, mix, product, splat};
+use crate::render::lanes::{V3, lesser_of, mix, product, splat};
 use crate::render::lighting::{Answer, Microfacets};
 
 /// A texture and where its coordinates lie.
@@ -169,9 +169,9 @@ impl MicrofacetModel<'_> {
         }
         let [x, y, z] = dielectric;
         let head_on = [
-            mix(lesser_of_one(x) * specular, r, metallic),
-            mix(lesser_of_one(y) * specular, g, metallic),
-            mix(lesser_of_one(z) * specular, b, metallic),
+            mix(lesser_of(x, 1.0) * specular, r, metallic),
+            mix(lesser_of(y, 1.0) * specular, g, metallic),
+            mix(lesser_of(z, 1.0) * specular, b, metallic),
         ];
         let grazing = mix(specular, F32::splat(simd, 1.0), metallic);
         (Answer::Microfacets(Microfacets { head_on, grazing, roughness }), 1.0 - metallic)

@@ -24,8 +24,9 @@ use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
 
 use super::columns::Columns;
 use super::lanes::{V3, mapped, moved, normalized, saturated, splat, sum, tinted, turned};
-use super::lighting::{Lights, Reflected};
+use super::lighting::Reflected;
 use super::placement::Placement;
+use crate::effects::Scenery;
 
 /// Faces of one mesh in one material.
 pub(crate) struct Surface<'a, const FLAT: bool> {
@@ -38,7 +39,7 @@ pub(crate) struct Surface<'a, const FLAT: bool> {
     pub(crate) illumination: Illumination,
     /// Whether rays of view meet in the camera, or run parallel.
     pub(crate) rays: Rays,
-    pub(crate) lights: &'a Lights,
+    pub(crate) scenery: &'a Scenery,
     pub(crate) edges: Option<EdgeOverlay>,
 }
 
@@ -103,7 +104,19 @@ impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
     }
 }
 
-impl<const FLAT: bool> Surface<'_, FLAT> {
+impl<'a, const FLAT: bool> Surface<'a, FLAT> {
+    /// Triangles of a mesh at a place, in a look.
+    pub(crate) fn new(
+        (columns, triangles): (&'a Columns, &'a [[u32; 3]]),
+        place: Placement,
+        dressed: Dressed<'a>,
+        occasion: &Occasion<'a>,
+    ) -> Self {
+        let Dressed { look, layout, illumination } = dressed;
+        let Occasion { rays, scenery, .. } = *occasion;
+        Self { columns, triangles, place, layout, look, illumination, rays, scenery, edges: None }
+    }
+
     #[inline(always)]
     fn set_varyings<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>, position: V3<S>) {
         let Self { layout, columns, place, .. } = self;
@@ -143,7 +156,10 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             Illumination::InPixels => self.lit(simd, fragments, [r, g, b]),
             Illumination::OnFacets => self.lit_facets(simd, fragments, [r, g, b]),
         };
-        let shaded = self.with_emission(simd, fragments, shaded);
+        let mut shaded = self.with_emission(simd, fragments, shaded);
+        if let (Some(mist), Some(at)) = (&self.scenery.mist, self.layout.position) {
+            shaded = mist.over(simd, three(fragments, at), shaded);
+        }
         self.finished(simd, fragments, shaded, alpha)
     }
 

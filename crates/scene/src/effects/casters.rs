@@ -1,0 +1,75 @@
+//! What keeps light away: everything opaque that is visible in the scene, in the
+//! camera's view or not.
+
+use std::sync::Arc;
+
+use trigon_math::{Bounds3, DAffine3};
+
+use crate::material::{AlphaMode, Material};
+use crate::node::Node;
+use crate::render::{Geometry, Shape, Shapes};
+use crate::scene::Scene;
+
+/// All that casts shadows in a scene.
+#[derive(Clone, Debug)]
+pub(crate) struct Casters {
+    pub(crate) list: Vec<Caster>,
+    /// In the world; empty without casters.
+    pub(crate) bounds: Bounds3,
+}
+
+/// One mesh at one node.
+#[derive(Clone, Debug)]
+pub(crate) struct Caster {
+    pub(crate) geometry: Arc<Geometry>,
+    pub(crate) world: DAffine3,
+    /// For each run of the geometry its material, or `None` where light passes.
+    pub(crate) materials: Vec<Option<Material>>,
+    bounds: Bounds3,
+}
+
+impl PartialEq for Caster {
+    /// Whether its shadow is the same for sure.
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.geometry, &other.geometry)
+            && self.world == other.world
+            && self.materials == other.materials
+    }
+}
+
+impl PartialEq for Casters {
+    fn eq(&self, other: &Self) -> bool {
+        self.list == other.list
+    }
+}
+
+impl Casters {
+    pub(crate) fn gather(scene: &Scene, shapes: &Shapes) -> Self {
+        let mut casters = Self { list: Vec::new(), bounds: Bounds3::EMPTY };
+        for (id, node) in scene.nodes().iter() {
+            let Some(Shape { geometry, world, .. }) = shapes.get(id.index()) else { continue };
+            let materials: Vec<Option<Material>> =
+                geometry.runs.iter().map(|run| cast_by(scene, node, run.slot)).collect();
+            if materials.iter().all(Option::is_none) {
+                continue;
+            }
+            let bounds = geometry.bounds().transformed(world);
+            casters.bounds = casters.bounds.union(bounds);
+            let (geometry, world) = (Arc::clone(geometry), *world);
+            casters.list.push(Caster { geometry, world, materials, bounds });
+        }
+        casters
+    }
+
+    /// The boxes of all casters in the world.
+    pub(crate) fn boxes(&self) -> impl Iterator<Item = &Bounds3> {
+        self.list.iter().map(|caster| &caster.bounds)
+    }
+}
+
+/// The material of a slot if it keeps light away.
+fn cast_by(scene: &Scene, node: &Node, slot: u32) -> Option<Material> {
+    let id = node.materials.get(slot as usize);
+    let material = id.and_then(|&id| scene.materials.get(id)).cloned().unwrap_or_default();
+    (material.alpha_mode != AlphaMode::Blend).then_some(material)
+}

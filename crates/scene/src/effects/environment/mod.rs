@@ -1,0 +1,205 @@
+//! Ambient light that comes from somewhere: from a sky, or from a picture of all
+//! directions.
+//!
+//! Kept in two forms, made once: what a matt surface shows for each way that it is
+//! turned, as nine coefficients (R. Ramamoorthi and P. Hanrahan, "An Efficient
+//! Representation for Irradiance Environment Maps", 2001), and what mirrors of
+//! five roughnesses show (B. Karis, "Real Shading in Unreal Engine 4", 2013).
+
+mod harmonics;
+mod octahedral;
+mod prefilter;
+mod sky;
+
+pub use sky::Sky;
+
+use std::sync::Arc;
+
+use harmonics::Harmonics;
+use octahedral::Octahedral;
+use thiserror::Error;
+use trigon_math::{Mat3, Vec3, elementary};
+use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
+
+use crate::render::lanes::{V3, turned};
+
+/// Side of the sharpest map in texels.
+const SIZE: usize = 256;
+
+/// Ambient light that comes from somewhere. Radiance is in the unit of
+/// [`Light::intensity`](crate::Light): 1 all around shows a white surface as 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Environment {
+    matt: Harmonics,
+    /// From a mirror to the roughest surface, in equal steps of roughness.
+    mirrored: Vec<Octahedral>,
+}
+
+/// Why a picture is no environment.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+pub enum EnvironmentError {
+    /// A side is 0, or there are not `width * height` pixels.
+    #[error("{given} pixels are no picture of {width}x{height}: each side must be at least 1")]
+    Size {
+        /// Pixels from left to right.
+        width: usize,
+        /// Pixels from top to bottom.
+        height: usize,
+        /// The pixels that there are.
+        given: usize,
+    },
+}
+
+impl Environment {
+    /// From a picture of all directions, as `.hdr` files hold it: row-major from
+    /// the top, linear RGB; the middle looks along −Z, the right half to +X, the
+    /// upper edge is +Y. Values that are negative or not finite count as 0.
+    ///
+    /// # Errors
+    /// If there are not `width * height` pixels, or none.
+    pub fn from_equirectangular(
+        width: usize,
+        height: usize,
+        pixels: &[[f32; 3]],
+    ) -> Result<Self, EnvironmentError> {
+        if width == 0 || height == 0 || width.checked_mul(height) != Some(pixels.len()) {
+            return Err(EnvironmentError::Size { width, height, given: pixels.len() });
+        }
+        Ok(Self::from_sharp(Octahedral::from_equirectangular(SIZE, (width, height), pixels)))
+    }
+
+    /// From a sky.
+    pub fn from_sky(sky: &Sky) -> Self {
+        Self::from_sharp(Octahedral::from_function(SIZE, |direction| sky.radiance(direction)))
+    }
+
+    /// The same linear RGB from everywhere.
+    pub fn uniform(radiance: Vec3) -> Self {
+        Self::from_sharp(Octahedral::from_function(32, |_| radiance))
+    }
+
+    fn from_sharp(sharp: Octahedral) -> Self {
+        Self { matt: Harmonics::of(&sharp), mirrored: prefilter::levels(sharp) }
+    }
+
+    /// The light from a direction of the world (of any length but 0) as a surface
+    /// of a roughness from 0 to 1 mirrors it.
+    pub fn radiance(&self, direction: Vec3, roughness: f32) -> Vec3 {
+        let last = self.mirrored.len() - 1;
+        let place = if roughness > 0.0 { roughness * last as f32 } else { 0.0 };
+        let place = if place < last as f32 { place } else { last as f32 };
+        let level = place as usize;
+        let below = self.mirrored[level].at(direction);
+        let share = place - level as f32;
+        if share == 0.0 { below } else { below.lerp(self.mirrored[level + 1].at(direction), share) }
+    }
+
+    /// What a white matt surface shows that is turned to a unit vector.
+    pub fn irradiance(&self, normal: Vec3) -> Vec3 {
+        self.matt.at(normal)
+    }
+
+    /// Bytes of memory that it takes.
+    pub fn byte_count(&self) -> usize {
+        self.mirrored.iter().map(Octahedral::byte_count).sum::<usize>() + size_of::<Harmonics>()
+    }
+}
+
+/// An environment as a picture uses it.
+#[derive(Clone, Debug)]
+pub(crate) struct Surroundings {
+    pub(crate) environment: Arc<Environment>,
+    /// From camera space.
+    pub(crate) to_world: Mat3,
+    /// Factor on all of its light.
+    pub(crate) intensity: f32,
+}
+
+impl Surroundings {
+    /// What white matt surfaces show, for unit normals in camera space.
+    #[inline(always)]
+    pub(crate) fn matt<S: Simd>(&self, simd: S, normal: V3<S>) -> V3<S> {
+        let [r, g, b] = self.environment.matt.at_lanes(simd, turned(&self.to_world, normal));
+        [r * self.intensity, g * self.intensity, b * self.intensity]
+    }
+
+    /// What surfaces mirror, for directions in camera space.
+    pub(crate) fn mirrored<S: Simd>(&self, simd: S, direction: V3<S>, roughness: F32<S>) -> V3<S> {
+        let [x, y, z] = turned(&self.to_world, direction).map(<[f32; LANES]>::from);
+        let roughness: [f32; LANES] = roughness.into();
+        let found = lanes_of(|lane| {
+            let direction = Vec3::new(x[lane], y[lane], z[lane]);
+            self.environment.radiance(direction, roughness[lane]) * self.intensity
+        });
+        [0, 1, 2].map(|channel| F32::simd_from(simd, found.map(|light| light[channel])))
+    }
+}
+
+/// The unit vector of a place in a picture of all directions, u and v from 0 to 1.
+fn equirectangular(u: f32, v: f32) -> Vec3 {
+    let (around, down) = ((u - 0.5) * std::f32::consts::TAU, v * std::f32::consts::PI);
+    let flat = elementary::sin_f32(down);
+    Vec3::new(
+        flat * elementary::sin_f32(around),
+        elementary::cos_f32(down),
+        -flat * elementary::cos_f32(around),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_same_light_from_everywhere_is_the_same_on_every_surface() {
+        let environment = Environment::uniform(Vec3::new(0.25, 0.5, 1.0));
+        for direction in [Vec3::X, Vec3::NEG_Y, Vec3::new(0.3, -0.5, 0.8).normalize()] {
+            for light in [environment.irradiance(direction), environment.radiance(direction, 0.4)] {
+                let error = (light - Vec3::new(0.25, 0.5, 1.0)).abs().max_element();
+                assert!(error < 2e-3, "{light} from {direction}");
+            }
+        }
+    }
+
+    /// A bright upper half shows a surface that is tilted by θ as (1 + cos θ) / 2.
+    #[test]
+    fn a_bright_half_lights_surfaces_by_their_view_of_it() {
+        let (width, height) = (128, 64);
+        let pixels: Vec<[f32; 3]> =
+            (0..width * height).map(|i| if i < width * height / 2 { [1.0; 3] } else { [0.0; 3] }).collect();
+        let environment = Environment::from_equirectangular(width, height, &pixels).expect("the size fits");
+        for tilt in [0.0_f32, 0.5, 1.0, 1.57, 2.5, 3.1] {
+            let normal = Vec3::new(elementary::sin_f32(tilt), elementary::cos_f32(tilt), 0.0);
+            let (shown, exact) = (environment.irradiance(normal).x, (1.0 + normal.y) / 2.0);
+            // Nine coefficients are within 3 % of the brightest (Ramamoorthi 2001).
+            assert!((shown - exact).abs() < 0.03, "{shown} at {tilt}, not {exact}");
+        }
+        let up = environment.radiance(Vec3::Y, 0.0).x;
+        assert!((up - 1.0).abs() < 1e-3, "the sky overhead is bright: {up}");
+        assert!(environment.radiance(Vec3::NEG_Y, 0.25).x < 1e-3, "the ground is dark");
+        let grazing = environment.radiance(Vec3::X, 1.0).x;
+        assert!((grazing - 0.5).abs() < 0.05, "a rough mirror on the horizon sees half of each: {grazing}");
+    }
+
+    #[test]
+    fn the_middle_of_the_picture_looks_along_minus_z() {
+        let (width, height) = (64, 32);
+        let mut pixels = vec![[0.0; 3]; width * height];
+        for y in 12..20 {
+            for x in 28..36 {
+                pixels[y * width + x] = [1.0; 3];
+            }
+        }
+        let environment = Environment::from_equirectangular(width, height, &pixels).expect("it fits");
+        assert!(environment.radiance(Vec3::NEG_Z, 0.0).x > 0.99, "bright ahead");
+        for dark in [Vec3::X, Vec3::Z, Vec3::Y, Vec3::NEG_X] {
+            assert!(environment.radiance(dark, 0.0).x < 0.01, "dark towards {dark}");
+        }
+    }
+
+    #[test]
+    fn a_picture_without_pixels_is_refused() {
+        let error = Environment::from_equirectangular(2, 2, &[[0.0; 3]]).expect_err("too few");
+        assert_eq!(error, EnvironmentError::Size { width: 2, height: 2, given: 1 }, "says what is there");
+    }
+}

@@ -1,0 +1,194 @@
+//! All directions in a square: the octahedron of unit absolute sums, folded open
+//! (T. Engelhardt and C. Dachsbacher, "Octahedron Environment Maps", 2008). No
+//! trigonometry is needed to look a direction up.
+
+use trigon_math::{Vec2, Vec3};
+
+use super::equirectangular;
+
+/// Light from all directions.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Octahedral {
+    /// Texels on a side, without the border.
+    size: usize,
+    /// Rows with a border of one texel, which is what lies beyond the fold.
+    texels: Vec<Vec3>,
+}
+
+impl Octahedral {
+    /// From the light of each direction (unit vectors).
+    pub(super) fn from_function(size: usize, light: impl Fn(Vec3) -> Vec3) -> Self {
+        Self::bordered(size, |x, y| light(direction(size, x, y)))
+    }
+
+    /// From texels, row by row.
+    pub(super) fn from_texels(size: usize, texels: &[Vec3]) -> Self {
+        Self::bordered(size, |x, y| texels[y * size + x])
+    }
+
+    /// Every pixel of the picture adds to the texel that it falls in, by the part of
+    /// the sphere that it covers: a small bright sun keeps its light.
+    pub(super) fn from_equirectangular(
+        size: usize,
+        (width, height): (usize, usize),
+        pixels: &[[f32; 3]],
+    ) -> Self {
+        let mut sums = vec![(Vec3::ZERO, 0.0_f32); size * size];
+        for (y, row) in pixels.chunks_exact(width).enumerate() {
+            for (x, &pixel) in row.iter().enumerate() {
+                let (u, v) = ((x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32);
+                let towards = equirectangular(u, v);
+                let area = (1.0 - towards.y * towards.y).sqrt();
+                let place = unfolded(towards) * size as f32;
+                let texel = held(place.y as usize, size) * size + held(place.x as usize, size);
+                sums[texel].0 += clean(pixel) * area;
+                sums[texel].1 += area;
+            }
+        }
+        let nearest = |towards: Vec3| {
+            let around = trigon_math::elementary::atan2_f32(towards.x, -towards.z);
+            let u = around / std::f32::consts::TAU + 0.5;
+            let v = trigon_math::elementary::acos_f32(towards.y.clamp(-1.0, 1.0)) / std::f32::consts::PI;
+            let (x, y) =
+                (held((u * width as f32) as usize, width), held((v * height as f32) as usize, height));
+            clean(pixels[y * width + x])
+        };
+        Self::bordered(size, |x, y| match sums[y * size + x] {
+            (_, 0.0) => nearest(direction(size, x, y)),
+            (sum, area) => sum / area,
+        })
+    }
+
+    fn bordered(size: usize, texel: impl Fn(usize, usize) -> Vec3) -> Self {
+        let side = size + 2;
+        let mut texels = vec![Vec3::ZERO; side * side];
+        for (y, x) in (0..size).flat_map(|y| (0..size).map(move |x| (y, x))) {
+            texels[(y + 1) * side + x + 1] = texel(x, y);
+        }
+        for i in 0..size {
+            // Over an edge of the square lies the same edge, the other way round.
+            let mirrored = size - i;
+            texels[i + 1] = texels[side + mirrored];
+            texels[(size + 1) * side + i + 1] = texels[size * side + mirrored];
+            texels[(i + 1) * side] = texels[mirrored * side + 1];
+            texels[(i + 1) * side + size + 1] = texels[mirrored * side + size];
+        }
+        for (corner, opposite) in [
+            (0, size * side + size),
+            (size + 1, size * side + 1),
+            ((size + 1) * side, side + size),
+            (side * side - 1, side + 1),
+        ] {
+            texels[corner] = texels[opposite];
+        }
+        Self { size, texels }
+    }
+
+    /// The light from a direction of any length, bilinear; from no direction that
+    /// of the middle.
+    pub(super) fn at(&self, direction: Vec3) -> Vec3 {
+        let place = unfolded(direction) * self.size as f32 + 0.5;
+        let (x, y) = (held(place.x as usize, self.size + 1), held(place.y as usize, self.size + 1));
+        let share = place - Vec2::new(x as f32, y as f32);
+        let side = self.size + 2;
+        let [a, b, c, d] = [0, 1, side, side + 1].map(|step| self.texels[y * side + x + step]);
+        a.lerp(b, share.x).lerp(c.lerp(d, share.x), share.y)
+    }
+
+    pub(super) fn size(&self) -> usize {
+        self.size
+    }
+
+    /// All texels: their directions, their parts of the sphere, and their light.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (Vec3, f32, Vec3)> + '_ {
+        let (size, side) = (self.size, self.size + 2);
+        (0..size * size).map(move |i| {
+            let (x, y) = (i % size, i / size);
+            let place = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) / size as f32;
+            let folded = folded(place);
+            let length = folded.length();
+            // The octahedron's sides lie askew: what they cover of the sphere.
+            let step = 2.0 / size as f32;
+            let area = step * step / (length * length * length);
+            (folded / length, area, self.texels[(y + 1) * side + x + 1])
+        })
+    }
+
+    /// The mean of two by two texels each.
+    pub(super) fn halved(&self) -> Self {
+        let side = self.size + 2;
+        Self::bordered(self.size / 2, |x, y| {
+            let first = (2 * y + 1) * side + 2 * x + 1;
+            [0, 1, side, side + 1].into_iter().map(|step| self.texels[first + step]).sum::<Vec3>() * 0.25
+        })
+    }
+
+    pub(super) fn byte_count(&self) -> usize {
+        size_of_val(self.texels.as_slice())
+    }
+}
+
+fn clean(pixel: [f32; 3]) -> Vec3 {
+    Vec3::from(pixel.map(|channel| if channel > 0.0 && channel.is_finite() { channel } else { 0.0 }))
+}
+
+fn held(index: usize, size: usize) -> usize {
+    if index < size { index } else { size - 1 }
+}
+
+/// The unit vector in the middle of a texel.
+pub(super) fn direction(size: usize, x: usize, y: usize) -> Vec3 {
+    folded(Vec2::new(x as f32 + 0.5, y as f32 + 0.5) / size as f32).normalize()
+}
+
+/// The place of a direction in the unit square. Up is the middle, down the corners.
+fn unfolded(direction: Vec3) -> Vec2 {
+    let Vec3 { x, y, z } = direction / (direction.x.abs() + direction.y.abs() + direction.z.abs());
+    let flat = if y >= 0.0 { Vec2::new(x, z) } else { over_the_edge(x, z) };
+    let place = flat * 0.5 + 0.5;
+    if place.is_finite() { place } else { Vec2::splat(0.5) }
+}
+
+/// The point of the octahedron at a place of the unit square.
+fn folded(place: Vec2) -> Vec3 {
+    let flat = place * 2.0 - 1.0;
+    let y = 1.0 - flat.x.abs() - flat.y.abs();
+    let flat = if y >= 0.0 { flat } else { over_the_edge(flat.x, flat.y) };
+    Vec3::new(flat.x, y, flat.y)
+}
+
+fn over_the_edge(x: f32, z: f32) -> Vec2 {
+    let signed = |value: f32, by: f32| if by >= 0.0 { value } else { -value };
+    Vec2::new(signed(1.0 - z.abs(), x), signed(1.0 - x.abs(), z))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texels_cover_the_sphere_once() {
+        let map = Octahedral::from_function(32, |_| Vec3::ONE);
+        let area: f32 = map.iter().map(|(_, area, _)| area).sum();
+        let sphere = 4.0 * std::f32::consts::PI;
+        assert!((area / sphere - 1.0).abs() < 2e-3, "{area}, not {sphere}");
+    }
+
+    #[test]
+    fn light_is_found_where_it_was_put_and_without_seams() {
+        let map = Octahedral::from_function(64, |direction| direction);
+        for i in 0..500_u16 {
+            // Directions all around, seams and corners of the square among them.
+            let t = f32::from(i) * 0.37;
+            let towards = Vec3::new(
+                trigon_math::elementary::sin_f32(t * 1.7),
+                trigon_math::elementary::sin_f32(t * 0.9) - 0.3,
+                trigon_math::elementary::cos_f32(t * 2.3),
+            )
+            .normalize();
+            let error = (map.at(towards) - towards).length();
+            assert!(error < 0.02, "{} from {towards}", map.at(towards));
+        }
+        assert!((map.at(Vec3::NEG_Y) - Vec3::NEG_Y).length() < 0.03, "the corners are one point");
+    }
+}

@@ -1,0 +1,61 @@
+//! Fog in lanes.
+
+use trigon_math::Vec3;
+use trigon_raster::simd::{Simd, prelude::*};
+
+use super::Fog;
+use crate::render::lanes::{V3, dot, exp2, mix, splat};
+
+/// Fog made ready.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mist {
+    color: Vec3,
+    /// Halvings per metre.
+    halvings: f32,
+}
+
+impl Mist {
+    /// `None` for fog that hides nothing.
+    pub(crate) fn new(fog: &Fog) -> Option<Self> {
+        let halvings = fog.density * std::f32::consts::LOG2_E;
+        (halvings > 0.0 && halvings.is_finite()).then_some(Self { color: fog.color, halvings })
+    }
+
+    /// Colours seen through the mist at places in camera space.
+    #[inline(always)]
+    pub(crate) fn over<S: Simd>(&self, simd: S, position: V3<S>, color: V3<S>) -> V3<S> {
+        let distance = dot(position, position).sqrt();
+        let kept = exp2(distance * -self.halvings);
+        let mist = splat(simd, self.color);
+        [mix(mist[0], color[0], kept), mix(mist[1], color[1], kept), mix(mist[2], color[2], kept)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fearless_simd::Fallback;
+    use trigon_math::elementary;
+
+    #[test]
+    fn a_surface_fades_exponentially_with_its_distance() {
+        let simd = Fallback::new();
+        let fog = Fog { color: Vec3::new(1.0, 0.5, 0.0), density: 0.3 };
+        let mist = Mist::new(&fog).expect("there is some");
+        for distance in [0.0_f32, 1.0, 5.0, 40.0] {
+            let at = splat(simd, Vec3::new(0.0, 0.6, -0.8) * distance);
+            let seen = mist.over(simd, at, splat(simd, Vec3::Z)).map(|channel| f64::from(channel[0]));
+            let kept = elementary::exp(-0.3 * f64::from(distance));
+            let expected = [1.0 - kept, 0.5 - 0.5 * kept, kept];
+            let worst = seen.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(worst < 1e-6, "{seen:?} at {distance}, not {expected:?}");
+        }
+    }
+
+    #[test]
+    fn fog_without_density_is_none() {
+        for density in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+            assert!(Mist::new(&Fog { color: Vec3::ONE, density }).is_none(), "{density} hides nothing");
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! Everything beyond surfaces in plain light, one folder or file for each effect.
+//! What a scene does not call for is neither prepared nor asked about.
+
+mod casters;
+mod environment;
+mod fog;
+mod outline;
+mod plan;
+mod rays;
+mod scenery;
+mod settings;
+mod shadow;
+mod tone;
+
+pub(crate) use casters::Casters;
+pub(crate) use environment::Surroundings;
+pub use environment::{Environment, EnvironmentError, Sky};
+pub(crate) use fog::Mist;
+pub(crate) use outline::draw_outline;
+pub(crate) use plan::Counts;
+pub use plan::{Absence, Cause, Decision, Effect, EffectCounts, EffectPlan, Named};
+pub(crate) use rays::{AmbientRays, RayCache};
+pub(crate) use scenery::Scenery;
+pub use settings::{AmbientOcclusion, EffectSettings, Fog, Outline, Shadows, ToneMapping};
+pub(crate) use shadow::{LampPose, ShadowCache};
+pub(crate) use tone::map_picture;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,183 @@
+//! The plan of a picture: which effects the scene calls for, as far as the camera
+//! sees it, and why. The renderer does what the plan says.
+
+mod counts;
+mod effect;
+mod reason;
+mod survey;
+
+pub(crate) use counts::Counts;
+pub use counts::EffectCounts;
+pub use effect::Effect;
+pub use reason::{Absence, Cause, Decision, Named};
+
+use std::fmt;
+
+use trigon_camera::Camera;
+use trigon_math::Vec3;
+
+use super::{Mist, Shadows};
+use crate::render::Stage;
+use crate::scene::Scene;
+use crate::settings::{RenderSettings, ShadingModel, Style};
+use survey::Survey;
+
+/// Which effects a picture has, and why.
+///
+/// ```
+/// use trigon_scene::{Effect, EffectPlan, RenderSettings, showcase};
+///
+/// let scene = showcase();
+/// let plan = EffectPlan::new(&scene, &scene.cameras()[0].1, &RenderSettings::new(100, 60));
+/// assert!(plan.is_on(Effect::Lamps));
+/// assert_eq!(plan.decision(Effect::Fog).to_string(), "off, because the settings ask for none");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EffectPlan {
+    /// In the order of [`Effect::ALL`].
+    decisions: Vec<Decision>,
+}
+
+impl EffectPlan {
+    /// Visits the scene and what the camera can see of it.
+    pub fn new(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Self {
+        Self::of_stage(&Stage::new(scene, camera, settings))
+    }
+
+    pub(crate) fn of_stage(stage: &Stage<'_>) -> Self {
+        let survey = Survey::new(stage);
+        Self { decisions: Effect::ALL.iter().map(|&effect| decide(effect, stage, &survey)).collect() }
+    }
+
+    /// Whether an effect is on, and why.
+    pub fn decision(&self, effect: Effect) -> &Decision {
+        &self.decisions[effect as usize]
+    }
+
+    /// Whether an effect is on.
+    pub fn is_on(&self, effect: Effect) -> bool {
+        matches!(self.decision(effect), Decision::On(_))
+    }
+
+    /// All effects with what is decided about them.
+    pub fn iter(&self) -> impl Iterator<Item = (Effect, &Decision)> {
+        Effect::ALL.into_iter().zip(&self.decisions)
+    }
+}
+
+impl fmt::Display for EffectPlan {
+    /// A line for each effect.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.iter().try_for_each(|(effect, decision)| writeln!(f, "{effect}: {decision}"))
+    }
+}
+
+fn decide(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Decision {
+    let outcome = match effect {
+        Effect::Lamps => lamps(stage, survey),
+        Effect::AmbientLight => ambient_light(stage, survey),
+        Effect::Environment => environment(stage, survey),
+        Effect::ShadowMaps => {
+            shadows(matches!(stage.settings.effects.shadows, Shadows::Maps { .. }), stage, survey)
+        }
+        Effect::ShadowRays => shadows(stage.settings.effects.shadows == Shadows::Rays, stage, survey),
+        Effect::AmbientOcclusion => ambient_occlusion(stage, survey),
+        Effect::Fog => asked(stage.settings.effects.fog.as_ref().and_then(Mist::new).is_some()),
+        Effect::ToneMapping => asked(stage.settings.effects.maps_tones()),
+        Effect::Outline => {
+            asked(stage.settings.effects.outline.as_ref().is_some_and(|outline| !outline.nodes.is_empty()))
+        }
+        Effect::Edges => asked(stage.settings.style != Style::Surface),
+        _ => of_objects(effect, stage, survey),
+    };
+    match outcome {
+        Ok(cause) => Decision::On(cause),
+        Err(absence) => Decision::Off(absence),
+    }
+}
+
+type Outcome = Result<Cause, Absence>;
+
+fn asked(asked: bool) -> Outcome {
+    if asked { Ok(Cause::Asked) } else { Err(Absence::NotAsked) }
+}
+
+/// Whether light is asked about at all.
+fn check_lit(stage: &Stage<'_>, survey: &Survey) -> Result<(), Absence> {
+    match stage.settings.style {
+        Style::Wireframe | Style::HiddenLine => Err(Absence::NoFaces),
+        Style::Surface | Style::SurfaceWithEdges if survey.lit == 0 => Err(Absence::NothingLit),
+        Style::Surface | Style::SurfaceWithEdges => Ok(()),
+    }
+}
+
+fn lamps(stage: &Stage<'_>, survey: &Survey) -> Outcome {
+    check_lit(stage, survey)?;
+    let lamps = &stage.lights.lamps;
+    match (lamps.len(), lamps.first().and_then(|lamp| lamp.node)) {
+        (0, _) => Err(Absence::Nowhere),
+        (_, None) => Ok(Cause::Studio),
+        (count, Some(_)) => Ok(Cause::Lights(count)),
+    }
+}
+
+fn ambient_light(stage: &Stage<'_>, survey: &Survey) -> Outcome {
+    check_lit(stage, survey)?;
+    if stage.settings.effects.environment.is_some() {
+        return Err(Absence::Environment);
+    }
+    match (stage.lights.ambient == Vec3::ZERO, stage.lights.own_ambient) {
+        (true, _) => Err(Absence::Nowhere),
+        (false, 0) => Ok(Cause::Studio),
+        (false, count) => Ok(Cause::Lights(count)),
+    }
+}
+
+fn environment(stage: &Stage<'_>, survey: &Survey) -> Outcome {
+    if stage.settings.effects.environment.is_none() {
+        return Err(Absence::NotAsked);
+    }
+    check_lit(stage, survey)?;
+    Ok(Cause::Asked)
+}
+
+fn shadows(asked: bool, stage: &Stage<'_>, survey: &Survey) -> Outcome {
+    if !asked {
+        return Err(Absence::NotAsked);
+    }
+    check_lit(stage, survey)?;
+    match (stage.lights.lamps.len(), survey.casters) {
+        (0, _) => Err(Absence::NoLamp),
+        (_, 0) => Err(Absence::NoCaster),
+        (lamps, casters) => Ok(Cause::Shadows { lamps, casters }),
+    }
+}
+
+fn ambient_occlusion(stage: &Stage<'_>, survey: &Survey) -> Outcome {
+    if stage.settings.effects.ambient_occlusion.is_none() {
+        return Err(Absence::NotAsked);
+    }
+    check_lit(stage, survey)?;
+    if stage.settings.shading != ShadingModel::Phong {
+        return Err(Absence::ShadingModel);
+    }
+    let ambient = stage.settings.effects.environment.is_some() || stage.lights.ambient != Vec3::ZERO;
+    match (ambient, survey.casters) {
+        (false, _) => Err(Absence::NoAmbientLight),
+        (true, 0) => Err(Absence::NoCaster),
+        (true, _) => Ok(Cause::Asked),
+    }
+}
+
+fn of_objects(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Outcome {
+    let per_pixel = matches!(effect, Effect::NormalMaps | Effect::OcclusionMaps);
+    let [in_view, elsewhere] = survey.of(effect);
+    let faces = matches!(stage.settings.style, Style::Surface | Style::SurfaceWithEdges);
+    match (in_view.count, elsewhere.count) {
+        (0, 0) => Err(Absence::Nowhere),
+        (0, _) => Err(Absence::OutOfView(elsewhere.clone())),
+        _ if !faces && effect != Effect::Poses => Err(Absence::NoFaces),
+        _ if per_pixel && stage.settings.shading != ShadingModel::Phong => Err(Absence::ShadingModel),
+        _ => Ok(Cause::Objects(in_view.clone())),
+    }
+}

@@ -1,0 +1,122 @@
+//! Why an effect is on or off.
+
+use std::fmt;
+
+/// Whether an effect is on, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Decision {
+    /// It is simulated.
+    On(Cause),
+    /// It is not, and costs nothing.
+    Off(Absence),
+}
+
+/// Why an effect is on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// The settings ask for it.
+    Asked,
+    /// Lights of the scene shine on what is in view.
+    Lights(usize),
+    /// What is in view is lit, and the scene has no such light of its own.
+    Studio,
+    /// Objects in view have it.
+    Objects(Named),
+    /// The settings ask for it, and lamps meet what casts shadows.
+    Shadows {
+        /// Lights that shine.
+        lamps: usize,
+        /// Objects that are in their way.
+        casters: usize,
+    },
+}
+
+/// Why an effect is off.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Absence {
+    /// The settings ask for none.
+    NotAsked,
+    /// Nothing in the scene has it.
+    Nowhere,
+    /// What has it is outside of the view.
+    OutOfView(Named),
+    /// Nothing in view is lit.
+    NothingLit,
+    /// The settings ask for it, but no lamp shines.
+    NoLamp,
+    /// The settings ask for it, but there is no light from everywhere.
+    NoAmbientLight,
+    /// The settings ask for it, but nothing is in the way of light.
+    NoCaster,
+    /// The environment takes its place.
+    Environment,
+    /// The shading model leaves it out.
+    ShadingModel,
+    /// No faces are drawn.
+    NoFaces,
+}
+
+/// Some objects, one of them by its name.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Named {
+    /// How many there are.
+    pub count: usize,
+    /// The name of the first.
+    pub first: String,
+}
+
+impl Named {
+    pub(super) fn add(&mut self, name: &str) {
+        if self.count == 0 {
+            name.clone_into(&mut self.first);
+        }
+        self.count += 1;
+    }
+}
+
+impl fmt::Display for Decision {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::On(cause) => write!(f, "on, because {cause}"),
+            Self::Off(absence) => write!(f, "off, because {absence}"),
+        }
+    }
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Asked => f.write_str("the settings ask for it"),
+            Self::Lights(1) => f.write_str("one light shines on what is in view"),
+            Self::Lights(count) => write!(f, "{count} lights shine on what is in view"),
+            Self::Studio => f.write_str("what is in view is lit, and the scene has no such light of its own"),
+            Self::Objects(Named { count: 1, first }) => write!(f, "`{first}` has it"),
+            Self::Objects(Named { count, first }) => write!(f, "{count} objects have it, such as `{first}`"),
+            Self::Shadows { lamps, casters } => {
+                write!(f, "the settings ask for it, and {lamps} lamps shine on {casters} objects")
+            }
+        }
+    }
+}
+
+impl fmt::Display for Absence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotAsked => f.write_str("the settings ask for none"),
+            Self::Nowhere => f.write_str("nothing in the scene has it"),
+            Self::OutOfView(Named { count: 1, first }) => {
+                write!(f, "the only object that has it, `{first}`, is outside of the view")
+            }
+            Self::OutOfView(Named { count, first }) => {
+                write!(f, "the {count} objects that have it, such as `{first}`, are outside of the view")
+            }
+            Self::NothingLit => f.write_str("nothing in view is lit"),
+            Self::NoLamp => f.write_str("no light casts any"),
+            Self::NoAmbientLight => f.write_str("there is no light from everywhere"),
+            Self::NoCaster => f.write_str("nothing is in the way of light"),
+            Self::Environment => f.write_str("the environment takes its place"),
+            Self::ShadingModel => f.write_str("the shading model leaves it out"),
+            Self::NoFaces => f.write_str("no faces are drawn"),
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! What a scene holds and what of it the camera can see.
+
+use super::{Effect, Named};
+use crate::material::{AlphaMode, Material, Shading};
+use crate::render::{Shape, Stage};
+use crate::settings::Style;
+
+/// What a scene holds and what of it the camera can see.
+#[derive(Debug, Default)]
+pub(super) struct Survey {
+    /// For each effect by its number: what has it in view, and elsewhere.
+    found: [[Named; 2]; Effect::ALL.len()],
+    /// Objects in view that light reaches.
+    pub(super) lit: usize,
+    /// Objects that keep light away, in view or not.
+    pub(super) casters: usize,
+}
+
+impl Survey {
+    pub(super) fn new(stage: &Stage<'_>) -> Self {
+        let mut survey = Self::default();
+        for (id, node) in stage.scene.nodes().iter() {
+            let Some(shape) = stage.shapes.get(id.index()) else { continue };
+            let seen = stage.may_show(shape);
+            let name = if node.name.is_empty() { "a nameless one" } else { &node.name };
+            let default = Material::default();
+            let materials = shape.geometry.runs.iter().map(|run| {
+                let id = node.materials.get(run.slot as usize);
+                id.and_then(|&id| stage.scene.materials.get(id)).unwrap_or(&default)
+            });
+            let materials: Vec<&Material> = materials.collect();
+            for effect in Effect::ALL {
+                if materials.iter().any(|material| has(effect, material, shape, stage)) {
+                    survey.found[effect as usize][usize::from(!seen)].add(name);
+                }
+            }
+            let lit = |material: &&Material| material.shading != Shading::Unlit;
+            survey.lit += usize::from(seen && materials.iter().any(lit));
+            let opaque = |material: &&Material| material.alpha_mode != AlphaMode::Blend;
+            survey.casters += usize::from(materials.iter().any(opaque));
+        }
+        survey
+    }
+
+    /// What has an effect in view, and elsewhere.
+    pub(super) fn of(&self, effect: Effect) -> &[Named; 2] {
+        &self.found[effect as usize]
+    }
+}
+
+/// Whether a material on a shape calls for an effect.
+fn has(effect: Effect, material: &Material, shape: &Shape, stage: &Stage<'_>) -> bool {
+    let lit = material.shading != Shading::Unlit;
+    match effect {
+        Effect::Highlights => {
+            let shading = stage.settings.reflection.of(material);
+            !matches!(shading, Shading::Unlit | Shading::Lambert)
+        }
+        Effect::Textures => has_texture(material),
+        Effect::NormalMaps => lit && material.normal_map.is_some(),
+        Effect::OcclusionMaps => lit && material.occlusion.is_some(),
+        Effect::Emission => material.emissive != trigon_math::Vec3::ZERO,
+        Effect::VertexColors => shape.geometry.columns.colors.is_some(),
+        Effect::Masks => matches!(material.alpha_mode, AlphaMode::Mask { .. }),
+        Effect::Transparency => material.alpha_mode == AlphaMode::Blend,
+        Effect::Poses => shape.is_posed,
+        Effect::Edges => stage.settings.style != Style::Surface,
+        _ => false,
+    }
+}
+
+fn has_texture(material: &Material) -> bool {
+    let shading = match &material.shading {
+        Shading::Unlit | Shading::Lambert => false,
+        Shading::BlinnPhong { specular_texture, .. } => specular_texture.is_some(),
+        Shading::MetallicRoughness(model) => {
+            model.texture.is_some()
+                || model.specular_texture.is_some()
+                || model.specular_color_texture.is_some()
+        }
+    };
+    let plain = material.base_color_texture.is_some() || material.emissive_texture.is_some();
+    shading || plain || material.normal_map.is_some() || material.occlusion.is_some()
+}

@@ -1,0 +1,140 @@
+//! Rays among the casters of a scene: exact shadows, and how open the surroundings
+//! of a point are. Where a material masks parts of its triangles out, rays are
+//! stopped by the whole triangle.
+
+mod cache;
+mod occlusion;
+
+pub(crate) use cache::RayCache;
+pub(crate) use occlusion::AmbientRays;
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use trigon_math::{Bvh, DAffine3, DVec3, Mat4, Ray, Vec3};
+use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
+
+use crate::effects::casters::Casters;
+use crate::render::lanes::{V3, moved, turned};
+use crate::render::lighting::{Arriving, Lamp, LitPoints, Source};
+
+/// The triangles of all casters, around the middle of their box.
+#[derive(Debug, Default)]
+pub(crate) struct RayTriangles {
+    bvh: Bvh,
+    middle: DVec3,
+    /// The largest coordinate.
+    reach: f32,
+}
+
+impl RayTriangles {
+    fn new(casters: &Casters) -> Self {
+        let middle = casters.bounds.center().unwrap_or(DVec3::ZERO);
+        let mut triangles = Vec::new();
+        for caster in &casters.list {
+            let to_scene = DAffine3 { translation: caster.world.translation - middle, ..caster.world };
+            let [x, y, z] = &caster.geometry.columns.positions;
+            let place = |vertex: u32| {
+                let vertex = vertex as usize;
+                let position = Vec3::new(x[vertex], y[vertex], z[vertex]);
+                to_scene.transform_point3(position.as_dvec3()).as_vec3()
+            };
+            for (run, material) in caster.geometry.runs.iter().zip(&caster.materials) {
+                if material.is_some() {
+                    let run = &caster.geometry.triangles[run.triangles.clone()];
+                    triangles.extend(run.iter().map(|corners| corners.map(place)));
+                }
+            }
+        }
+        let reach = (casters.bounds.size() * 0.5).max_element() as f32;
+        Self { bvh: Bvh::new(&triangles), middle, reach }
+    }
+
+    pub(crate) fn byte_count(&self) -> usize {
+        self.bvh.byte_count()
+    }
+}
+
+/// The casters as rays of a picture meet them.
+#[derive(Debug, Default)]
+pub(crate) struct RayScene {
+    triangles: Arc<RayTriangles>,
+    /// From camera space to the triangles'.
+    to_scene: Mat4,
+    /// Rays to lamps, and into the surroundings.
+    cast: [AtomicU64; 2],
+}
+
+impl RayScene {
+    fn new(triangles: Arc<RayTriangles>, camera_to_world: &DAffine3) -> Self {
+        let shifted =
+            DAffine3 { translation: camera_to_world.translation - triangles.middle, ..*camera_to_world };
+        let to_scene = trigon_math::DMat4::from(shifted).as_mat4();
+        Self { triangles, to_scene, cast: Default::default() }
+    }
+
+    /// How many rays were cast to lamps, and how many into the surroundings.
+    pub(crate) fn cast(&self) -> [u64; 2] {
+        self.cast.each_ref().map(|cast| cast.load(Ordering::Relaxed))
+    }
+
+    pub(crate) fn byte_count(&self) -> usize {
+        self.triangles.byte_count()
+    }
+
+    /// 1 where a lamp's light arrives, else 0.
+    pub(crate) fn lit<S: Simd>(
+        &self,
+        simd: S,
+        lamp: &Lamp,
+        points: &LitPoints<S>,
+        arriving: &Arriving<S>,
+    ) -> F32<S> {
+        let origins = self.origins(simd, points);
+        let [x, y, z] = rows(turned(&self.turn(), arriving.towards));
+        let wanted: [f32; LANES] = arriving.share.into();
+        let reach: [f32; LANES] = match lamp.source {
+            Source::Directional(_) => [f32::INFINITY; LANES],
+            Source::Point { position, .. } => {
+                let lamp = self.to_scene.transform_point3(position);
+                lanes_of(|lane| (lamp - origins[lane]).length())
+            }
+        };
+        let mut cast = 0;
+        let lit = lanes_of(|lane| {
+            let direction = Vec3::new(x[lane], y[lane], z[lane]);
+            if wanted[lane] <= 0.0 || direction == Vec3::ZERO {
+                return 0.0;
+            }
+            cast += 1;
+            let ray = Ray { origin: origins[lane], direction };
+            if self.triangles.bvh.meets_any(&ray, 0.0..reach[lane]) { 0.0 } else { 1.0 }
+        });
+        self.cast[0].fetch_add(cast, Ordering::Relaxed);
+        F32::simd_from(simd, lit)
+    }
+
+    /// From camera directions to the triangles'.
+    fn turn(&self) -> trigon_math::Mat3 {
+        trigon_math::Mat3::from_mat4(self.to_scene)
+    }
+
+    /// Where rays start: off the surface by what rounding can have moved it.
+    fn origins<S: Simd>(&self, simd: S, points: &LitPoints<S>) -> [Vec3; LANES] {
+        /// In units of the last place of the largest coordinate.
+        const OFF: f32 = 64.0 * f32::EPSILON;
+        let [x, y, z] = rows(moved(&self.to_scene, points.position));
+        let [nx, ny, nz] = rows(turned(&self.turn(), points.facing));
+        let _ = simd;
+        lanes_of(|lane| {
+            let at = Vec3::new(x[lane], y[lane], z[lane]);
+            let largest = at.abs().max_element();
+            let largest = if largest > self.triangles.reach { largest } else { self.triangles.reach };
+            at + Vec3::new(nx[lane], ny[lane], nz[lane]) * (largest * OFF)
+        })
+    }
+}
+
+fn rows<S: Simd>(vector: V3<S>) -> [[f32; LANES]; 3] {
+    vector.map(Into::into)
+}

@@ -1,0 +1,84 @@
+//! What all surfaces of a picture have around them: its lights, what keeps light
+//! away, where ambient light comes from, and what is in the air.
+
+use trigon_math::Vec3;
+use trigon_raster::simd::{F32, Simd};
+
+use super::environment::Surroundings;
+use super::fog::Mist;
+use super::rays::{AmbientRays, RayScene};
+use super::shadow::ShadowMaps;
+use crate::render::lanes::{V3, dot, splat};
+use crate::render::lighting::{Arriving, Lamp, Lights, LitPoints};
+
+/// What all surfaces of a picture have around them.
+#[derive(Debug, Default)]
+pub(crate) struct Scenery {
+    pub(crate) lights: Lights,
+    pub(crate) shadow_maps: Option<ShadowMaps>,
+    /// All casters, for whatever rays ask.
+    pub(crate) rays: Option<RayScene>,
+    /// Whether lamps are asked for by rays.
+    pub(crate) shadow_rays: bool,
+    pub(crate) ambient_rays: Option<AmbientRays>,
+    pub(crate) surroundings: Option<Surroundings>,
+    pub(crate) mist: Option<Mist>,
+}
+
+impl Scenery {
+    /// Whether light depends on where a surface is, and not only on how it is turned.
+    pub(crate) fn needs_position(&self) -> bool {
+        let shadows = self.shadow_maps.is_some() || self.shadow_rays;
+        shadows || self.ambient_rays.is_some() || self.lights.need_position()
+    }
+
+    /// Whether what surfaces send out depends on the direction of sight even where
+    /// they have no highlights.
+    pub(crate) fn are_grey(&self) -> bool {
+        self.lights.are_grey() && self.surroundings.is_none()
+    }
+
+    /// The share of a lamp's light that nothing keeps away; `None` where all arrives.
+    #[inline(always)]
+    pub(crate) fn share<S: Simd>(
+        &self,
+        simd: S,
+        (number, lamp): (usize, &Lamp),
+        points: &LitPoints<S>,
+        arriving: &Arriving<S>,
+    ) -> Option<F32<S>> {
+        if let Some(maps) = &self.shadow_maps {
+            return maps.share(simd, number, points, arriving.towards);
+        }
+        let rays = self.rays.as_ref().filter(|_| self.shadow_rays)?;
+        Some(rays.lit(simd, lamp, points, arriving))
+    }
+
+    /// What white matt surfaces show in the light from everywhere.
+    #[inline(always)]
+    pub(crate) fn around<S: Simd>(&self, simd: S, normal: V3<S>) -> V3<S> {
+        match &self.surroundings {
+            Some(surroundings) => surroundings.matt(simd, normal),
+            None => splat(simd, self.lights.ambient),
+        }
+    }
+
+    /// What surfaces mirror of the light from everywhere.
+    #[inline(always)]
+    pub(crate) fn mirrored<S: Simd>(&self, simd: S, points: &LitPoints<S>, roughness: F32<S>) -> V3<S> {
+        match &self.surroundings {
+            Some(surroundings) => {
+                let twice = dot(points.normal, points.view) * 2.0;
+                let [n, v] = [points.normal, points.view];
+                let direction = [n[0] * twice - v[0], n[1] * twice - v[1], n[2] * twice - v[2]];
+                surroundings.mirrored(simd, direction, roughness)
+            }
+            None => splat(simd, self.lights.ambient),
+        }
+    }
+
+    /// Whether there is any light from everywhere.
+    pub(crate) fn has_ambient(&self) -> bool {
+        self.surroundings.is_some() || self.lights.ambient != Vec3::ZERO
+    }
+}

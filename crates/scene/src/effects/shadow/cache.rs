@@ -1,0 +1,72 @@
+//! Shadow maps are kept from picture to picture, until lamp, casters or resolution
+//! change. A map from the cache has the bytes of one that is drawn again.
+
+use std::sync::Arc;
+
+use trigon_math::DAffine3;
+use trigon_raster::{Rasterizer, TargetError};
+
+use super::{LampPose, PlacedMap, ShadowMap, ShadowMaps, draw, fit};
+use crate::effects::casters::Casters;
+use crate::scene::Scene;
+
+/// The shadow maps of the last picture.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ShadowCache {
+    /// What was drawn, and in which resolution.
+    casters: Option<Casters>,
+    resolution: u32,
+    maps: Vec<(LampPose, Vec<Arc<ShadowMap>>)>,
+    drawn: usize,
+}
+
+impl ShadowCache {
+    /// The maps of all lamps.
+    pub(crate) fn maps(
+        &mut self,
+        poses: &[LampPose],
+        (scene, casters): (&Scene, &Casters),
+        resolution: u32,
+        camera_to_world: &DAffine3,
+        rasterizer: &mut Rasterizer,
+    ) -> Result<ShadowMaps, TargetError> {
+        if self.casters.as_ref() != Some(casters) || self.resolution != resolution {
+            self.maps.clear();
+            self.casters = Some(casters.clone());
+            self.resolution = resolution;
+        }
+        self.maps.retain(|(kept, _)| poses.contains(kept));
+        self.drawn = 0;
+        let mut maps = ShadowMaps::default();
+        for pose in poses {
+            let maps_of_lamp = self.of(pose, (scene, casters), rasterizer)?;
+            let placed = maps_of_lamp.into_iter().map(|map| PlacedMap::new(map, camera_to_world));
+            maps.lamps.push(placed.collect());
+        }
+        Ok(maps)
+    }
+
+    /// How many maps the last picture had drawn anew.
+    pub(crate) fn drawn(&self) -> usize {
+        self.drawn
+    }
+
+    fn of(
+        &mut self,
+        pose: &LampPose,
+        (scene, casters): (&Scene, &Casters),
+        rasterizer: &mut Rasterizer,
+    ) -> Result<Vec<Arc<ShadowMap>>, TargetError> {
+        if let Some((_, maps)) = self.maps.iter().find(|(kept, _)| kept == pose) {
+            return Ok(maps.clone());
+        }
+        let mut maps = Vec::new();
+        for view in fit::views(pose, casters) {
+            let map = draw::draw(view, self.resolution, (scene, casters), rasterizer)?;
+            maps.push(Arc::new(map));
+        }
+        self.drawn += maps.len();
+        self.maps.push((*pose, maps.clone()));
+        Ok(maps)
+    }
+}

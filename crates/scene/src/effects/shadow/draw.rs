@@ -1,0 +1,89 @@
+//! Draws a shadow map: depth alone.
+
+use trigon_raster::{Culling, Draw, Pass, Rasterizer, Target, TargetError};
+
+use super::ShadowMap;
+use super::fit::View;
+use crate::effects::Scenery;
+use crate::effects::casters::{Caster, Casters};
+use crate::material::{AlphaMode, Material, Shading};
+use crate::render::placement::Eye;
+use crate::render::surface::{Dressed, Occasion, Rays, Surface};
+use crate::scene::Scene;
+use crate::settings::{Reflection, ShadingModel};
+
+/// What a run of triangles is drawn with.
+enum Shape<'a> {
+    Whole(Surface<'a, true>),
+    /// With holes.
+    Masked(Surface<'a, false>),
+}
+
+/// Draws the casters' depth as a lamp sees it.
+pub(super) fn draw(
+    view: View,
+    resolution: u32,
+    (scene, casters): (&Scene, &Casters),
+    rasterizer: &mut Rasterizer,
+) -> Result<ShadowMap, TargetError> {
+    let dark = Scenery::default();
+    let eye = Eye::new(&view.camera, view.aspect);
+    let mut shapes = Vec::new();
+    for caster in &casters.list {
+        for (run, material) in caster.geometry.runs.iter().zip(&caster.materials) {
+            let Some(material) = material else { continue };
+            shapes.push((caster, run.triangles.clone(), shape(scene, &dark, &eye, caster, material)));
+        }
+    }
+    let mut pass = Pass::new();
+    for (caster, triangles, shape) in &shapes {
+        let triangles = &caster.geometry.triangles[triangles.clone()];
+        match shape {
+            Shape::Whole(surface) => {
+                pass.triangles(Draw { culling: Culling::None, ..Draw::new(surface, triangles) })
+            }
+            Shape::Masked(surface) => pass.triangles(Draw {
+                culling: Culling::None,
+                surface: trigon_raster::Surface::Masked,
+                ..Draw::new(surface, triangles)
+            }),
+        };
+    }
+    let mut depths = vec![0.0; resolution as usize * resolution as usize];
+    let mut target = Target::new(resolution, resolution, &[])?.with_depth(&mut depths)?;
+    rasterizer.draw(&pass, &mut target);
+    drop(target);
+    Ok(ShadowMap { view, resolution, depths })
+}
+
+fn shape<'a>(
+    scene: &'a Scene,
+    dark: &'a Scenery,
+    eye: &Eye,
+    caster: &'a Caster,
+    material: &Material,
+) -> Shape<'a> {
+    let masked = matches!(material.alpha_mode, AlphaMode::Mask { .. });
+    let material = Material { shading: Shading::Unlit, ..material.clone() };
+    let columns = &caster.geometry.columns;
+    let occasion = Occasion {
+        scene,
+        scenery: dark,
+        rays: Rays::Parallel,
+        shading: ShadingModel::Flat,
+        reflection: Reflection::Material,
+    };
+    let place = eye.place(&caster.world);
+    if masked {
+        Shape::Masked(Surface::new(
+            (columns, &[]),
+            place,
+            Dressed::new(&material, columns, &occasion),
+            &occasion,
+        ))
+    } else {
+        let mut dressed = Dressed::new(&material, columns, &occasion);
+        dressed.strip();
+        Shape::Whole(Surface::new((columns, &[]), place, dressed, &occasion))
+    }
+}

@@ -1,0 +1,75 @@
+//! Where a lamp's map looks: fitted to the casters.
+
+use trigon_camera::{Camera, Projection};
+use trigon_math::{Bounds3, DMat4, DVec3, elementary};
+
+use super::LampPose;
+use crate::effects::casters::Casters;
+
+/// How wide a cone may be (radians, the whole angle) to be seen in one view; wider
+/// ones would waste most texels on their rim.
+const WIDEST: f64 = 2.2;
+
+/// A lamp's camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct View {
+    pub(super) camera: Camera,
+    /// Width over height.
+    pub(super) aspect: f64,
+    /// How wide it is in metres where w is 1, in its longer direction.
+    pub(super) width_at_one: f64,
+}
+
+impl View {
+    /// From the world to clip space.
+    pub(super) fn from_world(&self) -> DMat4 {
+        self.camera.view_projection(self.aspect)
+    }
+}
+
+/// The views of a lamp; none where there is nothing that it could see.
+pub(super) fn views(pose: &LampPose, casters: &Casters) -> Vec<View> {
+    if casters.bounds.is_empty() {
+        return Vec::new();
+    }
+    match *pose {
+        LampPose::Directional(along) => parallel(along, casters).into_iter().collect(),
+        LampPose::Point { position, cone: Some((along, half)) } if 2.0 * half < WIDEST => {
+            // A hair wider, so that the rim has neighbours.
+            meeting(position, along, 2.0 * half + 0.02, &casters.bounds).into_iter().collect()
+        }
+        LampPose::Point { position, .. } => {
+            let sides = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
+            let quarter = std::f64::consts::FRAC_PI_2;
+            sides.filter_map(|along| meeting(position, along, quarter, &casters.bounds)).collect()
+        }
+    }
+}
+
+/// Parallel rays through the box of all casters, seen along them.
+fn parallel(along: DVec3, casters: &Casters) -> Option<View> {
+    let turned = Camera::look_at(DVec3::ZERO, along, DVec3::Y);
+    let mut seen = Bounds3::EMPTY;
+    for bounds in casters.boxes() {
+        bounds.corners().into_iter().for_each(|corner| seen.include(turned.to_camera(corner)));
+    }
+    let (middle, size) = (seen.center()?, seen.size());
+    // Something flat still has two sides, and no caster lies at the ends.
+    let margin = 1e-3 * size.length() + 1e-30;
+    let (width, height, depth) = (size.x + margin, size.y + margin, size.z / 2.0 + margin);
+    let projection = Projection::orthographic(height, -depth, depth).ok()?;
+    let camera = Camera { position: turned.to_world(middle), projection, ..turned };
+    let width_at_one = if width > height { width } else { height };
+    Some(View { camera, aspect: width / height, width_at_one })
+}
+
+/// Rays that meet in the lamp.
+fn meeting(position: DVec3, along: DVec3, angle: f64, casters: &Bounds3) -> Option<View> {
+    /// So much nearer than the furthest caster things throw shadows.
+    const NEAREST: f64 = 1e-4;
+    let farthest = casters.corners().into_iter().map(|corner| corner.distance(position));
+    let farthest = farthest.fold(0.0, |far, distance| if distance > far { distance } else { far });
+    let projection = Projection::perspective(angle, farthest * NEAREST, None).ok()?;
+    let camera = Camera { projection, ..Camera::look_at(position, position + along, DVec3::Y) };
+    Some(View { camera, aspect: 1.0, width_at_one: 2.0 * elementary::tan(angle * 0.5) })
+}

@@ -1,0 +1,183 @@
+//! Shadow maps: pictures of depth as each lamp sees it (L. Williams, "Casting
+//! Curved Shadows on Curved Surfaces", 1978).
+//!
+//! **Where they look.** A map is a function of its lamp, of all casters and of its
+//! size, never of the camera: parallel light is fitted to the box of the casters,
+//! a cone is one view, and a point light six. So a map is drawn again only when one
+//! of the three changed.
+//!
+//! **Bias.** A map holds the depth at the middles of its texels; a point on the same
+//! plane lies up to √2 texels aside, and would shadow itself. So points are moved
+//! along the normal of the surface, by √2 · sin θ texels where θ is the angle
+//! between normal and light: just what a plane needs; and by a quarter of a texel
+//! for curvature and rounding. No constant is added to depths. A shadow therefore
+//! begins at most 1.7 texels away from what casts it.
+//!
+//! Four depths around a point are compared, and the answers mixed bilinearly.
+
+mod cache;
+mod draw;
+mod fit;
+
+pub(crate) use cache::ShadowCache;
+
+use std::sync::Arc;
+
+use trigon_math::{DAffine3, DMat4, DVec3, DVec4, Mat4};
+use trigon_raster::simd::{F32, I32, LANES, Simd, greater, lanes_of, lesser, prelude::*};
+
+use crate::render::lanes::{V3, dot, mapped, mix, positive, scaled, sum};
+use crate::render::lighting::LitPoints;
+use fit::View;
+
+/// What a lamp sees of the casters' depth.
+#[derive(Clone, Debug)]
+pub(crate) struct ShadowMap {
+    view: View,
+    resolution: u32,
+    /// Reversed depth, 0 where nothing is; row by row.
+    depths: Vec<f32>,
+}
+
+/// The shadow maps of a picture.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ShadowMaps {
+    /// For each lamp its views; none where it casts no shadow.
+    lamps: Vec<Vec<PlacedMap>>,
+}
+
+/// A shadow map and how it is found from the picture's camera.
+#[derive(Clone, Debug)]
+struct PlacedMap {
+    map: Arc<ShadowMap>,
+    /// From camera space to texels, depth and w.
+    to_texels: Mat4,
+    /// The width of a texel in metres, where w is 1.
+    texel: f32,
+}
+
+impl PlacedMap {
+    fn new(map: Arc<ShadowMap>, camera_to_world: &DAffine3) -> Self {
+        let half = f64::from(map.resolution) / 2.0;
+        // From -1…1, y up, to 0…resolution, y down.
+        let to_texels = DMat4::from_cols(
+            DVec4::new(half, 0.0, 0.0, 0.0),
+            DVec4::new(0.0, -half, 0.0, 0.0),
+            DVec4::Z,
+            DVec4::new(half, half, 0.0, 1.0),
+        );
+        let from_camera = map.view.from_world() * DMat4::from(*camera_to_world);
+        let texel = map.view.width_at_one / f64::from(map.resolution);
+        Self { to_texels: (to_texels * from_camera).as_mat4(), texel: texel as f32, map }
+    }
+
+    /// Which share of the light arrives at eight points, and which of them the map
+    /// knows of.
+    #[inline(always)]
+    fn share<S: Simd>(
+        &self,
+        simd: S,
+        points: &LitPoints<S>,
+        sine: F32<S>,
+    ) -> (F32<S>, trigon_raster::simd::Mask<S>) {
+        const ASIDE: f32 = std::f32::consts::SQRT_2;
+        const CURVATURE: f32 = 0.25;
+        let w = mapped(&self.to_texels, points.position)[3];
+        let offset = (sine * ASIDE + CURVATURE) * w * self.texel;
+        let moved = sum(points.position, scaled(points.facing, offset));
+        let [x, y, depth, w] = mapped(&self.to_texels, moved);
+        let inverse = F32::splat(simd, 1.0) / w;
+        let [x, y, depth] = [x * inverse, y * inverse, depth * inverse];
+        let side = self.map.resolution as f32;
+        let known = w.simd_gt(0.0) & x.simd_ge(0.0) & y.simd_ge(0.0) & x.simd_lt(side) & y.simd_lt(side);
+        (self.map.compared(simd, [x, y], depth), known)
+    }
+}
+
+impl ShadowMap {
+    /// The share of four texels around points that are no nearer to the lamp than
+    /// the points are.
+    #[inline(always)]
+    fn compared<S: Simd>(&self, simd: S, place: [F32<S>; 2], depth: F32<S>) -> F32<S> {
+        let (zero, last) = (F32::splat(simd, 0.0), F32::splat(simd, self.resolution as f32));
+        let axis = |value: F32<S>| {
+            let held = lesser(greater(value, zero), last) - 0.5;
+            let first = held.floor();
+            (first.to_int::<I32<S>>(), held - first)
+        };
+        let ((x, across), (y, down)) = (axis(place[0]), axis(place[1]));
+        let (x, y): ([i32; LANES], [i32; LANES]) = (x.into(), y.into());
+        let stored = |right: i32, below: i32| {
+            F32::simd_from(
+                simd,
+                lanes_of(
+                    #[inline(always)]
+                    |lane| self.depth(x[lane] + right, y[lane] + below),
+                ),
+            )
+        };
+        let lit = |right, below| {
+            let one = F32::splat(simd, 1.0);
+            let stored = stored(right, below);
+            (stored.simd_le(depth) | stored.simd_eq(zero)).select(one, zero)
+        };
+        mix(mix(lit(0, 0), lit(1, 0), across), mix(lit(0, 1), lit(1, 1), across), down)
+    }
+
+    /// The depth of a texel; beyond the edge that of the nearest.
+    #[inline(always)]
+    fn depth(&self, x: i32, y: i32) -> f32 {
+        let last = self.resolution as i32 - 1;
+        let held = |value: i32| {
+            if value < 0 {
+                0
+            } else if value > last {
+                last
+            } else {
+                value
+            }
+        };
+        self.depths[held(y) as usize * self.resolution as usize + held(x) as usize]
+    }
+}
+
+impl ShadowMaps {
+    /// The share of a lamp's light that arrives at eight points; `None` where it
+    /// casts no shadow.
+    pub(crate) fn share<S: Simd>(
+        &self,
+        simd: S,
+        lamp: usize,
+        points: &LitPoints<S>,
+        towards: V3<S>,
+    ) -> Option<F32<S>> {
+        let maps = self.lamps.get(lamp).filter(|maps| !maps.is_empty())?;
+        Some(simd.vectorize(
+            #[inline(always)]
+            || {
+                let cosine = dot(points.facing, towards);
+                let sine = positive(1.0 - cosine * cosine).sqrt();
+                let mut share = F32::splat(simd, 1.0);
+                for map in maps {
+                    let (found, known) = map.share(simd, points, sine);
+                    share = known.select(found, share);
+                }
+                share
+            },
+        ))
+    }
+
+    /// Bytes of memory that they take.
+    pub(crate) fn byte_count(&self) -> usize {
+        self.lamps.iter().flatten().map(|placed| size_of_val(placed.map.depths.as_slice())).sum()
+    }
+}
+
+/// Where a lamp is and where it shines, in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum LampPose {
+    /// Parallel light; the unit vector points along it.
+    Directional(DVec3),
+    /// Within a cone of half this angle (radians), or all around.
+    Point { position: DVec3, cone: Option<(DVec3, f64)> },
+}

@@ -1,0 +1,115 @@
+//! Exposure and tone mapping: from the picture's linear light to what the display
+//! shows, after all samples are averaged.
+//!
+//! The background is what the user chose for the display: it lies behind the mapped
+//! picture as it is.
+
+use rayon::prelude::*;
+use trigon_math::{Vec3, Vec4, color};
+
+use super::{EffectSettings, ToneMapping};
+use crate::background::Background;
+
+/// A picture in linear light, premultiplied, on nothing, becomes sRGB bytes on its
+/// background.
+pub(crate) fn map_picture(
+    linear: &[Vec4],
+    settings: &EffectSettings,
+    background: &Background,
+    [width, height]: [u32; 2],
+    pixels: &mut [[u8; 4]],
+) {
+    let factor = settings.exposure_factor();
+    let rows = pixels.par_chunks_mut(width as usize).zip(linear.par_chunks(width as usize));
+    rows.enumerate().for_each(|(y, (row, linear))| {
+        let behind = background.row(y as u32, height);
+        for (pixel, &light) in row.iter_mut().zip(linear) {
+            *pixel = encoded(mapped(light, factor, settings.tone_mapping), behind);
+        }
+    });
+}
+
+/// The colour is mapped as it is where nothing shines through it.
+fn mapped(light: Vec4, factor: f32, tone: ToneMapping) -> Vec4 {
+    if light.w <= 0.0 {
+        return Vec4::ZERO;
+    }
+    let color = light.truncate() * (factor / light.w);
+    let color = match tone {
+        ToneMapping::None => color,
+        ToneMapping::KhronosPbrNeutral => khronos_pbr_neutral(color),
+    };
+    (color * light.w).extend(light.w)
+}
+
+/// Khronos PBR Neutral, by the formula of its specification (Khronos Group,
+/// "Khronos PBR Neutral Tone Mapper", 2024). Negative colours count as 0.
+fn khronos_pbr_neutral(color: Vec3) -> Vec3 {
+    const START_COMPRESSION: f32 = 0.8 - 0.04;
+    const DESATURATION: f32 = 0.15;
+    let color = Vec3::select(color.cmpgt(Vec3::ZERO), color, Vec3::ZERO);
+    let [least, most] = [color.min_element(), color.max_element()];
+    let offset = if least < 0.08 { least - 6.25 * least * least } else { 0.04 };
+    let (color, peak) = (color - offset, most - offset);
+    if peak < START_COMPRESSION {
+        return color;
+    }
+    let d = 1.0 - START_COMPRESSION;
+    let new_peak = 1.0 - d * d / (peak + d - START_COMPRESSION);
+    let color = color * (new_peak / peak);
+    let share = 1.0 - 1.0 / (DESATURATION * (peak - new_peak) + 1.0);
+    color.lerp(Vec3::splat(new_peak), share)
+}
+
+/// sRGB and straight alpha of a premultiplied colour over another one.
+fn encoded(color: Vec4, behind: Vec4) -> [u8; 4] {
+    let over = color + behind * (1.0 - color.w);
+    if over.w <= 0.0 {
+        return [0; 4];
+    }
+    let straight = over.truncate() / over.w;
+    let [r, g, b] = straight.to_array().map(color::linear_to_srgb8);
+    [r, g, b, (over.w.clamp(0.0, 1.0) * 255.0 + 0.5) as u8]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_below_the_knee_lose_only_the_reflection_of_the_surface() {
+        // A base colour of 0.5 in white light reflects 4 % more at its surface: that
+        // is what the mapping takes away.
+        let mapped = khronos_pbr_neutral(Vec3::splat(0.54));
+        assert!((mapped - Vec3::splat(0.5)).abs().max_element() < 1e-6, "{mapped}");
+        assert_eq!(khronos_pbr_neutral(Vec3::ZERO), Vec3::ZERO, "black stays black");
+    }
+
+    #[test]
+    fn bright_light_stays_below_white_in_order() {
+        let mut last = 0.0;
+        for step in 1..200_u8 {
+            let mapped = khronos_pbr_neutral(Vec3::splat(f32::from(step) * 0.2));
+            assert!(mapped.x > last && mapped.x < 1.0, "{mapped} after {last}");
+            last = mapped.x;
+        }
+        let red = khronos_pbr_neutral(Vec3::new(50.0, 1.0, 1.0));
+        assert!(red.y > 0.5, "what is far too bright loses its tint: {red}");
+    }
+
+    #[test]
+    fn the_background_is_not_mapped() {
+        let settings = EffectSettings { exposure: 3.0, ..EffectSettings::default() };
+        let mut pixels = [[0; 4]; 2];
+        let linear = [Vec4::ZERO, Vec4::new(0.05, 0.0, 0.0, 1.0)];
+        let background = Background::Color(Vec3::splat(0.2));
+        map_picture(&linear, &settings, &background, [2, 1], &mut pixels);
+        let grey = color::linear_to_srgb8(0.2);
+        let red = color::linear_to_srgb8(0.4);
+        assert_eq!(
+            pixels,
+            [[grey, grey, grey, 255], [red, 0, 0, 255]],
+            "as chosen, and eight times as bright"
+        );
+    }
+}

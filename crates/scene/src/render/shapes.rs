@@ -1,0 +1,104 @@
+//! The shape of every visible node at this moment: its mesh, in the pose that its
+//! joints and morph weights give it.
+//!
+//! Only what is in a pose is deformed, and of that only what somebody looks at: the
+//! camera, or a lamp that casts shadows.
+
+use std::sync::Arc;
+
+use trigon_math::{Bounds3, DAffine3};
+
+use super::geometry::Geometry;
+use super::placement::Eye;
+use crate::node::Node;
+use crate::scene::{MeshAsset, NodeId, Scene};
+use crate::skin::SkinPose;
+
+/// A mesh at a place.
+#[derive(Clone, Debug)]
+pub(crate) struct Shape {
+    pub(crate) geometry: Arc<Geometry>,
+    pub(crate) world: DAffine3,
+    /// Whether a pose changed it.
+    pub(crate) is_posed: bool,
+}
+
+/// The shapes of all visible nodes, by their indices.
+#[derive(Debug, Default)]
+pub(crate) struct Shapes(Vec<Option<Shape>>);
+
+/// Who looks at shapes.
+#[derive(Clone, Copy)]
+pub(crate) enum Onlookers<'a> {
+    /// The camera alone: poses beyond its view are not computed.
+    Camera(&'a Eye),
+    /// The camera, lamps, rays.
+    All,
+}
+
+impl Shapes {
+    /// `transforms` is the scene's table of visible nodes.
+    pub(crate) fn new(scene: &Scene, transforms: &[Option<DAffine3>], onlookers: Onlookers<'_>) -> Self {
+        let mut shapes = vec![None; transforms.len()];
+        for (id, node) in scene.nodes().iter() {
+            let (Some(world), Some(mesh)) = (transforms[id.index()], node.mesh) else { continue };
+            let Some(asset) = scene.meshes().get(mesh) else { continue };
+            shapes[id.index()] = shape(scene, (id, node), asset, world, onlookers);
+        }
+        Self(shapes)
+    }
+
+    /// The shape of a node; `None` where nothing is drawn of it.
+    pub(crate) fn get(&self, index: usize) -> Option<&Shape> {
+        self.0.get(index)?.as_ref()
+    }
+
+    /// Bytes of the vertices that were put into a pose.
+    pub(crate) fn posed_bytes(&self) -> usize {
+        let posed = self.0.iter().flatten().filter(|shape| shape.is_posed);
+        posed.map(|shape| shape.geometry.columns.byte_count()).sum()
+    }
+}
+
+fn shape(
+    scene: &Scene,
+    (id, node): (NodeId, &Node),
+    asset: &MeshAsset,
+    world: DAffine3,
+    onlookers: Onlookers<'_>,
+) -> Option<Shape> {
+    let rest = Shape { geometry: Arc::clone(asset.geometry()), world, is_posed: false };
+    let attributes = asset.mesh().attributes();
+    let pose = attributes.skin.as_ref().and_then(|_| scene.skin_pose(id));
+    let morphs =
+        !attributes.morph_targets.is_empty() && node.morph_weights.iter().any(|&weight| weight != 0.0);
+    if pose.is_none() && !morphs {
+        return Some(rest);
+    }
+    let pose = pose.unwrap_or_else(|| SkinPose { world, palette: Vec::new() });
+    if let (Onlookers::Camera(eye), false) = (onlookers, morphs) {
+        if !eye.may_see(&reach(&asset.bounds(), &pose), &pose.world) {
+            return None;
+        }
+    }
+    let geometry = asset.geometry().posed(&node.morph_weights, &pose.palette);
+    let posed =
+        geometry.map(|geometry| Shape { geometry: Arc::new(geometry), world: pose.world, is_posed: true });
+    Some(posed.unwrap_or(rest))
+}
+
+/// A box around all that joints can make of a box: weights only mix their maps.
+fn reach(rest: &Bounds3, pose: &SkinPose) -> Bounds3 {
+    pose.palette.iter().fold(*rest, |reach, joint| {
+        let matrix = joint.matrix3;
+        let joint = DAffine3::from_mat3_translation(
+            trigon_math::DMat3::from_cols(
+                matrix.x_axis.as_dvec3(),
+                matrix.y_axis.as_dvec3(),
+                matrix.z_axis.as_dvec3(),
+            ),
+            joint.translation.as_dvec3(),
+        );
+        reach.union(rest.transformed(&joint))
+    })
+}

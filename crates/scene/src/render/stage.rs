@@ -1,0 +1,236 @@
+//! What is found out about a picture before its draws are put together, and what
+//! is kept of it for the next one.
+
+use trigon_camera::Camera;
+use trigon_math::{DAffine3, DMat3, DVec3, UVec2, Vec4};
+use trigon_raster::{Pass, Rasterizer, Stats, Target, TargetError};
+
+use super::lighting::{Lamp, Lights, Source};
+use super::placement::Eye;
+use super::shapes::{Onlookers, Shape, Shapes};
+use super::with_outputs;
+use crate::background::Background;
+use crate::effects::{
+    AmbientRays, Casters, Counts, Effect, EffectPlan, LampPose, Mist, RayCache, Scenery, ShadowCache,
+    Shadows, Surroundings, draw_outline, map_picture,
+};
+use crate::frame::{Frame, resize};
+use crate::light::LightKind;
+use crate::scene::Scene;
+use crate::settings::RenderSettings;
+
+/// What is seen, from where, in which light.
+pub(crate) struct Stage<'s> {
+    pub(crate) scene: &'s Scene,
+    pub(crate) settings: &'s RenderSettings,
+    transforms: Vec<Option<DAffine3>>,
+    camera_to_world: DAffine3,
+    pub(crate) eye: Eye,
+    pub(crate) shapes: Shapes,
+    pub(crate) lights: Lights,
+}
+
+/// What a renderer keeps from picture to picture. It changes no byte of one.
+#[derive(Default)]
+pub(super) struct Kept {
+    shadows: ShadowCache,
+    rays: RayCache,
+    /// The picture before its tones are mapped.
+    linear: Vec<Vec4>,
+    /// The nodes of each pixel, for outlines where the frame does not hold them.
+    objects: Vec<u32>,
+}
+
+impl<'s> Stage<'s> {
+    pub(crate) fn new(scene: &'s Scene, camera: &Camera, settings: &'s RenderSettings) -> Self {
+        let transforms = scene.visible_transforms();
+        let eye = Eye::new(camera, settings.aspect());
+        let effects = &settings.effects;
+        let all = effects.shadows != Shadows::Off || effects.ambient_occlusion.is_some();
+        let onlookers = if all { Onlookers::All } else { Onlookers::Camera(&eye) };
+        let shapes = Shapes::new(scene, &transforms, onlookers);
+        let lights = Lights::gather(scene, &transforms, &eye, settings);
+        let turn = DMat3::from_quat(camera.orientation);
+        let camera_to_world = DAffine3::from_mat3_translation(turn, camera.position);
+        Self { scene, settings, transforms, camera_to_world, eye, shapes, lights }
+    }
+
+    /// Whether the camera may see something of a shape's faces.
+    pub(crate) fn may_show(&self, shape: &Shape) -> bool {
+        self.eye.may_see(&shape.geometry.bounds(), &shape.world)
+    }
+
+    /// Where a lamp is in the world.
+    fn pose(&self, lamp: &Lamp) -> LampPose {
+        let world = lamp.node.and_then(|node| self.transforms[node as usize]);
+        let along = world.map_or_else(
+            || match lamp.source {
+                Source::Directional(towards) => -self.camera_to_world.transform_vector3(towards.as_dvec3()),
+                Source::Point { .. } => DVec3::NEG_Z,
+            },
+            |world| world.transform_vector3(DVec3::NEG_Z).normalize_or_zero(),
+        );
+        match lamp.source {
+            Source::Directional(_) => LampPose::Directional(along),
+            Source::Point { .. } => {
+                let position = world.map_or(DVec3::ZERO, |world| world.translation);
+                LampPose::Point { position, cone: self.cone(lamp).map(|half| (along, half)) }
+            }
+        }
+    }
+
+    fn surroundings(&self) -> Option<Surroundings> {
+        let intensity = self.settings.light_intensity;
+        Some(Surroundings {
+            environment: self.settings.effects.environment.clone()?,
+            to_world: self.camera_to_world.matrix3.as_mat3(),
+            intensity: if intensity > 0.0 && intensity.is_finite() { intensity } else { 0.0 },
+        })
+    }
+
+    /// Half the angle of a spot light's cone.
+    fn cone(&self, lamp: &Lamp) -> Option<f64> {
+        let node = self.scene.nodes().id_at(lamp.node? as usize)?;
+        match self.scene.node(node)?.light?.kind {
+            LightKind::Spot { outer, .. } => Some(f64::from(outer)),
+            LightKind::Ambient | LightKind::Directional | LightKind::Point => None,
+        }
+    }
+}
+
+impl Kept {
+    /// What all surfaces have around them, as far as the plan asks for it.
+    pub(super) fn scenery(
+        &mut self,
+        stage: &Stage<'_>,
+        plan: &EffectPlan,
+        rasterizer: &mut Rasterizer,
+    ) -> Result<Scenery, TargetError> {
+        let effects = &stage.settings.effects;
+        let on = |effect| plan.is_on(effect);
+        let mut scenery = Scenery {
+            lights: stage.lights.clone(),
+            surroundings: stage.surroundings().filter(|_| on(Effect::Environment)),
+            mist: effects.fog.as_ref().and_then(Mist::new),
+            shadow_rays: on(Effect::ShadowRays),
+            ambient_rays: effects
+                .ambient_occlusion
+                .filter(|_| on(Effect::AmbientOcclusion))
+                .map(AmbientRays::new),
+            ..Scenery::default()
+        };
+        let rays = scenery.shadow_rays || scenery.ambient_rays.is_some();
+        if !rays && !on(Effect::ShadowMaps) {
+            return Ok(scenery);
+        }
+        let casters = Casters::gather(stage.scene, &stage.shapes);
+        if let (true, Shadows::Maps { resolution }) = (on(Effect::ShadowMaps), effects.shadows) {
+            let poses: Vec<LampPose> = stage.lights.lamps.iter().map(|lamp| stage.pose(lamp)).collect();
+            let (seen, to_world) = ((stage.scene, &casters), &stage.camera_to_world);
+            let resolution = resolution.clamp(16, 8192);
+            scenery.shadow_maps = Some(self.shadows.maps(&poses, seen, resolution, to_world, rasterizer)?);
+        }
+        if rays {
+            scenery.rays = Some(self.rays.scene(&casters, &stage.camera_to_world));
+        }
+        Ok(scenery)
+    }
+
+    /// Adds what the scenery took.
+    pub(super) fn count(&self, scenery: &Scenery, stage: &Stage<'_>, counts: &mut Counts) {
+        if let Some(maps) = &scenery.shadow_maps {
+            counts.of(Effect::ShadowMaps).bytes = maps.byte_count() as u64;
+            counts.of(Effect::ShadowMaps).passes = self.shadows.drawn() as u64;
+        }
+        if let Some(surroundings) = &scenery.surroundings {
+            counts.of(Effect::Environment).bytes = surroundings.environment.byte_count() as u64;
+        }
+        if let Some(rays) = &scenery.rays {
+            let [to_lamps, around] = rays.cast();
+            for (on, effect, cast) in [
+                (scenery.shadow_rays, Effect::ShadowRays, to_lamps),
+                (scenery.ambient_rays.is_some(), Effect::AmbientOcclusion, around),
+            ] {
+                if on {
+                    counts.of(effect).bytes = rays.byte_count() as u64;
+                    counts.of(effect).rays = cast;
+                }
+            }
+        }
+        counts.of(Effect::Poses).bytes = stage.shapes.posed_bytes() as u64;
+    }
+
+    /// Draws the pass, and what is laid over the picture afterwards.
+    pub(super) fn draw(
+        &mut self,
+        pass: Pass<'_>,
+        (settings, plan): (&RenderSettings, &EffectPlan),
+        (blank, frame): (Target<'_>, &mut Frame),
+        (rasterizer, counts): (&mut Rasterizer, &mut Counts),
+    ) -> Result<Stats, TargetError> {
+        let colors = frame.color.as_chunks_mut().0;
+        let mut objects = frame.object_ids.take();
+        let kept = objects.is_some();
+        if plan.is_on(Effect::Outline) && !kept {
+            let mut own = std::mem::take(&mut self.objects);
+            own.resize(colors.len(), u32::MAX);
+            objects = Some(own);
+        }
+        let target = with_outputs(blank, (&mut frame.depth, &mut objects, &mut frame.face_ids))?;
+        let stats = if plan.is_on(Effect::ToneMapping) {
+            counts.of(Effect::ToneMapping).passes = 1;
+            counts.of(Effect::ToneMapping).bytes = (colors.len() * size_of::<Vec4>()) as u64;
+            self.draw_mapped(&pass, settings, (target, colors), rasterizer)?
+        } else {
+            draw_directly(pass, settings, (target, colors), rasterizer)?
+        };
+        if let (true, Some(outline), Some(objects)) =
+            (plan.is_on(Effect::Outline), &settings.effects.outline, &objects)
+        {
+            counts.of(Effect::Outline).passes = 1;
+            counts.of(Effect::Outline).bytes = size_of_val(objects.as_slice()) as u64;
+            draw_outline(outline, objects, settings.width as usize, colors);
+        }
+        if kept {
+            frame.object_ids = objects;
+        } else {
+            self.objects = objects.unwrap_or_default();
+        }
+        Ok(stats)
+    }
+
+    /// Draws linear light on nothing, and maps its tones into the frame.
+    pub(super) fn draw_mapped(
+        &mut self,
+        pass: &Pass<'_>,
+        settings: &RenderSettings,
+        (target, colors): (Target<'_>, &mut [[u8; 4]]),
+        rasterizer: &mut Rasterizer,
+    ) -> Result<Stats, TargetError> {
+        let RenderSettings { width, height, .. } = *settings;
+        resize(&mut self.linear, colors.len(), Vec4::ZERO).ok_or(TargetError::Memory { width, height })?;
+        let stats = rasterizer.draw(pass, &mut target.with_linear(&mut self.linear)?);
+        map_picture(&self.linear, &settings.effects, &settings.background, [width, height], colors);
+        Ok(stats)
+    }
+}
+
+/// Draws bytes on the background.
+fn draw_directly(
+    pass: Pass<'_>,
+    settings: &RenderSettings,
+    (target, colors): (Target<'_>, &mut [[u8; 4]]),
+    rasterizer: &mut Rasterizer,
+) -> Result<Stats, TargetError> {
+    let (background, height) = (settings.background, settings.height);
+    let behind = |pixel: UVec2| background.row(pixel.y, height);
+    // Of a shorter life, so that it may borrow the function.
+    let mut pass = pass;
+    pass.background(match background {
+        Background::Gradient { .. } => trigon_raster::Background::PerPixel(&behind),
+        Background::Color(_) | Background::Transparent => {
+            trigon_raster::Background::Color(background.row(0, height))
+        }
+    });
+    Ok(rasterizer.draw(&pass, &mut target.with_srgb8(colors)?))
+}
