@@ -5,6 +5,7 @@
 //! wrong becomes one line on standard error and an exit code here.
 
 mod args;
+mod explain;
 mod failure;
 mod framing;
 mod lists;
@@ -35,6 +36,7 @@ fn main() -> ExitCode {
     ExitCode::from(match &request.mode {
         Mode::Picture(destination) => picture::run(&request, destination, reporter),
         Mode::Window => look_at(&request, reporter),
+        Mode::Explain(explanation) => explain::run(&request, *explanation, reporter),
         Mode::Inspect => lists::inspect(&request, reporter),
         Mode::ListReaders => lists::readers(reporter),
         Mode::ListBindings => lists::bindings(reporter),

@@ -11,6 +11,7 @@ use trigon_camera::Viewport;
 use trigon_math::{DVec3, Vec3};
 use trigon_scene::SimdLevel;
 
+use super::effects::EffectArgs;
 use super::output::Destination;
 use super::values;
 use crate::report::Level;
@@ -194,6 +195,9 @@ pub(crate) struct RawArgs {
     /// List the window's keys and mouse buttons
     #[arg(long, help_heading = "Program")]
     pub(crate) list_bindings: bool,
+
+    #[command(flatten)]
+    pub(crate) effects: EffectArgs,
 
     #[command(flatten)]
     pub(crate) gpu_only: GpuOnly,

@@ -6,6 +6,7 @@ use trigon_camera::AxisView;
 use trigon_math::Vec3;
 use trigon_scene::{Background, RenderSettings, Style};
 
+use super::effects::Explanation;
 use super::output::Destination;
 use super::raw::{AntiAliasing, BackfaceType, DrawStyle, MultiFileMode, RawArgs, View};
 use crate::framing::{Eye, Framing};
@@ -44,6 +45,8 @@ pub(crate) enum Mode {
     Window,
     /// Load the models and say what is in them.
     Inspect,
+    /// Say which effects the models call for.
+    Explain(Explanation),
     /// List the formats that can be read.
     ListReaders,
     /// List the keys of the window.
@@ -89,12 +92,13 @@ impl Request {
 }
 
 fn mode(raw: &RawArgs) -> Mode {
-    match &raw.output {
+    match (&raw.output, raw.effects.explain) {
         _ if raw.list_readers => Mode::ListReaders,
         _ if raw.list_bindings => Mode::ListBindings,
         _ if raw.no_render == Some(true) => Mode::Inspect,
-        Some(destination) => Mode::Picture(destination.clone()),
-        None => Mode::Window,
+        (_, Some(explanation)) => Mode::Explain(explanation),
+        (Some(destination), None) => Mode::Picture(destination.clone()),
+        (None, None) => Mode::Window,
     }
 }
 
@@ -187,6 +191,7 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
     };
     settings.line_width = raw.line_width;
     settings.light_intensity = raw.light_intensity;
+    raw.effects.apply(&mut settings);
     settings.threads = raw.threads;
     settings.simd = raw.simd;
     Ok(settings)

@@ -124,6 +124,12 @@ pub(crate) fn intensity(text: &str) -> Result<f32, String> {
     inside.map(|value| value as f32).ok_or_else(|| "write a number from 0 up, such as 1.5 or 150%".to_owned())
 }
 
+/// A number of stops.
+pub(crate) fn stops(text: &str) -> Result<f32, String> {
+    let inside = finite(text).filter(|stops| (-20.0..=20.0).contains(stops));
+    inside.map(|stops| stops as f32).ok_or_else(|| "write a number from -20 to 20, such as 1.5".to_owned())
+}
+
 /// A width in pixels.
 pub(crate) fn line_width(text: &str) -> Result<f32, String> {
     const WIDEST: f64 = 1000.0;
