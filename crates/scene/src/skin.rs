@@ -79,7 +79,7 @@ impl Worlds<'_> {
         }
         for id in chain.into_iter().rev() {
             let local = self.scene.node(id).map_or(DAffine3::IDENTITY, |node| node.transform.to_affine());
-            world = world * local;
+            world *= local;
             self.known.insert(id, world);
         }
         world

@@ -36,7 +36,7 @@ pub(crate) fn convert_light(root: &Root, node: &Node, warnings: &mut Warnings) -
         Some(Type::Directional) => Light::directional(intensity),
         Some(Type::Point) => Light::point(intensity),
         Some(Type::Spot) => {
-            let (inner, outer) = cone(light, &place, warnings);
+            let (inner, outer) = cone(light, place, warnings);
             Light { kind: LightKind::Spot { inner, outer }, ..Light::spot(intensity) }
         }
         None => {

@@ -78,7 +78,9 @@ pub(crate) fn add_instances(
     placed: &Placed<'_>,
 ) -> Result<(), LoadError> {
     let root = &placed.document.root;
-    for (index, id) in placed.nodes().filter(|&(index, _)| has_instances(root, index)) {
+    let is_instanced =
+        |&(index, _): &(usize, NodeId)| root.nodes[index].mesh.is_some() && has_instances(root, index);
+    for (index, id) in placed.nodes().filter(is_instanced) {
         let transforms = reader.read(import, |accessors, _| read_instances(accessors, index))?;
         let Some(node) = import.scene.node_mut(id) else { continue };
         let (mesh, materials) = (node.mesh.take(), std::mem::take(&mut node.materials));

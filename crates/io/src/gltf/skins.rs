@@ -1,9 +1,11 @@
 //! Skins: joints and their inverse bind matrices.
 
+use std::collections::HashSet;
+
 use gltf_json::accessor::Type;
 use trigon_math::{DAffine3, DMat4, DVec4};
 use trigon_mesh::SkinWeights;
-use trigon_scene::{Node, NodeId, Skin};
+use trigon_scene::{Node, NodeId, Skin, SkinId};
 
 use super::accessor::Accessors;
 use super::buffers::Unplaced;
@@ -23,7 +25,7 @@ fn read_bind_matrices(
     let skin = &accessors.root.skins[index];
     let Some(accessor) = skin.inverse_bind_matrices else { return Ok(Vec::new()) };
     let place = || Place::Item("skin", index);
-    accessors.spend(skin.joints.len(), &place())?;
+    accessors.spend(usize::try_from(accessors.count(accessor.value())).unwrap_or(usize::MAX), &place())?;
     let read = accessors.vectors::<16>(accessor.value(), &[Type::Mat4])?;
     if read.len() < skin.joints.len() {
         let what =
@@ -50,27 +52,52 @@ pub(crate) fn add_skins(
     placed: &Placed<'_>,
 ) -> Result<(), LoadError> {
     let root = &placed.document.root;
+    if root.skins.is_empty() {
+        return Ok(());
+    }
     let mut skins = vec![None; root.skins.len()];
+    let (mut effort, limit) = (0_usize, import.options.limits.corners);
     // Joints that the scene does not show find nothing.
     let nobody = import.scene.add(Node::default());
     import.scene.remove(nobody);
     for (node, id) in placed.nodes() {
         let Some(index) = root.nodes[node].skin.map(|skin| skin.value()) else { continue };
-        let skin = match skins[index] {
-            Some(skin) => skin,
+        let (skin, above) = match skins[index] {
+            Some(known) => known,
             None => {
                 let matrices = reader
                     .read(import, |accessors, warnings| read_bind_matrices(accessors, index, warnings))?;
                 let skin = convert(import, placed, index, nobody, matrices);
-                *skins[index].insert(import.scene.skins.insert(skin))
+                let skin = import.scene.skins.insert(skin);
+                *skins[index].insert((skin, nodes_above(import, skin)))
             }
         };
+        effort = effort.saturating_add(above);
+        if effort > limit {
+            let what = format!("with it, skins follow more than {limit} nodes");
+            return Err(LoadError::limit(import.path, what).at(Place::Item("node", node)));
+        }
         warn_of_joints(import, id, Place::Item("node", node), root.skins[index].joints.len());
         if let Some(node) = import.scene.node_mut(id) {
             node.skin = Some(skin);
         }
     }
     Ok(())
+}
+
+/// How many nodes a skin's pose depends on: its joints and what they hang on.
+/// Thousands of nodes may share a skin of thousands of joints.
+fn nodes_above(import: &Import<'_>, skin: SkinId) -> usize {
+    let Some(skin) = import.scene.skins.get(skin) else { return 0 };
+    let mut known = HashSet::new();
+    for &joint in &skin.joints {
+        for above in import.scene.ancestors(joint) {
+            if !known.insert(above) {
+                break;
+            }
+        }
+    }
+    known.len()
 }
 
 fn convert(

@@ -114,7 +114,7 @@ impl Textures {
         material.normal_map = self.bind(from, Slot::Normal).map(|binding| NormalMap { binding, scale: 1.0 });
         match &mut material.shading {
             Shading::BlinnPhong { specular_texture, .. } => {
-                *specular_texture = self.bind(from, Slot::Specular)
+                *specular_texture = self.bind(from, Slot::Specular);
             }
             Shading::MetallicRoughness(model) => model.texture = self.bind(from, Slot::MetallicRoughness),
             Shading::Unlit | Shading::Lambert => {}

@@ -29,13 +29,18 @@ impl RenderMesh {
     ///
     /// A target beyond the weights, or with one that is not finite, adds
     /// nothing; a joint beyond the palette stays where it is, and without a
-    /// palette the skin is not followed. Normals turn by the inverse transpose
+    /// palette the skin is not followed: at rest every bit is the mesh's own.
+    /// Normals turn by the inverse transpose
     /// of the blended map. Where a normal or tangent vanishes, it is as before.
     pub fn deform(&self, weights: &[f32], palette: &[Affine3], into: &mut Deformed) {
         into.positions.clone_from(&self.positions);
         into.normals.clone_from(&self.normals);
         into.tangents.clear();
         into.tangents.extend(self.tangents.iter().flatten());
+        let skin = self.skin.as_ref().filter(|_| !palette.is_empty());
+        if skin.is_none() && weighted(&self.morph_targets, weights).next().is_none() {
+            return;
+        }
         for (target, weight) in weighted(&self.morph_targets, weights) {
             add(&target.positions, weight, &mut into.positions);
             add(&target.normals, weight, &mut into.normals);
@@ -45,7 +50,6 @@ impl RenderMesh {
                 }
             }
         }
-        let skin = self.skin.as_ref().filter(|_| !palette.is_empty());
         for vertex in 0..into.positions.len() {
             let map = skin.map_or(Affine3::IDENTITY, |skin| blended(skin, vertex, palette));
             if skin.is_some() {

@@ -183,8 +183,11 @@ impl Optional<'_, '_, '_> {
             if sets.get(set as usize).is_some_and(Option::is_some) {
                 continue;
             }
-            let instead =
-                if sets[0].is_some() { "TEXCOORD_0 is used" } else { "the texture shows one colour" };
+            let instead = match &sets[0] {
+                _ if set >= MOST_UV_SETS => "the texture is not drawn",
+                Some(_) => "TEXCOORD_0 is used",
+                None => "the texture shows one colour",
+            };
             let what = format!("a texture of it wants TEXCOORD_{set}, which is missing; {instead}");
             self.warnings.push(self.place.clone(), what, "export the model with that UV map");
             if (set as usize) < sets.len() {

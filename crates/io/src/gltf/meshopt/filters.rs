@@ -46,7 +46,7 @@ impl Filter {
             (Self::None, _) => {}
             (Self::Exponential, _) => bytes.chunks_exact_mut(4).for_each(exponential),
             (Self::Octahedral, 4) => {
-                each_of_bytes(bytes, |v| octahedral(v.map(|c| i32::from(c as i8)), 127.0))
+                each_of_bytes(bytes, |v| octahedral(v.map(|c| i32::from(c as i8)), 127.0));
             }
             (Self::Octahedral, _) => {
                 each_of_words(bytes, |v| octahedral(v.map(|c| i32::from(c as i16)), 32767.0));

@@ -7,6 +7,10 @@ use super::stream::{Stream, unzigzag};
 const HEADER: u8 = 0xe1;
 /// The table of frequent pairs.
 const TAIL: usize = 16;
+/// The codes of a vertex that no triangle has had, and of one that the data
+/// has; those between count recent ones.
+const NEW: u8 = 0;
+const WRITTEN: u8 = 0xf;
 
 pub(super) fn decode(bytes: &[u8], count: usize) -> Result<Vec<u32>, Broken> {
     let (header, mut body, table) = Stream::open(bytes, TAIL)?;
@@ -67,8 +71,8 @@ impl Decoder<'_> {
     fn triangle(&mut self, code: u8) -> Result<[u32; 3], Broken> {
         let (high, low) = (code >> 4, code & 0xf);
         match high {
-            0xf if low < 0xe => self.from_table(self.table[usize::from(low)]),
-            0xf => self.from_data(low == 0xf),
+            0xf if low < 0xe => self.looked_up(self.table[usize::from(low)]),
+            0xf => self.told_apart(if low == 0xf { WRITTEN } else { NEW }),
             _ => self.beside_edge(high, low),
         }
     }
@@ -92,23 +96,23 @@ impl Decoder<'_> {
     }
 
     /// A new vertex and a frequent pair of others.
-    fn from_table(&mut self, pair: u8) -> Result<[u32; 3], Broken> {
+    fn looked_up(&mut self, pair: u8) -> Result<[u32; 3], Broken> {
         let a = self.fresh();
         let b = self.new_or_recent(pair >> 4)?;
         let c = self.new_or_recent(pair & 0xf)?;
         Ok(self.remember([a, b, c], pair))
     }
 
-    /// Three vertices, told one by one.
-    fn from_data(&mut self, is_first_written: bool) -> Result<[u32; 3], Broken> {
+    /// Three vertices, told one by one: the first by `code`, the others by a
+    /// byte of the data.
+    fn told_apart(&mut self, code: u8) -> Result<[u32; 3], Broken> {
         let pair = self.data.byte()?;
         if pair == 0 {
             self.next = 0;
         }
-        let a = if is_first_written { self.written()? } else { self.fresh() };
-        let mut other = |code: u8| if code == 0xf { self.written() } else { self.new_or_recent(code) };
-        let (b, c) = (other(pair >> 4)?, other(pair & 0xf)?);
-        Ok(self.remember([a, b, c], pair))
+        let mut vertex = |code: u8| if code == WRITTEN { self.written() } else { self.new_or_recent(code) };
+        let corners = [vertex(code)?, vertex(pair >> 4)?, vertex(pair & 0xf)?];
+        Ok(self.remember(corners, pair))
     }
 
     /// All three edges, and the vertices that are not recent ones already.
@@ -118,7 +122,7 @@ impl Decoder<'_> {
         self.edges.push((a, c));
         self.vertices.push(a);
         for (code, vertex) in [(pair >> 4, b), (pair & 0xf, c)] {
-            if code == 0 || code == 0xf {
+            if code == NEW || code == WRITTEN {
                 self.vertices.push(vertex);
             }
         }
@@ -126,7 +130,7 @@ impl Decoder<'_> {
     }
 
     fn new_or_recent(&mut self, code: u8) -> Result<u32, Broken> {
-        if code == 0 { Ok(self.fresh()) } else { self.vertices.get(code - 1) }
+        if code == NEW { Ok(self.fresh()) } else { self.vertices.get(code - 1) }
     }
 
     fn fresh(&mut self) -> u32 {

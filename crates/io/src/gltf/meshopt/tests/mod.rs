@@ -144,9 +144,9 @@ fn quaternions_get_their_largest_component_back() {
 #[test]
 fn exponential_numbers_are_exact() {
     let coded = |exponent: i32, mantissa: i32| (exponent << 24 | mantissa & 0xff_ffff).to_le_bytes();
-    for (exponent, mantissa, value) in
-        [(0, 5, 5.0_f32), (-3, -5, -0.625), (100, 1, 2.0_f32.powi(100)), (-100, -1, -(2.0_f32.powi(-100)))]
-    {
+    let power = |exponent: u32| f32::from_bits((127 + exponent) << 23);
+    let cases = [(0, 5, 5.0), (-3, -5, -0.625), (100, 1, power(100)), (-100, -1, -1.0 / power(100))];
+    for (exponent, mantissa, value) in cases {
         let mut bytes = coded(exponent, mantissa);
         Filter::Exponential.apply(&mut bytes, 4);
         assert_eq!(f32::from_le_bytes(bytes), value, "{mantissa} · 2^{exponent}");
