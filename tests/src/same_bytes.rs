@@ -9,8 +9,8 @@ use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_math::{UVec2, Vec3, Vec4};
 use trigon_raster::{
-    Background, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Lines, Output, Pass, Pictures, Pipeline,
-    PointShape, Points, Rasterizer, Surface, Target, TileSize, VertexOutput,
+    Background, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Lines, Outline, Output, Pass, Pictures,
+    Pipeline, PointShape, Points, Rasterizer, Surface, Target, TileSize, VertexOutput,
 };
 
 /// Coloured vertices; a fragment shows the colour, by its alpha, with dark
@@ -49,6 +49,7 @@ impl Pipeline for Coloured {
 struct Soup {
     object: u32,
     surface: Surface,
+    outline: Outline,
     pipeline: Coloured,
     triangles: Vec<[u32; 3]>,
     segments: Vec<[u32; 2]>,
@@ -64,13 +65,21 @@ fn vertex() -> impl Strategy<Value = (Vec4, Vec4)> {
 }
 
 fn soup() -> impl Strategy<Value = Soup> {
-    let surface = prop_oneof![Just(Surface::Opaque), Just(Surface::Masked), Just(Surface::Translucent)];
-    (proptest::collection::vec(vertex(), 3..30), surface).prop_map(|(vertices, surface)| {
+    let surface = prop_oneof![
+        Just(Surface::Opaque),
+        Just(Surface::Masked),
+        Just(Surface::MaskedPerSample),
+        Just(Surface::Translucent)
+    ];
+    let outline = prop_oneof![Just(Outline::Sharp), Just(Outline::AntiAliased)];
+    let vertices = proptest::collection::vec(vertex(), 3..30);
+    (vertices, surface, outline).prop_map(|(vertices, surface, outline)| {
         let count = vertices.len() as u32;
         let triangles: Vec<_> = (0..count).map(|i| [i, (i + 1) % count, (i + 7) % count]).collect();
         Soup {
             object: 0,
             surface,
+            outline,
             pipeline: Coloured { vertices },
             faces: (0..count).collect(),
             triangles,
@@ -91,7 +100,7 @@ fn soups() -> impl Strategy<Value = Vec<Soup>> {
 
 fn record<'a>(pass: &mut Pass<'a>, soup: &'a Soup) {
     let Soup { object, surface, pipeline, faces, .. } = soup;
-    let (object, surface) = (*object, *surface);
+    let (object, surface, outline) = (*object, *surface, soup.outline);
     pass.triangles(Draw {
         object,
         surface,
@@ -99,9 +108,11 @@ fn record<'a>(pass: &mut Pass<'a>, soup: &'a Soup) {
         culling: Culling::None,
         ..Draw::new(pipeline, &soup.triangles)
     });
-    pass.lines(Lines { object: object + 1, surface, width: 2.5, ..Lines::new(pipeline, &soup.segments) });
+    let lines = Lines::new(pipeline, &soup.segments);
+    pass.lines(Lines { object: object + 1, surface, width: 2.5, outline, ..lines });
     let shape = if object == 0 { PointShape::Round } else { PointShape::Square };
-    pass.points(Points { object: object + 2, surface, shape, ..Points::new(pipeline, &soup.points, 9.0) });
+    let points = Points::new(pipeline, &soup.points, 9.0);
+    pass.points(Points { object: object + 2, surface, shape, outline, ..points });
 }
 
 fn picture(
@@ -188,6 +199,7 @@ proptest! {
         let hostile = Soup {
             object: 500,
             surface: Surface::Translucent,
+            outline: Outline::Sharp,
             pipeline: Coloured { vertices: hostile },
             triangles: (0..count).map(|i| [i, (i + 1) % count, (i + 2) % count]).chain([[0, 1, 4_000_000_000]]).collect(),
             segments: (0..count).map(|i| [i, (i + 1) % count]).chain([[0, u32::MAX]]).collect(),

@@ -5,8 +5,8 @@ use crate::coverage_support::Samples;
 use crate::programs::{Flat, Lanes, Scalar, Textured, Vertices};
 use trigon_math::{UVec2, Vec4};
 use trigon_raster::{
-    Background, Culling, Draw, Filter, LanePipeline, Lines, MipFilter, Output, Pass, Pictures, PointShape,
-    Points, Rasterizer, Sampler, Surface, Texture, TextureFormat,
+    Background, Culling, Draw, Filter, LanePipeline, Lines, MipFilter, Outline, Output, Pass, Pictures,
+    PointShape, Points, Rasterizer, Sampler, Surface, Texture, TextureFormat,
 };
 
 const SIZE: [u32; 2] = [96, 64];
@@ -28,8 +28,8 @@ enum Program {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Shape {
     Triangles,
-    Lines,
-    Points(PointShape),
+    Lines(Outline),
+    Points(PointShape, Outline),
 }
 
 const EVERYTHING: &[Output] = &[
@@ -77,15 +77,29 @@ pub(super) fn all() -> Vec<Picture> {
 fn samples() -> Vec<Picture> {
     let supersampled = [2, 3].map(|per_axis| Samples { per_axis, per_pixel: 1 });
     let patterns = [1, 2, 4, 8, 16].map(multisampled).into_iter().chain(supersampled);
-    patterns.flat_map(|samples| SURFACES.map(|surface| Picture { surface, samples, ..USUAL })).collect()
+    let pictures = patterns.flat_map(|samples| SURFACES.map(|surface| Picture { surface, samples, ..USUAL }));
+    let per_sample = [4, 8].map(|samples| Picture {
+        surface: Surface::MaskedPerSample,
+        samples: multisampled(samples),
+        ..USUAL
+    });
+    pictures.chain(per_sample).collect()
 }
 
 fn shapes() -> Vec<Picture> {
-    let shapes = [Shape::Lines, Shape::Points(PointShape::Round)];
+    let shapes = [Shape::Lines(Outline::Sharp), Shape::Points(PointShape::Round, Outline::Sharp)];
     let cases = shapes.into_iter().flat_map(|shape| SURFACES.map(|surface| (shape, surface)));
     let cases = cases.flat_map(|case| [1, 4].map(|samples| (case, multisampled(samples))));
     let cases = cases.map(|((shape, surface), samples)| Picture { shape, surface, samples, ..USUAL });
-    cases.chain([Picture { shape: Shape::Points(PointShape::Square), ..USUAL }]).collect()
+    let square = Picture { shape: Shape::Points(PointShape::Square, Outline::Sharp), ..USUAL };
+    cases.chain([square]).chain(smooth_shapes()).collect()
+}
+
+fn smooth_shapes() -> impl Iterator<Item = Picture> {
+    let points =
+        [PointShape::Round, PointShape::Square].map(|shape| Shape::Points(shape, Outline::AntiAliased));
+    let shapes = points.into_iter().chain([Shape::Lines(Outline::AntiAliased)]);
+    shapes.flat_map(|shape| [1, 4].map(|samples| Picture { shape, samples: multisampled(samples), ..USUAL }))
 }
 
 fn programs() -> Vec<Picture> {
@@ -191,11 +205,13 @@ impl Picture {
                 let culling = Culling::None;
                 pass.triangles(Draw { object: 7, surface, culling, ..Draw::new(pipeline, triangles) })
             }
-            Shape::Lines => {
-                pass.lines(Lines { object: 8, surface, width: 2.5, ..Lines::new(pipeline, &segments) })
+            Shape::Lines(outline) => {
+                let (object, width) = (8, 2.5);
+                pass.lines(Lines { object, surface, width, outline, ..Lines::new(pipeline, &segments) })
             }
-            Shape::Points(shape) => {
-                pass.points(Points { object: 9, surface, shape, ..Points::new(pipeline, &points, 7.0) })
+            Shape::Points(shape, outline) => {
+                let object = 9;
+                pass.points(Points { object, surface, shape, outline, ..Points::new(pipeline, &points, 7.0) })
             }
         };
         let mut target = self.samples.target(SIZE, self.outputs);
@@ -205,8 +221,14 @@ impl Picture {
 
     /// Whether a good part of it is not background.
     pub(super) fn is_worth_drawing(&self, rasterizer: &mut Rasterizer) -> bool {
+        // What is laid over others leaves no ids.
         let surface = if self.surface == Surface::Translucent { Surface::Opaque } else { self.surface };
-        let seen = Self { outputs: &[Output::Object], surface, ..*self }.draw(rasterizer);
+        let shape = match self.shape {
+            Shape::Triangles => Shape::Triangles,
+            Shape::Lines(_) => Shape::Lines(Outline::Sharp),
+            Shape::Points(shape, _) => Shape::Points(shape, Outline::Sharp),
+        };
+        let seen = Self { outputs: &[Output::Object], surface, shape, ..*self }.draw(rasterizer);
         let objects = seen.objects.expect("asked for");
         objects.iter().filter(|&&object| object != u32::MAX).count() > objects.len() / 20
     }

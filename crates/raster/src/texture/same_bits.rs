@@ -66,8 +66,11 @@ fn any_sampler() -> impl Strategy<Value = Sampler> {
 
 fn any_texture() -> impl Strategy<Value = Texture> {
     let side = || prop_oneof![Just(1_u32), Just(8), Just(32), 1_u32..40];
-    (side(), side(), any::<u32>(), any::<bool>()).prop_map(|(width, height, seed, srgb)| {
-        let texel = |i: u32| (seed ^ i).wrapping_mul(2_654_435_761).to_be_bytes();
+    (side(), side(), any::<u32>(), any::<[bool; 2]>()).prop_map(|(width, height, seed, [srgb, opaque])| {
+        let texel = |i: u32| {
+            let [r, g, b, a] = (seed ^ i).wrapping_mul(2_654_435_761).to_be_bytes();
+            [r, g, b, if opaque { 255 } else { a }]
+        };
         let format = if srgb { TextureFormat::Srgb } else { TextureFormat::Linear };
         Texture::new(width, height, (0..width * height).map(texel).collect(), format).unwrap()
     })
