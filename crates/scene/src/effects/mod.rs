@@ -19,7 +19,7 @@ pub(crate) use fog::Mist;
 pub(crate) use outline::draw_outline;
 pub(crate) use plan::Counts;
 pub use plan::{Absence, Cause, Decision, Effect, EffectCounts, EffectPlan, Named};
-pub(crate) use rays::{AmbientRays, RayCache};
+pub(crate) use rays::{AmbientRays, Optics, RayCache};
 pub(crate) use scenery::Scenery;
 pub use settings::{AmbientOcclusion, EffectSettings, Fog, Outline, Shadows, ToneMapping};
 pub(crate) use shadow::{LampPose, ShadowCache};

@@ -21,6 +21,8 @@ pub(crate) struct Scenery {
     /// Whether lamps are asked for by rays.
     pub(crate) shadow_rays: bool,
     pub(crate) ambient_rays: Option<AmbientRays>,
+    /// How often rays of sight go on; 0 for none.
+    pub(crate) bounces: u32,
     pub(crate) surroundings: Option<Surroundings>,
     pub(crate) mist: Option<Mist>,
 }
@@ -29,7 +31,7 @@ impl Scenery {
     /// Whether light depends on where a surface is, and not only on how it is turned.
     pub(crate) fn needs_position(&self) -> bool {
         let shadows = self.shadow_maps.is_some() || self.shadow_rays;
-        shadows || self.ambient_rays.is_some() || self.lights.need_position()
+        shadows || self.bounces > 0 || self.ambient_rays.is_some() || self.lights.need_position()
     }
 
     /// Whether what surfaces send out depends on the direction of sight even where

@@ -18,6 +18,9 @@ pub struct EffectSettings {
     /// Ambient light that comes from somewhere; it takes the place of the scene's
     /// ambient lights.
     pub environment: Option<Arc<Environment>>,
+    /// How often a ray of sight goes on at mirrors (metals without roughness) and
+    /// glass (transmission), 0 (never) to 16.
+    pub bounces: u32,
     /// Mist between the eye and surfaces.
     pub fog: Option<Fog>,
     /// Factor on the picture's light, in stops: 1 is twice as bright.

@@ -101,7 +101,7 @@ impl Renderer {
         self.stats =
             self.kept.draw(pass, (settings, &plan), (blank, frame), (&mut rasterizer, &mut counts))?;
         measure_depth(frame, camera, settings);
-        self.kept.count(&scenery, &stage, &mut counts);
+        self.kept.count(&scenery, (&stage, &plan), &mut counts);
         (self.counts, self.plan) = (counts, Some(plan));
         self.rasterizer = Some(rasterizer);
         Ok(())

@@ -83,7 +83,7 @@ impl Eye {
 /// under mirroring, scaled so that its largest entry is 1: then neither tiny
 /// nor huge objects leave the range of f32. Unlike the inverse transpose it
 /// exists for flattened objects, too.
-fn normal_matrix(matrix: &DMat3) -> Mat3 {
+pub(crate) fn normal_matrix(matrix: &DMat3) -> Mat3 {
     let largest = largest_entry(matrix);
     // Made safe to multiply first: entries of 1e200 would overflow when squared.
     let safe = if largest > 0.0 && largest.is_finite() { *matrix * (1.0 / largest) } else { DMat3::IDENTITY };

@@ -46,7 +46,8 @@ impl<'s> Stage<'s> {
         let transforms = scene.visible_transforms();
         let eye = Eye::new(camera, settings.aspect());
         let effects = &settings.effects;
-        let all = effects.shadows != Shadows::Off || effects.ambient_occlusion.is_some();
+        let rays = effects.ambient_occlusion.is_some() || effects.bounces > 0;
+        let all = rays || effects.shadows != Shadows::Off;
         let onlookers = if all { Onlookers::All } else { Onlookers::Camera(&eye) };
         let shapes = Shapes::new(scene, &transforms, onlookers);
         let lights = Lights::gather(scene, &transforms, &eye, settings);
@@ -119,7 +120,9 @@ impl Kept {
                 .map(AmbientRays::new),
             ..Scenery::default()
         };
-        let rays = scenery.shadow_rays || scenery.ambient_rays.is_some();
+        let sight = on(Effect::Reflection) || on(Effect::Refraction);
+        scenery.bounces = if sight { effects.bounces } else { 0 };
+        let rays = sight || scenery.shadow_rays || scenery.ambient_rays.is_some();
         if !rays && !on(Effect::ShadowMaps) {
             return Ok(scenery);
         }
@@ -131,13 +134,19 @@ impl Kept {
             scenery.shadow_maps = Some(self.shadows.maps(&poses, seen, resolution, to_world, rasterizer)?);
         }
         if rays {
-            scenery.rays = Some(self.rays.scene(&casters, &stage.camera_to_world));
+            scenery.rays =
+                Some(self.rays.scene(&casters, sight.then_some(stage.scene), &stage.camera_to_world));
         }
         Ok(scenery)
     }
 
     /// Adds what the scenery took.
-    pub(super) fn count(&self, scenery: &Scenery, stage: &Stage<'_>, counts: &mut Counts) {
+    pub(super) fn count(
+        &self,
+        scenery: &Scenery,
+        (stage, plan): (&Stage<'_>, &EffectPlan),
+        counts: &mut Counts,
+    ) {
         if let Some(maps) = &scenery.shadow_maps {
             counts.of(Effect::ShadowMaps).bytes = maps.byte_count() as u64;
             counts.of(Effect::ShadowMaps).passes = self.shadows.drawn() as u64;
@@ -146,12 +155,15 @@ impl Kept {
             counts.of(Effect::Environment).bytes = surroundings.environment.byte_count() as u64;
         }
         if let Some(rays) = &scenery.rays {
-            let [to_lamps, around] = rays.cast();
-            for (on, effect, cast) in [
-                (scenery.shadow_rays, Effect::ShadowRays, to_lamps),
-                (scenery.ambient_rays.is_some(), Effect::AmbientOcclusion, around),
+            let [to_lamps, around, sight] = rays.cast();
+            // Mirrors and glass share their rays.
+            for (effect, cast) in [
+                (Effect::ShadowRays, to_lamps),
+                (Effect::AmbientOcclusion, around),
+                (Effect::Reflection, sight),
+                (Effect::Refraction, sight),
             ] {
-                if on {
+                if plan.is_on(effect) {
                     counts.of(effect).bytes = rays.byte_count() as u64;
                     counts.of(effect).rays = cast;
                 }

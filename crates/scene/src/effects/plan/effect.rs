@@ -35,6 +35,10 @@ pub enum Effect {
     ShadowRays,
     /// Ambient light that the surroundings keep away, by rays.
     AmbientOcclusion,
+    /// What metals without roughness mirror, by rays.
+    Reflection,
+    /// What is seen through transmissive surfaces, by rays.
+    Refraction,
     /// Mist.
     Fog,
     /// Exposure and tone mapping.
@@ -47,7 +51,7 @@ pub enum Effect {
 
 impl Effect {
     /// All of them, in the order in which a plan lists them.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 21] = [
         Self::Lamps,
         Self::AmbientLight,
         Self::Highlights,
@@ -63,6 +67,8 @@ impl Effect {
         Self::ShadowMaps,
         Self::ShadowRays,
         Self::AmbientOcclusion,
+        Self::Reflection,
+        Self::Refraction,
         Self::Fog,
         Self::ToneMapping,
         Self::Outline,
@@ -88,6 +94,8 @@ impl fmt::Display for Effect {
             Self::ShadowMaps => "shadow maps",
             Self::ShadowRays => "shadow rays",
             Self::AmbientOcclusion => "ambient occlusion",
+            Self::Reflection => "mirror reflection",
+            Self::Refraction => "refraction",
             Self::Fog => "fog",
             Self::ToneMapping => "tone mapping",
             Self::Outline => "outline",

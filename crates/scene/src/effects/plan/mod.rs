@@ -88,6 +88,9 @@ fn decide(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Decision {
             asked(stage.settings.effects.outline.as_ref().is_some_and(|outline| !outline.nodes.is_empty()))
         }
         Effect::Edges => asked(stage.settings.style != Style::Surface),
+        Effect::Reflection | Effect::Refraction if stage.settings.effects.bounces == 0 => {
+            Err(Absence::NotAsked)
+        }
         _ => of_objects(effect, stage, survey),
     };
     match outcome {
@@ -170,7 +173,10 @@ fn ambient_occlusion(stage: &Stage<'_>, survey: &Survey) -> Outcome {
 }
 
 fn of_objects(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Outcome {
-    let per_pixel = matches!(effect, Effect::NormalMaps | Effect::OcclusionMaps);
+    let per_pixel = matches!(
+        effect,
+        Effect::NormalMaps | Effect::OcclusionMaps | Effect::Reflection | Effect::Refraction
+    );
     let [in_view, elsewhere] = survey.of(effect);
     let faces = matches!(stage.settings.style, Style::Surface | Style::SurfaceWithEdges);
     match (in_view.count, elsewhere.count) {

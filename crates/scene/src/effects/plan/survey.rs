@@ -1,6 +1,7 @@
 //! What a scene holds and what of it the camera can see.
 
 use super::{Effect, Named};
+use crate::effects::Optics;
 use crate::material::{AlphaMode, Material, Shading};
 use crate::render::{Shape, Stage};
 use crate::settings::Style;
@@ -64,8 +65,19 @@ fn has(effect: Effect, material: &Material, shape: &Shape, stage: &Stage<'_>) ->
         Effect::Masks => matches!(material.alpha_mode, AlphaMode::Mask { .. }),
         Effect::Transparency => material.alpha_mode == AlphaMode::Blend,
         Effect::Poses => shape.is_posed,
+        Effect::Reflection => is_traced(material, false),
+        Effect::Refraction => is_traced(material, true),
         Effect::Edges => stage.settings.style != Style::Surface,
         _ => false,
+    }
+}
+
+/// Whether rays of sight go on at a material, and through it.
+fn is_traced(material: &Material, through: bool) -> bool {
+    match Optics::of(material) {
+        None => false,
+        Some(Optics::Mirror) => !through,
+        Some(Optics::Glass { .. }) => through,
     }
 }
 

@@ -6,6 +6,7 @@ use trigon_math::DAffine3;
 
 use super::{RayScene, RayTriangles};
 use crate::effects::casters::Casters;
+use crate::scene::Scene;
 
 /// The tree of the last picture.
 #[derive(Debug, Default)]
@@ -14,10 +15,19 @@ pub(crate) struct RayCache {
 }
 
 impl RayCache {
-    pub(crate) fn scene(&mut self, casters: &Casters, camera_to_world: &DAffine3) -> RayScene {
-        let kept = self.kept.take().filter(|(kept, _)| kept == casters);
-        let (_, triangles) =
-            self.kept.insert(kept.unwrap_or_else(|| (casters.clone(), Arc::new(RayTriangles::new(casters)))));
+    /// With looks if rays of sight are to end on the casters of a scene.
+    pub(crate) fn scene(
+        &mut self,
+        casters: &Casters,
+        looks_of: Option<&Scene>,
+        camera_to_world: &DAffine3,
+    ) -> RayScene {
+        let fits = |(kept, triangles): &(Casters, Arc<RayTriangles>)| {
+            kept == casters && triangles.surfaces.is_some() == looks_of.is_some()
+        };
+        let kept = self.kept.take().filter(fits);
+        let made = || (casters.clone(), Arc::new(RayTriangles::new(casters, looks_of)));
+        let (_, triangles) = self.kept.insert(kept.unwrap_or_else(made));
         RayScene::new(Arc::clone(triangles), camera_to_world)
     }
 }

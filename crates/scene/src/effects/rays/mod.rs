@@ -3,20 +3,25 @@
 //! stopped by the whole triangle.
 
 mod cache;
+mod met;
 mod occlusion;
+mod sight;
 
 pub(crate) use cache::RayCache;
+pub(crate) use met::Optics;
 pub(crate) use occlusion::AmbientRays;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use trigon_math::{Bvh, DAffine3, DVec3, Mat4, Ray, Vec3};
+use met::{Met, MetSurfaces};
+use trigon_math::{Bvh, DAffine3, DMat4, DVec3, Mat4, Ray, Vec3};
 use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
 
 use crate::effects::casters::Casters;
 use crate::render::lanes::{V3, moved, turned};
 use crate::render::lighting::{Arriving, Lamp, LitPoints, Source};
+use crate::scene::Scene;
 
 /// The triangles of all casters, around the middle of their box.
 #[derive(Debug, Default)]
@@ -25,10 +30,12 @@ pub(crate) struct RayTriangles {
     middle: DVec3,
     /// The largest coordinate.
     reach: f32,
+    /// How they look, if rays of sight are to end on them.
+    surfaces: Option<MetSurfaces>,
 }
 
 impl RayTriangles {
-    fn new(casters: &Casters) -> Self {
+    fn new(casters: &Casters, looks_of: Option<&Scene>) -> Self {
         let middle = casters.bounds.center().unwrap_or(DVec3::ZERO);
         let mut triangles = Vec::new();
         for caster in &casters.list {
@@ -47,11 +54,12 @@ impl RayTriangles {
             }
         }
         let reach = (casters.bounds.size() * 0.5).max_element() as f32;
-        Self { bvh: Bvh::new(&triangles), middle, reach }
+        let surfaces = looks_of.map(|scene| MetSurfaces::new(scene, casters));
+        Self { bvh: Bvh::new(&triangles), middle, reach, surfaces }
     }
 
     pub(crate) fn byte_count(&self) -> usize {
-        self.bvh.byte_count()
+        self.bvh.byte_count() + self.surfaces.as_ref().map_or(0, MetSurfaces::byte_count)
     }
 }
 
@@ -61,20 +69,28 @@ pub(crate) struct RayScene {
     triangles: Arc<RayTriangles>,
     /// From camera space to the triangles'.
     to_scene: Mat4,
-    /// Rays to lamps, and into the surroundings.
-    cast: [AtomicU64; 2],
+    /// And back.
+    from_scene: Mat4,
+    /// Rays to lamps, into the surroundings, and of sight.
+    cast: [AtomicU64; 3],
 }
 
 impl RayScene {
     fn new(triangles: Arc<RayTriangles>, camera_to_world: &DAffine3) -> Self {
         let shifted =
             DAffine3 { translation: camera_to_world.translation - triangles.middle, ..*camera_to_world };
-        let to_scene = trigon_math::DMat4::from(shifted).as_mat4();
-        Self { triangles, to_scene, cast: Default::default() }
+        let [to_scene, from_scene] = [shifted, shifted.inverse()].map(|map| DMat4::from(map).as_mat4());
+        Self { triangles, to_scene, from_scene, cast: Default::default() }
     }
 
-    /// How many rays were cast to lamps, and how many into the surroundings.
-    pub(crate) fn cast(&self) -> [u64; 2] {
+    /// What a ray meets first, where looks are known.
+    fn met(&self, ray: &Ray) -> Option<Met> {
+        let hit = self.triangles.bvh.nearest(ray, 0.0..f32::INFINITY)?;
+        Some(self.triangles.surfaces.as_ref()?.at(&hit, ray.at(hit.distance)))
+    }
+
+    /// How many rays were cast to lamps, into the surroundings, and of sight.
+    pub(crate) fn cast(&self) -> [u64; 3] {
         self.cast.each_ref().map(|cast| cast.load(Ordering::Relaxed))
     }
 
@@ -121,17 +137,22 @@ impl RayScene {
 
     /// Where rays start: off the surface by what rounding can have moved it.
     fn origins<S: Simd>(&self, simd: S, points: &LitPoints<S>) -> [Vec3; LANES] {
-        /// In units of the last place of the largest coordinate.
-        const OFF: f32 = 64.0 * f32::EPSILON;
         let [x, y, z] = rows(moved(&self.to_scene, points.position));
         let [nx, ny, nz] = rows(turned(&self.turn(), points.facing));
         let _ = simd;
         lanes_of(|lane| {
-            let at = Vec3::new(x[lane], y[lane], z[lane]);
-            let largest = at.abs().max_element();
-            let largest = if largest > self.triangles.reach { largest } else { self.triangles.reach };
-            at + Vec3::new(nx[lane], ny[lane], nz[lane]) * (largest * OFF)
+            let side = Vec3::new(nx[lane], ny[lane], nz[lane]);
+            self.off(Vec3::new(x[lane], y[lane], z[lane]), side)
         })
+    }
+
+    /// A point beside a surface, on the side to which a unit vector points.
+    fn off(&self, at: Vec3, side: Vec3) -> Vec3 {
+        /// In units of the last place of the largest coordinate.
+        const OFF: f32 = 64.0 * f32::EPSILON;
+        let largest = at.abs().max_element();
+        let largest = if largest > self.triangles.reach { largest } else { self.triangles.reach };
+        at + side * (largest * OFF)
     }
 }
 

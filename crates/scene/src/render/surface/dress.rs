@@ -5,7 +5,7 @@
 use trigon_math::Vec3;
 
 use super::{Coverage, Illumination, Layout, LightSlots, Look, Map, MicrofacetModel, Model, Rays};
-use crate::effects::{Counts, Effect, Scenery};
+use crate::effects::{Counts, Effect, Optics, Scenery};
 use crate::material::{AlphaMode, Material, MetallicRoughness, Shading, TextureBinding};
 use crate::render::columns::Columns;
 use crate::scene::Scene;
@@ -46,6 +46,7 @@ impl<'a> Dressed<'a> {
                 .occlusion
                 .filter(|_| in_pixels)
                 .and_then(|occlusion| Some((fitting.map(Some(&occlusion.binding))?, occlusion.strength))),
+            optics: Optics::of(material).filter(|_| in_pixels && occasion.scenery.bounces > 0),
             emissive: material.emissive,
             emissive_map: fitting
                 .map(material.emissive_texture.as_ref().filter(|_| material.emissive != Vec3::ZERO)),

@@ -4,10 +4,11 @@ use trigon_raster::simd::{F32, Simd, inlined, prelude::*};
 use trigon_raster::{FragmentLanes, VertexLanes};
 
 use super::{LightSlots, Map, Rays, Side, Surface, Values, load, shown, three};
+use crate::effects::Optics;
 use crate::render::lanes::{
-    V3, cross, dot, moved, negated, normalized, product, scaled, select, splat, sum, turned,
+    V3, cross, difference, dot, moved, negated, normalized, product, scaled, select, splat, sum, turned,
 };
-use crate::render::lighting::{Answer, LitPoints, Reflected};
+use crate::render::lighting::{Answer, LitPoints, Microfacets, Reflected};
 
 /// Where light is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,7 +74,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             || {
                 let base = splat(simd, self.look.base_color.truncate());
                 let (answer, share) = self.look.answer(simd, base, None::<&FragmentLanes<'_, S>>);
-                let reflected = self.reflected(simd, points, &answer, None);
+                let reflected = self.reflected(simd, points, &answer, (None, None));
                 Reflected { diffuse: scaled(reflected.diffuse, share), ..reflected }
             },
         )
@@ -120,7 +121,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                     }
                     _ => None,
                 };
-                self.shaded(simd, fragments, (&points, open), albedo)
+                self.shaded(simd, fragments, (&points, open), (albedo, fragments.active()))
             },
         )
     }
@@ -132,7 +133,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         simd: S,
         values: &impl Values<S>,
         (points, mut open): (&LitPoints<S>, Option<F32<S>>),
-        albedo: V3<S>,
+        (albedo, active): (V3<S>, u64),
     ) -> V3<S> {
         let (answer, share) = self.look.answer(simd, albedo, Some(values));
         if let Some((map, strength)) = &self.look.occlusion_map {
@@ -140,7 +141,49 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             let mapped = (red - 1.0) * *strength + 1.0;
             open = Some(open.map_or(mapped, |open| open * mapped));
         }
-        shown(&self.reflected(simd, points, &answer, open), scaled(albedo, share))
+        match (&self.look.optics, &answer) {
+            (Some(optics), Answer::Microfacets(facets)) => {
+                self.traced(simd, points, (facets, optics, open), (albedo, share), active)
+            }
+            _ => shown(&self.reflected(simd, points, &answer, (open, None)), scaled(albedo, share)),
+        }
+    }
+
+    /// What mirrors and glass show.
+    fn traced<S: Simd>(
+        &self,
+        simd: S,
+        points: &LitPoints<S>,
+        (facets, optics, open): (&Microfacets<S>, &Optics, Option<F32<S>>),
+        (albedo, share): (V3<S>, F32<S>),
+        active: u64,
+    ) -> V3<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let LitPoints { normal, view, facing, .. } = *points;
+                let cosine = dot(normal, view);
+                let back = difference(scaled(normal, cosine * 2.0), view);
+                let mirrored = self.scenery.seen(simd, points, back, active);
+                let answer = Answer::Microfacets(*facets);
+                let reflected = self.reflected(simd, points, &answer, (open, Some(mirrored)));
+                let Optics::Glass { transmission, ior } = *optics else {
+                    return shown(&reflected, scaled(albedo, share));
+                };
+                let matt = shown(&reflected, scaled(albedo, share * (1.0 - transmission)));
+                // Snell's law, into what is denser: no light is reflected as a whole.
+                let ratio = 1.0 / ior;
+                let bent = (1.0 - (1.0 - cosine * cosine) * (ratio * ratio)).sqrt();
+                let into =
+                    difference(scaled(normal, cosine * ratio - bent), scaled(view, F32::splat(simd, ratio)));
+                let inside = LitPoints { facing: negated(facing), ..*points };
+                let through = self.scenery.seen(simd, &inside, into, active);
+                let [r, g, b] = facets.fresnel(cosine);
+                let left = [1.0 - r, 1.0 - g, 1.0 - b];
+                let passed = product(product(through, left), scaled(albedo, share * transmission));
+                sum(matt, passed)
+            },
+        )
     }
 
     /// All light that the surface sends to the eye. `open` is the share of the
@@ -151,10 +194,10 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         simd: S,
         points: &LitPoints<S>,
         answer: &Answer<S>,
-        open: Option<F32<S>>,
+        (open, mirrored): (Option<F32<S>>, Option<V3<S>>),
     ) -> Reflected<S> {
         let mut reflected = self.scenery.reflected(simd, points, answer);
-        if !self.scenery.has_ambient() {
+        if !self.scenery.has_ambient() && mirrored.is_none() {
             return reflected;
         }
         let open = open.unwrap_or(F32::splat(simd, 1.0));
@@ -163,7 +206,10 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             Answer::Microfacets(facets) => {
                 let shares = facets.surrounded(dot(points.normal, points.view).abs());
                 reflected.diffuse = sum(reflected.diffuse, product(around, shares.diffuse));
-                let mirrored = scaled(self.scenery.mirrored(simd, points, facets.roughness), open);
+                let mirrored = match mirrored {
+                    Some(traced) => traced,
+                    None => scaled(self.scenery.mirrored(simd, points, facets.roughness), open),
+                };
                 let specular = sum(product(mirrored, shares.single), product(around, shares.repeated));
                 reflected.specular = sum(reflected.specular, specular);
             }

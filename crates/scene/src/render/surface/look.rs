@@ -6,6 +6,7 @@ use trigon_raster::simd::{F32, Simd, prelude::*};
 use trigon_raster::{Sampler, Texture};
 
 use super::values::Values;
+use crate::effects::Optics;
 use crate::render::lanes::{V3, lesser_of, mix, product, splat};
 use crate::render::lighting::{Answer, Microfacets};
 
@@ -30,6 +31,8 @@ pub(crate) struct Look<'a> {
     pub(crate) normal_map: Option<(Map<'a>, f32)>,
     /// With its strength.
     pub(crate) occlusion_map: Option<(Map<'a>, f32)>,
+    /// Whether rays of sight go on from it.
+    pub(crate) optics: Option<Optics>,
     pub(crate) emissive: Vec3,
     pub(crate) emissive_map: Option<Map<'a>>,
     /// Alpha below this is a hole, where the draw is masked.

@@ -1,0 +1,143 @@
+//! What the triangles that rays meet look like: colour, normal, and whether a ray
+//! goes on from them.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use trigon_math::{Mat3, RayHit, Vec2, Vec3};
+use trigon_raster::Texture;
+
+use crate::effects::casters::{Caster, Casters};
+use crate::material::{Material, Shading, TextureBinding};
+use crate::render::Geometry;
+use crate::render::placement::normal_matrix;
+use crate::scene::Scene;
+
+/// Surfaces from which rays of sight go on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Optics {
+    /// A metal without roughness.
+    Mirror,
+    /// What lets light through.
+    Glass {
+        /// The share of it.
+        transmission: f32,
+        /// Index of refraction.
+        ior: f32,
+    },
+}
+
+impl Optics {
+    /// `None` for surfaces at which rays end.
+    pub(crate) fn of(material: &Material) -> Option<Self> {
+        let Shading::MetallicRoughness(model) = &material.shading else { return None };
+        if material.transmission > 0.0 && material.ior >= 1.0 {
+            return Some(Self::Glass { transmission: material.transmission, ior: material.ior });
+        }
+        (model.metallic == 1.0 && model.roughness == 0.0).then_some(Self::Mirror)
+    }
+}
+
+/// A point that a ray met, in the space of the triangles.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Met {
+    pub(crate) position: Vec3,
+    /// Unit vector, towards the outside.
+    pub(crate) normal: Vec3,
+    pub(crate) color: Vec3,
+    pub(crate) emissive: Vec3,
+    pub(crate) optics: Option<Optics>,
+}
+
+/// The looks of all triangles that rays can meet.
+#[derive(Debug, Default)]
+pub(crate) struct MetSurfaces {
+    /// For each triangle its caster, and its number there.
+    owners: Vec<[u32; 2]>,
+    casters: Vec<MetCaster>,
+}
+
+#[derive(Debug)]
+struct MetCaster {
+    geometry: Arc<Geometry>,
+    normal_to_scene: Mat3,
+    looks: Vec<(Range<usize>, MetLook)>,
+}
+
+/// A material as rays see it: its highlights are left out.
+#[derive(Debug)]
+struct MetLook {
+    color: Vec3,
+    texture: Option<(Arc<Texture>, TextureBinding)>,
+    emissive: Vec3,
+    /// Whether the colour is shown as it is.
+    unlit: bool,
+    optics: Option<Optics>,
+}
+
+impl MetSurfaces {
+    /// In the order in which the casters' triangles are listed for rays.
+    pub(super) fn new(scene: &Scene, casters: &Casters) -> Self {
+        let mut surfaces = Self::default();
+        for (number, caster) in (0_u32..).zip(&casters.list) {
+            let met = MetCaster::new(scene, caster);
+            for (triangles, _) in &met.looks {
+                surfaces.owners.extend(triangles.clone().map(|triangle| [number, triangle as u32]));
+            }
+            surfaces.casters.push(met);
+        }
+        surfaces
+    }
+
+    /// What a ray met at a position.
+    pub(super) fn at(&self, hit: &RayHit, position: Vec3) -> Met {
+        let [caster, triangle] = self.owners[hit.triangle as usize].map(|number| number as usize);
+        let MetCaster { geometry, normal_to_scene, looks } = &self.casters[caster];
+        let corners = geometry.triangles[triangle].map(|vertex| vertex as usize);
+        let mixed = |column: &[f32]| {
+            corners.iter().zip(hit.weights).map(|(&corner, weight)| column[corner] * weight).sum::<f32>()
+        };
+        let [x, y, z] = &geometry.columns.normals;
+        let normal = (*normal_to_scene * Vec3::new(mixed(x), mixed(y), mixed(z))).normalize_or_zero();
+        let (_, look) = &looks[looks.partition_point(|(triangles, _)| triangles.end <= triangle)];
+        let mut color = look.color;
+        if let Some((texture, binding)) = &look.texture {
+            if let Some([u, v]) = geometry.columns.uv_sets.get(binding.uv_set) {
+                let uv = binding.transform.transform_point2(Vec2::new(mixed(u), mixed(v)));
+                color *= texture.sample(uv, Vec2::ZERO, Vec2::ZERO, &binding.sampler).truncate();
+            }
+        }
+        if let Some([r, g, b, _]) = &geometry.columns.colors {
+            color *= Vec3::new(mixed(r), mixed(g), mixed(b));
+        }
+        let (color, emissive) =
+            if look.unlit { (Vec3::ZERO, look.emissive + color) } else { (color, look.emissive) };
+        Met { position, normal, color, emissive, optics: look.optics }
+    }
+
+    pub(super) fn byte_count(&self) -> usize {
+        size_of_val(self.owners.as_slice())
+    }
+}
+
+impl MetCaster {
+    fn new(scene: &Scene, caster: &Caster) -> Self {
+        let runs = caster.geometry.runs.iter().zip(&caster.materials);
+        let looks = runs.filter_map(|(run, material)| {
+            let material = material.as_ref()?;
+            let texture = material.base_color_texture.and_then(|binding| {
+                Some((Arc::clone(&scene.textures.get(binding.texture)?.texture), binding))
+            });
+            let look = MetLook {
+                color: material.base_color.truncate(),
+                texture,
+                emissive: material.emissive,
+                unlit: material.shading == Shading::Unlit,
+                optics: Optics::of(material),
+            };
+            Some((run.triangles.clone(), look))
+        });
+        let normal_to_scene = normal_matrix(&caster.world.matrix3);
+        Self { looks: looks.collect(), normal_to_scene, geometry: Arc::clone(&caster.geometry) }
+    }
+}

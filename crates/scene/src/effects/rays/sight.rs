@@ -1,0 +1,203 @@
+//! Rays of sight: what mirrors and glass show (T. Whitted, "An Improved Illumination
+//! Model for Shaded Display", 1980).
+//!
+//! Eight rays go together. A ray ends at a surface that is neither mirror nor glass,
+//! which shows its diffuse colour in the light of the scene, shadows included. At
+//! glass it follows what is refracted; what is reflected there comes from the
+//! surroundings alone.
+
+use std::sync::atomic::Ordering;
+
+use trigon_math::{Ray, Vec3};
+use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
+
+use super::met::{Met, Optics};
+use super::{RayScene, rows};
+use crate::effects::Scenery;
+use crate::render::lanes::{V3, moved, normalized, sum, turned};
+use crate::render::lighting::{Answer, LitPoints};
+
+/// The most often that a ray goes on.
+const MOST: u32 = 16;
+
+/// Eight rays of sight on their way.
+struct Walk {
+    origins: [Vec3; LANES],
+    directions: [Vec3; LANES],
+    /// What reaches the eye of their light.
+    weights: [Vec3; LANES],
+    light: [Vec3; LANES],
+    alive: [bool; LANES],
+}
+
+impl Scenery {
+    /// What is seen from eight points on surfaces in some directions; both in camera
+    /// space.
+    pub(crate) fn seen<S: Simd>(
+        &self,
+        simd: S,
+        points: &LitPoints<S>,
+        directions: V3<S>,
+        active: u64,
+    ) -> V3<S> {
+        let Some(rays) = &self.rays else { return [F32::splat(simd, 0.0); 3] };
+        let [x, y, z] = rows(turned(&rays.turn(), normalized(directions)));
+        let mut walk = Walk {
+            origins: rays.origins(simd, points),
+            directions: lanes_of(|lane| Vec3::new(x[lane], y[lane], z[lane])),
+            weights: [Vec3::ONE; LANES],
+            light: [Vec3::ZERO; LANES],
+            alive: lanes_of(|lane| active >> lane & 1 != 0),
+        };
+        for _ in 0..self.bounces.min(MOST) {
+            let met = lanes_of(|lane| walk.alive[lane].then(|| rays.met(&walk.ray(lane))).flatten());
+            let cast = walk.alive.iter().filter(|&&alive| alive).count();
+            rays.cast[2].fetch_add(cast as u64, Ordering::Relaxed);
+            let lit = self.lit(simd, rays, &met, &walk);
+            for lane in 0..LANES {
+                match &met[lane] {
+                    Some(met) => walk.go_on(lane, (self, rays), met, lit[lane]),
+                    None => walk.end(lane, self),
+                }
+            }
+        }
+        (0..LANES).for_each(|lane| walk.end(lane, self));
+        [0, 1, 2].map(|channel| F32::simd_from(simd, walk.light.map(|light| light[channel])))
+    }
+
+    /// What white matt surfaces show where rays met something.
+    fn lit<S: Simd>(
+        &self,
+        simd: S,
+        rays: &RayScene,
+        met: &[Option<Met>; LANES],
+        walk: &Walk,
+    ) -> [Vec3; LANES] {
+        if met.iter().all(|met| met.is_none_or(|met| met.optics == Some(Optics::Mirror))) {
+            return [Vec3::ZERO; LANES];
+        }
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let lanes = |of: &dyn Fn(&Met, Vec3) -> Vec3| -> V3<S> {
+                    let values: [Vec3; LANES] = lanes_of(|lane| {
+                        met[lane].as_ref().map_or(Vec3::ZERO, |met| of(met, walk.directions[lane]))
+                    });
+                    [0, 1, 2].map(|axis| F32::simd_from(simd, values.map(|value| value[axis])))
+                };
+                let seen_side = |met: &Met, along: Vec3| {
+                    if met.normal.dot(along) > 0.0 { -met.normal } else { met.normal }
+                };
+                let turn = rays.turn().transpose();
+                let normal = turned(&turn, lanes(&seen_side));
+                let points = LitPoints {
+                    position: moved(&rays.from_scene, lanes(&|met, _| met.position)),
+                    normal,
+                    facing: normal,
+                    view: turned(&turn, lanes(&|_, along| -along)),
+                };
+                let reflected = self.reflected(simd, &points, &Answer::Lambert);
+                let [r, g, b] = rows(sum(reflected.diffuse, self.around(simd, normal)));
+                lanes_of(|lane| Vec3::new(r[lane], g[lane], b[lane]))
+            },
+        )
+    }
+
+    /// What is seen where nothing is in the way, in a direction of the world.
+    fn far(&self, direction: Vec3) -> Vec3 {
+        match &self.surroundings {
+            Some(surroundings) => surroundings.environment.radiance(direction, 0.0) * surroundings.intensity,
+            None => self.lights.ambient,
+        }
+    }
+}
+
+impl Walk {
+    fn ray(&self, lane: usize) -> Ray {
+        Ray { origin: self.origins[lane], direction: self.directions[lane] }
+    }
+
+    /// A ray that meets nothing more.
+    fn end(&mut self, lane: usize, scenery: &Scenery) {
+        if std::mem::take(&mut self.alive[lane]) {
+            self.light[lane] += self.weights[lane] * scenery.far(self.directions[lane]);
+        }
+    }
+
+    /// A ray that met something, on which white matt surfaces show `lit`.
+    fn go_on(&mut self, lane: usize, (scenery, rays): (&Scenery, &RayScene), met: &Met, lit: Vec3) {
+        self.light[lane] += self.weights[lane] * met.emissive;
+        let along = self.directions[lane];
+        match met.optics {
+            None => {
+                self.light[lane] += self.weights[lane] * met.color * lit;
+                self.alive[lane] = false;
+            }
+            Some(Optics::Mirror) => {
+                let normal = if met.normal.dot(along) > 0.0 { -met.normal } else { met.normal };
+                let reflected = met.color + (Vec3::ONE - met.color) * fresnel(-normal.dot(along), 0.0);
+                self.weights[lane] *= reflected;
+                self.turn(lane, rays, (met.position, normal), mirrored(along, normal));
+            }
+            Some(Optics::Glass { transmission, ior }) => {
+                self.light[lane] += self.weights[lane] * met.color * lit * (1.0 - transmission);
+                self.weights[lane] *= transmission;
+                let enters = met.normal.dot(along) < 0.0;
+                let normal = if enters { met.normal } else { -met.normal };
+                let ratio = if enters { 1.0 / ior } else { ior };
+                let Some(through) = refracted(along, normal, ratio) else {
+                    return self.turn(lane, rays, (met.position, normal), mirrored(along, normal));
+                };
+                let head_on = (ior - 1.0) / (ior + 1.0);
+                let cosine = if enters { -normal.dot(along) } else { -normal.dot(through) };
+                let away = fresnel(cosine, head_on * head_on);
+                self.light[lane] += self.weights[lane] * scenery.far(mirrored(along, normal)) * away;
+                let tint = if enters { met.color } else { Vec3::ONE };
+                self.weights[lane] *= tint * (1.0 - away);
+                self.turn(lane, rays, (met.position, -normal), through);
+            }
+        }
+    }
+
+    /// Goes on in another direction, on the side of a surface to which a unit vector
+    /// points.
+    fn turn(&mut self, lane: usize, rays: &RayScene, (position, side): (Vec3, Vec3), direction: Vec3) {
+        self.origins[lane] = rays.off(position, side);
+        self.directions[lane] = direction;
+    }
+}
+
+/// Schlick's approximation of Fresnel's law.
+fn fresnel(cosine: f32, head_on: f32) -> f32 {
+    let away = 1.0 - cosine.clamp(0.0, 1.0);
+    head_on + (1.0 - head_on) * away * away * away * away * away
+}
+
+/// A unit vector that comes back from a surface.
+fn mirrored(along: Vec3, normal: Vec3) -> Vec3 {
+    along - normal * (2.0 * along.dot(normal))
+}
+
+/// A unit vector bent by a surface whose normal points against it (Snell's law);
+/// `None` where all of the light is reflected.
+pub(crate) fn refracted(along: Vec3, normal: Vec3, ratio: f32) -> Option<Vec3> {
+    let cosine = -along.dot(normal);
+    let square = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    (square >= 0.0).then(|| along * ratio + normal * (ratio * cosine - square.sqrt()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn light_is_bent_by_snells_law() {
+        let along = Vec3::new(0.6, -0.8, 0.0);
+        let bent = refracted(along, Vec3::Y, 1.0 / 1.5).expect("into glass");
+        assert!((bent.length() - 1.0).abs() < 1e-6, "of unit length: {bent}");
+        assert!((bent.x - 0.6 / 1.5).abs() < 1e-6, "sines are as the indices: {bent}");
+        let back = refracted(bent, Vec3::Y, 1.5).expect("out again");
+        assert!((back - along).length() < 1e-6, "and back: {back}");
+        assert_eq!(refracted(along, Vec3::Y, 1.7), None, "nothing leaves at such an angle");
+    }
+}
