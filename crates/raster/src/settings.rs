@@ -16,8 +16,9 @@ pub struct ExecuteSettings {
     pub tile_size: TileSize,
     /// Whether hidden blocks are told from bounds of their depths.
     pub depth_test: DepthTest,
-    /// Whether [`Stats::times`](crate::Stats::times) are measured: a few calls of a
-    /// clock for each tile.
+    /// Whether [`Stats::times`](crate::Stats::times) are measured, a few calls of a
+    /// clock for each tile, and [`Stats::samples_seen`](crate::Stats::samples_seen)
+    /// counted.
     pub timed: bool,
 }
 

@@ -44,6 +44,10 @@ pub struct Stats {
     /// accepted blocks; a triangle of a few pixels, which is tested pixel by pixel,
     /// counts as one.
     pub groups_tested: u64,
+    /// Samples that see a triangle when all opaque and masked ones have competed.
+    /// Zero unless [`ExecuteSettings::timed`](crate::ExecuteSettings::timed) asks
+    /// for it.
+    pub samples_seen: u64,
     /// Fragments that were shaded.
     pub pixels_shaded: u64,
     /// Fragments whose mask was asked.
@@ -68,6 +72,7 @@ impl AddAssign for Stats {
         self.blocks_rejected += other.blocks_rejected;
         self.blocks_accepted += other.blocks_accepted;
         self.groups_tested += other.groups_tested;
+        self.samples_seen += other.samples_seen;
         self.pixels_shaded += other.pixels_shaded;
         self.samples_masked += other.samples_masked;
         self.times += other.times;

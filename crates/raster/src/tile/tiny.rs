@@ -71,7 +71,7 @@ impl Cover<'_> {
     ) {
         buffer.settle();
         if self.hierarchical && self.hides_tiny(eight, lane, buffer) {
-            counts.blocks_rejected += 1;
+            counts.tiles_rejected += 1;
             return;
         }
         let tiny = eight.tiny(simd, lane, place);
