@@ -5,7 +5,7 @@ use serde_json::json;
 use trigon_io::Loaded;
 use trigon_math::{DAffine3, DMat4, DQuat, DVec3, Vec3};
 use trigon_mesh::{Deformed, RenderMesh};
-use trigon_scene::{NodeId, Property, Transform};
+use trigon_scene::{NodeId, Outputs, Property, RenderSettings, Transform, render};
 
 use crate::gltf::{Doc, push};
 use crate::{warnings, warns_once};
@@ -242,4 +242,36 @@ fn channels_that_make_no_sense_are_left_out() {
     }
     doc.json["animations"][0]["channels"][0]["sampler"] = json!(9);
     assert!(doc.refused().contains("sampler 9 does not exist"), "a reference to nothing");
+}
+
+/// Whether the front of a document's mesh is seen from +z, by its first camera.
+fn is_seen(doc: &Doc) -> bool {
+    let scene = doc.load().scene;
+    let camera = scene.cameras()[0].1;
+    let outputs = Outputs { ids: true, ..Outputs::default() };
+    let settings = RenderSettings { outputs, ..RenderSettings::new(9, 9) };
+    let frame = render(&scene, &camera, &settings).expect("a picture");
+    frame.hit(scene.nodes(), 4, 4).is_some()
+}
+
+#[test]
+fn mirrored_nodes_show_their_front_and_not_their_back() {
+    for (x, y, z) in [(1, 1, 1), (-1, 1, 1), (1, 1, -1), (1, -1, -1), (-1, -1, 1), (-1, -1, -1)] {
+        let mut doc = Doc::square();
+        let joints = doc.accessor(5121, "VEC4", 4, &[0; 16]);
+        let weights = doc.floats("VEC4", &[1., 0., 0., 0.].repeat(4));
+        doc.json["cameras"] = json!([{"type": "orthographic",
+            "orthographic": {"xmag": 2, "ymag": 2, "znear": 1, "zfar": 9}}]);
+        // Whichever way it is mirrored, the square covers the middle of the picture.
+        doc.json["nodes"] = json!([{"camera": 0, "translation": [0, 0, 5]},
+            {"scale": [x, y, z], "children": [2, 3]},
+            {"mesh": 0, "translation": [-0.5, -0.5, 0]}, {}]);
+        assert_eq!(is_seen(&doc), z > 0, "scaled by {x}, {y}, {z}");
+        doc.primitive()["attributes"]["JOINTS_0"] = json!(joints);
+        doc.primitive()["attributes"]["WEIGHTS_0"] = json!(weights);
+        doc.json["skins"] = json!([{"joints": [3]}]);
+        doc.json["nodes"][2] = json!({"mesh": 0, "skin": 0});
+        doc.json["nodes"][3] = json!({"translation": [-0.5, -0.5, 0]});
+        assert_eq!(is_seen(&doc), z > 0, "skinned and scaled by {x}, {y}, {z}");
+    }
 }
