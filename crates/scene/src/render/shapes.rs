@@ -76,10 +76,10 @@ fn shape(
         return Some(rest);
     }
     let pose = pose.unwrap_or_else(|| SkinPose { world, palette: Vec::new() });
-    if let (Onlookers::Camera(eye), false) = (onlookers, morphs) {
-        if !eye.may_see(&reach(&asset.bounds(), &pose), &pose.world) {
-            return None;
-        }
+    if let (Onlookers::Camera(eye), false) = (onlookers, morphs)
+        && !eye.may_see(&reach(&asset.bounds(), &pose), &pose.world)
+    {
+        return None;
     }
     let geometry = asset.geometry().posed(&node.morph_weights, &pose.palette);
     let posed =

@@ -101,11 +101,11 @@ impl MetSurfaces {
         let normal = (*normal_to_scene * Vec3::new(mixed(x), mixed(y), mixed(z))).normalize_or_zero();
         let (_, look) = &looks[looks.partition_point(|(triangles, _)| triangles.end <= triangle)];
         let mut color = look.color;
-        if let Some((texture, binding)) = &look.texture {
-            if let Some([u, v]) = geometry.columns.uv_sets.get(binding.uv_set) {
-                let uv = binding.transform.transform_point2(Vec2::new(mixed(u), mixed(v)));
-                color *= texture.sample(uv, Vec2::ZERO, Vec2::ZERO, &binding.sampler).truncate();
-            }
+        if let Some((texture, binding)) = &look.texture
+            && let Some([u, v]) = geometry.columns.uv_sets.get(binding.uv_set)
+        {
+            let uv = binding.transform.transform_point2(Vec2::new(mixed(u), mixed(v)));
+            color *= texture.sample(uv, Vec2::ZERO, Vec2::ZERO, &binding.sampler).truncate();
         }
         if let Some([r, g, b, _]) = &geometry.columns.colors {
             color *= Vec3::new(mixed(r), mixed(g), mixed(b));

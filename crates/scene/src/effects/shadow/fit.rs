@@ -22,7 +22,7 @@ pub(super) struct View {
 
 impl View {
     /// From the world to clip space.
-    pub(super) fn from_world(&self) -> DMat4 {
+    pub(super) fn world_to_clip(&self) -> DMat4 {
         self.camera.view_projection(self.aspect)
     }
 }

@@ -66,7 +66,7 @@ impl PlacedMap {
             DVec4::Z,
             DVec4::new(half, half, 0.0, 1.0),
         );
-        let from_camera = map.view.from_world() * DMat4::from(*camera_to_world);
+        let from_camera = map.view.world_to_clip() * DMat4::from(*camera_to_world);
         let texel = map.view.width_at_one / f64::from(map.resolution);
         Self { to_texels: (to_texels * from_camera).as_mat4(), texel: texel as f32, map }
     }

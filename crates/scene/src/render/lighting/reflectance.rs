@@ -24,13 +24,10 @@ type Table = [[f32; SIDE * SIDE]; 2];
 fn table() -> &'static Table {
     static TABLE: OnceLock<Table> = OnceLock::new();
     TABLE.get_or_init(|| {
-        let mut table = [[0.0; SIDE * SIDE]; 2];
-        for entry in 0..SIDE * SIDE {
-            let share = |step: usize| step as f32 / (SIDE - 1) as f32;
-            let [head_on, grazing] = integral(share(entry / SIDE), share(entry % SIDE));
-            (table[0][entry], table[1][entry]) = (head_on, grazing);
-        }
-        table
+        let share = |step: usize| step as f32 / (SIDE - 1) as f32;
+        let entries: Vec<[f32; 2]> =
+            (0..SIDE * SIDE).map(|entry| integral(share(entry / SIDE), share(entry % SIDE))).collect();
+        [0, 1].map(|factor| std::array::from_fn(|entry| entries[entry][factor]))
     })
 }
 

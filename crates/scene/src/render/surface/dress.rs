@@ -4,9 +4,10 @@
 
 use trigon_math::Vec3;
 
+use super::reflection::head_on;
 use super::{Coverage, Illumination, Layout, LightSlots, Look, Map, MicrofacetModel, Model, Rays};
-use crate::effects::{Counts, Effect, Optics, Scenery};
-use crate::material::{AlphaMode, Material, MetallicRoughness, Shading, TextureBinding};
+use crate::effects::{Optics, Scenery};
+use crate::material::{AlphaMode, Material, Shading, TextureBinding};
 use crate::render::columns::Columns;
 use crate::scene::Scene;
 use crate::settings::{Reflection, ShadingModel};
@@ -55,47 +56,6 @@ impl<'a> Dressed<'a> {
         };
         fitting.add_values(&look, illumination, material.double_sided);
         Self { look, layout: fitting.layout, illumination }
-    }
-
-    /// Adds what each vertex hands on and what each pixel looks up.
-    pub(crate) fn count(&self, scenery: &Scenery, masked: bool, counts: &mut Counts) {
-        let Self { look, layout, .. } = self;
-        let some = |there: bool, count: u64| if there { count } else { 0 };
-        let light = if !scenery.lights.lamps.is_empty() {
-            Effect::Lamps
-        } else if scenery.surroundings.is_some() {
-            Effect::Environment
-        } else {
-            Effect::AmbientLight
-        };
-        let (maps, specular) = match &look.model {
-            Model::Lambert => (0, false),
-            Model::BlinnPhong { map, .. } => (some(map.is_some(), 1), true),
-            Model::Microfacets(model) => {
-                let maps = [&model.map, &model.specular_map, &model.specular_color_map];
-                (maps.iter().filter(|map| map.is_some()).count() as u64, true)
-            }
-        };
-        let position = match () {
-            () if scenery.mist.is_some() => Effect::Fog,
-            () if specular && self.illumination != Illumination::None => Effect::Highlights,
-            () if scenery.shadow_maps.is_some() => Effect::ShadowMaps,
-            () if scenery.shadow_rays => Effect::ShadowRays,
-            () if scenery.ambient_rays.is_some() => Effect::AmbientOcclusion,
-            () => light,
-        };
-        let of_light = layout.light.map_or(0, |slots| slots.len() as u64) + some(layout.normal.is_some(), 3);
-        counts.of(light).attributes += of_light;
-        counts.of(position).attributes += some(layout.position.is_some(), 3);
-        counts.of(Effect::NormalMaps).attributes += some(layout.tangent.is_some(), 4);
-        counts.of(Effect::VertexColors).attributes += some(layout.color.is_some(), 4);
-        counts.of(Effect::Textures).attributes += 2 * layout.coordinates.len() as u64;
-        counts.of(Effect::Textures).look_ups += maps + some(look.base_map.is_some(), 1);
-        counts.of(Effect::Masks).look_ups += some(masked && look.base_map.is_some(), 1);
-        counts.of(Effect::Emission).look_ups += some(look.emissive_map.is_some(), 1);
-        counts.of(Effect::NormalMaps).look_ups += some(look.normal_map.is_some(), 1);
-        counts.of(Effect::OcclusionMaps).look_ups += some(look.occlusion_map.is_some(), 1);
-        counts.of(Effect::Transparency).passes += some(look.coverage == Coverage::Translucent, 1);
     }
 
     /// Whether a triangle has one colour all over.
@@ -202,12 +162,6 @@ fn illumination(shading: &Shading, model: ShadingModel) -> Illumination {
     }
 }
 
-/// What a dielectric reflects head-on: ((n − 1) / (n + 1))².
-fn head_on(ior: f32) -> f32 {
-    let root = (ior - 1.0) / (ior + 1.0);
-    root * root
-}
-
 fn cutoff(mode: AlphaMode) -> f32 {
     match mode {
         AlphaMode::Mask { cutoff } => cutoff,
@@ -219,51 +173,5 @@ fn coverage(mode: AlphaMode) -> Coverage {
     match mode {
         AlphaMode::Opaque | AlphaMode::Mask { .. } => Coverage::Opaque,
         AlphaMode::Blend => Coverage::Translucent,
-    }
-}
-
-impl Reflection {
-    /// What a material's answer to light becomes.
-    pub(crate) fn of(self, material: &Material) -> Shading {
-        let shading = material.shading;
-        match self {
-            _ if shading == Shading::Unlit => shading,
-            Self::Material => shading,
-            Self::Lambert => Shading::Lambert,
-            Self::BlinnPhong => blinn_phong(material),
-            Self::MetallicRoughness => Shading::MetallicRoughness(metallic_roughness(&shading)),
-        }
-    }
-}
-
-/// The exponent of Blinn's highlight that is as wide as GGX's with this
-/// roughness: 2 / α² − 2 (B. Walter et al. 2007, section 5.2, for Beckmann's,
-/// which is near to it).
-fn blinn_phong(material: &Material) -> Shading {
-    /// Beyond, highlights are smaller than pixels.
-    const SHARPEST: f32 = 2000.0;
-    match material.shading {
-        Shading::MetallicRoughness(model) => {
-            let square = model.roughness * model.roughness * model.roughness * model.roughness;
-            let exponent = 2.0 / square - 2.0;
-            let shininess = if exponent < SHARPEST { exponent } else { SHARPEST };
-            let dielectric = head_on(material.ior) * model.specular_color * model.specular;
-            let reflected = dielectric.lerp(material.base_color.truncate(), model.metallic);
-            // As bright as one that sends out as much light as it reflects.
-            Shading::blinn_phong(reflected * ((shininess + 8.0) / 8.0), shininess)
-        }
-        Shading::BlinnPhong { .. } => material.shading,
-        Shading::Unlit | Shading::Lambert => Material::default().shading,
-    }
-}
-
-fn metallic_roughness(shading: &Shading) -> MetallicRoughness {
-    match shading {
-        Shading::MetallicRoughness(model) => *model,
-        Shading::BlinnPhong { shininess, .. } => {
-            let square = (2.0 / (shininess + 2.0)).sqrt();
-            MetallicRoughness { roughness: square.sqrt(), ..MetallicRoughness::default() }
-        }
-        Shading::Unlit | Shading::Lambert => MetallicRoughness::default(),
     }
 }

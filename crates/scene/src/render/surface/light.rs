@@ -3,12 +3,9 @@
 use trigon_raster::simd::{F32, Simd, inlined, prelude::*};
 use trigon_raster::{FragmentLanes, VertexLanes};
 
-use super::{LightSlots, Map, Rays, Side, Surface, Values, load, shown, three};
-use crate::effects::Optics;
-use crate::render::lanes::{
-    V3, cross, difference, dot, moved, negated, normalized, product, scaled, select, splat, sum, turned,
-};
-use crate::render::lighting::{Answer, LitPoints, Microfacets, Reflected};
+use super::{LightSlots, Surface, Values, load, shown};
+use crate::render::lanes::{V3, dot, moved, negated, normalized, product, scaled, splat, sum, turned};
+use crate::render::lighting::{Answer, LitPoints, Reflected};
 
 /// Where light is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -149,47 +146,10 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         }
     }
 
-    /// What mirrors and glass show.
-    fn traced<S: Simd>(
-        &self,
-        simd: S,
-        points: &LitPoints<S>,
-        (facets, optics, open): (&Microfacets<S>, &Optics, Option<F32<S>>),
-        (albedo, share): (V3<S>, F32<S>),
-        active: u64,
-    ) -> V3<S> {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let LitPoints { normal, view, facing, .. } = *points;
-                let cosine = dot(normal, view);
-                let back = difference(scaled(normal, cosine * 2.0), view);
-                let mirrored = self.scenery.seen(simd, points, back, active);
-                let answer = Answer::Microfacets(*facets);
-                let reflected = self.reflected(simd, points, &answer, (open, Some(mirrored)));
-                let Optics::Glass { transmission, ior } = *optics else {
-                    return shown(&reflected, scaled(albedo, share));
-                };
-                let matt = shown(&reflected, scaled(albedo, share * (1.0 - transmission)));
-                // Snell's law, into what is denser: no light is reflected as a whole.
-                let ratio = 1.0 / ior;
-                let bent = (1.0 - (1.0 - cosine * cosine) * (ratio * ratio)).sqrt();
-                let into =
-                    difference(scaled(normal, cosine * ratio - bent), scaled(view, F32::splat(simd, ratio)));
-                let inside = LitPoints { facing: negated(facing), ..*points };
-                let through = self.scenery.seen(simd, &inside, into, active);
-                let [r, g, b] = facets.fresnel(cosine);
-                let left = [1.0 - r, 1.0 - g, 1.0 - b];
-                let passed = product(product(through, left), scaled(albedo, share * transmission));
-                sum(matt, passed)
-            },
-        )
-    }
-
     /// All light that the surface sends to the eye. `open` is the share of the
     /// ambient light that arrives.
     #[inline(always)]
-    fn reflected<S: Simd>(
+    pub(super) fn reflected<S: Simd>(
         &self,
         simd: S,
         points: &LitPoints<S>,
@@ -219,74 +179,4 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         }
         reflected
     }
-
-    /// Where the pixels lie and how the surface is turned there.
-    #[inline(always)]
-    fn points<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> LitPoints<S> {
-        let zero = [F32::splat(simd, 0.0); 3];
-        let position = self.layout.position.map_or(
-            zero,
-            #[inline(always)]
-            |at| three(fragments, at),
-        );
-        let normal = self.layout.normal.map_or(
-            zero,
-            #[inline(always)]
-            |at| three(fragments, at),
-        );
-        let facing = normalized(normal);
-        let normal = match (&self.look.normal_map, self.layout.tangent) {
-            (Some((map, scale)), Some(at)) => bent(simd, fragments, (map, *scale), (normal, at)),
-            _ => facing,
-        };
-        let front = self.shows_front(fragments);
-        LitPoints {
-            position,
-            normal: select(front, normal, negated(normal)),
-            facing: select(front, facing, negated(facing)),
-            view: self.view(simd, position),
-        }
-    }
-
-    /// Unit vectors towards the eye.
-    #[inline(always)]
-    pub(super) fn view<S: Simd>(&self, simd: S, position: V3<S>) -> V3<S> {
-        match self.rays {
-            Rays::Meeting => normalized(negated(position)),
-            Rays::Parallel => splat(simd, trigon_math::Vec3::Z),
-        }
-    }
-
-    /// Which pixels see the side from which the face winds counter-clockwise.
-    #[inline(always)]
-    pub(super) fn shows_front<S: Simd>(
-        &self,
-        fragments: &FragmentLanes<'_, S>,
-    ) -> trigon_raster::simd::Mask<S> {
-        match self.place.front {
-            Side::Front => fragments.front_facing(),
-            Side::Back => !fragments.front_facing(),
-        }
-    }
-}
-
-/// Normals bent by a map, in the frame of tangent, bitangent and normal: as
-/// MikkTSpace has it, none of them is made a unit vector first.
-fn bent<S: Simd>(
-    simd: S,
-    fragments: &FragmentLanes<'_, S>,
-    (map, scale): (&Map<'_>, f32),
-    (normal, at): (V3<S>, usize),
-) -> V3<S> {
-    simd.vectorize(
-        #[inline(always)]
-        || {
-            let [x, y, z, _] = map.look_up(simd, fragments);
-            let tangent = three(fragments, at);
-            let bitangent = scaled(cross(normal, tangent), fragments.varying(at + 3));
-            let across =
-                sum(scaled(tangent, (x * 2.0 - 1.0) * scale), scaled(bitangent, (y * 2.0 - 1.0) * scale));
-            normalized(sum(across, scaled(normal, z * 2.0 - 1.0)))
-        },
-    )
 }

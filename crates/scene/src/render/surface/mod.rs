@@ -10,6 +10,10 @@ mod facet;
 mod layout;
 mod light;
 mod look;
+mod points;
+mod reflection;
+mod tally;
+mod traced;
 mod values;
 
 pub(crate) use dress::{Dressed, Occasion};

@@ -1,0 +1,74 @@
+//! Pictures of single effects against what geometry says.
+
+mod ambient;
+mod outline;
+mod planning;
+mod poses;
+mod shading;
+mod shadows;
+mod sight;
+
+use std::sync::Arc;
+
+use trigon_camera::{Camera, Projection};
+use trigon_math::{DQuat, DVec3, Vec3, Vec4, color, elementary};
+use trigon_mesh::{Attributes, primitives};
+use trigon_raster::{Texture, TextureFormat};
+
+use super::*;
+use crate::{
+    AlphaMode, Background, Frame, Light, LightKind, Lighting, Material, MetallicRoughness, Node, NormalMap,
+    Occlusion, RenderSettings, Renderer, Scene, Shading, ShadingModel, Style, TextureBinding, Transform,
+    render,
+};
+
+const SIDE: u32 = 128;
+
+/// Metres from the left edge of the picture to the right one.
+const WIDE: f64 = 4.0;
+
+fn settings(effects: EffectSettings) -> RenderSettings {
+    RenderSettings {
+        samples_per_axis: 1,
+        background: Background::Color(Vec3::ZERO),
+        lighting: Lighting::Scene,
+        effects,
+        ..RenderSettings::new(SIDE, SIDE)
+    }
+}
+
+/// Straight down, parallel; x to the right, z downwards.
+fn from_above() -> Camera {
+    let projection = Projection::orthographic(WIDE, 0.1, 20.0).expect("the numbers are in range");
+    Camera { projection, ..Camera::look_at(DVec3::Y * 10.0, DVec3::ZERO, DVec3::NEG_Z) }
+}
+
+/// Straight at the scene from +Z, parallel.
+fn from_front() -> Camera {
+    let projection = Projection::orthographic(WIDE, 0.1, 20.0).expect("the numbers are in range");
+    Camera { projection, ..Camera::look_at(DVec3::Z * 10.0, DVec3::ZERO, DVec3::Y) }
+}
+
+fn matt(color: Vec3) -> Material {
+    Material { base_color: color.extend(1.0), shading: Shading::Lambert, ..Material::default() }
+}
+
+/// A light that shines along a direction.
+fn shining(light: Light, from: DVec3, along: DVec3) -> Node {
+    let turned = Camera::look_at(from, from + along, DVec3::Z).orientation;
+    Node::from_light(light).with_transform(Transform::from_scale_rotation_translation(
+        DVec3::ONE,
+        turned,
+        from,
+    ))
+}
+
+/// The light of a pixel's green, which is that of all channels here.
+fn light(frame: &Frame, x: u32, y: u32) -> f32 {
+    color::srgb8_to_linear(frame.pixel(x, y)[1])
+}
+
+fn metal(metallic: f32) -> Material {
+    let model = MetallicRoughness { metallic, roughness: 0.0, ..MetallicRoughness::default() };
+    Material { base_color: Vec4::ONE, shading: Shading::MetallicRoughness(model), ..Material::default() }
+}

@@ -1,0 +1,117 @@
+//! Shadows lie where geometry puts them, and nowhere else.
+
+use super::*;
+
+/// A floor, and a square of one metre one metre above it.
+fn square_over_floor(lamp: Node) -> Scene {
+    let mut scene = Scene::new();
+    scene.add_object("floor", primitives::plane(8.0, 8.0), matt(Vec3::ONE));
+    let square = scene.add_object("square", primitives::plane(1.0, 1.0), matt(Vec3::new(1.0, 0.0, 0.0)));
+    scene.node_mut(square).expect("just added").transform = Transform::from_translation(DVec3::Y);
+    scene.add(lamp);
+    scene
+}
+
+const WAYS: [Shadows; 2] = [Shadows::Maps { resolution: 512 }, Shadows::Rays];
+
+/// Where the shadow on the middle row begins and ends, in metres; the square itself
+/// shows no green.
+fn dark_span(frame: &Frame, beyond: f64) -> [f64; 2] {
+    let metres = |x: u32| (f64::from(x) + 0.5) / f64::from(SIDE) * WIDE - WIDE / 2.0;
+    let dark = |&x: &u32| light(frame, x, SIDE / 2) < 0.3;
+    let first = (0..SIDE).filter(|&x| metres(x) > beyond).find(dark).expect("there is a shadow");
+    let last = (first..SIDE).take_while(dark).last();
+    [first, last.expect("there is a shadow")].map(metres)
+}
+
+#[test]
+fn a_shadow_lies_where_parallel_light_puts_it() {
+    let sun = shining(Light::directional(1.0), DVec3::ZERO, DVec3::new(1.0, -1.0, 0.0));
+    let scene = square_over_floor(sun);
+    for shadows in WAYS {
+        let frame =
+            render(&scene, &from_above(), &settings(EffectSettings { shadows, ..Default::default() }));
+        let [first, last] = dark_span(&frame.expect("drawn"), 0.5);
+        // From 0.5 (where the square ends, as seen from above) to 1.5, within a pixel
+        // of the picture (31 mm) and 1.7 texels of the map (16 mm each).
+        assert!((first - 0.5).abs() < 0.06 && (last - 1.5).abs() < 0.06, "{shadows:?}: {first} to {last}");
+    }
+}
+
+#[test]
+fn a_shadow_grows_with_the_distance_from_a_point() {
+    let spot = Light { kind: LightKind::Spot { inner: 0.7, outer: 0.75 }, ..Light::spot(9.0) };
+    for light in [Light::point(9.0), spot] {
+        let scene = square_over_floor(shining(light, DVec3::Y * 3.0, DVec3::NEG_Y));
+        for shadows in WAYS {
+            let frame =
+                render(&scene, &from_above(), &settings(EffectSettings { shadows, ..Default::default() }));
+            let [first, last] = dark_span(&frame.expect("drawn"), 0.5);
+            // Half a metre two metres away is three quarters three metres away.
+            let right = (first - 0.5).abs() < 0.06 && (last - 0.75).abs() < 0.06;
+            assert!(right, "{:?} {shadows:?}: {first} to {last}", light.kind);
+        }
+    }
+}
+
+/// "Acne": a surface that shadows itself.
+#[test]
+fn what_nothing_hides_is_as_bright_as_without_shadows() {
+    for tilt in [0.0, 0.5, 1.0, 1.3, 1.5] {
+        let mut scene = Scene::new();
+        scene.add_object("floor", primitives::plane(3.0, 3.0), matt(Vec3::ONE));
+        let ball = scene.add_object("ball", primitives::uv_sphere(0.5, 96, 48), matt(Vec3::ONE));
+        scene.node_mut(ball).expect("just added").transform = Transform::from_translation(DVec3::Y * 0.5);
+        let along = DVec3::new(elementary::sin(tilt), -elementary::cos(tilt), 0.2);
+        scene.add(shining(Light::directional(1.0), DVec3::ZERO, along));
+        let draw = |shadows| {
+            let settings = settings(EffectSettings { shadows, ..Default::default() });
+            render(&scene, &from_above(), &settings).expect("drawn")
+        };
+        let [off, exact] = [draw(Shadows::Off), draw(Shadows::Rays)];
+        let mapped = draw(Shadows::Maps { resolution: 1024 });
+        let (mut lit, mut wrong) = (0, 0);
+        for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
+            // Near the edge of a shadow a texel's width is allowed.
+            let near = (-2..=2).flat_map(|dy| (-2..=2).map(move |dx| (dx, dy)));
+            let open = near.into_iter().all(|(dx, dy)| {
+                let (x, y) =
+                    (x.saturating_add_signed(dx).min(SIDE - 1), y.saturating_add_signed(dy).min(SIDE - 1));
+                exact.pixel(x, y) == off.pixel(x, y)
+            });
+            if open && light(&off, x, y) > 0.05 {
+                lit += 1;
+                wrong += usize::from(mapped.pixel(x, y) != off.pixel(x, y));
+            }
+        }
+        assert!(lit > 1000, "something is lit at {tilt}: {lit}");
+        assert_eq!(wrong, 0, "of {lit} pixels that nothing hides, at {tilt}");
+    }
+}
+
+#[test]
+fn a_warm_cache_gives_the_bytes_of_a_cold_one() {
+    let mut scene = square_over_floor(shining(Light::point(6.0), DVec3::new(0.3, 3.0, 0.2), DVec3::NEG_Y));
+    let settings =
+        settings(EffectSettings { shadows: Shadows::Maps { resolution: 256 }, ..Default::default() });
+    let mut warm = Renderer::new();
+    let mut check = |scene: &Scene, camera: &Camera, what: &str, drawn: u64| {
+        let kept = warm.render(scene, camera, &settings).expect("drawn");
+        assert_eq!(kept, render(scene, camera, &settings).expect("drawn"), "{what}");
+        assert_eq!(warm.effect_counts(Effect::ShadowMaps).passes, drawn, "maps drawn: {what}");
+    };
+    check(&scene, &from_above(), "cold", 6);
+    check(&scene, &from_above(), "the same again", 0);
+    check(&scene, &from_front(), "seen from elsewhere", 0);
+    let square = scene.nodes().iter().find(|(_, node)| node.name == "square").map(|(id, _)| id);
+    let node = scene.node_mut(square.expect("it is there")).expect("it is there");
+    node.transform.set_translation(DVec3::new(0.2, 1.2, 0.0));
+    check(&scene, &from_above(), "a caster moved", 6);
+    let lamp = scene.nodes().iter().find(|(_, node)| node.light.is_some()).map(|(id, _)| id);
+    scene
+        .node_mut(lamp.expect("it is there"))
+        .expect("it is there")
+        .transform
+        .set_translation(DVec3::Y * 4.0);
+    check(&scene, &from_above(), "the lamp moved", 6);
+}

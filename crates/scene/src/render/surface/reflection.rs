@@ -1,0 +1,56 @@
+//! Laws of reflection: the material's own, or another one for comparison.
+
+use crate::material::{Material, MetallicRoughness, Shading};
+use crate::settings::Reflection;
+
+/// What a dielectric reflects head-on: ((n − 1) / (n + 1))².
+pub(super) fn head_on(ior: f32) -> f32 {
+    let root = (ior - 1.0) / (ior + 1.0);
+    root * root
+}
+
+impl Reflection {
+    /// What a material's answer to light becomes.
+    pub(crate) fn of(self, material: &Material) -> Shading {
+        let shading = material.shading;
+        match self {
+            _ if shading == Shading::Unlit => shading,
+            Self::Material => shading,
+            Self::Lambert => Shading::Lambert,
+            Self::BlinnPhong => blinn_phong(material),
+            Self::MetallicRoughness => Shading::MetallicRoughness(metallic_roughness(&shading)),
+        }
+    }
+}
+
+/// The exponent of Blinn's highlight that is as wide as GGX's with this
+/// roughness: 2 / α² − 2 (B. Walter et al. 2007, section 5.2, for Beckmann's,
+/// which is near to it).
+fn blinn_phong(material: &Material) -> Shading {
+    /// Beyond, highlights are smaller than pixels.
+    const SHARPEST: f32 = 2000.0;
+    match material.shading {
+        Shading::MetallicRoughness(model) => {
+            let square = model.roughness * model.roughness * model.roughness * model.roughness;
+            let exponent = 2.0 / square - 2.0;
+            let shininess = if exponent < SHARPEST { exponent } else { SHARPEST };
+            let dielectric = head_on(material.ior) * model.specular_color * model.specular;
+            let reflected = dielectric.lerp(material.base_color.truncate(), model.metallic);
+            // As bright as one that sends out as much light as it reflects.
+            Shading::blinn_phong(reflected * ((shininess + 8.0) / 8.0), shininess)
+        }
+        Shading::BlinnPhong { .. } => material.shading,
+        Shading::Unlit | Shading::Lambert => Material::default().shading,
+    }
+}
+
+fn metallic_roughness(shading: &Shading) -> MetallicRoughness {
+    match shading {
+        Shading::MetallicRoughness(model) => *model,
+        Shading::BlinnPhong { shininess, .. } => {
+            let square = (2.0 / (shininess + 2.0)).sqrt();
+            MetallicRoughness { roughness: square.sqrt(), ..MetallicRoughness::default() }
+        }
+        Shading::Unlit | Shading::Lambert => MetallicRoughness::default(),
+    }
+}
