@@ -96,6 +96,7 @@ fn without(effect: Effect, scene: &Scene, settings: &RenderSettings) -> Option<(
         Effect::Environment => effects.environment = None,
         Effect::ShadowMaps | Effect::ShadowRays => effects.shadows = Shadows::Off,
         Effect::AmbientOcclusion => effects.ambient_occlusion = None,
+        Effect::Reflection | Effect::Refraction => effects.bounces = 0,
         Effect::Fog => effects.fog = None,
         Effect::ToneMapping => (effects.exposure, effects.tone_mapping) = (0.0, ToneMapping::None),
         Effect::Outline => effects.outline = None,

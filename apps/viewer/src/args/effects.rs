@@ -47,6 +47,10 @@ pub(crate) struct EffectArgs {
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) sky: Option<bool>,
 
+    /// Follow rays of sight so many times at mirrors (metals without roughness) and through glass (not in F3D)
+    #[arg(long, value_name = "N", default_value = "0", value_parser = clap::value_parser!(u32).range(0..=16), allow_negative_numbers = true, help_heading = "Effects")]
+    pub(crate) bounces: u32,
+
     /// Mist that leaves exp(-DENSITY × distance) of what is seen; per metre (not in F3D)
     #[arg(long, value_name = "DENSITY", value_parser = values::intensity, allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) fog: Option<f32>,
@@ -128,6 +132,7 @@ impl EffectArgs {
                 distance: self.ambient_occlusion_distance,
             }),
             environment: on(self.sky).then(|| Arc::new(Environment::from_sky(&Sky::default()))),
+            bounces: self.bounces,
             fog: self.fog.map(|density| Fog { color: self.fog_color, density }),
             exposure: self.exposure,
             tone_mapping: if on(self.tone_mapping) {

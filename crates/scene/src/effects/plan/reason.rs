@@ -93,7 +93,12 @@ impl fmt::Display for Cause {
             Self::Objects(Named { count: 1, first }) => write!(f, "`{first}` has it"),
             Self::Objects(Named { count, first }) => write!(f, "{count} objects have it, such as `{first}`"),
             Self::Shadows { lamps, casters } => {
-                write!(f, "the settings ask for it, and {lamps} lamps shine on {casters} objects")
+                let plural = |count: usize| if count == 1 { "" } else { "s" };
+                let (lights, objects) = (plural(*lamps), plural(*casters));
+                write!(
+                    f,
+                    "the settings ask for it, with {lamps} light{lights} and {casters} object{objects} in the way"
+                )
             }
         }
     }
