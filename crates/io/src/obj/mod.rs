@@ -2,9 +2,10 @@
 //!
 //! `lines` → `feed` (checks, `index`, `numbers`, `corner`, `oddities`, `record`) → tobj (`parse`) →
 //! `build` (polygons, one node for each object or group). Materials come from
-//! `mtl`, by way of `library`, their pictures by way of `textures`.
+//! `mtl` and `convert`, by way of `library`, their pictures by way of `textures`.
 
 mod build;
+mod convert;
 mod corner;
 mod feed;
 mod index;

@@ -1,15 +1,13 @@
 //! Material libraries: MTL text to materials of the scene.
 //!
 //! tobj reads the values; the text is cleaned for it first, because it gives
-//! up at a malformed statement, and panics at a short colour. Colours are taken
-//! as sRGB, as they look in the programs that write them.
+//! up at a malformed statement, and panics at a short colour.
 
 use std::path::{Path, PathBuf};
 
-use trigon_math::color::srgb_to_linear;
-use trigon_math::{Vec3, Vec4};
-use trigon_scene::{AlphaMode, Material, MetallicRoughness, Shading};
+use trigon_scene::Material;
 
+use super::convert::convert;
 use super::lines::{Lines, decode_name, plain_bytes, split_keyword, words};
 use super::map_options::{MapStatement, parse_map};
 use crate::error::Place;
@@ -65,16 +63,16 @@ pub(crate) struct MtlMaterial {
 
 /// What tobj is not told about a material.
 #[derive(Clone, Debug, Default)]
-struct Aside {
-    maps: Vec<Map>,
-    transparency: Option<(u64, f32)>,
-    roughness: Option<f32>,
-    metallic: Option<f32>,
-    refraction: Option<f32>,
+pub(super) struct Aside {
+    pub(super) maps: Vec<Map>,
+    pub(super) transparency: Option<(u64, f32)>,
+    pub(super) roughness: Option<f32>,
+    pub(super) metallic: Option<f32>,
+    pub(super) refraction: Option<f32>,
 }
 
 impl Aside {
-    fn has(&self, kind: MapKind) -> bool {
+    pub(super) fn has(&self, kind: MapKind) -> bool {
         self.maps.iter().any(|map| map.kind == kind)
     }
 }
@@ -234,104 +232,12 @@ fn number(word: &[u8]) -> Option<f32> {
     std::str::from_utf8(word).ok()?.parse().ok().filter(|value: &f32| value.is_finite())
 }
 
-fn convert(file: &Path, from: tobj::Material, aside: Aside, warnings: &mut Warnings) -> MtlMaterial {
-    let textured = aside.has(MapKind::BaseColor);
-    let diffuse = from.diffuse.map(to_linear);
-    // Many exporters write black beside a texture that they do not mean to darken.
-    let base = match diffuse {
-        Some(color) if !textured || color != Vec3::ZERO => color,
-        _ if textured => Vec3::ONE,
-        _ => Material::default().base_color.truncate(),
-    };
-    let alpha = from
-        .dissolve
-        .map_or_else(|| alpha_from(file, &aside, warnings), |alpha| alpha.clamp(0.0, 1.0) as f32);
-    let specular = white_beside_map(from.specular, aside.has(MapKind::Specular));
-    let material = Material {
-        name: from.name,
-        base_color: Vec4::from((base, alpha)),
-        shading: metallic_roughness(&aside)
-            .unwrap_or_else(|| shading(from.illumination_model, specular.map(to_linear), from.shininess)),
-        emissive: white_beside_map(from.emissive, aside.has(MapKind::Emissive)).map_or(Vec3::ZERO, to_linear),
-        alpha_mode: match alpha < 1.0 {
-            true => AlphaMode::Blend,
-            // What map_d is used for: leaves and fences.
-            false if aside.has(MapKind::Opacity) => AlphaMode::Mask { cutoff: 0.5 },
-            false => AlphaMode::Opaque,
-        },
-        // Below 1 there is no such matter; many exporters write 0 or 1 for "no matter".
-        ior: aside.refraction.filter(|&ior| ior > 1.0).unwrap_or(Material::default().ior),
-        // OBJ does not say which side counts, and many a file has it mixed up.
-        double_sided: true,
-        ..Material::default()
-    };
-    MtlMaterial { material, maps: aside.maps, file: file.to_owned() }
-}
-
-/// A colour beside its texture: exporters leave it out, or write black, where
-/// the texture is to be seen as it is.
-fn white_beside_map(color: Option<[f64; 3]>, has_map: bool) -> Option<[f64; 3]> {
-    if has_map && color.is_none_or(|color| color == [0.0; 3]) { Some([1.0; 3]) } else { color }
-}
-
-/// The model of "physically-based" MTL, where a material has any of its fields
-/// (`Pr`, `Pm`, `map_Pr`, `map_Pm`; after the extension by Exocortex).
-fn metallic_roughness(aside: &Aside) -> Option<Shading> {
-    let maps = [MapKind::Roughness, MapKind::Metallic].map(|kind| aside.has(kind));
-    if aside.roughness.is_none() && aside.metallic.is_none() && maps == [false, false] {
-        return None;
-    }
-    let default = MetallicRoughness::default();
-    // Without a number of its own, a texture is to be seen as it is.
-    let factor = |value: Option<f32>, has_map: bool, otherwise: f32| match value {
-        Some(value) if value != 0.0 || !has_map => value.clamp(0.0, 1.0),
-        _ if has_map => 1.0,
-        _ => otherwise,
-    };
-    Some(Shading::MetallicRoughness(MetallicRoughness {
-        roughness: factor(aside.roughness, maps[0], default.roughness),
-        metallic: factor(aside.metallic, maps[1], default.metallic),
-        ..default
-    }))
-}
-
-/// `Tr` is 1 − d. Some exporters write 1 for opaque: nobody means a material
-/// that cannot be seen.
-fn alpha_from(file: &Path, aside: &Aside, warnings: &mut Warnings) -> f32 {
-    match aside.transparency {
-        Some((line, value)) if value >= 1.0 => {
-            warnings.push_about(
-                file,
-                Place::Line(line),
-                "Tr 1 would be invisible and is taken as opaque",
-                "write d instead of Tr",
-            );
-            1.0
-        }
-        Some((_, value)) => 1.0 - value.max(0.0),
-        None => 1.0,
-    }
-}
-
-/// Illumination models 0 and 1 have no highlight.
-fn shading(model: Option<u8>, specular: Option<Vec3>, shininess: Option<f64>) -> Shading {
-    // The format's own range of Ns.
-    const MOST: f64 = 1000.0;
-    match specular {
-        Some(specular) if specular != Vec3::ZERO && !matches!(model, Some(0 | 1)) => {
-            Shading::blinn_phong(specular, shininess.unwrap_or(30.0).clamp(0.0, MOST) as f32)
-        }
-        _ => Shading::Lambert,
-    }
-}
-
-fn to_linear(color: [f64; 3]) -> Vec3 {
-    let channel = |value: f64| srgb_to_linear(value.clamp(0.0, 1.0) as f32);
-    Vec3::from(color.map(channel))
-}
-
 #[cfg(test)]
 mod tests {
+    use trigon_math::color::srgb_to_linear;
+    use trigon_math::{Vec3, Vec4};
+    use trigon_scene::{AlphaMode, Shading};
+
     use super::*;
 
     fn parse(text: &str) -> (Vec<MtlMaterial>, Vec<String>) {
