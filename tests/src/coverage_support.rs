@@ -87,7 +87,7 @@ impl Samples {
     }
 }
 
-/// The SIMD levels of this machine; the scalar one is on every machine.
+/// The SIMD levels of this machine that are built in.
 pub(crate) fn levels() -> impl Iterator<Item = SimdLevel> {
     SimdLevel::ALL.into_iter().filter(|level| level.is_supported())
 }
