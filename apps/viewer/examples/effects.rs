@@ -98,7 +98,7 @@ fn row(
         let smooth = RenderSettings { samples_per_axis: 3, width: 240, height: 150, ..settings.clone() };
         let frame = Renderer::new().render(scene, &subject.camera, &smooth)?;
         let pixels = Pixels::Rgba8(&frame.color);
-        write_png(&folder.join("effects").join(name), frame.width, frame.height, pixels)?;
+        write_png(folder.join("effects").join(name), frame.width, frame.height, pixels)?;
     }
     let [less, more] = milliseconds(shots.map(|(scene, settings, _)| (scene, settings)), &subject.camera)?;
     let percent = (more / less - 1.0) * 100.0;
@@ -264,7 +264,7 @@ fn texture(format: TextureFormat, texel: fn(u32, u32) -> [u8; 4]) -> Texture {
 }
 
 fn checker(x: u32, y: u32) -> [u8; 4] {
-    if (x / 32 + y / 32) % 2 == 0 { [214, 205, 190, 255] } else { [74, 96, 118, 255] }
+    if (x / 32 + y / 32).is_multiple_of(2) { [214, 205, 190, 255] } else { [74, 96, 118, 255] }
 }
 
 /// Round dents.
