@@ -103,7 +103,7 @@ fn without(effect: Effect, scene: &Scene, settings: &RenderSettings) -> Option<(
         Effect::Edges => settings.style = Style::Surface,
         Effect::NormalMaps => scene.materials.iter_mut().for_each(|(_, material)| material.normal_map = None),
         Effect::OcclusionMaps => {
-            scene.materials.iter_mut().for_each(|(_, material)| material.occlusion = None)
+            scene.materials.iter_mut().for_each(|(_, material)| material.occlusion = None);
         }
         Effect::Highlights => settings.reflection = trigon_scene::Reflection::Lambert,
         Effect::Textures
