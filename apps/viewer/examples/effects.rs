@@ -18,8 +18,8 @@ use trigon_math::{DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::primitives::{self, TorusKnot};
 use trigon_scene::{
     AmbientOcclusion, Effect, EffectPlan, Environment, Fog, Frame, Light, Material, MetallicRoughness, Node,
-    NodeId, NormalMap, Outline, Reflection, RenderSettings, Renderer, Scene, Shading, Shadows, Sky, Style,
-    Texture, TextureBinding, TextureFormat, ToneMapping, Transform, showcase,
+    NodeId, NormalMap, Outline, RenderSettings, Renderer, Scene, Shading, Shadows, Sky, Style, Texture,
+    TextureBinding, TextureFormat, ToneMapping, Transform, showcase,
 };
 
 /// Pictures of which the quickest counts.
@@ -32,13 +32,6 @@ struct Subject {
     camera: Camera,
 }
 
-/// An effect with the settings that have it, and scene and settings that do not.
-struct Variant {
-    effect: Effect,
-    with: RenderSettings,
-    without: (Scene, RenderSettings),
-}
-
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().nth(1).ok_or("name the folder to write to, such as docs")?;
     let folder = Path::new(&folder);
@@ -46,10 +39,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut page = INTRODUCTION.to_owned();
     for subject in [exhibition(), materials(), knot()] {
         write!(page, "\n## {}\n\n{HEAD}", subject.name)?;
-        for variant in variants(&subject) {
-            let plan = EffectPlan::new(&subject.scene, &subject.camera, &variant.with);
-            if plan.is_on(variant.effect) {
-                page.push_str(&row(&subject, &variant, &plan, folder)?);
+        for (effect, settings) in shown(&subject) {
+            let plan = EffectPlan::new(&subject.scene, &subject.camera, &settings);
+            let without = effect.left_out(&subject.scene, &settings).filter(|_| plan.is_on(effect));
+            if let Some(without) = without {
+                page.push_str(&row(
+                    &subject,
+                    (effect, &plan),
+                    [&without.0, &subject.scene],
+                    [&without.1, &settings],
+                    folder,
+                )?);
             }
         }
     }
@@ -86,14 +86,14 @@ const HEAD: &str =
 
 fn row(
     subject: &Subject,
-    variant: &Variant,
-    plan: &EffectPlan,
+    (effect, plan): (Effect, &EffectPlan),
+    scenes: [&Scene; 2],
+    settings: [&RenderSettings; 2],
     folder: &Path,
 ) -> Result<String, Box<dyn Error>> {
-    let Variant { effect, with, without: (scene, without) } = variant;
     let slug = |way: &str| format!("{}-{effect}-{way}.png", subject.name).to_lowercase().replace(' ', "-");
     let [off, on] = [slug("without"), slug("with")];
-    let shots = [(scene, without, &off), (&subject.scene, with, &on)];
+    let shots = [(scenes[0], settings[0], &off), (scenes[1], settings[1], &on)];
     for (scene, settings, name) in shots {
         let smooth = RenderSettings { samples_per_axis: 3, width: 240, height: 150, ..settings.clone() };
         let frame = Renderer::new().render(scene, &subject.camera, &smooth)?;
@@ -102,7 +102,7 @@ fn row(
     }
     let [less, more] = milliseconds(shots.map(|(scene, settings, _)| (scene, settings)), &subject.camera)?;
     let percent = (more / less - 1.0) * 100.0;
-    let why = plan.decision(*effect);
+    let why = plan.decision(effect);
     Ok(format!(
         "| {effect} | ![](effects/{off}) | ![](effects/{on}) | {why} | {less:.2} | {more:.2} | {percent:+.0} % |\n"
     ))
@@ -128,22 +128,17 @@ fn milliseconds(shots: [(&Scene, &RenderSettings); 2], camera: &Camera) -> Resul
     Ok(shortest)
 }
 
-/// Every effect that can be taken away by itself.
-fn variants(subject: &Subject) -> Vec<Variant> {
+/// Every effect that can be left out by itself, with settings that may have it.
+fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
     let plain = RenderSettings {
         samples_per_axis: 1,
         threads: NonZeroUsize::new(1),
         ..RenderSettings::new(480, 300)
     };
     let asked = |effect, change: &dyn Fn(&mut RenderSettings)| {
-        let mut with = plain.clone();
-        change(&mut with);
-        Variant { effect, with, without: (subject.scene.clone(), plain.clone()) }
-    };
-    let stripped = |effect, change: &dyn Fn(&mut Material)| {
-        let mut scene = subject.scene.clone();
-        scene.materials.iter_mut().for_each(|(_, material)| change(material));
-        Variant { effect, with: plain.clone(), without: (scene, plain.clone()) }
+        let mut settings = plain.clone();
+        change(&mut settings);
+        (effect, settings)
     };
     let sky = Arc::new(Environment::from_sky(&Sky::default()));
     let first: Vec<NodeId> = subject
@@ -155,13 +150,11 @@ fn variants(subject: &Subject) -> Vec<Variant> {
         .skip(1)
         .take(1)
         .collect();
-    let lambert = RenderSettings { reflection: Reflection::Lambert, ..plain.clone() };
-    let without_highlights = (subject.scene.clone(), lambert);
     vec![
-        Variant { effect: Effect::Highlights, with: plain.clone(), without: without_highlights },
-        stripped(Effect::Textures, &|material| material.base_color_texture = None),
-        stripped(Effect::NormalMaps, &|material| material.normal_map = None),
-        stripped(Effect::Emission, &|material| material.emissive = Vec3::ZERO),
+        asked(Effect::Highlights, &|_| {}),
+        asked(Effect::Textures, &|_| {}),
+        asked(Effect::NormalMaps, &|_| {}),
+        asked(Effect::Emission, &|_| {}),
         asked(Effect::Environment, &|settings| settings.effects.environment = Some(Arc::clone(&sky))),
         asked(Effect::ShadowMaps, &|settings| settings.effects.shadows = Shadows::Maps { resolution: 2048 }),
         asked(Effect::ShadowRays, &|settings| settings.effects.shadows = Shadows::Rays),

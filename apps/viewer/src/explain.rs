@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::time::Instant;
 
 use trigon_camera::Camera;
-use trigon_scene::{Effect, EffectPlan, Frame, RenderSettings, Renderer, Scene, Shadows, Style, ToneMapping};
+use trigon_scene::{EffectPlan, Frame, RenderSettings, Renderer, Scene};
 
 use crate::args::{Explanation, Request};
 use crate::failure::Failure;
@@ -17,14 +17,7 @@ const REPETITIONS: usize = 5;
 
 /// Explains every source; the worst exit code is returned.
 pub(crate) fn run(request: &Request, explanation: Explanation, reporter: Reporter) -> u8 {
-    let mut worst = 0;
-    for source in Source::all(request) {
-        if let Err(failure) = explain(&source, request, explanation, reporter) {
-            reporter.error(&failure);
-            worst = worst.max(failure.exit_code());
-        }
-    }
-    worst
+    Source::visit_all(request, reporter, |source| explain(source, request, explanation, reporter))
 }
 
 fn explain(
@@ -60,7 +53,7 @@ fn timed(
     let whole = milliseconds(scene, camera, settings)?;
     let mut table = format!("a picture takes {whole:.2} ms\n");
     for (effect, decision) in plan.iter() {
-        let cost = match without(effect, scene, settings).filter(|_| plan.is_on(effect)) {
+        let cost = match effect.left_out(scene, settings).filter(|_| plan.is_on(effect)) {
             Some((scene, settings)) => {
                 let less = whole - milliseconds(&scene, camera, &settings)?;
                 format!(" ({less:+.2} ms, {:+.0} %)", less / whole * 100.0)
@@ -85,35 +78,4 @@ fn milliseconds(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Re
         }
     }
     Ok(shortest)
-}
-
-/// The same scene and settings without an effect; `None` where it cannot be left
-/// out by itself.
-fn without(effect: Effect, scene: &Scene, settings: &RenderSettings) -> Option<(Scene, RenderSettings)> {
-    let (mut scene, mut settings) = (scene.clone(), settings.clone());
-    let effects = &mut settings.effects;
-    match effect {
-        Effect::Environment => effects.environment = None,
-        Effect::ShadowMaps | Effect::ShadowRays => effects.shadows = Shadows::Off,
-        Effect::AmbientOcclusion => effects.ambient_occlusion = None,
-        Effect::Reflection | Effect::Refraction => effects.bounces = 0,
-        Effect::Fog => effects.fog = None,
-        Effect::ToneMapping => (effects.exposure, effects.tone_mapping) = (0.0, ToneMapping::None),
-        Effect::Outline => effects.outline = None,
-        Effect::Edges => settings.style = Style::Surface,
-        Effect::NormalMaps => scene.materials.iter_mut().for_each(|(_, material)| material.normal_map = None),
-        Effect::OcclusionMaps => {
-            scene.materials.iter_mut().for_each(|(_, material)| material.occlusion = None);
-        }
-        Effect::Highlights => settings.reflection = trigon_scene::Reflection::Lambert,
-        Effect::Textures
-        | Effect::Lamps
-        | Effect::AmbientLight
-        | Effect::Emission
-        | Effect::VertexColors
-        | Effect::Masks
-        | Effect::Transparency
-        | Effect::Poses => return None,
-    }
-    Some((scene, settings))
 }

@@ -32,19 +32,15 @@ pub(crate) fn bindings(reporter: Reporter) -> u8 {
 
 /// `--no-render`: what is in each file.
 pub(crate) fn inspect(request: &Request, reporter: Reporter) -> u8 {
-    let mut worst = 0;
-    for source in Source::all(request) {
-        let outcome = loading::load_aloud(&source, request, reporter).map(|model| {
-            let facts = model.summary().lines().into_iter().map(|fact| format!("  {fact}"));
-            print_lines(std::iter::once(source.title()).chain(facts), reporter)
-        });
-        let code = outcome.unwrap_or_else(|failure| {
-            reporter.error(&failure);
-            failure.exit_code()
-        });
-        worst = worst.max(code);
-    }
-    worst
+    let mut unwritten = 0;
+    let unread = Source::visit_all(request, reporter, |source| {
+        let model = loading::load_aloud(source, request, reporter)?;
+        let facts = model.summary().lines().into_iter().map(|fact| format!("  {fact}"));
+        let code = print_lines(std::iter::once(source.title()).chain(facts), reporter);
+        unwritten = unwritten.max(code);
+        Ok(())
+    });
+    unread.max(unwritten)
 }
 
 /// Writes lines to standard output; whoever closes it early wanted no more.

@@ -9,6 +9,7 @@ use trigon_scene::Scene;
 use crate::args::{Grouping, Request};
 use crate::failure::Failure;
 use crate::framing::{Eye, Framing, Shot};
+use crate::report::Reporter;
 
 /// Where a scene comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,6 +28,23 @@ impl Source {
             Grouping::Together => vec![Self::Files(request.files.clone())],
             Grouping::OneByOne => request.files.iter().map(|file| Self::Files(vec![file.clone()])).collect(),
         }
+    }
+
+    /// Visits everything that is named; one that fails is reported and does not keep
+    /// the others from being visited. The worst exit code is returned.
+    pub(crate) fn visit_all(
+        request: &Request,
+        reporter: Reporter,
+        mut visit: impl FnMut(&Self) -> Result<(), Failure>,
+    ) -> u8 {
+        let mut worst = 0;
+        for source in Self::all(request) {
+            if let Err(failure) = visit(&source) {
+                reporter.error(&failure);
+                worst = worst.max(failure.exit_code());
+            }
+        }
+        worst
     }
 
     /// The first file: it names pictures and windows.

@@ -18,14 +18,9 @@ use crate::report::Reporter;
 /// keep the others from being drawn; the worst exit code is returned.
 pub(crate) fn run(request: &Request, destination: &Destination, reporter: Reporter) -> u8 {
     let mut written = HashSet::new();
-    let mut worst = 0;
-    for source in Source::all(request) {
-        if let Err(failure) = draw_one(&source, request, destination, &mut written, reporter) {
-            reporter.error(&failure);
-            worst = worst.max(failure.exit_code());
-        }
-    }
-    worst
+    Source::visit_all(request, reporter, |source| {
+        draw_one(source, request, destination, &mut written, reporter)
+    })
 }
 
 fn draw_one(

@@ -42,22 +42,25 @@ const LIGHT: f32 = 0.9;
 const COLOR: Vec3 = Vec3::new(0.85, 0.65, 0.4);
 const BEHIND: Vec3 = Vec3::new(0.1, 0.1, 0.15);
 
+const USAGE: &str = "write: scene plain|textured|mapped FRAMES, or: hand plain|textured FRAMES";
+
 fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let [by, look, frames] = words.as_slice() else {
-        return Err("write: scene|hand plain|textured FRAMES".into());
+        return Err(USAGE.into());
     };
     let frames: u32 = frames.parse()?;
     let look = match look.as_str() {
         "plain" => Look::Plain,
         "textured" => Look::Textured,
-        _ => Look::Mapped,
+        "mapped" => Look::Mapped,
+        _ => return Err(USAGE.into()),
     };
     let (mesh, camera) = (knot(), camera());
-    let times = if by == "scene" {
-        by_scene(mesh, &camera, look, frames)?
-    } else {
-        by_hand(&mesh, &camera, look, frames)?
+    let times = match (by.as_str(), look) {
+        ("scene", _) => by_scene(mesh, &camera, look, frames)?,
+        ("hand", Look::Plain | Look::Textured) => by_hand(&mesh, &camera, look, frames)?,
+        _ => return Err(USAGE.into()),
     };
     println!("{by} {look:?}: {times:.3} ms (the shortest of {frames})");
     Ok(())

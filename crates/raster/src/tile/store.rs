@@ -23,9 +23,8 @@ pub(super) fn store_where<S: Simd>(
     let there = F32::from_slice(simd, &buffer.depth[at..at + LANES]);
     let depth: F32<S> = blended(bits, there.bitcast(), depth.bitcast()).bitcast();
     depth.store_slice(&mut buffer.depth[at..at + LANES]);
-    let there = U32::from_slice(simd, &buffer.winner[at..at + LANES]);
-    let winner = blended(bits, there, U32::splat(simd, place));
-    winner.store_slice(&mut buffer.winner[at..at + LANES]);
+    let winners = buffer.winner[at..].first_chunk_mut().expect("groups are whole");
+    name_where(simd, mask, place, winners);
 }
 
 /// Makes a place the winner in some lanes.

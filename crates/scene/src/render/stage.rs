@@ -185,7 +185,8 @@ impl Kept {
         let kept = objects.is_some();
         if plan.is_on(Effect::Outline) && !kept {
             let mut own = std::mem::take(&mut self.objects);
-            own.resize(colors.len(), u32::MAX);
+            let full = TargetError::Memory { width: settings.width, height: settings.height };
+            resize(&mut own, colors.len(), u32::MAX).ok_or(full)?;
             objects = Some(own);
         }
         let target = with_outputs(blank, (&mut frame.depth, &mut objects, &mut frame.face_ids))?;

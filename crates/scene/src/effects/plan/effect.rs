@@ -11,7 +11,8 @@ pub enum Effect {
     AmbientLight,
     /// Highlights of Blinn-Phong and metallic-roughness surfaces.
     Highlights,
-    /// Textures of base colours, highlights and emission.
+    /// Textures of base colours, highlights and emission; and the coordinates that
+    /// any texture is looked up at.
     Textures,
     /// Normals that are bent by textures.
     NormalMaps,

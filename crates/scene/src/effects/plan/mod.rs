@@ -3,6 +3,7 @@
 
 mod counts;
 mod effect;
+mod left_out;
 mod reason;
 mod survey;
 

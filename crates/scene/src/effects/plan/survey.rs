@@ -4,7 +4,6 @@ use super::{Effect, Named};
 use crate::effects::Optics;
 use crate::material::{AlphaMode, Material, Shading};
 use crate::render::{Shape, Stage};
-use crate::settings::Style;
 
 /// What a scene holds and what of it the camera can see.
 #[derive(Debug, Default)]
@@ -67,7 +66,6 @@ fn has(effect: Effect, material: &Material, shape: &Shape, stage: &Stage<'_>) ->
         Effect::Poses => shape.is_posed,
         Effect::Reflection => is_traced(material, false),
         Effect::Refraction => is_traced(material, true),
-        Effect::Edges => stage.settings.style != Style::Surface,
         _ => false,
     }
 }

@@ -121,6 +121,19 @@ fn off_means_zero() {
 }
 
 #[test]
+fn an_effect_that_is_left_out_is_off() {
+    let mut count = 0;
+    for effect in Effect::ALL {
+        let [_, (scene, settings)] = with(effect);
+        let Some((scene, settings)) = effect.left_out(&scene, &settings) else { continue };
+        let plan = EffectPlan::new(&scene, &from_front(), &settings);
+        assert!(!plan.is_on(effect), "{effect}: {}", plan.decision(effect));
+        count += 1;
+    }
+    assert_eq!(count, 15, "all but those that are the scene itself");
+}
+
+#[test]
 fn what_is_out_of_view_is_named() {
     let mut scene = Scene::new();
     scene.add_object("ball", primitives::uv_sphere(1.0, 8, 4), matt(Vec3::ONE));
