@@ -8,6 +8,9 @@ pub(crate) enum Failure {
     /// The flags make no sense for this model: exit code 2.
     #[error("{0}")]
     Usage(String),
+    /// A picture is not the one that it should be: exit code 3.
+    #[error("{0}")]
+    Mismatch(String),
     /// Something could not be done: exit code 1.
     #[error("{0}")]
     Work(Box<dyn std::error::Error + Send + Sync>),
@@ -24,6 +27,7 @@ impl Failure {
         match self {
             Self::Work(_) => 1,
             Self::Usage(_) => 2,
+            Self::Mismatch(_) => 3,
         }
     }
 }

@@ -13,6 +13,7 @@ mod loading;
 mod look;
 mod model;
 mod picture;
+mod replay;
 mod report;
 #[cfg(feature = "window")]
 mod window;
@@ -34,7 +35,10 @@ fn main() -> ExitCode {
         reporter.warning(format_args!("{flag} is ignored: trigon draws on the CPU and has no such choice"));
     }
     ExitCode::from(match &request.mode {
-        Mode::Picture(destination) => picture::run(&request, destination, reporter),
+        Mode::Picture { output, capture } => {
+            picture::run(&request, output.as_ref(), capture.as_deref(), reporter)
+        }
+        Mode::Replay { capture, output } => replay::run(capture, output.as_ref(), &request, reporter),
         Mode::Window => look_at(&request, reporter),
         Mode::Explain(explanation) => explain::run(&request, *explanation, reporter),
         Mode::Inspect => lists::inspect(&request, reporter),

@@ -1,11 +1,13 @@
-//! Picture mode: models in, PNG files or a PNG stream out. No display needed.
+//! Picture mode: models in, PNG files, a PNG stream or a capture out. No display
+//! needed.
 
 use std::collections::HashSet;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use trigon_io::{Pixels, encode_png, write_png};
+use trigon_camera::Camera;
+use trigon_io::{Capture, Pixels, encode_png, write_png};
 use trigon_scene::{Frame, Renderer};
 
 use crate::args::{Destination, Request, Template};
@@ -16,39 +18,39 @@ use crate::report::Reporter;
 
 /// Draws and writes a picture of every source. A source that fails does not
 /// keep the others from being drawn; the worst exit code is returned.
-pub(crate) fn run(request: &Request, destination: &Destination, reporter: Reporter) -> u8 {
-    let mut written = HashSet::new();
-    Source::visit_all(request, reporter, |source| {
-        draw_one(source, request, destination, &mut written, reporter)
-    })
+pub(crate) fn run(
+    request: &Request,
+    output: Option<&Destination>,
+    capture: Option<&Path>,
+    reporter: Reporter,
+) -> u8 {
+    let mut outlet = Outlet::new(output, reporter);
+    Source::visit_all(request, reporter, |source| draw_one(source, request, capture, &mut outlet, reporter))
 }
 
 fn draw_one(
     source: &Source,
     request: &Request,
-    destination: &Destination,
-    written: &mut HashSet<PathBuf>,
+    capture: Option<&Path>,
+    outlet: &mut Outlet<'_>,
     reporter: Reporter,
 ) -> Result<(), Failure> {
-    refuse_terminal(destination)?;
+    outlet.refuse_terminal()?;
     let model = loading::load_aloud(source, request, reporter)?;
-    let frame = draw(&model, request, reporter)?;
-    match destination {
-        Destination::Stdout => write_stream(&frame),
-        Destination::File(template) => {
-            let path = new_name(template, source.first_file(), written)?;
-            write_file(&path, &frame)?;
-            reporter.info(format_args!("wrote {} ({}×{})", path.display(), frame.width, frame.height));
-            Ok(())
-        }
-    }
+    let camera = model.shot(&request.framing, request.settings.aspect())?.camera;
+    let frame = draw(&model, &camera, request, reporter)?;
+    outlet.put(source.first_file(), &frame)?;
+    let Some(path) = capture else { return Ok(()) };
+    let capture = Capture::new(model.scene, camera, request.settings.clone(), &frame);
+    capture.write(path).map_err(Failure::work)?;
+    reporter.info(format_args!("captured {} ({:016x})", path.display(), capture.picture_hash()));
+    Ok(())
 }
 
-fn draw(model: &Model, request: &Request, reporter: Reporter) -> Result<Frame, Failure> {
+fn draw(model: &Model, camera: &Camera, request: &Request, reporter: Reporter) -> Result<Frame, Failure> {
     let started = Instant::now();
-    let shot = model.shot(&request.framing, request.settings.aspect())?;
     let mut renderer = Renderer::new();
-    let frame = renderer.render(&model.scene, &shot.camera, &request.settings).map_err(Failure::work)?;
+    let frame = renderer.render(&model.scene, camera, &request.settings).map_err(Failure::work)?;
     let title = model.source.title();
     if renderer.stats().pixels_shaded == 0 {
         reporter.warning(format_args!(
@@ -60,14 +62,42 @@ fn draw(model: &Model, request: &Request, reporter: Reporter) -> Result<Frame, F
     Ok(frame)
 }
 
-/// Bytes of a picture would only garble a terminal.
-fn refuse_terminal(destination: &Destination) -> Result<(), Failure> {
-    if *destination == Destination::Stdout && io::stdout().is_terminal() {
-        return Err(Failure::Usage(
-            "--output - writes a picture to standard output, which is a terminal; redirect it (> picture.png) or name a file (--output picture.png)".to_owned(),
-        ));
+/// Where finished pictures go.
+pub(crate) struct Outlet<'a> {
+    output: Option<&'a Destination>,
+    written: HashSet<PathBuf>,
+    reporter: Reporter,
+}
+
+impl<'a> Outlet<'a> {
+    pub(crate) fn new(output: Option<&'a Destination>, reporter: Reporter) -> Self {
+        Self { output, written: HashSet::new(), reporter }
     }
-    Ok(())
+
+    /// Bytes of a picture would only garble a terminal.
+    pub(crate) fn refuse_terminal(&self) -> Result<(), Failure> {
+        if self.output == Some(&Destination::Stdout) && io::stdout().is_terminal() {
+            return Err(Failure::Usage(
+                "--output - writes a picture to standard output, which is a terminal; redirect it (> picture.png) or name a file (--output picture.png)".to_owned(),
+            ));
+        }
+        Ok(())
+    }
+
+    /// Writes a picture of what a file holds.
+    pub(crate) fn put(&mut self, file: Option<&Path>, frame: &Frame) -> Result<(), Failure> {
+        match self.output {
+            None => Ok(()),
+            Some(Destination::Stdout) => write_stream(frame),
+            Some(Destination::File(template)) => {
+                let path = new_name(template, file, &mut self.written)?;
+                write_file(&path, frame)?;
+                let (width, height) = (frame.width, frame.height);
+                self.reporter.info(format_args!("wrote {} ({width}×{height})", path.display()));
+                Ok(())
+            }
+        }
+    }
 }
 
 fn write_stream(frame: &Frame) -> Result<(), Failure> {

@@ -324,3 +324,31 @@ fn a_list_that_cannot_be_written_says_so() {
     assert_eq!(output.status.code(), Some(1), "said: {said}");
     assert!(said.contains("standard output cannot be written"), "said: {said}");
 }
+
+/// What --capture wrote is drawn again without the model, and told from another.
+#[test]
+fn a_capture_is_replayed_without_its_model() {
+    let folder = Folder::new();
+    let flags = "corner.obj --resolution 60x40 --shadows --sky --capture corner.trigon --output first.png";
+    let said = folder.said(flags, 0);
+    assert!(said.contains("wrote first.png") && said.contains("captured corner.trigon ("), "{said}");
+    fs::remove_file(folder.path("corner.obj")).expect("the model was there");
+    let replay = format!("--replay corner.trigon --threads=1 {NARROW} --output again.png");
+    let said = folder.said(&replay, 0);
+    assert!(said.contains("corner.trigon: the same picture, "), "{said}");
+    let [first, again] = ["first.png", "again.png"].map(|name| picture(&folder.path(name)).rgba);
+    assert!(first == again, "the same picture");
+
+    let path = folder.path("corner.trigon");
+    let mut capture = trigon_io::Capture::read(&path, &trigon_io::Limits::default()).expect("a capture");
+    capture.color[4 * (60 * 20 + 30)] ^= 8;
+    capture.write(&path).expect("the folder is writable");
+    let said = folder.said("--replay corner.trigon", 3);
+    assert!(said.contains("1 of 2400 pixels, the first at (30, 20)"), "{said}");
+    assert!(said.contains("captured by trigon ") && said.contains("its hash was "), "{said}");
+
+    folder.write("corner.trigon", "no capture");
+    assert!(folder.failed("--replay corner.trigon").contains("it is no capture"), "another file");
+    folder.said("--replay corner.trigon corner.obj", 2);
+    assert!(folder.said("a.obj b.obj --capture c.trigon", 2).contains("--capture takes one"), "two models");
+}

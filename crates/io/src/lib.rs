@@ -1,5 +1,6 @@
 //! Model and picture files for trigon: OBJ with MTL, glTF and GLB, PNG,
-//! JPEG and WebP in; PNG out.
+//! JPEG and WebP in; PNG out. And captures: all that a picture was drawn from, and the
+//! picture, in one file.
 //!
 //! A file becomes a [`Scene`](trigon_scene::Scene) and a list of warnings. What
 //! cannot be used is an error. Both name the file, the place in it, and what to
@@ -35,6 +36,7 @@
 //! are linear light. Positions far from the origin are rebased, and the offset
 //! goes into the node. One node of the file is one node of the scene.
 
+mod capture;
 mod error;
 mod folder;
 mod format;
@@ -53,6 +55,7 @@ mod textures;
 mod uri;
 mod warning;
 
+pub use capture::{Capture, Mismatch, PixelMismatch};
 pub use error::{LoadError, LoadErrorKind, Place};
 pub use format::{Format, Reader, readers};
 pub use limits::Limits;

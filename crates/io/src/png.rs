@@ -103,7 +103,10 @@ fn encode(writer: &mut dyn Write, width: u32, height: u32, pixels: Pixels<'_>) -
 }
 
 /// Runs `write` on a new file that takes the name `path` when all went well.
-fn write_atomically(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+pub(crate) fn write_atomically(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
     let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     builder.prefix(".trigon-").suffix(".part");

@@ -21,6 +21,7 @@ Exit codes:
   0  all went well
   1  a model could not be loaded or drawn, or a picture could not be written
   2  the command line makes no sense
+  3  a captured picture was drawn again, and differs
 
 Values:
   COLOR      1,0.5,0 | #f80 | #ff8800 | a CSS name or function such as orange
@@ -59,6 +60,20 @@ pub(crate) struct RawArgs {
     /// exist yet, padded to three digits), {app} and {version}; {{x}} stands for {x} itself.
     #[arg(long, value_name = "FILE.png|-", help_heading = "Files")]
     pub(crate) output: Option<Destination>,
+
+    /// Write scene, camera, settings and picture to one file, to draw it again elsewhere (not in F3D)
+    ///
+    /// Nothing else is needed to draw it again: a bug report, or a test. With
+    /// --output the picture is written, too.
+    #[arg(long, value_name = "FILE.trigon", help_heading = "Files")]
+    pub(crate) capture: Option<PathBuf>,
+
+    /// Draw what --capture wrote and tell whether the picture is the same, by exit code 3 if not (not in F3D)
+    ///
+    /// With --output the new picture is written. --threads and --simd may be
+    /// given; all else is as it was captured.
+    #[arg(long, value_name = "FILE.trigon", help_heading = "Files", conflicts_with_all = ["files", "input", "capture"])]
+    pub(crate) replay: Option<PathBuf>,
 
     /// Width and height of the picture or window in pixels; 1000x600 works too
     #[arg(long, value_name = "W,H", default_value = "1000,600", value_parser = values::size, help_heading = "Files")]

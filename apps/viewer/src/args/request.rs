@@ -39,8 +39,20 @@ pub(crate) struct Request {
 /// What to do.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Mode {
-    /// Write pictures.
-    Picture(Destination),
+    /// Write pictures, and capture what they were drawn from.
+    Picture {
+        /// Where each goes, if anywhere.
+        output: Option<Destination>,
+        /// The file of the capture.
+        capture: Option<PathBuf>,
+    },
+    /// Draw a capture again.
+    Replay {
+        /// The file of the capture.
+        capture: PathBuf,
+        /// Where the new picture goes, if anywhere.
+        output: Option<Destination>,
+    },
     /// Open a window.
     Window,
     /// Load the models and say what is in them.
@@ -92,12 +104,14 @@ impl Request {
 }
 
 fn mode(raw: &RawArgs) -> Mode {
-    match (&raw.output, raw.effects.explain) {
+    let (output, capture) = (raw.output.clone(), raw.capture.clone());
+    match (&raw.replay, raw.effects.explain) {
         _ if raw.list_readers => Mode::ListReaders,
         _ if raw.list_bindings => Mode::ListBindings,
         _ if raw.no_render == Some(true) => Mode::Inspect,
         (_, Some(explanation)) => Mode::Explain(explanation),
-        (Some(destination), None) => Mode::Picture(destination.clone()),
+        (Some(replay), None) => Mode::Replay { capture: replay.clone(), output },
+        (None, None) if output.is_some() || capture.is_some() => Mode::Picture { output, capture },
         (None, None) => Mode::Window,
     }
 }
@@ -105,11 +119,17 @@ fn mode(raw: &RawArgs) -> Mode {
 /// Several pictures need several names. F3D draws the first model and only
 /// warns about the rest, which scripts do not notice.
 fn check_output(mode: &Mode, files: usize, grouping: Grouping) -> Result<(), String> {
-    let Mode::Picture(destination) = mode else { return Ok(()) };
+    let Mode::Picture { output, capture } = mode else { return Ok(()) };
     if files < 2 || grouping == Grouping::Together {
         return Ok(());
     }
-    match destination {
+    if capture.is_some() {
+        return Err(format!(
+            "{files} files make {files} pictures, but --capture takes one; name one file, or draw them in one scene with --multi-file-mode=all"
+        ));
+    }
+    let Some(output) = output else { return Ok(()) };
+    match output {
         Destination::File(template) if template.tells_models_apart() => Ok(()),
         Destination::File(_) => Err(format!(
             "{files} files make {files} pictures, but --output has one name; write {{model}} or {{n}} in it (--output '{{model}}.png'), or draw them in one scene with --multi-file-mode=all"

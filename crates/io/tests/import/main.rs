@@ -1,5 +1,6 @@
 //! Imports through the public face: one module per subject.
 
+mod capture;
 mod gltf;
 mod hooks;
 mod hostile;

@@ -25,6 +25,21 @@ impl SkinWeights {
         Some(Self { per_vertex, joints, weights })
     }
 
+    /// The same from weights that [`Self::weights`] gave: they are kept to the last
+    /// bit. None also when they are not within 0…1 with a sum of 1 for each vertex.
+    pub fn from_normalized(per_vertex: usize, joints: Vec<u16>, weights: Vec<f32>) -> Option<Self> {
+        /// More than a sum of rounded weights can be off, for any number of joints in use.
+        const ROUNDING: f64 = 1e-3;
+        if per_vertex == 0 || joints.len() != weights.len() || !joints.len().is_multiple_of(per_vertex) {
+            return None;
+        }
+        let is_normalized = |weights: &[f32]| {
+            let sum: f64 = weights.iter().map(|&weight| f64::from(weight)).sum();
+            weights.iter().all(|weight| (0.0..=1.0).contains(weight)) && (sum - 1.0).abs() < ROUNDING
+        };
+        weights.chunks_exact(per_vertex).all(is_normalized).then_some(Self { per_vertex, joints, weights })
+    }
+
     /// How many joints each vertex names, those without weight included.
     pub fn per_vertex(&self) -> usize {
         self.per_vertex
@@ -93,6 +108,11 @@ mod tests {
         let skin = SkinWeights::new(2, vec![0, 1, 2, 3, 4, 5, 6, 7], weights).expect("two for each of four");
         assert_eq!(skin.weights(), [0.25, 0.75, 1.0, 0.0, 1.0, 0.0, 0.5, 0.5], "normalised");
         assert_eq!(skin.influences(3).collect::<Vec<_>>(), [(6, 0.5), (7, 0.5)], "of one vertex");
+        let again = SkinWeights::from_normalized(2, skin.joints().to_vec(), skin.weights().to_vec());
+        assert_eq!(again, Some(skin), "and stay so");
+        for wrong in [vec![0.5, 0.75], vec![2.0, -1.0], vec![f32::NAN, 1.0], vec![1.0]] {
+            assert_eq!(SkinWeights::from_normalized(2, vec![0; 2], wrong.clone()), None, "{wrong:?}");
+        }
         assert_eq!(SkinWeights::new(2, vec![0; 3], vec![1.0; 3]), None, "half a vertex");
         assert_eq!(SkinWeights::new(0, Vec::new(), Vec::new()), None, "no joints at all");
     }

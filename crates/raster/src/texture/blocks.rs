@@ -82,6 +82,11 @@ impl Blocks {
         block * AREA + (y % SIDE) * PITCH + x % SIDE
     }
 
+    /// A texel of the base level.
+    pub(super) fn base_texel(&self, place: [u32; 2]) -> [u8; 4] {
+        self.texels[Self::index(self.width, place) as usize]
+    }
+
     /// Where a level starts.
     #[inline(always)]
     pub(super) fn start(&self, level: u32) -> u32 {
@@ -141,6 +146,7 @@ mod tests {
             for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
                 let (right, below) = ((x + 1) % width, (y + 1) % height);
                 let expected = [pair(at(x, y), at(right, y)), pair(at(x, below), at(right, below))];
+                assert_eq!(blocks.base_texel([x, y]), at(x, y), "the texel ({x}, {y}) of {width}x{height}");
                 let got = blocks.footprint(Blocks::index(width, [x, y]));
                 assert_eq!(got, expected, "at ({x}, {y}) of {width}x{height}");
             }

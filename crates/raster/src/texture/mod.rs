@@ -115,6 +115,13 @@ impl Texture {
         self.format
     }
 
+    /// The texels of the base level, row by row from the top: what
+    /// [`Texture::new`] was given.
+    pub fn texels(&self) -> impl Iterator<Item = [u8; 4]> + '_ {
+        let (width, height) = (self.width(), self.height());
+        (0..height).flat_map(move |y| (0..width).map(move |x| self.blocks.base_texel([x, y])))
+    }
+
     /// The value at `uv` in linear light, alpha straight, filtered as the
     /// `sampler` says for a footprint spanned by `ddx` and `ddy`, the change of
     /// `uv` per sample step.

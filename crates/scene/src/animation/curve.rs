@@ -83,6 +83,11 @@ impl Curve {
         &self.times
     }
 
+    /// The numbers of all keyframes, as [`Self::new`] takes them.
+    pub fn values(&self) -> &[f32] {
+        &self.values
+    }
+
     /// The vector at a time in seconds. Before the first keyframe, and at a
     /// time that is no number, it is the first one's; after the last, the last's.
     pub fn at(&self, time: f64) -> Vec<f64> {

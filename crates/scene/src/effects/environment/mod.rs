@@ -38,8 +38,10 @@ pub struct Environment {
 /// Why a picture is no environment.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum EnvironmentError {
-    /// A side is 0, or there are not `width * height` pixels.
-    #[error("{given} pixels are no picture of {width}x{height}: each side must be at least 1")]
+    /// A side is 0 (or too long for a map), or there are not `width * height` pixels.
+    #[error(
+        "{given} pixels are no picture of {width}x{height}: each side must be at least 1, and that of a map at most {SIZE}"
+    )]
     Size {
         /// Pixels from left to right.
         width: usize,
@@ -76,6 +78,27 @@ impl Environment {
     /// The same linear RGB from everywhere.
     pub fn uniform(radiance: Vec3) -> Self {
         Self::from_sharp(Octahedral::from_function(32, |_| radiance))
+    }
+
+    /// From what [`Self::texels`] gives: a square of `side` by `side` directions, the
+    /// octahedron of unit absolute sums folded open, +Y in the middle. Values that
+    /// are negative or not finite count as 0.
+    ///
+    /// # Errors
+    /// If there are not `side * side` texels, or none, or more than 256 on a side.
+    pub fn from_texels(side: usize, texels: &[[f32; 3]]) -> Result<Self, EnvironmentError> {
+        if side == 0 || side > SIZE || side * side != texels.len() {
+            return Err(EnvironmentError::Size { width: side, height: side, given: texels.len() });
+        }
+        let texels: Vec<Vec3> = texels.iter().map(|&texel| octahedral::clean(texel)).collect();
+        Ok(Self::from_sharp(Octahedral::from_texels(side, &texels)))
+    }
+
+    /// The side and the texels (linear RGB) of the map that everything else is made
+    /// from, see [`Self::from_texels`].
+    pub fn texels(&self) -> (usize, Vec<[f32; 3]>) {
+        let sharp = &self.mirrored[0];
+        (sharp.size(), sharp.iter().map(|(_, _, light)| light.to_array()).collect())
     }
 
     fn from_sharp(sharp: Octahedral) -> Self {
@@ -195,6 +218,18 @@ mod tests {
         for dark in [Vec3::X, Vec3::Z, Vec3::Y, Vec3::NEG_X] {
             assert!(environment.radiance(dark, 0.0).x < 0.01, "dark towards {dark}");
         }
+    }
+
+    #[test]
+    fn an_environment_is_made_again_from_its_texels() {
+        for environment in
+            [Environment::uniform(Vec3::new(0.1, 0.2, 3.0)), Environment::from_sky(&Sky::default())]
+        {
+            let (side, texels) = environment.texels();
+            assert_eq!(Environment::from_texels(side, &texels), Ok(environment), "every bit, at {side}");
+        }
+        assert!(Environment::from_texels(0, &[]).is_err(), "no direction at all");
+        assert!(Environment::from_texels(2, &[[1.0; 3]; 3]).is_err(), "too few");
     }
 
     #[test]

@@ -128,7 +128,8 @@ impl Octahedral {
     }
 }
 
-fn clean(pixel: [f32; 3]) -> Vec3 {
+/// Light, or none where a number is not light.
+pub(super) fn clean(pixel: [f32; 3]) -> Vec3 {
     Vec3::from(pixel.map(|channel| if channel > 0.0 && channel.is_finite() { channel } else { 0.0 }))
 }
 

@@ -1,0 +1,206 @@
+//! Captures: a scene, a camera, settings and the picture that they made, in one file,
+//! so that any machine can draw it again and tell whether it is the same.
+//!
+//! What is drawn from is stored, bit by bit; what is derived from it (triangles,
+//! normals, mip levels, blurred environments, hierarchies, caches) is made again.
+//!
+//! # The file
+//! Numbers are little-endian.
+//!
+//! | bytes | what |
+//! |---|---|
+//! | 8 | `93 54 52 49 47 4f 4e 0a`: `TRIGON` between two bytes that text is not |
+//! | 4 | the version of the format, [`VERSION`] |
+//! | 1 + n | the version of the program that wrote it: its length, and text |
+//! | 8 | the hash of what follows (FNV-1a, 64 bits) |
+//! | rest | scene, settings, camera and the picture's bytes, compressed by zlib |
+//!
+//! Within the last part values follow each other without tags; the lists of fields
+//! in this folder are its order. Any change of them is a new version.
+
+mod forest;
+mod hash;
+mod ids;
+mod looks;
+mod mesh;
+mod mismatch;
+mod scene;
+mod settings;
+mod stored;
+mod stream;
+#[cfg(test)]
+mod tests;
+
+use std::io::Write;
+use std::path::Path;
+
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use trigon_camera::Camera;
+use trigon_scene::{Frame, RenderSettings, Scene};
+
+use crate::error::{LoadError, LoadErrorKind};
+use crate::folder::Folder;
+use crate::limits::Limits;
+use crate::load::refused;
+use crate::png::{WriteError, write_atomically};
+use hash::fnv1a;
+pub use mismatch::{Mismatch, PixelMismatch};
+use stored::Stored;
+use stream::{Damage, Reader, Writer};
+
+const MAGIC: [u8; 8] = *b"\x93TRIGON\n";
+
+/// The version of the format.
+const VERSION: u32 = 1;
+
+/// A scene, a camera, settings and the picture that they made.
+///
+/// ```
+/// use trigon_io::{Capture, Limits};
+/// use trigon_scene::{RenderSettings, render, showcase};
+///
+/// let scene = showcase();
+/// let settings = RenderSettings::new(16, 9);
+/// let camera = scene.overview(settings.aspect());
+/// let frame = render(&scene, &camera, &settings)?;
+/// let file = Capture::new(scene, camera, settings, &frame).to_bytes();
+///
+/// let capture = Capture::from_bytes("bug.trigon", &file, &Limits::default())?;
+/// let again = render(&capture.scene, &capture.camera, &capture.settings)?;
+/// assert_eq!(capture.mismatch(&again), None);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Capture {
+    /// What was drawn.
+    pub scene: Scene,
+    /// From where.
+    pub camera: Camera,
+    /// How. The colours do not depend on outputs beside them, threads and SIMD level,
+    /// so these are not captured.
+    pub settings: RenderSettings,
+    /// The picture: four bytes a pixel, sRGB and straight alpha, rows from the top.
+    pub color: Vec<u8>,
+    /// The version of the program that captured it.
+    pub program: String,
+}
+
+impl Capture {
+    /// A capture of what was drawn by this program.
+    ///
+    /// # Panics
+    /// When the frame has not the size that the settings ask for.
+    pub fn new(scene: Scene, camera: Camera, settings: RenderSettings, frame: &Frame) -> Self {
+        let asked = (settings.width, settings.height);
+        assert_eq!((frame.width, frame.height), asked, "the frame was drawn by these settings");
+        let program = env!("CARGO_PKG_VERSION").to_owned();
+        Self { scene, camera, settings, color: frame.color.clone(), program }
+    }
+
+    /// The hash of the captured picture: FNV-1a, 64 bits, over its bytes.
+    pub fn picture_hash(&self) -> u64 {
+        fnv1a(&self.color)
+    }
+
+    /// How a picture differs from the captured one; `None` when every byte is the same.
+    pub fn mismatch(&self, drawn: &Frame) -> Option<Mismatch> {
+        Mismatch::between((self.settings.width, &self.color), (drawn.width, &drawn.color))
+    }
+
+    /// The file.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut to = Writer { bytes: Vec::new(), scene: &self.scene };
+        self.scene.write(&mut to);
+        self.settings.write(&mut to);
+        self.camera.write(&mut to);
+        self.color.write(&mut to);
+        sealed(VERSION, &self.program, &to.bytes)
+    }
+
+    /// Writes the file; an old one of that name is replaced at once or not at all.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), WriteError> {
+        let path = path.as_ref();
+        write_atomically(path, |file| file.write_all(&self.to_bytes()))
+            .map_err(|source| WriteError::File { path: path.to_owned(), source })
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// When it cannot be read, or as [`Self::from_bytes`].
+    pub fn read(path: impl AsRef<Path>, limits: &Limits) -> Result<Self, LoadError> {
+        let path = path.as_ref();
+        let bytes = Folder::none(limits).read_model(path).map_err(|refusal| refused(path, &refusal))?;
+        Self::from_bytes(path, &bytes, limits)
+    }
+
+    /// The capture in a file's bytes; `name` stands for the file in messages.
+    ///
+    /// # Errors
+    /// When it is no capture, was written in another version of the format (the
+    /// message names both), is damaged, or asks for more than the limits.
+    pub fn from_bytes(name: impl AsRef<Path>, bytes: &[u8], limits: &Limits) -> Result<Self, LoadError> {
+        let name = name.as_ref();
+        let (program, compressed) = opened(name, bytes)?;
+        Self::read_parts(program, Reader::new(compressed, limits)).map_err(|damage| match damage {
+            Damage::Malformed(what) => LoadError::malformed(name, what, CAPTURE_AGAIN),
+            Damage::Limit(what) => LoadError::limit(name, what),
+        })
+    }
+
+    fn read_parts(program: String, mut from: Reader<'_>) -> Result<Self, Damage> {
+        let (scene, settings) = (Scene::read(&mut from)?, RenderSettings::read(&mut from)?);
+        let (camera, color) = (Camera::read(&mut from)?, Vec::<u8>::read(&mut from)?);
+        let pixels = u64::from(settings.width) * u64::from(settings.height);
+        if pixels.checked_mul(4) != Some(color.len() as u64) {
+            return Err(Damage::malformed("the picture has another size than the settings"));
+        }
+        from.finish()?;
+        Ok(Self { scene, camera, settings, color, program })
+    }
+}
+
+const CAPTURE_AGAIN: &str = "capture the picture again, or copy the file again";
+
+/// A file around uncompressed parts.
+fn sealed(version: u32, program: &str, parts: &[u8]) -> Vec<u8> {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
+    let compressed = encoder.write_all(parts).and_then(|()| encoder.finish());
+    let compressed = compressed.expect("memory takes every byte");
+    let length = program.len().min(usize::from(u8::MAX));
+    let program = &program.as_bytes()[..length];
+    let hash = fnv1a(&compressed).to_le_bytes();
+    [&MAGIC[..], &version.to_le_bytes(), &[length as u8], program, &hash, &compressed].concat()
+}
+
+/// The program that wrote a file, and its compressed part.
+fn opened<'a>(name: &Path, bytes: &'a [u8]) -> Result<(String, &'a [u8]), LoadError> {
+    let no_capture = || {
+        let remedy = "name a file that --capture wrote";
+        LoadError::new(LoadErrorKind::Unsupported, name, "it is no capture", remedy)
+    };
+    let rest = bytes.strip_prefix(&MAGIC).ok_or_else(no_capture)?;
+    let (version, rest) = rest.split_first_chunk().ok_or_else(no_capture)?;
+    let (&length, rest) = rest.split_first().ok_or_else(no_capture)?;
+    let (program, rest) = rest.split_at_checked(usize::from(length)).ok_or_else(no_capture)?;
+    let program = String::from_utf8_lossy(program).into_owned();
+    let version = u32::from_le_bytes(*version);
+    if version != VERSION {
+        let what = format!(
+            "it is a capture in version {version} of the format, by trigon {program}; this is trigon {}, which reads version {VERSION}",
+            env!("CARGO_PKG_VERSION")
+        );
+        let remedy = format!("replay it with trigon {program}");
+        return Err(LoadError::new(LoadErrorKind::Unsupported, name, what, remedy));
+    }
+    match rest.split_first_chunk() {
+        Some((hash, compressed)) if u64::from_le_bytes(*hash) == fnv1a(compressed) => {
+            Ok((program, compressed))
+        }
+        _ => Err(LoadError::malformed(name, "its bytes are not those that were written", CAPTURE_AGAIN)),
+    }
+}

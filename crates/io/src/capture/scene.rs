@@ -1,0 +1,180 @@
+//! The scene: its parts at their indices, so that nothing that depends on the order
+//! of nodes changes. What refers to something comes after it; as skins and nodes
+//! refer to each other, the places of skins come first and their joints last.
+
+use std::sync::Arc;
+
+use trigon_mesh::Mesh;
+use trigon_scene::{
+    Animation, Arena, Channel, Curve, Id, Interpolation, Material, MeshAsset, Node, Property, Scene, Skin,
+    Texture, TextureAsset, TextureFormat, Transform,
+};
+
+use super::forest;
+use super::ids::Table;
+use super::stored::{Stored, choice, record};
+use super::stream::{Damage, Reader, Writer};
+
+record!(Skin { name, joints, inverse_bind_matrices });
+record!(Animation { name, channels });
+record!(Channel { node, property, curve });
+choice!(Property { 0 => Translation, 1 => Rotation, 2 => Scale, 3 => MorphWeights });
+choice!(Interpolation { 0 => Step, 1 => Linear, 2 => CubicSpline });
+choice!(Transform { 0 => Decomposed { translation, rotation, scale }, 1 => Affine(affine) });
+
+impl Stored for Scene {
+    fn write(&self, to: &mut Writer<'_>) {
+        write_places(to, &self.textures, Stored::write);
+        (self.meshes().len() as u64).write(to);
+        for (_, asset) in self.meshes().iter() {
+            asset.name.write(to);
+            asset.mesh().write(to);
+        }
+        write_places(to, &self.materials, Stored::write);
+        write_places(to, &self.skins, |_, _| {});
+        write_places(to, self.nodes(), Stored::write);
+        for (_, skin) in self.skins.iter() {
+            skin.write(to);
+        }
+        for (_, node) in self.nodes().iter() {
+            node.children().to_vec().write(to);
+        }
+        self.animations.write(to);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+        let mut scene = Self::new();
+        from.ids.textures = read_arena(from, &mut scene.textures, one_texel)?;
+        for _ in 0..part_count::<MeshAsset>(from)? {
+            let (name, mesh) = <(String, Mesh)>::read(from)?;
+            from.ids.meshes.ids.push(scene.add_mesh(name, mesh));
+        }
+        from.ids.materials = read_arena(from, &mut scene.materials, Material::default)?;
+        let places = read_places(from, |_: Option<()>| scene.skins.insert(Skin::default()))?;
+        from.ids.skins = places.emptied(|id| _ = scene.skins.remove(id));
+        let places = read_places(from, |node: Option<Node>| scene.add(node.unwrap_or_default()))?;
+        from.ids.nodes = places.emptied(|id| _ = scene.remove(id));
+        let skins: Vec<_> = scene.skins.iter().map(|(id, _)| id).collect();
+        for id in skins {
+            let skin = Stored::read(from)?;
+            if let Some(place) = scene.skins.get_mut(id) {
+                *place = skin;
+            }
+        }
+        forest::read(from, &mut scene)?;
+        scene.animations = Stored::read(from)?;
+        Ok(scene)
+    }
+}
+
+/// Everything but parent and children, which [`forest`] finds again.
+impl Stored for Node {
+    fn write(&self, to: &mut Writer<'_>) {
+        let Self { name, transform, mesh, materials, skin, morph_weights, light, camera, visible, .. } = self;
+        name.write(to);
+        transform.write(to);
+        mesh.filter(|&mesh| to.scene.meshes().get(mesh).is_some()).write(to);
+        materials.write(to);
+        skin.filter(|&skin| to.scene.skins.get(skin).is_some()).write(to);
+        morph_weights.write(to);
+        light.write(to);
+        camera.write(to);
+        visible.write(to);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+        let mut node = Self::default();
+        node.name = Stored::read(from)?;
+        node.transform = Stored::read(from)?;
+        node.mesh = Stored::read(from)?;
+        node.materials = Stored::read(from)?;
+        node.skin = Stored::read(from)?;
+        node.morph_weights = Stored::read(from)?;
+        node.light = Stored::read(from)?;
+        node.camera = Stored::read(from)?;
+        node.visible = Stored::read(from)?;
+        Ok(node)
+    }
+}
+
+impl Stored for Curve {
+    fn write(&self, to: &mut Writer<'_>) {
+        self.interpolation().write(to);
+        (self.width() as u32).write(to);
+        self.times().to_vec().write(to);
+        self.values().to_vec().write(to);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+        let (interpolation, width) = (Stored::read(from)?, u32::read(from)?);
+        let curve = Self::new(interpolation, width as usize, Stored::read(from)?, Stored::read(from)?);
+        curve.ok_or_else(|| Damage::malformed("the keyframes of a curve do not fit each other"))
+    }
+}
+
+/// The items of an arena up to the last one, and which places are empty.
+fn write_places<T>(to: &mut Writer<'_>, arena: &Arena<T>, write: impl Fn(&T, &mut Writer<'_>)) {
+    let count = arena.iter().last().map_or(0, |(id, _)| id.index() + 1);
+    (count as u64).write(to);
+    for index in 0..count {
+        let item = arena.id_at(index).and_then(|id| arena.get(id));
+        item.is_some().write(to);
+        item.iter().for_each(|item| write(item, to));
+    }
+}
+
+/// How many parts of a kind follow.
+fn part_count<T>(from: &mut Reader<'_>) -> Result<usize, Damage> {
+    let (count, allowed) = (from.count(size_of::<T>())?, from.limits.nodes);
+    if count > allowed {
+        return Err(Damage::Limit(format!("a scene has {count} parts of a kind, {allowed} are allowed")));
+    }
+    Ok(count)
+}
+
+/// The places of an arena. Empty ones hold stand-ins until all are there, else a
+/// later item would take them.
+struct Places<T> {
+    ids: Vec<Id<T>>,
+    stand_ins: Vec<Id<T>>,
+}
+
+/// The ids that `insert` gives to what is at each place, and to stand-ins.
+fn read_places<T, I: Stored>(
+    from: &mut Reader<'_>,
+    mut insert: impl FnMut(Option<I>) -> Id<T>,
+) -> Result<Places<T>, Damage> {
+    let mut places = Places { ids: Vec::new(), stand_ins: Vec::new() };
+    for _ in 0..part_count::<T>(from)? {
+        let item = Option::read(from)?;
+        let is_empty = item.is_none();
+        let id = insert(item);
+        places.ids.push(id);
+        places.stand_ins.extend(is_empty.then_some(id));
+    }
+    // One for ids that are to find nothing.
+    places.stand_ins.push(insert(None));
+    Ok(places)
+}
+
+impl<T> Places<T> {
+    fn emptied(self, remove: impl FnMut(Id<T>)) -> Table<T> {
+        let gone = self.stand_ins.last().copied();
+        self.stand_ins.into_iter().for_each(remove);
+        Table { ids: self.ids, gone }
+    }
+}
+
+fn read_arena<T: Stored>(
+    from: &mut Reader<'_>,
+    arena: &mut Arena<T>,
+    stand_in: impl Fn() -> T,
+) -> Result<Table<T>, Damage> {
+    let places = read_places(from, |item: Option<T>| arena.insert(item.unwrap_or_else(&stand_in)))?;
+    Ok(places.emptied(|id| _ = arena.remove(id)))
+}
+
+fn one_texel() -> TextureAsset {
+    let texture = Texture::new(1, 1, vec![[0; 4]], TextureFormat::Linear).expect("one texel is a texture");
+    TextureAsset { name: String::new(), texture: Arc::new(texture) }
+}

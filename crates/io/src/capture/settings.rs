@@ -1,0 +1,160 @@
+//! Camera and settings: everything but what the colours do not depend on.
+
+use trigon_camera::{Camera, CameraError, PixelCenters, Projection, Viewport};
+use trigon_math::{DQuat, DVec2, DVec3};
+use trigon_scene::{
+    AmbientOcclusion, Background, EffectSettings, Environment, Fog, Lighting, Outline, Outputs, Reflection,
+    RenderSettings, ShadingModel, Shadows, Style, ToneMapping,
+};
+
+use super::stored::{Stored, choice, record};
+use super::stream::{Damage, Reader, Writer};
+
+record!(EffectSettings {
+    shadows,
+    ambient_occlusion,
+    environment,
+    bounces,
+    fog,
+    exposure,
+    tone_mapping,
+    outline,
+});
+choice!(Shadows { 0 => Off, 1 => Maps { resolution }, 2 => Rays });
+record!(AmbientOcclusion { rays, distance });
+record!(Fog { color, density });
+choice!(ToneMapping { 0 => None, 1 => KhronosPbrNeutral });
+record!(Outline { nodes, color, width });
+
+choice!(Background { 0 => Color(color), 1 => Gradient { top, bottom }, 2 => Transparent });
+choice!(Style { 0 => Surface, 1 => SurfaceWithEdges, 2 => Wireframe, 3 => HiddenLine });
+choice!(Lighting { 0 => Automatic, 1 => Scene, 2 => Studio });
+choice!(ShadingModel { 0 => Flat, 1 => Gouraud, 2 => Phong });
+choice!(Reflection { 0 => Material, 1 => Lambert, 2 => BlinnPhong, 3 => MetallicRoughness });
+
+/// The map of directions; the blurred ones are made again.
+impl Stored for Environment {
+    fn write(&self, to: &mut Writer<'_>) {
+        let (side, texels) = self.texels();
+        (side as u32).write(to);
+        texels.write(to);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+        let (side, texels): (u32, Vec<[f32; 3]>) = (Stored::read(from)?, Stored::read(from)?);
+        Self::from_texels(side as usize, &texels).map_err(|error| Damage::malformed(error.to_string()))
+    }
+}
+
+impl Stored for RenderSettings {
+    fn write(&self, to: &mut Writer<'_>) {
+        let Self { width, height, samples_per_axis, samples, background, style, line_width, .. } = self;
+        [*width, *height, *samples_per_axis, *samples].write(to);
+        background.write(to);
+        style.write(to);
+        line_width.write(to);
+        let Self { edge_color, lighting, light_intensity, shading, reflection, effects, .. } = self;
+        edge_color.write(to);
+        lighting.write(to);
+        light_intensity.write(to);
+        shading.write(to);
+        reflection.write(to);
+        effects.write(to);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+        let [width, height, samples_per_axis, samples] = Stored::read(from)?;
+        Ok(Self {
+            width,
+            height,
+            samples_per_axis,
+            samples,
+            background: Stored::read(from)?,
+            style: Stored::read(from)?,
+            line_width: Stored::read(from)?,
+            edge_color: Stored::read(from)?,
+            lighting: Stored::read(from)?,
+            light_intensity: Stored::read(from)?,
+            shading: Stored::read(from)?,
+            reflection: Stored::read(from)?,
+            effects: Stored::read(from)?,
+            // The colours depend on none of these.
+            outputs: Outputs::default(),
+            threads: None,
+            simd: None,
+        })
+    }
+}
+
+impl Stored for Camera {
+    fn write(&self, to: &mut Writer<'_>) {
+        let Self { position, orientation, projection } = self;
+        position.write(to);
+        orientation.write(to);
+        projection.write(to);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+        let (position, orientation): (DVec3, DQuat) = (Stored::read(from)?, Stored::read(from)?);
+        if !position.is_finite() || !orientation.is_normalized() {
+            return Err(Damage::malformed("the camera is nowhere, or turned by no rotation"));
+        }
+        Ok(Self { position, orientation, projection: Stored::read(from)? })
+    }
+}
+
+/// Distances of planes: near, and far if it is not infinitely far.
+type Planes = (f64, Option<f64>);
+
+impl Stored for Projection {
+    fn write(&self, to: &mut Writer<'_>) {
+        let (kind, shape): (u8, Vec<f64>) = match *self {
+            Self::Perspective { vertical_fov, .. } => (0, vec![vertical_fov]),
+            Self::Orthographic { height, .. } => (1, vec![height]),
+            Self::Frustum { left, right, bottom, top, .. } => (2, vec![left, right, bottom, top]),
+            Self::Pinhole { focal, center, size, .. } => {
+                (3, vec![focal.x, focal.y, center.x, center.y, size.x, size.y])
+            }
+        };
+        kind.write(to);
+        shape.iter().for_each(|number| number.write(to));
+        self.near().write(to);
+        self.far().write(to);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
+        let kind = u8::read(from)?;
+        let made = match kind {
+            0 => {
+                let ([vertical_fov], (near, far)) = parts(from)?;
+                Self::perspective(vertical_fov, near, far)
+            }
+            1 => {
+                let ([height], (near, far)) = parts(from)?;
+                Self::orthographic(height, near, far.unwrap_or(f64::INFINITY))
+            }
+            2 => {
+                let ([left, right, bottom, top], (near, far)) = parts(from)?;
+                Self::frustum(left, right, bottom, top, near, far)
+            }
+            3 => {
+                let (shape, planes) = parts(from)?;
+                pinhole(shape, planes)
+            }
+            _ => return Err(Damage::malformed(format!("there is no projection of number {kind}"))),
+        };
+        made.map_err(|error| Damage::malformed(error.to_string()))
+    }
+}
+
+fn parts<const N: usize>(from: &mut Reader<'_>) -> Result<([f64; N], Planes), Damage> {
+    Ok((Stored::read(from)?, (Stored::read(from)?, Stored::read(from)?)))
+}
+
+fn pinhole(shape: [f64; 6], (near, far): Planes) -> Result<Projection, CameraError> {
+    let [fx, fy, cx, cy, width, height] = shape;
+    // A size in pixels is a whole number; what is none becomes 0, which is refused.
+    let image = Viewport { width: width as u32, height: height as u32 };
+    let (focal, center) = (DVec2::new(fx, fy), DVec2::new(cx, cy));
+    Projection::pinhole(focal, center, image, PixelCenters::AtHalves, near)?.with_planes(near, far)
+}
