@@ -2,10 +2,10 @@
 
 use crate::frame::FrameView;
 use crate::pass::Background;
-use crate::shade::{Encoding, Shading};
-use crate::simd::{LANES, U32, at_level, prelude::*};
+use crate::shade::{EmptyGroup, Encoding, Shading};
+use crate::simd::LANES;
 use crate::target::Bands;
-use crate::tile::{NOBODY, Scratch, TileArea};
+use crate::tile::TileArea;
 use trigon_math::{UVec2, Vec4};
 
 impl FrameView<'_> {
@@ -73,64 +73,47 @@ pub(crate) fn fill_background(frame: &FrameView<'_>, area: &TileArea, bands: &Ba
 }
 
 /// Puts the background's bytes into all pixels that see it.
-pub(super) fn lay_codes(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch, encoding: Encoding) {
+pub(super) fn lay_codes(frame: &FrameView<'_>, area: &TileArea, shading: &mut Shading, encoding: Encoding) {
     let encode = |color| u32::from_le_bytes(encoding.encode(color));
     let constant = match frame.background {
         Background::Color(_) => Some(encode(frame.background_of(UVec2::ZERO))),
         Background::PerPixel(_) => None,
     };
-    for_each_empty(frame, scratch, |shading, group, lanes| {
-        let codes = &mut shading.codes[group * LANES..][..LANES];
+    let Shading { empty_groups, codes, .. } = shading;
+    for &EmptyGroup { number, lanes } in empty_groups.iter() {
+        let codes = &mut codes[number as usize * LANES..][..LANES];
         match constant {
             Some(code) if lanes == 0xff => codes.fill(code),
             Some(code) => bits(lanes).for_each(|lane| codes[lane] = code),
             None => {
-                for (lane, at) in within(area, group, lanes) {
+                for (lane, at) in within(area, number, lanes) {
                     codes[lane] = encode(frame.background_at(area, at));
                 }
             }
         }
-    });
+    }
 }
 
-/// Puts the background's colour into all pixels of which every sample sees it.
-pub(super) fn lay_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) {
-    for_each_empty(frame, scratch, |shading, group, lanes| {
-        for (lane, at) in within(area, group, lanes) {
-            shading.colors[group * LANES + lane] = frame.background_at(area, at).to_array();
+/// Puts the background's colour into all pixels of which the first sample sees it.
+/// (Edge pixels get their colour afterwards.)
+pub(super) fn lay_colors(frame: &FrameView<'_>, area: &TileArea, shading: &mut Shading) {
+    let Shading { empty_groups, colors, .. } = shading;
+    for &EmptyGroup { number, lanes } in empty_groups.iter() {
+        for (lane, at) in within(area, number, lanes) {
+            colors[number as usize * LANES + lane] = frame.background_at(area, at).to_array();
         }
-    });
-}
-
-/// Visits the groups with pixels whose first sample sees nobody, and tells which
-/// they are. (With several samples those that are edge pixels get their colour
-/// afterwards.)
-#[inline(always)]
-fn for_each_empty(
-    frame: &FrameView<'_>,
-    scratch: &mut Scratch,
-    mut visit: impl FnMut(&mut Shading, usize, u64),
-) {
-    let Scratch { buffer, shading, .. } = scratch;
-    at_level!(frame.token, simd => {
-        for (group, rows) in buffer.winners().chunks_exact(LANES * buffer.samples).enumerate() {
-            let empty = U32::from_slice(simd, &rows[..LANES]).simd_eq(U32::splat(simd, NOBODY));
-            if empty.any_true() {
-                visit(shading, group, empty.to_bitmask());
-            }
-        }
-    });
+    }
 }
 
 /// The lanes of a group that lie in the picture, with their places in the tile.
-fn within(area: &TileArea, group: usize, lanes: u64) -> impl Iterator<Item = (usize, [usize; 2])> {
+fn within(area: &TileArea, group: u32, lanes: u32) -> impl Iterator<Item = (usize, [usize; 2])> {
     bits(lanes)
-        .map(move |lane| (lane, TileArea::pixel_at(group * LANES + lane)))
+        .map(move |lane| (lane, TileArea::pixel_at(group as usize * LANES + lane)))
         .filter(|&(_, at)| area.contains(at))
 }
 
 /// The numbers of the bits that are set.
-fn bits(mut lanes: u64) -> impl Iterator<Item = usize> {
+fn bits(mut lanes: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let lane = (lanes != 0).then_some(lanes.trailing_zeros() as usize)?;
         lanes &= lanes - 1;

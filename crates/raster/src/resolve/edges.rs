@@ -16,7 +16,7 @@ pub(super) fn average_codes(
     encoding: Encoding,
 ) {
     at_level!(frame.token, simd => for_each_group(simd, frame, area, shading, #[inline(always)] |shading, edges, means| {
-        let codes = encoding.encode_lanes(simd, means);
+        let codes: [u32; LANES] = encoding.encode_lanes(simd, means).into();
         for lane in edges.lanes() {
             shading.codes[edges.number as usize * LANES + lane] = codes[lane];
         }

@@ -10,7 +10,7 @@ pub(crate) use mean::{mean, saturated};
 
 use crate::frame::FrameView;
 use crate::shade::{Encoding, Shading};
-use crate::simd::{Each, at_level};
+use crate::simd::{Each, LANES, at_level};
 use crate::target::{Band, Bands};
 use crate::tile::{NOBODY, Scratch, TileArea};
 use trigon_math::Vec4;
@@ -23,7 +23,7 @@ pub(crate) fn resolve(
     (bands, early): (&Bands<'_>, Option<Encoding>),
 ) {
     if let Some(encoding) = early {
-        background::lay_codes(frame, area, scratch, encoding);
+        background::lay_codes(frame, area, &mut scratch.shading, encoding);
         edges::average_codes(frame, area, &mut scratch.shading, encoding);
         copy_codes(frame, area, scratch, bands);
     } else if frame.wants.color {
@@ -42,35 +42,43 @@ pub(crate) fn resolve(
     }
 }
 
-/// Copies bytes, four pixels at a time.
+/// Copies bytes, a row of a block at a time.
 fn copy_codes(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: &Bands<'_>) {
     let [left, top] = area.origin.map(|v| v as u32);
     let (mut band, first) = bands.lock([left, top]);
     let band = &mut *band;
     let picture = if band.unorm8.is_empty() { &mut *band.srgb8 } else { &mut *band.unorm8 };
     let [columns, rows] = frame.drawn_part(area);
+    let codes = &scratch.shading.codes;
     for y in rows {
         let start = first + y * bands.width();
         let row = &mut picture[start + columns.start..start + columns.end];
-        // Up to a whole group first.
-        let head = row.len().min(columns.start.next_multiple_of(4) - columns.start);
+        // Up to a whole block first.
+        let head = row.len().min(columns.start.next_multiple_of(8) - columns.start);
         let (head, row) = row.split_at_mut(head);
-        copy_some(head, &scratch.shading.codes[TileArea::index_of([columns.start, y])..]);
-        let (fours, tail) = row.as_chunks_mut::<4>();
-        let mut x = columns.start + head.len();
-        for pixels in fours {
-            let codes = scratch.shading.codes[TileArea::index_of([x, y])..].first_chunk::<4>();
-            *pixels = codes.expect("groups are whole").each(u32::to_le_bytes);
-            x += 4;
+        copy_some(head, codes, [columns.start, y]);
+        let whole = columns.start + head.len();
+        let (eights, tail) = row.as_chunks_mut::<8>();
+        let copied = whole + 8 * eights.len();
+        if let Some(codes) = codes.get(TileArea::index_of([whole, y])..) {
+            for (pixels, block) in eights.iter_mut().zip(codes.chunks(BLOCK)) {
+                let row = [0, LANES].map(|group| block[group..].first_chunk::<4>());
+                for (pixels, codes) in pixels.as_chunks_mut().0.iter_mut().zip(row) {
+                    *pixels = codes.expect("groups are whole").each(u32::to_le_bytes);
+                }
+            }
         }
-        copy_some(tail, &scratch.shading.codes[TileArea::index_of([x.min(area.size[0] - 1), y])..]);
+        copy_some(tail, codes, [copied, y]);
     }
 }
 
-/// Copies fewer pixels than are in a row of a group.
-fn copy_some(pixels: &mut [[u8; 4]], codes: &[u32]) {
-    for (pixel, code) in pixels.iter_mut().zip(codes) {
-        *pixel = code.to_le_bytes();
+/// Pixels of a block.
+const BLOCK: usize = 64;
+
+/// Copies fewer pixels than are in a row of a block.
+fn copy_some(pixels: &mut [[u8; 4]], codes: &[u32], [x, y]: [usize; 2]) {
+    for (pixel, x) in pixels.iter_mut().zip(x..) {
+        *pixel = codes[TileArea::index_of([x, y])].to_le_bytes();
     }
 }
 
@@ -80,7 +88,7 @@ fn finish_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) 
     if std::mem::take(&mut scratch.blended) {
         return;
     }
-    background::lay_colors(frame, area, scratch);
+    background::lay_colors(frame, area, &mut scratch.shading);
     edges::average_colors(frame, area, &mut scratch.shading);
 }
 

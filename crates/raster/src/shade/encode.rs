@@ -31,17 +31,17 @@ impl Encoding {
     pub(crate) fn encode_all<S: Simd>(self, simd: S, colors: &[[f32; 4]], codes: &mut [u32]) {
         let groups = colors.as_chunks::<LANES>().0;
         for (colors, codes) in groups.iter().zip(codes.as_chunks_mut::<LANES>().0) {
-            *codes = self.encode_lanes(simd, channels(simd, colors.each_ref()));
+            *codes = self.encode_lanes(simd, channels(simd, colors.each_ref())).into();
         }
     }
 
     /// Eight colours as four bytes each, red in the lowest.
     #[inline(always)]
-    pub(crate) fn encode_lanes<S: Simd>(self, simd: S, color: [F32<S>; 4]) -> [u32; LANES] {
+    pub(crate) fn encode_lanes<S: Simd>(self, simd: S, color: [F32<S>; 4]) -> U32<S> {
         match self {
             Self::Srgb8 => {
                 let channels: [[f32; LANES]; 4] = color.each(Into::into);
-                lanes_of(
+                let codes = lanes_of(
                     #[inline(always)]
                     |lane| {
                         let [r, g, b, a] = channels.each(
@@ -50,14 +50,15 @@ impl Encoding {
                         );
                         u32::from_le_bytes(self.encode(Vec4::new(r, g, b, a)))
                     },
-                )
+                );
+                U32::simd_from(simd, codes)
             }
             Self::Unorm8 => {
                 let [r, g, b, a] = color.each(
                     #[inline(always)]
                     |channel| unorm_lanes(simd, channel),
                 );
-                (r | (g << 8) | (b << 16) | (a << 24)).into()
+                r | (g << 8) | (b << 16) | (a << 24)
             }
         }
     }
@@ -91,7 +92,8 @@ mod tests {
             for encoding in [Encoding::Srgb8, Encoding::Unorm8] {
                 for token in SimdLevel::ALL.into_iter().filter_map(SimdLevel::token) {
                     let codes = at_level!(token, simd => {
-                        encoding.encode_lanes(simd, channels.map(|channel| F32::simd_from(simd, channel)))
+                        let color = channels.map(|channel| F32::simd_from(simd, channel));
+                        <[u32; LANES]>::from(encoding.encode_lanes(simd, color))
                     });
                     for (lane, code) in codes.into_iter().enumerate() {
                         let color = Vec4::from_array(channels.map(|channel| channel[lane]));

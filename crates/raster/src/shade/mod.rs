@@ -26,5 +26,5 @@ pub use fragment_lanes::{FragmentLanes, MAX_VARYINGS, RawFragment};
 pub(crate) use list::{mask_jobs, shade_jobs};
 pub(crate) use output::ShadeOutput;
 use records::Records;
-pub(crate) use shading::Shading;
+pub(crate) use shading::{EmptyGroup, Shading};
 pub(crate) use surface::shade_tile;

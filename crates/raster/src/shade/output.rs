@@ -2,7 +2,7 @@
 
 use super::Encoding;
 use super::task::Destination;
-use crate::simd::{Each, F32, LANES, Simd, lanes_of};
+use crate::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
 
 /// The colours of a tile's pixels or fragments.
 pub(crate) enum ShadeOutput<'a> {
@@ -21,12 +21,13 @@ impl ShadeOutput<'_> {
                 let encoded = encoding.encode_lanes(simd, color);
                 match to {
                     Destination::Group(first, has_edges) => {
-                        codes[first..first + LANES].copy_from_slice(&encoded);
+                        encoded.store_slice(&mut codes[first..first + LANES]);
                         if has_edges {
                             colors[first..first + LANES].copy_from_slice(&rows(color));
                         }
                     }
                     Destination::Listed(fragments) => {
+                        let encoded: [u32; LANES] = encoded.into();
                         for (fragment, code) in fragments.iter().zip(encoded) {
                             codes[fragment.work.output as usize] = code;
                         }

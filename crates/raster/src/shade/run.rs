@@ -136,7 +136,11 @@ fn points<S: Simd>(
 #[inline(always)]
 pub(super) fn finite<S: Simd>(simd: S, color: [F32<S>; 4]) -> [F32<S>; 4] {
     let zero = F32::splat(simd, 0.0);
-    // Infinity and NaN times zero are no numbers.
+    // Infinity and NaN times zero are no numbers. Most often there are none.
+    let [r, g, b, a] = color;
+    if ((r + g + b + a) * zero).simd_eq(zero).all_true() {
+        return color;
+    }
     color.each(
         #[inline(always)]
         |channel| (channel * zero).simd_eq(zero).select(channel, zero),

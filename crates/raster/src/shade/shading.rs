@@ -18,6 +18,14 @@ pub(super) struct Run {
     pub(super) parts: Range<usize>,
 }
 
+/// A group with pixels whose first samples see nobody.
+#[derive(Clone, Copy)]
+pub(crate) struct EmptyGroup {
+    pub(crate) number: u32,
+    /// Those pixels.
+    pub(crate) lanes: u32,
+}
+
 /// What shading keeps from tile to tile, so that nothing allocates once it is
 /// warm.
 pub(crate) struct Shading {
@@ -46,6 +54,8 @@ pub(crate) struct Shading {
     pub(crate) colors: Vec<[f32; 4]>,
     /// How many of the latter there are.
     pub(super) part_colors: usize,
+    /// Groups with pixels that see the background.
+    pub(crate) empty_groups: Vec<EmptyGroup>,
     /// Groups with pixels whose samples see different triangles.
     pub(crate) edge_groups: Vec<EdgeGroup>,
     /// For each of their samples and pixels an index into the colours.
@@ -69,6 +79,7 @@ impl Shading {
             codes: vec![0; PIXELS],
             colors: vec![[0.0; 4]; PIXELS],
             part_colors: 0,
+            empty_groups: Vec::new(),
             edge_groups: Vec::new(),
             sample_colors: Vec::new(),
         }

@@ -2,7 +2,7 @@
 
 use super::Work;
 use super::edges::push_edges;
-use super::shading::{Run, Shading};
+use super::shading::{EmptyGroup, Run, Shading};
 use super::task::{Fragment, Group};
 use crate::bin::Place;
 use crate::frame::FrameView;
@@ -26,6 +26,7 @@ pub(super) fn list<S: Simd>(
     shading.groups.clear();
     shading.fragments.clear();
     shading.parts.clear();
+    shading.empty_groups.clear();
     shading.edge_groups.clear();
     shading.sample_colors.clear();
     shading.part_colors = 0;
@@ -39,7 +40,11 @@ pub(super) fn list<S: Simd>(
             |agree, row| agree & lanes.simd_eq(U32::from_slice(simd, row)),
         );
         let edges = !agree.to_bitmask() & 0xff;
-        let seen = !lanes.simd_eq(U32::splat(simd, NOBODY)).to_bitmask() & 0xff;
+        let empty = lanes.simd_eq(U32::splat(simd, NOBODY)).to_bitmask();
+        if empty != 0 {
+            shading.empty_groups.push(EmptyGroup { number: group as u32, lanes: empty as u32 });
+        }
+        let seen = !empty & 0xff;
         pixels += seen.count_ones();
         if seen.count_ones() >= FULL {
             let slot = shading.slots[first[seen.trailing_zeros() as usize] as usize];
@@ -74,12 +79,10 @@ fn number<S: Simd>(simd: S, winners: &[u32], places: usize, shading: &mut Shadin
         if lanes.simd_eq(last).all_true() {
             continue;
         }
-        let mut others = !lanes.simd_eq(last).to_bitmask() & 0xff;
         last = lanes;
-        while others != 0 {
-            let winner = row[others.trailing_zeros() as usize % LANES];
-            slots[(winner as usize).min(places)] = 1;
-            others &= !lanes.simd_eq(U32::splat(simd, winner)).to_bitmask();
+        // All of them: which ones are new, nobody can foresee.
+        for winner in <[u32; LANES]>::from(lanes.min(places as u32)) {
+            slots[winner as usize] = 1;
         }
     }
     slots.truncate(places);

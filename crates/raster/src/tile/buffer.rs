@@ -77,7 +77,8 @@ impl VisibilityBuffer {
 
     /// Makes the arrays hold what they stand for.
     pub(crate) fn settle(&mut self) {
-        if let Some((depth, winner)) = self.fill.take() {
+        if let Some((depth, winner)) = self.fill {
+            self.fill = None;
             let length = self.span * self.samples;
             self.depth[..length].fill(depth);
             self.winner[..length].fill(winner);

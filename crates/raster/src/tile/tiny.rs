@@ -7,6 +7,7 @@ use super::area::{BLOCKS, TileArea};
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::cover::{Counts, Cover};
 use super::eight::Eight;
+use super::starts::Starts;
 use super::store::name_where;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lane_numbers, lesser, prelude::*};
 use fearless_simd::f64x4;
@@ -48,7 +49,7 @@ impl Cover<'_> {
     pub(super) fn tiny<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        (eight, lane): (&Eight, usize),
+        (eight, starts, lane): (&Eight, &Starts, usize),
         place: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
@@ -56,7 +57,7 @@ impl Cover<'_> {
         // Apart, so that what larger triangles need takes no registers.
         simd.vectorize(
             #[inline(always)]
-            || self.tiny_apart::<S, MULTI>(simd, (eight, lane % LANES), place, buffer, counts),
+            || self.tiny_apart::<S, MULTI>(simd, (eight, starts, lane % LANES), place, buffer, counts),
         );
     }
 
@@ -64,7 +65,7 @@ impl Cover<'_> {
     fn tiny_apart<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        (eight, lane): (&Eight, usize),
+        (eight, starts, lane): (&Eight, &Starts, usize),
         place: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
@@ -74,11 +75,20 @@ impl Cover<'_> {
             counts.tiles_rejected += 1;
             return;
         }
-        let tiny = eight.tiny(simd, lane, place);
+        let tiny = eight.tiny(simd, (starts, lane), place);
         counts.groups += tiny.groups();
         let samples = if MULTI { self.offsets.len() } else { 1 };
         for sample in 0..samples {
-            let start = self.start(simd, (eight, lane), &tiny, sample);
+            let [dx, dy] = starts.way(simd, lane, self.offsets[sample]);
+            let edges = starts.edges(simd, sample, lane);
+            let start = Start {
+                sample,
+                edges: [0, 1, 2].each(
+                    #[inline(always)]
+                    |k| tiny.lanes[k] + edges[k],
+                ),
+                way: [dx + f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]), dy],
+            };
             // As many columns as most have without a loop.
             let ties = match tiny.columns[1] - tiny.columns[0] {
                 0 => rows::<S, MULTI, 1>(simd, &tiny, &start, buffer),
@@ -122,60 +132,32 @@ impl Cover<'_> {
     #[inline(always)]
     fn hides_tiny(&self, eight: &Eight, lane: usize, buffer: &mut VisibilityBuffer) -> bool {
         let high = eight.high[lane];
-        let [columns, rows] = eight.pixels.each_ref().each(
+        let [[left, width], [top, height]] = eight.pixels.each_ref().each(
             #[inline(always)]
-            |[first, last]| (first[lane] >> 3) as usize % BLOCKS..=(last[lane] >> 3) as usize % BLOCKS,
+            |[first, last]| [first[lane] >> 3, (last[lane] >> 3) + 1 - (first[lane] >> 3)],
         );
-        let mut hidden = true;
-        for row in rows {
-            for column in columns.clone() {
-                let block = row * BLOCKS + column;
-                let bounds = buffer.blocks[block];
-                // What lies before all of a block cannot be hidden by it.
-                let farthest = if bounds.writes >= WRITES && high < bounds.nearest {
-                    buffer.farthest_in(block)
-                } else {
-                    bounds.farthest
-                };
-                if !self.hides(farthest, high) {
-                    hidden = false;
-                    buffer.note_write(block, high);
-                }
+        let (mut hidden, mut column) = (true, 0);
+        let mut block = (top * BLOCKS as i32 + left) as usize;
+        // One loop, whose end is foreseen wrongly once, instead of one in the other.
+        for _ in 0..width * height {
+            block %= BLOCKS * BLOCKS;
+            let bounds = buffer.blocks[block];
+            // What lies before all of a block cannot be hidden by it.
+            let farthest = if (bounds.writes >= WRITES) & (high < bounds.nearest) {
+                buffer.farthest_in(block)
+            } else {
+                bounds.farthest
+            };
+            if !self.hides(farthest, high) {
+                hidden = false;
+                buffer.note_write(block, high);
             }
+            column += 1;
+            let ends = column == width;
+            block += if ends { BLOCKS + 1 - width as usize } else { 1 };
+            column = if ends { 0 } else { column };
         }
         hidden
-    }
-
-    /// Where a sample of the triangle's pixels begins. Whole numbers, so that
-    /// stepping along from there rounds nothing.
-    #[inline(always)]
-    fn start<S: Simd>(
-        &self,
-        simd: S,
-        (eight, lane): (&Eight, usize),
-        tiny: &Tiny<S>,
-        sample: usize,
-    ) -> Start<S> {
-        let offset = self.offsets[sample];
-        let pixel = [tiny.columns[0] as i32 * 4, tiny.rows[0] as i32 * 2];
-        let edges = [0, 1, 2].each(
-            #[inline(always)]
-            |k| {
-                let (right, down) = (eight.right[k][lane], eight.down[k][lane]);
-                let first = if sample == 0 {
-                    eight.first[k][lane]
-                } else {
-                    (eight.corner[k][lane] + right * offset[0] + down * offset[1]) >> 8
-                };
-                tiny.lanes[k] + (first + right * pixel[0] + down * pixel[1])
-            },
-        );
-        let point = self.area.point(pixel, offset);
-        let [dx, dy] = [0, 1].each(
-            #[inline(always)]
-            |axis| f64x4::splat(simd, f64::from(point[axis] - eight.anchor[axis][lane])),
-        );
-        Start { sample, edges, way: [dx + f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]), dy] }
     }
 }
 
@@ -228,33 +210,22 @@ fn rows<S: Simd, const MULTI: bool, const WIDTH: usize>(
 
 impl Eight {
     #[inline(always)]
-    fn tiny<S: Simd>(&self, simd: S, lane: usize, place: u32) -> Tiny<S> {
+    fn tiny<S: Simd>(&self, simd: S, (starts, lane): (&Starts, usize), place: u32) -> Tiny<S> {
         let (x, y) = (lane_numbers(simd) & 3, lane_numbers(simd) >> 2);
         let [right, down] = [&self.right, &self.down].each(
             #[inline(always)]
             |steps| {
                 steps.each_ref().each(
                     #[inline(always)]
-                    |column| column[lane],
-                )
-            },
-        );
-        let groups = inlined(
-            #[inline(always)]
-            |(steps, pixels): ([i32; 3], i32)| {
-                steps.each(
-                    #[inline(always)]
-                    |step| I32::splat(simd, step * pixels),
+                    |column| I32::splat(simd, column[lane]),
                 )
             },
         );
         let ends = inlined(
             #[inline(always)]
             |(axis, shift): (usize, u32)| {
-                self.pixels[axis].each(
-                    #[inline(always)]
-                    |pixels| (pixels[lane] >> shift) as usize,
-                )
+                let [first, last] = &self.pixels[axis];
+                [(first[lane] >> shift) as usize, (last[lane] >> shift) as usize]
             },
         );
         Tiny {
@@ -265,9 +236,15 @@ impl Eight {
                 #[inline(always)]
                 |k| x * right[k] + y * down[k],
             ),
-            right: groups((right, 4)),
-            down: groups((down, 2)),
-            value: f64x4::splat(simd, f64::from(self.value[lane])),
+            right: right.each(
+                #[inline(always)]
+                |step| step << 2,
+            ),
+            down: down.each(
+                #[inline(always)]
+                |step| step << 1,
+            ),
+            value: f64x4::splat(simd, starts.value[lane]),
             slopes: self.slopes.each_ref().each(
                 #[inline(always)]
                 |column| f64x4::splat(simd, column[lane]),

@@ -2,6 +2,7 @@
 
 use super::cover::Cover;
 use super::eight::Eight;
+use super::starts::Starts;
 use super::{Counts, Covering, NOBODY, Scratch, Surfaces, TileArea, VisibilityBuffer, masked};
 use crate::bin::Place;
 use crate::frame::FrameView;
@@ -50,6 +51,7 @@ fn cover_opaque<S: Simd, const MULTI: bool>(
         precedes: &precedes,
     };
     let places = &places[..opaque];
+    let mut starts = Starts::new();
     let mut start = 0;
     while start < opaque {
         let together = side_by_side(frame, &places[start..]);
@@ -58,8 +60,11 @@ fn cover_opaque<S: Simd, const MULTI: bool>(
         if !MULTI && let Some(eight) = eight.as_ref().filter(|eight| eight.micro) {
             cover.micro(simd, eight, start as u32, buffer, counts);
         } else {
+            if let Some(eight) = &eight {
+                starts.find::<S, MULTI>(simd, &cover, eight);
+            }
             for (lane, &place) in places[start..end].iter().enumerate() {
-                let ready = eight.as_ref().map(|eight| (eight, lane));
+                let ready = eight.as_ref().map(|eight| (eight, &starts, lane));
                 cover_one::<S, MULTI>(simd, frame, &cover, ready, (place, start + lane), (buffer, counts));
             }
         }
@@ -73,11 +78,11 @@ fn cover_one<S: Simd, const MULTI: bool>(
     simd: S,
     frame: &FrameView<'_>,
     cover: &Cover<'_>,
-    ready: Option<(&Eight, usize)>,
+    ready: Option<(&Eight, &Starts, usize)>,
     (place, number): (Place, usize),
     (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
 ) {
-    let covering = match ready.filter(|(eight, lane)| eight.small >> lane & 1 != 0) {
+    let covering = match ready.filter(|(eight, _, lane)| eight.small >> lane & 1 != 0) {
         None => {
             let triangle = frame.triangle(place);
             if cover.tile_hides(buffer, triangle.nearest()) {
@@ -86,9 +91,9 @@ fn cover_one<S: Simd, const MULTI: bool>(
             }
             covering_apart(frame, &cover.area, &triangle)
         }
-        Some((eight, lane)) => {
+        Some((eight, starts, lane)) => {
             if eight.is_tiny(lane) {
-                cover.tiny::<S, MULTI>(simd, (eight, lane), number as u32, buffer, counts);
+                cover.tiny::<S, MULTI>(simd, (eight, starts, lane), number as u32, buffer, counts);
                 return;
             }
             if cover.tile_hides(buffer, eight.high[lane]) {

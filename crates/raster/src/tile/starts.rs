@@ -1,0 +1,77 @@
+//! Where eight small triangles begin in a tile: the ways of their edge functions and
+//! planes of depth through the pixels start there.
+
+use super::cover::Cover;
+use super::eight::Eight;
+use crate::samples::MAX_SAMPLES;
+use crate::simd::{Each, F32, I32, LANES, Simd, prelude::*, widened};
+use fearless_simd::f64x4;
+
+/// Whole numbers, so that stepping along from there rounds nothing.
+pub(super) struct Starts {
+    /// The edge functions at each sample of the first pixel of the first group, over
+    /// 256.
+    pub(super) edges: [[[i32; LANES]; 3]; MAX_SAMPLES],
+    /// From the triangles' first vertices to the corner of that pixel, in 1/256 pixel.
+    pub(super) way: [[f64; LANES]; 2],
+    /// Depths of the first vertices.
+    pub(super) value: [f64; LANES],
+}
+
+impl Starts {
+    pub(super) fn new() -> Self {
+        Self { edges: [[[0; LANES]; 3]; MAX_SAMPLES], way: [[0.0; LANES]; 2], value: [0.0; LANES] }
+    }
+
+    /// Finds them for eight triangles.
+    #[inline(always)]
+    pub(super) fn find<S: Simd, const MULTI: bool>(&mut self, simd: S, cover: &Cover<'_>, eight: &Eight) {
+        let column = |values: &[i32; LANES]| I32::simd_from(simd, *values);
+        // Groups are 4 by 2 pixels.
+        let pixel = [column(&eight.pixels[0][0]) & !3, column(&eight.pixels[1][0]) & !1];
+        for k in 0..3 {
+            let (right, down) = (column(&eight.right[k]), column(&eight.down[k]));
+            let along = right * pixel[0] + down * pixel[1];
+            self.edges[0][k] = (along + column(&eight.first[k])).into();
+            if MULTI {
+                let corner = column(&eight.corner[k]);
+                for (edges, [x, y]) in self.edges.iter_mut().zip(cover.offsets).skip(1) {
+                    edges[k] = (along + ((corner + right * *x + down * *y) >> 8)).into();
+                }
+            }
+        }
+        for axis in 0..2 {
+            let corner = (pixel[axis] + cover.area.origin[axis]) << 8;
+            // Small enough to be exact in f32, too.
+            let way = (corner - column(&eight.anchor[axis])).to_float::<F32<S>>();
+            store(way, &mut self.way[axis]);
+        }
+        store(F32::simd_from(simd, eight.value), &mut self.value);
+    }
+
+    /// The same for a sample of one triangle's pixels, in all lanes.
+    #[inline(always)]
+    pub(super) fn edges<S: Simd>(&self, simd: S, sample: usize, lane: usize) -> [I32<S>; 3] {
+        self.edges[sample % MAX_SAMPLES].each_ref().each(
+            #[inline(always)]
+            |column| I32::splat(simd, column[lane]),
+        )
+    }
+
+    /// From the triangle's first vertex to where an offset from the first pixel's
+    /// corner is.
+    #[inline(always)]
+    pub(super) fn way<S: Simd>(&self, simd: S, lane: usize, offset: [i32; 2]) -> [f64x4<S>; 2] {
+        [0, 1].each(
+            #[inline(always)]
+            |axis| f64x4::splat(simd, self.way[axis][lane]) + f64::from(offset[axis]),
+        )
+    }
+}
+
+#[inline(always)]
+fn store<S: Simd>(value: F32<S>, to: &mut [f64; LANES]) {
+    let [low, high] = widened(value);
+    low.store_slice(&mut to[..4]);
+    high.store_slice(&mut to[4..]);
+}
