@@ -5,7 +5,9 @@ use std::collections::HashMap;
 use trigon_math::{DVec3, Vec2, Vec3, Vec4, color::srgb_to_linear};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder};
 
+use super::index::NONE;
 use super::parse::Parsed;
+use super::section::Content;
 use super::smoothing::group_normals;
 use crate::error::Place;
 use crate::rebase::offset_for;
@@ -30,10 +32,12 @@ struct Span {
 
 /// Cuts the file into parts. The offset is to be added to every position.
 pub(crate) fn build_parts(parsed: &Parsed, warnings: &mut Warnings) -> (Vec<Part>, DVec3) {
-    let positions: Vec<DVec3> = parsed.mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
-    let offset = offset_for(&positions);
-    let cutter = Cutter { parsed, offset, positions: &positions };
-    let mut local = vec![NOT_YET; positions.len()];
+    let content = &parsed.content;
+    let used = used_vertices(content);
+    let positions =
+        content.positions.iter().zip(&used).filter(|&(_, &used)| used).map(|(&position, _)| position);
+    let cutter = Cutter { content, offset: offset_for(positions) };
+    let mut local = vec![NOT_YET; content.positions.len()];
     let mut dropped = Dropped::default();
     let spans = spans_by_part(parsed);
     let names = parsed.record.parts.list();
@@ -46,14 +50,9 @@ pub(crate) fn build_parts(parsed: &Parsed, warnings: &mut Warnings) -> (Vec<Part
         "a face has a vertex that is not finite and is left out",
         "export the model again",
     );
-    let colors = parsed
-        .mesh
-        .vertex_color
-        .chunks_exact(3)
-        .filter(|color| !color.iter().all(|channel| channel.is_finite()))
-        .count();
+    let is_odd = |&(color, &used): &(&Vec3, &bool)| used && color.is_nan();
     warnings.push_counted(
-        colors,
+        content.colors.iter().zip(&used).filter(is_odd).count(),
         Place::Whole,
         "a vertex has a colour that is not finite; it is white there",
         "export the model again",
@@ -64,7 +63,16 @@ pub(crate) fn build_parts(parsed: &Parsed, warnings: &mut Warnings) -> (Vec<Part
         "a face has fewer than 3 different vertices and is left out",
         "clean the model up",
     );
-    (parts, offset)
+    (parts, cutter.offset)
+}
+
+/// Which vertices of the file belong to an element.
+fn used_vertices(content: &Content) -> Vec<bool> {
+    let mut used = vec![false; content.positions.len()];
+    for &vertex in &content.position_indices {
+        used[vertex as usize] = true;
+    }
+    used
 }
 
 /// Marks a vertex that the current part has not used.
@@ -78,7 +86,7 @@ struct Dropped {
 
 /// The elements of each part, with where their corners start.
 fn spans_by_part(parsed: &Parsed) -> Vec<Vec<Span>> {
-    let record = &parsed.record;
+    let (record, arities) = (&parsed.record, &parsed.content.arities);
     let mut parts = vec![Vec::new(); record.parts.list().len()];
     let mut corner = 0;
     for (index, run) in record.runs.iter().enumerate() {
@@ -90,26 +98,20 @@ fn spans_by_part(parsed: &Parsed) -> Vec<Vec<Span>> {
             smoothing: run.smoothing,
         };
         parts[run.part as usize].push(span);
-        corner += (run.first..end).map(|element| arity(parsed, element)).sum::<usize>();
+        corner += arities[run.first..end].iter().map(|&arity| arity as usize).sum::<usize>();
     }
     parts
 }
 
-/// How many corners an element has; tobj keeps no list when all are triangles.
-fn arity(parsed: &Parsed, element: usize) -> usize {
-    parsed.mesh.face_arities.get(element).map_or(3, |&arity| arity as usize)
-}
-
 struct Cutter<'a> {
-    parsed: &'a Parsed,
-    positions: &'a [DVec3],
+    content: &'a Content,
     offset: DVec3,
 }
 
 /// A part under construction.
 struct Draft {
     builder: MeshBuilder,
-    /// For each corner of the accepted faces, its corner in tobj's lists.
+    /// For each corner of the accepted faces, its corner in the file's lists.
     sources: Vec<u32>,
     face_slots: Vec<u32>,
     face_groups: Vec<u32>,
@@ -155,11 +157,11 @@ impl Cutter<'_> {
     fn span(&self, span: &Span, draft: &mut Draft, local: &mut [u32], dropped: &mut Dropped) {
         let slot = draft.slot(span.material);
         let mut corner = span.first_corner;
-        for element in span.elements.0..span.elements.1 {
-            let corners = corner..corner + arity(self.parsed, element);
+        for &arity in &self.content.arities[span.elements.0..span.elements.1] {
+            let corners = corner..corner + arity as usize;
             corner = corners.end;
             draft.face.clear();
-            for &vertex in &self.parsed.mesh.indices[corners.clone()] {
+            for &vertex in &self.content.position_indices[corners.clone()] {
                 let Some(index) = self.vertex(vertex, draft, local) else { break };
                 draft.face.push(index);
             }
@@ -177,7 +179,7 @@ impl Cutter<'_> {
         if *known != NOT_YET {
             return Some(*known);
         }
-        let position = (self.positions[vertex as usize] - self.offset).as_vec3();
+        let position = (self.content.positions[vertex as usize] - self.offset).as_vec3();
         if !position.is_finite() {
             return None;
         }
@@ -212,49 +214,41 @@ impl Cutter<'_> {
 
     /// The normals as the file has them, zero where it has none.
     fn normals(&self, sources: &[u32]) -> Option<Vec<Vec3>> {
-        let mesh = &self.parsed.mesh;
-        if mesh.normal_indices.is_empty() {
+        let Content { normals, normal_indices, .. } = self.content;
+        if normal_indices.is_empty() {
             return None;
         }
-        let normal = |&corner: &u32| {
-            let at = 3 * mesh.normal_indices[corner as usize] as usize;
-            let normal = DVec3::from_slice(&mesh.normals[at..at + 3]).as_vec3();
-            if normal.is_finite() { normal } else { Vec3::ZERO }
+        let normal = |&corner: &u32| match normal_indices[corner as usize] {
+            NONE => Vec3::ZERO,
+            index => Some(normals[index as usize]).filter(|normal| normal.is_finite()).unwrap_or_default(),
         };
         let normals: Vec<Vec3> = sources.iter().map(normal).collect();
         normals.iter().any(|&normal| normal != Vec3::ZERO).then_some(normals)
     }
 
-    /// The texture coordinates with v turned down, zero where the file has
-    /// none.
+    /// The texture coordinates, zero where the file has none.
     fn coordinates(&self, sources: &[u32]) -> Option<Vec<Vec2>> {
-        let mesh = &self.parsed.mesh;
-        if mesh.texcoord_indices.is_empty() {
+        let Content { coordinates, coordinate_indices, .. } = self.content;
+        let index = |&corner: &u32| coordinate_indices[corner as usize];
+        if coordinate_indices.is_empty() || sources.iter().all(|corner| index(corner) == NONE) {
             return None;
         }
-        let mut any = false;
-        let mut coordinate = |&corner: &u32| {
-            let at = 2 * mesh.texcoord_indices[corner as usize] as usize;
-            let (u, v) = (mesh.texcoords[at], mesh.texcoords[at + 1]);
-            any |= !u.is_nan();
-            // OBJ counts from the lower left of the picture, trigon from the upper left.
-            let uv = Vec2::new(u as f32, (1.0 - v) as f32);
-            if uv.is_finite() { uv } else { Vec2::ZERO }
+        let coordinate = |corner: &u32| match index(corner) {
+            NONE => Vec2::ZERO,
+            index => Some(coordinates[index as usize]).filter(|uv| uv.is_finite()).unwrap_or_default(),
         };
-        let coordinates = sources.iter().map(&mut coordinate).collect();
-        any.then_some(coordinates)
+        Some(sources.iter().map(coordinate).collect())
     }
 
     fn colors(&self, sources: &[u32]) -> Option<Vec<Vec4>> {
-        let mesh = &self.parsed.mesh;
-        if mesh.vertex_color.is_empty() {
+        let Content { colors, position_indices, .. } = self.content;
+        if colors.is_empty() {
             return None;
         }
-        let channel =
-            |value: f64| if value.is_finite() { srgb_to_linear(value.clamp(0.0, 1.0) as f32) } else { 1.0 };
+        let channel = |value: f32| if value.is_nan() { 1.0 } else { srgb_to_linear(value) };
         let color = |&corner: &u32| {
-            let at = 3 * mesh.indices[corner as usize] as usize;
-            let [red, green, blue] = [0, 1, 2].map(|index| channel(mesh.vertex_color[at + index]));
+            let [red, green, blue] =
+                colors[position_indices[corner as usize] as usize].to_array().map(channel);
             Vec4::new(red, green, blue, 1.0)
         };
         Some(sources.iter().map(color).collect())

@@ -7,18 +7,13 @@ use trigon_math::color::srgb_to_linear;
 use trigon_math::{Vec3, Vec4};
 use trigon_scene::{AlphaMode, Material, MetallicRoughness, Shading};
 
-use super::mtl::{Aside, MapKind, MtlMaterial};
+use super::mtl::{Fields, MapKind, MtlMaterial};
 use crate::error::Place;
 use crate::warning::Warnings;
 
-/// Converts what tobj read, and what it was not told. The textures come later.
-pub(super) fn convert(
-    file: &Path,
-    from: tobj::Material,
-    aside: Aside,
-    warnings: &mut Warnings,
-) -> MtlMaterial {
-    let textured = aside.has(MapKind::BaseColor);
+/// Converts what a library says of a material. The textures come later.
+pub(super) fn convert(file: &Path, from: Fields, warnings: &mut Warnings) -> MtlMaterial {
+    let textured = from.has(MapKind::BaseColor);
     let diffuse = from.diffuse.map(to_linear);
     // Many exporters write black beside a texture that they do not mean to darken.
     let base = match diffuse {
@@ -26,42 +21,41 @@ pub(super) fn convert(
         _ if textured => Vec3::ONE,
         _ => Material::default().base_color.truncate(),
     };
-    let alpha = from
-        .dissolve
-        .map_or_else(|| alpha_from(file, &aside, warnings), |alpha| alpha.clamp(0.0, 1.0) as f32);
-    let specular = white_beside_map(from.specular, aside.has(MapKind::Specular));
+    let alpha =
+        from.dissolve.map_or_else(|| alpha_from(file, &from, warnings), |alpha| alpha.clamp(0.0, 1.0));
+    let specular = white_beside_map(from.specular, from.has(MapKind::Specular));
     let material = Material {
-        name: from.name,
+        name: from.name.clone(),
         base_color: Vec4::from((base, alpha)),
-        shading: metallic_roughness(&aside)
+        shading: metallic_roughness(&from)
             .unwrap_or_else(|| shading(from.illumination_model, specular.map(to_linear), from.shininess)),
-        emissive: white_beside_map(from.emissive, aside.has(MapKind::Emissive)).map_or(Vec3::ZERO, to_linear),
+        emissive: white_beside_map(from.emissive, from.has(MapKind::Emissive)).map_or(Vec3::ZERO, to_linear),
         alpha_mode: match alpha < 1.0 {
             true => AlphaMode::Blend,
             // What map_d is used for: leaves and fences.
-            false if aside.has(MapKind::Opacity) => AlphaMode::Mask { cutoff: 0.5 },
+            false if from.has(MapKind::Opacity) => AlphaMode::Mask { cutoff: 0.5 },
             false => AlphaMode::Opaque,
         },
         // Below 1 there is no such matter; many exporters write 0 or 1 for "no matter".
-        ior: aside.refraction.filter(|&ior| ior > 1.0).unwrap_or(Material::default().ior),
+        ior: from.refraction.filter(|&ior| ior > 1.0).unwrap_or(Material::default().ior),
         // OBJ does not say which side counts, and many a file has it mixed up.
         double_sided: true,
         ..Material::default()
     };
-    MtlMaterial { material, maps: aside.maps, file: file.to_owned() }
+    MtlMaterial { material, maps: from.maps, file: file.to_owned() }
 }
 
 /// A colour beside its texture: exporters leave it out, or write black, where
 /// the texture is to be seen as it is.
-fn white_beside_map(color: Option<[f64; 3]>, has_map: bool) -> Option<[f64; 3]> {
+fn white_beside_map(color: Option<[f32; 3]>, has_map: bool) -> Option<[f32; 3]> {
     if has_map && color.is_none_or(|color| color == [0.0; 3]) { Some([1.0; 3]) } else { color }
 }
 
 /// The model of "physically-based" MTL, where a material has any of its fields
 /// (`Pr`, `Pm`, `map_Pr`, `map_Pm`; after the extension by Exocortex).
-fn metallic_roughness(aside: &Aside) -> Option<Shading> {
-    let maps = [MapKind::Roughness, MapKind::Metallic].map(|kind| aside.has(kind));
-    if aside.roughness.is_none() && aside.metallic.is_none() && maps == [false, false] {
+fn metallic_roughness(from: &Fields) -> Option<Shading> {
+    let maps = [MapKind::Roughness, MapKind::Metallic].map(|kind| from.has(kind));
+    if from.roughness.is_none() && from.metallic.is_none() && maps == [false, false] {
         return None;
     }
     let default = MetallicRoughness::default();
@@ -72,16 +66,16 @@ fn metallic_roughness(aside: &Aside) -> Option<Shading> {
         _ => otherwise,
     };
     Some(Shading::MetallicRoughness(MetallicRoughness {
-        roughness: factor(aside.roughness, maps[0], default.roughness),
-        metallic: factor(aside.metallic, maps[1], default.metallic),
+        roughness: factor(from.roughness, maps[0], default.roughness),
+        metallic: factor(from.metallic, maps[1], default.metallic),
         ..default
     }))
 }
 
 /// `Tr` is 1 − d. Some exporters write 1 for opaque: nobody means a material
 /// that cannot be seen.
-fn alpha_from(file: &Path, aside: &Aside, warnings: &mut Warnings) -> f32 {
-    match aside.transparency {
+fn alpha_from(file: &Path, from: &Fields, warnings: &mut Warnings) -> f32 {
+    match from.transparency {
         Some((line, value)) if value >= 1.0 => {
             warnings.push_about(
                 file,
@@ -97,18 +91,17 @@ fn alpha_from(file: &Path, aside: &Aside, warnings: &mut Warnings) -> f32 {
 }
 
 /// Illumination models 0 and 1 have no highlight.
-fn shading(model: Option<u8>, specular: Option<Vec3>, shininess: Option<f64>) -> Shading {
+fn shading(model: Option<u8>, specular: Option<Vec3>, shininess: Option<f32>) -> Shading {
     // The format's own range of Ns.
-    const MOST: f64 = 1000.0;
+    const MOST: f32 = 1000.0;
     match specular {
         Some(specular) if specular != Vec3::ZERO && !matches!(model, Some(0 | 1)) => {
-            Shading::blinn_phong(specular, shininess.unwrap_or(30.0).clamp(0.0, MOST) as f32)
+            Shading::blinn_phong(specular, shininess.unwrap_or(30.0).clamp(0.0, MOST))
         }
         _ => Shading::Lambert,
     }
 }
 
-fn to_linear(color: [f64; 3]) -> Vec3 {
-    let channel = |value: f64| srgb_to_linear(value.clamp(0.0, 1.0) as f32);
-    Vec3::from(color.map(channel))
+fn to_linear(color: [f32; 3]) -> Vec3 {
+    Vec3::from(color.map(|value| srgb_to_linear(value.clamp(0.0, 1.0))))
 }

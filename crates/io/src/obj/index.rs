@@ -1,9 +1,9 @@
 //! The corners of a face: indices checked against what the file holds.
 //!
-//! An index counts from 1, or from the end backwards; 0 does not exist. All
-//! arithmetic is on i64 with checks, so no absurd number wraps around into a
-//! valid one.
+//! An index counts from 1, or from the end backwards; 0 does not exist. Numbers
+//! stop at the largest u64, so no absurd one wraps around into a valid one.
 
+use super::numbers::first_word;
 use crate::warning::counted;
 
 /// How many positions, texture coordinates and normals there are.
@@ -14,82 +14,109 @@ pub(crate) struct Counts {
     pub(crate) normals: usize,
 }
 
-/// One corner, indices counted from 1; 0 where it has none.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// Stands for a coordinate or normal that a corner has not.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// One corner, indices counted from 0; [`NONE`] where it has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Corner {
-    pub(crate) position: usize,
-    pub(crate) coordinate: usize,
-    pub(crate) normal: usize,
+    pub(crate) position: u32,
+    pub(crate) coordinate: u32,
+    pub(crate) normal: u32,
     /// Whether an index of a coordinate or a normal led nowhere.
     pub(crate) dropped: bool,
 }
 
-/// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`. Negative indices count back from
-/// `seen`; positive ones may point ahead, up to `total`.
-pub(crate) fn parse_corner(word: &[u8], seen: Counts, total: Counts) -> Result<Corner, String> {
-    let mut parts = word.split(|&byte| byte == b'/');
-    let mut next = || parts.next().filter(|part| !part.is_empty());
-    let position = next().ok_or_else(|| describe(word, "has no vertex index"))?;
-    let (coordinate, normal) = (next(), next());
-    if parts.next().is_some() {
-        return Err(describe(word, "has more than three indices"));
-    }
-    let position = match resolve(position, seen.positions, total.positions) {
-        Resolved::Index(index) => index,
-        Resolved::Zero => return Err(describe(word, "has index 0, and indices count from 1")),
-        Resolved::NotANumber => return Err(describe(word, "is not an index")),
-        Resolved::Nowhere => {
-            return Err(format!(
-                "face index {} leads nowhere; the file has {}",
-                quote(position),
-                counted(total.positions, "vertex")
-            ));
+/// Reads the `v`, `v/vt`, `v//vn` or `v/vt/vn` that a text starts with; how long it
+/// is comes with it. Negative indices count back from `seen`; positive ones may
+/// point ahead, up to `total`, which is below [`NONE`].
+pub(crate) fn parse_corner(text: &[u8], seen: Counts, total: Counts) -> Result<(Corner, usize), String> {
+    let (position, mut at) = index(text, 0);
+    let mut optional = [Index::Absent; 2];
+    for index_of in &mut optional {
+        if text.get(at) == Some(&b'/') {
+            (*index_of, at) = index(text, at + 1);
         }
+    }
+    match text.get(at) {
+        Some(b'/') => return Err(describe(text, "has more than three indices")),
+        Some(byte) if !byte.is_ascii_whitespace() => return Err(describe(text, "is not an index")),
+        _ => {}
+    }
+    let position = match position.resolve(seen.positions, total.positions) {
+        Resolved::Known(index) => index,
+        Resolved::Absent => return Err(describe(text, "has no vertex index")),
+        Resolved::Zero => return Err(describe(text, "has index 0, and indices count from 1")),
+        Resolved::Nowhere => return Err(leads_nowhere(text, total)),
     };
-    let mut corner = Corner { position, ..Corner::default() };
-    let optional = [(coordinate, seen.coordinates, total.coordinates), (normal, seen.normals, total.normals)];
-    for (slot, (part, seen, total)) in [&mut corner.coordinate, &mut corner.normal].into_iter().zip(optional)
-    {
-        let Some(part) = part else { continue };
-        match resolve(part, seen, total) {
-            Resolved::Index(index) => *slot = index,
+    let mut corner = Corner { position, coordinate: NONE, normal: NONE, dropped: false };
+    let [coordinate, normal] = optional;
+    let coordinate = coordinate.resolve(seen.coordinates, total.coordinates);
+    let normal = normal.resolve(seen.normals, total.normals);
+    for (slot, resolved) in [(&mut corner.coordinate, coordinate), (&mut corner.normal, normal)] {
+        match resolved {
+            Resolved::Known(index) => *slot = index,
+            Resolved::Absent => {}
             Resolved::Nowhere => corner.dropped = true,
-            Resolved::Zero => return Err(describe(word, "has index 0, and indices count from 1")),
-            Resolved::NotANumber => return Err(describe(word, "is not an index")),
+            Resolved::Zero => return Err(describe(text, "has index 0, and indices count from 1")),
         }
     }
-    Ok(corner)
+    Ok((corner, at))
+}
+
+/// An index as it is written.
+#[derive(Clone, Copy)]
+enum Index {
+    Absent,
+    Forward(u64),
+    Backward(u64),
+}
+
+/// The index at a place and where it ends.
+fn index(text: &[u8], at: usize) -> (Index, usize) {
+    let sign = text.get(at).filter(|sign| matches!(sign, b'+' | b'-'));
+    let start = at + usize::from(sign.is_some());
+    let (mut value, mut end) = (0u64, start);
+    while let Some(digit) = text.get(end).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
+        value = value.saturating_mul(10).saturating_add(u64::from(digit));
+        end += 1;
+    }
+    match sign {
+        // A sign alone is left for the caller to stumble over.
+        _ if end == start => (Index::Absent, at),
+        Some(b'-') => (Index::Backward(value), end),
+        _ => (Index::Forward(value), end),
+    }
 }
 
 enum Resolved {
-    Index(usize),
+    Known(u32),
+    Absent,
     Zero,
     Nowhere,
-    NotANumber,
 }
 
-fn resolve(part: &[u8], seen: usize, total: usize) -> Resolved {
-    let (negative, digits) = match part {
-        [b'-', digits @ ..] => (true, digits),
-        [b'+', digits @ ..] => (false, digits),
-        digits => (false, digits),
-    };
-    if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
-        return Resolved::NotANumber;
-    }
-    let value = digits
-        .iter()
-        .try_fold(0usize, |value, digit| value.checked_mul(10)?.checked_add(usize::from(digit - b'0')));
-    match value {
-        Some(0) => Resolved::Zero,
-        Some(value) if negative && value <= seen => Resolved::Index(seen - value + 1),
-        Some(value) if !negative && value <= total => Resolved::Index(value),
-        _ => Resolved::Nowhere,
+impl Index {
+    fn resolve(self, seen: usize, total: usize) -> Resolved {
+        match self {
+            Self::Absent => Resolved::Absent,
+            Self::Forward(0) | Self::Backward(0) => Resolved::Zero,
+            Self::Forward(value) if value <= total as u64 => Resolved::Known((value - 1) as u32),
+            Self::Backward(value) if value <= seen as u64 => Resolved::Known((seen as u64 - value) as u32),
+            _ => Resolved::Nowhere,
+        }
     }
 }
 
-fn describe(word: &[u8], what: &str) -> String {
-    format!("face corner {} {what}", quote(word))
+fn leads_nowhere(text: &[u8], total: Counts) -> String {
+    let word = first_word(text);
+    let position = word.split(|&byte| byte == b'/').next().unwrap_or(word);
+    let has = counted(total.positions, "vertex");
+    format!("face index {} leads nowhere; the file has {has}", quote(position))
+}
+
+fn describe(text: &[u8], what: &str) -> String {
+    format!("face corner {} {what}", quote(first_word(text)))
 }
 
 fn quote(word: &[u8]) -> String {
@@ -104,18 +131,21 @@ mod tests {
     const TOTAL: Counts = Counts { positions: 5, coordinates: 3, normals: 2 };
 
     fn parse(word: &str) -> Result<Corner, String> {
-        parse_corner(word.as_bytes(), Counts { positions: 4, coordinates: 3, normals: 2 }, TOTAL)
+        let seen = Counts { positions: 4, coordinates: 3, normals: 2 };
+        let (corner, length) = parse_corner(format!("{word} 7").as_bytes(), seen, TOTAL)?;
+        assert_eq!(length, word.len(), "{word:?} ends at the space");
+        Ok(corner)
     }
 
     #[test]
     fn every_form_of_a_corner_is_read() {
         let corner =
             |position, coordinate, normal| Ok(Corner { position, coordinate, normal, dropped: false });
-        assert_eq!(parse("1"), corner(1, 0, 0), "v");
-        assert_eq!(parse("5/3"), corner(5, 3, 0), "v/vt, pointing ahead");
-        assert_eq!(parse("-1//-2"), corner(4, 0, 1), "v//vn, backwards");
-        assert_eq!(parse("1/2/"), corner(1, 2, 0), "a slash too many");
-        assert_eq!(parse("+2/1/1"), corner(2, 1, 1), "v/vt/vn");
+        assert_eq!(parse("1"), corner(0, NONE, NONE), "v");
+        assert_eq!(parse("5/3"), corner(4, 2, NONE), "v/vt, pointing ahead");
+        assert_eq!(parse("-1//-2"), corner(3, NONE, 0), "v//vn, backwards");
+        assert_eq!(parse("1/2/"), corner(0, 1, NONE), "a slash too many");
+        assert_eq!(parse("+2/1/1"), corner(1, 0, 0), "v/vt/vn");
     }
 
     #[test]
@@ -132,8 +162,11 @@ mod tests {
         ] {
             parse(word).expect_err(word);
         }
-        for word in ["1/0", "1//0", "a", "1/x", "", "/1", "1/1/1/1", "-", "+", "1.5", "0x1"] {
-            parse(word).expect_err(word);
+        for word in
+            ["1/0", "1//0", "a", "1/x", "", "/1", "1/1/1/1", "-", "+", "1.5", "0x1", "1/-", "1//", "1///"]
+        {
+            let is_fine = word == "1//";
+            assert_eq!(parse(word).is_ok(), is_fine, "{word:?}");
         }
         for word in ["1/4", "1//6148914691236517206", "1/-4/1"] {
             let corner = parse(word).expect("the position is right");

@@ -22,11 +22,16 @@ impl<'a> Lines<'a> {
         self.at
     }
 
+    /// How many lines have been passed.
+    pub(crate) fn passed(&self) -> u64 {
+        self.number
+    }
+
     /// The next physical line without its ending: `\n`, `\r\n` or `\r`.
     fn physical(&mut self) -> Option<&'a [u8]> {
         let rest = self.text.get(self.at..).filter(|rest| !rest.is_empty())?;
         self.number += 1;
-        let Some(end) = rest.iter().position(|&byte| byte == b'\n' || byte == b'\r') else {
+        let Some(end) = memchr::memchr2(b'\n', b'\r', rest) else {
             self.at = self.text.len();
             return Some(rest);
         };

@@ -1,7 +1,5 @@
-//! Material libraries: MTL text to materials of the scene.
-//!
-//! tobj reads the values; the text is cleaned for it first, because it gives
-//! up at a malformed statement, and panics at a short colour.
+//! Material libraries: MTL text to materials of the scene. A malformed statement
+//! is left out, with a warning, and the others stay.
 
 use std::path::{Path, PathBuf};
 
@@ -61,17 +59,34 @@ pub(crate) struct MtlMaterial {
     pub(crate) file: PathBuf,
 }
 
-/// What tobj is not told about a material.
+/// What the statements of a material say; colours and all other numbers are finite.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Aside {
-    pub(super) maps: Vec<Map>,
+pub(super) struct Fields {
+    pub(super) name: String,
+    /// `Kd`.
+    pub(super) diffuse: Option<[f32; 3]>,
+    /// `Ks`.
+    pub(super) specular: Option<[f32; 3]>,
+    /// `Ke`.
+    pub(super) emissive: Option<[f32; 3]>,
+    /// `Ns`.
+    pub(super) shininess: Option<f32>,
+    /// `d`.
+    pub(super) dissolve: Option<f32>,
+    /// `Tr`, and its line.
     pub(super) transparency: Option<(u64, f32)>,
+    /// `illum`.
+    pub(super) illumination_model: Option<u8>,
+    /// `Pr`.
     pub(super) roughness: Option<f32>,
+    /// `Pm`.
     pub(super) metallic: Option<f32>,
+    /// `Ni`.
     pub(super) refraction: Option<f32>,
+    pub(super) maps: Vec<Map>,
 }
 
-impl Aside {
+impl Fields {
     pub(super) fn has(&self, kind: MapKind) -> bool {
         self.maps.iter().any(|map| map.kind == kind)
     }
@@ -86,32 +101,25 @@ pub(crate) fn parse_mtl(file: &Path, bytes: &[u8], warnings: &mut Warnings) -> V
             return Vec::new();
         }
     };
-    let mut cleaner = Cleaner { file, warnings, out: String::new(), asides: Vec::new(), skipping: true };
+    let mut reader = Reader { file, warnings, materials: Vec::new(), skipping: true };
     for (number, line) in Lines::new(&text) {
         if let Some((keyword, rest)) = split_keyword(&line) {
-            cleaner.statement(number, &decode_name(keyword), rest);
+            reader.statement(number, &decode_name(keyword), rest);
         }
     }
-    let Cleaner { out, asides, .. } = cleaner;
-    let (materials, _) = tobj::load_mtl_buf(&mut out.as_bytes())
-        .expect("the cleaned text has only statements that tobj reads");
-    materials
-        .into_iter()
-        .zip(asides)
-        .map(|(material, aside)| convert(file, material, aside, warnings))
-        .collect()
+    let Reader { materials, .. } = reader;
+    materials.into_iter().map(|fields| convert(file, fields, warnings)).collect()
 }
 
-struct Cleaner<'a> {
+struct Reader<'a> {
     file: &'a Path,
     warnings: &'a mut Warnings,
-    out: String,
-    asides: Vec<Aside>,
+    materials: Vec<Fields>,
     /// Whether the statements belong to no material.
     skipping: bool,
 }
 
-impl Cleaner<'_> {
+impl Reader<'_> {
     fn statement(&mut self, line: u64, keyword: &str, rest: &[u8]) {
         if keyword == "newmtl" {
             return self.start_material(line, rest);
@@ -121,16 +129,15 @@ impl Cleaner<'_> {
         }
         match keyword {
             "Kd" | "Ks" | "Ke" => self.color(line, keyword, rest),
-            "Ns" | "d" => self.number(line, keyword, rest),
+            "Ns" | "d" | "Pr" | "Pm" | "Ni" => self.number(line, keyword, rest),
             "Tr" => {
                 let value = numbers(rest).first().copied();
-                self.aside().transparency = value.map(|value| (line, value));
+                self.fields().transparency = value.map(|value| (line, value));
             }
-            "illum" => match words(rest).next().map(decode_name).and_then(|word| word.parse::<u8>().ok()) {
-                Some(model) => self.out.push_str(&format!("illum {model}\n")),
+            "illum" => match words(rest).next().map(decode_name).and_then(|word| word.parse().ok()) {
+                Some(model) => self.fields().illumination_model = Some(model),
                 None => self.warn(line, "illum has no number"),
             },
-            "Pr" | "Pm" | "Ni" => self.aside_number(line, keyword, rest),
             _ => match MapKind::of(keyword) {
                 Some(kind) => self.map(line, keyword, kind, rest),
                 None => self.other_map(line, keyword, rest),
@@ -144,39 +151,39 @@ impl Cleaner<'_> {
         if self.skipping {
             return self.warn(line, "a material has no name and is left out");
         }
-        self.out.push_str(&format!("newmtl {name}\n"));
-        self.asides.push(Aside::default());
+        self.materials.push(Fields { name, ..Fields::default() });
     }
 
     /// One grey value or three channels.
     fn color(&mut self, line: u64, keyword: &str, rest: &[u8]) {
-        match *numbers(rest).as_slice() {
-            [red, green, blue, ..] => self.out.push_str(&format!("{keyword} {red} {green} {blue}\n")),
-            [grey] => self.out.push_str(&format!("{keyword} {grey} {grey} {grey}\n")),
-            _ => self.warn(line, &format!("{keyword} has no three numbers and is ignored")),
+        let color = match *numbers(rest).as_slice() {
+            [red, green, blue, ..] => [red, green, blue],
+            [grey] => [grey; 3],
+            _ => return self.warn(line, &format!("{keyword} has no three numbers and is ignored")),
+        };
+        let fields = self.fields();
+        match keyword {
+            "Kd" => fields.diffuse = Some(color),
+            "Ks" => fields.specular = Some(color),
+            _ => fields.emissive = Some(color),
         }
     }
 
+    /// The first number; words before it, as in `d -halo 0.5`, mean what trigon
+    /// does not draw.
     fn number(&mut self, line: u64, keyword: &str, rest: &[u8]) {
-        // `d -halo 0.5` fades with the angle; trigon does not.
-        let value = words(rest).filter_map(number).next();
-        match value {
-            Some(value) => self.out.push_str(&format!("{keyword} {value}\n")),
-            None => self.warn(line, &format!("{keyword} has no number and is ignored")),
-        }
-    }
-
-    /// The fields of "physically-based" MTL, and the index of refraction.
-    fn aside_number(&mut self, line: u64, keyword: &str, rest: &[u8]) {
-        let Some(value) = numbers(rest).first().copied() else {
+        let Some(value) = words(rest).filter_map(number).next() else {
             return self.warn(line, &format!("{keyword} has no number and is ignored"));
         };
-        let aside = self.aside();
-        match keyword {
-            "Pr" => aside.roughness = Some(value),
-            "Pm" => aside.metallic = Some(value),
-            _ => aside.refraction = Some(value),
-        }
+        let fields = self.fields();
+        let field = match keyword {
+            "Ns" => &mut fields.shininess,
+            "d" => &mut fields.dissolve,
+            "Pr" => &mut fields.roughness,
+            "Pm" => &mut fields.metallic,
+            _ => &mut fields.refraction,
+        };
+        *field = Some(value);
     }
 
     /// Of several for the same purpose the last counts.
@@ -189,7 +196,7 @@ impl Cleaner<'_> {
             let (options, file) = (statement.ignored.join(", "), &statement.file);
             self.warn(line, &format!("the options {options} of texture \"{file}\" are not followed"));
         }
-        let maps = &mut self.aside().maps;
+        let maps = &mut self.fields().maps;
         maps.retain(|map| map.kind != kind);
         maps.push(Map { kind, line, statement });
     }
@@ -209,8 +216,8 @@ impl Cleaner<'_> {
         }
     }
 
-    fn aside(&mut self) -> &mut Aside {
-        self.asides.last_mut().expect("a statement is only read after newmtl")
+    fn fields(&mut self) -> &mut Fields {
+        self.materials.last_mut().expect("a statement is only read after newmtl")
     }
 
     fn warn(&mut self, line: u64, what: &str) {

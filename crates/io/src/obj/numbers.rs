@@ -1,75 +1,116 @@
-//! The numbers of `v`, `vt` and `vn` lines, cleaned for the parser behind.
+//! Decimal numbers, exactly rounded, and lines of them.
 //!
-//! Nearly every line is plain and passes through as it is, after one look at
-//! each byte. The rest is spelled anew: `1.#IND` and `-nan(ind)` as `nan`,
-//! without comments and surplus numbers.
+//! Nearly every number of a model has few digits: its digits are then a whole
+//! number that f64 holds exactly, and so is the power of ten to multiply or divide
+//! by, so that one rounding is all there is (W. D. Clinger, "How to Read Floating
+//! Point Numbers Accurately", 1990). All others go to the standard library.
 
-use super::lines::words;
-
-/// What a line of numbers holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Tally {
-    /// How many numbers were written out.
+/// The numbers at the start of a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Numbers<const MOST: usize> {
+    /// Those that are not there are 0.
+    pub(crate) values: [f64; MOST],
+    /// How many there are.
     pub(crate) count: usize,
-    /// Whether one of them is not finite.
-    pub(crate) non_finite: bool,
-    /// Whether numbers were left out at the end.
+    /// Whether the line has more, which were not read.
     pub(crate) surplus: bool,
 }
 
-/// Appends the numbers of a line, at most `most`, or says which word is no
-/// number.
-pub(crate) fn copy_numbers(rest: &[u8], most: usize, out: &mut Vec<u8>) -> Result<Tally, String> {
-    if let Some(count) = count_plain(rest).filter(|&count| count <= most) {
-        out.extend_from_slice(rest);
-        return Ok(Tally { count, non_finite: false, surplus: false });
-    }
-    let mut tally = Tally { count: 0, non_finite: false, surplus: false };
-    for word in words(rest) {
-        if tally.count == most {
-            tally.surplus = true;
-            break;
+/// Reads numbers up to a comment, at most `MOST`, or says which word is none.
+/// Infinity, no number (NaN) and their spellings in C are numbers, too.
+pub(crate) fn read_numbers<const MOST: usize>(line: &[u8]) -> Result<Numbers<MOST>, String> {
+    let mut numbers = Numbers { values: [0.0; MOST], count: 0, surplus: false };
+    let mut at = 0;
+    loop {
+        while line.get(at).is_some_and(u8::is_ascii_whitespace) {
+            at += 1;
         }
-        out.push(b' ');
-        match spell(word)? {
-            Some(word) => out.extend_from_slice(word),
+        if matches!(line.get(at), None | Some(b'#')) {
+            return Ok(numbers);
+        }
+        if numbers.count == MOST {
+            numbers.surplus = true;
+            return Ok(numbers);
+        }
+        let rest = &line[at..];
+        let (value, length) = match plain(rest) {
+            Some(found) => found,
             None => {
-                out.extend_from_slice(b"nan");
-                tally.non_finite = true;
+                let word = first_word(rest);
+                (unusual(word)?, word.len())
             }
-        }
-        tally.count += 1;
+        };
+        numbers.values[numbers.count] = value;
+        numbers.count += 1;
+        at += length;
     }
-    Ok(tally)
 }
 
-/// How many numbers, when every byte is part of a short plain number or a
-/// space. Letters other than an exponent's, and numbers that could overflow,
-/// are not plain.
-fn count_plain(rest: &[u8]) -> Option<usize> {
-    let (mut count, mut inside) = (0, false);
-    for &byte in rest {
-        match byte {
-            b'0'..=b'9' | b'.' | b'-' => {
-                count += usize::from(!inside);
-                inside = true;
-            }
-            b' ' | b'\t' => inside = false,
-            _ => return None,
-        }
-    }
-    // 300 digits fit in f64; a longer line may hold a longer number.
-    (rest.len() <= 300).then_some(count)
+/// Up to a space or the end.
+pub(crate) fn first_word(text: &[u8]) -> &[u8] {
+    &text[..text.iter().position(u8::is_ascii_whitespace).unwrap_or(text.len())]
 }
 
-/// The word as it is when it is a finite number; `None` when it is one of the
-/// ways to write infinity or no number.
-fn spell(word: &[u8]) -> Result<Option<&[u8]>, String> {
+/// All powers of ten that f64 holds exactly.
+const POWERS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
+    1e19, 1e20, 1e21, 1e22,
+];
+
+/// The number that a text starts with and how long it is, when one rounding
+/// suffices.
+fn plain(text: &[u8]) -> Option<(f64, usize)> {
+    /// Up to here f64 holds every whole number.
+    const LARGEST: u64 = 1 << 53;
+    /// So many digits cannot overflow.
+    const MOST_DIGITS: usize = 19;
+    let negative = text.first() == Some(&b'-');
+    let start = usize::from(negative);
+    let (mut mantissa, mut at) = digits(text, start, 0);
+    let (mut count, mut exponent) = (at - start, 0);
+    if text.get(at) == Some(&b'.') {
+        let point = at + 1;
+        (mantissa, at) = digits(text, point, mantissa);
+        count += at - point;
+        exponent = point as i64 - at as i64;
+    }
+    if count == 0 || count > MOST_DIGITS || mantissa > LARGEST {
+        return None;
+    }
+    if matches!(text.get(at), Some(b'e' | b'E')) {
+        let sign = text.get(at + 1).filter(|sign| matches!(sign, b'+' | b'-'));
+        let start = at + 1 + usize::from(sign.is_some());
+        let (power, end) = digits(text, start, 0);
+        if !(1..=3).contains(&(end - start)) {
+            return None;
+        }
+        exponent += if sign == Some(&b'-') { -(power as i64) } else { power as i64 };
+        at = end;
+    }
+    if text.get(at).is_some_and(|byte| !byte.is_ascii_whitespace()) {
+        return None;
+    }
+    let power = POWERS.get(exponent.unsigned_abs() as usize)?;
+    let value = if exponent < 0 { mantissa as f64 / power } else { mantissa as f64 * power };
+    Some((if negative { -value } else { value }, at))
+}
+
+/// Appends the digits from `at` on to a number; where they end comes with it.
+/// More digits than fit wrap around.
+fn digits(text: &[u8], mut at: usize, mut number: u64) -> (u64, usize) {
+    while let Some(digit) = text.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
+        number = number.wrapping_mul(10).wrapping_add(u64::from(digit));
+        at += 1;
+    }
+    (number, at)
+}
+
+/// Any number, as Rust or C spell it.
+fn unusual(word: &[u8]) -> Result<f64, String> {
     let text = std::str::from_utf8(word).unwrap_or_default();
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(Some(word)),
-        Ok(_) => Ok(None),
-        Err(_) if is_c_spelling_of_non_finite(word) => Ok(None),
+    match text.parse() {
+        Ok(value) => Ok(value),
+        Err(_) if is_c_spelling_of_non_finite(word) => Ok(f64::NAN),
         Err(_) => {
             Err(format!("\"{}\" is not a number", String::from_utf8_lossy(&word[..word.len().min(40)])))
         }
@@ -84,27 +125,43 @@ fn is_c_spelling_of_non_finite(word: &[u8]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
-    fn copied(rest: &str, most: usize) -> Result<(String, Tally), String> {
-        let mut out = Vec::new();
-        let tally = copy_numbers(rest.as_bytes(), most, &mut out)?;
-        Ok((String::from_utf8(out).expect("ASCII"), tally))
+    #[test]
+    fn numbers_are_read_up_to_a_comment() {
+        let read = |line: &str| read_numbers::<3>(line.as_bytes()).expect("numbers");
+        let numbers = |values, count, surplus| Numbers { values, count, surplus };
+        assert_eq!(read(" 1 -2.5\t3"), numbers([1.0, -2.5, 3.0], 3, false), "plain");
+        assert_eq!(read(" 1e-3 +2 3. 4 x"), numbers([0.001, 2.0, 3.0], 3, true), "more than fit");
+        assert_eq!(read(" .5 # 2"), numbers([0.5, 0.0, 0.0], 1, false), "a comment");
+        assert!(read("-0").values[0].is_sign_negative(), "the sign of zero stays");
     }
 
     #[test]
-    fn plain_numbers_pass_unchanged() {
-        let (text, tally) = copied(" 1 -2.5\t3", 3).expect("numbers");
-        assert_eq!((text.as_str(), tally.count, tally.surplus), (" 1 -2.5\t3", 3, false), "as it was");
+    fn what_is_no_number_is_named_and_what_is_infinite_is_known() {
+        for word in ["1,5", "\0", "-", ".", "e5", "1e", "1e+", "--1", "1-2", "0x1", "1_000", "1#"] {
+            read_numbers::<3>(word.as_bytes()).expect_err(word);
+        }
+        for word in ["nan", "-inf", "1e400", "1.#IND", "-nan(ind)", "1.#QNAN", "inf"] {
+            let numbers = read_numbers::<3>(word.as_bytes()).expect("a spelling of no number");
+            assert!(!numbers.values[0].is_finite(), "{word}");
+        }
     }
 
-    #[test]
-    fn odd_numbers_are_spelled_anew() {
-        let (text, tally) = copied(" 1e400 1.#IND -nan(ind) # x", 3).expect("numbers");
-        assert_eq!((text.as_str(), tally.count, tally.non_finite), (" nan nan nan", 3, true), "not finite");
-        let (text, tally) = copied(" 1e-3 2 3 4 5", 3).expect("numbers");
-        assert_eq!((text.as_str(), tally.surplus), (" 1e-3 2 3", true), "cut");
-        copied(" 1,5 2 3", 3).expect_err("a decimal comma");
-        copied(" \0 2 3", 3).expect_err("a NUL");
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4096))]
+
+        /// Whatever is spelled, it is the number that the standard library reads.
+        #[test]
+        fn every_number_is_rounded_correctly(word in "-?[0-9]{0,20}(\\.[0-9]{0,20})?([eE][+-]?[0-9]{0,4})?") {
+            let ours = read_numbers::<1>(word.as_bytes()).map(|numbers| (numbers.count, numbers.values[0].to_bits()));
+            match word.parse::<f64>() {
+                Ok(value) => prop_assert_eq!(ours, Ok((1, value.to_bits())), "the same bits"),
+                Err(_) if word.is_empty() => prop_assert_eq!(ours, Ok((0, 0)), "none at all"),
+                Err(_) => prop_assert!(ours.is_err(), "{:?} is no number", word),
+            }
+        }
     }
 }

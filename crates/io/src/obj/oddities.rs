@@ -8,7 +8,6 @@ use crate::warning::Warnings;
 #[derive(Debug, Default)]
 pub(crate) struct Oddities {
     pub(crate) surplus: Tally,
-    pub(crate) colorless: Tally,
     pub(crate) short_faces: Tally,
     pub(crate) dropped_indices: Tally,
     pub(crate) unknown: Tally,
@@ -27,11 +26,28 @@ impl Tally {
         }
         self.count += 1;
     }
+
+    /// Adds what was counted further on in the file.
+    pub(crate) fn add_all(&mut self, later: Self) {
+        if self.count == 0 {
+            self.line = later.line;
+        }
+        self.count += later.count;
+    }
 }
 
 impl Oddities {
-    /// Says once each what was odd.
-    pub(crate) fn warn(&self, warnings: &mut Warnings) {
+    /// Adds what was counted further on in the file.
+    pub(crate) fn add(&mut self, later: &Self) {
+        self.surplus.add_all(later.surplus);
+        self.short_faces.add_all(later.short_faces);
+        self.dropped_indices.add_all(later.dropped_indices);
+        self.unknown.add_all(later.unknown);
+    }
+
+    /// Says once each what was odd; `colorless` are vertices without a colour
+    /// while others have one.
+    pub(crate) fn warn(&self, colorless: Tally, warnings: &mut Warnings) {
         let mut warn = |tally: Tally, what: &str, remedy: &str| {
             warnings.push_counted(tally.count, Place::Line(tally.line), what, remedy);
         };
@@ -41,7 +57,7 @@ impl Oddities {
             "remove the numbers after x, y, z and the colour",
         );
         warn(
-            self.colorless,
+            colorless,
             "a vertex has no colour while others have; it is white",
             "export colours for all vertices or for none",
         );

@@ -1,28 +1,39 @@
-//! Runs tobj over the feed: text in, flat lists of f64 out.
+//! OBJ text to flat lists, piece by piece in parallel.
+//!
+//! The text is cut at ends of lines. A first look at every piece counts lines and
+//! vertices, so that a second one can read it as if it had read all before:
+//! messages name lines of the file, and every index is checked where it stands.
+//! What comes out depends neither on how the text was cut nor on the threads.
 
 use std::path::Path;
 
-use super::feed::{Colors, Feed, Source, Stop};
-use super::index::Counts;
-use super::lines::{Lines, plain_bytes, split_keyword};
+use rayon::prelude::*;
+
+use super::chunks::{Chunk, census, cut, number};
+use super::index::{Counts, NONE};
+use super::lines::plain_bytes;
+use super::oddities::{Oddities, Tally};
 use super::record::Record;
+use super::section::{Content, Section, read_section};
 use crate::error::{LoadError, LoadErrorKind, Place};
-use crate::options::LoadOptions;
+use crate::options::{LoadOptions, Stage};
 use crate::warning::Warnings;
 
+/// How many bytes are a piece: long enough to be worth a task.
+const PIECE: usize = 1 << 20;
+
 /// An OBJ as it was parsed, before it is cut into nodes.
+#[derive(Debug, Default)]
 pub(crate) struct Parsed {
-    /// All elements in file order; vertices in the order of their first use.
-    pub(crate) mesh: tobj::Mesh,
+    /// All elements in file order.
+    pub(crate) content: Content,
     pub(crate) record: Record,
     /// The first line with a position that is not finite.
     pub(crate) non_finite_line: Option<u64>,
+    oddities: Oddities,
+    colorless: Tally,
+    corners: usize,
 }
-
-/// tobj reports points and lines as faces of one and two corners, and keeps
-/// positions, coordinates and normals apart.
-const OPTIONS: tobj::LoadOptions =
-    tobj::LoadOptions { single_index: false, triangulate: false, ignore_points: false, ignore_lines: false };
 
 pub(crate) fn parse(
     path: &Path,
@@ -30,65 +41,91 @@ pub(crate) fn parse(
     options: &LoadOptions<'_>,
     warnings: &mut Warnings,
 ) -> Result<Parsed, LoadError> {
+    parse_in_pieces(path, bytes, PIECE, options, warnings)
+}
+
+/// The same with pieces of a certain size.
+pub(super) fn parse_in_pieces(
+    path: &Path,
+    bytes: &[u8],
+    size: usize,
+    options: &LoadOptions<'_>,
+    warnings: &mut Warnings,
+) -> Result<Parsed, LoadError> {
     let text = plain_bytes(bytes)
         .map_err(|what| LoadError::malformed(path, what, "fetch the real file with `git lfs pull`"))?;
-    let total = count_ahead(&text);
-    let limit = options.limits.vertices;
+    options.report(path, Stage::Geometry, 0.0)?;
+    let pieces = cut(&text, size);
+    let (chunks, total) = number(&pieces, &side_by_side(&pieces, |piece| census(piece)));
+    // Above the largest index there is `NONE`, whatever the caller allows.
+    let limit = options.limits.vertices.min(NONE as usize);
     if total.positions.max(total.coordinates).max(total.normals) > limit {
         return Err(LoadError::limit(path, format!("it has more than {limit} vertices")));
     }
-    let source = Source { path, text: &text, total, options };
-    match run(source, Colors::Unknown, warnings) {
-        Err(Stop::LateColor) => run(source, Colors::Present, warnings),
-        result => result,
+    let parsed = read_all(path, &chunks, total, options)?;
+    if parsed.content.arities.is_empty() {
+        return Err(nothing(path, total.positions));
     }
-    .map_err(|stop| match stop {
-        Stop::Error(error) => error,
-        Stop::LateColor => unreachable!("colours were expected from the first vertex on"),
-    })
-    .and_then(
-        |parsed| if parsed.record.elements > 0 { Ok(parsed) } else { Err(nothing(path, total.positions)) },
-    )
+    let colorless = if parsed.content.colors.is_empty() { Tally::default() } else { parsed.colorless };
+    parsed.oddities.warn(colorless, warnings);
+    Ok(parsed)
 }
 
-/// Counts vertices, coordinates and normals ahead, so that indices can be
-/// checked at the line that has them.
-fn count_ahead(text: &[u8]) -> Counts {
-    let mut counts = Counts::default();
-    for (_, line) in Lines::new(text) {
-        match split_keyword(&line) {
-            Some((b"v", _)) => counts.positions += 1,
-            Some((b"vt", _)) => counts.coordinates += 1,
-            Some((b"vn", _)) => counts.normals += 1,
-            _ => {}
+/// Reads some pieces at a time, so that no more than those are in memory besides
+/// what has been kept.
+fn read_all(
+    path: &Path,
+    chunks: &[Chunk<'_>],
+    total: Counts,
+    options: &LoadOptions<'_>,
+) -> Result<Parsed, LoadError> {
+    const PIECES_PER_THREAD: usize = 4;
+    let most_corners = options.limits.corners;
+    let mut parsed = Parsed::default();
+    parsed.content.reserve(total);
+    let mut done = 0;
+    for some in chunks.chunks(PIECES_PER_THREAD * rayon::current_num_threads()) {
+        let sections = side_by_side(some, |chunk| read_section(chunk, total, most_corners));
+        for (chunk, section) in some.iter().zip(sections) {
+            parsed.append(path, chunk, section, most_corners)?;
         }
+        done += some.len();
+        // The last quarter is for building the mesh.
+        options.report(path, Stage::Geometry, 0.75 * done as f32 / chunks.len() as f32)?;
     }
-    counts
+    Ok(parsed)
 }
 
-fn run(source: Source<'_>, colors: Colors, warnings: &mut Warnings) -> Result<Parsed, Stop> {
-    let mut feed = Feed::new(source, colors);
-    let result = tobj::load_obj_buf(&mut feed, &OPTIONS, |_| Ok(Default::default()));
-    if let Some(stop) = feed.take_stop() {
-        return Err(stop);
+/// The results in the order of the items; a single one needs no threads.
+fn side_by_side<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
+    match items {
+        [only] => vec![work(only)],
+        several => several.par_iter().map(work).collect(),
     }
-    let models = match result {
-        Ok((models, _)) => models,
-        Err(error) => return Err(Stop::Error(parse_error(source.path, error, feed.last_line()))),
-    };
-    let (record, non_finite_line) = feed.finish(warnings);
-    let mesh = models.into_iter().next().map(|model| model.mesh).unwrap_or_default();
-    Ok(Parsed { mesh, record, non_finite_line })
 }
 
-fn parse_error(path: &Path, error: tobj::LoadError, line: u64) -> LoadError {
-    let what = match error {
-        tobj::LoadError::PositionParseError => "a coordinate is no number".to_owned(),
-        tobj::LoadError::TexcoordParseError => "a texture coordinate is no number".to_owned(),
-        tobj::LoadError::NormalParseError => "a normal has what is no number".to_owned(),
-        other => other.to_string(),
-    };
-    LoadError::malformed(path, what, "mend the line, or export the model again").at(Place::Line(line))
+impl Parsed {
+    fn append(
+        &mut self,
+        path: &Path,
+        chunk: &Chunk<'_>,
+        section: Section,
+        most_corners: usize,
+    ) -> Result<(), LoadError> {
+        self.corners += section.corners;
+        if self.corners > most_corners {
+            return Err(LoadError::limit(path, format!("the faces have more than {most_corners} corners")));
+        }
+        if let Some(stop) = section.stop {
+            return Err(LoadError::malformed(path, stop.what, stop.remedy).at(Place::Line(stop.line)));
+        }
+        self.record.follow(chunk.text, &section.statements, section.content.arities.len());
+        self.content.append(section.content);
+        self.oddities.add(&section.oddities);
+        self.colorless.add_all(section.colorless);
+        self.non_finite_line = self.non_finite_line.or(section.non_finite_line);
+        Ok(())
+    }
 }
 
 fn nothing(path: &Path, vertices: usize) -> LoadError {
@@ -98,4 +135,38 @@ fn nothing(path: &Path, vertices: usize) -> LoadError {
         format!("there is nothing to draw: {vertices} vertices, but no face with at least 3 of them")
     };
     LoadError::new(LoadErrorKind::Empty, path, what, "export the model with faces")
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// All that there is to know about what came out.
+    fn read(text: &str, size: usize, threads: usize) -> String {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| {
+            let path = Path::new("a.obj");
+            let mut warnings = Warnings::about(path);
+            let parsed = parse_in_pieces(path, text.as_bytes(), size, &LoadOptions::default(), &mut warnings);
+            format!("{parsed:#?} {:#?}", warnings.into_list())
+        })
+    }
+
+    proptest! {
+        /// Messages, numbers, groups, warnings: everything.
+        #[test]
+        fn neither_pieces_nor_threads_matter(
+            lines in prop::collection::vec(
+                "(v|v|vt|vn|f|f|l|p|o|g|s|usemtl|mtllib|curv|#)( -?[1-9](/[1-9]?){0,2}| [a-c.]| \\\\\n){2,7}", 0..12),
+            ending in prop::sample::select(vec!["\n", "\r\n", "\r"]),
+            size in 1usize..60,
+            threads in 1usize..4,
+        ) {
+            let square = ["v 0 0 0", "v 1 0 0", "v 1 1 0 1 0 0", "v 0 1 0", "f 1 2 3"].map(str::to_owned);
+            let text: String = square.iter().chain(&lines).map(|line| format!("{line}{ending}")).collect();
+            prop_assert_eq!(read(&text, size, threads), read(&text, usize::MAX, 1), "{}", text);
+        }
+    }
 }

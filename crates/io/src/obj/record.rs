@@ -1,9 +1,10 @@
-//! What the feed keeps of an OBJ beside what tobj reads: which faces belong
-//! together, in which material, and how smooth.
+//! Which elements belong together, in which material, and how smooth: the
+//! statements of all pieces in their order.
 
 use std::collections::HashMap;
 
-use super::lines::decode_name;
+use super::lines::{Lines, decode_name, split_keyword};
+use super::section::Statement;
 
 /// A run of consecutive elements (faces, edges, points) with the same state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,8 +61,6 @@ pub(crate) struct Record {
     pub(crate) runs: Vec<Run>,
     /// How many elements there are.
     pub(crate) elements: usize,
-    /// How many of them are faces.
-    pub(crate) faces: usize,
     object: String,
     group: String,
     part: Option<u32>,
@@ -70,19 +69,44 @@ pub(crate) struct Record {
 }
 
 impl Record {
-    pub(crate) fn set_object(&mut self, rest: &[u8]) {
+    /// Follows the statements of the next piece, which has so many elements.
+    pub(crate) fn follow(&mut self, piece: &[u8], statements: &[Statement], elements: usize) {
+        let mut done = 0;
+        for statement in statements {
+            let before = statement.elements_before as usize;
+            self.add_elements(before - done);
+            done = before;
+            let mut lines = Lines::new(&piece[statement.at as usize..]);
+            let (_, text) = lines.next().expect("a statement was found there");
+            let (keyword, rest) = split_keyword(&text).expect("it was read before");
+            self.statement(statement.line, keyword, rest);
+        }
+        self.add_elements(elements - done);
+    }
+
+    fn statement(&mut self, line: u64, keyword: &[u8], rest: &[u8]) {
+        match keyword {
+            b"o" => self.set_object(rest),
+            b"g" => self.set_group(rest),
+            b"s" => self.set_smoothing(rest),
+            b"usemtl" => self.set_material(line, rest),
+            _ => self.add_library(line, rest),
+        }
+    }
+
+    fn set_object(&mut self, rest: &[u8]) {
         self.object = decode_name(rest);
         // A group ends with its object.
         self.group.clear();
         self.part = None;
     }
 
-    pub(crate) fn set_group(&mut self, rest: &[u8]) {
+    fn set_group(&mut self, rest: &[u8]) {
         self.group = decode_name(rest);
         self.part = None;
     }
 
-    pub(crate) fn set_material(&mut self, line: u64, rest: &[u8]) {
+    fn set_material(&mut self, line: u64, rest: &[u8]) {
         let name = decode_name(rest);
         if name.is_empty() {
             self.material = None;
@@ -95,21 +119,24 @@ impl Record {
         self.material = Some(index);
     }
 
-    pub(crate) fn set_smoothing(&mut self, rest: &[u8]) {
+    fn set_smoothing(&mut self, rest: &[u8]) {
         let word = decode_name(rest);
         // "off" and anything that is no number is flat; "on" is group 1.
         self.smoothing = if word == "on" { 1 } else { word.parse().unwrap_or(0) };
     }
 
-    pub(crate) fn add_library(&mut self, line: u64, rest: &[u8]) {
+    fn add_library(&mut self, line: u64, rest: &[u8]) {
         let name = decode_name(rest);
         if self.libraries.len() < MOST_LIBRARIES && !self.libraries.iter().any(|(_, known)| *known == name) {
             self.libraries.push((line, name));
         }
     }
 
-    /// Notes that an element follows, in the state as it is now.
-    pub(crate) fn add_element(&mut self) {
+    /// Notes that so many elements follow, in the state as it is now.
+    fn add_elements(&mut self, count: usize) {
+        if count == 0 {
+            return;
+        }
         let part = match self.part {
             Some(part) => part,
             None => {
@@ -122,7 +149,7 @@ impl Record {
         if !self.runs.last().is_some_and(same) {
             self.runs.push(run);
         }
-        self.elements += 1;
+        self.elements += count;
     }
 
     /// An object with groups has a node for each group, called `object/group`.

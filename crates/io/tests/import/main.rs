@@ -7,6 +7,7 @@ mod hostile;
 mod material;
 mod movement;
 mod obj;
+mod oracle;
 mod texture;
 
 use trigon_io::{LoadOptions, Loaded, load_from_slice};

@@ -1,0 +1,288 @@
+//! One piece of an OBJ, read by itself: what it has of vertices and elements, with
+//! indices of the whole file, and where the statements are that the order of the
+//! pieces gives a meaning to (`o`, `g`, `usemtl`, `s`, `mtllib`).
+
+use trigon_math::{DVec3, Vec2, Vec3};
+
+use super::chunks::Chunk;
+use super::index::{Corner, Counts, parse_corner};
+use super::lines::{Lines, split_keyword};
+use super::numbers::{Numbers, read_numbers};
+use super::oddities::{Oddities, Tally};
+
+/// What a file holds, or a piece of it.
+#[derive(Debug, Default)]
+pub(crate) struct Content {
+    pub(crate) positions: Vec<DVec3>,
+    /// sRGB from 0 to 1, NaN where the file has no finite number; empty while no
+    /// vertex has a colour.
+    pub(crate) colors: Vec<Vec3>,
+    /// v counted downwards, as everywhere in trigon.
+    pub(crate) coordinates: Vec<Vec2>,
+    pub(crate) normals: Vec<Vec3>,
+    /// How many corners each element has: 1 for points, 2 for edges.
+    pub(crate) arities: Vec<u32>,
+    /// The position of each corner.
+    pub(crate) position_indices: Vec<u32>,
+    /// [`NONE`](super::index::NONE) where a corner has none; empty when the file has none.
+    pub(crate) coordinate_indices: Vec<u32>,
+    /// Likewise.
+    pub(crate) normal_indices: Vec<u32>,
+}
+
+impl Content {
+    /// Makes room for the vertices of a file.
+    pub(crate) fn reserve(&mut self, total: Counts) {
+        self.positions.reserve_exact(total.positions);
+        self.coordinates.reserve_exact(total.coordinates);
+        self.normals.reserve_exact(total.normals);
+    }
+
+    /// Moves what a later piece holds to the end.
+    pub(crate) fn append(&mut self, mut later: Self) {
+        if !later.colors.is_empty() || !self.colors.is_empty() {
+            self.colors.resize(self.positions.len(), WHITE);
+            later.colors.resize(later.positions.len(), WHITE);
+            self.colors.append(&mut later.colors);
+        }
+        self.positions.append(&mut later.positions);
+        self.coordinates.append(&mut later.coordinates);
+        self.normals.append(&mut later.normals);
+        self.arities.append(&mut later.arities);
+        self.position_indices.append(&mut later.position_indices);
+        self.coordinate_indices.append(&mut later.coordinate_indices);
+        self.normal_indices.append(&mut later.normal_indices);
+    }
+}
+
+/// Of vertices without a colour, where others have one.
+const WHITE: Vec3 = Vec3::ONE;
+
+/// A statement that says something about the elements that follow it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Statement {
+    /// How many elements of its piece come before.
+    pub(crate) elements_before: u32,
+    /// How many bytes of its piece come before.
+    pub(crate) at: u32,
+    pub(crate) line: u64,
+}
+
+/// What was read of a piece.
+#[derive(Debug, Default)]
+pub(crate) struct Section {
+    pub(crate) content: Content,
+    pub(crate) statements: Vec<Statement>,
+    pub(crate) oddities: Oddities,
+    /// Vertices without a colour: odd if others have one.
+    pub(crate) colorless: Tally,
+    /// The first line with a position that is not finite.
+    pub(crate) non_finite_line: Option<u64>,
+    /// Of all elements, those that were left out, too.
+    pub(crate) corners: usize,
+    /// Why reading stopped before the end.
+    pub(crate) stop: Option<Stop>,
+}
+
+/// What ends the reading of a file, and at which line.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Stop {
+    pub(crate) line: u64,
+    pub(crate) what: String,
+    pub(crate) remedy: &'static str,
+}
+
+/// Reads a piece up to its end, the first malformed line, or the line that has
+/// more than so many corners.
+pub(crate) fn read_section(chunk: &Chunk<'_>, total: Counts, most_corners: usize) -> Section {
+    let mut reader = Reader { section: Section::default(), seen: chunk.before, total, corners: Vec::new() };
+    let mut lines = Lines::new(chunk.text);
+    loop {
+        let at = lines.position();
+        let Some((line, text)) = lines.next() else { break };
+        let line = chunk.lines_before + line;
+        if let Err(fault) = reader.line(line, at, &text) {
+            let Fault { what, remedy } = fault;
+            reader.section.stop = Some(Stop { line, what, remedy });
+            break;
+        }
+        if reader.section.corners > most_corners {
+            break;
+        }
+    }
+    reader.section
+}
+
+/// What is wrong with a line and what to do about it.
+struct Fault {
+    what: String,
+    remedy: &'static str,
+}
+
+impl Fault {
+    fn new(what: impl Into<String>, remedy: &'static str) -> Self {
+        Self { what: what.into(), remedy }
+    }
+}
+
+struct Reader {
+    section: Section,
+    seen: Counts,
+    total: Counts,
+    /// Of the element that is being read.
+    corners: Vec<Corner>,
+}
+
+impl Reader {
+    fn line(&mut self, line: u64, at: usize, text: &[u8]) -> Result<(), Fault> {
+        let Some((keyword, rest)) = split_keyword(text) else { return Ok(()) };
+        match keyword {
+            b"v" => self.position(line, rest),
+            b"vt" => self.coordinate(rest),
+            b"vn" => self.normal(rest),
+            b"f" | b"fo" => self.face(line, rest),
+            b"l" => self.polyline(line, rest),
+            b"p" => self.points(line, rest),
+            b"o" | b"g" | b"s" | b"usemtl" | b"mtllib" => {
+                let elements_before = self.section.content.arities.len() as u32;
+                self.section.statements.push(Statement { elements_before, at: at as u32, line });
+                Ok(())
+            }
+            b"curv" | b"curv2" | b"surf" => {
+                self.section.oddities.unknown.add(line);
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// x, y, z; then nothing, or a weight, or a colour.
+    fn position(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
+        self.seen.positions += 1;
+        let Numbers { values, count, surplus } = numbers::<6>(rest)?;
+        if count < 3 {
+            let what = format!("a vertex has {count} numbers and needs 3");
+            return Err(Fault::new(what, EXPORT_AGAIN));
+        }
+        let mut position = DVec3::new(values[0], values[1], values[2]);
+        if count == 4 {
+            if values[3] == 0.0 {
+                return Err(Fault::new("a vertex has the weight 0", EXPORT_AGAIN));
+            }
+            position /= values[3];
+        }
+        if surplus || count == 5 {
+            self.section.oddities.surplus.add(line);
+        }
+        if !position.is_finite() {
+            self.section.non_finite_line.get_or_insert(line);
+        }
+        self.color(line, (count == 6).then_some([values[3], values[4], values[5]]));
+        self.section.content.positions.push(position);
+        Ok(())
+    }
+
+    fn color(&mut self, line: u64, color: Option<[f64; 3]>) {
+        let Content { positions, colors, .. } = &mut self.section.content;
+        let channel = |value: f64| if value.is_finite() { value.clamp(0.0, 1.0) as f32 } else { f32::NAN };
+        match color {
+            Some(color) => {
+                colors.resize(positions.len(), WHITE);
+                colors.push(Vec3::from(color.map(channel)));
+            }
+            None => self.section.colorless.add(line),
+        }
+    }
+
+    /// u and v; v may be missing, and a third number does not matter.
+    fn coordinate(&mut self, rest: &[u8]) -> Result<(), Fault> {
+        self.seen.coordinates += 1;
+        let Numbers { values: [u, v, _], count, .. } = numbers::<3>(rest)?;
+        if count == 0 {
+            return Err(Fault::new("a vt line has 0 numbers and needs 2", EXPORT_AGAIN));
+        }
+        // OBJ counts from the lower left of the picture.
+        self.section.content.coordinates.push(Vec2::new(u as f32, (1.0 - v) as f32));
+        Ok(())
+    }
+
+    fn normal(&mut self, rest: &[u8]) -> Result<(), Fault> {
+        self.seen.normals += 1;
+        let Numbers { values, count, .. } = numbers::<3>(rest)?;
+        if count < 3 {
+            let what = format!("a vn line has {count} numbers and needs 3");
+            return Err(Fault::new(what, EXPORT_AGAIN));
+        }
+        self.section.content.normals.push(DVec3::from(values).as_vec3());
+        Ok(())
+    }
+
+    fn face(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
+        self.read_corners(line, rest)?;
+        if self.corners.len() < 3 {
+            self.section.oddities.short_faces.add(line);
+            return Ok(());
+        }
+        self.push_element(0, self.corners.len());
+        Ok(())
+    }
+
+    fn polyline(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
+        self.read_corners(line, rest)?;
+        for end in 1..self.corners.len() {
+            self.push_element(end - 1, 2);
+        }
+        Ok(())
+    }
+
+    fn points(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
+        self.read_corners(line, rest)?;
+        for point in 0..self.corners.len() {
+            self.push_element(point, 1);
+        }
+        Ok(())
+    }
+
+    /// Reads the corners of an element, up to a comment.
+    fn read_corners(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
+        self.corners.clear();
+        let mut at = 0;
+        loop {
+            while rest.get(at).is_some_and(u8::is_ascii_whitespace) {
+                at += 1;
+            }
+            if matches!(rest.get(at), None | Some(b'#')) {
+                break;
+            }
+            let (corner, length) = parse_corner(&rest[at..], self.seen, self.total)
+                .map_err(|what| Fault::new(what, "export the model again, or mend the line"))?;
+            if corner.dropped {
+                self.section.oddities.dropped_indices.add(line);
+            }
+            self.corners.push(corner);
+            at += length;
+        }
+        self.section.corners += self.corners.len();
+        Ok(())
+    }
+
+    /// An element of some of the corners that were read.
+    fn push_element(&mut self, start: usize, length: usize) {
+        let content = &mut self.section.content;
+        let corners = &self.corners[start..start + length];
+        content.arities.push(length as u32);
+        content.position_indices.extend(corners.iter().map(|corner| corner.position));
+        if self.total.coordinates > 0 {
+            content.coordinate_indices.extend(corners.iter().map(|corner| corner.coordinate));
+        }
+        if self.total.normals > 0 {
+            content.normal_indices.extend(corners.iter().map(|corner| corner.normal));
+        }
+    }
+}
+
+const EXPORT_AGAIN: &str = "export the model again";
+
+fn numbers<const MOST: usize>(rest: &[u8]) -> Result<Numbers<MOST>, Fault> {
+    read_numbers(rest).map_err(|what| Fault::new(what, "write plain decimal numbers"))
+}
