@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use trigon_math::{Bounds3, DVec3};
+use trigon_mesh::Mesh;
 use trigon_scene::Scene;
 
 use crate::args::{Grouping, Request};
@@ -103,12 +104,20 @@ impl Model {
         if own { &composed } else { framing }.shot(&self.scene, aspect)
     }
 
+    /// The mesh of each visible node.
+    fn visible_meshes(&self) -> impl Iterator<Item = &Mesh> {
+        let visible = self.scene.visible_transforms();
+        let drawn = self.scene.nodes().iter().filter(move |(id, _)| visible[id.index()].is_some());
+        drawn.filter_map(|(_, node)| self.scene.meshes().get(node.mesh?)).map(|asset| asset.mesh())
+    }
+
+    /// How many faces are visible.
+    pub(crate) fn face_count(&self) -> usize {
+        self.visible_meshes().map(Mesh::face_count).sum()
+    }
+
     /// Counts and sizes of what is visible.
     pub(crate) fn summary(&self) -> Summary {
-        let visible = self.scene.visible_transforms();
-        let drawn = self.scene.nodes().iter().filter(|(id, _)| visible[id.index()].is_some());
-        let meshes =
-            drawn.filter_map(|(_, node)| self.scene.meshes().get(node.mesh?)).map(|asset| asset.mesh());
         let mut summary = Summary {
             vertices: 0,
             edges: 0,
@@ -118,7 +127,7 @@ impl Model {
             textures: self.scene.textures.len(),
             size: self.bounds.max - self.bounds.min,
         };
-        for mesh in meshes {
+        for mesh in self.visible_meshes() {
             summary.vertices += mesh.vertex_count();
             summary.edges += mesh.edge_count();
             summary.faces += mesh.face_count();

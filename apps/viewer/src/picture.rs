@@ -57,7 +57,7 @@ fn draw(model: &Model, camera: &Camera, request: &Request, reporter: Reporter) -
             "{title}: nothing of the model is in the picture; look from elsewhere (--view=back), or show faces that point away (--backface-type=visible)"
         ));
     }
-    let (milliseconds, faces) = (started.elapsed().as_secs_f64() * 1e3, model.summary().faces);
+    let (milliseconds, faces) = (started.elapsed().as_secs_f64() * 1e3, model.face_count());
     reporter.debug(format_args!("drew {title} ({faces} faces) in {milliseconds:.1} ms"));
     Ok(frame)
 }

@@ -2,9 +2,8 @@
 
 use trigon_math::Vec3;
 
-use crate::edges::find_edges;
 use crate::mesh::Parts;
-use crate::{Attributes, Mesh, MeshError};
+use crate::{Mesh, MeshError};
 
 /// The most corners, faces and loose edges together that a mesh can have:
 /// `u32::MAX` itself means "none" in buffers.
@@ -29,7 +28,6 @@ pub struct MeshBuilder {
     positions: Vec<Vec3>,
     face_starts: Vec<u32>,
     corner_vertices: Vec<u32>,
-    next_vertices: Vec<u32>,
     loose_edges: Vec<[u32; 2]>,
     loose_points: Vec<u32>,
 }
@@ -54,7 +52,6 @@ impl MeshBuilder {
             positions: Vec::with_capacity(vertices),
             face_starts,
             corner_vertices: Vec::with_capacity(corners),
-            next_vertices: Vec::with_capacity(corners),
             loose_edges: Vec::new(),
             loose_points: Vec::new(),
         }
@@ -108,8 +105,6 @@ impl MeshBuilder {
         }
         self.check_room(vertices.len())?;
         self.corner_vertices.extend_from_slice(vertices);
-        self.next_vertices.extend_from_slice(&vertices[1..]);
-        self.next_vertices.push(vertices[0]);
         self.face_starts.push(self.corner_vertices.len() as u32);
         Ok(face as u32)
     }
@@ -144,20 +139,16 @@ impl MeshBuilder {
         Ok(())
     }
 
-    /// Finds the edges and makes the mesh, without attributes yet (see
-    /// [`Mesh::set_attributes`]).
+    /// Makes the mesh, without attributes yet (see [`Mesh::set_attributes`]).
     pub fn build(mut self) -> Mesh {
-        let edges =
-            find_edges(self.positions.len(), &self.corner_vertices, &self.next_vertices, &self.loose_edges);
         let mut seen = vec![false; self.positions.len()];
         self.loose_points.retain(|&point| !std::mem::replace(&mut seen[point as usize], true));
         Mesh::from_parts(Parts {
             positions: self.positions,
             face_starts: self.face_starts,
             corner_vertices: self.corner_vertices,
-            edges,
+            loose_edges: self.loose_edges,
             loose_points: self.loose_points,
-            attributes: Attributes::default(),
         })
     }
 

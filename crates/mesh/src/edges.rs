@@ -11,6 +11,7 @@ use crate::groups::Groups;
 pub(crate) const NO_EDGE: u32 = u32::MAX;
 
 /// The edges of a mesh and which one starts at each corner.
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Edges {
     /// Smaller vertex first; faces' edges in the order in which the faces
     /// show them, then loose ones that no face has.

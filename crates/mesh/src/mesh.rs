@@ -2,13 +2,15 @@
 //!
 //! Everything that a renderer needs is derived from it (the triangulation,
 //! the welded [`RenderMesh`](crate::RenderMesh)); nothing of that is stored
-//! here, so it cannot go stale.
+//! here, so it cannot go stale. Edges follow from the faces, too, and many a
+//! picture shows none: they are found when somebody asks, and then kept.
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use trigon_math::{Bounds3, Vec3, Vec4};
 
-use crate::edges::{Edges, NO_EDGE};
+use crate::edges::{Edges, NO_EDGE, find_edges};
 use crate::{Attributes, MeshBuilder, MeshError};
 
 /// A polygon mesh with explicit vertices, edges and faces.
@@ -25,15 +27,15 @@ use crate::{Attributes, MeshBuilder, MeshError};
 /// a triangulation.
 ///
 /// Built by [`MeshBuilder`]; see there for an example.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Mesh {
     positions: Vec<Vec3>,
     /// The first corner of each face, and the corner count at the end.
     face_starts: Vec<u32>,
     corner_vertices: Vec<u32>,
-    corner_edges: Vec<u32>,
-    edges: Vec<[u32; 2]>,
-    face_edge_count: usize,
+    /// As they were given: some may be edges of faces.
+    loose_edges: Vec<[u32; 2]>,
+    edges: OnceLock<Edges>,
     loose_points: Vec<u32>,
     attributes: Attributes,
 }
@@ -43,9 +45,20 @@ pub(crate) struct Parts {
     pub(crate) positions: Vec<Vec3>,
     pub(crate) face_starts: Vec<u32>,
     pub(crate) corner_vertices: Vec<u32>,
-    pub(crate) edges: Edges,
+    pub(crate) loose_edges: Vec<[u32; 2]>,
     pub(crate) loose_points: Vec<u32>,
-    pub(crate) attributes: Attributes,
+}
+
+impl PartialEq for Mesh {
+    /// Whether all elements have the same numbers, places and values.
+    fn eq(&self, other: &Self) -> bool {
+        self.positions == other.positions
+            && self.face_starts == other.face_starts
+            && self.corner_vertices == other.corner_vertices
+            && self.loose_points == other.loose_points
+            && self.attributes == other.attributes
+            && self.found_edges() == other.found_edges()
+    }
 }
 
 impl Default for Mesh {
@@ -61,12 +74,23 @@ impl Mesh {
             positions: parts.positions,
             face_starts: parts.face_starts,
             corner_vertices: parts.corner_vertices,
-            corner_edges: parts.edges.corner_edges,
-            edges: parts.edges.edges,
-            face_edge_count: parts.edges.face_edge_count,
+            loose_edges: parts.loose_edges,
+            edges: OnceLock::new(),
             loose_points: parts.loose_points,
-            attributes: parts.attributes,
+            attributes: Attributes::default(),
         }
+    }
+
+    /// The edges, searched the first time.
+    fn found_edges(&self) -> &Edges {
+        self.edges.get_or_init(|| {
+            let mut next_vertices = Vec::with_capacity(self.corner_count());
+            for vertices in self.faces().map(|corners| &self.corner_vertices[corners]) {
+                next_vertices.extend_from_slice(&vertices[1..]);
+                next_vertices.push(vertices[0]);
+            }
+            find_edges(self.vertex_count(), &self.corner_vertices, &next_vertices, &self.loose_edges)
+        })
     }
 
     /// The position of each vertex, in metres.
@@ -92,7 +116,7 @@ impl Mesh {
 
     /// How many edges there are, loose ones included.
     pub fn edge_count(&self) -> usize {
-        self.edges.len()
+        self.edges().len()
     }
 
     /// How many corners all faces have together.
@@ -136,28 +160,42 @@ impl Mesh {
     ///
     /// When there is no such corner.
     pub fn corner_edge(&self, corner: usize) -> Option<u32> {
-        Some(self.corner_edges[corner]).filter(|&edge| edge != NO_EDGE)
+        Some(self.found_edges().corner_edges[corner]).filter(|&edge| edge != NO_EDGE)
     }
 
-    /// Every edge once, its smaller vertex first. The faces' edges come
+    /// Every edge once, its smaller vertex first. They are searched at the first
+    /// call that needs them, this or another. The faces' edges come
     /// first, in the order in which the faces show them, then the loose ones.
     pub fn edges(&self) -> &[[u32; 2]] {
-        &self.edges
+        &self.found_edges().edges
     }
 
     /// How many of the edges belong to faces.
     pub fn face_edge_count(&self) -> usize {
-        self.face_edge_count
+        self.found_edges().face_edge_count
     }
 
     /// The edges that belong to no face.
     pub fn loose_edges(&self) -> &[[u32; 2]] {
-        &self.edges[self.face_edge_count..]
+        if self.loose_edges.is_empty() {
+            return &[];
+        }
+        &self.edges()[self.face_edge_count()..]
     }
 
     /// The vertices that are to be shown as points, each once.
     pub fn loose_points(&self) -> &[u32] {
         &self.loose_points
+    }
+
+    /// Which vertices belong to a face, an edge or a point.
+    pub fn used_vertices(&self) -> Vec<bool> {
+        let mut used = vec![false; self.vertex_count()];
+        let loose = self.loose_edges.as_flattened().iter().chain(&self.loose_points);
+        for &vertex in self.corner_vertices.iter().chain(loose) {
+            used[vertex as usize] = true;
+        }
+        used
     }
 
     /// The box around all vertices, used or not. Empty without vertices.
@@ -207,10 +245,12 @@ impl Mesh {
     /// numbers. Corner normals are moved, not negated.
     pub fn flip_faces(&mut self) {
         let mut order: Vec<u32> = (0..self.corner_count() as u32).collect();
+        self.found_edges();
+        let edges = self.edges.get_mut().expect("they were just found");
         for ends in self.face_starts.windows(2) {
-            let corners = &mut order[ends[0] as usize..ends[1] as usize];
-            corners[1..].reverse();
-            self.corner_edges[ends[0] as usize..ends[1] as usize].reverse();
+            let corners = ends[0] as usize..ends[1] as usize;
+            order[corners.clone()][1..].reverse();
+            edges.corner_edges[corners].reverse();
         }
         let old = std::mem::take(&mut self.corner_vertices);
         self.corner_vertices = order.iter().map(|&from| old[from as usize]).collect();

@@ -57,8 +57,8 @@ impl MeshAsset {
 
 /// Stray vertices of a file must not push the model out of the picture.
 fn used_bounds(mesh: &Mesh, positions: &[Vec3]) -> Bounds3 {
-    let used = mesh.edges().as_flattened().iter().chain(mesh.loose_points());
-    Bounds3::from_points(used.map(|&vertex| positions[vertex as usize].as_dvec3()))
+    let used = positions.iter().zip(mesh.used_vertices()).filter(|&(_, used)| used);
+    Bounds3::from_points(used.map(|(point, _)| point.as_dvec3()))
 }
 
 /// A texture as the scene shares it between materials.

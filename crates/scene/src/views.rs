@@ -2,7 +2,6 @@
 
 use trigon_camera::{Camera, DEFAULT_MARGIN};
 use trigon_math::{DVec3, Vec3};
-use trigon_mesh::Mesh;
 
 use crate::scene::{MeshAsset, Scene};
 
@@ -28,16 +27,8 @@ impl Scene {
             let Some(mesh) = self.meshes().get(mesh).map(MeshAsset::mesh) else { continue };
             let placed =
                 |(point, used): (&Vec3, bool)| used.then(|| world.transform_point3(point.as_dvec3()));
-            points.extend(mesh.positions().iter().zip(used_vertices(mesh)).filter_map(placed));
+            points.extend(mesh.positions().iter().zip(mesh.used_vertices()).filter_map(placed));
         }
         points
     }
-}
-
-fn used_vertices(mesh: &Mesh) -> Vec<bool> {
-    let mut used = vec![false; mesh.vertex_count()];
-    for &vertex in mesh.edges().as_flattened().iter().chain(mesh.loose_points()) {
-        used[vertex as usize] = true;
-    }
-    used
 }
