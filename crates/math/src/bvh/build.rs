@@ -1,16 +1,12 @@
 //! Building: triangles are parted where that is expected to save most tests.
 
-use std::ops::Range;
-
 use glam::Vec3;
 
-use super::{Bvh, Node};
+use super::Bvh;
+use super::wide::{Child, Leaf, Node, WIDTH};
 
 /// More bins part better and build slower; beyond sixteen hardly anything is won.
 const BINS: usize = 16;
-
-/// Leaves of at most this many triangles are not parted further.
-const LEAF: usize = 4;
 
 /// The box and the middle of one triangle.
 #[derive(Clone, Copy)]
@@ -61,38 +57,65 @@ impl Bvh {
         let usable = |corners: &[Vec3; 3]| corners.iter().all(|corner| corner.is_finite());
         let numbered = (0_u32..).zip(triangles).filter(|(_, corners)| usable(corners));
         let mut items: Vec<Item> = numbered.map(|(number, corners)| item(number, corners)).collect();
-        let mut nodes = Vec::with_capacity(items.len());
-        let count = items.len();
-        part(&mut items, 0..count, &mut nodes);
-        let numbers: Vec<u32> = items.iter().map(|item| item.number).collect();
-        let triangles = numbers.iter().map(|&number| triangles[number as usize]).collect();
-        Self { nodes, triangles, numbers }
+        let mut tree = Bvh { len: items.len(), ..Self::default() };
+        let whole = Extent::of(&items);
+        if let Some(child) = tree.grow(&mut items, triangles) {
+            let mut root = Node::EMPTY;
+            root.set(0, (whole.min, whole.max), child);
+            tree.nodes.push(root);
+        }
+        tree
     }
+
+    /// Adds the nodes of some items, which it puts in order, children first; none
+    /// without items. The depth of the recursion is bounded by parting in the middle
+    /// where bins do not part well.
+    fn grow(&mut self, items: &mut [Item], triangles: &[[Vec3; 3]]) -> Option<Child> {
+        if items.len() <= WIDTH {
+            let numbered = items.iter().map(|item| (item.number, triangles[item.number as usize]));
+            self.leaves.push(Leaf::new(numbered));
+            return (!items.is_empty()).then(|| Child::leaf(self.leaves.len() - 1));
+        }
+        let mut node = Node::EMPTY;
+        for (place, (Extent { min, max }, part)) in parts(items).into_iter().enumerate() {
+            if let Some(child) = self.grow(part, triangles) {
+                node.set(place, (min, max), child);
+            }
+        }
+        self.nodes.push(node);
+        Some(Child::node(self.nodes.len() - 1))
+    }
+}
+
+/// Parts items in two, then the part with the largest box that is no leaf, and so on
+/// until there are as many as a node has places.
+fn parts(items: &mut [Item]) -> Vec<(Extent, &mut [Item])> {
+    let mut parts = vec![boxed(items)];
+    while parts.len() < WIDTH {
+        let worth = |(extent, items): &(Extent, &mut [Item])| {
+            if items.len() > WIDTH { extent.half_area() } else { f32::NEG_INFINITY }
+        };
+        let largest = (1..parts.len())
+            .fold(0, |best, place| if worth(&parts[place]) > worth(&parts[best]) { place } else { best });
+        if parts[largest].1.len() <= WIDTH {
+            break;
+        }
+        let (_, items) = parts.swap_remove(largest);
+        let middle = parted(items);
+        let (first, second) = items.split_at_mut(middle);
+        parts.extend([boxed(first), boxed(second)]);
+    }
+    parts
+}
+
+fn boxed(items: &mut [Item]) -> (Extent, &mut [Item]) {
+    (Extent::of(items), items)
 }
 
 fn item(number: u32, corners: &[Vec3; 3]) -> Item {
     let mut extent = Extent::EMPTY;
     corners.iter().for_each(|&corner| extent.add(corner, corner));
     Item { min: extent.min, max: extent.max, number }
-}
-
-/// Adds the nodes of a range of items, which it puts in order. The depth of the
-/// recursion is bounded by parting in the middle where bins do not part well.
-fn part(items: &mut [Item], range: Range<usize>, nodes: &mut Vec<Node>) {
-    if range.is_empty() {
-        return;
-    }
-    let Extent { min, max } = Extent::of(&items[range.clone()]);
-    let number = nodes.len();
-    nodes.push(Node { min, max, next: range.start as u32, count: range.len() as u32 });
-    if range.len() <= LEAF {
-        return;
-    }
-    let middle = range.start + parted(&mut items[range.clone()]);
-    part(items, range.start..middle, nodes);
-    nodes[number].next = nodes.len() as u32;
-    nodes[number].count = 0;
-    part(items, middle..range.end, nodes);
 }
 
 /// Puts the items of one side before those of the other; how many the first has.

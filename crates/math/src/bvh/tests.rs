@@ -1,5 +1,7 @@
 //! The tree answers as a look at every triangle does.
 
+use glam::Vec3;
+
 use super::triangle::ShearedRay;
 use super::*;
 use proptest::prelude::*;
@@ -14,8 +16,9 @@ fn by_brute_force(triangles: &[[Vec3; 3]], ray: &Ray) -> Option<RayHit> {
     let sheared = ShearedRay::new(ray);
     let mut nearest: Option<RayHit> = None;
     for (triangle, corners) in (0_u32..).zip(triangles) {
-        let Some((distance, weights)) = sheared.meets(corners) else { continue };
-        if distance >= 0.0 && nearest.is_none_or(|best| distance < best.distance) {
+        let met = sheared.meet(&Leaf::new(std::iter::once((triangle, *corners))).corners);
+        let (distance, weights) = (met.distances[0], met.weights.map(|weight| weight[0]));
+        if distance >= 0.0 && distance.is_finite() && nearest.is_none_or(|best| distance < best.distance) {
             nearest = Some(RayHit { distance, triangle, weights });
         }
     }

@@ -5,15 +5,12 @@ use std::ops::Range;
 use glam::Vec3;
 
 use super::triangle::ShearedRay;
-use super::{Bvh, Node, Ray, RayHit};
+use super::wide::{Child, Four, Inside, Node, WIDTH};
+use super::{Bvh, Ray, RayHit};
 
-/// By how much the far side of a box is moved away: the rounding of its three
-/// operations, twice (Ize 2013, section 4).
-const WIDENED: f32 = 1.0 + 6.0 * f32::EPSILON;
-
-/// Nodes that wait to be visited. Each level of the tree has at most 15/16 of the
-/// triangles above it, so 2³² triangles make no more levels than this.
-const WAITING: usize = 352;
+/// By how much the far side of a box, and the end of the range, are moved away: the
+/// rounding of four operations, twice (Ize 2013, section 4).
+const WIDENED: f32 = 1.0 + 8.0 * f32::EPSILON;
 
 impl Bvh {
     /// What the ray meets first within a range of distances; of equally near
@@ -49,39 +46,39 @@ impl Bvh {
 
     /// Calls `found` with what the ray meets, in some order, until it says that
     /// this is enough; it may move the end of the range.
+    #[inline(always)]
     fn visit(&self, ray: &Ray, start: f32, end: &mut f32, mut found: impl FnMut(RayHit, &mut f32) -> bool) {
         let possible = ray.origin.is_finite() && ray.direction.is_finite() && ray.direction != Vec3::ZERO;
         if self.nodes.is_empty() || !possible {
             return;
         }
         let sheared = ShearedRay::new(ray);
-        let slabs = Slabs { origin: ray.origin, inverse: ray.direction.recip() };
-        let mut waiting = [0_u32; WAITING];
-        let mut count = 1;
-        while count > 0 {
-            count -= 1;
-            let number = waiting[count];
-            let node = &self.nodes[number as usize];
-            if !slabs.meet(node, start, *end) {
+        let slabs = Slabs::new(ray);
+        let mut waiting = Waiting::new((start, Child::node(self.nodes.len() - 1)));
+        while let Some((near, child)) = waiting.pop() {
+            // What was found meanwhile may be nearer.
+            if near > *end * WIDENED {
                 continue;
             }
-            if node.count == 0 {
-                let second = node.next;
-                let nearer_first =
-                    slabs.is_ahead(&self.nodes[number as usize + 1], &self.nodes[second as usize]);
-                let order = if nearer_first { [second, number + 1] } else { [number + 1, second] };
-                waiting[count..count + 2].copy_from_slice(&order);
-                count += 2;
-                continue;
-            }
-            let leaf = node.next as usize..(node.next + node.count) as usize;
-            for (corners, &triangle) in self.triangles[leaf.clone()].iter().zip(&self.numbers[leaf]) {
-                let Some((distance, weights)) = sheared.meets(corners) else { continue };
-                if distance < start || distance > *end {
-                    continue;
+            match child.inside() {
+                Inside::Node(number) => {
+                    let node = &self.nodes[number];
+                    waiting.push(slabs.meet(node, start, *end * WIDENED), &node.children);
                 }
-                if found(RayHit { distance, triangle, weights }, end) {
-                    return;
+                Inside::Leaf(number) => {
+                    let leaf = &self.leaves[number];
+                    let met = sheared.meet(&leaf.corners);
+                    for place in 0..WIDTH {
+                        let distance = met.distances[place];
+                        // Not so where it is no number: missed.
+                        if distance >= start && distance <= *end {
+                            let triangle = leaf.numbers[place];
+                            let weights = met.weights.map(|weight| weight[place]);
+                            if found(RayHit { distance, triangle, weights }, end) {
+                                return;
+                            }
+                        }
+                    }
                 }
             }
         }
@@ -90,37 +87,94 @@ impl Bvh {
 
 /// A ray made ready for boxes.
 struct Slabs {
-    origin: Vec3,
-    inverse: Vec3,
+    origin: [f32; 3],
+    inverse: [f32; 3],
+    /// The same, widened: for the far sides.
+    wider: [f32; 3],
+    /// Which side of a box it meets first: 0 is the lower one.
+    first: [usize; 3],
 }
 
 impl Slabs {
-    /// Whether the ray may meet a box within a range; `false` is certain.
-    fn meet(&self, node: &Node, mut start: f32, mut end: f32) -> bool {
-        for axis in 0..3 {
-            let inverse = self.inverse[axis];
-            let first = (node.min[axis] - self.origin[axis]) * inverse;
-            let second = (node.max[axis] - self.origin[axis]) * inverse;
-            let (near, far) = if inverse < 0.0 { (second, first) } else { (first, second) };
-            // A ray within a side of the box gives no number, and is let through.
-            if near > start {
-                start = near;
-            }
-            if far * WIDENED < end {
-                end = far * WIDENED;
-            }
+    fn new(ray: &Ray) -> Self {
+        let inverse = ray.direction.recip().to_array();
+        Self {
+            origin: ray.origin.to_array(),
+            inverse,
+            wider: inverse.map(|inverse| inverse * WIDENED),
+            first: inverse.map(|inverse| usize::from(inverse < 0.0)),
         }
-        start <= end
     }
 
-    /// Whether the first box lies before the second on the ray's way.
-    fn is_ahead(&self, first: &Node, second: &Node) -> bool {
-        let between = (second.min + second.max) - (first.min + first.max);
-        let along = between.x * sign(self.inverse.x) + between.y * sign(self.inverse.y);
-        along + between.z * sign(self.inverse.z) >= 0.0
+    /// Where the ray enters each of four boxes; no number where it certainly does not
+    /// meet the box within the range.
+    #[inline(always)]
+    fn meet(&self, node: &Node, start: f32, end: f32) -> Four {
+        let (mut from, mut to) = ([start; WIDTH], [end; WIDTH]);
+        for axis in 0..3 {
+            let (origin, first) = (self.origin[axis], self.first[axis]);
+            let (near, far) = (&node.sides[axis][first], &node.sides[axis][1 - first]);
+            for place in 0..WIDTH {
+                // A ray within a side of a box gives no number, and is let through.
+                let near = (near[place] - origin) * self.inverse[axis];
+                from[place] = if near > from[place] { near } else { from[place] };
+                let far = (far[place] - origin) * self.wider[axis];
+                to[place] = if far < to[place] { far } else { to[place] };
+            }
+        }
+        std::array::from_fn(|place| if from[place] <= to[place] { from[place] } else { f32::NAN })
     }
 }
 
-fn sign(value: f32) -> f32 {
-    if value < 0.0 { -1.0 } else { 1.0 }
+/// Boxes that are to be visited, the next one last.
+struct Waiting {
+    few: [(f32, Child); Self::FEW],
+    count: usize,
+    /// What is below those, of lopsided trees.
+    more: Vec<(f32, Child)>,
+}
+
+impl Waiting {
+    /// A balanced tree over 2³² triangles has 16 levels, each of which leaves 3 boxes.
+    const FEW: usize = 64;
+
+    fn new(root: (f32, Child)) -> Self {
+        Self { few: [root; Self::FEW], count: 1, more: Vec::new() }
+    }
+
+    #[inline(always)]
+    fn pop(&mut self) -> Option<(f32, Child)> {
+        if self.count == 0 {
+            return self.more.pop();
+        }
+        self.count -= 1;
+        Some(self.few[self.count % Self::FEW])
+    }
+
+    /// Adds the boxes that are entered somewhere, the nearest last.
+    #[inline(always)]
+    fn push(&mut self, entered: Four, children: &[Child; WIDTH]) {
+        if self.count + WIDTH > Self::FEW {
+            self.make_room();
+        }
+        let first = self.count;
+        for place in 0..WIDTH {
+            // Without a branch: what is not entered is overwritten by the next.
+            self.few[self.count % Self::FEW] = (entered[place], children[place]);
+            self.count += usize::from(!entered[place].is_nan());
+        }
+        for end in first + 1..self.count {
+            let mut place = end % Self::FEW;
+            while place > first && self.few[place - 1].0 < self.few[place].0 {
+                self.few.swap(place - 1, place);
+                place -= 1;
+            }
+        }
+    }
+
+    #[cold]
+    fn make_room(&mut self) {
+        self.more.extend_from_slice(&self.few[..self.count]);
+        self.count = 0;
+    }
 }

@@ -1,8 +1,18 @@
-//! A ray against a triangle, without leaks.
+//! A ray against four triangles, without leaks.
 
 use glam::Vec3;
 
 use super::Ray;
+use super::wide::{Four, WIDTH};
+
+/// Where a ray meets four triangles.
+pub(super) struct MetFour {
+    /// No number where it misses one, runs along it, or meets it too far away for a
+    /// number.
+    pub(super) distances: Four,
+    /// Of the three corners; meaningless where there is no distance.
+    pub(super) weights: [Four; 3],
+}
 
 /// A ray made ready for many triangles: sheared so that it runs along one axis.
 pub(super) struct ShearedRay {
@@ -31,34 +41,61 @@ impl ShearedRay {
         Self { origin: ray.origin, axes: [x, y, z], shear }
     }
 
-    /// The distance and the weights of the corners; `None` where it misses, or runs
-    /// along the triangle.
-    pub(super) fn meets(&self, corners: &[Vec3; 3]) -> Option<(f32, [f32; 3])> {
-        let [a, b, c] = corners.map(|corner| self.sheared(corner));
-        let cross = |p: [f32; 3], q: [f32; 3]| p[0] * q[1] - p[1] * q[0];
-        let mut edges = [cross(c, b), cross(a, c), cross(b, a)];
-        if edges.contains(&0.0) {
-            // Exact products decide what lies on an edge.
-            let exact = |p: [f32; 3], q: [f32; 3]| {
-                (f64::from(p[0]) * f64::from(q[1]) - f64::from(p[1]) * f64::from(q[0])) as f32
-            };
-            edges = [exact(c, b), exact(a, c), exact(b, a)];
+    /// Where the ray meets four triangles.
+    #[inline(always)]
+    pub(super) fn meet(&self, corners: &[[Four; 3]; 3]) -> MetFour {
+        let [a, b, c] = [0, 1, 2].map(|corner| self.sheared(&corners[corner]));
+        let mut edges = [crossed(&c, &b), crossed(&a, &c), crossed(&b, &a)];
+        if edges.as_flattened().contains(&0.0) {
+            self.decide_exactly([&a, &b, &c], &mut edges);
         }
-        let negative = edges.iter().any(|&edge| edge < 0.0);
-        let positive = edges.iter().any(|&edge| edge > 0.0);
-        let sum = edges[0] + edges[1] + edges[2];
-        if negative == positive || sum == 0.0 {
-            return None;
+        let (mut distances, mut weights) = ([0.0; WIDTH], [[0.0; WIDTH]; 3]);
+        for i in 0..WIDTH {
+            let [u, v, w] = edges.map(|edge| edge[i]);
+            let inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+            let sum = u + v + w;
+            let along = u * a[2][i] + v * b[2][i] + w * c[2][i];
+            let inverse = 1.0 / sum;
+            let distance = along * self.shear[2] * inverse;
+            distances[i] = if inside && sum != 0.0 && distance.is_finite() { distance } else { f32::NAN };
+            weights[0][i] = u * inverse;
+            weights[1][i] = v * inverse;
+            weights[2][i] = w * inverse;
         }
-        let along = edges[0] * a[2] + edges[1] * b[2] + edges[2] * c[2];
-        let inverse = 1.0 / sum;
-        let distance = along * self.shear[2] * inverse;
-        distance.is_finite().then(|| (distance, edges.map(|edge| edge * inverse)))
+        MetFour { distances, weights }
     }
 
-    fn sheared(&self, corner: Vec3) -> [f32; 3] {
-        let offset = corner - self.origin;
-        let [x, y, z] = self.axes.map(|axis| offset[axis]);
-        [x - self.shear[0] * z, y - self.shear[1] * z, z]
+    /// Exact products decide what lies on an edge.
+    #[cold]
+    fn decide_exactly(&self, [a, b, c]: [&[Four; 3]; 3], edges: &mut [Four; 3]) {
+        let exact = |p: &[Four; 3], q: &[Four; 3], i: usize| {
+            let [px, py, qx, qy] = [p[0][i], p[1][i], q[0][i], q[1][i]].map(f64::from);
+            (px * qy - py * qx) as f32
+        };
+        for i in 0..WIDTH {
+            if edges.iter().any(|edge| edge[i] == 0.0) {
+                edges[0][i] = exact(c, b, i);
+                edges[1][i] = exact(a, c, i);
+                edges[2][i] = exact(b, a, i);
+            }
+        }
     }
+
+    #[inline(always)]
+    fn sheared(&self, corner: &[Four; 3]) -> [Four; 3] {
+        let [x, y, z] = self.axes.map(|axis| (&corner[axis], self.origin[axis]));
+        let mut sheared = [[0.0; WIDTH]; 3];
+        for i in 0..WIDTH {
+            let along = z.0[i] - z.1;
+            sheared[0][i] = (x.0[i] - x.1) - self.shear[0] * along;
+            sheared[1][i] = (y.0[i] - y.1) - self.shear[1] * along;
+            sheared[2][i] = along;
+        }
+        sheared
+    }
+}
+
+#[inline(always)]
+fn crossed(p: &[Four; 3], q: &[Four; 3]) -> Four {
+    std::array::from_fn(|i| p[0][i] * q[1][i] - p[1][i] * q[0][i])
 }

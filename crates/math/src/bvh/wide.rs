@@ -1,0 +1,87 @@
+//! The tree as rays walk it: boxes and triangles in groups of four, number by number.
+//! Plain arrays: a compiler makes vectors of them, and the numbers are the same as one
+//! by one.
+
+use glam::Vec3;
+
+/// Boxes of a node, and triangles of a leaf.
+pub(super) const WIDTH: usize = 4;
+
+/// A number for each of a group.
+pub(super) type Four = [f32; WIDTH];
+
+/// Up to four boxes and what is in them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    /// By axis, then the lower and the upper side.
+    pub(super) sides: [[Four; 2]; 3],
+    pub(super) children: [Child; WIDTH],
+}
+
+/// What is in a box: a node or, with the topmost bit set, a leaf.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Child(u32);
+
+/// What a [`Child`] means, by its number.
+pub(super) enum Inside {
+    Node(usize),
+    Leaf(usize),
+}
+
+/// Up to four triangles.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Leaf {
+    /// By corner, then axis.
+    pub(super) corners: [[Four; 3]; 3],
+    /// Which triangles they are.
+    pub(super) numbers: [u32; WIDTH],
+}
+
+impl Child {
+    const LEAF: u32 = 1 << 31;
+
+    pub(super) fn node(number: usize) -> Self {
+        Self(number as u32)
+    }
+
+    pub(super) fn leaf(number: usize) -> Self {
+        Self(number as u32 | Self::LEAF)
+    }
+
+    pub(super) fn inside(self) -> Inside {
+        let number = (self.0 & !Self::LEAF) as usize;
+        if self.0 & Self::LEAF != 0 { Inside::Leaf(number) } else { Inside::Node(number) }
+    }
+}
+
+impl Node {
+    /// Boxes that no ray meets.
+    pub(super) const EMPTY: Self = Self {
+        sides: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
+        children: [Child(0); WIDTH],
+    };
+
+    pub(super) fn set(&mut self, place: usize, (min, max): (Vec3, Vec3), child: Child) {
+        for axis in 0..3 {
+            self.sides[axis][0][place] = min[axis];
+            self.sides[axis][1][place] = max[axis];
+        }
+        self.children[place] = child;
+    }
+}
+
+impl Leaf {
+    /// Places beyond the triangles hold no number, and are met by no ray.
+    pub(super) fn new(triangles: impl Iterator<Item = (u32, [Vec3; 3])>) -> Self {
+        let mut leaf = Self { corners: [[[f32::NAN; WIDTH]; 3]; 3], numbers: [u32::MAX; WIDTH] };
+        for (place, (number, corners)) in triangles.take(WIDTH).enumerate() {
+            leaf.numbers[place] = number;
+            for (of_all, corner) in leaf.corners.iter_mut().zip(corners) {
+                for axis in 0..3 {
+                    of_all[axis][place] = corner[axis];
+                }
+            }
+        }
+        leaf
+    }
+}
