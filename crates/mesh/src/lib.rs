@@ -65,7 +65,7 @@ mod weld;
 
 pub use attributes::Attributes;
 pub use builder::MeshBuilder;
-pub use deform::{Deformed, Deltas, MorphTarget, SkinWeights};
+pub use deform::{Deformed, Deltas, FlatFaces, MorphTarget, SkinWeights};
 pub use error::MeshError;
 pub use mesh::Mesh;
 

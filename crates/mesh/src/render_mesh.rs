@@ -7,7 +7,7 @@
 use trigon_math::{Vec2, Vec3, Vec4};
 
 use crate::weld::weld;
-use crate::{Mesh, MorphTarget, SkinWeights, Triangulation};
+use crate::{FlatFaces, Mesh, MorphTarget, SkinWeights, Triangulation};
 
 /// A mesh as triangles over welded corners. All lists of vertex values have
 /// the same length, all lists of triangles too.
@@ -27,6 +27,9 @@ pub struct RenderMesh {
     pub skin: Option<SkinWeights>,
     /// Shapes to move towards; see [`RenderMesh::deform`].
     pub morph_targets: Vec<MorphTarget>,
+    /// Polygons whose normals [`RenderMesh::deform`] finds anew; none unless a pose
+    /// can change the mesh.
+    pub flat_faces: FlatFaces,
     /// Vertices, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
     /// The polygon that each triangle is a part of.
@@ -69,6 +72,7 @@ impl RenderMesh {
             colors: attributes.corner_colors.as_ref().map(|c| pick(c, corners)),
             skin: attributes.skin.as_ref().map(|skin| skin.reordered(corners.iter().map(vertex))),
             morph_targets: attributes.morph_targets.iter().map(morph).collect(),
+            flat_faces: FlatFaces::of(mesh, &welded.vertex_of_corner),
             triangle_materials: triangle_faces.iter().map(slot).collect(),
             triangles,
             triangle_faces,

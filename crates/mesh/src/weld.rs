@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use trigon_math::{Vec2, Vec3, Vec4};
 
 use crate::Mesh;
-use crate::deform::classes;
+use crate::deform::{classes, flat_classes};
 use crate::groups::Groups;
 
 /// Groups of up to so many corners are compared one with another; larger ones
@@ -91,6 +91,9 @@ struct Comparison<'a> {
     tangents: &'a [Vec4],
     /// What morph targets do to each corner; empty when there are none.
     morphs: Vec<u32>,
+    /// Which flat face each corner is of, where a pose can turn them apart; empty
+    /// where it cannot.
+    flat: Vec<u32>,
 }
 
 impl<'a> Comparison<'a> {
@@ -105,6 +108,7 @@ impl<'a> Comparison<'a> {
                 [] => Vec::new(),
                 targets => classes(targets, mesh.corner_count()),
             },
+            flat: flat_classes(mesh),
         }
     }
 
@@ -115,7 +119,7 @@ impl<'a> Comparison<'a> {
             && [self.colors, self.tangents]
                 .iter()
                 .all(|values| values.is_empty() || bits(values[a].to_array()) == bits(values[b].to_array()))
-            && (self.morphs.is_empty() || self.morphs[a] == self.morphs[b])
+            && [&self.morphs, &self.flat].iter().all(|classes| classes.is_empty() || classes[a] == classes[b])
     }
 
     /// Some total order in which only corners that agree are equal.
@@ -128,8 +132,8 @@ impl<'a> Comparison<'a> {
         for values in [self.colors, self.tangents].into_iter().filter(|values| !values.is_empty()) {
             order = order.then_with(|| by_bits(values[a].to_array(), values[b].to_array()));
         }
-        if !self.morphs.is_empty() {
-            order = order.then(self.morphs[a].cmp(&self.morphs[b]));
+        for classes in [&self.morphs, &self.flat].into_iter().filter(|classes| !classes.is_empty()) {
+            order = order.then(classes[a].cmp(&classes[b]));
         }
         order
     }

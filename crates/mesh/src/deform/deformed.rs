@@ -31,7 +31,8 @@ impl RenderMesh {
     /// nothing; a joint beyond the palette stays where it is, and without a
     /// palette the skin is not followed: at rest every bit is the mesh's own.
     /// Normals turn by the inverse transpose
-    /// of the blended map. Where a normal or tangent vanishes, it is as before.
+    /// of the blended map; those of faces that are shaded flat are found anew from
+    /// their vertices. Where a normal or tangent vanishes, it is as before.
     pub fn deform(&self, weights: &[f32], palette: &[Affine3], into: &mut Deformed) {
         into.positions.clone_from(&self.positions);
         into.normals.clone_from(&self.normals);
@@ -64,6 +65,10 @@ impl RenderMesh {
                 *tangent = direction.extend(if map.matrix3.determinant() < 0.0 { -rest.w } else { rest.w });
             }
         }
+        let is_mirrored = |vertex: usize| {
+            skin.is_some_and(|skin| blended(skin, vertex, palette).matrix3.determinant() < 0.0)
+        };
+        self.flat_faces.set_normals(&into.positions, &mut into.normals, is_mirrored);
     }
 }
 

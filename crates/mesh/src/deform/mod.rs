@@ -8,10 +8,13 @@
 
 mod deformed;
 mod deltas;
+mod flat_faces;
 mod skin_weights;
 
 pub use deformed::Deformed;
 pub use deltas::{Deltas, MorphTarget};
+pub use flat_faces::FlatFaces;
 pub use skin_weights::SkinWeights;
 
 pub(crate) use deltas::classes;
+pub(crate) use flat_faces::flat_classes;

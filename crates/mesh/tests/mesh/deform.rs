@@ -123,3 +123,39 @@ fn a_transform_takes_tangents_and_targets_along() {
     let moved: Vec<(u32, Vec3)> = attributes.morph_targets[0].positions.iter().collect();
     assert_eq!(moved, [(2, Vec3::new(0.0, 0.0, 2.0))], "twice as far");
 }
+
+/// A square that is folded along its diagonal: both halves lie in one plane at rest,
+/// and each has a normal of its own in the pose.
+#[test]
+fn flat_faces_have_the_normals_of_their_pose() {
+    let mut builder = MeshBuilder::new();
+    let corners = [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
+    let [a, b, c, d] = corners.map(|position| builder.push_vertex(position));
+    builder.push_face(&[a, b, c]).expect("a face");
+    builder.push_face(&[a, c, d]).expect("a face");
+    let mut mesh = builder.build();
+    let target = MorphTarget { positions: Deltas::new(vec![(d, Vec3::Z)]), ..MorphTarget::default() };
+    let of_a_kind = |smooth| Attributes {
+        morph_targets: vec![target.clone()],
+        skin: SkinWeights::new(1, vec![0; 4], vec![1.0; 4]),
+        face_smooth: Some(vec![smooth; 2]),
+        ..Attributes::default()
+    };
+    mesh.set_attributes(of_a_kind(false)).expect("one of each");
+    let flat = RenderMesh::from_mesh(&mesh);
+    assert_eq!(flat.positions.len(), 6, "the halves share no vertex");
+    let mut posed = Deformed::default();
+    flat.deform(&[1.0], &[], &mut posed);
+    // Of (0, 0, 0), (1, 1, 0) and (0, 1, 1).
+    let exact = Vec3::new(1.0, -1.0, 1.0).normalize();
+    assert_eq!(posed.normals[..3], [Vec3::Z; 3], "the half that stays");
+    assert!(posed.normals[3..].iter().all(|normal| normal.distance(exact) < 1e-6), "{:?}", posed.normals);
+    flat.deform(&[1.0], &[scaled(Vec3::new(1.0, 1.0, -1.0))], &mut posed);
+    let mirrored = Vec3::new(1.0, -1.0, -1.0).normalize();
+    assert!(posed.normals[5].distance(mirrored) < 1e-6, "outside stays outside: {:?}", posed.normals);
+    flat.deform(&[0.0], &[], &mut posed);
+    assert_eq!(posed.normals, flat.normals, "at rest every bit is the mesh's own");
+
+    mesh.set_attributes(of_a_kind(true)).expect("one of each");
+    assert_eq!(RenderMesh::from_mesh(&mesh).positions.len(), 4, "smooth faces share theirs");
+}
