@@ -45,6 +45,7 @@ impl Effect {
             Self::Emission => (material.emissive, material.emissive_texture) = (Vec3::ZERO, None),
             _ => {
                 (material.base_color_texture, material.emissive_texture) = (None, None);
+                material.transmission_texture = None;
                 strip_shading(&mut material.shading);
             }
         }

@@ -89,6 +89,7 @@ fn has_texture(material: &Material) -> bool {
                 || model.specular_color_texture.is_some()
         }
     };
-    let plain = material.base_color_texture.is_some() || material.emissive_texture.is_some();
+    let colors = material.base_color_texture.is_some() || material.emissive_texture.is_some();
+    let plain = colors || material.transmission_texture.is_some();
     shading || plain || material.normal_map.is_some() || material.occlusion.is_some()
 }

@@ -69,6 +69,8 @@ struct MetCaster {
 struct MetLook {
     color: Vec3,
     texture: Option<(Arc<Texture>, TextureBinding)>,
+    /// Of glass: how much of its transmission there is.
+    transmission_texture: Option<(Arc<Texture>, TextureBinding)>,
     emissive: Vec3,
     /// Whether the colour is shown as it is.
     unlit: bool,
@@ -100,19 +102,25 @@ impl MetSurfaces {
         let [x, y, z] = &geometry.columns.normals;
         let normal = (*normal_to_scene * Vec3::new(mixed(x), mixed(y), mixed(z))).normalize_or_zero();
         let (_, look) = &looks[looks.partition_point(|(triangles, _)| triangles.end <= triangle)];
-        let mut color = look.color;
-        if let Some((texture, binding)) = &look.texture
-            && let Some([u, v]) = geometry.columns.uv_sets.get(binding.uv_set)
-        {
+        let texel = |map: &Option<(Arc<Texture>, TextureBinding)>| {
+            let (texture, binding) = map.as_ref()?;
+            let [u, v] = geometry.columns.uv_sets.get(binding.uv_set)?;
             let uv = binding.transform.transform_point2(Vec2::new(mixed(u), mixed(v)));
-            color *= texture.sample(uv, Vec2::ZERO, Vec2::ZERO, &binding.sampler).truncate();
+            Some(texture.sample(uv, Vec2::ZERO, Vec2::ZERO, &binding.sampler).truncate())
+        };
+        let mut color = look.color * texel(&look.texture).unwrap_or(Vec3::ONE);
+        let mut optics = look.optics;
+        if let (Some(Optics::Glass { transmission, .. }), Some(texel)) =
+            (&mut optics, texel(&look.transmission_texture))
+        {
+            *transmission *= texel.x;
         }
         if let Some([r, g, b, _]) = &geometry.columns.colors {
             color *= Vec3::new(mixed(r), mixed(g), mixed(b));
         }
         let (color, emissive) =
             if look.unlit { (Vec3::ZERO, look.emissive + color) } else { (color, look.emissive) };
-        Met { position, normal, color, emissive, optics: look.optics }
+        Met { position, normal, color, emissive, optics }
     }
 
     pub(super) fn byte_count(&self) -> usize {
@@ -125,12 +133,14 @@ impl MetCaster {
         let runs = caster.geometry.runs.iter().zip(&caster.materials);
         let looks = runs.filter_map(|(run, material)| {
             let material = material.as_ref()?;
-            let texture = material.base_color_texture.and_then(|binding| {
+            let bound = |binding: Option<TextureBinding>| {
+                let binding = binding?;
                 Some((Arc::clone(&scene.textures.get(binding.texture)?.texture), binding))
-            });
+            };
             let look = MetLook {
                 color: material.base_color.truncate(),
-                texture,
+                texture: bound(material.base_color_texture),
+                transmission_texture: bound(material.transmission_texture),
                 emissive: material.emissive,
                 unlit: material.shading == Shading::Unlit,
                 optics: Optics::of(material),

@@ -51,3 +51,39 @@ fn glass_as_thin_as_air_is_not_seen() {
     // Head-on, 4 % are reflected where the light enters; the pane has no other side.
     assert!((through / shown - 0.96).abs().max_element() < 0.02, "{through} of {shown}");
 }
+
+/// A texel of one half lets half as much through, where the eye looks at the pane and
+/// where a ray meets it.
+#[test]
+fn a_texture_says_how_much_passes() {
+    let upright = DQuat::from_rotation_arc(DVec3::Y, DVec3::Z);
+    let shown = |transmission: f32, texel: Option<u8>, is_mirrored: bool| {
+        let mut scene = Scene::new();
+        let transmission_texture = texel.map(|red| {
+            let texture = Texture::new(1, 1, vec![[red, 9, 9, 9]], TextureFormat::Linear).expect("a texel");
+            TextureBinding::new(scene.add_texture("half", texture))
+        });
+        let glass = Material { transmission, transmission_texture, ior: 1.0, ..metal(0.0) };
+        let (pane, wall) = if is_mirrored { (DVec3::Z * 9.0, 12.0) } else { (DVec3::ZERO, -3.0) };
+        let bright = Material { shading: Shading::Unlit, ..matt(Vec3::new(0.2, 0.6, 0.4)) };
+        let mut add = |mesh, material, place: DVec3, turn| {
+            let id = scene.add_object("it", mesh, material);
+            scene.node_mut(id).expect("just added").transform =
+                Transform::from_scale_rotation_translation(DVec3::ONE, turn, place);
+        };
+        add(primitives::plane(2.0, 2.0), glass, pane, upright);
+        let towards = DQuat::from_rotation_arc(DVec3::Y, if is_mirrored { DVec3::NEG_Z } else { DVec3::Z });
+        add(primitives::plane(9.0, 9.0), bright, DVec3::Z * wall, towards);
+        if is_mirrored {
+            add(primitives::plane(2.0, 2.0), metal(1.0), DVec3::ZERO, upright);
+        }
+        middle(&scene)
+    };
+    for is_mirrored in [false, true] {
+        let half = shown(1.0, Some(128), is_mirrored);
+        let same = shown(128.0 / 255.0, None, is_mirrored);
+        let whole = shown(1.0, Some(255), is_mirrored);
+        assert!((half - same).abs().max_element() < 0.01, "{half} is {same}, mirrored: {is_mirrored}");
+        assert!((half - whole).abs().max_element() > 0.05, "{half} is not {whole}");
+    }
+}

@@ -35,6 +35,8 @@ impl<'a> Dressed<'a> {
         let shading = occasion.reflection.of(material);
         let illumination = illumination(&shading, occasion.shading);
         let in_pixels = illumination == Illumination::InPixels;
+        let optics = Optics::of(material).filter(|_| in_pixels && occasion.scenery.bounces > 0);
+        let is_glass = matches!(optics, Some(Optics::Glass { .. }));
         let look = Look {
             base_color: material.base_color,
             base_map: fitting.map(material.base_color_texture.as_ref()),
@@ -47,7 +49,8 @@ impl<'a> Dressed<'a> {
                 .occlusion
                 .filter(|_| in_pixels)
                 .and_then(|occlusion| Some((fitting.map(Some(&occlusion.binding))?, occlusion.strength))),
-            optics: Optics::of(material).filter(|_| in_pixels && occasion.scenery.bounces > 0),
+            transmission_map: fitting.map(material.transmission_texture.as_ref().filter(|_| is_glass)),
+            optics,
             emissive: material.emissive,
             emissive_map: fitting
                 .map(material.emissive_texture.as_ref().filter(|_| material.emissive != Vec3::ZERO)),

@@ -140,7 +140,9 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         }
         match (&self.look.optics, &answer) {
             (Some(optics), Answer::Microfacets(facets)) => {
-                self.traced(simd, points, (facets, optics, open), (albedo, share), active)
+                let passing =
+                    self.look.transmission_map.as_ref().map(|map| map.look_up_apart(simd, values)[0]);
+                self.traced(simd, points, (facets, optics, open), (albedo, share, passing), active)
             }
             _ => shown(&self.reflected(simd, points, &answer, (open, None)), scaled(albedo, share)),
         }

@@ -33,6 +33,8 @@ pub(crate) struct Look<'a> {
     pub(crate) occlusion_map: Option<(Map<'a>, f32)>,
     /// Whether rays of sight go on from it.
     pub(crate) optics: Option<Optics>,
+    /// Of glass.
+    pub(crate) transmission_map: Option<Map<'a>>,
     pub(crate) emissive: Vec3,
     pub(crate) emissive_map: Option<Map<'a>>,
     /// Alpha below this is a hole, where the draw is masked.

@@ -42,6 +42,7 @@ impl Dressed<'_> {
         counts.of(Effect::Emission).look_ups += some(look.emissive_map.is_some(), 1);
         counts.of(Effect::NormalMaps).look_ups += some(look.normal_map.is_some(), 1);
         counts.of(Effect::OcclusionMaps).look_ups += some(look.occlusion_map.is_some(), 1);
+        counts.of(Effect::Refraction).look_ups += some(look.transmission_map.is_some(), 1);
         counts.of(Effect::Transparency).passes += some(look.coverage == Coverage::Translucent, 1);
     }
 }

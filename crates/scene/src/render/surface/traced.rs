@@ -8,13 +8,14 @@ use crate::render::lanes::{V3, difference, dot, negated, product, scaled, sum};
 use crate::render::lighting::{Answer, LitPoints, Microfacets};
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
-    /// What mirrors and glass show.
+    /// What mirrors and glass show. Of what the surface does not reflect its diffuse
+    /// colour has a share, and of that, glass lets a part pass.
     pub(super) fn traced<S: Simd>(
         &self,
         simd: S,
         points: &LitPoints<S>,
         (facets, optics, open): (&Microfacets<S>, &Optics, Option<F32<S>>),
-        (albedo, share): (V3<S>, F32<S>),
+        (albedo, share, passing): (V3<S>, F32<S>, Option<F32<S>>),
         active: u64,
     ) -> V3<S> {
         simd.vectorize(
@@ -29,6 +30,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                 let Optics::Glass { transmission, ior } = *optics else {
                     return shown(&reflected, scaled(albedo, share));
                 };
+                let transmission = passing.map_or(F32::splat(simd, transmission), |part| part * transmission);
                 let matt = shown(&reflected, scaled(albedo, share * (1.0 - transmission)));
                 // Snell's law, into what is denser: no light is reflected as a whole.
                 let ratio = 1.0 / ior;
