@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use trigon_math::{Bounds3, DAffine3};
+use trigon_raster::Texture;
 
 use crate::material::{AlphaMode, Material};
 use crate::node::Node;
@@ -25,6 +26,9 @@ pub(crate) struct Caster {
     pub(crate) world: DAffine3,
     /// For each run of the geometry its material, or `None` where light passes.
     pub(crate) materials: Vec<Option<Material>>,
+    /// What the materials' textures of colour and of transmission are at this moment:
+    /// a picture can be exchanged under its id.
+    textures: Vec<Arc<Texture>>,
     bounds: Bounds3,
 }
 
@@ -34,6 +38,8 @@ impl PartialEq for Caster {
         Arc::ptr_eq(&self.geometry, &other.geometry)
             && self.world == other.world
             && self.materials == other.materials
+            && self.textures.len() == other.textures.len()
+            && self.textures.iter().zip(&other.textures).all(|(one, other)| Arc::ptr_eq(one, other))
     }
 }
 
@@ -56,7 +62,9 @@ impl Casters {
             let bounds = geometry.bounds().transformed(world);
             casters.bounds = casters.bounds.union(bounds);
             let (geometry, world) = (Arc::clone(geometry), *world);
-            casters.list.push(Caster { geometry, world, materials, bounds });
+            let textures =
+                materials.iter().flatten().flat_map(|material| textures(scene, material)).collect();
+            casters.list.push(Caster { geometry, world, materials, textures, bounds });
         }
         casters
     }
@@ -65,6 +73,13 @@ impl Casters {
     pub(crate) fn boxes(&self) -> impl Iterator<Item = &Bounds3> {
         self.list.iter().map(|caster| &caster.bounds)
     }
+}
+
+/// The textures of a material that shadows and rays of sight look up.
+fn textures<'a>(scene: &'a Scene, material: &Material) -> impl Iterator<Item = Arc<Texture>> + use<'a> {
+    let bindings = [material.base_color_texture, material.transmission_texture];
+    let assets = bindings.into_iter().flatten().filter_map(|binding| scene.textures.get(binding.texture));
+    assets.map(|asset| Arc::clone(&asset.texture))
 }
 
 /// The material of a slot if it keeps light away.

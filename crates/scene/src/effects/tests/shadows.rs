@@ -115,3 +115,25 @@ fn a_warm_cache_gives_the_bytes_of_a_cold_one() {
         .set_translation(DVec3::Y * 4.0);
     check(&scene, &from_above(), "the lamp moved", 6);
 }
+
+/// A picture can be exchanged under its id, and takes the holes of a shadow with it.
+#[test]
+fn a_mask_that_is_exchanged_changes_its_shadow() {
+    let texture = |alpha| Texture::new(1, 1, vec![[255, 255, 255, alpha]], TextureFormat::Srgb);
+    let mut scene =
+        square_over_floor(shining(Light::directional(1.0), DVec3::ZERO, DVec3::new(1.0, -1.0, 0.0)));
+    let id = scene.add_texture("mask", texture(255).expect("a texel"));
+    let masked = Material { alpha_mode: AlphaMode::Mask { cutoff: 0.5 }, ..Material::from_texture(id) };
+    let masked = scene.add_material(masked);
+    let (_, square) = scene.nodes_mut().find(|(_, node)| node.name == "square").expect("it is there");
+    square.materials = vec![masked];
+    let settings =
+        settings(EffectSettings { shadows: Shadows::Maps { resolution: 64 }, ..Default::default() });
+    let mut warm = Renderer::new();
+    let whole = warm.render(&scene, &from_above(), &settings).expect("drawn");
+    scene.textures.get_mut(id).expect("just added").texture = Arc::new(texture(0).expect("a texel"));
+    let open = warm.render(&scene, &from_above(), &settings).expect("drawn");
+    assert_eq!(open, render(&scene, &from_above(), &settings).expect("drawn"), "as without a cache");
+    let light_in = |frame: &Frame| frame.color.iter().map(|&byte| u64::from(byte)).sum::<u64>();
+    assert!(light_in(&open) > light_in(&whole), "neither square nor shadow");
+}
