@@ -7,7 +7,8 @@ use proptest::prelude::*;
 use trigon_mesh::primitives;
 use trigon_scene::math::{DVec3, Vec3};
 use trigon_scene::{
-    Animation, Channel, Curve, Interpolation, Light, Material, Node, Property, Skin, Texture, TextureFormat,
+    AmbientOcclusion, Animation, Channel, Curve, EffectSettings, Interpolation, Light, Material, Node,
+    Outline, Property, Shadows, Skin, Texture, TextureFormat, render,
 };
 
 use super::*;
@@ -26,7 +27,14 @@ fn capture() -> Capture {
     let curve = Curve::new(Interpolation::Linear, 3, vec![0.0, 1.0], vec![0.5; 6]).expect("two keyframes");
     let channel = Channel { node: child, property: Property::Translation, curve };
     scene.animations = vec![Animation { name: "up".to_owned(), channels: vec![channel] }];
-    let settings = RenderSettings { edge_color: Vec3::X, ..RenderSettings::new(2, 2) };
+    let effects = EffectSettings {
+        shadows: Shadows::Maps { resolution: 16 },
+        ambient_occlusion: Some(AmbientOcclusion { rays: 1, distance: 1.0 }),
+        bounces: 1,
+        outline: Some(Outline { nodes: vec![child], color: Vec3::X, width: 1 }),
+        ..EffectSettings::default()
+    };
+    let settings = RenderSettings { effects, ..RenderSettings::new(2, 2) };
     let (camera, color) = (scene.overview(1.0), vec![7; 16]);
     Capture { scene, camera, settings, color, program: "0.0.1".to_owned() }
 }
@@ -150,9 +158,13 @@ proptest! {
         }
         let file = sealed(VERSION, "0", &parts);
         if let Ok(capture) = read(&file) {
-            // What is accepted is whole: it can be written, and read again.
+            // What is accepted is whole: it can be written, read again, and drawn, unless
+            // its settings ask for what there is not.
             let again = read(&capture.to_bytes());
             prop_assert!(again.is_ok(), "{:?}", again.map(|_| ()));
+            if let Ok(frame) = render(&capture.scene, &capture.camera, &capture.settings) {
+                prop_assert_eq!(frame.color.len(), 16, "four pixels");
+            }
         }
     }
 

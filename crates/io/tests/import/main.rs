@@ -1,6 +1,7 @@
 //! Imports through the public face: one module per subject.
 
 mod capture;
+mod captures;
 mod gltf;
 mod hooks;
 mod hostile;
