@@ -2,6 +2,7 @@
 
 mod capture;
 mod captures;
+mod features;
 mod gltf;
 mod hooks;
 mod hostile;
