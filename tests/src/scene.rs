@@ -10,7 +10,7 @@ use trigon_scene::{
 };
 
 fn settings() -> RenderSettings {
-    let outputs = Outputs { depth: true, ids: true };
+    let outputs = Outputs { depth: true, ids: true, ..Outputs::default() };
     RenderSettings { outputs, samples_per_axis: 1, ..RenderSettings::new(80, 60) }
 }
 

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use trigon_math::{Vec2, Vec3};
 use trigon_raster::TargetError;
 
 use crate::arena::Arena;
@@ -16,7 +17,8 @@ pub struct Frame {
     pub width: u32,
     /// Pixels.
     pub height: u32,
-    /// Four bytes a pixel: sRGB and straight (not premultiplied) alpha.
+    /// Four bytes a pixel: sRGB and straight (not premultiplied) alpha. Empty when
+    /// it was not asked for.
     pub color: Vec<u8>,
     /// Distance from the camera along its view axis in metres, infinite where
     /// nothing was drawn. Taken at the sample in the middle of the pixel, or with
@@ -27,6 +29,36 @@ pub struct Frame {
     pub object_ids: Option<Vec<u32>>,
     /// Index of the polygon in its mesh, `u32::MAX` where nothing was drawn.
     pub face_ids: Option<Vec<u32>>,
+    /// Index of the material in the scene, `u32::MAX` where no face was drawn or
+    /// it has none. This and all that follows is of faces: lines and points leave
+    /// in it what the background does.
+    pub material_ids: Option<Vec<u32>>,
+    /// Index of the triangle in the mesh's
+    /// [`triangulation`](trigon_mesh::Mesh::triangulation), `u32::MAX` where no face
+    /// was drawn.
+    pub triangle_ids: Option<Vec<u32>>,
+    /// The shares of that triangle's corners, in their order: at least 0, together 1
+    /// but for rounding. All 0 where no face was drawn. Of a pixel that is seen only
+    /// because vertices are moved to the sub-pixel grid, those of the nearest point
+    /// of the triangle.
+    pub barycentrics: Option<Vec<Vec3>>,
+    /// The point of the surface, in metres along the world's axes from
+    /// [`Outputs::origin`](crate::Outputs::origin); computed in f64 and rounded once.
+    /// All 0 where no face was drawn.
+    pub positions: Option<Vec<Vec3>>,
+    /// Unit vectors of the world: interpolated, bent by the material's normal map,
+    /// and turned over where a back is seen, as light finds them. All 0 where no
+    /// face was drawn.
+    pub normals: Option<Vec<Vec3>>,
+    /// Unit vectors of the world: across the triangle's plane, to the side that is
+    /// seen. All 0 where no face was drawn, and of triangles without area.
+    pub geometric_normals: Option<Vec<Vec3>>,
+    /// Coordinates of the first UV set, v downwards, before any texture's transform.
+    /// All 0 where no face was drawn or the mesh has none.
+    pub uvs: Option<Vec<Vec2>>,
+    /// Linear RGB: base colour times texture times vertex colour; the texture
+    /// filtered over a whole pixel. All 0 where no face was drawn.
+    pub albedo: Option<Vec<Vec3>>,
 }
 
 /// What a pixel shows.
@@ -46,6 +78,7 @@ impl fmt::Debug for Frame {
             .field("height", &self.height)
             .field("depth", &self.depth.is_some())
             .field("ids", &self.object_ids.is_some())
+            .field("positions", &self.positions.is_some())
             .finish_non_exhaustive()
     }
 }
@@ -54,7 +87,7 @@ impl Frame {
     /// Red, green, blue and alpha of a pixel.
     ///
     /// # Panics
-    /// Outside the picture.
+    /// Outside the picture, and when the colour was not asked for.
     pub fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
         let at = 4 * self.index(x, y);
         [self.color[at], self.color[at + 1], self.color[at + 2], self.color[at + 3]]
@@ -79,10 +112,27 @@ impl Frame {
         (self.width, self.height) = (width, height);
         let pixels = width as usize * height as usize;
         let full = TargetError::Memory { width, height };
-        resize(&mut self.color, 4 * pixels, 0).ok_or(full)?;
+        let bytes = if outputs.color { 4 * pixels } else { 0 };
+        resize(&mut self.color, bytes, 0).ok_or(full)?;
         resize_optional(&mut self.depth, outputs.depth, pixels, 0.0).ok_or(full)?;
-        resize_optional(&mut self.object_ids, outputs.ids, pixels, u32::MAX).ok_or(full)?;
-        resize_optional(&mut self.face_ids, outputs.ids, pixels, u32::MAX).ok_or(full)
+        for (ids, wanted) in [
+            (&mut self.object_ids, outputs.ids),
+            (&mut self.face_ids, outputs.ids),
+            (&mut self.material_ids, outputs.material_ids),
+            (&mut self.triangle_ids, outputs.triangle_ids),
+        ] {
+            resize_optional(ids, wanted, pixels, u32::MAX).ok_or(full)?;
+        }
+        for (vectors, wanted) in [
+            (&mut self.barycentrics, outputs.barycentrics),
+            (&mut self.positions, outputs.positions),
+            (&mut self.normals, outputs.normals),
+            (&mut self.geometric_normals, outputs.geometric_normals),
+            (&mut self.albedo, outputs.albedo),
+        ] {
+            resize_optional(vectors, wanted, pixels, Vec3::ZERO).ok_or(full)?;
+        }
+        resize_optional(&mut self.uvs, outputs.uvs, pixels, Vec2::ZERO).ok_or(full)
     }
 
     fn index(&self, x: u32, y: u32) -> usize {

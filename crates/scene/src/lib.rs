@@ -33,6 +33,7 @@ mod frame;
 mod light;
 mod material;
 mod node;
+mod outputs;
 mod render;
 mod scene;
 mod settings;

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use trigon_raster::simd::SimdLevel;
 
-use trigon_math::Vec3;
+use trigon_math::{DVec3, Vec3};
 
 use crate::background::Background;
 use crate::effects::EffectSettings;
@@ -66,14 +66,86 @@ pub enum Reflection {
     MetallicRoughness,
 }
 
-/// What a picture holds beside its colours. What is not asked for is not
-/// computed and not allocated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// What a picture holds. What is not asked for is not computed and not allocated;
+/// without `color` nothing is shaded at all: neither lights nor effects are
+/// prepared, and only masks are looked up.
+///
+/// Everything but the colour is of one sample of each pixel and never mixed: of
+/// the sample in the middle, or with an even number of samples per axis of the one
+/// right and below of it. Asking for it changes no byte of the colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs {
+    /// What the picture looks like.
+    pub color: bool,
     /// Distance along the view axis.
     pub depth: bool,
-    /// The node and the polygon of each pixel.
+    /// The node and the polygon.
     pub ids: bool,
+    /// The material.
+    pub material_ids: bool,
+    /// The triangle of the mesh's triangulation.
+    pub triangle_ids: bool,
+    /// The shares of that triangle's corners.
+    pub barycentrics: bool,
+    /// The place in the world, relative to `origin`.
+    pub positions: bool,
+    /// The normal that light falls on.
+    pub normals: bool,
+    /// The normal of the triangle's plane.
+    pub geometric_normals: bool,
+    /// Texture coordinates of the first UV set.
+    pub uvs: bool,
+    /// The colour of the surface before light falls on it.
+    pub albedo: bool,
+    /// Whether blended surfaces are seen in all of these, wherever their alpha is
+    /// above 0. Usually what lies behind them is, and only the colour shows them.
+    pub of_blended: bool,
+    /// What positions are relative to. They are rounded to f32 after it is
+    /// subtracted: in a world of millions of metres choose a point near the scene.
+    pub origin: DVec3,
+}
+
+impl Default for Outputs {
+    /// Colour alone.
+    fn default() -> Self {
+        Self { color: true, ..Self::NONE }
+    }
+}
+
+impl Outputs {
+    /// Nothing yet.
+    pub const NONE: Self = Self {
+        color: false,
+        depth: false,
+        ids: false,
+        material_ids: false,
+        triangle_ids: false,
+        barycentrics: false,
+        positions: false,
+        normals: false,
+        geometric_normals: false,
+        uvs: false,
+        albedo: false,
+        of_blended: false,
+        origin: DVec3::ZERO,
+    };
+
+    /// Whether anything is asked for that follows from the triangle that is seen.
+    pub(crate) fn of_triangles(&self) -> bool {
+        self.material_ids
+            || self.triangle_ids
+            || self.barycentrics
+            || self.positions
+            || self.normals
+            || self.geometric_normals
+            || self.uvs
+            || self.albedo
+    }
+
+    /// Whether anything but the colour is asked for.
+    pub(crate) fn beside_color(&self) -> bool {
+        self.depth || self.ids || self.of_triangles()
+    }
 }
 
 /// How a picture is drawn.
@@ -108,7 +180,7 @@ pub struct RenderSettings {
     pub reflection: Reflection,
     /// Everything beyond surfaces in plain light.
     pub effects: EffectSettings,
-    /// Beside the colours.
+    /// What the picture holds.
     pub outputs: Outputs,
     /// At most this many threads; `None` for one per core. The picture does
     /// not depend on it.

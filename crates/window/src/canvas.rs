@@ -17,7 +17,7 @@ impl Canvas {
     pub(crate) fn white(width: u32, height: u32) -> Self {
         let color = vec![255; (4 * width * height) as usize];
         let mut canvas = Self::default();
-        let frame = Frame { width, height, color, depth: None, object_ids: None, face_ids: None };
+        let frame = Frame { width, height, color, ..Frame::default() };
         canvas.show(&frame, width, height);
         canvas
     }
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     fn frame(width: u32, height: u32, color: Vec<u8>) -> Frame {
-        Frame { width, height, color, depth: None, object_ids: None, face_ids: None }
+        Frame { width, height, color, ..Frame::default() }
     }
 
     #[test]

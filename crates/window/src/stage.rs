@@ -194,7 +194,7 @@ impl Stage {
             return None;
         }
         let camera = self.camera();
-        let outputs = Outputs { depth: true, ids: true };
+        let outputs = Outputs { depth: true, ids: true, ..Outputs::NONE };
         let mut settings =
             RenderSettings { outputs, samples_per_axis: 1, samples: 1, ..self.settings.clone() };
         (settings.width, settings.height) = (self.viewport.width, self.viewport.height);

@@ -187,6 +187,15 @@ impl<'a> Target<'a> {
         Ok(self)
     }
 
+    /// The same with the picture of [`Output::Triangle`] in the caller's memory.
+    ///
+    /// # Errors
+    /// [`TargetError::Length`] if there are not `width * height` pixels.
+    pub fn with_triangles(mut self, pixels: &'a mut [u32]) -> Result<Self, TargetError> {
+        self.triangles = self.borrowed(pixels)?;
+        Ok(self)
+    }
+
     fn borrowed<T>(&self, pixels: &'a mut [T]) -> Result<Plane<'a, T>, TargetError> {
         let needed = self.width as usize * self.height as usize;
         if pixels.len() == needed {
@@ -241,6 +250,14 @@ impl<'a> Target<'a> {
     /// How many samples multisampling has in a pixel.
     pub fn samples(&self) -> u32 {
         self.pattern.count() as u32
+    }
+
+    /// Where in each pixel depth and ids are taken: x to the right and y down from
+    /// its upper left corner, in pixels. With one sample that is the centre.
+    pub fn visibility_sample(&self) -> [f64; 2] {
+        let axis = self.samples_per_axis;
+        let offset = self.pattern.offsets()[0];
+        offset.map(|part| (f64::from(axis / 2) + f64::from(part) / 256.0) / f64::from(axis))
     }
 
     pub(crate) fn pattern(&self) -> SamplePattern {

@@ -12,7 +12,7 @@ use super::shapes::{Shape, Shapes};
 use super::surface::{Dressed, EdgeOverlay, Occasion, Rays, Surface};
 use super::wire::{HiddenLine, Wire};
 use crate::effects::{Counts, Effect, Scenery};
-use crate::material::{AlphaMode, Material};
+use crate::material::{AlphaMode, Material, Shading};
 use crate::node::Node;
 use crate::scene::{MeshAsset, Scene};
 use crate::settings::{RenderSettings, Style};
@@ -29,6 +29,16 @@ pub(super) struct Composer<'s> {
     eye: &'s Eye,
     rays: Rays,
     default_material: Material,
+    purpose: Purpose,
+}
+
+/// What a pass is drawn for.
+#[derive(Clone, Copy, PartialEq)]
+enum Purpose {
+    /// Colours.
+    Colors,
+    /// Depth and ids alone: nothing is shaded.
+    Shapes,
 }
 
 /// One mesh at one node.
@@ -48,7 +58,18 @@ impl<'s> Composer<'s> {
         (shapes, scenery, eye): (&'s Shapes, &'s Scenery, &'s Eye),
     ) -> Self {
         let rays = if camera.projection.is_orthographic() { Rays::Parallel } else { Rays::Meeting };
-        Self { scene, settings, shapes, scenery, eye, rays, default_material: Material::default() }
+        let default_material = Material::default();
+        Self { scene, settings, shapes, scenery, eye, rays, default_material, purpose: Purpose::Colors }
+    }
+
+    /// For a pass of which only depth and ids are kept. The scenery has to be empty.
+    pub(super) fn of_shapes(
+        scene: &'s Scene,
+        camera: &Camera,
+        settings: &'s RenderSettings,
+        around: (&'s Shapes, &'s Scenery, &'s Eye),
+    ) -> Self {
+        Self { purpose: Purpose::Shapes, ..Self::new(scene, camera, settings, around) }
     }
 
     /// All draws of the picture.
@@ -87,7 +108,10 @@ impl<'s> Composer<'s> {
         match self.settings.style {
             Style::Surface | Style::SurfaceWithEdges => {
                 let runs = object.geometry.runs.iter();
-                draws.extend(runs.map(|run| self.surface(object, run, counts)));
+                draws.extend(runs.filter_map(|run| match self.purpose {
+                    Purpose::Colors => Some(self.surface(object, run, counts)),
+                    Purpose::Shapes => self.shape(object, run),
+                }));
             }
             Style::HiddenLine => draws.push(self.hidden_line(object)),
             Style::Wireframe => {}
@@ -127,7 +151,7 @@ impl<'s> Composer<'s> {
         };
         let dressed = Dressed::new(material, &geometry.columns, &self.occasion());
         let draw = Run { slot: run.slot, triangles: run.triangles.clone() };
-        let shows_edges = self.settings.style == Style::SurfaceWithEdges;
+        let shows_edges = self.shows_edges();
         let masked = matches!(material.alpha_mode, AlphaMode::Mask { .. });
         dressed.count(self.scenery, masked, counts);
         if dressed.is_flat() && !shows_edges && !masked {
@@ -135,6 +159,38 @@ impl<'s> Composer<'s> {
         } else {
             self.dressed::<false>(object, geometry, &draw, (material, dressed))
         }
+    }
+
+    /// The same triangles without a look: where they are, and where they have holes.
+    /// `None` where what is behind them is asked for.
+    fn shape<'c>(&'c self, object: &Object<'s>, run: &Run) -> Option<Box<dyn Record + 'c>>
+    where
+        's: 'c,
+    {
+        let material = self.material(object, run.slot);
+        // Of the look only alpha is left.
+        let mut bare = Material {
+            shading: Shading::Unlit,
+            emissive: Vec3::ZERO,
+            normal_map: None,
+            occlusion: None,
+            ..material.clone()
+        };
+        if bare.alpha_mode == AlphaMode::Blend {
+            if !self.settings.outputs.of_blended {
+                return None;
+            }
+            bare.alpha_mode = AlphaMode::Mask { cutoff: f32::MIN_POSITIVE };
+        }
+        let geometry = object.geometry;
+        let mut dressed = Dressed::new(&bare, &geometry.columns, &self.occasion());
+        let draw = Run { slot: run.slot, triangles: run.triangles.clone() };
+        Some(if bare.alpha_mode == AlphaMode::Opaque {
+            dressed.strip();
+            self.dressed::<true>(object, geometry, &draw, (&bare, dressed))
+        } else {
+            self.dressed::<false>(object, geometry, &draw, (&bare, dressed))
+        })
     }
 
     fn dressed<'c, const FLAT: bool>(
@@ -147,7 +203,7 @@ impl<'s> Composer<'s> {
     where
         's: 'c,
     {
-        let shows_edges = self.settings.style == Style::SurfaceWithEdges;
+        let shows_edges = self.shows_edges();
         let triangles = &geometry.triangles[run.triangles.clone()];
         let mesh = (&geometry.columns, triangles);
         let mut pipeline = Surface::<FLAT>::new(mesh, object.place, dressed, &self.occasion());
@@ -162,6 +218,11 @@ impl<'s> Composer<'s> {
             culling: if material.double_sided { Culling::None } else { object.place.cull_back },
             surface: surface_of(material.alpha_mode),
         })
+    }
+
+    /// Whether faces show their edges.
+    fn shows_edges(&self) -> bool {
+        self.purpose == Purpose::Colors && self.settings.style == Style::SurfaceWithEdges
     }
 
     fn edge_overlay(&self) -> EdgeOverlay {

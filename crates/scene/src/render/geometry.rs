@@ -84,6 +84,11 @@ impl Geometry {
         })
     }
 
+    /// The index in the mesh's triangulation of a triangle of this list.
+    pub(crate) fn triangulated(&self, triangle: usize) -> u32 {
+        self.order.as_ref().map_or(triangle as u32, |order| order[triangle])
+    }
+
     /// The box around all vertices that faces use.
     pub(crate) fn bounds(&self) -> Bounds3 {
         *self.bounds.get_or_init(|| {

@@ -23,10 +23,12 @@ use trigon_camera::Camera;
 use trigon_raster::simd::SimdLevelError;
 use trigon_raster::{ExecuteSettings, Pass, Rasterizer, Stats, Target, TargetError};
 
-use crate::effects::{Counts, Effect, EffectCounts, EffectPlan};
+use crate::effects::{Counts, Effect, EffectCounts, EffectPlan, Scenery};
 use crate::frame::Frame;
+use crate::outputs::{self, Needed};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
+use compose::Composer;
 use stage::Kept;
 pub(crate) use stage::Stage;
 
@@ -85,25 +87,73 @@ impl Renderer {
         settings: &RenderSettings,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
-        let blank = blank(settings)?;
         frame.make_room(settings)?;
+        let sample = blank(settings)?.visibility_sample();
         let mut rasterizer = self.rasterizer(settings)?;
         let stage = Stage::new(scene, camera, settings);
         let plan = EffectPlan::of_stage(&stage);
         let mut counts = Counts::default();
-        let scenery = self.kept.scenery(&stage, &plan, &mut rasterizer)?;
-        let composer = compose::Composer::new(scene, camera, settings, (&stage.shapes, &scenery, &stage.eye));
-        let draws = composer.draws(&mut counts);
-        let mut pass = Pass::new();
-        for draw in &draws {
-            draw.record(&mut pass);
+        let apart = settings.outputs.need_own_pass(plan.is_on(Effect::Transparency));
+        self.stats = Stats::default();
+        if settings.outputs.color {
+            self.draw_colors(&stage, camera, (&plan, frame, apart), (&mut rasterizer, &mut counts))?;
         }
-        self.stats =
-            self.kept.draw(pass, (settings, &plan), (blank, frame), (&mut rasterizer, &mut counts))?;
+        if apart {
+            self.draw_seen(&stage, camera, frame, &mut rasterizer)?;
+        }
+        if settings.outputs.of_triangles() {
+            outputs::fill(frame, &stage, camera, sample, &self.kept.seen);
+        }
+        self.kept.seen.hand_over(frame);
         measure_depth(frame, camera, settings);
-        self.kept.count(&scenery, (&stage, &plan), &mut counts);
+        counts.of(Effect::Poses).bytes = stage.shapes.posed_bytes() as u64;
         (self.counts, self.plan) = (counts, Some(plan));
         self.rasterizer = Some(rasterizer);
+        Ok(())
+    }
+
+    /// Draws colours; and what is seen, too, unless that has a pass of its own.
+    fn draw_colors(
+        &mut self,
+        stage: &Stage<'_>,
+        camera: &Camera,
+        (plan, frame, apart): (&EffectPlan, &mut Frame, bool),
+        (rasterizer, counts): (&mut Rasterizer, &mut Counts),
+    ) -> Result<(), RenderError> {
+        let scenery = self.kept.scenery(stage, plan, rasterizer)?;
+        let (scene, settings) = (stage.scene, stage.settings);
+        let composer = Composer::new(scene, camera, settings, (&stage.shapes, &scenery, &stage.eye));
+        let draws = composer.draws(counts);
+        let mut pass = Pass::new();
+        draws.iter().for_each(|draw| draw.record(&mut pass));
+        let needed = if apart { Needed::default() } else { Needed::of(&settings.outputs) };
+        // Depth that has a pass of its own is not to be written twice.
+        let depth = if apart { frame.depth.take() } else { None };
+        let target = (blank(settings)?, &mut *frame, needed);
+        self.stats = self.kept.draw(pass, (settings, plan), target, (rasterizer, counts))?;
+        if apart {
+            frame.depth = depth;
+        }
+        self.kept.count(&scenery, plan, counts);
+        Ok(())
+    }
+
+    /// Draws nothing but what is seen.
+    fn draw_seen(
+        &mut self,
+        stage: &Stage<'_>,
+        camera: &Camera,
+        frame: &mut Frame,
+        rasterizer: &mut Rasterizer,
+    ) -> Result<(), RenderError> {
+        let (dark, settings) = (Scenery::default(), stage.settings);
+        let composer = Composer::of_shapes(stage.scene, camera, settings, (&stage.shapes, &dark, &stage.eye));
+        // Effects have no part in it.
+        let draws = composer.draws(&mut Counts::default());
+        let mut pass = Pass::new();
+        draws.iter().for_each(|draw| draw.record(&mut pass));
+        let target = (blank(settings)?, frame, Needed::of(&settings.outputs));
+        self.stats += self.kept.draw_seen(&pass, settings, target, rasterizer)?;
         Ok(())
     }
 
@@ -120,6 +170,13 @@ impl Renderer {
     /// What the last picture took, in counts.
     pub fn stats(&self) -> &Stats {
         &self.stats
+    }
+
+    /// For tests: how much room is kept for objects, faces and triangles.
+    #[cfg(test)]
+    pub(crate) fn seen_capacities(&self) -> [usize; 3] {
+        let seen = &self.kept.seen;
+        [seen.objects.capacity(), seen.faces.capacity(), seen.triangles.capacity()]
     }
 
     /// The last picture's rasterizer when its settings fit, or a new one.
@@ -146,24 +203,6 @@ fn blank<'a>(settings: &RenderSettings) -> Result<Target<'a>, TargetError> {
     let target = Target::new(settings.width, settings.height, &[])?;
     target.with_samples_per_axis(settings.samples_per_axis)?.with_samples(settings.samples)
 }
-
-/// A target that also draws what a frame holds beside its colours.
-fn with_outputs<'a>(mut target: Target<'a>, beside: Beside<'a>) -> Result<Target<'a>, TargetError> {
-    let (depth, objects, faces) = beside;
-    if let Some(depth) = depth {
-        target = target.with_depth(depth)?;
-    }
-    if let Some(objects) = objects {
-        target = target.with_objects(objects)?;
-    }
-    if let Some(faces) = faces {
-        target = target.with_faces(faces)?;
-    }
-    Ok(target)
-}
-
-/// Depths, nodes and faces of a frame.
-type Beside<'a> = (&'a mut Option<Vec<f32>>, &'a mut Option<Vec<u32>>, &'a mut Option<Vec<u32>>);
 
 /// From stored depths to metres.
 fn measure_depth(frame: &mut Frame, camera: &Camera, settings: &RenderSettings) {

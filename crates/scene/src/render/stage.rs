@@ -8,7 +8,6 @@ use trigon_raster::{Pass, Rasterizer, Stats, Target, TargetError};
 use super::lighting::{Lamp, Lights, Source};
 use super::placement::Eye;
 use super::shapes::{Onlookers, Shape, Shapes};
-use super::with_outputs;
 use crate::background::Background;
 use crate::effects::{
     AmbientRays, Casters, Counts, Effect, EffectPlan, LampPose, Mist, RayCache, Scenery, ShadowCache,
@@ -16,6 +15,7 @@ use crate::effects::{
 };
 use crate::frame::{Frame, resize};
 use crate::light::LightKind;
+use crate::outputs::{Needed, Seen};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 
@@ -37,8 +37,8 @@ pub(super) struct Kept {
     rays: RayCache,
     /// The picture before its tones are mapped.
     linear: Vec<Vec4>,
-    /// The nodes of each pixel, for outlines where the frame does not hold them.
-    objects: Vec<u32>,
+    /// What each pixel sees, as far as outputs and outlines need it.
+    pub(super) seen: Seen,
 }
 
 impl<'s> Stage<'s> {
@@ -141,12 +141,7 @@ impl Kept {
     }
 
     /// Adds what the scenery took.
-    pub(super) fn count(
-        &self,
-        scenery: &Scenery,
-        (stage, plan): (&Stage<'_>, &EffectPlan),
-        counts: &mut Counts,
-    ) {
+    pub(super) fn count(&self, scenery: &Scenery, plan: &EffectPlan, counts: &mut Counts) {
         if let Some(maps) = &scenery.shadow_maps {
             counts.of(Effect::ShadowMaps).bytes = maps.byte_count() as u64;
             counts.of(Effect::ShadowMaps).passes = self.shadows.drawn() as u64;
@@ -169,27 +164,24 @@ impl Kept {
                 }
             }
         }
-        counts.of(Effect::Poses).bytes = stage.shapes.posed_bytes() as u64;
     }
 
-    /// Draws the pass, and what is laid over the picture afterwards.
+    /// Draws the pass of colours, and what is laid over the picture afterwards. Leaves
+    /// in `seen` and in the frame's depth what is needed of the pass beside colours.
     pub(super) fn draw(
         &mut self,
         pass: Pass<'_>,
         (settings, plan): (&RenderSettings, &EffectPlan),
-        (blank, frame): (Target<'_>, &mut Frame),
+        (blank, frame, needed): (Target<'_>, &mut Frame, Needed),
         (rasterizer, counts): (&mut Rasterizer, &mut Counts),
     ) -> Result<Stats, TargetError> {
         let colors = frame.color.as_chunks_mut().0;
-        let mut objects = frame.object_ids.take();
-        let kept = objects.is_some();
-        if plan.is_on(Effect::Outline) && !kept {
-            let mut own = std::mem::take(&mut self.objects);
-            let full = TargetError::Memory { width: settings.width, height: settings.height };
-            resize(&mut own, colors.len(), u32::MAX).ok_or(full)?;
-            objects = Some(own);
-        }
-        let target = with_outputs(blank, (&mut frame.depth, &mut objects, &mut frame.face_ids))?;
+        let needed = needed.with_objects(plan.is_on(Effect::Outline));
+        let full = TargetError::Memory { width: settings.width, height: settings.height };
+        self.seen.make_room(colors.len(), needed).ok_or(full)?;
+        // The lists are borrowed for as long as the target lives.
+        let mut seen = std::mem::take(&mut self.seen);
+        let target = seen.with(blank, frame.depth.as_mut())?;
         let stats = if plan.is_on(Effect::ToneMapping) {
             counts.of(Effect::ToneMapping).passes = 1;
             counts.of(Effect::ToneMapping).bytes = (colors.len() * size_of::<Vec4>()) as u64;
@@ -197,19 +189,27 @@ impl Kept {
         } else {
             draw_directly(pass, settings, (target, colors), rasterizer)?
         };
-        if let (true, Some(outline), Some(objects)) =
-            (plan.is_on(Effect::Outline), &settings.effects.outline, &objects)
-        {
+        if let (true, Some(outline)) = (plan.is_on(Effect::Outline), &settings.effects.outline) {
             counts.of(Effect::Outline).passes = 1;
-            counts.of(Effect::Outline).bytes = size_of_val(objects.as_slice()) as u64;
-            draw_outline(outline, objects, settings.width as usize, colors);
+            counts.of(Effect::Outline).bytes = size_of_val(seen.objects.as_slice()) as u64;
+            draw_outline(outline, &seen.objects, settings.width as usize, colors);
         }
-        if kept {
-            frame.object_ids = objects;
-        } else {
-            self.objects = objects.unwrap_or_default();
-        }
+        self.seen = seen;
         Ok(stats)
+    }
+
+    /// Draws a pass of which only depth and ids are kept.
+    pub(super) fn draw_seen(
+        &mut self,
+        pass: &Pass<'_>,
+        settings: &RenderSettings,
+        (blank, frame, needed): (Target<'_>, &mut Frame, Needed),
+        rasterizer: &mut Rasterizer,
+    ) -> Result<Stats, TargetError> {
+        let RenderSettings { width, height, .. } = *settings;
+        let pixels = width as usize * height as usize;
+        self.seen.make_room(pixels, needed).ok_or(TargetError::Memory { width, height })?;
+        Ok(rasterizer.draw(pass, &mut self.seen.with(blank, frame.depth.as_mut())?))
     }
 
     /// Draws linear light on nothing, and maps its tones into the frame.

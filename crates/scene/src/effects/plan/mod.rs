@@ -75,6 +75,7 @@ impl fmt::Display for EffectPlan {
 
 fn decide(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Decision {
     let outcome = match effect {
+        _ if !stage.settings.outputs.color && !shapes(effect) => Err(Absence::NoColor),
         Effect::Lamps => lamps(stage, survey),
         Effect::AmbientLight => ambient_light(stage, survey),
         Effect::Environment => environment(stage, survey),
@@ -98,6 +99,11 @@ fn decide(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Decision {
         Ok(cause) => Decision::On(cause),
         Err(absence) => Decision::Off(absence),
     }
+}
+
+/// Whether an effect is about where surfaces are, and not what they look like.
+fn shapes(effect: Effect) -> bool {
+    matches!(effect, Effect::Masks | Effect::Poses | Effect::Edges)
 }
 
 type Outcome = Result<Cause, Absence>;

@@ -54,6 +54,8 @@ pub enum Absence {
     ShadingModel,
     /// No faces are drawn.
     NoFaces,
+    /// The picture is to hold no colours.
+    NoColor,
 }
 
 /// Some objects, one of them by its name.
@@ -122,6 +124,7 @@ impl fmt::Display for Absence {
             Self::Environment => f.write_str("the environment takes its place"),
             Self::ShadingModel => f.write_str("the shading model leaves it out"),
             Self::NoFaces => f.write_str("no faces are drawn"),
+            Self::NoColor => f.write_str("no colours are asked for"),
         }
     }
 }

@@ -1,0 +1,198 @@
+//! Visits the pixels, and puts into the frame what it is to hold.
+
+use std::num::NonZeroUsize;
+
+use rayon::prelude::*;
+use trigon_camera::{Camera, Projector, Viewport};
+use trigon_math::{DVec2, DVec3, Vec2, Vec3};
+
+use super::facet::Beam;
+use super::seen::Seen;
+use super::source::{Point, Source, Triangle};
+use crate::frame::Frame;
+use crate::render::Stage;
+use crate::settings::Outputs;
+
+/// Rows that are taken at a time: enough to be worth a worker's while.
+const ROWS: usize = 8;
+
+/// Finds everything that follows from the triangles that are seen. `sample` is where
+/// in each pixel they were seen.
+pub(crate) fn fill(frame: &mut Frame, stage: &Stage<'_>, camera: &Camera, sample: [f64; 2], seen: &Seen) {
+    let Some(lens) = Lens::new(stage, camera, sample) else { return };
+    let (width, height) = (frame.width as usize, frame.height as usize);
+    let sources: Vec<Option<Source<'_>>> = sources(stage, &seen.objects);
+    let rows = match stage.settings.threads.map(NonZeroUsize::get) {
+        // No more pieces than threads that may work on them.
+        Some(threads) => height.div_ceil(threads),
+        None => ROWS,
+    };
+    let pieces: Vec<Piece<'_>> = Piece::cut(frame, width * rows);
+    pieces.into_par_iter().enumerate().for_each(|(number, mut piece)| {
+        piece.fill((&lens, &sources), (seen, width), number * width * rows);
+    });
+}
+
+/// The objects that are seen, by their indices.
+fn sources<'s>(stage: &'s Stage<'_>, objects: &[u32]) -> Vec<Option<Source<'s>>> {
+    let scene = stage.scene;
+    let mut seen = vec![false; scene.nodes().index_bound()];
+    for &object in objects.iter().filter(|&&object| object != u32::MAX) {
+        seen[object as usize] = true;
+    }
+    let mut sources: Vec<Option<Source<'_>>> = Vec::new();
+    sources.resize_with(seen.len(), || None);
+    for (id, node) in scene.nodes().iter().filter(|(id, _)| seen[id.index()]) {
+        let Some(shape) = stage.shapes.get(id.index()) else { continue };
+        let Some(asset) = node.mesh.and_then(|mesh| scene.meshes().get(mesh)) else { continue };
+        sources[id.index()] = Some(Source::new(stage, node, shape, asset.mesh()));
+    }
+    sources
+}
+
+/// From pixels to rays, and from camera space to the world.
+struct Lens {
+    beam: Beam,
+    camera: Camera,
+    origin: DVec3,
+    /// The ray through the sample of the first pixel.
+    first: DVec3,
+    /// What it changes by in a pixel to the right, and in one downwards.
+    steps: [DVec3; 2],
+}
+
+impl Lens {
+    /// `None` for a picture without pixels.
+    fn new(stage: &Stage<'_>, camera: &Camera, sample: [f64; 2]) -> Option<Self> {
+        let (width, height) = (stage.settings.width, stage.settings.height);
+        let before = Camera { projection: camera.projection, ..Camera::default() };
+        let projector = Projector::new(&before, Viewport { width, height });
+        let ray = |x, y| projector.at_distance(DVec2::new(x, y), 1.0);
+        let corner = ray(0.0, 0.0)?;
+        // The whole picture's span, so that one pixel's is as exact as can be.
+        let [right, down] = [ray(width.into(), 0.0)?, ray(0.0, height.into())?];
+        let steps = [(right - corner) / f64::from(width), (down - corner) / f64::from(height)];
+        let beam = if camera.projection.is_orthographic() { Beam::Parallel } else { Beam::Central };
+        let first = corner + steps[0] * sample[0] + steps[1] * sample[1];
+        Some(Self { beam, camera: *camera, origin: stage.settings.outputs.origin, first, steps })
+    }
+
+    fn ray(&self, x: usize, y: usize) -> DVec3 {
+        self.first + self.steps[0] * x as f64 + self.steps[1] * y as f64
+    }
+
+    /// A point of camera space as positions are told.
+    fn told(&self, point: DVec3) -> Vec3 {
+        (self.camera.orientation * point + (self.camera.position - self.origin)).as_vec3()
+    }
+}
+
+/// Some rows of what the frame is to hold; empty where it is not to.
+struct Piece<'f> {
+    length: usize,
+    material_ids: &'f mut [u32],
+    triangle_ids: &'f mut [u32],
+    barycentrics: &'f mut [Vec3],
+    positions: &'f mut [Vec3],
+    normals: &'f mut [Vec3],
+    geometric_normals: &'f mut [Vec3],
+    uvs: &'f mut [Vec2],
+    albedo: &'f mut [Vec3],
+}
+
+impl<'f> Piece<'f> {
+    fn cut(frame: &'f mut Frame, size: usize) -> Vec<Self> {
+        let pixels = frame.width as usize * frame.height as usize;
+        let mut material_ids = chunks(&mut frame.material_ids, size);
+        let mut triangle_ids = chunks(&mut frame.triangle_ids, size);
+        let mut barycentrics = chunks(&mut frame.barycentrics, size);
+        let mut positions = chunks(&mut frame.positions, size);
+        let mut normals = chunks(&mut frame.normals, size);
+        let mut geometric_normals = chunks(&mut frame.geometric_normals, size);
+        let mut uvs = chunks(&mut frame.uvs, size);
+        let mut albedo = chunks(&mut frame.albedo, size);
+        let piece = |start: usize| Self {
+            length: size.min(pixels - start),
+            material_ids: material_ids.next().unwrap_or_default(),
+            triangle_ids: triangle_ids.next().unwrap_or_default(),
+            barycentrics: barycentrics.next().unwrap_or_default(),
+            positions: positions.next().unwrap_or_default(),
+            normals: normals.next().unwrap_or_default(),
+            geometric_normals: geometric_normals.next().unwrap_or_default(),
+            uvs: uvs.next().unwrap_or_default(),
+            albedo: albedo.next().unwrap_or_default(),
+        };
+        (0..pixels).step_by(size).map(piece).collect()
+    }
+
+    fn fill(
+        &mut self,
+        (lens, sources): (&Lens, &[Option<Source<'_>>]),
+        (seen, width): (&Seen, usize),
+        start: usize,
+    ) {
+        // Neighbours mostly see the same triangle.
+        let mut last: Option<([u32; 3], Option<Triangle<'_>>)> = None;
+        for at in 0..self.length {
+            let pixel = start + at;
+            let ids @ [object, face, number] =
+                [seen.objects[pixel], seen.faces[pixel], seen.triangles[pixel]];
+            if last.is_none_or(|(known, _)| known != ids) {
+                let source = sources.get(object as usize).and_then(Option::as_ref);
+                last = Some((ids, source.and_then(|source| source.triangle(face, number, lens.beam))));
+            }
+            match last {
+                Some((_, Some(triangle))) => self.put(at, &triangle, lens, [pixel % width, pixel / width]),
+                _ => self.clear(at),
+            }
+        }
+    }
+
+    fn put(&mut self, at: usize, triangle: &Triangle<'_>, lens: &Lens, [x, y]: [usize; 2]) {
+        let facet = &triangle.facet;
+        let ray = lens.ray(x, y);
+        let weights = facet.weights(ray);
+        let slopes = lens.steps.map(|step| facet.slope((ray, weights), step));
+        let point = Point { weights, slopes };
+        let to_world = |normal: DVec3| (lens.camera.orientation * normal).as_vec3();
+        put(self.material_ids, at, || triangle.material());
+        put(self.triangle_ids, at, || triangle.index());
+        put(self.barycentrics, at, || weights.as_vec3());
+        put(self.positions, at, || lens.told(facet.at(weights)));
+        put(self.normals, at, || triangle.normal(&point));
+        put(self.geometric_normals, at, || to_world(triangle.plane_normal()));
+        put(self.uvs, at, || triangle.uv(weights));
+        put(self.albedo, at, || triangle.albedo(&point));
+    }
+
+    /// Nothing is seen, or what has no faces.
+    fn clear(&mut self, at: usize) {
+        for ids in [&mut *self.material_ids, self.triangle_ids] {
+            put(ids, at, || u32::MAX);
+        }
+        for vectors in
+            [&mut *self.barycentrics, self.positions, self.normals, self.geometric_normals, self.albedo]
+        {
+            put(vectors, at, || Vec3::ZERO);
+        }
+        put(self.uvs, at, || Vec2::ZERO);
+    }
+}
+
+fn chunks<T>(list: &mut Option<Vec<T>>, size: usize) -> std::slice::ChunksMut<'_, T> {
+    list.as_deref_mut().unwrap_or_default().chunks_mut(size)
+}
+
+/// Puts a value where it is wanted.
+fn put<T>(list: &mut [T], at: usize, value: impl FnOnce() -> T) {
+    if let Some(place) = list.get_mut(at) {
+        *place = value();
+    }
+}
+
+impl Outputs {
+    /// Whether a pass of its own has to find what is seen, beside the colours'.
+    pub(crate) fn need_own_pass(&self, has_blended: bool) -> bool {
+        self.beside_color() && (!self.color || (self.of_blended && has_blended))
+    }
+}
