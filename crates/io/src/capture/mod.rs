@@ -90,10 +90,12 @@ impl Capture {
     /// A capture of what was drawn by this program.
     ///
     /// # Panics
-    /// When the frame has not the size that the settings ask for.
+    /// When the frame has not the size that the settings ask for, or no colours.
     pub fn new(scene: Scene, camera: Camera, settings: RenderSettings, frame: &Frame) -> Self {
         let asked = (settings.width, settings.height);
         assert_eq!((frame.width, frame.height), asked, "the frame was drawn by these settings");
+        let pixels = settings.width as usize * settings.height as usize;
+        assert_eq!(frame.color.len(), 4 * pixels, "the frame holds colours");
         let program = env!("CARGO_PKG_VERSION").to_owned();
         Self { scene, camera, settings, color: frame.color.clone(), program }
     }

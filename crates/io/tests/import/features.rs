@@ -325,15 +325,17 @@ fn a_spot_falls_off_as_the_extension_says() {
         "spot": {"innerConeAngle": inner, "outerConeAngle": outer}});
     const SIDE: u32 = 32;
     let frame = picture(&lit(matt(), light, height).load().scene, &front(), SIDE);
+    let [inner_cosine, outer_cosine] = [inner, outer].map(trigon_math::elementary::cos);
     let mut lit = 0;
     for (x, y) in
         (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))).filter(|&(x, y)| frame.pixel(x, y)[3] > 0)
     {
         let place = |at: u32| (f64::from(at) + 0.5) / f64::from(SIDE) * 2.0 - 1.0;
-        let distance = (place(x).powi(2) + place(y).powi(2) + height * height).sqrt();
+        let squared = |value: f64| value * value;
+        let distance = (squared(place(x)) + squared(place(y)) + squared(height)).sqrt();
         let cosine = height / distance;
-        let window = (1.0 - (distance / range).powi(4)).clamp(0.0, 1.0) / (distance * distance);
-        let rim = ((cosine - outer.cos()) / (inner.cos() - outer.cos())).clamp(0.0, 1.0).powi(2);
+        let window = (1.0 - squared(squared(distance / range))).clamp(0.0, 1.0) / squared(distance);
+        let rim = squared(((cosine - outer_cosine) / (inner_cosine - outer_cosine)).clamp(0.0, 1.0));
         let shown = intensity * window * rim * cosine / std::f64::consts::PI;
         assert_shows(&frame, [x, y], 1, shown, "a spot");
         lit += usize::from(frame.pixel(x, y)[1] > 0);

@@ -83,15 +83,14 @@ impl ShearedRay {
 
     #[inline(always)]
     fn sheared(&self, corner: &[Four; 3]) -> [Four; 3] {
-        let [x, y, z] = self.axes.map(|axis| (&corner[axis], self.origin[axis]));
-        let mut sheared = [[0.0; WIDTH]; 3];
-        for i in 0..WIDTH {
-            let along = z.0[i] - z.1;
-            sheared[0][i] = (x.0[i] - x.1) - self.shear[0] * along;
-            sheared[1][i] = (y.0[i] - y.1) - self.shear[1] * along;
-            sheared[2][i] = along;
-        }
-        sheared
+        let [x, y, z] = self.axes.map(|axis| {
+            let origin = self.origin[axis];
+            corner[axis].map(|place| place - origin)
+        });
+        let [across, down, _] = self.shear;
+        let x = std::array::from_fn(|i| x[i] - across * z[i]);
+        let y = std::array::from_fn(|i| y[i] - down * z[i]);
+        [x, y, z]
     }
 }
 
