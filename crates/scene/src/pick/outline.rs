@@ -1,0 +1,72 @@
+//! A polygon on the screen: how far its vertices and edges are from a pixel.
+
+use trigon_camera::Projector;
+use trigon_math::{DVec2, DVec3};
+use trigon_mesh::Mesh;
+
+/// A polygon on the screen.
+pub(super) struct Outline<'m> {
+    mesh: &'m Mesh,
+    face: usize,
+    /// For each corner where it is drawn; `None` before the near plane.
+    corners: Vec<Option<DVec2>>,
+    /// For each corner what is drawn of the side to the next one.
+    sides: Vec<Option<[DVec2; 2]>>,
+}
+
+impl<'m> Outline<'m> {
+    /// `place` tells where a vertex is in the world.
+    pub(super) fn new(
+        mesh: &'m Mesh,
+        face: usize,
+        projector: &Projector,
+        place: impl Fn(u32) -> DVec3,
+    ) -> Self {
+        let points: Vec<DVec3> = mesh.face_vertices(face).iter().map(|&vertex| place(vertex)).collect();
+        let near = projector.camera().projection.near();
+        // How far beyond the near plane.
+        let beyond = |point: DVec3| -projector.to_camera(point).z - near;
+        let corner = |&point: &DVec3| projector.to_screen(point).filter(|_| beyond(point) >= 0.0);
+        let side = |from: usize| {
+            let ends = [points[from], points[(from + 1) % points.len()]];
+            let [start, end] = cut(ends, ends.map(beyond))?.map(|point| projector.to_screen(point));
+            Some([start?, end?])
+        };
+        let corners = points.iter().map(corner).collect();
+        Self { mesh, face, corners, sides: (0..points.len()).map(side).collect() }
+    }
+
+    /// The vertices with their distances from a point in pixels.
+    pub(super) fn vertices(&self, point: DVec2) -> Vec<(u32, f64)> {
+        let vertices = self.mesh.face_vertices(self.face).iter().zip(&self.corners);
+        vertices.filter_map(|(&vertex, corner)| Some((vertex, corner.as_ref()?.distance(point)))).collect()
+    }
+
+    /// The edges with their distances from a point in pixels.
+    pub(super) fn edges(&self, point: DVec2) -> Vec<(u32, f64)> {
+        let sides = self.mesh.face_corners(self.face).zip(&self.sides);
+        let distances = sides.filter_map(|(corner, side)| {
+            Some((self.mesh.corner_edge(corner)?, distance_to_segment(point, side.as_ref()?)))
+        });
+        distances.collect()
+    }
+}
+
+/// What lies beyond the near plane of a segment.
+fn cut([start, end]: [DVec3; 2], [from, to]: [f64; 2]) -> Option<[DVec3; 2]> {
+    let between = || start + (end - start) * (from / (from - to));
+    match (from >= 0.0, to >= 0.0) {
+        (true, true) => Some([start, end]),
+        (true, false) => Some([start, between()]),
+        (false, true) => Some([between(), end]),
+        (false, false) => None,
+    }
+}
+
+fn distance_to_segment(point: DVec2, &[start, end]: &[DVec2; 2]) -> f64 {
+    let along = end - start;
+    let share = (point - start).dot(along) / along.length_squared();
+    // A segment without length is its start.
+    let share = if share > 0.0 { share.clamp(0.0, 1.0) } else { 0.0 };
+    point.distance(start + along * share)
+}

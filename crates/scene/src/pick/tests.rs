@@ -1,0 +1,163 @@
+//! Picks against rays in f64 through every pixel.
+
+use trigon_camera::{Camera, Projector, Viewport};
+use trigon_math::DVec3;
+use trigon_mesh::{Deltas, MorphTarget, primitives};
+
+use super::*;
+use crate::{Material, Outputs, RenderSettings, Transform, render};
+
+const SIZE: [u32; 2] = [73, 55];
+
+fn draw(scene: &Scene, camera: &Camera) -> Frame {
+    let outputs = Outputs { ids: true, ..Outputs::NONE };
+    let [width, height] = SIZE;
+    let settings = RenderSettings { outputs, samples_per_axis: 1, ..RenderSettings::new(width, height) };
+    render(scene, camera, &settings).expect("drawn")
+}
+
+fn camera() -> Camera {
+    Camera::look_at(DVec3::new(2.5, 2.0, 4.0), DVec3::ZERO, DVec3::Y)
+}
+
+fn solids() -> Scene {
+    let mut scene = Scene::new();
+    scene.add_object("dodecahedron", primitives::dodecahedron(0.8), Material::default());
+    let cube = scene.add_object("cube", primitives::cube(0.9), Material::default());
+    scene.node_mut(cube).expect("just added").transform =
+        Transform::from_translation(DVec3::new(0.9, 0.3, 0.6));
+    scene
+}
+
+/// The triangles of all objects in the world: node, face, corners.
+fn triangles(scene: &Scene) -> Vec<(NodeId, usize, [DVec3; 3])> {
+    let mut all = Vec::new();
+    for (id, node) in scene.nodes().iter() {
+        let mesh = scene.meshes().get(node.mesh.expect("an object")).expect("its mesh").mesh();
+        let triangulation = mesh.triangulation();
+        for (triangle, &face) in triangulation.triangles.iter().zip(&triangulation.triangle_faces) {
+            let corners = triangle.map(|corner| {
+                let vertex = mesh.corner_vertices()[corner as usize];
+                scene.world_transform(id).transform_point3(mesh.positions()[vertex as usize].as_dvec3())
+            });
+            all.push((id, face as usize, corners));
+        }
+    }
+    all
+}
+
+/// How far along a ray a triangle is, and the least share of a corner there.
+fn meet((origin, direction): (DVec3, DVec3), [a, b, c]: [DVec3; 3]) -> (f64, f64) {
+    let normal = (b - a).cross(c - a);
+    let distance = (a - origin).dot(normal) / direction.dot(normal);
+    let point = origin + direction * distance;
+    let share =
+        |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) / normal.length_squared();
+    (distance, share(a, b).min(share(b, c)).min(share(c, a)))
+}
+
+#[test]
+fn every_pixel_is_what_a_ray_meets_first() {
+    let (scene, camera) = (solids(), camera());
+    let frame = draw(&scene, &camera);
+    let picker = Picker::new(&scene, &camera, &frame);
+    let projector = Projector::new(&camera, Viewport { width: SIZE[0], height: SIZE[1] });
+    let triangles = triangles(&scene);
+    let (mut checked, mut skipped) = (0, 0);
+    for (x, y) in (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))) {
+        let ray = projector.ray(center(x, y)).expect("a ray");
+        let met: Vec<_> = triangles
+            .iter()
+            .map(|&(node, face, corners)| (meet((ray.origin, ray.direction), corners), node, face))
+            .collect();
+        // Within 1/100 of an outline, vertices on the sub-pixel grid may decide
+        // otherwise: there the neighbour is as right.
+        let close = met.iter().any(|((_, share), ..)| share.abs() < 0.01);
+        let inside = met.iter().filter(|((distance, share), ..)| *distance > 0.0 && *share >= 0.0);
+        let first = inside.min_by(|a, b| a.0.0.total_cmp(&b.0.0));
+        let pick = picker.at(x, y);
+        let expected = first.map(|&(_, node, face)| (node, Some(face)));
+        let agrees = pick.map(|pick| (pick.hit.node, pick.hit.face)) == expected;
+        assert!(agrees || close, "{pick:?} is not {expected:?} at {x}, {y}");
+        if agrees { checked += 1 } else { skipped += 1 }
+    }
+    assert!(skipped * 50 < checked, "{skipped} pixels at outlines, {checked} elsewhere");
+}
+
+#[test]
+fn the_nearest_vertex_and_edge_are_those_of_all_of_the_polygon() {
+    let (scene, camera) = (solids(), camera());
+    let frame = draw(&scene, &camera);
+    let picker = Picker::new(&scene, &camera, &frame);
+    let projector = Projector::new(&camera, Viewport { width: SIZE[0], height: SIZE[1] });
+    let mut count = 0;
+    for (x, y) in (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))) {
+        let Some(pick) = picker.at(x, y) else { continue };
+        count += 1;
+        let node = scene.node(pick.hit.node).expect("picked");
+        let mesh = scene.meshes().get(node.mesh.expect("an object")).expect("its mesh").mesh();
+        let world = scene.world_transform(pick.hit.node);
+        let screen = |vertex: u32| {
+            let point = world.transform_point3(mesh.positions()[vertex as usize].as_dvec3());
+            projector.to_screen(point).expect("before the eye")
+        };
+        let around = mesh.face_vertices(pick.hit.face.expect("a polygon"));
+        let (vertex, edge) = (pick.vertex.expect("has corners"), pick.edge.expect("has sides"));
+        let at = center(x, y);
+        let least = around.iter().map(|&other| screen(other).distance(at)).fold(f64::INFINITY, f64::min);
+        assert_eq!(screen(vertex).distance(at), least, "the nearest corner at {x}, {y}");
+        // Points along each side, one a thousandth of it.
+        let along = |from: u32, to: u32| {
+            let [from, to] = [screen(from), screen(to)];
+            (0..=1000)
+                .map(|i| from.lerp(to, f64::from(i) / 1000.0).distance(at))
+                .fold(f64::INFINITY, f64::min)
+        };
+        let sides = (0..around.len()).map(|i| along(around[i], around[(i + 1) % around.len()]));
+        let least = sides.fold(f64::INFINITY, f64::min);
+        let [from, to] = mesh.edges()[edge as usize];
+        assert!(around.contains(&from) && around.contains(&to), "an edge of the polygon");
+        assert!(along(from, to) <= least + 1e-9, "the nearest side at {x}, {y}");
+    }
+    assert!(count > 300, "{count} pixels see something");
+}
+
+#[test]
+fn a_rectangle_finds_what_is_seen_in_it_and_nothing_behind() {
+    let mut scene = Scene::new();
+    let front = scene.add_object("front", primitives::cube(1.0), Material::default());
+    let hidden = scene.add_object("hidden", primitives::cube(0.5), Material::default());
+    scene.node_mut(hidden).expect("just added").transform = Transform::from_translation(DVec3::Z * -3.0);
+    let camera = Camera::look_at(DVec3::Z * 5.0, DVec3::ZERO, DVec3::Y);
+    let frame = draw(&scene, &camera);
+    let picker = Picker::new(&scene, &camera, &frame);
+    let all = picker.within(0..u32::MAX, 0..u32::MAX);
+    assert_eq!(all.nodes, BTreeSet::from([front]), "the other one is hidden");
+    assert_eq!((all.faces.len(), all.vertices.len(), all.edges.len()), (1, 4, 4), "one side of the cube");
+    let left = picker.within(0..SIZE[0] / 2, 0..SIZE[1]);
+    assert_eq!((left.faces.len(), left.vertices.len(), left.edges.len()), (1, 2, 3), "its left half");
+    assert_eq!(picker.within(0..3, 0..3), Picked::default(), "a corner of the picture is empty");
+    assert_eq!(picker.at(SIZE[0], 0), None, "outside the picture");
+}
+
+#[test]
+fn vertices_are_found_where_poses_put_them() {
+    let mut scene = Scene::new();
+    let mut mesh = primitives::plane(1.0, 1.0);
+    let positions = Deltas::from_dense(vec![Vec3::X * 2.0; mesh.vertex_count()]);
+    let target = MorphTarget { positions, ..MorphTarget::default() };
+    let attributes = trigon_mesh::Attributes { morph_targets: vec![target], ..mesh.attributes().clone() };
+    mesh.set_attributes(attributes).expect("one delta each");
+    let node = scene.add_object("moved", mesh.clone(), Material::default());
+    scene.node_mut(node).expect("just added").morph_weights = vec![0.5];
+    let camera = Camera::look_at(DVec3::Y * 6.0, DVec3::ZERO, DVec3::NEG_Z);
+    let frame = draw(&scene, &camera);
+    let picker = Picker::new(&scene, &camera, &frame);
+    let projector = Projector::new(&camera, Viewport { width: SIZE[0], height: SIZE[1] });
+    // Towards its corner at x = −0.5 + 1, z = −0.5.
+    let at = projector.to_screen(DVec3::new(0.55, 0.0, -0.45)).expect("before the eye");
+    let pick = picker.at(at.x as u32, at.y as u32).expect("the plane is there");
+    let vertex = mesh.positions()[pick.vertex.expect("has corners") as usize];
+    assert_eq!(vertex.to_array(), [-0.5, 0.0, -0.5], "the corner at rest that was moved there");
+    assert!(picker.at(5, 27).is_none(), "nothing is left where it was");
+}
