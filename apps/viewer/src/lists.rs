@@ -35,7 +35,8 @@ pub(crate) fn inspect(request: &Request, reporter: Reporter) -> u8 {
     let mut unwritten = 0;
     let unread = Source::visit_all(request, reporter, |source| {
         let model = loading::load_aloud(source, request, reporter)?;
-        let facts = model.summary().lines().into_iter().map(|fact| format!("  {fact}"));
+        let facts = model.summary().lines().into_iter().chain(model.choices());
+        let facts = facts.map(|fact| format!("  {fact}"));
         let code = print_lines(std::iter::once(source.title()).chain(facts), reporter);
         unwritten = unwritten.max(code);
         Ok(())

@@ -2,10 +2,11 @@
 
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use trigon_io::{LoadOptions, Loaded, Warning};
+use trigon_io::{Limits, LoadOptions, Loaded, Warning};
 use trigon_scene::Scene;
 
 use crate::args::Request;
@@ -25,19 +26,25 @@ pub(crate) fn load(
     request: &Request,
     progress: Progress<'_>,
 ) -> Result<(Model, Vec<Warning>), Failure> {
-    let (mut scene, mut warnings) = (Scene::new(), Vec::new());
+    let (mut scene, mut scene_names, mut warnings) = (Scene::new(), Vec::new(), Vec::new());
     match source {
         Source::BuiltIn => scene = trigon_scene::showcase(),
         Source::Files(files) => {
             for (file, before) in files.iter().zip(0u16..) {
                 let part = |fraction| progress((f32::from(before) + fraction) / files.len() as f32);
-                let loaded = load_file(file, request.max_bytes, &part)?;
+                let loaded = load_file(file, request, &part)?;
                 warnings.extend(loaded.warnings);
+                scene_names.extend(loaded.scene_names);
                 scene.append(&loaded.scene);
             }
         }
     }
-    Ok((Model::new(scene, source.clone(), request)?, warnings))
+    if let Some(moment) = &request.moment {
+        moment.apply(&mut scene)?;
+    }
+    let mut model = Model::new(scene, source.clone(), request)?;
+    model.scene_names = scene_names;
+    Ok((model, warnings))
 }
 
 /// Loads with a progress bar when it takes long and standard error is a
@@ -71,10 +78,21 @@ fn hidden_bar(what: String) -> ProgressBar {
     bar
 }
 
-fn load_file(path: &Path, max_bytes: Option<u64>, progress: Progress<'_>) -> Result<Loaded, Failure> {
-    check_size(path, max_bytes)?;
+/// Loads the picture that the model is to be lit by, if any.
+pub(crate) fn light(request: &mut Request, reporter: Reporter) -> Result<(), Failure> {
+    let Some(path) = &request.environment else { return Ok(()) };
+    let (environment, warnings) =
+        trigon_io::load_environment(path, &Limits::default()).map_err(Failure::work)?;
+    warnings.iter().for_each(|warning| reporter.warning(warning));
+    request.settings.effects.environment = Some(Arc::new(environment));
+    Ok(())
+}
+
+fn load_file(path: &Path, request: &Request, progress: Progress<'_>) -> Result<Loaded, Failure> {
+    check_size(path, request.max_bytes)?;
     let follow = |at: trigon_io::Progress| progress(at.fraction);
-    let options = LoadOptions { progress: Some(&follow), ..LoadOptions::default() };
+    let options =
+        LoadOptions { scene: request.scene.clone(), progress: Some(&follow), ..LoadOptions::default() };
     trigon_io::load(path, &options).map_err(Failure::work)
 }
 

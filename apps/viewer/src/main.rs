@@ -12,6 +12,7 @@ mod lists;
 mod loading;
 mod look;
 mod model;
+mod moment;
 mod picture;
 mod replay;
 mod report;
@@ -28,11 +29,15 @@ use crate::report::Reporter;
 
 fn main() -> ExitCode {
     let raw = RawArgs::parse();
-    let request = Request::new(raw)
+    let mut request = Request::new(raw)
         .unwrap_or_else(|message| RawArgs::command().error(ErrorKind::ArgumentConflict, message).exit());
     let reporter = Reporter::new(request.level);
     for flag in &request.ignored {
         reporter.warning(format_args!("{flag} is ignored: trigon draws on the CPU and has no such choice"));
+    }
+    if let Err(failure) = loading::light(&mut request, reporter) {
+        reporter.error(&failure);
+        return ExitCode::from(failure.exit_code());
     }
     ExitCode::from(match &request.mode {
         Mode::Picture { output, capture } => {

@@ -73,6 +73,8 @@ impl Source {
 pub(crate) struct Model {
     pub(crate) scene: Scene,
     pub(crate) source: Source,
+    /// Of all scenes of its files, also of those that are not shown.
+    pub(crate) scene_names: Vec<String>,
     bounds: Bounds3,
 }
 
@@ -87,13 +89,14 @@ impl Model {
                 source.title()
             )));
         }
-        Ok(Self { scene, source, bounds })
+        Ok(Self { scene, source, scene_names: Vec::new(), bounds })
     }
 
     /// The model of a scene that is shown already.
     #[cfg(feature = "window")]
     pub(crate) fn shown(scene: Scene, source: Source) -> Self {
-        Self { bounds: Bounds3::from_points(scene.visible_points()), scene, source }
+        let bounds = Bounds3::from_points(scene.visible_points());
+        Self { scene, source, scene_names: Vec::new(), bounds }
     }
 
     /// The camera that the flags ask for. The built-in scene is composed for
@@ -114,6 +117,16 @@ impl Model {
     /// How many faces are visible.
     pub(crate) fn face_count(&self) -> usize {
         self.visible_meshes().map(Mesh::face_count).sum()
+    }
+
+    /// One line for each scene and each animation, with the number that names it.
+    pub(crate) fn choices(&self) -> Vec<String> {
+        let scenes = self.scene_names.iter().enumerate();
+        let scenes = scenes.map(|(index, name)| format!("scene {index}   {name:?}"));
+        let animations = self.scene.animations.iter().enumerate().map(|(index, animation)| {
+            format!("animation {index} {:?}, {} s", animation.name, short(animation.duration()))
+        });
+        scenes.chain(animations).collect()
     }
 
     /// Counts and sizes of what is visible.

@@ -1,5 +1,5 @@
 //! Model and picture files for trigon: OBJ with MTL, glTF and GLB, PNG,
-//! JPEG and WebP in; PNG out. And captures: all that a picture was drawn from, and the
+//! JPEG, WebP and Radiance in; PNG out. And captures: all that a picture was drawn from, and the
 //! picture, in one file.
 //!
 //! A file becomes a [`Scene`](trigon_scene::Scene) and a list of warnings. What
@@ -37,6 +37,7 @@
 //! goes into the node. One node of the file is one node of the scene.
 
 mod capture;
+mod environment;
 mod error;
 mod folder;
 mod format;
@@ -56,6 +57,7 @@ mod uri;
 mod warning;
 
 pub use capture::{Capture, Mismatch, PixelMismatch};
+pub use environment::load_environment;
 pub use error::{LoadError, LoadErrorKind, Place};
 pub use format::{Format, Reader, readers};
 pub use limits::Limits;

@@ -1,5 +1,6 @@
 //! The front door: a file or a stream in, a scene and warnings out.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use trigon_scene::Scene;
@@ -45,7 +46,7 @@ pub fn load(path: impl AsRef<Path>, options: &LoadOptions<'_>) -> Result<Loaded,
     let mut folder = Folder::of(path, &options.limits).map_err(|error| LoadError::read(path, &error))?;
     let bytes = folder.read_model(path).map_err(|refusal| refused(path, &refusal))?;
     options.report(path, Stage::Reading, 1.0)?;
-    import(path, &bytes, folder, options)
+    import(path, Cow::Owned(bytes), folder, options)
 }
 
 /// Loads a model from memory, such as what came through standard input. It
@@ -65,11 +66,16 @@ pub fn load_from_slice(
         return Err(refused(name, &Refusal::TooLarge(length, limit)));
     }
     options.report(name, Stage::Reading, 1.0)?;
-    import(name, bytes, Folder::none(&options.limits), options)
+    import(name, Cow::Borrowed(bytes), Folder::none(&options.limits), options)
 }
 
-fn import(path: &Path, bytes: &[u8], folder: Folder, options: &LoadOptions<'_>) -> Result<Loaded, LoadError> {
-    let format = detect_format(path, bytes).map_err(|what| {
+fn import(
+    path: &Path,
+    bytes: Cow<'_, [u8]>,
+    folder: Folder,
+    options: &LoadOptions<'_>,
+) -> Result<Loaded, LoadError> {
+    let format = detect_format(path, &bytes).map_err(|what| {
         LoadError::new(LoadErrorKind::Unsupported, path, what, format!("convert it; {}", supported()))
     })?;
     let mut import = Import {
@@ -82,8 +88,8 @@ fn import(path: &Path, bytes: &[u8], folder: Folder, options: &LoadOptions<'_>) 
     };
     match format {
         Format::Obj => crate::obj::import_obj(&mut import, bytes)?,
-        Format::Gltf => crate::gltf::import_gltf(&mut import, bytes)?,
-        Format::Glb => crate::gltf::import_glb(&mut import, bytes)?,
+        Format::Gltf => crate::gltf::import_gltf(&mut import, &bytes)?,
+        Format::Glb => crate::gltf::import_glb(&mut import, &bytes)?,
     }
     options.report(path, Stage::Textures, 1.0)?;
     let Import { folder, warnings, scene, scene_names, .. } = import;

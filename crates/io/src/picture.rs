@@ -47,7 +47,13 @@ pub(crate) fn picture_size(bytes: &[u8], limits: &Limits) -> Result<(u32, u32), 
     let format = picture_format(bytes)?;
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(decoder_limits(limits));
-    let (width, height) = reader.into_dimensions().map_err(|error| reason(&error))?;
+    let size = reader.into_dimensions().map_err(|error| reason(&error))?;
+    check_claim(size, limits)?;
+    Ok(size)
+}
+
+/// Whether a picture of that width and height is within the limits, and has pixels.
+pub(crate) fn check_claim((width, height): (u32, u32), limits: &Limits) -> Result<(), String> {
     let pixels = u64::from(width) * u64::from(height);
     if width == 0 || height == 0 {
         return Err(format!("the picture has no pixels ({width}×{height})"));
@@ -58,7 +64,7 @@ pub(crate) fn picture_size(bytes: &[u8], limits: &Limits) -> Result<(u32, u32), 
             "the picture claims {width}×{height} pixels; the limit is {side} a side and {most} in all"
         ));
     }
-    Ok((width, height))
+    Ok(())
 }
 
 /// Decodes a picture, or says why it cannot be.
@@ -100,7 +106,7 @@ fn picture_format(bytes: &[u8]) -> Result<ImageFormat, String> {
     }
 }
 
-fn decoder_limits(limits: &Limits) -> image::Limits {
+pub(crate) fn decoder_limits(limits: &Limits) -> image::Limits {
     // 16-bit RGBA is the widest that the decoders make, and one more copy.
     const BYTES_PER_PIXEL: u64 = 16;
     let mut decoder = image::Limits::default();
@@ -110,7 +116,7 @@ fn decoder_limits(limits: &Limits) -> image::Limits {
     decoder
 }
 
-fn reason(error: &ImageError) -> String {
+pub(crate) fn reason(error: &ImageError) -> String {
     match error {
         ImageError::Limits(limit) => format!("the picture is too large ({limit})"),
         ImageError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {

@@ -1,6 +1,7 @@
 //! Flags of effects: shadows, ambient light, mist, tones; and of the shading model.
 //! Names follow F3D where it has such a thing.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::ValueEnum;
@@ -46,6 +47,10 @@ pub(crate) struct EffectArgs {
     /// Light the model by a clear sky (not in F3D)
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) sky: Option<bool>,
+
+    /// Light the model by a Radiance picture (.hdr) of all directions; it is not shown behind the model
+    #[arg(long, value_name = "FILE", conflicts_with = "sky", help_heading = "Effects")]
+    pub(crate) hdri_file: Option<PathBuf>,
 
     /// Follow rays of sight so many times at mirrors (metals without roughness) and through glass (not in F3D)
     #[arg(long, value_name = "N", default_value = "0", value_parser = clap::value_parser!(u32).range(0..=16), allow_negative_numbers = true, help_heading = "Effects")]

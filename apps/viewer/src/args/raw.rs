@@ -8,6 +8,7 @@ use std::path::PathBuf;
 
 use clap::{ArgAction, Parser, ValueEnum};
 use trigon_camera::Viewport;
+use trigon_io::SceneChoice;
 use trigon_math::{DVec3, Vec3};
 use trigon_scene::SimdLevel;
 
@@ -94,6 +95,24 @@ pub(crate) struct RawArgs {
     /// Load the files and say what is in them, but draw nothing
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Files")]
     pub(crate) no_render: Option<bool>,
+
+    /// The scene to show of a file that has several, by its number from 0 or its name (not in F3D) [default: the file's own choice]
+    #[arg(long, value_name = "N|NAME", value_parser = values::scene, help_heading = "Files")]
+    pub(crate) scene: Option<SceneChoice>,
+
+    /// The animation whose pose is shown, counted from 0; a negative one means all of them [default: 0 with --animation-time, else none]
+    #[arg(
+        long,
+        alias = "animation-indices",
+        value_name = "N",
+        allow_negative_numbers = true,
+        help_heading = "Files"
+    )]
+    pub(crate) animation_index: Option<i64>,
+
+    /// The time of that pose in seconds [default: 0 with --animation-index]
+    #[arg(long, value_name = "SECONDS", value_parser = values::seconds, allow_negative_numbers = true, help_heading = "Files")]
+    pub(crate) animation_time: Option<f64>,
 
     /// Which axis of the model points up
     #[arg(long, value_name = "DIRECTION", default_value = "+Y", value_parser = values::direction, allow_hyphen_values = true, help_heading = "Camera")]

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use trigon_camera::AxisView;
+use trigon_io::SceneChoice;
 use trigon_math::Vec3;
 use trigon_scene::{Background, RenderSettings, Style};
 
@@ -11,6 +12,7 @@ use super::output::Destination;
 use super::raw::{AntiAliasing, BackfaceType, DrawStyle, MultiFileMode, RawArgs, View};
 use crate::framing::{Eye, Framing};
 use crate::look::{Backfaces, Look};
+use crate::moment::Moment;
 use crate::report::Level;
 
 /// What the command line asks for.
@@ -24,6 +26,12 @@ pub(crate) struct Request {
     pub(crate) grouping: Grouping,
     /// Larger files are refused.
     pub(crate) max_bytes: Option<u64>,
+    /// The scene of files that have several.
+    pub(crate) scene: Option<SceneChoice>,
+    /// The moment of an animation that is shown.
+    pub(crate) moment: Option<Moment>,
+    /// The picture that the model is lit by.
+    pub(crate) environment: Option<PathBuf>,
     /// Where the camera stands.
     pub(crate) framing: Framing,
     /// What is changed about the model.
@@ -94,6 +102,9 @@ impl Request {
             files,
             grouping,
             max_bytes: raw.max_size,
+            scene: raw.scene.clone(),
+            moment: moment(&raw),
+            environment: raw.effects.hdri_file.clone(),
             framing: framing(&raw)?,
             look: look(&raw),
             settings: settings(&raw)?,
@@ -138,6 +149,14 @@ fn check_output(mode: &Mode, files: usize, grouping: Grouping) -> Result<(), Str
             "{files} files make {files} pictures, but standard output takes one; draw them in one scene with --multi-file-mode=all, or write files with --output '{{model}}.png'"
         )),
     }
+}
+
+fn moment(raw: &RawArgs) -> Option<Moment> {
+    if raw.animation_index.is_none() && raw.animation_time.is_none() {
+        return None;
+    }
+    let animation = usize::try_from(raw.animation_index.unwrap_or(0)).ok();
+    Some(Moment { animation, seconds: raw.animation_time.unwrap_or(0.0) })
 }
 
 fn framing(raw: &RawArgs) -> Result<Framing, String> {

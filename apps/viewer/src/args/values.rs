@@ -1,9 +1,11 @@
 //! From the text of a flag's value to what it means. Every message says what
 //! would have been accepted.
 
+use std::convert::Infallible;
 use std::num::NonZeroUsize;
 
 use trigon_camera::Viewport;
+use trigon_io::SceneChoice;
 use trigon_math::{DVec3, Vec3, color};
 use trigon_scene::{MAX_SIZE, SimdLevel, SimdLevelError};
 
@@ -137,6 +139,16 @@ pub(crate) fn line_width(text: &str) -> Result<f32, String> {
     inside
         .map(|width| width as f32)
         .ok_or_else(|| format!("write a number of pixels greater than 0, up to {WIDEST}"))
+}
+
+/// A time of an animation.
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
+    finite(text).ok_or_else(|| "write a number of seconds, such as 1.5".to_owned())
+}
+
+/// A scene of a file: digits are its number, anything else its name.
+pub(crate) fn scene(text: &str) -> Result<SceneChoice, Infallible> {
+    Ok(text.parse().map_or_else(|_| SceneChoice::Name(text.to_owned()), SceneChoice::Index))
 }
 
 /// A number of MiB, as bytes.

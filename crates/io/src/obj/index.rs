@@ -1,9 +1,10 @@
 //! The corners of a face: indices checked against what the file holds.
 //!
-//! An index counts from 1, or from the end backwards; 0 does not exist. Numbers
-//! stop at the largest u64, so no absurd one wraps around into a valid one.
+//! An index counts from 1, or from the end backwards; 0 does not exist. Numbers of
+//! more digits than u64 holds are its largest, so no absurd one wraps around into a
+//! valid one.
 
-use super::numbers::first_word;
+use super::numbers::{MOST_DIGITS, digits, first_word};
 use crate::warning::counted;
 
 /// How many positions, texture coordinates and normals there are.
@@ -73,14 +74,12 @@ enum Index {
 }
 
 /// The index at a place and where it ends.
+#[inline]
 fn index(text: &[u8], at: usize) -> (Index, usize) {
     let sign = text.get(at).filter(|sign| matches!(sign, b'+' | b'-'));
     let start = at + usize::from(sign.is_some());
-    let (mut value, mut end) = (0u64, start);
-    while let Some(digit) = text.get(end).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
-        value = value.saturating_mul(10).saturating_add(u64::from(digit));
-        end += 1;
-    }
+    let (value, end) = digits(text, start, 0);
+    let value = if end - start > MOST_DIGITS { u64::MAX } else { value };
     match sign {
         // A sign alone is left for the caller to stumble over.
         _ if end == start => (Index::Absent, at),
@@ -97,6 +96,7 @@ enum Resolved {
 }
 
 impl Index {
+    #[inline]
     fn resolve(self, seen: usize, total: usize) -> Resolved {
         match self {
             Self::Absent => Resolved::Absent,
@@ -108,6 +108,7 @@ impl Index {
     }
 }
 
+#[cold]
 fn leads_nowhere(text: &[u8], total: Counts) -> String {
     let word = first_word(text);
     let position = word.split(|&byte| byte == b'/').next().unwrap_or(word);
@@ -115,6 +116,7 @@ fn leads_nowhere(text: &[u8], total: Counts) -> String {
     format!("face index {} leads nowhere; the file has {has}", quote(position))
 }
 
+#[cold]
 fn describe(text: &[u8], what: &str) -> String {
     format!("face corner {} {what}", quote(first_word(text)))
 }

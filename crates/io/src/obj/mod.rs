@@ -11,7 +11,7 @@
 //! without saying where, lets absurd indices wrap around, takes polylines for
 //! polygons, repeats the last texture coordinate where a corner has none, and shifts
 //! vertex colours when some vertices have none. On a file of a million triangles
-//! that took nine times the instructions of reading them here, and one thread.
+//! that took 10.7 thousand million instructions on one thread; here it is under 3.
 
 mod build;
 mod chunks;
@@ -29,6 +29,8 @@ mod section;
 mod smoothing;
 mod textures;
 
+use std::borrow::Cow;
+
 use trigon_mesh::Mesh;
 use trigon_scene::{Material, MaterialId, Node, Transform};
 
@@ -36,9 +38,11 @@ use crate::error::LoadError;
 use crate::import::Import;
 use crate::options::Stage;
 
-/// Reads an OBJ into the scene.
-pub(crate) fn import_obj(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), LoadError> {
-    let parsed = parse::parse(import.path, bytes, import.options, &mut import.warnings)?;
+/// Reads an OBJ into the scene. Its text is given up as soon as it is parsed: it is
+/// as large as everything that is made of it.
+pub(crate) fn import_obj(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Result<(), LoadError> {
+    let parsed = parse::parse(import.path, &bytes, import.options, &mut import.warnings)?;
+    drop(bytes);
     let (count, limit) = (parsed.record.parts.list().len(), import.options.limits.nodes);
     if count > limit {
         return Err(LoadError::limit(

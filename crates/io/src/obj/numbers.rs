@@ -57,13 +57,14 @@ const POWERS: [f64; 23] = [
     1e19, 1e20, 1e21, 1e22,
 ];
 
+/// So many digits fit in u64, whatever they are.
+pub(crate) const MOST_DIGITS: usize = 19;
+
 /// The number that a text starts with and how long it is, when one rounding
 /// suffices.
 fn plain(text: &[u8]) -> Option<(f64, usize)> {
     /// Up to here f64 holds every whole number.
     const LARGEST: u64 = 1 << 53;
-    /// So many digits cannot overflow.
-    const MOST_DIGITS: usize = 19;
     let negative = text.first() == Some(&b'-');
     let start = usize::from(negative);
     let (mut mantissa, mut at) = digits(text, start, 0);
@@ -96,13 +97,19 @@ fn plain(text: &[u8]) -> Option<(f64, usize)> {
 }
 
 /// Appends the digits from `at` on to a number; where they end comes with it.
-/// More digits than fit wrap around.
-fn digits(text: &[u8], mut at: usize, mut number: u64) -> (u64, usize) {
-    while let Some(digit) = text.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
+/// More digits than 19 may wrap around.
+#[inline]
+pub(crate) fn digits(text: &[u8], at: usize, mut number: u64) -> (u64, usize) {
+    let mut end = at;
+    for byte in &text[at..] {
+        let digit = byte.wrapping_sub(b'0');
+        if digit > 9 {
+            break;
+        }
         number = number.wrapping_mul(10).wrapping_add(u64::from(digit));
-        at += 1;
+        end += 1;
     }
-    (number, at)
+    (number, end)
 }
 
 /// Any number, as Rust or C spell it.

@@ -1,0 +1,137 @@
+//! Radiance pictures (`.hdr`) of all directions to light.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use image::{ImageFormat, ImageReader};
+use trigon_scene::Environment;
+
+use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::folder::Folder;
+use crate::limits::Limits;
+use crate::picture::{check_claim, decoder_limits, reason};
+use crate::warning::{Warning, Warnings};
+
+/// What a pixel may have of light. The sun of a clear sky has a hundred thousand;
+/// the format can say 10³⁸, whose sums are infinite.
+const BRIGHTEST: f32 = 1e9;
+
+/// Reads a Radiance picture (`.hdr`) of all directions, twice as wide as high as a
+/// rule: the middle looks along −Z, the right half to +X, the upper edge is +Y.
+/// What is left of it for [`EffectSettings`](trigon_scene::EffectSettings) is light
+/// as the file has it; a line `EXPOSURE` in it is not followed.
+///
+/// Pixels above 10⁹ are held to that, with a warning. The format has no spelling
+/// of infinity.
+///
+/// # Errors
+/// When the file cannot be read, is of another format, is broken, or is larger than
+/// the limits.
+pub fn load_environment(
+    path: impl AsRef<Path>,
+    limits: &Limits,
+) -> Result<(Environment, Vec<Warning>), LoadError> {
+    let path = path.as_ref();
+    let bytes =
+        Folder::none(limits).read_model(path).map_err(|refusal| crate::load::refused(path, &refusal))?;
+    let mut warnings = Warnings::about(path);
+    let environment = decode(&bytes, limits, &mut warnings).map_err(|why| {
+        LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as a Radiance picture (.hdr)")
+    })?;
+    Ok((environment, warnings.into_list()))
+}
+
+fn decode(bytes: &[u8], limits: &Limits, warnings: &mut Warnings) -> Result<Environment, String> {
+    if !bytes.starts_with(b"#?") {
+        return Err("its first bytes are not those of a Radiance picture".to_owned());
+    }
+    let reader = || {
+        let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Hdr);
+        reader.limits(decoder_limits(limits));
+        reader
+    };
+    let size = reader().into_dimensions().map_err(|error| reason(&error))?;
+    check_claim(size, limits)?;
+    let mut pixels = reader().decode().map_err(|error| reason(&error))?.into_rgb32f().into_raw();
+    let mut bright = 0;
+    for value in pixels.iter_mut().filter(|value| **value > BRIGHTEST) {
+        *value = BRIGHTEST;
+        bright += 1;
+    }
+    warnings.push_counted(
+        bright,
+        Place::Whole,
+        "a pixel is brighter than 1e9 and is held to that",
+        "check the picture's scale",
+    );
+    let (pixels, _) = pixels.as_chunks::<3>();
+    Environment::from_equirectangular(size.0 as usize, size.1 as usize, pixels)
+        .map_err(|error| error.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use trigon_math::Vec3;
+
+    use super::*;
+
+    /// A picture of 16 × 8 pixels without compression, each a mantissa for red,
+    /// green and blue and their common exponent.
+    fn picture(pixel: impl Fn(usize, usize) -> [u8; 4]) -> Vec<u8> {
+        let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n".to_vec();
+        bytes.extend((0..128).flat_map(|index| pixel(index % 16, index / 16)));
+        bytes
+    }
+
+    fn read(bytes: &[u8]) -> Result<(Environment, Vec<Warning>), LoadError> {
+        let dir = tempfile::tempdir().expect("a folder");
+        let path = dir.path().join("a.hdr");
+        std::fs::write(&path, bytes).expect("a file");
+        load_environment(&path, &Limits::default())
+    }
+
+    #[test]
+    fn light_comes_from_where_the_picture_has_it() {
+        // 128 with the exponent 129 is 1; 130 doubles it.
+        let (environment, warnings) = read(&picture(|x, y| match (x, y) {
+            (_, 0..4) => [0, 0, 128, 130],
+            (0..8, _) => [128, 0, 0, 129],
+            _ => [0, 128, 0, 129],
+        }))
+        .expect("a picture");
+        assert!(warnings.is_empty(), "nothing to warn of");
+        let seen = |direction: Vec3| environment.radiance(direction, 0.0);
+        for (direction, light) in [
+            (Vec3::new(0.3, 1.0, 0.1), Vec3::new(0.0, 0.0, 2.0)),
+            (Vec3::new(-1.0, -0.5, -0.1), Vec3::X),
+            (Vec3::new(1.0, -0.5, -0.1), Vec3::Y),
+        ] {
+            assert!(seen(direction).distance(light) < 1e-3, "{direction} has {}", seen(direction));
+        }
+    }
+
+    #[test]
+    fn absurd_brightness_is_held_to_what_can_be_summed() {
+        let (environment, warnings) = read(&picture(|_, _| [255, 255, 255, 255])).expect("a picture");
+        assert_eq!((warnings.len(), warnings[0].more), (1, 3 * 128 - 1), "said once, and counted");
+        assert!(environment.irradiance(Vec3::Y).is_finite(), "finite light");
+    }
+
+    #[test]
+    fn what_is_no_picture_says_why() {
+        let whole = picture(|_, _| [128, 0, 0, 129]);
+        let claim = |size: &str| format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n{size}\n").into_bytes();
+        for (bytes, word) in [
+            (b"\x89PNG".to_vec(), "Radiance"),
+            (Vec::new(), "Radiance"),
+            (whole[..whole.len() - 40].to_vec(), "too early"),
+            (claim("-Y 0 +X 16"), "no pixels"),
+            (claim("-Y 99999999 +X 16"), "limit"),
+            (claim("-Y 16000 +X 16000"), "limit"),
+            (claim("+Y 8 +X 16"), "broken"),
+        ] {
+            let error = read(&bytes).map(|_| ()).expect_err("no picture").to_string();
+            assert!(error.contains("a.hdr") && error.contains(word), "{error:?} has {word:?}");
+        }
+    }
+}
