@@ -24,6 +24,7 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "tests may"))]
 
+pub mod limits;
 pub mod workloads;
 
 /// Runs the README's example as a test.

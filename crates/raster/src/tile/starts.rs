@@ -40,11 +40,11 @@ impl Starts {
                 }
             }
         }
-        for axis in 0..2 {
-            let corner = (pixel[axis] + cover.area.origin[axis]) << 8;
+        let axes = pixel.into_iter().zip(cover.area.origin).zip(&eight.anchor);
+        for (way, ((pixel, origin), anchor)) in self.way.iter_mut().zip(axes) {
+            let corner = (pixel + origin) << 8;
             // Small enough to be exact in f32, too.
-            let way = (corner - column(&eight.anchor[axis])).to_float::<F32<S>>();
-            store(way, &mut self.way[axis]);
+            store((corner - column(anchor)).to_float::<F32<S>>(), way);
         }
         store(F32::simd_from(simd, eight.value), &mut self.value);
     }

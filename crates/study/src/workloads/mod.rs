@@ -17,6 +17,8 @@ mod timings;
 pub use canvas::Canvas;
 pub use geometry::{Grid, Mesh};
 pub use scene::{Scene, Shading};
+pub(crate) use shading::{blinn_phong, lambert_lanes};
+pub(crate) use texture::knot_surface;
 pub use timings::Timings;
 
 use trigon_math::Vec3;
@@ -83,7 +85,7 @@ impl Workload {
             Self::FillReject => Scene::flat(geometry::layers(0..LAYERS)),
             Self::Torus => Scene::torus(Grid { along: 1000, around: 500 }),
             Self::KnotPhong => Scene::knot(Shading::BlinnPhong),
-            Self::KnotTextured => Scene::knot(Shading::Textured(texture::knot_surface())),
+            Self::KnotTextured => Scene::knot(Shading::Textured(knot_surface())),
             Self::Cubes => Scene {
                 culling: Culling::Back,
                 ..Scene::flat(geometry::cubes()).seen_from(Vec3::new(30.0, 20.0, 36.0), [1.0, 200.0])

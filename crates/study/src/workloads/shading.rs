@@ -23,7 +23,7 @@ pub(super) fn lambert(normal: Vec3, ambient: f32) -> f32 {
 
 /// The same for unit normals in lanes, with the light of lit surfaces.
 #[inline(always)]
-pub(super) fn lambert_lanes<S: Simd>(simd: S, normal: [F32<S>; 3]) -> F32<S> {
+pub(crate) fn lambert_lanes<S: Simd>(simd: S, normal: [F32<S>; 3]) -> F32<S> {
     diffuse(dot(normal, splat(simd, LIGHT)))
 }
 
@@ -31,7 +31,7 @@ pub(super) fn lambert_lanes<S: Simd>(simd: S, normal: [F32<S>; 3]) -> F32<S> {
 /// SIGGRAPH 1977: the highlight by the angle between the normal and the middle
 /// of light and eye. The normal may have any length.
 #[inline(always)]
-pub(super) fn blinn_phong<S: Simd>(
+pub(crate) fn blinn_phong<S: Simd>(
     simd: S,
     position: [F32<S>; 3],
     normal: [F32<S>; 3],
