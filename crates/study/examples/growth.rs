@@ -88,12 +88,15 @@ impl Growth {
     }
 }
 
+/// How many frames are timed of pictures that take long.
+const LARGE: usize = 5;
+
 /// The median time of a frame in milliseconds.
-fn frame_time(scene: &Scene, threads: NonZeroUsize) -> Result<f64, Box<dyn Error>> {
-    let settings = ExecuteSettings { threads: Some(threads), ..Default::default() };
+fn frame_time(scene: &Scene, threads: Option<NonZeroUsize>, frames: usize) -> Result<f64, Box<dyn Error>> {
+    let settings = ExecuteSettings { threads, ..Default::default() };
     let mut pixels = vec![[0; 4]; scene.pixel_count()];
     let mut canvas = Canvas::new(Rasterizer::new(settings)?, scene, &mut pixels)?;
-    Ok(Timings::of_frames(5, || canvas.draw(scene)).median())
+    Ok(Timings::of_frames(frames, || canvas.draw(scene)).median())
 }
 
 /// W2 with other numbers of triangles.
@@ -105,7 +108,7 @@ fn by_triangles(arguments: &Arguments) -> Result<Growth, Box<dyn Error>> {
         // Twice as many quads along the ring as around it, as in W2.
         let around = (wanted / 4.0).sqrt().round() as u32;
         let scene = Scene::torus(Grid { along: 2 * around, around });
-        growth.push(scene.mesh.triangles.len() as f64, frame_time(&scene, arguments.threads)?);
+        growth.push(scene.mesh.triangles.len() as f64, frame_time(&scene, Some(arguments.threads), LARGE)?);
     }
     Ok(growth)
 }
@@ -117,10 +120,24 @@ fn by_pixels(arguments: &Arguments) -> Result<Growth, Box<dyn Error>> {
     let mut side = 256;
     while side <= arguments.side {
         scene.size = UVec2::splat(side);
-        growth.push(scene.pixel_count() as f64, frame_time(&scene, arguments.threads)?);
+        growth.push(scene.pixel_count() as f64, frame_time(&scene, Some(arguments.threads), LARGE)?);
         side *= 2;
     }
     Ok(growth)
+}
+
+/// A picture of 200 by 200 pixels of a small model, with one thread and with two: too
+/// little to do is no reason to be slower.
+fn small_pictures() -> Result<(), Box<dyn Error>> {
+    const FRAMES: usize = 500;
+    println!("200×200 pixels: triangles, ms with one thread, ms with two");
+    for around in [16, 50, 160] {
+        let mut scene = Scene::torus(Grid { along: 2 * around, around });
+        scene.size = UVec2::splat(200);
+        let [one, two] = [1, 2].map(|threads| frame_time(&scene, NonZeroUsize::new(threads), FRAMES));
+        println!("{}, {:.3}, {:.3}", scene.mesh.triangles.len(), one?, two?);
+    }
+    Ok(())
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -130,5 +147,5 @@ fn main() -> Result<(), Box<dyn Error>> {
             growth.save(folder)?;
         }
     }
-    Ok(())
+    small_pictures()
 }
