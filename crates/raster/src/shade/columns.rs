@@ -5,7 +5,7 @@ use super::task::Vector;
 use super::weights::CutColumns;
 use super::{MAX_VARYINGS, ShadeContext};
 use crate::setup::Corners;
-use crate::simd::{Each, I32, LANES, Mask, Row, Simd, U32, prelude::*, transpose};
+use crate::simd::{Each, I32, LANES, Mask, Row, Simd, U32, inlined, prelude::*, transpose};
 
 /// Up to so many triangles are loaded side by side.
 const TRIANGLES: usize = 4;
@@ -26,7 +26,7 @@ impl<S: Simd> Few<S> {
         let name = |lanes: u64| vector.names[lanes.trailing_zeros() as usize % LANES];
         let first = name(vector.active);
         let mut others = !lanes.simd_eq(U32::splat(simd, first)).to_bitmask() & vector.active;
-        let slot = vector.slot(first);
+        let slot = vector.slot_seen(first);
         let masks = [Mask::splat(simd, false); TRIANGLES - 1];
         let mut few = Self { count: 1, slots: [slot; TRIANGLES], masks };
         for (slot, mask) in few.slots[1..].iter_mut().zip(&mut few.masks) {
@@ -35,7 +35,7 @@ impl<S: Simd> Few<S> {
             }
             let name = name(others);
             *mask = lanes.simd_eq(U32::splat(simd, name));
-            *slot = vector.slot(name);
+            *slot = vector.slot_seen(name);
             few.count += 1;
             others &= !mask.to_bitmask();
         }
@@ -108,18 +108,24 @@ impl Columns {
                     return;
                 }
                 self.uniform = Some(slot);
-                self.mix(simd, records, [slot], []);
+                self.mix(simd, [records.of(slot)], []);
             }
             few => {
                 self.uniform = None;
+                let of = inlined(
+                    #[inline(always)]
+                    |slot: u32| records.of(slot),
+                );
                 match few {
                     Some(Few { count: 2, slots: [a, b, ..], masks: [mask, ..] }) => {
-                        self.mix(simd, records, [a, b], [mask]);
+                        self.mix(simd, [of(a), of(b)], [mask]);
                     }
                     Some(Few { count: 3, slots: [a, b, c, _], masks: [second, third, _] }) => {
-                        self.mix(simd, records, [a, b, c], [second, third]);
+                        self.mix(simd, [of(a), of(b), of(c)], [second, third]);
                     }
-                    Some(few) => self.mix(simd, records, few.slots, few.masks),
+                    Some(Few { slots: [a, b, c, d], masks, .. }) => {
+                        self.mix(simd, [of(a), of(b), of(c), of(d)], masks);
+                    }
                     None => self.gather_apart(simd, records, vector),
                 }
             }
@@ -143,14 +149,15 @@ impl Columns {
     fn mix<S: Simd, const COUNT: usize, const OTHERS: usize>(
         &mut self,
         simd: S,
-        records: &Records,
-        slots: [u32; COUNT],
+        records: [&[Row]; COUNT],
         masks: [Mask<S>; OTHERS],
     ) {
-        let records = slots.map(|slot| records.of(slot));
         let columns = self.rows.as_chunks_mut::<LANES>().0.iter_mut();
         for (number, columns) in columns.take(records[0].len()).enumerate() {
-            let rows = records.map(|record| &record[number]);
+            let mut rows = [&records[0][number]; COUNT];
+            for (row, record) in rows.iter_mut().zip(records) {
+                *row = &record[number];
+            }
             for (index, column) in columns.iter_mut().enumerate() {
                 let mut values = I32::splat(simd, rows[0][index]);
                 for (row, mask) in rows[1..].iter().zip(masks) {

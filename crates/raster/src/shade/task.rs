@@ -71,10 +71,19 @@ enum Names<'t> {
 impl<'t> Vector<'t> {
     /// The number of the record that a name stands for.
     #[inline(always)]
-    pub(super) fn slot(&self, name: u32) -> u32 {
+    fn slot(&self, name: u32) -> u32 {
         match self.named {
             Names::Slots => name,
             Names::Winners(slots, base, none) => slots.get(name as usize).copied().unwrap_or(none) - base,
+        }
+    }
+
+    /// The same for the name of a lane that is asked for.
+    #[inline(always)]
+    pub(super) fn slot_seen(&self, name: u32) -> u32 {
+        match self.named {
+            Names::Slots => name,
+            Names::Winners(slots, base, _) => slots[name as usize] - base,
         }
     }
 
