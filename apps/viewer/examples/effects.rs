@@ -19,7 +19,7 @@ use trigon_mesh::primitives::{self, TorusKnot};
 use trigon_scene::{
     AmbientOcclusion, Effect, EffectPlan, Environment, Fog, Frame, Light, Material, MetallicRoughness, Node,
     NodeId, NormalMap, Outline, RenderSettings, Renderer, Scene, Shading, Shadows, Sky, Style, Texture,
-    TextureBinding, TextureFormat, ToneMapping, Transform, showcase,
+    TextureBinding, TextureFormat, ToneMapping, Transform, render, showcase,
 };
 
 /// Pictures of which the quickest counts.
@@ -96,7 +96,7 @@ fn row(
     let shots = [(scenes[0], settings[0], &off), (scenes[1], settings[1], &on)];
     for (scene, settings, name) in shots {
         let smooth = RenderSettings { samples_per_axis: 3, width: 240, height: 150, ..settings.clone() };
-        let frame = Renderer::new().render(scene, &subject.camera, &smooth)?;
+        let frame = render(scene, &subject.camera, &smooth)?;
         let pixels = Pixels::Rgba8(&frame.color);
         write_png(folder.join("effects").join(name), frame.width, frame.height, pixels)?;
     }
@@ -111,14 +111,12 @@ fn row(
 /// The shortest times of two pictures, drawn in turns, so that whatever else the
 /// machine does meets both.
 fn milliseconds(shots: [(&Scene, &RenderSettings); 2], camera: &Camera) -> Result<[f64; 2], Box<dyn Error>> {
-    let mut kept = [(); 2].map(|()| (Renderer::new(), Frame::default()));
+    let mut kept = shots.map(|(_, settings)| (Renderer::new(settings.clone()), Frame::default()));
     let mut shortest = [f64::INFINITY; 2];
     for repetition in 0..=REPETITIONS {
-        for (((renderer, frame), (scene, settings)), shortest) in
-            kept.iter_mut().zip(shots).zip(&mut shortest)
-        {
+        for (((renderer, frame), (scene, _)), shortest) in kept.iter_mut().zip(shots).zip(&mut shortest) {
             let start = Instant::now();
-            renderer.render_into(scene, camera, settings, frame)?;
+            renderer.render_into(scene, camera, frame)?;
             let time = start.elapsed().as_secs_f64() * 1e3;
             if repetition > 0 && time < *shortest {
                 *shortest = time;

@@ -67,11 +67,11 @@ fn timed(
 
 /// The shortest of several pictures, after one that fills caches.
 fn milliseconds(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Result<f64, Failure> {
-    let (mut renderer, mut frame) = (Renderer::new(), Frame::default());
+    let (mut renderer, mut frame) = (Renderer::new(settings.clone()), Frame::default());
     let mut shortest = f64::INFINITY;
     for repetition in 0..=REPETITIONS {
         let start = Instant::now();
-        renderer.render_into(scene, camera, settings, &mut frame).map_err(Failure::work)?;
+        renderer.render_into(scene, camera, &mut frame).map_err(Failure::work)?;
         let time = start.elapsed().as_secs_f64() * 1e3;
         if repetition > 0 && time < shortest {
             shortest = time;

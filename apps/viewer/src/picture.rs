@@ -49,8 +49,8 @@ fn draw_one(
 
 fn draw(model: &Model, camera: &Camera, request: &Request, reporter: Reporter) -> Result<Frame, Failure> {
     let started = Instant::now();
-    let mut renderer = Renderer::new();
-    let frame = renderer.render(&model.scene, camera, &request.settings).map_err(Failure::work)?;
+    let mut renderer = Renderer::new(request.settings.clone());
+    let frame = renderer.render(&model.scene, camera).map_err(Failure::work)?;
     let title = model.source.title();
     if renderer.stats().pixels_shaded == 0 {
         reporter.warning(format_args!(

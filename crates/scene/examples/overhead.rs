@@ -147,10 +147,10 @@ fn by_scene(mesh: Mesh, camera: &Camera, look: Look, frames: u32) -> Result<f64,
         threads: NonZeroUsize::new(1),
         ..RenderSettings::new(SIZE[0], SIZE[1])
     };
-    let (mut renderer, mut frame) = (Renderer::new(), Frame::default());
-    renderer.render_into(&scene, camera, &settings, &mut frame)?;
+    let (mut renderer, mut frame) = (Renderer::new(settings), Frame::default());
+    renderer.render_into(&scene, camera, &mut frame)?;
     Ok(shortest(frames, || {
-        renderer.render_into(&scene, camera, &settings, &mut frame).expect("drawn before");
+        renderer.render_into(&scene, camera, &mut frame).expect("drawn before");
     }))
 }
 

@@ -24,6 +24,9 @@
 //! assert_eq!(frame.hit(scene.nodes(), 0, 0), None, "the corner is background");
 //! # Ok::<(), trigon_scene::RenderError>(())
 //! ```
+//!
+//! One picture is a call of [`render`]. For many, a [`Renderer`] holds the settings and
+//! keeps threads, memory and shadow maps from one to the next; the bytes are the same.
 
 mod animation;
 mod arena;
@@ -41,7 +44,7 @@ mod settings;
 mod showcase;
 mod skin;
 mod transform;
-mod views;
+pub mod views;
 
 pub use animation::{Animation, Channel, Curve, Interpolation, NodePose, Pose, Property};
 pub use arena::{Arena, Id};
@@ -55,7 +58,7 @@ pub use light::{Light, LightKind};
 pub use material::{AlphaMode, Material, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding};
 pub use node::Node;
 pub use pick::{Pick, Picked, Picker};
-pub use render::{RenderError, Renderer, render};
+pub use render::{RenderError, Renderer, RendererBuilder, render};
 pub use scene::{MaterialId, MeshAsset, MeshId, NodeId, Scene, SceneError, SkinId, TextureAsset, TextureId};
 pub use settings::{Lighting, MAX_SIZE, Outputs, Reflection, RenderSettings, ShadingModel, Style};
 pub use showcase::showcase;

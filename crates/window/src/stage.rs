@@ -110,7 +110,7 @@ impl Stage {
             frame_time: Visibility::Hidden,
             title: title.into(),
             home: Home::Fit(DEFAULT_DIRECTION),
-            renderer: Renderer::new(),
+            renderer: Renderer::builder().build(),
             waker: Waker::default(),
             viewport: DEFAULT_SIZE,
             scale: 1.0,
@@ -198,7 +198,8 @@ impl Stage {
         let mut settings =
             RenderSettings { outputs, samples_per_axis: 1, samples: 1, ..self.settings.clone() };
         (settings.width, settings.height) = (self.viewport.width, self.viewport.height);
-        let frame = self.renderer.render(&self.scene, &camera, &settings).ok()?;
+        *self.renderer.settings_mut() = settings;
+        let frame = self.renderer.render(&self.scene, &camera).ok()?;
         let (x, y) = (at.x as u32, at.y as u32);
         let hit = frame.hit(self.scene.nodes(), x, y)?;
         let distance = frame.depth.as_ref()?[(y * frame.width + x) as usize];
@@ -269,12 +270,14 @@ impl Stage {
         settings.line_width *= (self.scale / f64::from(shrink)) as f32;
         let smaller = |size: u32| (size / shrink).clamp(1, trigon_scene::MAX_SIZE);
         (settings.width, settings.height) = (smaller(self.viewport.width), smaller(self.viewport.height));
-        self.renderer.render(&self.scene, camera, &settings)
+        *self.renderer.settings_mut() = settings;
+        self.renderer.render(&self.scene, camera)
     }
 
     /// Draws a picture that was asked for.
     pub(crate) fn render_picture(&mut self, settings: &RenderSettings) -> Result<Frame, RenderError> {
         let camera = self.camera();
-        self.renderer.render(&self.scene, &camera, settings)
+        *self.renderer.settings_mut() = settings.clone();
+        self.renderer.render(&self.scene, &camera)
     }
 }

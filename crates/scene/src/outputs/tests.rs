@@ -214,10 +214,11 @@ fn the_background_is_as_documented() {
 fn outputs_change_neither_colours_nor_each_other() {
     let scene = showcase();
     let camera = scene.cameras()[0].1;
-    let mut renderer = Renderer::new();
+    let mut renderer = Renderer::builder().build();
     for style in [Style::Surface, Style::SurfaceWithEdges, Style::HiddenLine, Style::Wireframe] {
         let settings = RenderSettings { style, samples_per_axis: 3, ..settings(EVERYTHING) };
-        let all = renderer.render(&scene, &camera, &settings).expect("drawn");
+        *renderer.settings_mut() = settings.clone();
+        let all = renderer.render(&scene, &camera).expect("drawn");
         for threads in [1, 2, 3] {
             let settings = RenderSettings { threads: NonZeroUsize::new(threads), ..settings.clone() };
             assert!(
@@ -225,14 +226,14 @@ fn outputs_change_neither_colours_nor_each_other() {
                 "{threads} threads, {style:?}"
             );
         }
-        let bare = RenderSettings { outputs: Outputs::default(), ..settings.clone() };
-        let color = renderer.render(&scene, &camera, &bare).expect("drawn");
+        renderer.settings_mut().outputs = Outputs::default();
+        let color = renderer.render(&scene, &camera).expect("drawn");
         assert!(
             color == Frame { width: 97, height: 61, color: all.color.clone(), ..Frame::default() },
             "{style:?}"
         );
-        let unseen = RenderSettings { outputs: Outputs { color: false, ..EVERYTHING }, ..settings.clone() };
-        let rest = renderer.render(&scene, &camera, &unseen).expect("drawn");
+        renderer.settings_mut().outputs = Outputs { color: false, ..EVERYTHING };
+        let rest = renderer.render(&scene, &camera).expect("drawn");
         assert!(rest == Frame { color: Vec::new(), ..all.clone() }, "without colours, {style:?}");
         assert_eq!(renderer.stats().pixels_shaded, 0, "nothing is shaded, {style:?}");
     }
@@ -242,13 +243,15 @@ fn outputs_change_neither_colours_nor_each_other() {
 fn what_nobody_asks_for_takes_no_memory() {
     let scene = showcase();
     let camera = scene.cameras()[0].1;
-    let mut renderer = Renderer::new();
-    renderer.render(&scene, &camera, &settings(Outputs::default())).expect("drawn");
+    let mut renderer = Renderer::new(settings(Outputs::default()));
+    renderer.render(&scene, &camera).expect("drawn");
     let [objects, faces, triangles] = renderer.seen_capacities();
     assert_eq!([objects, faces, triangles], [0; 3], "no ids beside colours");
-    renderer.render(&scene, &camera, &settings(Outputs { depth: true, ..Outputs::NONE })).expect("drawn");
+    renderer.settings_mut().outputs = Outputs { depth: true, ..Outputs::NONE };
+    renderer.render(&scene, &camera).expect("drawn");
     assert_eq!(renderer.seen_capacities(), [0; 3], "no ids beside depth");
-    renderer.render(&scene, &camera, &settings(Outputs { ids: true, ..Outputs::NONE })).expect("drawn");
+    renderer.settings_mut().outputs = Outputs { ids: true, ..Outputs::NONE };
+    renderer.render(&scene, &camera).expect("drawn");
     assert_eq!(renderer.seen_capacities()[2], 0, "no triangles beside ids");
 }
 

@@ -98,8 +98,8 @@ fn grey() -> Texture {
 fn off_means_zero() {
     for made_for in Effect::ALL {
         for (scene, settings) in with(made_for) {
-            let mut renderer = Renderer::new();
-            renderer.render(&scene, &from_front(), &settings).expect("drawn");
+            let mut renderer = Renderer::new(settings.clone());
+            renderer.render(&scene, &from_front()).expect("drawn");
             let plan = renderer.plan().expect("there was a picture").clone();
             assert_eq!(plan, EffectPlan::new(&scene, &from_front(), &settings), "the plan is a function");
             for effect in Effect::ALL {
@@ -111,8 +111,8 @@ fn off_means_zero() {
         let [(scene, settings), on] = with(made_for);
         let plan = EffectPlan::new(&scene, &from_front(), &settings);
         assert!(!plan.is_on(made_for), "{made_for}: {}", plan.decision(made_for));
-        let mut renderer = Renderer::new();
-        renderer.render(&on.0, &from_front(), &on.1).expect("drawn");
+        let mut renderer = Renderer::new(on.1);
+        renderer.render(&on.0, &from_front()).expect("drawn");
         let decision = renderer.plan().expect("drawn").decision(made_for).clone();
         assert!(matches!(decision, Decision::On(_)), "{made_for}: {decision}");
         let counts = renderer.effect_counts(made_for);

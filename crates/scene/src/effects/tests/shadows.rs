@@ -94,9 +94,9 @@ fn a_warm_cache_gives_the_bytes_of_a_cold_one() {
     let mut scene = square_over_floor(shining(Light::point(6.0), DVec3::new(0.3, 3.0, 0.2), DVec3::NEG_Y));
     let settings =
         settings(EffectSettings { shadows: Shadows::Maps { resolution: 256 }, ..Default::default() });
-    let mut warm = Renderer::new();
+    let mut warm = Renderer::new(settings.clone());
     let mut check = |scene: &Scene, camera: &Camera, what: &str, drawn: u64| {
-        let kept = warm.render(scene, camera, &settings).expect("drawn");
+        let kept = warm.render(scene, camera).expect("drawn");
         assert_eq!(kept, render(scene, camera, &settings).expect("drawn"), "{what}");
         assert_eq!(warm.effect_counts(Effect::ShadowMaps).passes, drawn, "maps drawn: {what}");
     };
@@ -129,10 +129,10 @@ fn a_mask_that_is_exchanged_changes_its_shadow() {
     square.materials = vec![masked];
     let settings =
         settings(EffectSettings { shadows: Shadows::Maps { resolution: 64 }, ..Default::default() });
-    let mut warm = Renderer::new();
-    let whole = warm.render(&scene, &from_above(), &settings).expect("drawn");
+    let mut warm = Renderer::new(settings.clone());
+    let whole = warm.render(&scene, &from_above()).expect("drawn");
     scene.textures.get_mut(id).expect("just added").texture = Arc::new(texture(0).expect("a texel"));
-    let open = warm.render(&scene, &from_above(), &settings).expect("drawn");
+    let open = warm.render(&scene, &from_above()).expect("drawn");
     assert_eq!(open, render(&scene, &from_above(), &settings).expect("drawn"), "as without a cache");
     let light_in = |frame: &Frame| frame.color.iter().map(|&byte| u64::from(byte)).sum::<u64>();
     assert!(light_in(&open) > light_in(&whole), "neither square nor shadow");

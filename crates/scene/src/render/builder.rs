@@ -1,0 +1,83 @@
+//! A renderer, put together by naming what differs from the usual.
+
+use std::num::NonZeroUsize;
+
+use super::renderer::Renderer;
+use crate::background::Background;
+use crate::effects::EffectSettings;
+use crate::settings::{Outputs, RenderSettings, Style};
+
+/// The size of a picture when nobody names one, in pixels: the viewer's, and F3D's.
+const USUAL_SIZE: [u32; 2] = [1000, 600];
+
+/// Makes a [`Renderer`] of the settings that are most often chosen. Those that are not
+/// named are [`RenderSettings::new`]'s; a picture has 1000×600 pixels.
+///
+/// Nothing is refused here: a size or a number of samples that is out of range is an
+/// error of the first picture.
+#[derive(Clone, Debug)]
+pub struct RendererBuilder(RenderSettings);
+
+impl Default for RendererBuilder {
+    fn default() -> Self {
+        Self(RenderSettings::new(USUAL_SIZE[0], USUAL_SIZE[1]))
+    }
+}
+
+impl RendererBuilder {
+    /// Width and height in pixels, each 1 to [`MAX_SIZE`](crate::MAX_SIZE).
+    #[must_use]
+    pub fn size(self, width: u32, height: u32) -> Self {
+        Self(RenderSettings { width, height, ..self.0 })
+    }
+
+    /// Multisampling: 1, 2, 4, 8 or 16 samples a pixel, of which those of one triangle
+    /// are shaded together. It takes the place of [`samples_per_axis`](Self::samples_per_axis).
+    #[must_use]
+    pub fn samples(self, samples: u32) -> Self {
+        Self(RenderSettings { samples, samples_per_axis: 1, ..self.0 })
+    }
+
+    /// Supersampling: 1 to 4 samples along each side of a pixel, each shaded; 3 when
+    /// nothing is said. It takes the place of [`samples`](Self::samples).
+    #[must_use]
+    pub fn samples_per_axis(self, samples_per_axis: u32) -> Self {
+        Self(RenderSettings { samples_per_axis, samples: 1, ..self.0 })
+    }
+
+    /// At most this many threads; 0 for one per core. No picture depends on it.
+    #[must_use]
+    pub fn threads(self, threads: usize) -> Self {
+        Self(RenderSettings { threads: NonZeroUsize::new(threads), ..self.0 })
+    }
+
+    /// What pictures hold.
+    #[must_use]
+    pub fn outputs(self, outputs: Outputs) -> Self {
+        Self(RenderSettings { outputs, ..self.0 })
+    }
+
+    /// Behind everything.
+    #[must_use]
+    pub fn background(self, background: Background) -> Self {
+        Self(RenderSettings { background, ..self.0 })
+    }
+
+    /// Faces, edges or both.
+    #[must_use]
+    pub fn style(self, style: Style) -> Self {
+        Self(RenderSettings { style, ..self.0 })
+    }
+
+    /// Everything beyond surfaces in plain light.
+    #[must_use]
+    pub fn effects(self, effects: EffectSettings) -> Self {
+        Self(RenderSettings { effects, ..self.0 })
+    }
+
+    /// The renderer. It holds no memory until its first picture.
+    #[must_use]
+    pub fn build(self) -> Renderer {
+        Renderer::new(self.0)
+    }
+}

@@ -1,0 +1,148 @@
+//! What draws: threads, memory and caches that last from picture to picture, and
+//! the order of the steps that make one.
+
+use trigon_camera::Camera;
+use trigon_raster::{ExecuteSettings, Pass, Rasterizer, Stats, Target, TargetError};
+
+use super::RenderError;
+use super::compose::Composer;
+use super::placement::DepthToDistance;
+use super::stage::{Kept, Stage};
+use crate::effects::{Counts, Effect, EffectCounts, EffectPlan, Scenery};
+use crate::frame::Frame;
+use crate::outputs::{self, Needed};
+use crate::scene::Scene;
+use crate::settings::RenderSettings;
+
+/// Draws pictures one after the other. What it keeps between them changes no byte.
+#[derive(Default)]
+pub(super) struct Engine {
+    rasterizer: Option<Rasterizer>,
+    kept: Kept,
+    plan: Option<EffectPlan>,
+    counts: Counts,
+    stats: Stats,
+}
+
+impl Engine {
+    /// Draws into a frame whose memory is used again; after an error it holds
+    /// nothing of use.
+    pub(super) fn draw(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        settings: &RenderSettings,
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
+        frame.make_room(settings)?;
+        let sample = blank(settings)?.visibility_sample();
+        let mut rasterizer = self.rasterizer(settings)?;
+        let stage = Stage::new(scene, camera, settings);
+        let plan = EffectPlan::of_stage(&stage);
+        let mut counts = Counts::default();
+        let apart = settings.outputs.need_own_pass(plan.is_on(Effect::Transparency));
+        self.stats = Stats::default();
+        if settings.outputs.color {
+            self.draw_colors(&stage, camera, (&plan, frame, apart), (&mut rasterizer, &mut counts))?;
+        }
+        if apart {
+            self.draw_seen(&stage, camera, frame, &mut rasterizer)?;
+        }
+        if settings.outputs.of_triangles() {
+            outputs::fill(frame, &stage, camera, sample, &self.kept.seen);
+        }
+        self.kept.seen.hand_over(frame);
+        measure_depth(frame, camera, settings);
+        counts.of(Effect::Poses).bytes = stage.shapes.posed_bytes() as u64;
+        (self.counts, self.plan) = (counts, Some(plan));
+        self.rasterizer = Some(rasterizer);
+        Ok(())
+    }
+
+    /// Draws colours; and what is seen, too, unless that has a pass of its own.
+    fn draw_colors(
+        &mut self,
+        stage: &Stage<'_>,
+        camera: &Camera,
+        (plan, frame, apart): (&EffectPlan, &mut Frame, bool),
+        (rasterizer, counts): (&mut Rasterizer, &mut Counts),
+    ) -> Result<(), RenderError> {
+        let scenery = self.kept.scenery(stage, plan, rasterizer)?;
+        let (scene, settings) = (stage.scene, stage.settings);
+        let composer = Composer::new(scene, camera, settings, (&stage.shapes, &scenery, &stage.eye));
+        let draws = composer.draws(counts);
+        let mut pass = Pass::new();
+        draws.iter().for_each(|draw| draw.record(&mut pass));
+        let needed = if apart { Needed::default() } else { Needed::of(&settings.outputs) };
+        // Depth that has a pass of its own is not to be written twice.
+        let depth = if apart { frame.depth.take() } else { None };
+        let target = (blank(settings)?, &mut *frame, needed);
+        self.stats = self.kept.draw(pass, (settings, plan), target, (rasterizer, counts))?;
+        if apart {
+            frame.depth = depth;
+        }
+        self.kept.count(&scenery, plan, counts);
+        Ok(())
+    }
+
+    /// Draws nothing but what is seen.
+    fn draw_seen(
+        &mut self,
+        stage: &Stage<'_>,
+        camera: &Camera,
+        frame: &mut Frame,
+        rasterizer: &mut Rasterizer,
+    ) -> Result<(), RenderError> {
+        let (dark, settings) = (Scenery::default(), stage.settings);
+        let composer = Composer::of_shapes(stage.scene, camera, settings, (&stage.shapes, &dark, &stage.eye));
+        // Effects have no part in it.
+        let draws = composer.draws(&mut Counts::default());
+        let mut pass = Pass::new();
+        draws.iter().for_each(|draw| draw.record(&mut pass));
+        let target = (blank(settings)?, frame, Needed::of(&settings.outputs));
+        self.stats += self.kept.draw_seen(&pass, settings, target, rasterizer)?;
+        Ok(())
+    }
+
+    pub(super) fn plan(&self) -> Option<&EffectPlan> {
+        self.plan.as_ref()
+    }
+
+    pub(super) fn effect_counts(&self, effect: Effect) -> EffectCounts {
+        self.counts.get(effect)
+    }
+
+    pub(super) fn stats(&self) -> &Stats {
+        &self.stats
+    }
+
+    #[cfg(test)]
+    pub(super) fn seen_capacities(&self) -> [usize; 3] {
+        let seen = &self.kept.seen;
+        [seen.objects.capacity(), seen.faces.capacity(), seen.triangles.capacity()]
+    }
+
+    /// The last picture's rasterizer when its settings fit, or a new one.
+    fn rasterizer(&mut self, settings: &RenderSettings) -> Result<Rasterizer, RenderError> {
+        let how = ExecuteSettings { threads: settings.threads, simd: settings.simd, ..Default::default() };
+        let kept = self.rasterizer.take().filter(|rasterizer| *rasterizer.settings() == how);
+        Ok(match kept {
+            Some(rasterizer) => rasterizer,
+            None => Rasterizer::new(how)?,
+        })
+    }
+}
+
+/// A target of the right size and samples that keeps nothing.
+fn blank<'a>(settings: &RenderSettings) -> Result<Target<'a>, TargetError> {
+    let target = Target::new(settings.width, settings.height, &[])?;
+    target.with_samples_per_axis(settings.samples_per_axis)?.with_samples(settings.samples)
+}
+
+/// From stored depths to metres.
+fn measure_depth(frame: &mut Frame, camera: &Camera, settings: &RenderSettings) {
+    let distance = DepthToDistance::new(&camera.projection, settings.aspect());
+    for depth in frame.depth.iter_mut().flatten() {
+        *depth = distance.at(*depth);
+    }
+}

@@ -1,0 +1,220 @@
+//! The renderer as its users see it.
+
+use trigon_camera::Camera;
+use trigon_raster::Stats;
+
+use super::RenderError;
+use super::builder::RendererBuilder;
+use super::engine::Engine;
+use crate::effects::{Effect, EffectCounts, EffectPlan};
+use crate::frame::Frame;
+use crate::scene::Scene;
+use crate::settings::RenderSettings;
+
+/// Draws pictures one after the other, as its settings say, and keeps threads, memory
+/// and shadow maps between them. What it keeps changes no byte of a picture: the
+/// function [`render`](crate::render()) draws the same one, and begins anew each time.
+///
+/// [`Renderer::builder`] takes the usual settings by name; all of them are in
+/// [`settings_mut`](Self::settings_mut), at any time.
+///
+/// It needs no window, no display and no global state; several can draw the same
+/// scene at the same time from several threads.
+///
+/// ```
+/// use trigon_scene::{Outputs, Renderer, showcase, views};
+///
+/// let scene = showcase();
+/// let outputs = Outputs { depth: true, ids: true, ..Outputs::default() };
+/// let mut renderer = Renderer::builder().size(64, 48).samples(4).outputs(outputs).build();
+/// let frame = renderer.render(&scene, &scene.overview(renderer.settings().aspect()))?;
+/// assert_eq!(frame.depth.expect("asked for").len(), 64 * 48);
+///
+/// let cameras = scene.surround(views::hemisphere(3, 7), renderer.settings().aspect());
+/// let mut seen = 0;
+/// renderer.render_many(&scene, cameras, |_, frame| {
+///     let ids = frame.object_ids.as_ref().expect("asked for");
+///     seen += ids.iter().filter(|&&id| id != u32::MAX).count();
+///     Ok::<(), trigon_scene::RenderError>(())
+/// })?;
+/// assert!(seen > 1000, "the scene is in all three pictures");
+/// # Ok::<(), trigon_scene::RenderError>(())
+/// ```
+pub struct Renderer {
+    settings: RenderSettings,
+    engine: Engine,
+}
+
+impl Renderer {
+    /// A renderer with these settings that holds no memory yet.
+    pub fn new(settings: RenderSettings) -> Self {
+        Self { settings, engine: Engine::default() }
+    }
+
+    /// A renderer from the settings that differ from the usual ones.
+    pub fn builder() -> RendererBuilder {
+        RendererBuilder::default()
+    }
+
+    /// How pictures are drawn.
+    pub fn settings(&self) -> &RenderSettings {
+        &self.settings
+    }
+
+    /// How the next picture is drawn, to change it. Memory and threads that still fit
+    /// are used on.
+    pub fn settings_mut(&mut self) -> &mut RenderSettings {
+        &mut self.settings
+    }
+
+    /// Draws what the camera sees of the scene.
+    ///
+    /// # Errors
+    /// When the size or the number of samples is out of range, or the processor lacks
+    /// the SIMD level asked for.
+    pub fn render(&mut self, scene: &Scene, camera: &Camera) -> Result<Frame, RenderError> {
+        let mut frame = Frame::default();
+        self.render_into(scene, camera, &mut frame)?;
+        Ok(frame)
+    }
+
+    /// As [`render`](Self::render), into a frame whose memory is used again. What
+    /// it held does not matter; after an error it holds nothing of use.
+    ///
+    /// # Errors
+    /// As [`render`](Self::render).
+    pub fn render_into(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
+        self.engine.draw(scene, camera, &self.settings, frame)
+    }
+
+    /// Draws what each of these cameras sees, one after the other, and shows every
+    /// picture with its number from 0 to `visit`. They all use the memory of one
+    /// frame: `visit` clones or writes what it wants to keep.
+    ///
+    /// # Errors
+    /// The first one of drawing, as [`render`](Self::render), or of `visit`; no more
+    /// pictures are drawn then.
+    pub fn render_many<E: From<RenderError>>(
+        &mut self,
+        scene: &Scene,
+        cameras: impl IntoIterator<Item = Camera>,
+        mut visit: impl FnMut(usize, &Frame) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let mut frame = Frame::default();
+        for (index, camera) in cameras.into_iter().enumerate() {
+            self.render_into(scene, &camera, &mut frame)?;
+            visit(index, &frame)?;
+        }
+        Ok(())
+    }
+
+    /// The plan of the last picture; `None` before the first.
+    pub fn plan(&self) -> Option<&EffectPlan> {
+        self.engine.plan()
+    }
+
+    /// What an effect took in the last picture.
+    pub fn effect_counts(&self, effect: Effect) -> EffectCounts {
+        self.engine.effect_counts(effect)
+    }
+
+    /// What the last picture took, in counts.
+    pub fn stats(&self) -> &Stats {
+        self.engine.stats()
+    }
+
+    /// For tests: how much room is kept for objects, faces and triangles.
+    #[cfg(test)]
+    pub(crate) fn seen_capacities(&self) -> [usize; 3] {
+        self.engine.seen_capacities()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::num::NonZeroUsize;
+
+    use trigon_camera::Camera;
+
+    use super::*;
+    use crate::{Outputs, render, showcase, views};
+
+    /// One scene for many threads, and renderers that may be handed from one to another.
+    #[test]
+    fn whatever_takes_part_can_be_sent_and_shared() {
+        fn check<T: Send + Sync>() {}
+        check::<Scene>();
+        check::<Camera>();
+        check::<RenderSettings>();
+        check::<Frame>();
+        check::<Renderer>();
+        check::<RenderError>();
+    }
+
+    #[test]
+    fn threads_draw_one_scene_at_the_same_time() {
+        let scene = showcase();
+        let camera = scene.overview(1.0);
+        let settings = RenderSettings { samples_per_axis: 1, ..RenderSettings::new(24, 24) };
+        let expected = render(&scene, &camera, &settings).expect("drawn");
+        std::thread::scope(|scope| {
+            let draw = || render(&scene, &camera, &settings).expect("drawn");
+            for drawing in [(); 3].map(|()| scope.spawn(draw)) {
+                assert!(drawing.join().expect("no panic") == expected, "the same bytes");
+            }
+        });
+    }
+
+    #[test]
+    fn the_builder_names_settings() {
+        let outputs = Outputs { depth: true, ..Outputs::default() };
+        let builder = Renderer::builder().size(30, 20).threads(2).outputs(outputs);
+        let expected =
+            RenderSettings { outputs, threads: NonZeroUsize::new(2), ..RenderSettings::new(30, 20) };
+        assert_eq!(builder.clone().build().settings(), &expected, "size, threads and outputs");
+        let samples = |builder: RendererBuilder| {
+            let renderer = builder.build();
+            [renderer.settings().samples_per_axis, renderer.settings().samples]
+        };
+        assert_eq!(samples(builder.clone()), [3, 1], "as everywhere");
+        assert_eq!(samples(builder.clone().samples(4)), [1, 4], "in all");
+        assert_eq!(samples(builder.clone().samples(4).samples_per_axis(2)), [2, 1], "the last one counts");
+        assert_eq!(builder.threads(0).build().settings().threads, None, "one for each core");
+    }
+
+    #[test]
+    fn many_pictures_in_one_memory_are_those_drawn_one_by_one() {
+        let scene = showcase();
+        let settings = RenderSettings { samples_per_axis: 1, ..RenderSettings::new(20, 16) };
+        let cameras: Vec<Camera> = scene.surround(views::turntable(4, 0.3), settings.aspect()).collect();
+        let mut renderer = Renderer::new(settings.clone());
+        let (mut places, mut numbers) = (Vec::new(), Vec::new());
+        let visit = |number, frame: &Frame| {
+            numbers.push(number);
+            places.push(frame.color.as_ptr());
+            let alone = render(&scene, &cameras[number], &settings)?;
+            assert!(*frame == alone, "picture {number}");
+            Ok::<(), RenderError>(())
+        };
+        renderer.render_many(&scene, cameras.iter().copied(), visit).expect("drawn");
+        assert_eq!(numbers, [0, 1, 2, 3], "in their order");
+        assert!(places.iter().all(|&place| place == places[0]), "one memory");
+    }
+
+    #[test]
+    fn whoever_has_seen_enough_stops() {
+        let scene = showcase();
+        let cameras = scene.surround(views::turntable(5, 0.0), 1.0);
+        let (mut renderer, mut drawn) = (Renderer::builder().size(8, 8).build(), 0);
+        let stopped = renderer.render_many(&scene, cameras, |_, _| {
+            drawn += 1;
+            if drawn == 2 { Err(Box::<dyn std::error::Error>::from("enough")) } else { Ok(()) }
+        });
+        assert_eq!((stopped.map_err(|error| error.to_string()), drawn), (Err("enough".to_owned()), 2), "two");
+    }
+}

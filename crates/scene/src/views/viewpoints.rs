@@ -1,0 +1,162 @@
+//! Directions in which eyes lie, as unit vectors from what they look at. +Y is up.
+//!
+//! The same arguments give the same bits on every machine.
+
+use std::f64::consts::{PI, TAU};
+
+use trigon_math::{DQuat, DVec3, elementary};
+
+use super::random::SplitMix64;
+
+/// The angle between one point of a Fibonacci lattice and the next: 2π less its golden
+/// section.
+const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
+
+/// Once around at one height: `count` viewpoints, counter-clockwise seen from above,
+/// beginning in front (+Z). `elevation` is the angle above the horizon in radians,
+/// −π/2 to π/2.
+pub fn turntable(count: usize, elevation: f64) -> impl ExactSizeIterator<Item = DVec3> {
+    let (height, out) = elementary::sin_cos(elevation);
+    (0..count).map(move |index| {
+        let (sin, cos) = elementary::sin_cos(TAU * (index as f64 / count as f64));
+        DVec3::new(out * sin, height, out * cos).normalize()
+    })
+}
+
+/// `count` viewpoints spread evenly over all directions: a Fibonacci lattice, turned as
+/// `seed` says; every turn is equally likely.
+///
+/// The lattice is that of Swinbank and Purser, "Fibonacci grids" (2006); the turn is
+/// Shoemake's, "Uniform random rotations" (Graphics Gems III, 1992).
+pub fn sphere(count: usize, seed: u64) -> impl ExactSizeIterator<Item = DVec3> {
+    let turn = random_turn(&mut SplitMix64::new(seed));
+    (0..count).map(move |index| {
+        let height = 1.0 - (2.0 * index as f64 + 1.0) / count as f64;
+        (turn * lattice_point(index, height, 0.0)).normalize()
+    })
+}
+
+/// `count` viewpoints spread evenly over the directions above the horizon, none on it:
+/// a Fibonacci lattice that `seed` turns about the vertical and shifts by a part of its
+/// own spacing.
+pub fn hemisphere(count: usize, seed: u64) -> impl ExactSizeIterator<Item = DVec3> {
+    let mut random = SplitMix64::new(seed);
+    let (azimuth, shift) = (TAU * random.next_unit(), random.next_unit());
+    (0..count).map(move |index| {
+        // Above 0, whatever is rounded: the smallest minuend is 1.
+        let height = ((count - index) as f64 - shift) / count as f64;
+        lattice_point(index, height, azimuth).normalize()
+    })
+}
+
+/// The point at a height of −1 to 1, turned by the golden angle from the one before.
+fn lattice_point(index: usize, height: f64, azimuth: f64) -> DVec3 {
+    let (sin, cos) = elementary::sin_cos(azimuth + GOLDEN_ANGLE * index as f64);
+    let out = (1.0 - height * height).sqrt();
+    DVec3::new(out * sin, height, out * cos)
+}
+
+fn random_turn(random: &mut SplitMix64) -> DQuat {
+    let [share, first, second] = [(); 3].map(|()| random.next_unit());
+    let [(s1, c1), (s2, c2)] = [first, second].map(|turn| elementary::sin_cos(2.0 * PI * turn));
+    let (near, far) = ((1.0 - share).sqrt(), share.sqrt());
+    DQuat::from_xyzw(near * s1, near * c1, far * s2, far * c2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const COUNTS: [usize; 4] = [1, 2, 17, 400];
+
+    /// The last of 17 viewpoints of each kind, as f64's bits.
+    const KNOWN: [[u64; 3]; 3] = [
+        [0xbfd1_aec8_4602_7789, 0x3fe4_9d6e_6946_19b8, 0x3fe6_d27c_6ea4_6394],
+        [0xbfd8_83e4_1148_27ad, 0xbfec_c2ff_c556_a6f9, 0x3fcb_47df_e8ff_9220],
+        [0xbf80_84f7_7d31_ceb0, 0x3fad_9cad_8c3d_9e8d, 0xbfef_f205_3c73_16eb],
+    ];
+
+    fn all(count: usize, seed: u64) -> [Vec<DVec3>; 3] {
+        let height = seed as f64 / 10.0;
+        [turntable(count, height).collect(), sphere(count, seed).collect(), hemisphere(count, seed).collect()]
+    }
+
+    #[test]
+    fn viewpoints_are_as_many_unit_vectors_as_asked_for() {
+        for count in COUNTS {
+            for seed in 0..5 {
+                for points in all(count, seed) {
+                    assert_eq!(points.len(), count, "as many");
+                    let far = points.iter().map(|point| (point.length() - 1.0).abs()).fold(0.0, f64::max);
+                    assert!(far < 1e-15, "of unit length, but for {far}");
+                }
+            }
+        }
+        assert_eq!(all(0, 3), [const { Vec::new() }; 3], "none");
+    }
+
+    #[test]
+    fn a_seed_reproduces_its_viewpoints_and_no_other_s() {
+        for count in COUNTS {
+            assert_eq!(all(count, 7), all(count, 7), "the same again");
+            for (a, b) in all(count, 7).iter().zip(&all(count, 8)) {
+                assert!(a.iter().zip(b).all(|(a, b)| a != b), "another seed, other viewpoints");
+            }
+        }
+    }
+
+    /// The bits that this machine found; every other has to find them, too.
+    #[test]
+    fn the_bits_are_the_same_on_every_machine() {
+        let bits = |point: DVec3| point.to_array().map(f64::to_bits);
+        let found = all(17, 7).map(|points| bits(points[16]));
+        assert_eq!(found, KNOWN, "the last of 17: {found:#x?}");
+    }
+
+    #[test]
+    fn hemispheres_are_above_the_horizon() {
+        for count in COUNTS {
+            for seed in 0..50 {
+                assert!(hemisphere(count, seed).all(|point| point.y > 0.0), "{count} with {seed}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_turntable_goes_around_at_one_height() {
+        let points: Vec<DVec3> = turntable(4, 0.5).collect();
+        let (height, out) = elementary::sin_cos(0.5);
+        for (point, [x, z]) in points.iter().zip([[0.0, 1.0], [1.0, 0.0], [0.0, -1.0], [-1.0, 0.0]]) {
+            let expected = DVec3::new(x * out, height, z * out);
+            assert!(point.distance(expected) < 1e-15, "{point}, not {expected}");
+        }
+    }
+
+    /// Evenly: no two are nearer than a share of the distance that the cells of a
+    /// perfect lattice have, and every direction has one about as near.
+    #[test]
+    fn nothing_is_crowded_and_nothing_is_left_out() {
+        let spacing = |area: f64, count: usize| (area / count as f64).sqrt();
+        for seed in 0..4 {
+            let count = 400;
+            check_spread(&sphere(count, seed).collect::<Vec<_>>(), spacing(4.0 * PI, count), |_| true);
+            let above = |point: &DVec3| point.y > 0.15;
+            check_spread(&hemisphere(count, seed).collect::<Vec<_>>(), spacing(2.0 * PI, count), above);
+        }
+    }
+
+    fn check_spread(points: &[DVec3], spacing: f64, is_covered: impl Fn(&DVec3) -> bool) {
+        let nearest = |at: DVec3, but: usize| {
+            let others = points.iter().enumerate().filter(|&(index, _)| index != but);
+            others.map(|(_, point)| point.distance(at)).fold(f64::INFINITY, f64::min)
+        };
+        for (index, &point) in points.iter().enumerate() {
+            let near = nearest(point, index) / spacing;
+            assert!(near > 0.5, "number {index} has a neighbour at {near} spacings");
+        }
+        for direction in sphere(999, 12345).filter(is_covered) {
+            let far = nearest(direction, usize::MAX) / spacing;
+            assert!(far < 1.0, "the nearest to {direction} is {far} spacings away");
+        }
+    }
+}
