@@ -5,7 +5,7 @@
 
 use std::mem::take;
 use std::ops::Range;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use trigon_math::glam::Affine3;
 use trigon_math::{Bounds3, Vec3};
@@ -32,6 +32,16 @@ pub(crate) struct Geometry {
     rest: Option<Box<RenderMesh>>,
     /// The same with tangents, made when a normal map asks for them.
     tangential: OnceLock<Box<Geometry>>,
+    /// How a posed mesh without tangents came about, to make them.
+    pose: Option<Pose>,
+}
+
+/// A mesh at rest and how it was deformed.
+#[derive(Debug)]
+struct Pose {
+    rest: Arc<Geometry>,
+    weights: Vec<f32>,
+    palette: Vec<Affine3>,
 }
 
 /// Triangles that share a material slot.
@@ -62,12 +72,19 @@ impl Geometry {
             bounds: OnceLock::new(),
             edge_flags: OnceLock::new(),
             tangential: OnceLock::new(),
+            pose: None,
         }
     }
 
     /// The mesh in a pose; see [`RenderMesh::deform`]. `None` when no pose can
     /// change it.
-    pub(crate) fn posed(&self, weights: &[f32], palette: &[Affine3]) -> Option<Self> {
+    pub(crate) fn posed(self: &Arc<Self>, weights: &[f32], palette: &[Affine3]) -> Option<Self> {
+        let posed = self.deformed(weights, palette)?;
+        let pose = || Pose { rest: Arc::clone(self), weights: weights.to_vec(), palette: palette.to_vec() };
+        Some(Self { pose: self.columns.tangents.is_none().then(pose), ..posed })
+    }
+
+    fn deformed(&self, weights: &[f32], palette: &[Affine3]) -> Option<Self> {
         let rest = self.rest.as_ref()?;
         let mut deformed = Deformed::default();
         rest.deform(weights, palette, &mut deformed);
@@ -81,6 +98,7 @@ impl Geometry {
             edge_flags: self.edge_flags.clone(),
             rest: None,
             tangential: OnceLock::new(),
+            pose: None,
         })
     }
 
@@ -99,13 +117,18 @@ impl Geometry {
     }
 
     /// The mesh as a normal map on a UV set needs it: with the tangents that it
-    /// has, or else with tangents made at the first use. Of several UV sets the
-    /// first that asks is served; the others get its tangents.
+    /// has, or else with tangents made at the first use, of the mesh at rest: a pose
+    /// moves them along. Of several UV sets the first that asks is served; the others
+    /// get its tangents.
     pub(crate) fn with_tangents(&self, source: &Mesh, uv_set: usize) -> &Self {
         if self.columns.tangents.is_some() {
             return self;
         }
         self.tangential.get_or_init(|| {
+            if let Some(Pose { rest, weights, palette }) = &self.pose {
+                let posed = rest.with_tangents(source, uv_set).deformed(weights, palette);
+                return Box::new(posed.expect("tangents take no pose away"));
+            }
             let mut mesh = source.clone();
             let corner_tangents = source.generate_tangents(uv_set);
             let attributes = Attributes { corner_tangents, ..source.attributes().clone() };

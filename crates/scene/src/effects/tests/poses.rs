@@ -36,6 +36,25 @@ fn a_morphed_mesh_is_drawn_where_its_weights_put_it() {
     }
 }
 
+/// Tangents that a normal map calls for were made of the mesh at rest, which then was
+/// drawn at rest.
+#[test]
+fn a_normal_map_leaves_a_mesh_in_its_pose() {
+    let (mut scene, id) = morphed(1.0);
+    let flat = Texture::new(1, 1, vec![[128, 128, 255, 255]], TextureFormat::Linear).expect("one texel");
+    let binding = TextureBinding::new(scene.add_texture("flat", flat));
+    let red = matt(Vec3::new(1.0, 0.0, 0.0));
+    let bumpy = scene.add_material(Material { normal_map: Some(NormalMap { binding, scale: 1.0 }), ..red });
+    scene.node_mut(id).expect("it is there").materials = vec![bumpy];
+    for light in [Light::ambient(1.0), Light::directional(1.0)] {
+        scene.add(shining(light, DVec3::ZERO, DVec3::NEG_Y));
+    }
+    let mut renderer = Renderer::new(settings(EffectSettings::default()));
+    let frame = renderer.render(&scene, &from_above()).expect("drawn");
+    assert!(renderer.plan().is_some_and(|plan| plan.is_on(Effect::NormalMaps)), "the map is used");
+    assert_eq!(columns(&frame), [80, 111], "moved by a metre of 32 pixels");
+}
+
 #[test]
 fn a_morphed_mesh_throws_its_shadow_from_where_it_is() {
     for shadows in [Shadows::Maps { resolution: 512 }, Shadows::Rays] {
