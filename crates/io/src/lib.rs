@@ -1,6 +1,6 @@
 //! Model and picture files for trigon: OBJ with MTL, glTF and GLB, PNG,
-//! JPEG, WebP and Radiance in; PNG out. And captures: all that a picture was drawn from, and the
-//! picture, in one file.
+//! JPEG, WebP and Radiance in; PNG, OpenEXR and NumPy arrays out. And captures: all that a
+//! picture was drawn from, and the picture, in one file.
 //!
 //! A file becomes a [`Scene`](trigon_scene::Scene) and a list of warnings. What
 //! cannot be used is an error. Both name the file, the place in it, and what to
@@ -48,6 +48,7 @@ mod limits;
 mod load;
 mod obj;
 mod options;
+mod outputs;
 mod picture;
 mod png;
 mod rebase;
@@ -63,6 +64,9 @@ pub use format::{Format, Reader, readers};
 pub use limits::Limits;
 pub use load::{Loaded, load, load_from_slice};
 pub use options::{LoadOptions, Progress, ProgressHook, SceneChoice, Stage};
+pub use outputs::{
+    Output, UnknownOutput, encode_exr, encode_npy, encode_png16, write_exr, write_npy, write_png16,
+};
 pub use picture::{Picture, load_image};
 pub use png::{Pixels, WriteError, encode_png, write_png};
 pub use warning::Warning;

@@ -17,6 +17,8 @@ pub enum Pixels<'a> {
     Rgb8(&'a [u8]),
     /// One value a pixel, such as a depth; 65535 is white.
     Gray16(&'a [u16]),
+    /// Three values a pixel, such as a direction.
+    Rgb16(&'a [u16]),
 }
 
 /// Why a picture was not written.
@@ -31,6 +33,20 @@ pub enum WriteError {
         height: u32,
         /// What was passed.
         length: usize,
+    },
+    /// The frame does not hold what is to be written.
+    #[error("the frame holds no {what}; ask for it in RenderSettings::outputs")]
+    Absent {
+        /// The output.
+        what: &'static str,
+    },
+    /// The format cannot hold the values.
+    #[error("{output} cannot be written as a PNG of 16 bits: {what}; write it as .npy or .exr")]
+    Unfit {
+        /// The output.
+        output: &'static str,
+        /// What does not fit.
+        what: String,
     },
     /// The folder or the disk said no.
     #[error("{}: cannot be written ({source}); check that the folder exists, is writable and has room", path.display())]
@@ -80,6 +96,7 @@ fn check_size(width: u32, height: u32, pixels: Pixels<'_>) -> Result<(), WriteEr
         Pixels::Rgba8(values) => (values.len(), 4),
         Pixels::Rgb8(values) => (values.len(), 3),
         Pixels::Gray16(values) => (values.len(), 1),
+        Pixels::Rgb16(values) => (values.len(), 3),
     };
     let fits = u128::from(width) * u128::from(height) * per_pixel == length as u128;
     if fits && length > 0 { Ok(()) } else { Err(WriteError::Size { width, height, length }) }
@@ -90,16 +107,18 @@ fn encode(writer: &mut dyn Write, width: u32, height: u32, pixels: Pixels<'_>) -
     let written = match pixels {
         Pixels::Rgba8(values) => encoder.write_image(values, width, height, ExtendedColorType::Rgba8),
         Pixels::Rgb8(values) => encoder.write_image(values, width, height, ExtendedColorType::Rgb8),
-        // The encoder takes samples in the machine's order and turns them.
-        Pixels::Gray16(values) => {
-            let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_ne_bytes()).collect();
-            encoder.write_image(&bytes, width, height, ExtendedColorType::L16)
-        }
+        Pixels::Gray16(values) => encoder.write_image(&bytes(values), width, height, ExtendedColorType::L16),
+        Pixels::Rgb16(values) => encoder.write_image(&bytes(values), width, height, ExtendedColorType::Rgb16),
     };
     written.map_err(|error| match error {
         image::ImageError::IoError(error) => error,
         other => io::Error::other(other),
     })
+}
+
+/// In the machine's order: the encoder turns them.
+fn bytes(values: &[u16]) -> Vec<u8> {
+    values.iter().flat_map(|value| value.to_ne_bytes()).collect()
 }
 
 /// Runs `write` on a new file that takes the name `path` when all went well.

@@ -1,0 +1,124 @@
+//! OpenEXR: all that a frame holds in one file, one channel for each number.
+
+use std::io::{Cursor, Write};
+use std::path::Path;
+
+use exr::prelude::{
+    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes,
+    LineOrder, WritableImage,
+};
+use trigon_math::color;
+use trigon_scene::Frame;
+
+use super::Output;
+use super::values::Values;
+use crate::png::{WriteError, write_atomically};
+
+type Channel = AnyChannel<FlatSamples>;
+
+/// Writes all that the frame holds as one OpenEXR picture of 32-bit channels,
+/// compressed without loss (ZIP).
+///
+/// | output | channels |
+/// |---|---|
+/// | colour | `R` `G` `B` `A`: linear light, premultiplied, as OpenEXR has it; in the 256 steps of sRGB that the frame holds |
+/// | depth | `Z` |
+/// | ids, as u32 | `id.object` `id.face` `id.material` `id.triangle` |
+/// | barycentrics | `barycentric.X` `.Y` `.Z` |
+/// | positions, normals, geometric normals | `P.X` `P.Y` `P.Z`, `N.X` …, `Ng.X` … |
+/// | texture coordinates | `U` `V` |
+/// | albedo | `albedo.R` `.G` `.B` |
+///
+/// All but the colour is, bit for bit, what the frame holds. As with
+/// [`write_png`](crate::write_png), an old file is replaced whole or not at all.
+///
+/// # Errors
+/// When the frame holds nothing, or the file cannot be written.
+pub fn write_exr(path: impl AsRef<Path>, frame: &Frame) -> Result<(), WriteError> {
+    let (path, bytes) = (path.as_ref(), encode(frame)?);
+    write_atomically(path, |file| file.write_all(&bytes))
+        .map_err(|source| WriteError::File { path: path.to_owned(), source })
+}
+
+/// As [`write_exr`], to a writer.
+///
+/// # Errors
+/// When the frame holds nothing, or the writer fails.
+pub fn encode_exr(mut writer: impl Write, frame: &Frame) -> Result<(), WriteError> {
+    Ok(writer.write_all(&encode(frame)?)?)
+}
+
+/// The file. It is put together in memory, because its table of offsets at the front
+/// is known last.
+fn encode(frame: &Frame) -> Result<Vec<u8>, WriteError> {
+    let values = Values::all(frame)?;
+    let channels = values.into_iter().flat_map(|(output, values)| channels(output, values)).collect();
+    let size = (frame.width as usize, frame.height as usize);
+    let encoding = Encoding {
+        compression: Compression::ZIP16,
+        blocks: Blocks::ScanLines,
+        line_order: LineOrder::Increasing,
+    };
+    let layer = Layer::new(size, LayerAttributes::default(), encoding, AnyChannels::sort(channels));
+    let mut bytes = Cursor::new(Vec::new());
+    Image::from_layer(layer)
+        .write()
+        .non_parallel()
+        .to_buffered(&mut bytes)
+        .map_err(|error| WriteError::Stream(std::io::Error::other(error)))?;
+    Ok(bytes.into_inner())
+}
+
+fn channels(output: Output, values: Values<'_>) -> Vec<Channel> {
+    match values {
+        Values::Colors(bytes) => colors(bytes),
+        Values::Floats(numbers) => vec![channel(name(output), FlatSamples::F32(numbers.to_vec()))],
+        Values::Ids(ids) => vec![channel(name(output), FlatSamples::U32(ids.to_vec()))],
+        Values::Pairs(pairs) => {
+            let axis = |axis: usize| FlatSamples::F32(pairs.iter().map(|pair| pair[axis]).collect());
+            vec![channel("U", axis(0)), channel("V", axis(1))]
+        }
+        Values::Vectors(vectors) => {
+            let axes = if output == Output::Albedo { ["R", "G", "B"] } else { ["X", "Y", "Z"] };
+            let column = |axis: usize| FlatSamples::F32(vectors.iter().map(|vector| vector[axis]).collect());
+            (0..3).map(|axis| channel(&format!("{}.{}", name(output), axes[axis]), column(axis))).collect()
+        }
+    }
+}
+
+/// The channel of an output that has one, or what stands before the dot.
+fn name(output: Output) -> &'static str {
+    match output {
+        // These two have names of their own for each number.
+        Output::Color | Output::Uvs => "",
+        Output::Depth => "Z",
+        Output::ObjectIds => "id.object",
+        Output::FaceIds => "id.face",
+        Output::MaterialIds => "id.material",
+        Output::TriangleIds => "id.triangle",
+        Output::Barycentrics => "barycentric",
+        Output::Positions => "P",
+        Output::Normals => "N",
+        Output::GeometricNormals => "Ng",
+        Output::Albedo => "albedo",
+    }
+}
+
+/// Linear light, multiplied with alpha.
+fn colors(bytes: &[u8]) -> Vec<Channel> {
+    let pixels = bytes.as_chunks::<4>().0;
+    let alpha = |pixel: &[u8; 4]| f32::from(pixel[3]) / 255.0;
+    let light = |at: usize| {
+        pixels.iter().map(|pixel| color::srgb8_to_linear(pixel[at]) * alpha(pixel)).collect::<Vec<f32>>()
+    };
+    vec![
+        channel("R", FlatSamples::F32(light(0))),
+        channel("G", FlatSamples::F32(light(1))),
+        channel("B", FlatSamples::F32(light(2))),
+        channel("A", FlatSamples::F32(pixels.iter().map(alpha).collect())),
+    ]
+}
+
+fn channel(name: &str, samples: FlatSamples) -> Channel {
+    AnyChannel::new(name, samples)
+}
