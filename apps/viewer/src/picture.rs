@@ -1,5 +1,5 @@
-//! Picture mode: models in, PNG files, a PNG stream or a capture out. No display
-//! needed.
+//! Picture mode: models in, files of pictures and outputs, a PNG stream or a capture
+//! out. No display needed.
 
 use std::collections::HashSet;
 use std::io::{self, IsTerminal};
@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use trigon_camera::Camera;
-use trigon_io::{Capture, Pixels, encode_png, write_png};
+use trigon_io::{Capture, Pixels, WriteError, encode_png, write_exr, write_npy, write_png, write_png16};
 use trigon_scene::{Frame, Renderer};
 
-use crate::args::{Destination, Request, Template};
+use crate::args::{Beside, Destination, Format, Request};
 use crate::failure::Failure;
 use crate::loading;
 use crate::model::{Model, Source};
@@ -24,7 +24,7 @@ pub(crate) fn run(
     capture: Option<&Path>,
     reporter: Reporter,
 ) -> u8 {
-    let mut outlet = Outlet::new(output, reporter);
+    let mut outlet = Outlet { beside: &request.outputs, ..Outlet::new(output, reporter) };
     Source::visit_all(request, reporter, |source| draw_one(source, request, capture, &mut outlet, reporter))
 }
 
@@ -65,13 +65,14 @@ fn draw(model: &Model, camera: &Camera, request: &Request, reporter: Reporter) -
 /// Where finished pictures go.
 pub(crate) struct Outlet<'a> {
     output: Option<&'a Destination>,
+    beside: &'a [Beside],
     written: HashSet<PathBuf>,
     reporter: Reporter,
 }
 
 impl<'a> Outlet<'a> {
     pub(crate) fn new(output: Option<&'a Destination>, reporter: Reporter) -> Self {
-        Self { output, written: HashSet::new(), reporter }
+        Self { output, beside: &[], written: HashSet::new(), reporter }
     }
 
     /// Bytes of a picture would only garble a terminal.
@@ -90,13 +91,35 @@ impl<'a> Outlet<'a> {
             None => Ok(()),
             Some(Destination::Stdout) => write_stream(frame),
             Some(Destination::File(template)) => {
-                let path = new_name(template, file, &mut self.written)?;
-                write_file(&path, frame)?;
-                let (width, height) = (frame.width, frame.height);
-                self.reporter.info(format_args!("wrote {} ({width}×{height})", path.display()));
-                Ok(())
+                let path = template.unused(file);
+                self.save(&path, frame, write_file)?;
+                // OpenEXR has them in it.
+                let beside = if template.is_exr() { &[] } else { self.beside };
+                beside.iter().try_for_each(|beside| {
+                    self.save(&beside.path(&path), frame, |path, frame| write_beside(*beside, path, frame))
+                })
             }
         }
+    }
+
+    /// Writes a file and says so. Models of the same name in different folders must
+    /// not replace each other's files.
+    fn save(
+        &mut self,
+        path: &Path,
+        frame: &Frame,
+        write: impl FnOnce(&Path, &Frame) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        if !self.written.insert(path.to_owned()) {
+            return Err(Failure::Usage(format!(
+                "{}: two models would be written to it; write {{n}} in the name of --output (--output '{{model}}_{{n}}.png')",
+                path.display()
+            )));
+        }
+        write(path, frame)?;
+        let (width, height) = (frame.width, frame.height);
+        self.reporter.info(format_args!("wrote {} ({width}×{height})", path.display()));
+        Ok(())
     }
 }
 
@@ -107,22 +130,23 @@ fn write_stream(frame: &Frame) -> Result<(), Failure> {
 
 /// Writes a picture; an old file of that name is replaced at once or not at all.
 pub(crate) fn write_file(path: &Path, frame: &Frame) -> Result<(), Failure> {
-    write_png(path, frame.width, frame.height, Pixels::Rgba8(&frame.color)).map_err(Failure::work)
+    let is_exr = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr"));
+    let written = if is_exr {
+        write_exr(path, frame)
+    } else {
+        write_png(path, frame.width, frame.height, Pixels::Rgba8(&frame.color))
+    };
+    written.map_err(Failure::work)
 }
 
-/// The name of the next picture. Models of the same name in different folders
-/// must not replace each other's pictures.
-fn new_name(
-    template: &Template,
-    model: Option<&Path>,
-    written: &mut HashSet<PathBuf>,
-) -> Result<PathBuf, Failure> {
-    let path = template.unused(model);
-    if written.insert(path.clone()) {
-        return Ok(path);
-    }
-    Err(Failure::Usage(format!(
-        "{}: two models would be written to it; write {{n}} in the name of --output (--output '{{model}}_{{n}}.png')",
-        path.display()
-    )))
+/// Writes one output to a file of its own.
+fn write_beside(beside: Beside, path: &Path, frame: &Frame) -> Result<(), Failure> {
+    let written = match beside.format() {
+        Format::Npy => write_npy(path, frame, beside.output),
+        Format::Png16 => write_png16(path, frame, beside.output),
+    };
+    written.map_err(|error| match error {
+        WriteError::File { .. } => Failure::work(error),
+        unwritable => Failure::work(format!("{}: {unwritable}", path.display())),
+    })
 }

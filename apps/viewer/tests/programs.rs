@@ -259,6 +259,10 @@ fn a_senseless_command_line_exits_with_2() {
         ("--resolutoin 10,10", "--resolution"),
         ("--resolution 0,10", "1 to 16384"),
         ("--output o.jpg", ".png"),
+        ("--outputs depth corner.obj", "--output"),
+        ("--output - --outputs depth corner.obj", "standard output"),
+        ("--output o.exr --outputs depth.png corner.obj", "without an ending"),
+        ("--output o.png --outputs dept corner.obj", "triangle-ids"),
         ("--camera-position 1,2,3 --camera-focal-point 1,2,3 --output o.png", "same point"),
         ("corner.obj --camera-position 0.5,0.5,0.5 --output o.png", "looks nowhere"),
         ("--background-color=blurple", "CSS name"),
@@ -326,6 +330,50 @@ fn a_list_that_cannot_be_written_says_so() {
 }
 
 /// What --capture wrote is drawn again without the model, and told from another.
+/// The numbers of a NumPy file, behind its header.
+fn array(path: &Path) -> Vec<u8> {
+    let bytes = fs::read(path).expect("written");
+    assert!(bytes.starts_with(b"\x93NUMPY"), "an array");
+    bytes[10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]))..].to_owned()
+}
+
+#[test]
+fn outputs_are_written_next_to_the_picture_or_in_it() {
+    let folder = Folder::new();
+    let draw = "corner.obj --resolution 30,20 --view=front";
+    let said = folder.said(&format!("{draw} --output o.png --outputs depth,object-ids,depth.png"), 0);
+    let names = ["o.png", "o.depth.npy", "o.object-ids.npy", "o.depth.png"];
+    let lines = names.map(|name| format!("trigon-viewer: wrote {name} (30×20)\n"));
+    assert_eq!(said, lines.concat(), "a line for each file");
+    let (depths, ids) = (array(&folder.path("o.depth.npy")), array(&folder.path("o.object-ids.npy")));
+    let millimetres = fs::read(folder.path("o.depth.png")).expect("written");
+    assert_eq!((depths.len(), ids.len(), png_size(&millimetres)), (2400, 2400, (30, 20)), "all pixels");
+    let number = |bytes: &[u8], x: usize, y: usize| {
+        let at = 4 * (y * 30 + x);
+        u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"))
+    };
+    assert_eq!([number(&ids, 0, 0), number(&ids, 15, 10)], [u32::MAX, 0], "background and model");
+    assert_eq!(f32::from_bits(number(&depths, 0, 0)), f32::INFINITY, "background");
+    assert!((0.5..10.0).contains(&f32::from_bits(number(&depths, 15, 10))), "metres");
+
+    let said = folder.said(&format!("{draw} --output o.exr --outputs depth,normals"), 0);
+    assert_eq!(said, "trigon-viewer: wrote o.exr (30×20)\n", "one file");
+    let bytes = fs::read(folder.path("o.exr")).expect("written");
+    for word in [&b"N.X\0"[..], b"Z\0", b"A\0"] {
+        assert!(bytes.windows(word.len()).any(|window| window == word), "the channel {word:?}");
+    }
+}
+
+#[test]
+fn an_output_that_does_not_fit_its_format_is_refused() {
+    let folder = Folder::new();
+    let far = "corner.obj --output o.png --resolution 20,20 --verbose=warning --camera-position=90,50,90 --camera-view-angle=1";
+    let said = folder.failed(&format!("{far} --outputs depth.png"));
+    assert!(said.contains("o.depth.png: ") && said.contains("65.535 m"), "{said}");
+    folder.said(&format!("{far} --outputs depth"), 0);
+    assert!(folder.failed(&format!("{far} --outputs uvs.png")).contains("uvs"), "16 bits say nothing of it");
+}
+
 #[test]
 fn a_capture_is_replayed_without_its_model() {
     let folder = Folder::new();

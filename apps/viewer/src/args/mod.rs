@@ -1,13 +1,17 @@
 //! The command line, in two steps: [`RawArgs`] is what was typed, flag by flag;
 //! [`Request`] is what it means as a whole.
 
+mod beside;
 mod effects;
 mod output;
 mod raw;
 mod request;
 mod values;
 
+pub(crate) use beside::{Beside, Format};
 pub(crate) use effects::Explanation;
-pub(crate) use output::{Destination, Template};
+pub(crate) use output::Destination;
+#[cfg(feature = "window")]
+pub(crate) use output::Template;
 pub(crate) use raw::RawArgs;
 pub(crate) use request::{Grouping, Mode, Request};

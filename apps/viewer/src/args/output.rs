@@ -21,9 +21,9 @@ impl FromStr for Destination {
             return Ok(Self::Stdout);
         }
         let ending = Path::new(text).extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        if ending.as_deref() != Some("png") {
+        if !matches!(ending.as_deref(), Some("png" | "exr")) {
             return Err(
-                "pictures are written as PNG; use a name that ends in .png, or - for standard output"
+                "pictures are written as PNG or OpenEXR; use a name that ends in .png or .exr, or - for standard output"
                     .to_owned(),
             );
         }
@@ -62,6 +62,11 @@ impl Template {
         }
         pieces.push(Piece::Text(rest.to_owned()));
         Ok(Self(pieces))
+    }
+
+    /// Whether the name is that of an OpenEXR file, which holds all outputs.
+    pub(crate) fn is_exr(&self) -> bool {
+        matches!(self.0.last(), Some(Piece::Text(end)) if end.to_lowercase().ends_with(".exr"))
     }
 
     /// Whether different models get different names.

@@ -12,6 +12,7 @@ use trigon_io::SceneChoice;
 use trigon_math::{DVec3, Vec3};
 use trigon_scene::SimdLevel;
 
+use super::beside::Beside;
 use super::effects::EffectArgs;
 use super::output::Destination;
 use super::values;
@@ -41,7 +42,7 @@ Examples:
 /// Look at 3D models, or turn them into pictures, with no GPU and no display needed.
 ///
 /// Without --output a window opens; press H in it for its keys. With --output
-/// a PNG is written instead. Without FILES the built-in scene is shown.
+/// a picture is written instead. Without FILES the built-in scene is shown.
 #[derive(Debug, Parser)]
 #[command(name = "trigon-viewer", version, after_long_help = AFTER_HELP, after_help = "More with --help: every flag in full, exit codes, examples.")]
 #[command(args_override_self = true, max_term_width = 100)]
@@ -54,13 +55,30 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "FILE", action = ArgAction::Append, hide = true)]
     pub(crate) input: Vec<PathBuf>,
 
-    /// Write a PNG instead of opening a window; - is standard output
+    /// Write a PNG or an OpenEXR picture instead of opening a window; - is a PNG on standard output
     ///
-    /// The name may hold {model} (the file's name without its ending),
+    /// OpenEXR holds linear light, premultiplied with alpha. The name may hold {model} (the file's name without its ending),
     /// {model.ext} (with it), {model_ext} (the ending), {n:3} (the first number whose file does not
     /// exist yet, padded to three digits), {app} and {version}; {{x}} stands for {x} itself.
-    #[arg(long, value_name = "FILE.png|-", help_heading = "Files")]
+    #[arg(long, value_name = "FILE.png|FILE.exr|-", help_heading = "Files")]
     pub(crate) output: Option<Destination>,
+
+    /// Write this, too: depth, normals and other outputs, with a comma between them (not in F3D)
+    ///
+    /// There are color, depth (metres along the view axis), object-ids, face-ids, material-ids,
+    /// triangle-ids, barycentrics, positions, normals, geometric-normals, uvs and albedo. With
+    /// --output chair.exr they are channels of that file. With --output chair.png each becomes a
+    /// NumPy array beside it: depth goes to chair.depth.npy. Depth, ids and normals can be PNGs of
+    /// 16 bits instead: depth.png goes to chair.depth.png, in millimetres.
+    #[arg(
+        long,
+        value_name = "NAME,...",
+        value_delimiter = ',',
+        requires = "output",
+        conflicts_with = "replay",
+        help_heading = "Files"
+    )]
+    pub(crate) outputs: Vec<Beside>,
 
     /// Write scene, camera, settings and picture to one file, to draw it again elsewhere (not in F3D)
     ///

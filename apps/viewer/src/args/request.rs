@@ -7,6 +7,7 @@ use trigon_io::SceneChoice;
 use trigon_math::Vec3;
 use trigon_scene::{Background, RenderSettings, Style};
 
+use super::beside::Beside;
 use super::effects::Explanation;
 use super::output::Destination;
 use super::raw::{AntiAliasing, BackfaceType, DrawStyle, MultiFileMode, RawArgs, View};
@@ -36,6 +37,8 @@ pub(crate) struct Request {
     pub(crate) framing: Framing,
     /// What is changed about the model.
     pub(crate) look: Look,
+    /// What is written beside the picture.
+    pub(crate) outputs: Vec<Beside>,
     /// How it is drawn.
     pub(crate) settings: RenderSettings,
     /// How much is said.
@@ -97,6 +100,7 @@ impl Request {
         };
         let mode = mode(&raw);
         check_output(&mode, files.len(), grouping)?;
+        check_outputs(raw.output.as_ref(), &raw.outputs)?;
         Ok(Self {
             mode,
             files,
@@ -108,6 +112,7 @@ impl Request {
             framing: framing(&raw)?,
             look: look(&raw),
             settings: settings(&raw)?,
+            outputs: raw.outputs.clone(),
             level: raw.verbose,
             ignored: raw.gpu_only.given(),
         })
@@ -148,6 +153,24 @@ fn check_output(mode: &Mode, files: usize, grouping: Grouping) -> Result<(), Str
         Destination::Stdout => Err(format!(
             "{files} files make {files} pictures, but standard output takes one; draw them in one scene with --multi-file-mode=all, or write files with --output '{{model}}.png'"
         )),
+    }
+}
+
+/// Outputs need a place: files beside the picture, or channels in it.
+fn check_outputs(output: Option<&Destination>, outputs: &[Beside]) -> Result<(), String> {
+    match output {
+        Some(Destination::Stdout) if !outputs.is_empty() => Err(
+            "--outputs writes files beside the picture, but standard output has no name; name one (--output picture.png)".to_owned(),
+        ),
+        Some(Destination::File(template)) if template.is_exr() => {
+            match outputs.iter().find(|beside| beside.names_format()) {
+                Some(Beside { output, .. }) => Err(format!(
+                    "an OpenEXR file holds all outputs itself; write --outputs={output} without an ending, or --output with a name that ends in .png"
+                )),
+                None => Ok(()),
+            }
+        }
+        _ => Ok(()),
     }
 }
 
@@ -231,6 +254,7 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
     settings.line_width = raw.line_width;
     settings.light_intensity = raw.light_intensity;
     raw.effects.apply(&mut settings);
+    raw.outputs.iter().for_each(|beside| beside.output.ask_for(&mut settings.outputs));
     settings.threads = raw.threads;
     settings.simd = raw.simd;
     Ok(settings)
@@ -272,6 +296,7 @@ fn edges_before(background: Vec3, usual: Vec3) -> Vec3 {
 mod tests {
     use clap::{CommandFactory, Parser};
     use trigon_math::DVec3;
+    use trigon_scene::Outputs;
 
     use super::*;
 
@@ -420,6 +445,18 @@ mod tests {
             "named"
         );
         assert_eq!(request.files, [PathBuf::from("a.obj")], "the file");
+    }
+
+    #[test]
+    fn outputs_are_asked_for_and_have_a_place() {
+        let outputs = |flags: &str| request(flags).expect("fine").settings.outputs;
+        let asked = outputs("--output o.png --outputs depth,face-ids.png");
+        assert_eq!(asked, Outputs { depth: true, ids: true, ..Outputs::default() }, "both, and colours");
+        assert_eq!(outputs("--output o.exr"), Outputs::default(), "colours alone");
+        assert!(refusal("--outputs depth").contains("--output"), "needs a name");
+        assert!(refusal("--output - --outputs depth").contains("standard output"), "needs a name");
+        assert!(refusal("--output o.EXR --outputs depth.png").contains("--outputs=depth"), "explained");
+        assert!(refusal("--output o.png --outputs dept").contains("triangle-ids"), "all names");
     }
 
     #[test]

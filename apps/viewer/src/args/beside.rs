@@ -1,0 +1,86 @@
+//! What is written beside a picture: outputs by name, and in which format.
+
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use trigon_io::Output;
+
+/// An output that is asked for, and how it is written when it gets its own file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Beside {
+    pub(crate) output: Output,
+    /// `None` when nothing was said.
+    format: Option<Format>,
+}
+
+/// The format of a file for one output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    /// A NumPy array.
+    Npy,
+    /// A PNG of 16 bits.
+    Png16,
+}
+
+impl Beside {
+    /// Whether the name has an ending, as in `depth.png`.
+    pub(crate) fn names_format(self) -> bool {
+        self.format.is_some()
+    }
+
+    pub(crate) fn format(self) -> Format {
+        self.format.unwrap_or(Format::Npy)
+    }
+
+    /// The name of its file, next to the picture's: `chair.png` and `chair.depth.npy`.
+    pub(crate) fn path(self, picture: &Path) -> PathBuf {
+        let ending = match self.format() {
+            Format::Npy => "npy",
+            Format::Png16 => "png",
+        };
+        picture.with_extension(format!("{}.{ending}", self.output))
+    }
+}
+
+impl FromStr for Beside {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (name, format) = match text.split_once('.') {
+            None => (text, None),
+            Some((name, "npy")) => (name, Some(Format::Npy)),
+            Some((name, "png")) => (name, Some(Format::Png16)),
+            Some((_, ending)) => {
+                return Err(format!(".{ending} is no format for one output; there are .npy and .png"));
+            }
+        };
+        let output = name.parse().map_err(|error: trigon_io::UnknownOutput| error.to_string())?;
+        Ok(Self { output, format })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_lie_next_to_the_picture() {
+        for (text, name) in [
+            ("depth", "a/big.chair.depth.npy"),
+            ("object-ids.npy", "a/big.chair.object-ids.npy"),
+            ("normals.png", "a/big.chair.normals.png"),
+        ] {
+            let beside: Beside = text.parse().expect("an output");
+            assert_eq!(beside.path(Path::new("a/big.chair.png")), Path::new(name), "{text}");
+        }
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        for (text, words) in [("dept", "geometric-normals"), ("depth.tiff", ".npy and .png"), ("", "albedo")]
+        {
+            let error = text.parse::<Beside>().expect_err("refused");
+            assert!(error.contains(words), "{text}: {error}");
+        }
+    }
+}
