@@ -442,7 +442,7 @@ fn scenes_and_moments_of_animations_are_chosen() {
     let moved = |flags: &str| {
         let (x, y) = seen(flags);
         // 80 rows show 12 · 2 · tan 15° metres.
-        let metres = 24.0 * 15f64.to_radians().tan() / 80.0;
+        let metres = 24.0 * trigon_math::elementary::tan(15f64.to_radians()) / 80.0;
         (((x - rest.0) * metres * 10.0).round() / 10.0, ((rest.1 - y) * metres * 10.0).round() / 10.0)
     };
     for (flags, expected) in [
