@@ -1,7 +1,7 @@
 //! Which elements belong together, in which material, and how smooth: the
 //! statements of all pieces in their order.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::lines::{Lines, decode_name, split_keyword};
 use super::section::Statement;
@@ -24,7 +24,7 @@ pub(crate) struct Run {
 #[derive(Debug, Default)]
 pub(crate) struct Names {
     list: Vec<String>,
-    known: HashMap<String, u32>,
+    known: BTreeMap<String, u32>,
 }
 
 impl Names {

@@ -72,6 +72,8 @@ fn number<S: Simd>(simd: S, winners: &[u32], places: usize, shading: &mut Shadin
     slots.clear();
     // One more, for nobody.
     slots.resize(places + 1, 0);
+    // As a slice: where it lies is looked up once.
+    let marks = slots.as_mut_slice();
     let mut last = U32::splat(simd, NOBODY);
     for row in winners.as_chunks::<LANES>().0 {
         let lanes = U32::simd_from(simd, *row);
@@ -82,7 +84,7 @@ fn number<S: Simd>(simd: S, winners: &[u32], places: usize, shading: &mut Shadin
         last = lanes;
         // All of them: which ones are new, nobody can foresee.
         for winner in <[u32; LANES]>::from(lanes.min(places as u32)) {
-            slots[winner as usize] = 1;
+            marks[winner as usize] = 1;
         }
     }
     slots.truncate(places);
