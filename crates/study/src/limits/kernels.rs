@@ -38,7 +38,7 @@ fn all_bits<S: Simd>(simd: S, memory: &[u32]) -> u32 {
     let mut bits = [U32::splat(simd, 0); 4];
     for row in memory.as_chunks::<{ 4 * LANES }>().0 {
         for (bits, row) in bits.iter_mut().zip(row.as_chunks::<LANES>().0) {
-            *bits = *bits ^ U32::simd_from(simd, *row);
+            *bits ^= U32::simd_from(simd, *row);
         }
     }
     let [a, b, c, d] = bits;
