@@ -32,8 +32,7 @@ pub fn load_environment(
     limits: &Limits,
 ) -> Result<(Environment, Vec<Warning>), LoadError> {
     let path = path.as_ref();
-    let bytes =
-        Folder::none(limits).read_model(path).map_err(|refusal| crate::load::refused(path, &refusal))?;
+    let bytes = Folder::none(limits).read_model(path)?;
     let mut warnings = Warnings::about(path);
     let environment = decode(&bytes, limits, &mut warnings).map_err(|why| {
         LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as a Radiance picture (.hdr)")

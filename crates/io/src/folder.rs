@@ -12,6 +12,7 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use crate::error::LoadError;
 use crate::limits::Limits;
 use crate::refusal::{Refusal, relative_path};
 
@@ -80,8 +81,8 @@ impl Folder {
     }
 
     /// Reads the file that the user named: the one path that is not confined.
-    pub(crate) fn read_model(&mut self, path: &Path) -> Result<Vec<u8>, Refusal> {
-        let bytes = self.read_regular(path)?;
+    pub(crate) fn read_model(&mut self, path: &Path) -> Result<Vec<u8>, LoadError> {
+        let bytes = self.read_regular(path).map_err(|refusal| refusal.of_model(path))?;
         self.note(path.to_owned());
         Ok(bytes)
     }
@@ -214,6 +215,7 @@ fn list_folder(folder: &Path) -> HashMap<String, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::LoadErrorKind;
 
     fn folder_with(files: &[&str]) -> (tempfile::TempDir, Folder) {
         let dir = tempfile::tempdir().expect("a temporary folder");
@@ -310,10 +312,9 @@ mod tests {
             b"sub/a.png",
             "its target"
         );
-        assert!(
-            matches!(folder.read_model(Path::new("/dev/zero")), Err(Refusal::NotAFile)),
-            "the model itself is a device"
-        );
+        let device = folder.read_model(Path::new("/dev/zero")).expect_err("the model itself is a device");
+        assert_eq!(device.kind, LoadErrorKind::Forbidden, "{device}");
+        assert!(device.to_string().contains("it is not a regular file"), "{device}");
     }
 
     #[test]

@@ -56,6 +56,7 @@ mod refusal;
 mod textures;
 mod uri;
 mod warning;
+mod write;
 
 pub use capture::{Capture, Mismatch, PixelMismatch};
 pub use environment::load_environment;
@@ -68,8 +69,9 @@ pub use outputs::{
     Output, UnknownOutput, encode_exr, encode_npy, encode_png16, write_exr, write_npy, write_png16,
 };
 pub use picture::{Picture, load_image};
-pub use png::{Pixels, WriteError, encode_png, write_png};
+pub use png::{Pixels, encode_png, write_png};
 pub use warning::Warning;
+pub use write::WriteError;
 
 /// Runs the examples of the READMEs as tests: this crate's and the project's.
 #[cfg(doctest)]

@@ -44,7 +44,7 @@ pub fn load(path: impl AsRef<Path>, options: &LoadOptions<'_>) -> Result<Loaded,
         return Err(LoadError::new(LoadErrorKind::Read, path, "it is a folder", "name a file in it"));
     }
     let mut folder = Folder::of(path, &options.limits).map_err(|error| LoadError::read(path, &error))?;
-    let bytes = folder.read_model(path).map_err(|refusal| refused(path, &refusal))?;
+    let bytes = folder.read_model(path)?;
     options.report(path, Stage::Reading, 1.0)?;
     import(path, Cow::Owned(bytes), folder, options)
 }
@@ -63,7 +63,7 @@ pub fn load_from_slice(
     let name = name.as_ref();
     let (length, limit) = (bytes.len() as u64, options.limits.file_bytes);
     if length > limit {
-        return Err(refused(name, &Refusal::TooLarge(length, limit)));
+        return Err(Refusal::TooLarge(length, limit).of_model(name));
     }
     options.report(name, Stage::Reading, 1.0)?;
     import(name, Cow::Borrowed(bytes), Folder::none(&options.limits), options)
@@ -94,29 +94,4 @@ fn import(
     options.report(path, Stage::Textures, 1.0)?;
     let Import { folder, warnings, scene, scene_names, .. } = import;
     Ok(Loaded { scene, scene_names, warnings: warnings.into_list(), files: folder.into_files(), format })
-}
-
-/// The error for a file that the user named and that was not read.
-pub(crate) fn refused(path: &Path, refusal: &Refusal) -> LoadError {
-    match refusal {
-        Refusal::Read(error) => LoadError::read(path, error),
-        Refusal::TooLarge(..) => LoadError::new(
-            LoadErrorKind::Limit,
-            path,
-            refusal.to_string(),
-            "raise the limit if you trust the file",
-        ),
-        Refusal::Missing => LoadError::new(
-            LoadErrorKind::Read,
-            path,
-            "there is no such file",
-            "check the name and the folder",
-        ),
-        other => LoadError::new(
-            LoadErrorKind::Forbidden,
-            path,
-            other.to_string(),
-            "name a regular file; pipe streams through `-`",
-        ),
-    }
 }

@@ -35,8 +35,7 @@ pub struct Picture {
 /// larger than the limits.
 pub fn load_image(path: impl AsRef<Path>, limits: &Limits) -> Result<Picture, LoadError> {
     let path = path.as_ref();
-    let bytes =
-        Folder::none(limits).read_model(path).map_err(|refusal| crate::load::refused(path, &refusal))?;
+    let bytes = Folder::none(limits).read_model(path)?;
     decode_picture(&bytes, limits)
         .map_err(|why| LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as PNG, JPEG or WebP"))
 }

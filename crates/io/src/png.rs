@@ -1,12 +1,12 @@
-//! PNG out: to any writer, or to a file that is there whole or not at all.
+//! PNG out: to any writer, or to a file.
 
-use std::fs;
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
-use thiserror::Error;
+
+use crate::write::{WriteError, write_atomically};
 
 /// The pixels of a picture to write, rows from the top.
 #[derive(Clone, Copy, Debug)]
@@ -19,46 +19,6 @@ pub enum Pixels<'a> {
     Gray16(&'a [u16]),
     /// Three values a pixel, such as a direction.
     Rgb16(&'a [u16]),
-}
-
-/// Why a picture was not written.
-#[derive(Debug, Error)]
-pub enum WriteError {
-    /// The sizes do not fit each other, or are zero.
-    #[error("a picture of {width}×{height} pixels does not fit {length} values; pass width × height pixels")]
-    Size {
-        /// Pixels.
-        width: u32,
-        /// Pixels.
-        height: u32,
-        /// What was passed.
-        length: usize,
-    },
-    /// The frame does not hold what is to be written.
-    #[error("the frame holds no {what}; ask for it in RenderSettings::outputs")]
-    Absent {
-        /// The output.
-        what: &'static str,
-    },
-    /// The format cannot hold the values.
-    #[error("{output} cannot be written as a PNG of 16 bits: {what}; write it as .npy or .exr")]
-    Unfit {
-        /// The output.
-        output: &'static str,
-        /// What does not fit.
-        what: String,
-    },
-    /// The folder or the disk said no.
-    #[error("{}: cannot be written ({source}); check that the folder exists, is writable and has room", path.display())]
-    File {
-        /// The file that was to be.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
-    /// The writer said no.
-    #[error("the picture cannot be written ({0}); check that the other end still listens")]
-    Stream(#[from] io::Error),
 }
 
 /// Writes a PNG file. The bytes go to a temporary file in the same folder,
@@ -74,10 +34,8 @@ pub fn write_png(
     height: u32,
     pixels: Pixels<'_>,
 ) -> Result<(), WriteError> {
-    let path = path.as_ref();
     check_size(width, height, pixels)?;
-    write_atomically(path, |file| encode(file, width, height, pixels))
-        .map_err(|source| WriteError::File { path: path.to_owned(), source })
+    write_atomically(path.as_ref(), |file| encode(file, width, height, pixels))
 }
 
 /// Writes a PNG to a writer, such as standard output.
@@ -121,34 +79,10 @@ fn bytes(values: &[u16]) -> Vec<u8> {
     values.iter().flat_map(|value| value.to_ne_bytes()).collect()
 }
 
-/// Runs `write` on a new file that takes the name `path` when all went well.
-pub(crate) fn write_atomically(
-    path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
-    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".trigon-").suffix(".part");
-    // Temporary files are private by default; a picture has the rights of any new file.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let temporary = builder.tempfile_in(folder)?;
-    let mut writer = BufWriter::new(temporary.as_file());
-    write(&mut writer)?;
-    writer.flush()?;
-    drop(writer);
-    temporary.as_file().sync_all()?;
-    temporary.persist(path).map_err(|error| error.error)?;
-    sync_folder(folder)
-}
-
-/// Makes the new name itself durable, where the system can.
-fn sync_folder(folder: &Path) -> io::Result<()> {
-    if cfg!(unix) { fs::File::open(folder)?.sync_all() } else { Ok(()) }
-}
-
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]
@@ -159,17 +93,6 @@ mod tests {
         write_png(&path, 2, 1, Pixels::Rgb8(&[1, 2, 3, 4, 5, 6])).expect("written");
         let picture = crate::load_image(&path, &crate::Limits::default()).expect("a picture");
         assert_eq!(picture.rgba, [1, 2, 3, 255, 4, 5, 6, 255], "the pixels");
-        assert_eq!(fs::read_dir(dir.path()).expect("a folder").count(), 1, "no temporary file");
-    }
-
-    #[test]
-    fn a_failure_leaves_the_old_file() {
-        let dir = tempfile::tempdir().expect("a temporary folder");
-        let path = dir.path().join("a.png");
-        fs::write(&path, "old").expect("a file");
-        let failed = write_atomically(&path, |_| Err(io::Error::other("the disk is full")));
-        failed.expect_err("reported");
-        assert_eq!(fs::read(&path).expect("a file"), b"old", "untouched");
         assert_eq!(fs::read_dir(dir.path()).expect("a folder").count(), 1, "no temporary file");
     }
 

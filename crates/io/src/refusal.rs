@@ -5,6 +5,8 @@ use std::path::{Component, Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::error::{LoadError, LoadErrorKind};
+
 /// Why a name was not opened.
 #[derive(Debug, Error)]
 pub(crate) enum Refusal {
@@ -41,6 +43,18 @@ impl Refusal {
         matches!(self, Self::Scheme | Self::Absolute | Self::Outside | Self::NotAFile | Self::BadName)
     }
 
+    /// The error for a file that the user named.
+    pub(crate) fn of_model(&self, path: &Path) -> LoadError {
+        let (kind, remedy) = match self {
+            Self::Read(error) => return LoadError::read(path, error),
+            Self::TooLarge(..) => (LoadErrorKind::Limit, "raise the limit if you trust the file"),
+            Self::Missing => (LoadErrorKind::Read, "check the name and the folder"),
+            _ => (LoadErrorKind::Forbidden, "name a regular file; pipe streams through `-`"),
+        };
+        LoadError::new(kind, path, self.to_string(), remedy)
+    }
+
+    /// What to do about a file that a model names.
     pub(crate) fn remedy(&self) -> &'static str {
         match self {
             Self::Missing => "put the file there, or export the model again with it",

@@ -42,8 +42,7 @@ use trigon_scene::{Frame, RenderSettings, Scene};
 use crate::error::{LoadError, LoadErrorKind};
 use crate::folder::Folder;
 use crate::limits::Limits;
-use crate::load::refused;
-use crate::png::{WriteError, write_atomically};
+use crate::write::{WriteError, write_atomically};
 use hash::fnv1a;
 pub use mismatch::{Mismatch, PixelMismatch};
 use stored::Stored;
@@ -125,9 +124,7 @@ impl Capture {
     /// # Errors
     /// When the file cannot be written.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), WriteError> {
-        let path = path.as_ref();
-        write_atomically(path, |file| file.write_all(&self.to_bytes()))
-            .map_err(|source| WriteError::File { path: path.to_owned(), source })
+        write_atomically(path.as_ref(), |file| file.write_all(&self.to_bytes()))
     }
 
     /// Reads a file.
@@ -136,7 +133,7 @@ impl Capture {
     /// When it cannot be read, or as [`Self::from_bytes`].
     pub fn read(path: impl AsRef<Path>, limits: &Limits) -> Result<Self, LoadError> {
         let path = path.as_ref();
-        let bytes = Folder::none(limits).read_model(path).map_err(|refusal| refused(path, &refusal))?;
+        let bytes = Folder::none(limits).read_model(path)?;
         Self::from_bytes(path, &bytes, limits)
     }
 

@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use trigon_math::{DVec3, Vec2, Vec3, Vec4, color::srgb_to_linear};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder};
 
+use super::content::Content;
 use super::index::NONE;
 use super::parse::Parsed;
-use super::section::Content;
 use super::smoothing::group_normals;
 use crate::error::Place;
 use crate::rebase::offset_for;

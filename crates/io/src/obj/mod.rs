@@ -15,6 +15,7 @@
 
 mod build;
 mod chunks;
+mod content;
 mod convert;
 mod index;
 mod library;

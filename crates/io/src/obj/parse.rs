@@ -10,11 +10,12 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::chunks::{Chunk, census, cut, number};
+use super::content::Content;
 use super::index::{Counts, NONE};
 use super::lines::plain_bytes;
 use super::oddities::{Oddities, Tally};
 use super::record::Record;
-use super::section::{Content, Section, read_section};
+use super::section::{Section, read_section};
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::options::{LoadOptions, Stage};
 use crate::warning::Warnings;

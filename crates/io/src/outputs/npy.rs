@@ -8,7 +8,7 @@ use trigon_scene::Frame;
 
 use super::Output;
 use super::values::Values;
-use crate::png::{WriteError, write_atomically};
+use crate::write::{WriteError, write_atomically};
 
 /// The numbers begin at a multiple of this, so that they can be mapped into memory.
 const ALIGNMENT: usize = 64;
@@ -22,9 +22,8 @@ const ALIGNMENT: usize = 64;
 /// # Errors
 /// When the frame does not hold the output, or the file cannot be written.
 pub fn write_npy(path: impl AsRef<Path>, frame: &Frame, output: Output) -> Result<(), WriteError> {
-    let (path, values) = (path.as_ref(), Values::checked(frame, output)?);
-    write_atomically(path, |file| encode(file, frame, values))
-        .map_err(|source| WriteError::File { path: path.to_owned(), source })
+    let values = Values::checked(frame, output)?;
+    write_atomically(path.as_ref(), |file| encode(file, frame, values))
 }
 
 /// As [`write_npy`], to a writer.

@@ -12,7 +12,7 @@ use trigon_scene::Frame;
 
 use super::Output;
 use super::values::Values;
-use crate::png::{WriteError, write_atomically};
+use crate::write::{WriteError, write_atomically};
 
 type Channel = AnyChannel<FlatSamples>;
 
@@ -35,9 +35,8 @@ type Channel = AnyChannel<FlatSamples>;
 /// # Errors
 /// When the frame holds nothing, or the file cannot be written.
 pub fn write_exr(path: impl AsRef<Path>, frame: &Frame) -> Result<(), WriteError> {
-    let (path, bytes) = (path.as_ref(), encode(frame)?);
-    write_atomically(path, |file| file.write_all(&bytes))
-        .map_err(|source| WriteError::File { path: path.to_owned(), source })
+    let bytes = encode(frame)?;
+    write_atomically(path.as_ref(), |file| file.write_all(&bytes))
 }
 
 /// As [`write_exr`], to a writer.

@@ -8,7 +8,8 @@ use trigon_scene::Frame;
 
 use super::Output;
 use super::values::Values;
-use crate::png::{Pixels, WriteError, encode_png, write_png};
+use crate::png::{Pixels, encode_png, write_png};
+use crate::write::WriteError;
 
 /// Metres of a step of depth.
 const STEP: f32 = 1e-3;

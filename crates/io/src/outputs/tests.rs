@@ -5,7 +5,7 @@ use trigon_math::{Vec2, Vec3};
 use trigon_scene::{Frame, Outputs, RenderSettings, render, showcase};
 
 use super::*;
-use crate::png::WriteError;
+use crate::write::WriteError;
 
 /// A small picture of everything.
 fn frame() -> Frame {

@@ -4,7 +4,7 @@ use trigon_math::{Vec2, Vec3};
 use trigon_scene::Frame;
 
 use super::Output;
-use crate::png::WriteError;
+use crate::write::WriteError;
 
 /// The numbers of an output, pixel by pixel.
 #[derive(Clone, Copy, Debug)]
