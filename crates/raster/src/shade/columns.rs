@@ -23,19 +23,18 @@ impl<S: Simd> Few<S> {
     #[inline(always)]
     fn find(simd: S, vector: &Vector<'_>) -> Option<Self> {
         let lanes = U32::simd_from(simd, vector.names);
-        let name = |lanes: u64| vector.names[lanes.trailing_zeros() as usize % LANES];
-        let first = name(vector.active);
-        let mut others = !lanes.simd_eq(U32::splat(simd, first)).to_bitmask() & vector.active;
-        let slot = vector.slot_seen(first);
+        let first = vector.names[0];
+        let mut others = !lanes.simd_eq(U32::splat(simd, first)).to_bitmask() & 0xff;
+        let slot = vector.slot(first);
         let masks = [Mask::splat(simd, false); TRIANGLES - 1];
         let mut few = Self { count: 1, slots: [slot; TRIANGLES], masks };
         for (slot, mask) in few.slots[1..].iter_mut().zip(&mut few.masks) {
             if others == 0 {
                 return Some(few);
             }
-            let name = name(others);
+            let name = vector.names[others.trailing_zeros() as usize % LANES];
             *mask = lanes.simd_eq(U32::splat(simd, name));
-            *slot = vector.slot_seen(name);
+            *slot = vector.slot(name);
             few.count += 1;
             others &= !mask.to_bitmask();
         }

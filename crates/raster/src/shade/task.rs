@@ -3,7 +3,6 @@
 
 use super::{Records, Work};
 use crate::simd::{Each, LANES, Mask, Simd, U32, lane_numbers, lanes_of, prelude::*};
-use crate::tile::NOBODY;
 
 /// A fragment of a list, with the record of its triangle.
 #[derive(Clone, Copy, Debug)]
@@ -49,7 +48,8 @@ pub(crate) enum Destination<'t> {
 
 /// Eight pixels to be shaded together.
 pub(super) struct Vector<'t> {
-    /// What the lanes see, by names that stand for records.
+    /// What the lanes see, by names that stand for records. Lanes to spare repeat one
+    /// that is asked for.
     pub(super) names: [u32; LANES],
     named: Names<'t>,
     pub(super) spots: [u32; LANES],
@@ -63,27 +63,18 @@ pub(super) struct Vector<'t> {
 enum Names<'t> {
     /// By their numbers.
     Slots,
-    /// By the winners that see them, whose slots are listed; the number of the first
-    /// record; and the slot of what sees nothing.
-    Winners(&'t [u32], u32, u32),
+    /// By the winners that see them, whose slots are listed; and the number of the first
+    /// record.
+    Winners(&'t [u32], u32),
 }
 
 impl<'t> Vector<'t> {
     /// The number of the record that a name stands for.
     #[inline(always)]
-    fn slot(&self, name: u32) -> u32 {
+    pub(super) fn slot(&self, name: u32) -> u32 {
         match self.named {
             Names::Slots => name,
-            Names::Winners(slots, base, none) => slots.get(name as usize).copied().unwrap_or(none) - base,
-        }
-    }
-
-    /// The same for the name of a lane that is asked for.
-    #[inline(always)]
-    pub(super) fn slot_seen(&self, name: u32) -> u32 {
-        match self.named {
-            Names::Slots => name,
-            Names::Winners(slots, base, _) => slots[name as usize] - base,
+            Names::Winners(slots, base) => slots[name as usize] - base,
         }
     }
 
@@ -133,8 +124,8 @@ impl<'t> Task<'t> {
         let winners =
             winners[group.number as usize * step..].first_chunk().expect("a group has eight pixels");
         let active = u64::from(group.lanes);
-        let names =
-            Mask::from_bitmask(simd, active).select(U32::simd_from(simd, *winners), U32::splat(simd, NOBODY));
+        let spare = U32::splat(simd, winners[group.lanes.trailing_zeros() as usize % LANES]);
+        let names = Mask::from_bitmask(simd, active).select(U32::simd_from(simd, *winners), spare);
         let pixel = group.number as usize * LANES;
         let mut spots = (lane_numbers(simd) + pixel as i32).bitcast();
         if group.edges != 0 {
@@ -142,7 +133,7 @@ impl<'t> Task<'t> {
         }
         Vector {
             names: names.into(),
-            named: Names::Winners(self.slots, self.base, group.slot),
+            named: Names::Winners(self.slots, self.base),
             spots: spots.into(),
             active,
             destination: Destination::Group(pixel, group.edges != 0),
@@ -152,7 +143,6 @@ impl<'t> Task<'t> {
     #[inline(always)]
     fn listed(&self, first: usize) -> Vector<'t> {
         let fragments = &self.fragments[first..self.fragments.len().min(first + LANES)];
-        // Lanes to spare repeat the first.
         let lane = |lane: usize| fragments.get(lane).unwrap_or(&fragments[0]);
         Vector {
             names: lanes_of(

@@ -55,23 +55,16 @@ fn cover_opaque<S: Simd, const MULTI: bool>(
     let mut start = 0;
     while start < opaque {
         let together = side_by_side(frame, &places[start..]);
-        // In place: it is long.
-        let made;
-        let eight = if together > 0 {
-            made = eight(simd, frame, area, &places[start..start + together]);
-            Some(&made)
-        } else {
-            None
-        };
+        let eight = (together > 0).then(|| eight(simd, frame, area, &places[start..start + together]));
         let end = start + together.max(1);
-        if !MULTI && let Some(eight) = eight.filter(|eight| eight.micro) {
+        if !MULTI && let Some(eight) = eight.as_ref().filter(|eight| eight.micro) {
             cover.micro(simd, eight, start as u32, buffer, counts);
         } else {
-            if let Some(eight) = eight {
+            if let Some(eight) = &eight {
                 starts.find::<S, MULTI>(simd, &cover, eight);
             }
             for (lane, &place) in places[start..end].iter().enumerate() {
-                let ready = eight.map(|eight| (eight, &starts, lane));
+                let ready = eight.as_ref().map(|eight| (eight, &starts, lane));
                 cover_one::<S, MULTI>(simd, frame, &cover, ready, (place, start + lane), (buffer, counts));
             }
         }
