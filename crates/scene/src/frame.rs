@@ -25,7 +25,8 @@ pub struct Frame {
     /// an even number of samples per axis at the one right and below of it.
     pub depth: Option<Vec<f32>>,
     /// Index of the node, `u32::MAX` where nothing was drawn. Taken at the same
-    /// sample as the depth, never mixed. What is translucent leaves no id.
+    /// sample as the depth, never mixed. What is translucent leaves no id, unless
+    /// [`Outputs::of_blended`](crate::Outputs::of_blended) asks for it.
     pub object_ids: Option<Vec<u32>>,
     /// Index of the polygon in its mesh, `u32::MAX` where nothing was drawn.
     pub face_ids: Option<Vec<u32>>,

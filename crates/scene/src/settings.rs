@@ -146,6 +146,11 @@ impl Outputs {
     pub(crate) fn beside_color(&self) -> bool {
         self.depth || self.ids || self.of_triangles()
     }
+
+    /// Whether a pass of its own has to find what is seen, beside the colours'.
+    pub(crate) fn need_own_pass(&self, has_blended: bool) -> bool {
+        self.beside_color() && (!self.color || (self.of_blended && has_blended))
+    }
 }
 
 /// How a picture is drawn.

@@ -11,7 +11,6 @@ use super::seen::Seen;
 use super::source::{Point, Source, Triangle};
 use crate::frame::Frame;
 use crate::render::Stage;
-use crate::settings::Outputs;
 
 /// Rows that are taken at a time: enough to be worth a worker's while.
 const ROWS: usize = 8;
@@ -187,12 +186,5 @@ fn chunks<T>(list: &mut Option<Vec<T>>, size: usize) -> std::slice::ChunksMut<'_
 fn put<T>(list: &mut [T], at: usize, value: impl FnOnce() -> T) {
     if let Some(place) = list.get_mut(at) {
         *place = value();
-    }
-}
-
-impl Outputs {
-    /// Whether a pass of its own has to find what is seen, beside the colours'.
-    pub(crate) fn need_own_pass(&self, has_blended: bool) -> bool {
-        self.beside_color() && (!self.color || (self.of_blended && has_blended))
     }
 }
