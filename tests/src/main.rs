@@ -13,6 +13,7 @@ mod depth_plane;
 mod effort;
 mod explain;
 mod goldens;
+mod hard_cases;
 mod interpolation;
 mod manifest;
 mod masks;

@@ -1,7 +1,7 @@
-//! What the trigon renderer costs, measured: workloads that other renderers
-//! draw too, and the harness that times them.
+//! What the trigon renderer costs and how right it is, measured: workloads that
+//! other renderers draw too, the harness that times them, and exact [`oracle`]s.
 //!
-//! Everything is closed form: no file is read and no random number is drawn,
+//! The workloads are closed form: no file is read and no random number is drawn,
 //! so the same triangles can be made anywhere from the same formulas. The
 //! library never prints, and the renderer never needs it.
 //!
@@ -25,6 +25,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "tests may"))]
 
 pub mod limits;
+pub mod oracle;
 pub mod workloads;
 
 /// Runs the README's example as a test.

@@ -1,0 +1,42 @@
+//! Independent answers to what the renderer computes, slow and exact.
+//!
+//! Nothing here shares a line with the engine: coverage by displacement instead
+//! of edge functions with a bias ([`coverage`]), depth and areas in rational
+//! numbers ([`depth`], [`area`]), what an eye sees by rays instead of projection,
+//! cutting and snapping ([`ray`]). Where a result is not exact, its
+//! documentation states the bound.
+//!
+//! A triangle that has been snapped is given by its corners on the sub-pixel
+//! grid, and from there on there is exactly one right answer:
+//!
+//! ```
+//! use trigon_study::oracle::{GridPoint, area, coverage, depth};
+//!
+//! // Two triangles that make the square of the first two pixels' width.
+//! let corners: [GridPoint; 4] = [[0, 0], [512, 0], [512, 512], [0, 512]];
+//! let [lower, upper] = [[0, 2, 3], [0, 1, 2]].map(|half| half.map(|i: usize| corners[i]));
+//! // The centre of the first pixel lies on the diagonal: one of them has it.
+//! let both = [lower, upper].map(|half| coverage::covers(half, coverage::centre([0, 0])));
+//! assert_eq!(both, [false, true]);
+//!
+//! let half = area::rational(0.5);
+//! assert_eq!(area::in_pixel(upper, [0, 0]), half);
+//!
+//! let plane = depth::Plane { corners: upper, depths: [0.0, 0.0, 1.0] };
+//! assert_eq!(plane.at([512, 256]), Some(half));
+//! ```
+
+pub mod area;
+pub mod coverage;
+pub mod depth;
+mod double_double;
+pub mod ray;
+
+pub use double_double::DoubleDouble;
+
+/// A point of the sub-pixel grid: x to the right and y down from the picture's
+/// top left corner, in 1/256 pixel.
+pub type GridPoint = [i32; 2];
+
+/// How many steps of the grid make a pixel.
+pub const STEPS: i32 = 256;

@@ -1,0 +1,2 @@
+//! The cases of `docs/hard-cases.md` that no other module holds yet, one file for
+//! each family.
