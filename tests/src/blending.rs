@@ -1,10 +1,8 @@
 //! Translucent layers: against a plain f64 reference, in any order of draws, and
 //! the same bytes however many layers are held at a time.
 
-use crate::coverage::covers_point;
-use crate::coverage_support::{Raw, SIDE, Samples, clip_position, draw, levels, pixel, rasterizer};
+use crate::coverage_support::{SIDE, Samples, clip_position, draw, levels, pixel, rasterizer};
 use crate::effort::cases;
-use crate::multisampling::sample_points;
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_math::Vec4;
@@ -12,11 +10,13 @@ use trigon_raster::{
     Background, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Surface, TileSize,
     VertexOutput,
 };
+use trigon_study::oracle::GridPoint;
+use trigon_study::oracle::coverage::{covers, sample_points};
 
 /// A triangle of one depth and one premultiplied colour.
 #[derive(Clone, Debug)]
 struct Layer {
-    corners: [Raw; 3],
+    corners: [GridPoint; 3],
     depth: f32,
     color: Vec4,
     object: u32,
@@ -68,8 +68,8 @@ fn record(layers: &[Layer], order: impl Iterator<Item = usize>) -> Pass<'_> {
 
 /// The layers over each other at a point, in f64: from back to front, the smaller
 /// object in front of equally deep ones. Also how many they are.
-fn reference(layers: &[Layer], point: Raw) -> ([f64; 4], u32) {
-    let mut here: Vec<_> = layers.iter().filter(|layer| covers_point(layer.corners, point)).collect();
+fn reference(layers: &[Layer], point: GridPoint) -> ([f64; 4], u32) {
+    let mut here: Vec<_> = layers.iter().filter(|layer| covers(layer.corners, point)).collect();
     here.sort_by(|a, b| a.depth.total_cmp(&b.depth).then(b.object.cmp(&a.object)));
     let mut color = BEHIND.to_array().map(f64::from);
     for layer in &here {

@@ -1,13 +1,12 @@
 //! Homogeneous clipping: what `trigon_math::clip` promises, on random, hostile
 //! and exhaustive input, against exact rationals.
 //!
-//! Hard cases 15 to 20. `exact` is the oracle, `input` makes the triangles,
-//! `check` states properties once; the other modules apply them.
+//! Hard cases 15 to 20. `input` makes the triangles, `check` states properties
+//! once; the other modules apply them.
 
 mod area;
 mod check;
 mod edges;
-mod exact;
 mod input;
 mod near_zero;
 mod outcodes;

@@ -1,40 +1,18 @@
 //! Which pixels a triangle covers, against an oracle in exact integers; and that
 //! meshes leave no gaps and cover nothing twice. Hard cases 1 to 9, 14, 15, 18.
 
-use crate::coverage_support::{Raw, SIDE, Values, clip_position, count, draw, pixel};
+use crate::coverage_support::{SIDE, Values, clip_position, count, draw, pixel};
 use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::glam::camera::rh::proj::directx::perspective_infinite_reverse;
 use trigon_math::{Mat4, Vec4, elementary};
 use trigon_raster::{Culling, Draw, Output, Pass, Rasterizer, Surface, Target};
-
-/// Whether a triangle covers the centre of a pixel.
-pub(crate) fn covers(triangle: [Raw; 3], pixel: [i32; 2]) -> bool {
-    covers_point(triangle, pixel.map(|v| 256 * v + 128))
-}
-
-/// The oracle: whether a triangle covers a sample.
-///
-/// The top-left rule says that a sample on an edge counts as if it lay a little
-/// to the right, and on a horizontal one as if a little below. So the sample is
-/// moved to the right by 1/K and down by 1/K² for a K so large that no edge is
-/// crossed on the way, everything times K², and no case is left open.
-pub(crate) fn covers_point(triangle: [Raw; 3], [x, y]: Raw) -> bool {
-    const K: i128 = 1 << 27;
-    let (px, py) = (i128::from(x) * K * K + K, i128::from(y) * K * K + 1);
-    let [a, b, c] = triangle.map(|[x, y]| [i128::from(x) * K * K, i128::from(y) * K * K]);
-    let turn = |[ax, ay]: [i128; 2], [bx, by]: [i128; 2]| {
-        // Differences of vertices are multiples of K².
-        let (dx, dy) = ((bx - ax) / (K * K), (by - ay) / (K * K));
-        (dx * (py - ay) - dy * (px - ax)).signum()
-    };
-    let turns = [turn(a, b), turn(b, c), turn(c, a)];
-    turns == [1; 3] || turns == [-1; 3]
-}
+use trigon_study::oracle::GridPoint;
+use trigon_study::oracle::coverage::{centre, covers};
 
 /// Points that meet pixel centres and each other often, anywhere in and around
 /// the picture, or far out in the guard band.
-fn point() -> impl Strategy<Value = Raw> {
+fn point() -> impl Strategy<Value = GridPoint> {
     let near = -20 * 256..(SIDE + 20) * 256;
     let half = (-8..2 * SIDE + 8).prop_map(|v| v * 128);
     let far = (-32700 * 256)..(32700 * 256);
@@ -47,7 +25,7 @@ fn point() -> impl Strategy<Value = Raw> {
 
 /// Any three points, or two and a third within a few units of the line through
 /// them.
-pub(crate) fn triangle() -> impl Strategy<Value = [Raw; 3]> {
+pub(crate) fn triangle() -> impl Strategy<Value = [GridPoint; 3]> {
     let sliver = (point(), point(), 0..=1000_i64, [-3..=3_i32, -3..=3]).prop_map(|(a, b, t, jitter)| {
         let along = |i: usize| {
             let (from, to) = (i64::from(a[i]), i64::from(b[i]));
@@ -58,14 +36,14 @@ pub(crate) fn triangle() -> impl Strategy<Value = [Raw; 3]> {
     prop_oneof![2 => [point(), point(), point()], 1 => sliver]
 }
 
-fn check_against_oracle(points: [Raw; 3]) {
+fn check_against_oracle(points: [GridPoint; 3]) {
     let pipeline = Values::on_grid(&points);
     let counts = count(&pipeline, &[[0, 1, 2]]);
     let mut pass = Pass::new();
     pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &[[0, 1, 2]]) });
     let seen = draw(&pass).triangles.expect("asked for");
     for (index, (&count, &id)) in counts.iter().zip(&seen).enumerate() {
-        let expected = covers(points, pixel(index));
+        let expected = covers(points, centre(pixel(index)));
         assert_eq!(count, u32::from(expected), "translucent {points:?} at {:?}", pixel(index));
         assert_eq!(id == 0, expected, "opaque {points:?} at {:?}", pixel(index));
     }
@@ -81,7 +59,7 @@ proptest! {
 
     #[test]
     fn two_triangles_share_the_pixels_on_their_edge(a in point(), b in point(), c in point(), d in point()) {
-        let side = |p: Raw| {
+        let side = |p: GridPoint| {
             let [ab, ap] = [b, p].map(|q| [i128::from(q[0] - a[0]), i128::from(q[1] - a[1])]);
             (ab[0] * ap[1] - ab[1] * ap[0]).signum()
         };
@@ -89,7 +67,7 @@ proptest! {
         let triangles = [[0, 1, 2], [0, 1, 3]];
         let counts = count(&Values::on_grid(&[a, b, c, d]), &triangles);
         for (index, &count) in counts.iter().enumerate() {
-            let expected = u32::from(covers([a, b, c], pixel(index))) + u32::from(covers([a, b, d], pixel(index)));
+            let expected = u32::from(covers([a, b, c], centre(pixel(index)))) + u32::from(covers([a, b, d], centre(pixel(index))));
             prop_assert_eq!(count, expected);
             prop_assert!(count <= 1, "covered twice at {:?}", pixel(index));
         }

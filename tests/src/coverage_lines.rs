@@ -1,20 +1,21 @@
 //! Lines and points: the same from either end, one pixel in each step, each
 //! joint once. Hard case 38.
 
-use crate::coverage_support::{Raw, SIDE, Values, clip_position, draw, pixel};
+use crate::coverage_support::{SIDE, Values, clip_position, draw, pixel};
 use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_raster::{Lines, Pass, PointShape, Points, Surface};
+use trigon_study::oracle::GridPoint;
 
 /// How often each pixel is covered by segments of a width in pixels.
-fn count(points: &[Raw], segments: &[[u32; 2]], width: f32) -> Vec<u32> {
+fn count(points: &[GridPoint], segments: &[[u32; 2]], width: f32) -> Vec<u32> {
     let pipeline = Values::on_grid(points);
     let mut pass = Pass::new();
     pass.lines(Lines { width, surface: Surface::Translucent, ..Lines::new(&pipeline, segments) });
     draw(&pass).linear.expect("asked for").iter().map(|color| color.x as u32).collect()
 }
 
-fn inside() -> impl Strategy<Value = Raw> {
+fn inside() -> impl Strategy<Value = GridPoint> {
     let coordinate = 4 * 256..(SIDE - 4) * 256;
     [coordinate.clone(), coordinate]
 }
@@ -90,7 +91,7 @@ proptest! {
     }
 }
 
-fn far() -> impl Strategy<Value = Raw> {
+fn far() -> impl Strategy<Value = GridPoint> {
     let coordinate = -30_000 * 256..30_000 * 256;
     [coordinate.clone(), coordinate]
 }

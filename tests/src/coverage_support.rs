@@ -8,17 +8,15 @@ use trigon_raster::{
     Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, Rasterizer, Surface, Target,
     VertexOutput,
 };
+use trigon_study::oracle::GridPoint;
 
 /// Width and height of the pictures: a power of two, so that points of the
 /// sub-pixel grid are exact in clip space.
 pub(crate) const SIDE: i32 = 64;
 
-/// A point in 1/256 pixel from the top left, y down.
-pub(crate) type Raw = [i32; 2];
-
 /// The clip-space position of a point on the grid, at `depth`, for w = 1.
 /// Exact for all points in the guard band.
-pub(crate) fn clip_position([x, y]: Raw, depth: f32) -> Vec4 {
+pub(crate) fn clip_position([x, y]: GridPoint, depth: f32) -> Vec4 {
     let unit = (SIDE * 128) as f32;
     Vec4::new(x as f32 / unit - 1.0, 1.0 - y as f32 / unit, depth, 1.0)
 }
@@ -35,7 +33,7 @@ impl Values {
     }
 
     /// Ones at points of the grid, at depth 1/2.
-    pub(crate) fn on_grid(points: &[Raw]) -> Self {
+    pub(crate) fn on_grid(points: &[GridPoint]) -> Self {
         Self::ones(points.iter().map(|&point| clip_position(point, 0.5)))
     }
 }

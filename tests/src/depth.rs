@@ -2,10 +2,12 @@
 //! exact arithmetic. Hard cases 24 to 26.
 
 use crate::coverage::Random;
-use crate::coverage_support::{Raw, SIDE, Samples, Values, clip_position, draw, pixel, rasterizer};
+use crate::coverage_support::{SIDE, Samples, Values, clip_position, draw, pixel, rasterizer};
 use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_raster::{Culling, DepthTest, Draw, ExecuteSettings, Output, Pass, Pictures, Stats, Surface};
+use trigon_study::oracle::GridPoint;
+use trigon_study::oracle::coverage::{centre, covers};
 
 const QUAD: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
@@ -209,18 +211,18 @@ fn the_far_plane_belongs_to_the_view() {
     }
 }
 
-fn any_point() -> impl Strategy<Value = Raw> {
+fn any_point() -> impl Strategy<Value = GridPoint> {
     [-30 * 256..(SIDE + 30) * 256, -30 * 256..(SIDE + 30) * 256]
 }
 
 /// The depth of a triangle at a pixel's centre, if it covers that.
-fn exact_depth(corners: [(Raw, f64); 3], pixel: [i32; 2]) -> Option<f64> {
-    let centre = pixel.map(|v| i64::from(256 * v + 128));
+fn exact_depth(corners: [(GridPoint, f64); 3], pixel: [i32; 2]) -> Option<f64> {
+    let sample = centre(pixel).map(i64::from);
     let relative =
-        corners.map(|(point, _)| [i64::from(point[0]) - centre[0], i64::from(point[1]) - centre[1]]);
+        corners.map(|(point, _)| [i64::from(point[0]) - sample[0], i64::from(point[1]) - sample[1]]);
     let cross = |i: usize, j: usize| relative[i][0] * relative[j][1] - relative[i][1] * relative[j][0];
     let edges = [cross(1, 2), cross(2, 0), cross(0, 1)];
     let area: i64 = edges.iter().sum();
-    let covered = crate::coverage::covers(corners.map(|(point, _)| point), pixel);
+    let covered = covers(corners.map(|(point, _)| point), centre(pixel));
     covered.then(|| (0..3).map(|i| edges[i] as f64 / area as f64 * corners[i].1).sum())
 }

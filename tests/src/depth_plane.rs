@@ -2,78 +2,30 @@
 //! snapped vertices.
 
 use crate::coverage::triangle;
-use crate::coverage_support::{Raw, SIDE, Samples, Values, clip_position, pixel, rasterizer};
+use crate::coverage_support::{SIDE, Samples, Values, clip_position, pixel, rasterizer};
 use crate::effort::cases;
-use crate::multisampling::sample_points;
-use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{FromPrimitive, Signed};
+use num_traits::Signed;
 use proptest::prelude::*;
 use trigon_raster::{Culling, Draw, ExecuteSettings, Output, Pass, Surface};
+use trigon_study::oracle::GridPoint;
+use trigon_study::oracle::area::rational;
+use trigon_study::oracle::coverage::sample_points;
+use trigon_study::oracle::depth::Plane;
 
-/// A triangle on the grid with the depths of its corners.
-#[derive(Clone, Debug)]
-struct Plane {
-    corners: [Raw; 3],
-    depths: [f32; 3],
-}
-
-impl Plane {
-    /// Twice the area, and the edge functions opposite the corners at a point: the
-    /// corners' shares of it.
-    fn shares(&self, point: Raw) -> (i128, [i128; 3]) {
-        let [a, b, c] = self.corners.map(|corner| [0, 1].map(|i| i128::from(corner[i] - point[i])));
-        let cross = |u: [i128; 2], v: [i128; 2]| u[0] * v[1] - u[1] * v[0];
-        let shares = [cross(b, c), cross(c, a), cross(a, b)];
-        (shares.iter().sum(), shares)
-    }
-
-    /// The exact depth at a point.
-    fn depth_at(&self, point: Raw) -> BigRational {
-        let (area, shares) = self.shares(point);
-        let terms = shares.into_iter().zip(self.depths);
-        let sum: BigRational = terms.map(|(share, depth)| integer(share) * rational(f64::from(depth))).sum();
-        sum / integer(area)
-    }
-
-    fn range(&self) -> [f32; 2] {
-        let of = |pick: fn(f32, f32) -> f32| self.depths.into_iter().reduce(pick).expect("three");
-        [of(f32::min), of(f32::max)]
-    }
-
-    /// How much of a needle it is: the area of its bounding box over its own.
-    fn stretch(&self) -> f64 {
-        let extent = |axis: usize| {
-            let [a, b, c] = self.corners.map(|corner| corner[axis]);
-            f64::from(a.max(b).max(c) - a.min(b).min(c))
-        };
-        let (area, _) = self.shares([0, 0]);
-        extent(0) * extent(1) / (area.abs() as f64 / 2.0)
-    }
-
-    /// What the depth is off by at most before it is rounded to f32: the bound that
-    /// `tile/depth.rs` states, `2^-50 Δz XY/A`, for the slopes; an eighth more and
-    /// two roundings of depths in f64 for the two sums.
-    fn bound(&self) -> f64 {
-        let [low, high] = self.range().map(f64::from);
-        9.0 / 8.0 * exp2(-50) * (high - low) * self.stretch() + 2.0 * exp2(-53) * high
-    }
+/// What the depth is off by at most before it is rounded to f32: the bound that
+/// `tile/depth.rs` states, `2^-50 Δz XY/A`, for the slopes; an eighth more and
+/// two roundings of depths in f64 for the two sums.
+fn bound(plane: &Plane) -> f64 {
+    let [low, high] = plane.range().map(f64::from);
+    9.0 / 8.0 * exp2(-50) * (high - low) * plane.stretch() + 2.0 * exp2(-53) * high
 }
 
 fn exp2(exponent: i32) -> f64 {
     trigon_math::elementary::exp2(f64::from(exponent))
 }
 
-fn rational(value: f64) -> BigRational {
-    BigRational::from_f64(value).expect("test input is finite")
-}
-
-fn integer(value: i128) -> BigRational {
-    BigRational::from_integer(BigInt::from(value))
-}
-
 /// Also triangles of a few pixels.
-fn corners() -> impl Strategy<Value = [Raw; 3]> {
+fn corners() -> impl Strategy<Value = [GridPoint; 3]> {
     let place = 0..SIDE * 256;
     let step = || [-1000..1000_i32, -1000..1000_i32];
     let small = ([place.clone(), place], step(), step())
@@ -103,7 +55,7 @@ fn ordinary_plane() -> impl Strategy<Value = Plane> {
 }
 
 /// What is seen: the triangle's number, its depth, and where.
-fn seen(planes: &[Plane], surface: Surface, samples: u32) -> Vec<(usize, f32, Raw)> {
+fn seen(planes: &[Plane], surface: Surface, samples: u32) -> Vec<(usize, f32, GridPoint)> {
     let vertices = planes
         .iter()
         .flat_map(|plane| [0, 1, 2].map(|i| (clip_position(plane.corners[i], plane.depths[i]), 1.0)));
@@ -138,11 +90,11 @@ proptest! {
             let [low, high] = plane.range();
             prop_assert!(low <= depth && depth <= high, "{depth} of {plane:?} at {point:?}");
             if number % STEP == 0 {
-                let exact = plane.depth_at(point);
-                let bound = rational(plane.bound());
+                let exact = plane.at(point).expect("what is seen has an area");
+                let bound = rational(bound(plane));
                 // Half a unit of the last place of f32; less among the denormal ones.
                 let rounded = rational(exp2(-24)) * (&exact + &bound) + rational(exp2(-150));
-                let error = (rational(f64::from(depth)) - exact).abs();
+                let error = (rational(depth) - exact).abs();
                 prop_assert!(error <= bound + rounded, "{depth} of {plane:?} at {point:?}");
             }
         }
@@ -156,7 +108,7 @@ proptest! {
     ) {
         let planes = [plane];
         for (_, depth, point) in seen(&planes, Surface::Opaque, samples).into_iter().step_by(STEP) {
-            let error = (rational(f64::from(depth)) - planes[0].depth_at(point)).abs();
+            let error = (rational(depth) - planes[0].at(point).expect("what is seen has an area")).abs();
             let ulp = f64::from(depth) - f64::from(depth.next_down());
             prop_assert!(error <= rational(ulp), "{depth} of {:?} at {point:?}", planes[0]);
         }

@@ -1,6 +1,6 @@
 //! Varyings against perspective interpolation in f64. Hard cases 21 to 23.
 
-use crate::coverage_support::{Raw, SIDE, draw, pixel};
+use crate::coverage_support::{SIDE, draw, pixel};
 use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::{Vec4, elementary};
@@ -8,12 +8,13 @@ use trigon_raster::simd::{Each, F32, Simd};
 use trigon_raster::{
     Culling, Draw, Fragment, FragmentLanes, LanePipeline, Pass, Pipeline, VertexLanes, VertexOutput,
 };
+use trigon_study::oracle::GridPoint;
 
 /// A triangle with a value at each corner; a fragment shows the value and its
 /// derivatives.
 #[derive(Clone, Debug)]
 struct Probe {
-    points: [Raw; 3],
+    points: [GridPoint; 3],
     w: [f32; 3],
     values: [f32; 3],
 }
@@ -124,7 +125,7 @@ impl Probe {
     }
 }
 
-fn point() -> impl Strategy<Value = Raw> {
+fn point() -> impl Strategy<Value = GridPoint> {
     [-10 * 256..(SIDE + 10) * 256, -10 * 256..(SIDE + 10) * 256]
 }
 

@@ -21,7 +21,6 @@ mod multisampling;
 mod paint2d;
 mod pipelines;
 mod programs;
-mod ray_oracle;
 mod rays;
 mod same_bytes;
 mod scene;

@@ -1,26 +1,27 @@
 //! Alpha masks: asked once for each pixel, or at every sample.
 
-use crate::coverage::{covers_point, triangle};
-use crate::coverage_support::{Raw, SIDE, Samples, clip_position, levels, pixel, rasterizer};
+use crate::coverage::triangle;
+use crate::coverage_support::{SIDE, Samples, clip_position, levels, pixel, rasterizer};
 use crate::effort::cases;
-use crate::multisampling::sample_points;
 use proptest::prelude::*;
 use trigon_math::Vec4;
 use trigon_raster::{
     Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, Surface, VertexOutput,
 };
+use trigon_study::oracle::GridPoint;
+use trigon_study::oracle::coverage::{centre, covers, sample_points};
 
 /// White on one side of a line across the screen: that on which a linear varying
 /// is positive.
 #[derive(Clone, Debug)]
 struct HalfPlane {
-    corners: [Raw; 3],
+    corners: [GridPoint; 3],
     /// The value is `[0] x + [1] y + [2]`, x and y in pixels.
     line: [f64; 3],
 }
 
 impl HalfPlane {
-    fn value(&self, [x, y]: Raw) -> f64 {
+    fn value(&self, [x, y]: GridPoint) -> f64 {
         let [a, b, c] = self.line;
         a * f64::from(x) / 256.0 + b * f64::from(y) / 256.0 + c
     }
@@ -64,7 +65,7 @@ fn draw(shape: &HalfPlane, surface: Surface, samples: u32, settings: &ExecuteSet
 
 /// A varying is a weighted mean of values below 2^8 pixels in size (corners may lie
 /// far outside): each of some ten roundings is off by 2^-24 of the largest.
-fn is_close_to_the_line(shape: &HalfPlane, point: Raw) -> bool {
+fn is_close_to_the_line(shape: &HalfPlane, point: GridPoint) -> bool {
     let largest = shape.corners.iter().map(|&corner| shape.value(corner).abs()).fold(0.0, f64::max);
     shape.value(point).abs() <= largest * 16.0 / f64::from(1 << 24)
 }
@@ -79,7 +80,7 @@ proptest! {
     ) {
         let linear = draw(&shape, Surface::MaskedPerSample, samples, &ExecuteSettings::default()).linear;
         for (index, color) in linear.expect("asked for").iter().enumerate() {
-            let points = || sample_points(samples, pixel(index)).filter(|&point| covers_point(shape.corners, point));
+            let points = || sample_points(samples, pixel(index)).filter(|&point| covers(shape.corners, point));
             if points().any(|point| is_close_to_the_line(&shape, point)) {
                 continue;
             }
@@ -95,10 +96,10 @@ proptest! {
         let linear = draw(&shape, Surface::Masked, samples, &ExecuteSettings::default()).linear;
         for (index, color) in linear.expect("asked for").iter().enumerate() {
             let covered: Vec<_> =
-                sample_points(samples, pixel(index)).filter(|&point| covers_point(shape.corners, point)).collect();
+                sample_points(samples, pixel(index)).filter(|&point| covers(shape.corners, point)).collect();
             let Some(&first) = covered.first() else { continue };
-            let centre = pixel(index).map(|v| 256 * v + 128);
-            let place = if covers_point(shape.corners, centre) { centre } else { first };
+            let centre = centre(pixel(index));
+            let place = if covers(shape.corners, centre) { centre } else { first };
             if is_close_to_the_line(&shape, place) {
                 continue;
             }

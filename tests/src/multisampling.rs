@@ -1,50 +1,15 @@
 //! Several samples in a pixel, each at its standard place, shaded together: which
 //! samples a triangle covers, against exact integers, and what colour they get.
 
-use crate::coverage::{Random, covers_point, fan_triangles, grid_triangles, triangle};
-use crate::coverage_support::{Raw, SIDE, Samples, Values, clip_position, pixel, rasterizer};
+use crate::coverage::{Random, fan_triangles, grid_triangles, triangle};
+use crate::coverage_support::{SIDE, Samples, Values, clip_position, pixel, rasterizer};
 use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::{UVec2, Vec4};
 use trigon_raster::{
     Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, Surface, VertexOutput,
 };
-
-/// The standard positions in sixteenths of a pixel from its top left corner:
-/// Direct3D 11.3 functional specification, section 19.2.4, and the Vulkan
-/// specification, table "Standard sample locations".
-pub(crate) fn standard_positions(samples: u32) -> &'static [Raw] {
-    match samples {
-        1 => &[[8, 8]],
-        2 => &[[12, 12], [4, 4]],
-        4 => &[[6, 2], [14, 6], [2, 10], [10, 14]],
-        8 => &[[9, 5], [7, 11], [13, 9], [5, 3], [3, 13], [1, 7], [11, 15], [15, 1]],
-        16 => &[
-            [9, 9],
-            [7, 5],
-            [5, 10],
-            [12, 7],
-            [3, 6],
-            [10, 13],
-            [13, 11],
-            [11, 3],
-            [6, 14],
-            [8, 1],
-            [4, 2],
-            [2, 12],
-            [0, 8],
-            [15, 4],
-            [14, 15],
-            [1, 0],
-        ],
-        _ => panic!("no standard pattern has {samples} samples"),
-    }
-}
-
-/// Where the samples of a pixel lie on the grid.
-pub(crate) fn sample_points(samples: u32, [x, y]: [i32; 2]) -> impl Iterator<Item = Raw> {
-    standard_positions(samples).iter().map(move |offset| [256 * x + 16 * offset[0], 256 * y + 16 * offset[1]])
-}
+use trigon_study::oracle::coverage::{centre, covers, mask, sample_points, standard_positions};
 
 fn pattern() -> impl Strategy<Value = u32> {
     prop_oneof![Just(2_u32), Just(4), Just(8), Just(16)]
@@ -110,10 +75,8 @@ proptest! {
         for y in LIT {
             for x in LIT {
                 let seen = linear[(y * SIDE + x) as usize].x as u32;
-                let expected: u32 = sample_points(samples, [x, y])
-                    .enumerate()
-                    .map(|(sample, point)| u32::from(!covers_point(points, point)) << sample)
-                    .sum();
+                let all = (1 << samples) - 1;
+                let expected = all & !mask(points, samples, [x, y]);
                 prop_assert_eq!(seen, expected, "samples {:#b} instead of {:#b} at {:?}", seen, expected, [x, y]);
             }
         }
@@ -127,7 +90,7 @@ proptest! {
         let opaque = draw(&pass, samples).linear.expect("asked for");
         let translucent = light(&pipeline, &[[0, 1, 2]], samples);
         for index in 0..opaque.len() {
-            let covered = sample_points(samples, pixel(index)).filter(|&point| covers_point(points, point));
+            let covered = sample_points(samples, pixel(index)).filter(|&point| covers(points, point));
             let expected = covered.count() as f32 / samples as f32;
             prop_assert_eq!(opaque[index].x, expected, "opaque at {:?}", pixel(index));
             prop_assert_eq!(translucent[index], expected, "translucent at {:?}", pixel(index));
@@ -149,7 +112,7 @@ proptest! {
         for index in 0..single.len() {
             let inside = sample_points(samples, pixel(index))
                 .chain(sample_points(1, pixel(index)))
-                .all(|point| covers_point(points, point));
+                .all(|point| covers(points, point));
             prop_assert!(!inside || several[index] == single[index], "at {:?}", pixel(index));
         }
     }
@@ -164,10 +127,10 @@ proptest! {
         let linear = draw(&pass, samples).linear.expect("asked for");
         for (index, color) in linear.iter().enumerate() {
             let covered: Vec<_> =
-                sample_points(samples, pixel(index)).filter(|&point| covers_point(points, point)).collect();
+                sample_points(samples, pixel(index)).filter(|&point| covers(points, point)).collect();
             let Some(&lowest) = covered.first() else { continue };
-            let centre = pixel(index).map(|v| 256 * v + 128);
-            let expected = if covers_point(points, centre) { centre } else { lowest };
+            let centre = centre(pixel(index));
+            let expected = if covers(points, centre) { centre } else { lowest };
             let share = covered.len() as f32 / samples as f32;
             let place = [color.x, color.y].map(|v| v / share * 256.0);
             let error = [0, 1].map(|axis| (place[axis] - expected[axis] as f32).abs());

@@ -1,24 +1,29 @@
-//! What a ray through each sample meets, by brute force in f64: which triangle is
+//! What a ray through each sample meets, by brute force: which triangle is
 //! seen, and where clipping has left something of one.
 
 use crate::coverage_support::{Samples, Values, draw_sized, rasterizer};
 use crate::effort::cases;
-use crate::multisampling::sample_points;
-use crate::ray_oracle::Facet;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use trigon_math::{DVec2, Vec4};
+use trigon_math::{DVec2, UVec2, Vec4};
 use trigon_raster::{Culling, Draw, ExecuteSettings, Output, Pass};
+use trigon_study::oracle::coverage::sample_points;
+use trigon_study::oracle::ray::{Facet, Sight, Tolerance, first_met};
 
 const SIDE: i32 = 96;
 
+const SIZE: UVec2 = UVec2::splat(SIDE as u32);
+
 const NEAR: f32 = 0.25;
 
-/// How far from an exact outline a sample may be taken for one on its other side,
-/// in pixels: corners are snapped by 1/512 on either axis, together 1/362, and
+/// How far a sample may be from an outline, in pixels, and be taken for one on its
+/// other side: corners are snapped by 1/512 on either axis, together 1/362, and
 /// those that cutting makes have been rounded before by less than what is left.
-const OUTLINE: f64 = 1.0 / 256.0;
+///
+/// Depths of at most 1 are rounded to f32 twice, those of the corners and their
+/// own, and `tile/depth.rs` adds its bound; together that is below 2^-22.
+const TOLERANCE: Tolerance = Tolerance { outline: 1.0 / 256.0, depth: 1.0 / (1 << 22) as f64 };
 
 type Triangle = [Vec4; 3];
 
@@ -41,29 +46,6 @@ fn pipeline(triangles: &[Triangle]) -> (Values, Vec<[u32; 3]>) {
     (Values::ones(triangles.iter().flatten().copied()), indices)
 }
 
-/// How far a depth may be from that of the plane through the exact corners: the
-/// plane's rise over what a corner has moved; then, of depths of at most 1, two
-/// roundings to f32, that of the corners' depths and its own, and what
-/// `tile/depth.rs` adds, together below 2^-22.
-fn depth_bound(facet: &Facet) -> f64 {
-    facet.steepness() * OUTLINE + 1.0 / f64::from(1 << 22)
-}
-
-/// The triangle that a ray sees, `u32::MAX` for none; `None` if the rounding of
-/// corners or depths may decide.
-fn expected(facets: &[Facet], point: DVec2) -> Option<u32> {
-    if facets.iter().any(|facet| facet.distance_to_outline(point) <= OUTLINE) {
-        return None;
-    }
-    let met = || facets.iter().zip(0..).filter_map(|(facet, id)| Some((facet.meets(point)?, facet, id)));
-    let Some((nearest, seen, id)) = met().max_by(|(a, ..), (b, ..)| a.total_cmp(b)) else {
-        return Some(u32::MAX);
-    };
-    let is_clear =
-        |(depth, facet, other)| other == id || nearest - depth > depth_bound(seen) + depth_bound(facet);
-    met().all(is_clear).then_some(id)
-}
-
 /// Compares all samples that ids are taken from; how many of those that show a
 /// triangle were compared, and how many were left out.
 fn compare(triangles: &[Triangle], samples: u32) -> [usize; 2] {
@@ -73,12 +55,16 @@ fn compare(triangles: &[Triangle], samples: u32) -> [usize; 2] {
     let per_pixel = Samples { per_axis: 1, per_pixel: samples };
     let mut target = per_pixel.target([SIDE as u32; 2], &[Output::Triangle]);
     rasterizer(&ExecuteSettings::default()).draw(&pass, &mut target);
-    let facets: Vec<_> = triangles.iter().map(|&corners| Facet::new(corners, SIDE)).collect();
+    let facets: Vec<_> = triangles.iter().map(|&corners| Facet::new(corners, SIZE)).collect();
     let mut counts = [0; 2];
     for (index, &id) in (0..).zip(target.triangles().expect("asked for")) {
         let raw = sample_points(samples, [index % SIDE, index / SIDE]).next().expect("at least one");
         let point = DVec2::from(raw.map(f64::from)) / 256.0;
-        let expected = expected(&facets, point);
+        let expected = match first_met(&facets, point, TOLERANCE) {
+            Sight::Nothing => Some(u32::MAX),
+            Sight::Triangle(number) => Some(number as u32),
+            Sight::Unclear => None,
+        };
         if let Some(expected) = expected {
             assert_eq!(id, expected, "seen at {point} among {triangles:?}");
         }
@@ -135,14 +121,14 @@ proptest! {
 
     #[test]
     fn a_cut_triangle_covers_its_exact_outline_within_a_256th(triangle in cut_triangle()) {
-        let facet = Facet::new(triangle, SIDE);
+        let facet = Facet::new(triangle, SIZE);
         let (pipeline, indices) = pipeline(&[triangle]);
         let mut pass = Pass::new();
         pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &indices) });
         let ids = draw_sized(&pass, [SIDE; 2], &ExecuteSettings::default()).triangles.expect("asked for");
         for (index, id) in (0..).zip(ids) {
             let point = DVec2::new(f64::from(index % SIDE), f64::from(index / SIDE)) + 0.5;
-            if facet.distance_to_outline(point) > OUTLINE {
+            if facet.distance_to_outline(point) > TOLERANCE.outline {
                 let inside = facet.meets(point).is_some();
                 prop_assert_eq!(id == 0, inside, "at {}", point);
             }

@@ -1,13 +1,14 @@
 //! Anti-aliased lines and points: coverage by distance, the same from either end,
 //! each joint once.
 
-use crate::coverage_support::{Raw, SIDE, Samples, Values, clip_position, levels, pixel, rasterizer};
+use crate::coverage_support::{SIDE, Samples, Values, clip_position, levels, pixel, rasterizer};
 use crate::effort::cases;
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_raster::{ExecuteSettings, Lines, Outline, Output, Pass, Pictures, PointShape, Points, TileSize};
+use trigon_study::oracle::GridPoint;
 
-fn inside() -> impl Strategy<Value = Raw> {
+fn inside() -> impl Strategy<Value = GridPoint> {
     let coordinate = 4 * 256..(SIDE - 4) * 256;
     [coordinate.clone(), coordinate]
 }
@@ -26,7 +27,7 @@ fn draw(pass: &Pass<'_>, samples: Samples, settings: &ExecuteSettings) -> Pictur
 }
 
 /// The coverage of each pixel: a layer adds its share of 1.
-fn coverage(points: &[Raw], segments: &[[u32; 2]], width: f32) -> Vec<f32> {
+fn coverage(points: &[GridPoint], segments: &[[u32; 2]], width: f32) -> Vec<f32> {
     let pipeline = Values::on_grid(points);
     let pictures = draw(&lines(&pipeline, segments, width), Samples::ONE, &ExecuteSettings::default());
     pictures.linear.expect("asked for").iter().map(|color| color.x).collect()
@@ -37,8 +38,8 @@ fn length(x: f64, y: f64) -> f64 {
 }
 
 /// The distance of a pixel's centre from a segment, in pixels.
-fn distance([from, to]: [Raw; 2], pixel: Raw) -> f64 {
-    let place = |point: Raw| point.map(|v| f64::from(v) / 256.0);
+fn distance([from, to]: [GridPoint; 2], pixel: GridPoint) -> f64 {
+    let place = |point: GridPoint| point.map(|v| f64::from(v) / 256.0);
     let (a, b, p) = (place(from), place(to), place(pixel.map(|v| 256 * v + 128)));
     let (ab, ap) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let square = ab[0] * ab[0] + ab[1] * ab[1];

@@ -8,13 +8,13 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use trigon_math::{ClipPolygon, Vec4};
 
 use super::check;
-use super::exact::{Point, area, at_corners, rational, split, whole};
 use super::input::{self, Planes};
 use crate::effort::cases;
+use trigon_study::oracle::area::{Weights, rational, share, split, whole};
 
 /// The part of a triangle inside the planes, each moved outwards by `offset`
 /// times its scale, and all the parts that were cut off.
-fn exact_parts(triangle: &[Vec4; 3], planes: &Planes, offset: f64) -> (Vec<Point>, Vec<Vec<Point>>) {
+fn exact_parts(triangle: &[Vec4; 3], planes: &Planes, offset: f64) -> (Vec<Weights>, Vec<Vec<Weights>>) {
     let (mut inside, mut cut_off) = (whole(), Vec::new());
     for equation in planes.equations() {
         let moved = rational(offset) * scale(&equation, triangle);
@@ -23,6 +23,15 @@ fn exact_parts(triangle: &[Vec4; 3], planes: &Planes, offset: f64) -> (Vec<Point
         inside = rest;
     }
     (inside, cut_off)
+}
+
+/// An equation's values at the corners of a triangle, plus `offset`.
+fn at_corners(equation: &[f64; 5], triangle: &[Vec4; 3], offset: &BigRational) -> [BigRational; 3] {
+    triangle.map(|corner| {
+        let terms = corner.to_array().into_iter().zip(equation);
+        let linear: BigRational = terms.map(|(x, c)| rational(x) * rational(*c)).sum();
+        linear + rational(equation[4]) + offset
+    })
 }
 
 /// The largest sum of magnitudes of an equation's terms among the corners: the
@@ -40,8 +49,8 @@ fn scale(equation: &[f64; 5], triangle: &[Vec4; 3]) -> BigRational {
 /// computed without further rounding.
 fn clipped_area(polygon: &ClipPolygon) -> BigRational {
     let point = |vertex: &trigon_math::ClipVertex| vertex.weights.map(rational);
-    let points: Vec<Point> = polygon.vertices().iter().map(point).collect();
-    area(&points)
+    let points: Vec<Weights> = polygon.vertices().iter().map(point).collect();
+    share(&points)
 }
 
 /// How far a plane may have moved, relative to its scale, when cuts are made in
@@ -58,7 +67,7 @@ const ROUNDED: f64 = 1.0 / (1_u64 << 20) as f64;
 
 /// The exact areas between which the clipped one must lie, before rounding.
 fn limits(triangle: &[Vec4; 3], planes: &Planes) -> [BigRational; 2] {
-    [-MOVED, MOVED].map(|offset| area(&exact_parts(triangle, planes, offset).0))
+    [-MOVED, MOVED].map(|offset| share(&exact_parts(triangle, planes, offset).0))
 }
 
 fn areas_agree(triangle: [Vec4; 3], planes: &Planes) {
@@ -82,9 +91,9 @@ proptest! {
     #[test]
     fn exact_parts_add_up_exactly(triangle in input::triangle(), planes in input::planes()) {
         let (inside, cut_off) = exact_parts(&triangle, &planes, 0.0);
-        let parts = cut_off.iter().map(|part| area(part));
+        let parts = cut_off.iter().map(|part| share(part));
         prop_assert!(parts.clone().all(|part| !part.is_negative()), "a part is inside out");
-        prop_assert_eq!(parts.fold(area(&inside), |a, b| a + b), BigRational::one());
+        prop_assert_eq!(parts.fold(share(&inside), |a, b| a + b), BigRational::one());
     }
 
     #[test]

@@ -5,9 +5,9 @@ use proptest::prelude::*;
 use trigon_math::elementary::exp2;
 use trigon_math::{ClipPolygon, Vec4};
 
-use super::exact::rational;
 use super::{check, input};
 use crate::effort::cases;
+use trigon_study::oracle::area::rational;
 
 /// The documented bound: `2⁻²²·m` for rounding position and weights to `f32`
 /// (2⁻²⁴ of the position, three times 2⁻²⁵ of a corner) and `2⁻⁴⁴·(m + b·w)` for
