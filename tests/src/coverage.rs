@@ -237,11 +237,13 @@ fn targets_of_extreme_size_are_covered_once() {
     }
 }
 
-/// Hard case 7.
+/// Hard case 7, along lines through the centres of pixels.
 #[test]
 fn triangles_without_area_cover_nothing() {
-    let points = [[1000, 1000], [9000, 1000], [1000, 1000], [5000, 1000], [1000, 9000]];
-    for corners in [[0, 1, 3], [0, 2, 4], [0, 0, 0], [0, 1, 1]] {
+    let [near, middle, far] = [4, 20, 35].map(|pixel| 256 * pixel + 128);
+    let points =
+        [[near, near], [far, near], [near, near], [middle, near], [near, far], [middle; 2], [far; 2]];
+    for corners in [[0, 1, 3], [1, 0, 3], [0, 2, 4], [0, 5, 6], [6, 5, 0], [0, 0, 0], [0, 1, 1]] {
         let counts = count(&Values::on_grid(&points), &[corners]);
         assert!(counts.iter().all(|&count| count == 0), "corners {corners:?}");
     }

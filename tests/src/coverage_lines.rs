@@ -79,9 +79,10 @@ proptest! {
 
     /// A line that leaves the view is drawn as if the view were larger.
     #[test]
-    fn the_border_of_the_view_moves_no_pixel(ends in [far(), far()], dx in 0..30_i32) {
+    fn the_border_of_the_view_moves_no_pixel(ends in crossing(), dx in 0..30_i32) {
         let moved = ends.map(|[x, y]| [x + 256 * dx, y]);
         let [before, after] = [ends, moved].map(|ends| count(&ends, &[[0, 1]], 1.0));
+        prop_assert!(before.contains(&1), "it is seen");
         for (index, &count) in before.iter().enumerate() {
             let [x, y] = pixel(index);
             if x + dx < SIDE {
@@ -91,9 +92,13 @@ proptest! {
     }
 }
 
-fn far() -> impl Strategy<Value = GridPoint> {
-    let coordinate = -30_000 * 256..30_000 * 256;
-    [coordinate.clone(), coordinate]
+/// A segment through the picture, with one end or both up to 30,000 pixels out.
+fn crossing() -> impl Strategy<Value = [GridPoint; 2]> {
+    let far = || [-15_000 * 256..15_000 * 256, -15_000 * 256..15_000 * 256_i32];
+    (inside(), far(), 0..=4_i32).prop_map(|(through, [x, y], part)| {
+        let end = |parts: i32| [through[0] + x / 2 * parts, through[1] + y / 2 * parts];
+        [end(-part), end(4 - part)]
+    })
 }
 
 #[test]

@@ -16,8 +16,13 @@ pub(crate) const SIDE: i32 = 64;
 
 /// The clip-space position of a point on the grid, at `depth`, for w = 1.
 /// Exact for all points in the guard band.
-pub(crate) fn clip_position([x, y]: GridPoint, depth: f32) -> Vec4 {
-    let unit = (SIDE * 128) as f32;
+pub(crate) fn clip_position(point: GridPoint, depth: f32) -> Vec4 {
+    clip_position_on(SIDE, point, depth)
+}
+
+/// The same on a picture of another width and height, a power of two.
+pub(crate) fn clip_position_on(side: i32, [x, y]: GridPoint, depth: f32) -> Vec4 {
+    let unit = (side * 128) as f32;
     Vec4::new(x as f32 / unit - 1.0, 1.0 - y as f32 / unit, depth, 1.0)
 }
 

@@ -4,6 +4,7 @@
 use crate::coverage::triangle;
 use crate::coverage_support::{SIDE, Samples, Values, clip_position, pixel, rasterizer};
 use crate::effort::cases;
+use crate::hard_cases::slivers::sliver;
 use num_traits::Signed;
 use proptest::prelude::*;
 use trigon_raster::{Culling, Draw, ExecuteSettings, Output, Pass, Surface};
@@ -24,13 +25,13 @@ fn exp2(exponent: i32) -> f64 {
     trigon_math::elementary::exp2(f64::from(exponent))
 }
 
-/// Also triangles of a few pixels.
+/// Also triangles of a few pixels, and slivers.
 fn corners() -> impl Strategy<Value = [GridPoint; 3]> {
     let place = 0..SIDE * 256;
     let step = || [-1000..1000_i32, -1000..1000_i32];
     let small = ([place.clone(), place], step(), step())
         .prop_map(|([x, y], [ax, ay], [bx, by])| [[x, y], [x + ax, y + ay], [x + bx, y + by]]);
-    prop_oneof![triangle(), small]
+    prop_oneof![2 => triangle(), 2 => small, 1 => sliver()]
 }
 
 /// Depths of any size, and neighbours.

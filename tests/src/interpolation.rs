@@ -2,6 +2,7 @@
 
 use crate::coverage_support::{SIDE, draw, pixel};
 use crate::effort::cases;
+use crate::hard_cases::slivers::sliver;
 use proptest::prelude::*;
 use trigon_math::{Vec4, elementary};
 use trigon_raster::simd::{Each, F32, Simd};
@@ -136,8 +137,12 @@ fn w() -> impl Strategy<Value = f32> {
 
 fn probe() -> impl Strategy<Value = Probe> {
     let value = -100.0_f32..100.0;
-    ([point(), point(), point()], [w(), w(), w()], [value.clone(), value.clone(), value])
-        .prop_map(|(points, w, values)| Probe { points, w, values })
+    let points = prop_oneof![3 => [point(), point(), point()], 1 => sliver()];
+    (points, [w(), w(), w()], [value.clone(), value.clone(), value]).prop_map(|(points, w, values)| Probe {
+        points,
+        w,
+        values,
+    })
 }
 
 /// What one rounding to f32 is off by at most, relative.
@@ -185,7 +190,12 @@ proptest! {
     }
 
     #[test]
-    fn values_stay_within_the_corners(probe in probe()) {
+    fn values_stay_within_the_corners(probe in probe(), other in 0..4_usize) {
+        // Two corners alike, so that most values are at an end of the range.
+        let alike = |i: usize| other < 3 && i != other;
+        let [first, second, _] = probe.values;
+        let values = [0, 1, 2].map(|i| if alike(i) { first } else if other < 3 { second } else { probe.values[i] });
+        let probe = probe.with_values(values);
         let low = probe.values.iter().copied().fold(f32::INFINITY, f32::min);
         let high = probe.values.iter().copied().fold(f32::NEG_INFINITY, f32::max);
         for (at, color) in probe.fragments() {

@@ -25,7 +25,7 @@ fn draw(pass: &Pass<'_>, per_pixel: u32) -> Pictures {
 
 /// How much light the pixels hold on average over their samples, if every layer
 /// adds 1 to each sample that it covers.
-fn light(pipeline: &Values, triangles: &[[u32; 3]], samples: u32) -> Vec<f32> {
+pub(crate) fn light(pipeline: &Values, triangles: &[[u32; 3]], samples: u32) -> Vec<f32> {
     let mut pass = Pass::new();
     let surface = Surface::Translucent;
     pass.triangles(Draw { surface, culling: Culling::None, ..Draw::new(pipeline, triangles) });

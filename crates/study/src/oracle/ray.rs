@@ -17,8 +17,8 @@ type Linear = [DoubleDouble; 3];
 /// A triangle in clip space, seen on a picture.
 #[derive(Clone, Debug)]
 pub struct Facet {
-    /// The shares of the corners in a ray, not negative inside; all zero if the eye
-    /// lies in the triangle's plane and so sees nothing of it.
+    /// The shares of the corners in a ray, not negative inside. Zero on the edges, also
+    /// if the eye lies in the triangle's plane and so sees nothing of it.
     shares: [Linear; 3],
     /// The depth z/w of the point met.
     depth: Linear,
@@ -35,13 +35,13 @@ impl Facet {
         let [a, b, c] = corners.map(|v| [v.x, v.y, v.w].map(DoubleDouble::from));
         let volume = dot(a, cross(b, c));
         let is_seen = volume != DoubleDouble::ZERO;
-        let share = |u, v| cross(u, v).map(|term| if is_seen { term / volume } else { DoubleDouble::ZERO });
+        let share = |u, v| cross(u, v).map(|term| if is_seen { term / volume } else { term });
         let shares = [share(b, c), share(c, a), share(a, b)].map(|share| in_pixels(share, size));
         let of_axis = |axis: usize| {
             let terms = (0..3).map(|i| shares[i][axis] * corners[i].z.into());
             terms.fold(DoubleDouble::ZERO, |sum, term| sum + term)
         };
-        let is_cut = corners.iter().any(|corner| corner.z > corner.w);
+        let is_cut = is_seen && corners.iter().any(|corner| corner.z > corner.w);
         Self { shares, depth: [0, 1, 2].map(of_axis), is_cut, is_seen }
     }
 
@@ -119,9 +119,12 @@ fn at([x, y, one]: Linear, point: DVec2) -> DoubleDouble {
     x * point.x.into() + y * point.y.into() + one
 }
 
+/// Infinite for a line at infinity; 0 from what is no line at all, as that of an edge
+/// seen as a point is.
 fn distance(line: Linear, point: DVec2) -> f64 {
     let slope = DVec2::new(line[0].to_f64(), line[1].to_f64());
-    at(line, point).abs().to_f64() / slope.length()
+    let distance = at(line, point).abs().to_f64() / slope.length();
+    if distance.is_nan() { 0.0 } else { distance }
 }
 
 fn dot(a: Linear, b: Linear) -> DoubleDouble {
@@ -180,8 +183,10 @@ mod tests {
         let facet =
             Facet::new([[0.5, 1.0], [0.0, 2.0], [1.0, -1.0]].map(|[x, w]| Vec4::new(x, x, 0.25, w)), SIZE);
         for y in 0..33 {
-            assert_eq!(facet.meets(DVec2::new(f64::from(2 * y), f64::from(32 - y))), None, "edge on");
+            let point = DVec2::new(f64::from(2 * y), f64::from(32 - y));
+            assert_eq!((facet.meets(point), facet.distance_to_outline(point)), (None, 0.0), "edge on");
         }
+        assert!(facet.distance_to_outline(DVec2::new(2.0, 2.0)) > 20.0, "off the line that it is seen as");
     }
 
     #[test]
