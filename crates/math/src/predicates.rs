@@ -6,7 +6,7 @@
 //! Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust
 //! Geometric Predicates", 1997; the `robust` crate).
 
-use glam::DVec2;
+use glam::{DMat3, DVec2, DVec3};
 
 use crate::FixedPoint;
 
@@ -69,6 +69,37 @@ pub fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Orientation {
         Orientation::Clockwise
     } else {
         Orientation::Collinear
+    }
+}
+
+/// Whether a linear map turns space inside out: whether its determinant is negative,
+/// decided without rounding.
+///
+/// Exact if the entries that are not zero differ within each column by a factor of at
+/// most 2²⁵⁰, however large or small they are. NaN and infinities mirror nothing.
+#[must_use]
+pub fn is_mirroring(matrix: &DMat3) -> bool {
+    let column = |axis: DVec3| {
+        let DVec3 { x, y, z } = axis * unit_of(axis);
+        robust::Coord3D { x, y, z }
+    };
+    let origin = robust::Coord3D { x: 0.0, y: 0.0, z: 0.0 };
+    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(column);
+    matrix.is_finite() && robust::orient3d(x, y, z, origin) < 0.0
+}
+
+/// A power of two that brings the largest entry near 1, so that products of three
+/// stay in range; it keeps all digits. 1 for zero.
+fn unit_of(vector: DVec3) -> f64 {
+    /// Beyond, the power itself would leave the range.
+    const LARGEST: i64 = 1000;
+    const BIAS: i64 = 1023;
+    let largest = vector.abs().max_element();
+    let exponent = (largest.to_bits() >> 52) as i64 - BIAS;
+    if largest == 0.0 {
+        1.0
+    } else {
+        f64::from_bits(((BIAS - exponent.clamp(-LARGEST, LARGEST)) as u64) << 52)
     }
 }
 

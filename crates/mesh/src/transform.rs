@@ -1,6 +1,6 @@
 //! Baking a transform into the vertices.
 
-use trigon_math::{DAffine3, DMat3, Vec3, Vec4};
+use trigon_math::{DAffine3, DMat3, Vec3, Vec4, is_mirroring};
 
 use crate::Mesh;
 use crate::normals::unit_or_zero;
@@ -26,7 +26,7 @@ impl Mesh {
         for position in self.positions_mut() {
             *position = transform.transform_point3(position.as_dvec3()).as_vec3();
         }
-        let mirrors = transform.matrix3.determinant() < 0.0;
+        let mirrors = is_mirroring(&transform.matrix3);
         let mut normal_matrix = cofactors(&transform.matrix3);
         if mirrors {
             normal_matrix *= -1.0;

@@ -70,6 +70,15 @@ pub struct TextureAsset {
     pub texture: Arc<Texture>,
 }
 
+/// Where a node is in the world.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) world: DAffine3,
+    /// Whether an odd number of the maps on the way mirror. A nearly flat map's own
+    /// determinant is rounding.
+    pub(crate) is_mirrored: bool,
+}
+
 /// A change that would break the node forest.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum SceneError {
@@ -235,14 +244,22 @@ impl Scene {
     /// For each node by index: its map into the world, or `None` when it, or
     /// what it hangs on, is hidden or gone. One visit per node, whatever the depth.
     pub fn visible_transforms(&self) -> Vec<Option<DAffine3>> {
+        self.visible_places().into_iter().map(|place| Some(place?.world)).collect()
+    }
+
+    /// The same, and whether outside is turned inside on the way.
+    pub(crate) fn visible_places(&self) -> Vec<Option<Place>> {
         let mut table = vec![None; self.nodes.index_bound()];
         let roots = self.nodes.iter().filter(|(_, node)| node.parent.is_none());
-        let mut waiting: Vec<(NodeId, DAffine3)> = roots.map(|(id, _)| (id, DAffine3::IDENTITY)).collect();
+        let mut waiting: Vec<(NodeId, Place)> = roots.map(|(id, _)| (id, Place::default())).collect();
         while let Some((id, outer)) = waiting.pop() {
             let Some(node) = self.nodes.get(id).filter(|node| node.visible) else { continue };
-            let world = outer * node.transform.to_affine();
-            table[id.index()] = Some(world);
-            waiting.extend(node.children.iter().map(|&child| (child, world)));
+            let place = Place {
+                world: outer.world * node.transform.to_affine(),
+                is_mirrored: outer.is_mirrored != node.transform.is_mirroring(),
+            };
+            table[id.index()] = Some(place);
+            waiting.extend(node.children.iter().map(|&child| (child, place)));
         }
         table
     }

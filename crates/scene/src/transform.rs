@@ -5,7 +5,7 @@
 //! quaternion, renormalised at every step, so that a million small turns do
 //! not shear the object.
 
-use trigon_math::{DAffine3, DMat3, DQuat, DVec3};
+use trigon_math::{DAffine3, DMat3, DQuat, DVec3, is_mirroring};
 
 /// A node's placement in its parent: scale first, then rotation, then
 /// translation; or any affine map, for files that carry sheared matrices.
@@ -47,6 +47,17 @@ impl Transform {
                 DAffine3::from_scale_rotation_translation(scale, rotation, translation)
             }
             Self::Affine(affine) => affine,
+        }
+    }
+
+    /// Whether it turns space inside out. Known from the factors themselves: in a product
+    /// of matrices that nearly flatten something, rounding is larger than what is left.
+    pub(crate) fn is_mirroring(&self) -> bool {
+        match self {
+            Self::Decomposed { scale, .. } => {
+                scale.to_array().iter().filter(|&&factor| factor < 0.0).count() % 2 == 1
+            }
+            Self::Affine(affine) => is_mirroring(&affine.matrix3),
         }
     }
 

@@ -117,4 +117,26 @@ proptest! {
         };
         prop_assert_eq!(orientation(vector(a), vector(b), vector(c)), expected);
     }
+
+    /// The determinant in wide integers, for every order of magnitude of each column.
+    #[test]
+    fn mirrors_are_told_by_exact_determinants(
+        entries in prop::array::uniform9(-(1_i64 << 30)..(1_i64 << 30)),
+        nearly_flat in any::<bool>(), nudge in -1..=1_i64,
+        exponents in prop::array::uniform3(-900..900_i32),
+    ) {
+        let [a, b, c, d, e, f, mut g, mut h, mut i] = entries.map(i128::from);
+        if nearly_flat {
+            // The third column is the sum of the others but for one unit.
+            (g, h, i) = (a + d, b + e, c + f + i128::from(nudge));
+        }
+        let exact = a * (e * i - f * h) - d * (b * i - c * h) + g * (b * f - c * e);
+        let column = |entries: [i128; 3], exponent: i32| {
+            let power = f64::from_bits(((1023 + exponent) as u64) << 52);
+            DVec3::from_array(entries.map(|entry| entry as f64)) * power
+        };
+        let [x, y, z] = exponents;
+        let matrix = DMat3::from_cols(column([a, b, c], x), column([d, e, f], y), column([g, h, i], z));
+        prop_assert_eq!(is_mirroring(&matrix), exact < 0);
+    }
 }

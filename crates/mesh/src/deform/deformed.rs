@@ -61,13 +61,13 @@ impl RenderMesh {
             if let (Some(tangent), Some(rest)) =
                 (into.tangents.get_mut(vertex), self.tangents.as_ref().map(|list| list[vertex]))
             {
-                let direction = unit_or(map.matrix3 * tangent.truncate(), rest.truncate());
-                *tangent = direction.extend(if map.matrix3.determinant() < 0.0 { -rest.w } else { rest.w });
+                let direction = map.matrix3 * unit_of(&map.matrix3) * tangent.truncate();
+                let direction = unit_or(direction, rest.truncate());
+                *tangent = direction.extend(if is_mirroring(&map.matrix3) { -rest.w } else { rest.w });
             }
         }
-        let is_mirrored = |vertex: usize| {
-            skin.is_some_and(|skin| blended(skin, vertex, palette).matrix3.determinant() < 0.0)
-        };
+        let is_mirrored =
+            |vertex: usize| skin.is_some_and(|skin| is_mirroring(&blended(skin, vertex, palette).matrix3));
         self.flat_faces.set_normals(&into.positions, &mut into.normals, is_mirrored);
     }
 }
@@ -115,10 +115,30 @@ fn blended(skin: &SkinWeights, vertex: usize, palette: &[Affine3]) -> Affine3 {
 
 /// A matrix that turns normals as the inverse transpose does, and exists for
 /// flattened shapes, too: cofactors with the sign of the determinant.
+///
+/// Scaled by a power of two first, so that neither tiny nor huge joints leave the range
+/// of f32 when entries are multiplied and lengths squared; that keeps all digits.
 fn inverse_transpose(matrix: &Mat3) -> Mat3 {
+    let matrix = *matrix * unit_of(matrix);
     let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
     let cofactors = Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
     if matrix.determinant() < 0.0 { -cofactors } else { cofactors }
+}
+
+fn is_mirroring(matrix: &Mat3) -> bool {
+    (*matrix * unit_of(matrix)).determinant() < 0.0
+}
+
+/// A power of two that brings a matrix' largest entry near 1; 1 where there is none.
+fn unit_of(matrix: &Mat3) -> f32 {
+    const BIAS: i32 = 127;
+    let largest = matrix
+        .to_cols_array()
+        .iter()
+        .fold(0.0_f32, |most, entry| if entry.abs() > most { entry.abs() } else { most });
+    let exponent = (largest.to_bits() >> 23) as i32 - BIAS;
+    // The greatest and the least power of two that are normal numbers.
+    if largest == 0.0 { 1.0 } else { f32::from_bits(((BIAS - exponent.clamp(-126, 126)) as u32) << 23) }
 }
 
 fn unit_or(vector: Vec3, otherwise: Vec3) -> Vec3 {

@@ -3,13 +3,13 @@
 
 use std::sync::Arc;
 
-use trigon_math::{Bounds3, DAffine3};
+use trigon_math::Bounds3;
 use trigon_raster::Texture;
 
 use crate::material::{AlphaMode, Material};
 use crate::node::Node;
 use crate::render::{Geometry, Shape, Shapes};
-use crate::scene::Scene;
+use crate::scene::{Place, Scene};
 
 /// All that casts shadows in a scene.
 #[derive(Clone, Debug)]
@@ -23,7 +23,7 @@ pub(crate) struct Casters {
 #[derive(Clone, Debug)]
 pub(crate) struct Caster {
     pub(crate) geometry: Arc<Geometry>,
-    pub(crate) world: DAffine3,
+    pub(crate) place: Place,
     /// For each run of the geometry its material, or `None` where light passes.
     pub(crate) materials: Vec<Option<Material>>,
     /// What the materials' textures of colour and of transmission are at this moment:
@@ -36,7 +36,7 @@ impl PartialEq for Caster {
     /// Whether its shadow is the same for sure.
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.geometry, &other.geometry)
-            && self.world == other.world
+            && self.place == other.place
             && self.materials == other.materials
             && self.textures.len() == other.textures.len()
             && self.textures.iter().zip(&other.textures).all(|(one, other)| Arc::ptr_eq(one, other))
@@ -53,18 +53,18 @@ impl Casters {
     pub(crate) fn gather(scene: &Scene, shapes: &Shapes) -> Self {
         let mut casters = Self { list: Vec::new(), bounds: Bounds3::EMPTY };
         for (id, node) in scene.nodes().iter() {
-            let Some(Shape { geometry, world, .. }) = shapes.get(id.index()) else { continue };
+            let Some(Shape { geometry, place, .. }) = shapes.get(id.index()) else { continue };
             let materials: Vec<Option<Material>> =
                 geometry.runs.iter().map(|run| cast_by(scene, node, run.slot)).collect();
             if materials.iter().all(Option::is_none) {
                 continue;
             }
-            let bounds = geometry.bounds().transformed(world);
+            let bounds = geometry.bounds().transformed(&place.world);
             casters.bounds = casters.bounds.union(bounds);
-            let (geometry, world) = (Arc::clone(geometry), *world);
+            let (geometry, place) = (Arc::clone(geometry), *place);
             let textures =
                 materials.iter().flatten().flat_map(|material| textures(scene, material)).collect();
-            casters.list.push(Caster { geometry, world, materials, textures, bounds });
+            casters.list.push(Caster { geometry, place, materials, textures, bounds });
         }
         casters
     }

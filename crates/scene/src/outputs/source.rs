@@ -76,10 +76,10 @@ impl<'s> Source<'s> {
         Self {
             geometry,
             looks: looks.collect(),
-            to_camera: stage.eye.to_camera(&shape.world),
-            normal_to_world: normal_matrix(&shape.world.matrix3),
-            tangent_to_world: shape.world.matrix3.as_mat3(),
-            mirrored: shape.world.matrix3.determinant() < 0.0,
+            to_camera: stage.eye.to_camera(&shape.place.world),
+            normal_to_world: normal_matrix(&shape.place.world.matrix3, shape.place.is_mirrored),
+            tangent_to_world: shape.place.world.matrix3.as_mat3(),
+            mirrored: shape.place.is_mirrored,
             draws_are_runs: stage.settings.style != Style::HiddenLine,
         }
     }
@@ -132,6 +132,11 @@ impl<'s> Look<'s> {
     }
 }
 
+/// 0 where files hold what is no number, or infinity times nothing: an output does not.
+fn number(value: f32) -> f32 {
+    if value.is_nan() { 0.0 } else { value }
+}
+
 impl Triangle<'_> {
     /// The index of its material in the scene.
     pub(super) fn material(&self) -> u32 {
@@ -150,7 +155,7 @@ impl Triangle<'_> {
     /// Coordinates of the first UV set.
     pub(super) fn uv(&self, weights: DVec3) -> Vec2 {
         let set = self.look.geometry.columns.uv_sets.first();
-        set.map_or(Vec2::ZERO, |set| mixed2(weights, set, self.corners()).as_vec2())
+        set.map_or(Vec2::ZERO, |set| mixed2(weights, set, self.corners()).as_vec2().map(number))
     }
 
     /// The colour before light falls on it.
@@ -164,7 +169,7 @@ impl Triangle<'_> {
             let channel = |column: &[f32]| mixed(point.weights, corners.map(|corner| column[corner])) as f32;
             color *= Vec3::new(channel(r), channel(g), channel(b));
         }
-        color
+        color.map(number)
     }
 
     /// What a texture shows in a whole pixel.

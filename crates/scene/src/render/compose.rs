@@ -81,7 +81,10 @@ impl<'s> Composer<'s> {
             if !self.may_show(asset, shape) {
                 continue;
             }
-            let (index, place) = (id.index() as u32, self.eye.place(&shape.world));
+            let (index, place) = (
+                id.index() as u32,
+                self.eye.place(&shape.place, &shape.geometry.bounds().union(asset.bounds())),
+            );
             self.object(
                 &Object { index, node, asset, geometry: &shape.geometry, place },
                 (&mut draws, counts),
@@ -97,7 +100,7 @@ impl<'s> Composer<'s> {
         let wires = !mesh.loose_edges().is_empty() || !mesh.loose_points().is_empty();
         wires
             || self.settings.style != Style::Surface
-            || self.eye.may_see(&shape.geometry.bounds(), &shape.world)
+            || self.eye.may_see(&shape.geometry.bounds(), &shape.place.world)
     }
 
     fn object<'c>(
@@ -233,7 +236,7 @@ impl<'s> Composer<'s> {
         let geometry = object.geometry;
         let pipeline = HiddenLine {
             columns: &geometry.columns,
-            to_clip: object.place.to_clip,
+            place: object.place,
             background: self.settings.background,
             height: self.settings.height,
             edges: self.edge_overlay(),
@@ -251,7 +254,7 @@ impl<'s> Composer<'s> {
     }
 
     fn wire(&self, object: &Object<'s>, color: Vec3) -> Wire<'s> {
-        Wire { positions: object.asset.mesh().positions(), to_clip: object.place.to_clip, color }
+        Wire { positions: object.asset.mesh().positions(), place: object.place, color }
     }
 
     fn segments<'c>(

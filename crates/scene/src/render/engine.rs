@@ -34,8 +34,9 @@ impl Engine {
         settings: &RenderSettings,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
-        frame.make_room(settings)?;
+        // Checks the size, before memory is taken for it.
         let sample = blank(settings)?.visibility_sample();
+        frame.make_room(settings)?;
         let mut rasterizer = self.rasterizer(settings)?;
         let stage = Stage::new(scene, camera, settings);
         let plan = EffectPlan::of_stage(&stage);
@@ -49,7 +50,7 @@ impl Engine {
             self.draw_seen(&stage, camera, frame, &mut rasterizer)?;
         }
         if settings.outputs.of_triangles() {
-            outputs::fill(frame, &stage, camera, sample, &self.kept.seen);
+            outputs::fill(frame, &stage, (camera, sample), &self.kept.seen, &rasterizer);
         }
         self.kept.seen.hand_over(frame);
         measure_depth(frame, camera, settings);

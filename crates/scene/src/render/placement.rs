@@ -1,16 +1,24 @@
 //! The maps of one node: computed once per node in f64, cast once to f32.
 
 use trigon_camera::{Camera, Projection};
-use trigon_math::{Bounds3, DAffine3, DMat3, DMat4, DVec3, Frustum, Mat3, Mat4};
+use trigon_math::{Bounds3, DAffine3, DMat3, DMat4, DVec3, Frustum, Mat3, Mat4, Vec3};
 use trigon_raster::Culling;
+use trigon_raster::simd::{F32, Simd};
 
+use super::lanes::{V3, difference, mapped, moved, splat};
 use super::surface::Side;
+use crate::scene::Place;
 
 /// The maps of one node, ready for the vertex stage.
 #[derive(Clone, Copy)]
 pub(crate) struct Placement {
+    /// What positions are counted from, in the mesh's space: the origin, or where the
+    /// eye is within a mesh that is large beside its distance.
+    pub(crate) anchor: Vec3,
+    /// From the anchor.
     pub(crate) to_clip: Mat4,
-    pub(crate) to_camera: Mat4,
+    /// From the anchor.
+    to_camera: Mat4,
     /// Turns normals; the result has any length.
     pub(crate) normal_to_camera: Mat3,
     /// The side to drop so that backs are: a mirroring placement turns the
@@ -22,6 +30,18 @@ pub(crate) struct Placement {
 }
 
 impl Placement {
+    /// Positions of the mesh in clip space.
+    #[inline(always)]
+    pub(crate) fn clip<S: Simd>(&self, simd: S, position: V3<S>) -> [F32<S>; 4] {
+        mapped(&self.to_clip, difference(position, splat(simd, self.anchor)))
+    }
+
+    /// Positions of the mesh in camera space.
+    #[inline(always)]
+    pub(crate) fn camera<S: Simd>(&self, simd: S, position: V3<S>) -> V3<S> {
+        moved(&self.to_camera, difference(position, splat(simd, self.anchor)))
+    }
+
     /// Turns what runs along a surface; the result has any length.
     pub(crate) fn tangent_to_camera(&self) -> Mat3 {
         Mat3::from_mat4(self.to_camera)
@@ -66,24 +86,51 @@ impl Eye {
         }
     }
 
-    pub(crate) fn place(&self, world: &DAffine3) -> Placement {
-        let to_camera = self.to_camera(world);
-        let mirrored = to_camera.matrix3.determinant() < 0.0;
+    /// `bounds` is a box around the mesh in its own space.
+    pub(crate) fn place(&self, place: &Place, bounds: &Bounds3) -> Placement {
+        let to_camera = self.to_camera(&place.world);
+        let anchor = anchor(&to_camera, bounds);
+        let from_anchor =
+            DAffine3 { translation: to_camera.transform_point3(anchor.as_dvec3()), ..to_camera };
         Placement {
-            to_clip: (self.projection * DMat4::from(to_camera)).as_mat4(),
-            to_camera: DMat4::from(to_camera).as_mat4(),
-            normal_to_camera: normal_matrix(&to_camera.matrix3),
-            cull_back: if mirrored { Culling::Front } else { Culling::Back },
-            front: if mirrored { Side::Back } else { Side::Front },
+            anchor,
+            to_clip: (self.projection * DMat4::from(from_anchor)).as_mat4(),
+            to_camera: DMat4::from(from_anchor).as_mat4(),
+            normal_to_camera: normal_matrix(&to_camera.matrix3, place.is_mirrored),
+            cull_back: if place.is_mirrored { Culling::Front } else { Culling::Back },
+            front: if place.is_mirrored { Side::Back } else { Side::Front },
         }
     }
+}
+
+/// What positions are best counted from, so that a place in f32 is a sum of terms no
+/// larger than 9 times its distance from the eye. (A map that shears may add its shear.)
+///
+/// From the origin terms are as large as the mesh and its distance. In a land of
+/// kilometres that leaves millimetres of rounding at the eye's feet, which change with
+/// every step. From the point of the box that is nearest to the eye, no coordinate is
+/// farther than it is from the eye.
+fn anchor(to_camera: &DAffine3, bounds: &Bounds3) -> Vec3 {
+    /// Meshes up to this many times as large as their distance keep their origin.
+    const LARGE: f64 = 4.0;
+    let eye = to_camera.inverse().translation;
+    if !eye.is_finite() || !bounds.min.cmple(bounds.max).all() {
+        return Vec3::ZERO;
+    }
+    let nearest = eye.clamp(bounds.min, bounds.max);
+    let farthest = bounds.min.abs().max(bounds.max.abs());
+    let sizes = [0, 1, 2].map(|axis| to_camera.matrix3.col(axis).length() * farthest[axis]);
+    let distance = to_camera.transform_point3(nearest).length();
+    let anchor = if sizes.iter().sum::<f64>() > LARGE * distance { nearest.as_vec3() } else { Vec3::ZERO };
+    // Of a mesh with infinite positions.
+    if anchor.is_finite() { anchor } else { Vec3::ZERO }
 }
 
 /// The cofactor matrix, with the sign that keeps normals pointing outwards
 /// under mirroring, scaled so that its largest entry is 1: then neither tiny
 /// nor huge objects leave the range of f32. Unlike the inverse transpose it
 /// exists for flattened objects, too.
-pub(crate) fn normal_matrix(matrix: &DMat3) -> Mat3 {
+pub(crate) fn normal_matrix(matrix: &DMat3, is_mirrored: bool) -> Mat3 {
     let largest = largest_entry(matrix);
     // Made safe to multiply first: entries of 1e200 would overflow when squared.
     let safe = if largest > 0.0 && largest.is_finite() { *matrix * (1.0 / largest) } else { DMat3::IDENTITY };
@@ -92,7 +139,7 @@ pub(crate) fn normal_matrix(matrix: &DMat3) -> Mat3 {
         safe.z_axis.cross(safe.x_axis),
         safe.x_axis.cross(safe.y_axis),
     );
-    let sign = if safe.determinant() < 0.0 { -1.0 } else { 1.0 };
+    let sign = if is_mirrored { -1.0 } else { 1.0 };
     let largest = largest_entry(&cofactor);
     let scale = if largest > 0.0 { sign / largest } else { sign };
     (cofactor * scale).as_mat3()
@@ -137,7 +184,7 @@ mod tests {
     #[test]
     fn normals_of_a_flattened_object_point_along_the_flattened_axis() {
         let flat = DMat3::from_diagonal(DVec3::new(2.0, 0.0, 2.0));
-        let normal = normal_matrix(&flat) * Vec3::new(1.0, 1.0, 0.0);
+        let normal = normal_matrix(&flat, false) * Vec3::new(1.0, 1.0, 0.0);
         assert_eq!(normal.normalize(), Vec3::Y, "only the flattened axis is left");
     }
 
@@ -146,7 +193,7 @@ mod tests {
         for scale in [1e-150, 1e-9, 1.0, 1e9, 1e150] {
             for mirror in [1.0, -1.0] {
                 let matrix = DMat3::from_diagonal(DVec3::new(mirror * scale, scale, 2.0 * scale));
-                let normal = normal_matrix(&matrix) * Vec3::Y;
+                let normal = normal_matrix(&matrix, mirror < 0.0) * Vec3::Y;
                 assert_eq!(normal.normalize(), Vec3::Y, "scale {scale}, mirror {mirror}");
             }
         }

@@ -6,19 +6,19 @@
 
 use std::sync::Arc;
 
-use trigon_math::{Bounds3, DAffine3};
+use trigon_math::{Bounds3, DAffine3, is_mirroring};
 
 use super::geometry::Geometry;
 use super::placement::Eye;
 use crate::node::Node;
-use crate::scene::{MeshAsset, NodeId, Scene};
+use crate::scene::{MeshAsset, NodeId, Place, Scene};
 use crate::skin::SkinPose;
 
 /// A mesh at a place.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
     pub(crate) geometry: Arc<Geometry>,
-    pub(crate) world: DAffine3,
+    pub(crate) place: Place,
     /// Whether a pose changed it.
     pub(crate) is_posed: bool,
 }
@@ -37,13 +37,13 @@ pub(crate) enum Onlookers<'a> {
 }
 
 impl Shapes {
-    /// `transforms` is the scene's table of visible nodes.
-    pub(crate) fn new(scene: &Scene, transforms: &[Option<DAffine3>], onlookers: Onlookers<'_>) -> Self {
-        let mut shapes = vec![None; transforms.len()];
+    /// `places` is the scene's table of visible nodes.
+    pub(crate) fn new(scene: &Scene, places: &[Option<Place>], onlookers: Onlookers<'_>) -> Self {
+        let mut shapes = vec![None; places.len()];
         for (id, node) in scene.nodes().iter() {
-            let (Some(world), Some(mesh)) = (transforms[id.index()], node.mesh) else { continue };
+            let (Some(place), Some(mesh)) = (places[id.index()], node.mesh) else { continue };
             let Some(asset) = scene.meshes().get(mesh) else { continue };
-            shapes[id.index()] = shape(scene, (id, node), asset, world, onlookers);
+            shapes[id.index()] = shape(scene, (id, node), asset, place, onlookers);
         }
         Self(shapes)
     }
@@ -64,10 +64,10 @@ fn shape(
     scene: &Scene,
     (id, node): (NodeId, &Node),
     asset: &MeshAsset,
-    world: DAffine3,
+    place: Place,
     onlookers: Onlookers<'_>,
 ) -> Option<Shape> {
-    let rest = Shape { geometry: Arc::clone(asset.geometry()), world, is_posed: false };
+    let rest = Shape { geometry: Arc::clone(asset.geometry()), place, is_posed: false };
     let attributes = asset.mesh().attributes();
     let pose = attributes.skin.as_ref().and_then(|_| scene.skin_pose(id));
     let morphs =
@@ -75,15 +75,18 @@ fn shape(
     if pose.is_none() && !morphs {
         return Some(rest);
     }
-    let pose = pose.unwrap_or_else(|| SkinPose { world, palette: Vec::new() });
+    // Joints may have taken the mesh to another space.
+    let place = pose
+        .as_ref()
+        .map_or(place, |pose| Place { world: pose.world, is_mirrored: is_mirroring(&pose.world.matrix3) });
+    let pose = pose.unwrap_or_else(|| SkinPose { world: place.world, palette: Vec::new() });
     if let (Onlookers::Camera(eye), false) = (onlookers, morphs)
         && !eye.may_see(&reach(&asset.bounds(), &pose), &pose.world)
     {
         return None;
     }
     let geometry = asset.geometry().posed(&node.morph_weights, &pose.palette);
-    let posed =
-        geometry.map(|geometry| Shape { geometry: Arc::new(geometry), world: pose.world, is_posed: true });
+    let posed = geometry.map(|geometry| Shape { geometry: Arc::new(geometry), place, is_posed: true });
     Some(posed.unwrap_or(rest))
 }
 

@@ -43,13 +43,14 @@ pub(super) struct Kept {
 
 impl<'s> Stage<'s> {
     pub(crate) fn new(scene: &'s Scene, camera: &Camera, settings: &'s RenderSettings) -> Self {
-        let transforms = scene.visible_transforms();
+        let places = scene.visible_places();
+        let transforms = places.iter().map(|place| Some(place.as_ref()?.world)).collect::<Vec<_>>();
         let eye = Eye::new(camera, settings.aspect());
         let effects = &settings.effects;
         let rays = effects.ambient_occlusion.is_some() || effects.bounces > 0;
         let all = rays || effects.shadows != Shadows::Off;
         let onlookers = if all { Onlookers::All } else { Onlookers::Camera(&eye) };
-        let shapes = Shapes::new(scene, &transforms, onlookers);
+        let shapes = Shapes::new(scene, &places, onlookers);
         let lights = Lights::gather(scene, &transforms, &eye, settings);
         let turn = DMat3::from_quat(camera.orientation);
         let camera_to_world = DAffine3::from_mat3_translation(turn, camera.position);
@@ -58,7 +59,7 @@ impl<'s> Stage<'s> {
 
     /// Whether the camera may see something of a shape's faces.
     pub(crate) fn may_show(&self, shape: &Shape) -> bool {
-        self.eye.may_see(&shape.geometry.bounds(), &shape.world)
+        self.eye.may_see(&shape.geometry.bounds(), &shape.place.world)
     }
 
     /// Where a lamp is in the world.
@@ -223,7 +224,7 @@ impl Kept {
         let RenderSettings { width, height, .. } = *settings;
         resize(&mut self.linear, colors.len(), Vec4::ZERO).ok_or(TargetError::Memory { width, height })?;
         let stats = rasterizer.draw(pass, &mut target.with_linear(&mut self.linear)?);
-        map_picture(&self.linear, &settings.effects, &settings.background, [width, height], colors);
+        map_picture(&self.linear, settings, colors, rasterizer);
         Ok(stats)
     }
 }

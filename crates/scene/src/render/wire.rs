@@ -1,19 +1,19 @@
 //! The pipelines that draw edges, loose lines and points, and the faces that
 //! do nothing but hide what is behind them.
 
-use trigon_math::{Mat4, Vec3, Vec4};
+use trigon_math::{Vec3, Vec4};
 use trigon_raster::simd::{Each, F32, LANES, Simd, prelude::*};
 use trigon_raster::{Fragment, FragmentLanes, LanePipeline, Pipeline, VertexLanes, VertexOutput};
 
 use super::columns::Columns;
-use super::lanes::mapped;
+use super::placement::Placement;
 use super::surface::EdgeOverlay;
 use crate::background::Background;
 
 /// Vertices of a mesh in one colour, unlit.
 pub(super) struct Wire<'a> {
     pub(super) positions: &'a [Vec3],
-    pub(super) to_clip: Mat4,
+    pub(super) place: Placement,
     /// Linear RGB.
     pub(super) color: Vec3,
 }
@@ -26,7 +26,8 @@ impl Pipeline for Wire<'_> {
     }
 
     fn vertex(&self, index: usize) -> VertexOutput<()> {
-        VertexOutput { position: self.to_clip * self.positions[index].extend(1.0), varyings: () }
+        let place = self.positions[index] - self.place.anchor;
+        VertexOutput { position: self.place.to_clip * place.extend(1.0), varyings: () }
     }
 
     fn fragment(&self, _: &Fragment<()>) -> Vec4 {
@@ -38,7 +39,7 @@ impl Pipeline for Wire<'_> {
 /// without its hidden lines.
 pub(super) struct HiddenLine<'a> {
     pub(super) columns: &'a Columns,
-    pub(super) to_clip: Mat4,
+    pub(super) place: Placement,
     pub(super) background: Background,
     /// Of the picture, in pixels.
     pub(super) height: u32,
@@ -56,7 +57,7 @@ impl LanePipeline for HiddenLine<'_> {
     fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
         let [x, y, z] = &self.columns.positions;
         let position = [vertices.load(simd, x), vertices.load(simd, y), vertices.load(simd, z)];
-        mapped(&self.to_clip, position)
+        self.place.clip(simd, position)
     }
 
     #[inline(always)]

@@ -147,7 +147,7 @@ impl MetCaster {
             };
             Some((run.triangles.clone(), look))
         });
-        let normal_to_scene = normal_matrix(&caster.world.matrix3);
+        let normal_to_scene = normal_matrix(&caster.place.world.matrix3, caster.place.is_mirrored);
         Self { looks: looks.collect(), normal_to_scene, geometry: Arc::clone(&caster.geometry) }
     }
 }

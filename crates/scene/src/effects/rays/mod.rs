@@ -39,7 +39,8 @@ impl RayTriangles {
         let middle = casters.bounds.center().unwrap_or(DVec3::ZERO);
         let mut triangles = Vec::new();
         for caster in &casters.list {
-            let to_scene = DAffine3 { translation: caster.world.translation - middle, ..caster.world };
+            let to_scene =
+                DAffine3 { translation: caster.place.world.translation - middle, ..caster.place.world };
             let [x, y, z] = &caster.geometry.columns.positions;
             let place = |vertex: u32| {
                 let vertex = vertex as usize;

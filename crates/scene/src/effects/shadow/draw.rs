@@ -73,7 +73,7 @@ fn shape<'a>(
         shading: ShadingModel::Flat,
         reflection: Reflection::Material,
     };
-    let place = eye.place(&caster.world);
+    let place = eye.place(&caster.place, &caster.geometry.bounds());
     if masked {
         Shape::Masked(Surface::new(
             (columns, &[]),

@@ -4,7 +4,14 @@ use trigon_math::{DAffine3, DVec3, Vec3};
 use trigon_raster::simd::{F32, Simd, prelude::*};
 
 use crate::light::{Light, LightKind};
-use crate::render::lanes::{V3, difference, dot, inverse_root, positive, saturated, scaled, splat};
+use crate::render::lanes::{
+    V3, difference, dot, inverse_root, lesser_of, positive, saturated, scaled, splat,
+};
+
+/// No light that arrives is brighter: products with what surfaces make of it, and sums
+/// of thousands of lamps, stay finite. Infinity times nothing would be no number, and
+/// black in the brightest light.
+pub(super) const BRIGHTEST: f32 = (1_u64 << 60) as f32;
 
 /// A light with a direction, in camera space: differences of large world
 /// coordinates never appear.
@@ -100,6 +107,7 @@ impl Lamp {
                 let towards = scaled(offset, inverse);
                 let relative = squared * *inverse_range_squared;
                 let falloff = positive(1.0 - relative * relative) * (inverse * inverse);
+                let falloff = lesser_of(falloff, BRIGHTEST);
                 let share = match cone {
                     None => falloff,
                     Some(cone) => falloff * cone.share(simd, towards),

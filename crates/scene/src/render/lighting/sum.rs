@@ -1,11 +1,12 @@
 //! The sum over lamps: what reaches the eye from eight points of a surface.
 
 use trigon_math::Vec3;
-use trigon_raster::simd::{F32, Simd, prelude::*};
+use trigon_raster::simd::{Each, F32, Simd, prelude::*};
 
 use super::Microfacets;
+use super::lamp::BRIGHTEST;
 use crate::effects::Scenery;
-use crate::render::lanes::{V3, dot, normalized, positive, pow, product, scaled, sum, tinted};
+use crate::render::lanes::{V3, dot, lesser_of, normalized, positive, pow, product, scaled, sum, tinted};
 
 /// Eight points of a surface, in camera space.
 #[derive(Clone, Copy)]
@@ -90,7 +91,10 @@ impl<S: Simd> Answer<S> {
         (radiance, share): (Vec3, F32<S>),
         (towards, n_dot_l): (V3<S>, F32<S>),
     ) {
-        let light = tinted(share, radiance);
+        let light = tinted(share, radiance).each(
+            #[inline(always)]
+            |channel| lesser_of(channel, BRIGHTEST),
+        );
         match self {
             Self::Lambert => reflected.diffuse = sum(reflected.diffuse, light),
             Self::BlinnPhong { specular, shininess } => {

@@ -4,9 +4,7 @@ use trigon_raster::FragmentLanes;
 use trigon_raster::simd::{Each, F32, LANES, Simd, prelude::*};
 
 use super::{Coverage, Illumination, Surface, shown};
-use crate::render::lanes::{
-    V3, cross, difference, dot, moved, negated, normalized, scaled, select, splat, sum,
-};
+use crate::render::lanes::{V3, cross, difference, dot, negated, normalized, scaled, select, splat, sum};
 use crate::render::lighting::LitPoints;
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
@@ -49,7 +47,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
     fn facets<S: Simd>(&self, simd: S, primitives: [u32; LANES]) -> LitPoints<S> {
         let [a, b, c] = [0, 1, 2].each(
             #[inline(always)]
-            |corner| moved(&self.place.to_camera, self.corners(simd, primitives, corner)),
+            |corner| self.place.camera(simd, self.corners(simd, primitives, corner)),
         );
         let position = scaled(sum(sum(a, b), c), F32::splat(simd, 1.0 / 3.0));
         let normal = normalized(cross(difference(b, a), difference(c, a)));

@@ -4,7 +4,7 @@ use trigon_raster::simd::{F32, Simd, inlined, prelude::*};
 use trigon_raster::{FragmentLanes, VertexLanes};
 
 use super::{LightSlots, Surface, Values, load, shown};
-use crate::render::lanes::{V3, dot, moved, negated, normalized, product, scaled, splat, sum, turned};
+use crate::render::lanes::{V3, dot, negated, normalized, product, scaled, splat, sum, turned};
 use crate::render::lighting::{Answer, LitPoints, Reflected};
 
 /// Where light is found.
@@ -34,7 +34,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
     ) {
         let normal = load(simd, vertices, &self.columns.normals);
         let normal = normalized(turned(&self.place.normal_to_camera, normal));
-        let position = moved(&self.place.to_camera, position);
+        let position = self.place.camera(simd, position);
         let points = LitPoints { position, normal, facing: normal, view: self.view(simd, position) };
         self.set_side(simd, vertices, (slots, slots.at), &points);
         if slots.two_sided {

@@ -27,7 +27,7 @@ use trigon_raster::simd::{F32, Mask, Simd, prelude::*};
 use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
 
 use super::columns::Columns;
-use super::lanes::{V3, mapped, moved, normalized, saturated, splat, sum, tinted, turned};
+use super::lanes::{V3, normalized, saturated, splat, sum, tinted, turned};
 use super::lighting::Reflected;
 use super::placement::Placement;
 use crate::effects::Scenery;
@@ -93,7 +93,7 @@ impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
         if !FLAT && self.layout.count > 0 {
             self.set_varyings(simd, vertices, position);
         }
-        mapped(&self.place.to_clip, position)
+        self.place.clip(simd, position)
     }
 
     #[inline(always)]
@@ -131,7 +131,7 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
             vertices.set(coordinates.at + 1, u * matrix.x_axis.y + v * matrix.y_axis.y + offset.y);
         }
         if let Some(at) = layout.position {
-            set(vertices, at, moved(&place.to_camera, position));
+            set(vertices, at, place.camera(simd, position));
         }
         if let Some(at) = layout.normal {
             let normal = load(simd, vertices, &columns.normals);
