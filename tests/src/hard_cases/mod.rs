@@ -2,10 +2,21 @@
 //! each family.
 
 mod blending;
+mod camera;
 mod coverage;
 mod depth;
+mod edits;
+mod flight;
+mod flight_facet;
+mod flight_oracle;
+mod flight_scenes;
+mod hostile_values;
 mod huge;
 mod junctions;
+mod lights;
+mod mesh;
 mod near_plane;
+mod sizes;
 pub(crate) mod slivers;
 mod texture;
+mod transforms;

@@ -1,0 +1,89 @@
+//! Edits that should lead back to where they began.
+
+use std::f64::consts::PI;
+
+use proptest::prelude::*;
+use trigon_math::{DAffine3, DQuat, DVec3, elementary};
+use trigon_mesh::primitives;
+use trigon_scene::Transform;
+
+use crate::effort::cases;
+
+const DEGREE: f64 = PI / 180.0;
+
+/// Rounding unit of f64.
+const UNIT: f64 = f64::EPSILON / 2.0;
+
+fn axis() -> impl Strategy<Value = DVec3> {
+    prop::array::uniform3(-1.0..1.0_f64)
+        .prop_map(DVec3::from_array)
+        .prop_filter("has a direction", |axis| axis.length() > 0.1)
+}
+
+proptest! {
+    #![proptest_config(cases(64))]
+
+    /// A step is a product of two unit quaternions: sine and cosine are off by a unit in
+    /// the last place each, the axis by three, the four terms of each entry by four, and
+    /// its new length by three; together less than 16 roundings of a whole. 360 steps
+    /// add up at most that often, and turn a corner by twice the angle.
+    #[test]
+    fn a_node_turned_by_a_degree_360_times_is_back(axis in axis(), start in prop::array::uniform4(-1.0..1.0_f64)) {
+        let [x, y, z, w] = start;
+        let start = DQuat::from_xyzw(x, y, z, w + 2.0);
+        let mut transform = Transform::from_scale_rotation_translation(DVec3::ONE, start, DVec3::ZERO);
+        let before = transform.to_affine();
+        for _ in 0..360 {
+            transform.rotate(axis, DEGREE);
+        }
+        let after = transform.to_affine();
+        for corner in DVec3::AXES {
+            let miss = after.transform_point3(corner).distance(before.transform_point3(corner));
+            prop_assert!(miss <= 2.0 * 16.0 * 360.0 * UNIT, "{} came back {} away", corner, miss);
+        }
+        let Transform::Decomposed { rotation, .. } = transform else { panic!("a turn keeps the kind") };
+        // Root, quotient and the sum of squares.
+        prop_assert!((rotation.length() - 1.0).abs() <= 4.0 * UNIT, "|q| = {}", rotation.length());
+    }
+
+    /// Baked into vertices each step rounds each coordinate to f32 once: half a unit in
+    /// the last place, √3 of them for three coordinates.
+    #[test]
+    fn a_mesh_turned_by_a_degree_360_times_is_back(axis in axis()) {
+        let before = primitives::cube(2.0);
+        let mut mesh = before.clone();
+        let (sin, cos) = elementary::sin_cos(DEGREE / 2.0);
+        let half = axis.normalize() * sin;
+        let turn = DAffine3::from_quat(DQuat::from_xyzw(half.x, half.y, half.z, cos));
+        for _ in 0..360 {
+            mesh.transform(&turn);
+        }
+        // Coordinates stay below 2, where half a unit is 2^-24; the f64 in between is
+        // worth less than a hundredth of that.
+        let bound = 1.01 * 360.0 * 3.0_f64.sqrt() / f64::from(1 << 24);
+        for (old, new) in before.positions().iter().zip(mesh.positions()) {
+            let miss = new.as_dvec3().distance(old.as_dvec3());
+            prop_assert!(miss <= bound, "{} came back {} away", old, miss);
+        }
+        prop_assert!(mesh.is_closed(), "still closed");
+    }
+
+    /// What has an exact inverse in binary comes back to the bit, however often: scales
+    /// by powers of two, mirrors, exchanged axes.
+    #[test]
+    fn exact_edits_undone_in_reverse_give_the_first_mesh_back(
+        edits in prop::collection::vec((0..3_usize, -2..=2_i32, any::<bool>()), 1..40),
+    ) {
+        let before = primitives::torus_knot(&primitives::TorusKnot { segments: 12, sides: 4, ..Default::default() });
+        let map = |&(axis, power, mirror): &(usize, i32, bool), back: f64| {
+            let mut scale = DVec3::ONE;
+            scale[axis] = elementary::exp2(back * f64::from(power)) * if mirror { -1.0 } else { 1.0 };
+            DAffine3::from_scale(scale)
+        };
+        let mut mesh = before.clone();
+        edits.iter().for_each(|edit| mesh.transform(&map(edit, 1.0)));
+        edits.iter().rev().for_each(|edit| mesh.transform(&map(edit, -1.0)));
+        prop_assert!(mesh.positions() == before.positions(), "positions differ");
+        prop_assert!(mesh.corner_vertices() == before.corner_vertices(), "faces differ");
+    }
+}

@@ -1,0 +1,117 @@
+//! Meshes whose attributes say nothing or contradict each other, as they are drawn.
+//! Polygons and normals themselves are tested in `crates/mesh/tests`.
+
+use proptest::prelude::*;
+use trigon_camera::{Camera, Projection};
+use trigon_math::{DQuat, DVec3, Vec2, Vec3, Vec4};
+use trigon_mesh::{Attributes, Mesh, MeshBuilder, primitives};
+use trigon_scene::{
+    Light, Lighting, Material, Node, RenderSettings, Scene, Shading, ShadingModel, Transform, render,
+};
+
+use super::flight::{check_numbers, settings};
+use crate::effort::cases;
+
+/// A square of two metres that faces +Z, with a normal for each corner.
+fn square(normals: [Vec3; 4]) -> Mesh {
+    let mut builder = MeshBuilder::new();
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let corners = corners.map(|(x, y)| builder.push_vertex(Vec3::new(x, y, 0.0)));
+    builder.push_face(&corners).expect("four vertices that exist");
+    let mut mesh = builder.build();
+    let attributes = Attributes { corner_normals: Some(normals.to_vec()), ..Attributes::default() };
+    mesh.set_attributes(attributes).expect("four normals for four corners");
+    mesh
+}
+
+fn normal() -> impl Strategy<Value = Vec3> {
+    let number = || {
+        prop_oneof![-1.0_f32..1.0, Just(0.0), Just(-0.0), Just(f32::MIN_POSITIVE), Just(1e-45), Just(1e30)]
+    };
+    let wild = prop_oneof![4 => Just(0.0_f32), 1 => Just(f32::NAN), 1 => Just(f32::INFINITY)];
+    (number(), number(), number(), wild).prop_map(|(x, y, z, wild)| Vec3::new(x, y, z) + Vec3::splat(wild))
+}
+
+proptest! {
+    #![proptest_config(cases(64))]
+
+    /// Normals of any kind at the corners: where the interpolated one has a length it is
+    /// shown with length 1, where neighbours cancel each other it is zero and no light
+    /// reaches it; never anything in between, and nothing is NaN.
+    #[test]
+    fn any_corner_normals_shade_without_nan(
+        normals in prop::array::uniform4(normal()),
+        model in prop_oneof![Just(ShadingModel::Flat), Just(ShadingModel::Gouraud), Just(ShadingModel::Phong)],
+    ) {
+        let mut scene = Scene::new();
+        scene.add_object("square", square(normals), Material::default());
+        let settings = RenderSettings { shading: model, ..settings([24, 24]) };
+        let frame = render(&scene, &Camera::look_at(DVec3::Z * 4.0, DVec3::ZERO, DVec3::Y), &settings).expect("in range");
+        check_numbers(&frame);
+        for normal in frame.normals.expect("asked for") {
+            // Three squares, two sums, a root and three quotients, each to half a unit of
+            // the last place.
+            let error = (normal.as_dvec3().length() - 1.0).abs();
+            prop_assert!(normal == Vec3::ZERO || error < 4.0 * f64::from(f32::EPSILON), "{}", normal);
+        }
+    }
+
+    /// Texture coordinates that are equal, in line, or no numbers still give every corner
+    /// a tangent: a unit vector, and a side.
+    #[test]
+    fn any_texture_coordinates_give_tangents(
+        uvs in prop::collection::vec(prop::array::uniform2(prop_oneof![
+            3 => (-2..3_i8).prop_map(f32::from), 1 => -1e5_f32..1e5, 1 => Just(f32::NAN), 1 => Just(f32::INFINITY), 1 => Just(1e-45),
+        ]), 24),
+        flattened in any::<bool>(),
+    ) {
+        let mut mesh = primitives::cube(1.0);
+        if flattened {
+            mesh.positions_mut().iter_mut().for_each(|place| place.x = 0.0);
+        }
+        let uv_sets = vec![uvs.into_iter().map(Vec2::from).collect()];
+        mesh.set_attributes(Attributes { uv_sets, ..Attributes::default() }).expect("24 corners");
+        for tangent in mesh.generate_tangents(0).expect("there is a set") {
+            // As above.
+            let error = (tangent.truncate().as_dvec3().length() - 1.0).abs();
+            prop_assert!(error < 4.0 * f64::from(f32::EPSILON), "{} is no unit vector", tangent);
+            prop_assert!(tangent.w.abs() == 1.0, "{} has no side", tangent);
+        }
+    }
+}
+
+/// Normals that point against each other along an edge have no direction in the middle.
+/// Lamps from both sides light all else alike, so a pixel in the middle loses at most
+/// the one sample of three by three in a row that lies there; a sample that is NaN would
+/// take all nine with it.
+#[test]
+fn opposite_normals_on_an_edge_leave_no_hole() {
+    let along = Vec3::new(0.6, 0.0, 0.8);
+    for model in [ShadingModel::Gouraud, ShadingModel::Phong] {
+        let mut scene = Scene::new();
+        let matt = Material { shading: Shading::Lambert, base_color: Vec4::ONE, ..Material::default() };
+        scene.add_object("square", square([along, -along, -along, along]), matt);
+        for backwards in [DQuat::IDENTITY, DQuat::from_xyzw(0.0, 1.0, 0.0, 0.0)] {
+            let lamp = Node::from_light(Light::directional(1.0));
+            scene.add(lamp.with_transform(Transform::from_scale_rotation_translation(
+                DVec3::ONE,
+                backwards,
+                DVec3::ZERO,
+            )));
+        }
+        let settings = RenderSettings {
+            shading: model,
+            lighting: Lighting::Scene,
+            samples_per_axis: 3,
+            ..settings([33, 33])
+        };
+        let projection = Projection::orthographic(1.5, 0.1, 10.0).expect("in range");
+        let camera = Camera::look_at(DVec3::Z * 4.0, DVec3::ZERO, DVec3::Y).with_projection(projection);
+        let frame = render(&scene, &camera, &settings).expect("in range");
+        check_numbers(&frame);
+        // At the vertices both lamps shine with 0.8 of their light, which Gouraud's model
+        // keeps; two thirds of it are 0.53, and linear 0.5 is the byte 188.
+        let darkest = frame.color.chunks_exact(4).map(|pixel| pixel[0]).min();
+        assert!(darkest >= Some(188), "{model:?}: the darkest pixel is {darkest:?}");
+    }
+}

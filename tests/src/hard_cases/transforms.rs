@@ -1,0 +1,312 @@
+//! Maps between nodes, meshes and the camera: deep, large, small, flat and mirrored.
+
+use proptest::prelude::*;
+use trigon_camera::{Camera, Projection};
+use trigon_math::{DAffine3, DMat3, DQuat, DVec3, elementary};
+use trigon_mesh::primitives::{self, TorusKnot};
+use trigon_mesh::{Attributes, SkinWeights};
+use trigon_scene::{
+    Frame, Material, Node, NodeId, RenderSettings, Scene, ShadingModel, Skin, Transform, render,
+};
+use trigon_study::oracle::DoubleDouble;
+
+use super::flight::{check_ids, check_numbers, settings};
+use super::flight_oracle::Oracle;
+use crate::effort::cases;
+
+const SIZE: [u32; 2] = [48, 36];
+
+/// Seen from outside only.
+fn shell() -> Material {
+    Material { double_sided: false, ..Material::default() }
+}
+
+fn vector(range: std::ops::Range<f64>) -> impl Strategy<Value = DVec3> {
+    prop::array::uniform3(range).prop_map(DVec3::from_array)
+}
+
+/// A turn about any axis.
+fn turn() -> impl Strategy<Value = DQuat> {
+    prop::array::uniform4(-1.0..1.0_f64)
+        .prop_filter("has a length", |[x, y, z, w]| x * x + y * y + z * z + w * w > 0.01)
+        .prop_map(|[x, y, z, w]| DQuat::from_xyzw(x, y, z, w).normalize())
+}
+
+/// Nodes that hang on each other; the last one.
+fn chain(scene: &mut Scene, transforms: &[Transform]) -> NodeId {
+    let mut last = scene.add(Node::default().with_transform(transforms[0]));
+    for transform in &transforms[1..] {
+        let node = Node::default().with_transform(*transform);
+        last = scene.add_child(last, node).expect("the parent is there");
+    }
+    last
+}
+
+fn show(scene: &mut Scene, node: NodeId, mesh: trigon_mesh::Mesh) {
+    let (mesh, material) = (scene.add_mesh("mesh", mesh), scene.add_material(shell()));
+    let node = scene.node_mut(node).expect("just added");
+    (node.mesh, node.materials) = (Some(mesh), vec![material]);
+}
+
+fn draw(scene: &Scene, camera: &Camera) -> Frame {
+    render(scene, camera, &settings(SIZE)).expect("in range")
+}
+
+/// Rows of a map, the translation last.
+type Rows<T> = [[T; 4]; 3];
+
+fn rows(map: &DAffine3) -> Rows<f64> {
+    let columns = [map.matrix3.x_axis, map.matrix3.y_axis, map.matrix3.z_axis, map.translation];
+    [0, 1, 2].map(|row| columns.map(|column| column[row]))
+}
+
+fn product(outer: Rows<DoubleDouble>, inner: Rows<DoubleDouble>) -> Rows<DoubleDouble> {
+    outer.map(|row| {
+        [0, 1, 2, 3].map(|column| {
+            let own = if column == 3 { row[3] } else { DoubleDouble::ZERO };
+            (0..3).fold(own, |sum, k| sum + row[k] * inner[k][column])
+        })
+    })
+}
+
+fn link() -> impl Strategy<Value = Transform> {
+    let exponents = prop::array::uniform3(-1.0..1.0_f64);
+    (vector(-3.0..3.0), turn(), exponents, 0..8_u8).prop_map(|(translation, rotation, exponents, signs)| {
+        let sign = |axis: usize| if signs >> axis & 1 == 0 { 1.0 } else { -1.0 };
+        let scale = DVec3::from_array([0, 1, 2].map(|axis| sign(axis) * elementary::exp2(exponents[axis])));
+        Transform::from_scale_rotation_translation(scale, rotation, translation)
+    })
+}
+
+proptest! {
+    #![proptest_config(cases(24))]
+
+    /// The product of n matrices is off by at most 4 (n − 1) roundings of the product
+    /// of their absolute values: each entry of each product is a sum of four terms
+    /// (N. J. Higham, "Accuracy and Stability of Numerical Algorithms", 2002, 3.5).
+    #[test]
+    fn a_chain_of_64_nodes_is_the_exact_product(links in prop::collection::vec(link(), 64)) {
+        /// 4 · 63 roundings, and as many of the bound itself, which are squares of those.
+        const ROUNDINGS: f64 = 253.0 * f64::EPSILON / 2.0;
+        let mut scene = Scene::new();
+        let last = chain(&mut scene, &links);
+        let [mut exact, mut sizes] = [rows(&DAffine3::IDENTITY).map(|row| row.map(DoubleDouble::from)); 2];
+        for link in &links {
+            let link = rows(&link.to_affine()).map(|row| row.map(DoubleDouble::from));
+            exact = product(exact, link);
+            sizes = product(sizes, link.map(|row| row.map(DoubleDouble::abs)));
+        }
+        for found in [scene.world_transform(last), scene.visible_transforms()[last.index()].expect("visible")] {
+            for (found, (exact, sizes)) in rows(&found).iter().zip(exact.iter().zip(&sizes)) {
+                for ((&found, &exact), &size) in found.iter().zip(exact).zip(sizes) {
+                    let error = (DoubleDouble::from(found) - exact).abs().to_f64();
+                    prop_assert!(error <= ROUNDINGS * size.to_f64(), "{} is off by {}", found, error);
+                }
+            }
+        }
+    }
+
+    /// Maps that are exact in binary leave nothing to rounding: a chain of 64 of them,
+    /// mirrors among them, draws the very picture of their product.
+    #[test]
+    fn a_chain_of_exact_maps_draws_what_one_node_draws(
+        links in prop::collection::vec((0..6_usize, 0..8_u8, -1..=1_i32, prop::array::uniform3(-4..=4_i32)), 64),
+    ) {
+        let mut size = 0;
+        let links: Vec<Transform> = links.into_iter().map(|(order, signs, step, offset)| {
+            // The scale stays within 2^±3 on the way.
+            let step = if (size + step).abs() > 3 { -step } else { step };
+            size += step;
+            let scale = elementary::exp2(f64::from(step));
+            let orders = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
+            let columns = [0, 1, 2].map(|axis| {
+                DVec3::AXES[orders[order][axis]] * if signs >> axis & 1 == 0 { scale } else { -scale }
+            });
+            let matrix3 = DMat3::from_cols(columns[0], columns[1], columns[2]);
+            Transform::Affine(DAffine3 { matrix3, translation: DVec3::from_array(offset.map(f64::from)) })
+        }).collect();
+        let world = links.iter().fold(DAffine3::IDENTITY, |outer, link| outer * link.to_affine());
+        let picture = |transforms: &[Transform]| {
+            let mut scene = Scene::new();
+            let last = chain(&mut scene, transforms);
+            show(&mut scene, last, primitives::cone(1.0, 2.0, 7));
+            let unit = elementary::exp2(f64::from(size));
+            let eye = world.translation + DVec3::new(3.0, 2.0, 4.0) * unit;
+            let mut frame = draw(&scene, &Camera::look_at(eye, world.translation, DVec3::Y));
+            // The nodes have other numbers.
+            frame.object_ids = None;
+            frame
+        };
+        let (chained, single) = (picture(&links), picture(&[Transform::Affine(world)]));
+        prop_assert!(single.face_ids.as_ref().is_some_and(|ids| ids.iter().any(|&id| id != u32::MAX)), "seen");
+        prop_assert!(chained == single, "the pictures differ");
+    }
+
+    /// Everything 2ᵏ times as large, from 10⁻⁹ to 10⁹, looks the same to the bit, whether
+    /// the mesh is that large or its node: no square leaves the range on the way.
+    #[test]
+    fn scale_does_not_matter_from_a_nanometre_to_a_million_kilometres(
+        exponent in -30..=30_i32, inner in -30..=30_i32, eye in vector(-1.0..1.0),
+        shading in prop_oneof![Just(ShadingModel::Flat), Just(ShadingModel::Gouraud), Just(ShadingModel::Phong)],
+    ) {
+        let picture = |exponent: i32, inner: i32| {
+            let power = |exponent: i32| elementary::exp2(f64::from(exponent));
+            let (size, own) = (power(exponent), power(inner));
+            let mut scene = Scene::new();
+            let mesh = primitives::uv_sphere(1.0, 12, 6).transformed(&DAffine3::from_scale(DVec3::splat(own)));
+            let ball = scene.add_object("ball", mesh, shell());
+            scene.node_mut(ball).expect("just added").transform.scale_by(DVec3::splat(size / own));
+            let projection = Projection::perspective(0.7, size / 16.0, None).expect("positive");
+            let camera = Camera::look_at(eye.normalize_or(DVec3::X) * size * 3.0, DVec3::ZERO, DVec3::Y);
+            let settings = RenderSettings { shading, ..settings(SIZE) };
+            let mut frame = render(&scene, &camera.with_projection(projection), &settings).expect("in range");
+            frame.positions = None;
+            for depth in frame.depth.iter_mut().flatten() {
+                *depth /= size as f32;
+            }
+            frame
+        };
+        let (usual, scaled) = (picture(0, 0), picture(exponent, inner));
+        prop_assert!(usual.object_ids.as_ref().is_some_and(|ids| ids.contains(&0)), "seen");
+        prop_assert!(usual == scaled, "the pictures differ at 2^{} and 2^{}", exponent, inner);
+    }
+
+    /// What is nearly flat shows the side that is turned to the eye and not the other
+    /// one, mirrored or not, although the determinant of its map is lost in rounding.
+    #[test]
+    fn nearly_flat_objects_show_the_right_side(
+        outer in turn(), inner in turn(), exponent in 6..30_i32, mirrored in any::<bool>(),
+        above in any::<bool>(), aside in prop::array::uniform2(-0.5..0.5_f64),
+    ) {
+        let flat = elementary::pow(10.0, -f64::from(exponent)) * if mirrored { -1.0 } else { 1.0 };
+        let press = Transform::from_scale_rotation_translation(DVec3::new(1.0, flat, 1.0), outer, DVec3::ZERO);
+        let turned = Transform::from_scale_rotation_translation(DVec3::ONE, inner, DVec3::ZERO);
+        let mut scene = Scene::new();
+        let last = chain(&mut scene, &[press, turned]);
+        let solid = primitives::icosahedron(1.0);
+        let heights: Vec<f64> = (0..solid.face_count())
+            .map(|face| (inner * solid.face_area_vector(face).normalize()).y)
+            .collect();
+        show(&mut scene, last, solid);
+        let side = if above { 1.0 } else { -1.0 };
+        let away = outer * DVec3::new(aside[0], side, aside[1]);
+        let frame = draw(&scene, &Camera::look_at(away * 5.0, DVec3::ZERO, away.any_orthonormal_vector()));
+        check_numbers(&frame);
+        let facing = if mirrored { -side } else { side };
+        let up = outer * DVec3::Y * side;
+        let (faces, normals) = (frame.face_ids.expect("asked for"), frame.normals.expect("asked for"));
+        let mut seen = 0;
+        for (&face, normal) in faces.iter().zip(&normals).filter(|(face, _)| **face != u32::MAX) {
+            let height = heights[face as usize] * facing;
+            // The eye is at most two metres aside for each metre above: an edge-on face's
+            // normal may lean by that times how flat it is, and it shows the eye its back
+            // down to three times that.
+            prop_assert!(height > -3e-6, "face {} lies on the other side: {}", face, height);
+            // The pressed normal leans by at most |flat / height|, 10⁻³ here, and a
+            // thousandth is for f32.
+            prop_assert!(height < 1e-3 || normal.as_dvec3().dot(up) > 0.998, "{} instead of {}", normal, up);
+            seen += 1;
+        }
+        prop_assert!(seen > 100, "only {} pixels show it", seen);
+    }
+
+    /// Normals stand square to their faces under any map: sheared, mirrored, a million
+    /// times longer one way than another.
+    #[test]
+    fn normals_stand_square_to_faces_under_any_map(
+        columns in prop::array::uniform3(vector(-1.0..1.0)), exponents in prop::array::uniform3(-3.0..3.0_f64),
+    ) {
+        let [x, y, z] = [0, 1, 2].map(|axis| columns[axis] * elementary::pow(10.0, exponents[axis]));
+        let matrix3 = DMat3::from_cols(x, y, z);
+        let volume = x.normalize().cross(y.normalize()).dot(z.normalize());
+        prop_assume!(volume.abs() > 0.05);
+        let mut scene = Scene::new();
+        let cube = scene.add_object("cube", primitives::cube(1.0), shell());
+        scene.node_mut(cube).expect("just added").transform =
+            Transform::Affine(DAffine3 { matrix3, translation: DVec3::ZERO });
+        let mesh = primitives::cube(1.0);
+        let frame = draw(&scene, &scene.overview(4.0 / 3.0));
+        let (faces, normals) = (frame.face_ids.expect("asked for"), frame.normals.expect("asked for"));
+        for (&face, normal) in faces.iter().zip(&normals).filter(|(face, _)| **face != u32::MAX) {
+            let corners = mesh.face_vertices(face as usize);
+            let corner = |i: usize| matrix3 * mesh.positions()[corners[i] as usize].as_dvec3();
+            let (along, across) = (corner(1) - corner(0), corner(2) - corner(1));
+            let expected = along.cross(across).normalize() * volume.signum();
+            // A cube's normals are axes: they pick a column of f32 entries (half a unit
+            // of the last place each), and length, quotient and result round once each
+            // more; twice that, as three components share it.
+            let error = (normal.as_dvec3() - expected).length();
+            prop_assert!(error < 8.0 * f64::from(f32::EPSILON), "{} is off by {}", normal, error);
+        }
+    }
+
+    /// Millimetres, ten million metres from the origin, at any offset.
+    #[test]
+    fn millimetres_ten_million_metres_away_are_where_rays_meet_them(
+        offset in vector(-1e7..1e7), away in vector(-1.0..1.0), turned in turn(),
+    ) {
+        let shape = TorusKnot {
+            major_radius: 0.03, minor_radius: 0.012, tube_radius: 0.004, segments: 60, sides: 4, ..TorusKnot::default()
+        };
+        let mut scene = Scene::new();
+        let knot = scene.add_object("knot", primitives::torus_knot(&shape), shell());
+        scene.node_mut(knot).expect("just added").transform =
+            Transform::from_scale_rotation_translation(DVec3::ONE, turned, offset);
+        let projection = Projection::perspective(0.6, 1e-3, None).expect("positive");
+        let eye = offset + away.normalize_or(DVec3::X) * 0.15;
+        let camera = Camera::look_at(eye, offset, DVec3::Y).with_projection(projection);
+        let frame = draw(&scene, &camera);
+        check_numbers(&frame);
+        check_ids(&frame, &Oracle::new(&scene, &camera, SIZE), "far away");
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(24))]
+
+    /// A mesh that follows a joint 2ᵏ times as large, from 10⁻¹⁸ to 10¹⁸, has the very
+    /// normals of one that follows a joint of its own size.
+    #[test]
+    fn joints_of_any_size_turn_normals_alike(turned in turn(), exponent in -60..=60_i32, flat in any::<bool>()) {
+        let picture = |size: f64| {
+            let mut mesh = if flat { primitives::cube(1.0) } else { primitives::uv_sphere(1.0, 12, 6) };
+            let vertices = mesh.vertex_count();
+            let skin = SkinWeights::new(1, vec![0; vertices], vec![1.0; vertices]);
+            let attributes = Attributes { skin, ..mesh.attributes().clone() };
+            mesh.set_attributes(attributes).expect("a joint for each vertex");
+            let mut scene = Scene::new();
+            let node = scene.add_object("followed", mesh, shell());
+            let joint = Transform::from_scale_rotation_translation(DVec3::splat(size), turned, DVec3::ZERO);
+            let joint = scene.add(Node::default().with_transform(joint));
+            let skin = scene.skins.insert(Skin { joints: vec![joint], ..Skin::default() });
+            scene.node_mut(node).expect("just added").skin = Some(skin);
+            let projection = Projection::perspective(0.7, size / 16.0, None).expect("positive");
+            let camera = Camera::look_at(DVec3::new(1.0, 2.0, 3.0) * size, DVec3::ZERO, DVec3::Y);
+            let frame = draw(&scene, &camera.with_projection(projection));
+            (frame.object_ids, frame.normals)
+        };
+        let usual = picture(1.0);
+        prop_assert!(usual.0.as_ref().is_some_and(|ids| ids.contains(&0)), "seen");
+        prop_assert!(picture(elementary::exp2(f64::from(exponent))) == usual, "2^{} differs", exponent);
+    }
+}
+
+/// Flattened to a plane, a line and a point: nothing is NaN, and the plane is seen with
+/// the normals of a plane.
+#[test]
+fn flattened_objects_are_drawn_without_nan() {
+    for scale in
+        [DVec3::new(1.0, 0.0, 1.0), DVec3::new(0.0, 0.0, 1.0), DVec3::ZERO, DVec3::new(-1.0, -0.0, 1.0)]
+    {
+        let mut scene = Scene::new();
+        let ball = scene.add_object("ball", primitives::icosphere(1.0, 2), Material::default());
+        scene.node_mut(ball).expect("just added").transform.scale_by(scale);
+        let frame = draw(&scene, &Camera::look_at(DVec3::new(1.0, 4.0, 2.0), DVec3::ZERO, DVec3::Y));
+        check_numbers(&frame);
+        let seen = frame.object_ids.iter().flatten().filter(|&&id| id == 0).count();
+        let upright = frame.normals.iter().flatten().filter(|normal| normal.y.abs() == 1.0).count();
+        // At the rim a smooth normal may have nothing left along the flattened axis.
+        assert!((seen > 100) == (scale.x != 0.0), "scaled by {scale}: {seen} pixels show it");
+        assert!(2 * upright >= seen, "scaled by {scale}: {upright} of {seen} normals are square to it");
+    }
+}
