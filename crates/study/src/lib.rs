@@ -1,9 +1,16 @@
-//! What the trigon renderer costs and how right it is, measured: workloads that
-//! other renderers draw too, the harness that times them, and exact [`oracle`]s.
+//! What the trigon renderer costs and how right it is, measured.
 //!
-//! The workloads are closed form: no file is read and no random number is drawn,
-//! so the same triangles can be made anywhere from the same formulas. The
-//! library never prints, and the renderer never needs it.
+//! - A module for each question, in which the classical algorithms stand beside the
+//!   engine, each in a file of its own with its source: [`fill`], [`visibility`],
+//!   [`mod@line`], [`shading`], [`interpolation`], [`depth`], [`antialiasing`], [`texture`],
+//!   [`transparency`], [`shadow`], [`color`], [`coordinates`], [`storage`], [`threads`].
+//! - Exact answers to hold them against: [`oracle`].
+//! - What all that costs: [`report`].
+//! - [`workloads`] that other renderers draw too, and the harness that times them;
+//!   [`limits`] of the processor under the renderer's rules.
+//!
+//! Everything is closed form, or chance from a fixed seed: the same pictures are made
+//! anywhere. The library never prints, and the renderer never needs it.
 //!
 //! ```
 //! use trigon_raster::Rasterizer;
@@ -24,9 +31,36 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "tests may"))]
 
+pub mod antialiasing;
+pub mod color;
+pub mod coordinates;
+pub mod depth;
+pub mod fill;
+pub mod interpolation;
 pub mod limits;
+pub mod line;
 pub mod oracle;
+pub mod report;
+pub mod shading;
+pub mod shadow;
+pub mod storage;
+pub mod texture;
+pub mod threads;
+pub mod transparency;
+pub mod visibility;
 pub mod workloads;
+
+mod engine;
+mod field;
+mod measure;
+mod metric;
+mod random;
+
+pub use engine::Engine;
+pub use field::Field;
+pub use measure::{Spread, interleaved};
+pub use metric::{Difference, lightness};
+pub use random::Random;
 
 /// Runs the README's example as a test.
 #[cfg(doctest)]

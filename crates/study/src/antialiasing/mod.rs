@@ -1,0 +1,94 @@
+//! How many samples does an edge need? A star of needles against the exact area in each
+//! pixel.
+
+mod analytic;
+mod engine;
+mod star;
+
+#[cfg(test)]
+mod tests;
+
+pub use star::Star;
+
+use crate::field::Field;
+use crate::metric::Difference;
+
+/// A way to smooth edges.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum AntiAliasing {
+    /// The renderer with that many samples in each pixel, at the standard places.
+    Samples(u32),
+    /// The renderer on a grid that is finer by this on both axes.
+    Finer(u32),
+    /// The exact area.
+    Analytic,
+}
+
+impl AntiAliasing {
+    /// All that are compared.
+    pub const ALL: [Self; 9] = [
+        Self::Samples(1),
+        Self::Samples(2),
+        Self::Samples(4),
+        Self::Samples(8),
+        Self::Samples(16),
+        Self::Finer(2),
+        Self::Finer(3),
+        Self::Finer(4),
+        Self::Analytic,
+    ];
+
+    /// The name in tables and plots.
+    pub fn name(self) -> String {
+        match self {
+            Self::Samples(1) => "1 sample".to_owned(),
+            Self::Samples(count) => format!("{count} samples"),
+            Self::Finer(axis) => format!("supersampling {axis}x{axis}"),
+            Self::Analytic => "analytic area".to_owned(),
+        }
+    }
+
+    /// The share of each pixel that the star covers.
+    pub fn draw(self, star: &Star) -> Field<f64> {
+        match self.samples() {
+            Some([samples, axis]) => {
+                let mut drawer = engine::Drawer::new(star, samples, axis);
+                drawer.draw();
+                drawer.shares()
+            }
+            None => analytic::draw(star),
+        }
+    }
+
+    /// What draws the star again and again, with all kept that can be kept.
+    pub fn repeated(self, star: &Star) -> Box<dyn FnMut() + '_> {
+        match self.samples() {
+            Some([samples, axis]) => {
+                let mut drawer = engine::Drawer::new(star, samples, axis);
+                Box::new(move || drawer.draw())
+            }
+            None => Box::new(|| drop(analytic::draw(star))),
+        }
+    }
+
+    /// The renderer's samples in a pixel, and how much finer its grid is.
+    fn samples(self) -> Option<[u32; 2]> {
+        match self {
+            Self::Samples(samples) => Some([samples, 1]),
+            Self::Finer(axis) => Some([1, axis]),
+            Self::Analytic => None,
+        }
+    }
+
+    /// How far that is from the exact areas, in pixels that are partly covered.
+    pub fn error(self, star: &Star, exact: &Field<f64>) -> Difference {
+        let drawn = self.draw(star);
+        let partly = exact.pixels().filter(|(_, share)| (1e-9..1.0 - 1e-9).contains(*share));
+        Difference::of(partly.map(|(place, &share)| [drawn[place], share]))
+    }
+}
+
+/// The exact area in each pixel, in `f64`.
+pub fn exact(star: &Star) -> Field<f64> {
+    analytic::draw(star)
+}

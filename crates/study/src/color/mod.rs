@@ -1,0 +1,54 @@
+//! What does it cost to mix light as the bytes of a file? Two greys, half of each: bytes
+//! averaged as they are, in linear light with 8 bits between, and in linear light.
+
+#[cfg(test)]
+mod tests;
+
+use crate::metric::Difference;
+use trigon_math::color::{linear_to_srgb8, srgb8_to_linear};
+
+/// Where light is mixed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Mixing {
+    /// The bytes of sRGB.
+    GammaBytes,
+    /// Linear light, kept in bytes.
+    LinearBytes,
+    /// Linear light in `f32`.
+    Linear,
+}
+
+impl Mixing {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::GammaBytes, Self::LinearBytes, Self::Linear];
+
+    /// The name in tables and plots.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::GammaBytes => "sRGB bytes",
+            Self::LinearBytes => "linear, 8 bit",
+            Self::Linear => "linear, f32",
+        }
+    }
+
+    /// The sRGB byte of half of one grey and half of another.
+    pub fn mix(self, one: u8, other: u8) -> u8 {
+        match self {
+            Self::GammaBytes => (u16::from(one) + u16::from(other)).div_ceil(2) as u8,
+            Self::LinearBytes => {
+                let [one, other] = [one, other].map(|byte| (srgb8_to_linear(byte) * 255.0 + 0.5) as u16);
+                linear_to_srgb8(f32::from((one + other).div_ceil(2) as u8) / 255.0)
+            }
+            Self::Linear => linear_to_srgb8((srgb8_to_linear(one) + srgb8_to_linear(other)) / 2.0),
+        }
+    }
+
+    /// How far the mixtures of all pairs of bytes are from right.
+    pub fn error(self) -> Difference {
+        let light = |byte: u8| f64::from(srgb8_to_linear(byte));
+        let pairs = (0..=255).flat_map(|one| (0..=one).map(move |other| (one, other)));
+        Difference::of(
+            pairs.map(|(one, other)| [light(self.mix(one, other)), (light(one) + light(other)) / 2.0]),
+        )
+    }
+}

@@ -1,0 +1,104 @@
+//! A picture of values of any kind: what every algorithm of the study draws into.
+
+use std::ops::{Index, IndexMut};
+
+/// Row-major values, from the top left; y points down.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field<T> {
+    width: usize,
+    values: Vec<T>,
+}
+
+impl<T: Clone> Field<T> {
+    /// `width` by `height` times the same value; at least one pixel wide.
+    pub fn new([width, height]: [usize; 2], value: T) -> Self {
+        let width = width.max(1);
+        Self { width, values: vec![value; width * height] }
+    }
+
+    /// Sets every pixel to the same value.
+    pub fn clear(&mut self, value: T) {
+        self.values.fill(value);
+    }
+}
+
+impl<T> Field<T> {
+    /// What a function says of each pixel, in rows from the top.
+    pub fn from_fn([width, height]: [usize; 2], value: impl Fn([usize; 2]) -> T) -> Self {
+        let places = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
+        Self { width: width.max(1), values: places.map(value).collect() }
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        [self.width, self.values.len() / self.width]
+    }
+
+    /// All values, row by row.
+    pub fn values(&self) -> &[T] {
+        &self.values
+    }
+
+    /// The value at a place, if that is in the picture.
+    pub fn get(&self, place: [i32; 2]) -> Option<&T> {
+        self.index(place).map(|index| &self.values[index])
+    }
+
+    /// The same, to be changed.
+    #[inline]
+    pub fn get_mut(&mut self, place: [i32; 2]) -> Option<&mut T> {
+        self.index(place).map(|index| &mut self.values[index])
+    }
+
+    /// Every pixel with its place.
+    pub fn pixels(&self) -> impl Iterator<Item = ([usize; 2], &T)> {
+        let width = self.width;
+        self.values.iter().enumerate().map(move |(index, value)| ([index % width, index / width], value))
+    }
+
+    /// The rows, from the top.
+    pub fn rows_mut(&mut self) -> impl Iterator<Item = &mut [T]> {
+        self.values.chunks_mut(self.width)
+    }
+
+    /// A picture of the same size with what a function makes of each value.
+    pub fn map<U>(&self, value: impl FnMut(&T) -> U) -> Field<U> {
+        Field { width: self.width, values: self.values.iter().map(value).collect() }
+    }
+
+    #[inline]
+    fn index(&self, [x, y]: [i32; 2]) -> Option<usize> {
+        let (x, y) = (usize::try_from(x).ok()?, usize::try_from(y).ok()?);
+        let index = y * self.width + x;
+        (x < self.width && index < self.values.len()).then_some(index)
+    }
+}
+
+impl<T> Index<[usize; 2]> for Field<T> {
+    type Output = T;
+
+    #[inline]
+    fn index(&self, [x, y]: [usize; 2]) -> &T {
+        &self.values[y * self.width + x]
+    }
+}
+
+impl<T> IndexMut<[usize; 2]> for Field<T> {
+    #[inline]
+    fn index_mut(&mut self, [x, y]: [usize; 2]) -> &mut T {
+        &mut self.values[y * self.width + x]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_outside_hold_nothing() {
+        let field = Field::from_fn([3, 2], |[x, y]| 10 * y + x);
+        assert_eq!((field.size(), field[[2, 1]]), ([3, 2], 12), "columns, rows, and the last value");
+        let outside = [[-1, 0], [3, 0], [0, 2], [0, -1]].map(|place| field.get(place));
+        assert_eq!(outside, [None; 4], "left, right, below and above");
+    }
+}

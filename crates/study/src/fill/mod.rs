@@ -1,0 +1,108 @@
+//! Which pixels does a triangle cover, and what does it cost to know exactly?
+//!
+//! All algorithms take triangles in pixels and paint into a [`Canvas`] that counts. A
+//! pixel belongs to a triangle if its centre does; where triangles share an edge, each
+//! pixel on it should be painted once.
+
+mod canvas;
+mod cases;
+mod edges;
+mod engine;
+mod errors;
+pub(crate) mod fixed;
+mod float;
+mod scanlines;
+mod strips;
+
+#[cfg(test)]
+mod tests;
+
+pub use canvas::{Canvas, Painted};
+pub use cases::{Case, tiles};
+pub use errors::{FillErrors, owners};
+pub(crate) use scanlines::interpolate;
+
+use trigon_math::Vec2;
+
+/// A triangle in pixels from the top left, y down, in either winding.
+pub type Triangle = [Vec2; 3];
+
+/// A way to fill triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Fill {
+    /// Vertical strips between two sides (source row A9).
+    Strips,
+    /// Horizontal lines between interpolated sides (B2).
+    Scanlines,
+    /// Inclusive edge functions, asked at every pixel of the screen (C1).
+    EdgesOnScreen,
+    /// The same within the bounding box (C3).
+    EdgesInBox,
+    /// The same at the middle of the pixel instead of its corner.
+    EdgesAtCenters,
+    /// Edge functions in `f32` with the top-left rule.
+    FloatTopLeft,
+    /// Corners on a grid of 1/16 pixel, then exact integers.
+    Fixed4,
+    /// Corners on a grid of 1/256 pixel.
+    Fixed8,
+    /// Corners on a grid of 1/4096 pixel.
+    Fixed12,
+    /// The renderer: a grid of 1/256 pixel.
+    Engine,
+}
+
+impl Fill {
+    /// All of them, the oldest ideas first.
+    pub const ALL: [Self; 10] = [
+        Self::Strips,
+        Self::Scanlines,
+        Self::EdgesOnScreen,
+        Self::EdgesInBox,
+        Self::EdgesAtCenters,
+        Self::FloatTopLeft,
+        Self::Fixed4,
+        Self::Fixed8,
+        Self::Fixed12,
+        Self::Engine,
+    ];
+
+    /// The name in tables and plots.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Strips => "vertical strips",
+            Self::Scanlines => "scanlines",
+            Self::EdgesOnScreen => "inclusive edges, screen",
+            Self::EdgesInBox => "inclusive edges, box",
+            Self::EdgesAtCenters => "inclusive edges, centres",
+            Self::FloatTopLeft => "float edges, top-left",
+            Self::Fixed4 => "fixed point, 4 bits",
+            Self::Fixed8 => "fixed point, 8 bits",
+            Self::Fixed12 => "fixed point, 12 bits",
+            Self::Engine => "engine",
+        }
+    }
+
+    /// Paints triangles one after the other; each is told by its number.
+    pub fn paint(self, triangles: &[Triangle], canvas: &mut Canvas) {
+        match self {
+            Self::Strips => canvas.each(triangles, strips::fill),
+            Self::Scanlines => canvas.each(triangles, scanlines::fill),
+            Self::EdgesOnScreen => canvas.each(triangles, edges::fill_on_screen),
+            Self::EdgesInBox => canvas.each(triangles, edges::fill_in_box),
+            Self::EdgesAtCenters => canvas.each(triangles, edges::fill_at_centers),
+            Self::FloatTopLeft => canvas.each(triangles, float::fill),
+            Self::Fixed4 => canvas.each(triangles, fixed::fill::<4>),
+            Self::Fixed8 => canvas.each(triangles, fixed::fill::<8>),
+            Self::Fixed12 => canvas.each(triangles, fixed::fill::<12>),
+            Self::Engine => engine::fill(triangles, canvas),
+        }
+    }
+}
+
+/// The smallest and the largest of three.
+pub(crate) fn range<T: PartialOrd + Copy>([a, b, c]: [T; 3]) -> [T; 2] {
+    let least = |a, b| if b < a { b } else { a };
+    let most = |a, b| if b > a { b } else { a };
+    [least(least(a, b), c), most(most(a, b), c)]
+}

@@ -1,0 +1,110 @@
+//! What the report claims of filling, and that each algorithm is what it says.
+
+use super::*;
+
+const SIDE: usize = 256;
+const SIZE: [usize; 2] = [SIDE; 2];
+
+fn painted(fill: Fill, triangles: &[Triangle]) -> Canvas {
+    let mut canvas = Canvas::new(SIZE);
+    fill.paint(triangles, &mut canvas);
+    canvas
+}
+
+fn errors(fill: Fill, case: Case, seeds: u64) -> FillErrors {
+    let mut sum = FillErrors::default();
+    for seed in 0..seeds {
+        let triangles = case.triangles(SIDE, seed);
+        sum += FillErrors::of(&painted(fill, &triangles), &owners(&triangles, SIZE));
+    }
+    sum
+}
+
+/// The pixels of an 8 by 8 picture as text.
+fn text(fill: Fill, triangle: Triangle) -> String {
+    let mut canvas = Canvas::new([8, 8]);
+    fill.paint(&[triangle], &mut canvas);
+    let row = |y| (0..8).map(|x| if canvas.pixels()[[x, y]].count > 0 { '#' } else { '.' }).collect();
+    (0..8).map(row).collect::<Vec<String>>().join(" ")
+}
+
+#[test]
+fn every_case_tiles_the_picture() {
+    for case in Case::ALL {
+        let owners = owners(&case.triangles(SIDE, 3), SIZE);
+        let orphans = owners.values().iter().filter(|&&owner| owner == u32::MAX).count();
+        assert_eq!(orphans, 0, "{case:?}: pixels without an owner");
+    }
+}
+
+#[test]
+fn a_grid_leaves_no_gap_and_paints_nothing_twice() {
+    for fill in [Fill::Fixed4, Fill::Fixed8, Fill::Fixed12, Fill::Engine] {
+        for case in Case::ALL {
+            let FillErrors { gaps, doubles, .. } = errors(fill, case, 2);
+            assert_eq!((gaps, doubles), (0, 0), "{fill:?} on {case:?}");
+        }
+    }
+}
+
+#[test]
+fn each_bit_of_a_grid_buys_accuracy() {
+    let wrong = [Fill::Fixed4, Fill::Fixed8, Fill::Fixed12].map(|fill| errors(fill, Case::Tiles, 8).wrong);
+    // A corner moves by 1/16 of what it did, and so does the area that changes owners;
+    // half of that leaves room for the count of a few pixels.
+    assert!(wrong[0] > 8 * wrong[1] && wrong[1] > 8 * wrong[2], "wrong pixels with 4, 8, 12 bits: {wrong:?}");
+}
+
+#[test]
+fn what_lies_on_the_grid_is_exact() {
+    for fill in [Fill::Fixed4, Fill::Fixed8, Fill::Fixed12, Fill::FloatTopLeft, Fill::Engine] {
+        assert_eq!(errors(fill, Case::Lattice, 2).wrong, 0, "{fill:?}: corners on half pixels");
+    }
+}
+
+#[test]
+fn inclusive_edges_paint_shared_pixels_twice() {
+    let FillErrors { gaps, doubles, wrong, .. } = errors(Fill::EdgesAtCenters, Case::Lattice, 1);
+    assert!(doubles > 100 && gaps == 0 && wrong == doubles, "{doubles} doubles, {gaps} gaps, {wrong} wrong");
+    let strips = errors(Fill::Strips, Case::Tiles, 1);
+    assert!(strips.doubles > strips.edge_pixels / 2, "strips take in all pixels at their ends: {strips:?}");
+}
+
+#[test]
+fn float_edges_break_where_values_are_large() {
+    let far = errors(Fill::FloatTopLeft, Case::Fan, 4);
+    assert!(far.gaps + far.doubles > 0, "needles of 12,000 pixels: {far:?}");
+    assert!(
+        far.wrong < errors(Fill::Fixed4, Case::Fan, 4).wrong,
+        "but corners stay nearer to the input than on a coarse grid"
+    );
+}
+
+#[test]
+fn the_bounding_box_changes_no_pixel() {
+    let triangles = Case::Tiles.triangles(SIDE, 1);
+    let [screen, inbox] = [Fill::EdgesOnScreen, Fill::EdgesInBox].map(|fill| painted(fill, &triangles));
+    assert!(screen.pixels() == inbox.pixels(), "source rows C1 and C3");
+}
+
+#[test]
+fn the_engine_is_fixed_point_with_eight_bits() {
+    // Corners on 1/256 pixel are exact in clip space, too: the side is a power of two.
+    let triangles = tiles(SIDE, 9.0, 1.0 / 256.0, 5);
+    let [engine, fixed] = [Fill::Engine, Fill::Fixed8].map(|fill| painted(fill, &triangles));
+    assert!(engine.pixels() == fixed.pixels(), "every pixel");
+}
+
+#[test]
+fn each_source_draws_the_triangle_its_own_way() {
+    let triangle = [Vec2::new(0.75, 0.75), Vec2::new(6.25, 2.5), Vec2::new(2.5, 6.25)];
+    let pictures =
+        [Fill::Fixed8, Fill::Strips, Fill::Scanlines, Fill::EdgesInBox].map(|fill| text(fill, triangle));
+    let expected = [
+        "........ .##..... .#####.. ..###... ..##.... ..#..... ........ ........",
+        ".#...... .####... .#####.. .#####.. ..###... ..##.... ..#..... ........",
+        "#....... ###..... .######. .#####.. .###.... ..##.... ..#..... ........",
+        "........ .#...... ..###... ..####.. ..###... ...#.... ........ ........",
+    ];
+    assert_eq!(pictures, expected, "exact, strips, scanlines, edges at the corners of pixels");
+}

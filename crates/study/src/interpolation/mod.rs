@@ -1,0 +1,79 @@
+//! What does a division in each pixel buy? Texture coordinates over a floor seen in
+//! perspective: linear on the screen, linear between divisions, divided in each pixel.
+
+mod affine;
+mod engine;
+mod every16;
+mod floor;
+mod perspective;
+
+#[cfg(test)]
+mod tests;
+
+pub use floor::Floor;
+
+use crate::field::Field;
+
+/// Texture coordinates in texels.
+pub type Texel = [f32; 2];
+
+/// A way to interpolate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Interpolation {
+    /// Linear on the screen.
+    Affine,
+    /// Divided at every 16th pixel of a row, and linear between.
+    Every16,
+    /// Divided in each pixel.
+    Perspective,
+    /// The renderer.
+    Engine,
+}
+
+impl Interpolation {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Affine, Self::Every16, Self::Perspective, Self::Engine];
+
+    /// The name in tables and plots.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Affine => "affine",
+            Self::Every16 => "perspective every 16 pixels",
+            Self::Perspective => "perspective",
+            Self::Engine => "engine",
+        }
+    }
+
+    /// The texel at the centre of each pixel of a floor; none beside it.
+    pub fn draw(self, floor: &Floor) -> Field<Option<Texel>> {
+        match self {
+            Self::Affine => floor.draw(affine::row),
+            Self::Every16 => floor.draw(every16::row),
+            Self::Perspective => floor.draw(perspective::row),
+            Self::Engine => engine::draw(floor),
+        }
+    }
+
+    /// How far the texels are from the right ones.
+    pub fn errors(self, floor: &Floor) -> TexelErrors {
+        let drawn = self.draw(floor);
+        let distance = |(place, texel): ([usize; 2], &Option<Texel>)| {
+            let [[u, v], [right_u, right_v]] = [texel.as_ref()?.map(f64::from), floor.texel(place)?];
+            Some((u - right_u) * (u - right_u) + (v - right_v) * (v - right_v))
+        };
+        let squares: Vec<f64> = drawn.pixels().filter_map(distance).collect();
+        TexelErrors {
+            rms: (squares.iter().sum::<f64>() / squares.len() as f64).sqrt(),
+            worst: squares.iter().copied().fold(0.0, f64::max).sqrt(),
+        }
+    }
+}
+
+/// Distances from the right texel, in texels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TexelErrors {
+    /// The root of the mean square.
+    pub rms: f64,
+    /// The greatest.
+    pub worst: f64,
+}

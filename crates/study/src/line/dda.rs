@@ -1,0 +1,24 @@
+//! The incremental form (source row B1, its last one): the slope is added in each step
+//! along the longer side, so that there are no gaps; its rounding adds up.
+
+use super::{Segment, paint};
+use crate::field::Field;
+use crate::fill::interpolate;
+
+pub(super) fn draw(segment: Segment, coverage: &mut Field<f32>) {
+    for pixel in pixels(segment) {
+        paint(coverage, pixel, 1.0);
+    }
+}
+
+/// The pixels from the lower end to the upper one along the longer side.
+pub(super) fn pixels([from, to]: Segment) -> Vec<[i32; 2]> {
+    let along = usize::from((to[0] - from[0]).abs() <= (to[1] - from[1]).abs());
+    let (first, last) = if from[along] < to[along] { (from, to) } else { (to, from) };
+    let across = interpolate(first[along], first[1 - along] as f32, last[along], last[1 - along] as f32);
+    let pixel = |(step, across): (i32, f32)| {
+        let across = (across + 0.5).floor() as i32;
+        if along == 0 { [step, across] } else { [across, step] }
+    };
+    (first[along]..).zip(across).map(pixel).collect()
+}

@@ -1,0 +1,116 @@
+//! Which pixels make a straight line one pixel wide (source row B1), and whether the
+//! outline of a triangle keeps to its fill (B3)?
+//!
+//! Ends are the centres of pixels, as the classical algorithms have them.
+
+mod bresenham;
+mod dda;
+mod engine;
+mod errors;
+mod naive;
+mod outline;
+mod wu;
+
+#[cfg(test)]
+mod tests;
+
+pub use errors::LineErrors;
+pub use outline::{Outline, OutlineErrors};
+
+use crate::field::Field;
+
+/// A segment between the centres of two pixels.
+pub type Segment = [[i32; 2]; 2];
+
+/// A way to draw lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Line {
+    /// y = a x + b for each column, whatever the slope.
+    Naive,
+    /// A slope added in each step, along the longer side.
+    Dda,
+    /// The same in whole numbers.
+    Bresenham,
+    /// Two pixels in each step that share the ink.
+    Wu,
+    /// The renderer, sharp.
+    Engine,
+    /// The renderer, anti-aliased.
+    EngineSmooth,
+}
+
+impl Line {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Naive, Self::Dda, Self::Bresenham, Self::Wu, Self::Engine, Self::EngineSmooth];
+
+    /// The name in tables and plots.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Naive => "naive",
+            Self::Dda => "DDA",
+            Self::Bresenham => "Bresenham",
+            Self::Wu => "Wu, anti-aliased",
+            Self::Engine => "engine",
+            Self::EngineSmooth => "engine, anti-aliased",
+        }
+    }
+
+    /// Draws segments; each adds how much of a pixel it covers.
+    pub fn paint(self, segments: &[Segment], coverage: &mut Field<f32>) {
+        if let Some(outline) = self.outline() {
+            let mut drawer = engine::Drawer::new(segments, outline, coverage.size());
+            drawer.draw();
+            *coverage = drawer.coverage();
+        } else if let Some(draw) = self.classical() {
+            segments.iter().for_each(|&segment| draw(segment, coverage));
+        }
+    }
+
+    /// What draws segments again and again, with all kept that can be kept.
+    pub fn repeated<'a>(self, segments: &'a [Segment], size: [usize; 2]) -> Box<dyn FnMut() + 'a> {
+        if let Some(outline) = self.outline() {
+            let mut drawer = engine::Drawer::new(segments, outline, size);
+            return Box::new(move || drawer.draw());
+        }
+        let mut coverage = Field::new(size, 0.0);
+        Box::new(move || self.paint(segments, &mut coverage))
+    }
+
+    /// The function of a classical algorithm.
+    fn classical(self) -> Option<fn(Segment, &mut Field<f32>)> {
+        match self {
+            Self::Naive => Some(naive::draw),
+            Self::Dda => Some(dda::draw),
+            Self::Bresenham => Some(bresenham::draw),
+            Self::Wu => Some(wu::draw),
+            Self::Engine | Self::EngineSmooth => None,
+        }
+    }
+
+    /// The outline of the renderer's lines.
+    fn outline(self) -> Option<trigon_raster::Outline> {
+        match self {
+            Self::Engine => Some(trigon_raster::Outline::Sharp),
+            Self::EngineSmooth => Some(trigon_raster::Outline::AntiAliased),
+            _ => None,
+        }
+    }
+}
+
+/// Adds ink to a pixel, if it is in the picture.
+#[inline]
+fn paint(coverage: &mut Field<f32>, pixel: [i32; 2], share: f32) {
+    if let Some(sum) = coverage.get_mut(pixel) {
+        *sum += share;
+    }
+}
+
+/// Segments of `radius` pixels and the same back, from the middle of a square picture to
+/// all sides.
+pub fn star(side: usize, radius: i32) -> Vec<Segment> {
+    let middle = side as i32 / 2;
+    let ring = (-radius..radius).step_by(7);
+    let ends = ring.flat_map(|along| [[along, radius], [radius, along], [along, -radius], [-radius, along]]);
+    ends.map(|[x, y]| [[middle, middle], [middle + x, middle + y]]).collect()
+}

@@ -1,0 +1,68 @@
+//! How far pictures are apart, in light and in what a person sees.
+
+use trigon_math::elementary;
+
+/// Differences of brightness, pixel by pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Difference {
+    count: usize,
+    squares: f64,
+    lightness: f64,
+    /// The greatest difference in linear light, white being 1.
+    pub worst: f64,
+}
+
+impl Difference {
+    /// Of pairs of what was found and what is right, in linear light, white being 1.
+    pub fn of(pairs: impl IntoIterator<Item = [f64; 2]>) -> Self {
+        let mut difference = Self::default();
+        for [found, right] in pairs {
+            let error = (found - right).abs();
+            difference.count += 1;
+            difference.squares += error * error;
+            difference.lightness += (lightness(found) - lightness(right)).abs();
+            difference.worst = difference.worst.max(error);
+        }
+        difference
+    }
+
+    /// The root of the mean square in linear light.
+    pub fn rmse(&self) -> f64 {
+        (self.squares / self.count.max(1) as f64).sqrt()
+    }
+
+    /// The mean difference in lightness: ΔE of CIE 1976 for greys. Below about 1 hardly
+    /// anybody sees it.
+    pub fn delta_e(&self) -> f64 {
+        self.lightness / self.count.max(1) as f64
+    }
+}
+
+/// CIE 1976 lightness L*, 0 to 100, of linear light (CIE 15:2004, section 8.2.1).
+pub fn lightness(light: f64) -> f64 {
+    const LINEAR_UP_TO: f64 = 216.0 / 24389.0;
+    if light <= LINEAR_UP_TO {
+        24389.0 / 27.0 * light.max(0.0)
+    } else {
+        116.0 * elementary::cbrt(light) - 16.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lightness_runs_from_black_to_white() {
+        assert_eq!((lightness(0.0), lightness(1.0)), (0.0, 100.0), "the ends");
+        // The grey card of photographers, 18 % of the light, is half as light as white.
+        assert!((lightness(0.184) - 50.0).abs() < 0.1, "{}", lightness(0.184));
+    }
+
+    #[test]
+    fn differences_are_summed_up() {
+        let difference = Difference::of([[1.0, 1.0], [0.0, 1.0]]);
+        assert_eq!((difference.worst, difference.delta_e()), (1.0, 50.0), "black instead of white once");
+        assert_eq!(difference.rmse(), 0.5_f64.sqrt(), "in one of two pixels");
+    }
+}

@@ -1,0 +1,69 @@
+//! What does a shadow's edge cost?
+
+use super::*;
+use crate::field::Field;
+use crate::shadow::{MapFilter, Shadow, draw, error, exact};
+
+const RMSE: &str = "RMSE near the edge";
+const TIME: &str = "ns per pixel";
+const READY: &str = "ms to make ready";
+
+const CASE: &str = "a ball above a floor";
+
+pub(super) fn measure(effort: Effort) -> Chapter {
+    let side = effort.pick(256, 512);
+    let rounds = effort.rounds();
+    let ready = nanoseconds(rounds.div_ceil(3), &Shadow::ALL, |shadow| -> Box<dyn FnMut()> {
+        Box::new(move || drop(shadow.ready()))
+    });
+    let times = nanoseconds(rounds, &Shadow::ALL, |shadow| -> Box<dyn FnMut()> {
+        let light = shadow.ready();
+        Box::new(move || drop(draw(side, &*light)))
+    });
+    let row = |(shadow, (ready, time)): (Shadow, (Spread, Spread))| {
+        let row = Row::new(CASE, shadow.name()).with(RMSE, error(&draw(side, &*shadow.ready())).rmse());
+        row.timed(TIME, time.scaled(1.0 / (side * side) as f64)).timed(READY, ready.scaled(1e-6))
+    };
+    let rows: Vec<Row> = Shadow::ALL.into_iter().zip(ready.into_iter().zip(times)).map(row).collect();
+    Chapter {
+        name: "shadow",
+        title: "What does a shadow's edge cost?",
+        text: "Maps that reach just round the ball, nearest texel or four of them weighted, and rays against 5,120 triangles, \
+               against the closed form, in the pixels within two of the shadow's edge. A map is made in closed form here; an \
+               engine draws it.",
+        findings: findings(&rows),
+        plots: vec![Plot::trade("ball", &rows, CASE, [TIME, RMSE])],
+        pictures: vec![picture()],
+        rows,
+    }
+}
+
+fn picture() -> Picture {
+    let panel = |light: &dyn Fn([f64; 2]) -> f64| -> Field<[u8; 3]> {
+        draw(256, light).map(|&light| grey(0.05 + 0.6 * light))
+    };
+    let shadows = [
+        Shadow::Map(64, MapFilter::Nearest),
+        Shadow::Map(64, MapFilter::Linear),
+        Shadow::Map(1024, MapFilter::Nearest),
+    ];
+    let mut panels: Vec<_> = shadows.iter().map(|shadow| panel(&*shadow.ready())).collect();
+    panels.push(panel(&exact));
+    Picture::new(
+        "edges",
+        "A map of 64 texels a side, the same filtered, one of 1024, and the closed form",
+        panels,
+    )
+}
+
+fn findings(rows: &[Row]) -> Vec<String> {
+    let of = |shadow: Shadow, quantity: &str| value(rows, CASE, &shadow.name(), quantity);
+    let map = Shadow::Map(1024, MapFilter::Nearest);
+    vec![format!(
+        "Rays take {} of the time of a map of 1024 texels a side for a pixel, and have {} of its error at the edge, which is that \
+         of the triangles. Filtering takes {} of the time.",
+        times(of(Shadow::Rays, TIME), of(map, TIME)),
+        times(of(Shadow::Rays, RMSE), of(map, RMSE)),
+        times(of(Shadow::Map(1024, MapFilter::Linear), TIME), of(map, TIME)),
+    )]
+}

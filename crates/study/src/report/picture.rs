@@ -1,0 +1,42 @@
+//! Pictures side by side.
+
+use crate::field::Field;
+use image::RgbImage;
+use std::io;
+use std::path::Path;
+
+/// Some pictures of the same size next to each other.
+pub(super) struct Picture {
+    name: &'static str,
+    pub(super) caption: String,
+    panels: Vec<Field<[u8; 3]>>,
+}
+
+impl Picture {
+    /// Pictures from left to right.
+    pub(super) fn new(name: &'static str, caption: impl Into<String>, panels: Vec<Field<[u8; 3]>>) -> Self {
+        Self { name, caption: caption.into(), panels }
+    }
+
+    pub(super) fn file(&self, chapter: &str) -> String {
+        format!("accuracy-{chapter}-{}.png", self.name)
+    }
+
+    pub(super) fn write(&self, path: &Path) -> io::Result<()> {
+        self.composed().save(path).map_err(io::Error::other)
+    }
+
+    /// Small pixels are shown large: panels are enlarged to about 256 pixels.
+    fn composed(&self) -> RgbImage {
+        const GAP: u32 = 8;
+        let [width, height] = self.panels[0].size();
+        let zoom = (256 / width).max(1);
+        let [wide, high] = [width, height].map(|side| (side * zoom) as u32);
+        let count = self.panels.len() as u32;
+        RgbImage::from_fn(count * (wide + GAP) - GAP, high, |x, y| {
+            let (panel, column) = (x / (wide + GAP), x % (wide + GAP));
+            let place = [column, y].map(|part| part as usize / zoom);
+            image::Rgb(if column < wide { self.panels[panel as usize][place] } else { [255; 3] })
+        })
+    }
+}

@@ -1,0 +1,14 @@
+//! B. T. Phong, "Illumination for computer generated pictures", CACM 18(6), 1975: normals
+//! are interpolated, and light is computed in each pixel.
+
+use super::ball::{Facet, Picture};
+use super::light_of;
+use trigon_math::DVec3;
+
+pub(super) fn draw(face: &Facet, picture: &mut Picture) {
+    let normals = [0, 1, 2].map(|axis| face.shares(face.normals.map(|normal| normal[axis])));
+    face.paint(picture, |pixel| {
+        let normal = DVec3::from(normals.map(|shares| face.at(&shares, pixel)));
+        light_of(normal.normalize())
+    });
+}

@@ -1,0 +1,94 @@
+//! What does a shadow's edge cost? A ball above a floor, lit from one direction: maps of
+//! several sizes and filters, and rays, against the closed form.
+
+mod map;
+mod rays;
+mod stage;
+
+#[cfg(test)]
+mod tests;
+
+use crate::field::Field;
+use crate::metric::Difference;
+
+pub use map::ShadowMap;
+pub use rays::ShadowRays;
+
+/// How the four texels about a point are asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum MapFilter {
+    /// The nearest.
+    Nearest,
+    /// All four, weighted.
+    Linear,
+}
+
+/// A way to find shadows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Shadow {
+    /// A depth map of so many texels a side.
+    Map(usize, MapFilter),
+    /// A ray to the light from each pixel, against a ball of triangles.
+    Rays,
+}
+
+impl Shadow {
+    /// All that are compared.
+    pub const ALL: [Self; 9] = [
+        Self::Map(64, MapFilter::Nearest),
+        Self::Map(64, MapFilter::Linear),
+        Self::Map(256, MapFilter::Nearest),
+        Self::Map(256, MapFilter::Linear),
+        Self::Map(1024, MapFilter::Nearest),
+        Self::Map(1024, MapFilter::Linear),
+        Self::Map(4096, MapFilter::Nearest),
+        Self::Map(4096, MapFilter::Linear),
+        Self::Rays,
+    ];
+
+    /// The name in tables and plots.
+    pub fn name(self) -> String {
+        match self {
+            Self::Map(side, MapFilter::Nearest) => format!("map {side}"),
+            Self::Map(side, MapFilter::Linear) => format!("map {side}, filtered"),
+            Self::Rays => "rays".to_owned(),
+        }
+    }
+
+    /// What says how much light a point of the floor gets, made ready.
+    pub fn ready(self) -> Box<dyn Fn([f64; 2]) -> f64> {
+        match self {
+            Self::Map(side, filter) => {
+                let map = ShadowMap::new(side);
+                Box::new(move |point| map.light(point, filter))
+            }
+            Self::Rays => {
+                let rays = ShadowRays::new();
+                Box::new(move |point| rays.light(point))
+            }
+        }
+    }
+}
+
+/// The light on a floor of `side` by `side` pixels as something says it.
+pub fn draw(side: usize, light: &dyn Fn([f64; 2]) -> f64) -> Field<f64> {
+    Field::from_fn([side; 2], |place| light(stage::point(place, side)))
+}
+
+/// The light as it is: 0 where the ball is between a point and the light, else 1.
+pub fn exact(point: [f64; 2]) -> f64 {
+    stage::exact(point)
+}
+
+/// How far a picture is from right, in the pixels that lie within two of the shadow's edge.
+pub fn error(drawn: &Field<f64>) -> Difference {
+    let side = drawn.size()[0];
+    let right = |place: [usize; 2]| exact(stage::point(place, side));
+    let is_near_edge = |[x, y]: [usize; 2]| {
+        let around =
+            (y.saturating_sub(2)..=y + 2).flat_map(|y| (x.saturating_sub(2)..=x + 2).map(move |x| [x, y]));
+        around.into_iter().any(|place| right(place) != right([x, y]))
+    };
+    let near = drawn.pixels().filter(|(place, _)| is_near_edge(*place));
+    Difference::of(near.map(|(place, &light)| [light, right(place)]))
+}

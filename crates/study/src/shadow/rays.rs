@@ -1,0 +1,37 @@
+//! A ray from each point to the light (T. Whitted, "An improved illumination model for
+//! shaded display", CACM 23(6), 1980), against triangles in a tree.
+
+use super::stage::{BALL, LIGHT, on_floor};
+use trigon_math::{Bvh, Ray, Vec3};
+use trigon_mesh::primitives;
+
+/// A ball of 5,120 triangles in a tree.
+pub struct ShadowRays {
+    tree: Bvh,
+}
+
+impl Default for ShadowRays {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl ShadowRays {
+    /// Builds the tree.
+    pub fn new() -> Self {
+        let mesh = primitives::icosphere(1.0, 4);
+        let corner = |&vertex: &u32| mesh.positions()[vertex as usize] + BALL.as_vec3();
+        let triangle = |face: usize| -> [Vec3; 3] {
+            let corners = mesh.face_vertices(face);
+            [corner(&corners[0]), corner(&corners[1]), corner(&corners[2])]
+        };
+        let triangles: Vec<[Vec3; 3]> = (0..mesh.face_count()).map(triangle).collect();
+        Self { tree: Bvh::new(&triangles) }
+    }
+
+    /// 0 or 1.
+    pub fn light(&self, point: [f64; 2]) -> f64 {
+        let ray = Ray { origin: on_floor(point).as_vec3(), direction: LIGHT.as_vec3() };
+        if self.tree.meets_any(&ray, 0.0..f32::INFINITY) { 0.0 } else { 1.0 }
+    }
+}

@@ -1,0 +1,80 @@
+//! The corner table (J. Rossignac, A. Safonova and A. Szymczak, "3D compression made
+//! simple: Edgebreaker on a corner table", 2001): the vertex of each corner, and the corner
+//! opposite to it in the triangle across; all else follows from the numbers.
+
+use super::{Found, Storage, Triangles, byte_count, in_order, nearest};
+use std::collections::BTreeMap;
+use trigon_math::Vec3;
+
+/// Two numbers for each corner, and one corner for each vertex.
+pub struct CornerTable {
+    positions: Vec<Vec3>,
+    vertices: Vec<u32>,
+    opposites: Vec<u32>,
+    /// A corner of each vertex.
+    corners: Vec<u32>,
+}
+
+/// The corner after this one in its triangle.
+fn next(corner: u32) -> u32 {
+    corner - corner % 3 + (corner + 1) % 3
+}
+
+impl CornerTable {
+    /// Of a closed mesh.
+    pub fn new(Triangles { positions, triangles }: &Triangles) -> Self {
+        let vertices: Vec<u32> = triangles.as_flattened().to_vec();
+        let side = |corner: u32| [next(corner), next(next(corner))].map(|corner| vertices[corner as usize]);
+        let all = 0..vertices.len() as u32;
+        let sides: BTreeMap<[u32; 2], u32> = all.clone().map(|corner| (side(corner), corner)).collect();
+        let opposite = |corner: u32| {
+            let [from, to] = side(corner);
+            sides[&[to, from]]
+        };
+        let opposites = all.clone().map(opposite).collect();
+        let mut corners = vec![0; positions.len()];
+        all.for_each(|corner| corners[vertices[corner as usize] as usize] = corner);
+        Self { positions: positions.clone(), vertices, opposites, corners }
+    }
+
+    fn vertex(&self, corner: u32) -> u32 {
+        self.vertices[corner as usize]
+    }
+
+    /// The corners of a vertex, in turn.
+    fn corners_around(&self, vertex: u32) -> impl Iterator<Item = u32> + '_ {
+        let first = self.corners[vertex as usize];
+        // Across the side before the corner, the vertex's corner follows the opposite.
+        let turn = |corner: u32| next(self.opposites[next(corner) as usize]);
+        std::iter::successors(Some(first), move |&corner| {
+            Some(turn(corner)).filter(|&corner| corner != first)
+        })
+    }
+}
+
+impl Storage for CornerTable {
+    fn bytes(&self) -> usize {
+        let corners = byte_count(&self.vertices) + byte_count(&self.opposites);
+        byte_count(&self.positions) + corners + byte_count(&self.corners)
+    }
+
+    fn nearest_edge(&self, face: u32, point: Vec3) -> Found<[u32; 2]> {
+        let [a, b, c] = [0, 1, 2].map(|i| self.vertex(3 * face + i));
+        Found { answer: nearest([[a, b], [b, c], [c, a]], &self.positions, point), reads: 3 }
+    }
+
+    fn triangles_around(&self, vertex: u32) -> Found<Vec<[u32; 3]>> {
+        let triangle =
+            |corner: u32| [corner, next(corner), next(next(corner))].map(|corner| self.vertex(corner));
+        let triangles: Vec<[u32; 3]> = self.corners_around(vertex).map(triangle).collect();
+        let reads = 1 + 4 * triangles.len() as u64;
+        Found { answer: in_order(triangles), reads }
+    }
+
+    fn neighbours(&self, vertex: u32) -> Found<Vec<u32>> {
+        let mut answer: Vec<u32> =
+            self.corners_around(vertex).map(|corner| self.vertex(next(corner))).collect();
+        answer.sort_unstable();
+        Found { reads: 1 + 2 * answer.len() as u64, answer }
+    }
+}

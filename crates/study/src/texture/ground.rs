@@ -1,0 +1,59 @@
+//! A checkered plane below the eye, in closed form.
+
+use trigon_raster::{Texture, TextureFormat};
+
+/// Squares of 8 texels, 64 texels to the metre, one metre below the eye.
+pub struct Ground {
+    width: usize,
+    texture: Texture,
+}
+
+const SIDE: u32 = 64;
+const SQUARE: u32 = 8;
+
+/// Light and dark as bytes of linear light.
+const TINTS: [u8; 2] = [230, 20];
+
+impl Ground {
+    /// In a picture of `width` pixels, all of it below the horizon.
+    pub fn new(width: usize) -> Self {
+        let texel = |x: u32, y: u32| {
+            let tint = TINTS[((x / SQUARE + y / SQUARE) % 2) as usize];
+            [tint, tint, tint, 255]
+        };
+        let texels = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| texel(x, y))).collect();
+        let texture = Texture::new(SIDE, SIDE, texels, TextureFormat::Linear).expect("the size is in range");
+        Self { width, texture }
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        [self.width, self.width / 2]
+    }
+
+    pub(super) fn texture(&self) -> &Texture {
+        &self.texture
+    }
+
+    /// Texture coordinates at a point of the picture, turned by 0.6 against it, and how they
+    /// change to the right and down.
+    pub(super) fn footprint(&self, [x, y]: [f64; 2]) -> [[f64; 2]; 3] {
+        const TURN: [f64; 2] = [0.8, 0.6];
+        let scale = self.width as f64 / 2.0;
+        // The horizon lies a twentieth of the height above the picture.
+        let below = (y + self.width as f64 / 40.0) / scale;
+        let (ahead, right) = (1.0 / below, (x - scale) / scale / below);
+        let down = -1.0 / (below * below) / scale;
+        let [ahead_down, right_down] = [down, (x - scale) / scale * down];
+        let turned =
+            |right: f64, ahead: f64| [TURN[0] * right - TURN[1] * ahead, TURN[1] * right + TURN[0] * ahead];
+        [turned(right, ahead), turned(1.0 / scale / below, 0.0), turned(right_down, ahead_down)]
+    }
+
+    /// The light at a point of the picture: that of the texel it lies in.
+    pub(super) fn light(&self, point: [f64; 2]) -> f64 {
+        let [uv, ..] = self.footprint(point);
+        let squares = uv.map(|part| (part * f64::from(SIDE / SQUARE)).floor() as i64);
+        f64::from(TINTS[(squares[0] + squares[1]).rem_euclid(2) as usize]) / 255.0
+    }
+}

@@ -1,0 +1,86 @@
+//! How many texels does a pixel need? The renderer's filters on a floor that leads to the
+//! horizon, against the mean of what each pixel sees of it.
+
+mod ground;
+
+#[cfg(test)]
+mod tests;
+
+pub use ground::Ground;
+
+use crate::field::Field;
+use crate::metric::Difference;
+use trigon_math::Vec2;
+use trigon_raster::{Filter, MipFilter, Sampler};
+
+/// A way to look a texture up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TextureFilter {
+    /// The texel in the middle.
+    Nearest,
+    /// Four texels of the base level.
+    Bilinear,
+    /// Four texels of each of two levels.
+    Trilinear,
+    /// So many such look-ups along the longer side of a pixel's footprint.
+    Anisotropic(u8),
+}
+
+impl TextureFilter {
+    /// All that are compared.
+    pub const ALL: [Self; 6] = [
+        Self::Nearest,
+        Self::Bilinear,
+        Self::Trilinear,
+        Self::Anisotropic(2),
+        Self::Anisotropic(4),
+        Self::Anisotropic(16),
+    ];
+
+    /// The name in tables and plots.
+    pub fn name(self) -> String {
+        match self {
+            Self::Nearest => "nearest".to_owned(),
+            Self::Bilinear => "bilinear".to_owned(),
+            Self::Trilinear => "trilinear".to_owned(),
+            Self::Anisotropic(probes) => format!("anisotropic {probes}"),
+        }
+    }
+
+    fn sampler(self) -> Sampler {
+        let (filter, mip) = match self {
+            Self::Nearest => (Filter::Nearest, MipFilter::None),
+            Self::Bilinear => (Filter::Linear, MipFilter::None),
+            Self::Trilinear => (Filter::Linear, MipFilter::Linear),
+            Self::Anisotropic(probes) => (Filter::Linear, MipFilter::Anisotropic(probes)),
+        };
+        Sampler { magnification: filter, minification: filter, mip, ..Sampler::default() }
+    }
+
+    /// The light of each pixel.
+    pub fn draw(self, ground: &Ground) -> Field<f64> {
+        let sampler = self.sampler();
+        Field::from_fn(ground.size(), |[x, y]| {
+            let [uv, ddx, ddy] =
+                ground.footprint([x as f64 + 0.5, y as f64 + 0.5]).map(|v| Vec2::from(v.map(|c| c as f32)));
+            ground.texture().sample(uv, ddx, ddy, &sampler).x.into()
+        })
+    }
+
+    /// How far that is from the mean of what each pixel sees.
+    pub fn error(self, ground: &Ground, right: &Field<f64>) -> Difference {
+        let drawn = self.draw(ground);
+        Difference::of(right.pixels().map(|(place, &light)| [drawn[place], light]))
+    }
+}
+
+/// The mean light of 16 by 16 points in each pixel, no filter at any.
+pub fn exact(ground: &Ground) -> Field<f64> {
+    const POINTS: usize = 16;
+    Field::from_fn(ground.size(), |[x, y]| {
+        let place = |i: usize| (i as f64 + 0.5) / POINTS as f64;
+        let points =
+            (0..POINTS).flat_map(|j| (0..POINTS).map(move |i| [x as f64 + place(i), y as f64 + place(j)]));
+        points.map(|point| ground.light(point)).sum::<f64>() / (POINTS * POINTS) as f64
+    })
+}

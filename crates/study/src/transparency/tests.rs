@@ -1,0 +1,29 @@
+//! What the report claims of transparency.
+
+use super::*;
+use crate::visibility::Case;
+
+#[test]
+fn finer_sorting_is_nearer_and_fragments_are_right() {
+    let scene = Case::Crossing.scene(128);
+    let [unsorted, body, face, fragment, engine] = Transparency::ALL.map(|way| way.error(&scene).rmse());
+    assert!(unsorted > body && body > face && face > 0.01, "{unsorted}, {body}, {face}");
+    assert_eq!(fragment, 0.0, "by definition");
+    assert!(engine < face / 10.0, "the engine sorts fragments by depths in f32: {engine}");
+}
+
+#[test]
+fn one_face_lets_half_of_the_light_through() {
+    let scene = Scene::new(
+        [16; 2],
+        vec![crate::visibility::Body {
+            corners: vec![[-4000, -4000, 100], [20_000, -4000, 100], [-4000, 20_000, 100]],
+            triangles: vec![[0, 1, 2]],
+        }],
+    );
+    for way in Transparency::ALL {
+        let found = way.draw(&scene)[[8, 8]];
+        // A half of it is exact; the light itself is rounded to f32 by the engine.
+        assert!((found - light(0) / 2.0).abs() < 1e-7, "{way:?}: {found}");
+    }
+}

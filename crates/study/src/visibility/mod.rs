@@ -1,0 +1,136 @@
+//! Which face is seen in each pixel? The ways that source D argues about (row D5), and
+//! two that it leaves out.
+//!
+//! All take a [`Scene`] of bodies whose corners lie on a grid as fine as the engine's, so
+//! that they agree about what a face covers, and differ only in how they find the
+//! nearest one.
+
+mod cases;
+mod engine;
+mod errors;
+mod painter;
+mod rays;
+mod roberts;
+mod scene;
+mod surface;
+mod warnock;
+mod z_buffer;
+
+#[cfg(test)]
+mod tests;
+
+pub use cases::{Case, balls, balls_apart, balls_in_a_heap};
+pub use errors::OrderErrors;
+pub use roberts::{Line, Lines};
+pub use scene::{Body, Corner, NotConvex, Pose, Scene};
+
+pub(crate) use engine::clip_corners;
+pub(crate) use surface::Surface;
+
+use crate::field::Field;
+
+/// A way to find what is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Visibility {
+    /// Faces from the farthest to the nearest, one over the other.
+    Painter,
+    /// Bodies that hide each other, in object space; convex ones only.
+    Roberts,
+    /// Windows that are divided until they are simple.
+    Warnock,
+    /// The nearest depth so far in each pixel.
+    ZBuffer,
+    /// A ray through each pixel, tested against every face.
+    AllRays,
+    /// The same with a bounding volume hierarchy.
+    TreeRays,
+    /// The renderer.
+    Engine,
+}
+
+/// What a picture shows, and what it took to find out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    /// The number of the face in each pixel, `u32::MAX` for none.
+    pub faces: Field<u32>,
+    /// The algorithm's own unit of work; see [`Visibility::test`]. 0 where it is not
+    /// counted.
+    pub tests: u64,
+}
+
+impl Drawing {
+    fn empty(size: [usize; 2]) -> Self {
+        Self { faces: Field::new(size, u32::MAX), tests: 0 }
+    }
+}
+
+impl Visibility {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Painter,
+        Self::Roberts,
+        Self::Warnock,
+        Self::ZBuffer,
+        Self::AllRays,
+        Self::TreeRays,
+        Self::Engine,
+    ];
+
+    /// The name in tables and plots.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Painter => "painter",
+            Self::Roberts => "Roberts",
+            Self::Warnock => "Warnock",
+            Self::ZBuffer => "z-buffer",
+            Self::AllRays => "rays, every face",
+            Self::TreeRays => "rays, tree",
+            Self::Engine => "engine",
+        }
+    }
+
+    /// What is counted as a test; empty where nothing is.
+    pub fn test(self) -> &'static str {
+        match self {
+            Self::Painter => "comparisons of the sort",
+            Self::Roberts => "points or edges against planes",
+            Self::Warnock => "faces against windows",
+            Self::ZBuffer => "pixels against edges",
+            Self::AllRays => "rays against faces",
+            Self::TreeRays | Self::Engine => "",
+        }
+    }
+
+    /// Draws a scene.
+    ///
+    /// # Errors
+    /// Roberts' algorithm refuses bodies that are not convex.
+    pub fn draw(self, scene: &Scene) -> Result<Drawing, NotConvex> {
+        match self {
+            Self::Painter => Ok(painter::draw(scene)),
+            Self::Roberts => roberts::draw(scene),
+            Self::Warnock => Ok(warnock::draw(scene)),
+            Self::ZBuffer => Ok(z_buffer::draw(scene)),
+            Self::AllRays => Ok(rays::draw_with_all(scene)),
+            Self::TreeRays => Ok(rays::draw_with_tree(scene)),
+            Self::Engine => Ok(engine::draw(scene)),
+        }
+    }
+
+    /// What draws a scene again and again, with all kept that can be kept; a scene that
+    /// is refused takes no time.
+    pub fn repeated(self, scene: &Scene) -> Box<dyn FnMut() + '_> {
+        match self {
+            Self::Engine => Box::new(engine::repeated(scene)),
+            _ => Box::new(move || drop(self.draw(scene))),
+        }
+    }
+}
+
+/// The lines that Roberts' algorithm shows of a scene's edges.
+///
+/// # Errors
+/// A body that is not convex.
+pub fn visible_lines(scene: &Scene) -> Result<Lines, NotConvex> {
+    roberts::visible_lines(scene)
+}

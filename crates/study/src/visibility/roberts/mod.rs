@@ -1,0 +1,43 @@
+//! Roberts' algorithm (L. G. Roberts, "Machine perception of three-dimensional solids",
+//! MIT Lincoln Laboratory TR 315, 1963) as source D has it (row D5): a body is a matrix of
+//! planes with its inside on their positive side; planes that are turned away are hidden
+//! by the body itself; what is left is compared with every other body: a point is hidden
+//! if the ray from it to the eye passes through one.
+//!
+//! Work grows with the square of the number of bodies: no box or order is used to leave
+//! any comparison out.
+
+mod body;
+mod lines;
+
+pub(super) use lines::visible_lines;
+pub use lines::{Line, Lines};
+
+use super::scene::STEPS;
+use super::{Drawing, NotConvex, Scene, Surface};
+use body::ConvexBody;
+
+/// The bodies of a scene as matrices of planes.
+fn convex_bodies(scene: &Scene) -> Result<Vec<ConvexBody>, NotConvex> {
+    scene.bodies().iter().enumerate().map(|(number, body)| ConvexBody::new(number, body)).collect()
+}
+
+/// The faces that are seen: the points of faces that no other body hides.
+pub(super) fn draw(scene: &Scene) -> Result<Drawing, NotConvex> {
+    let bodies = convex_bodies(scene)?;
+    let mut drawing = Drawing::empty(scene.size());
+    let faces_toward_eye = bodies.iter().flat_map(|body| body.planes.iter().map(|plane| plane.faces_eye()));
+    for ((number, face), _) in scene.faces().zip(faces_toward_eye).filter(|(_, faces_eye)| *faces_eye) {
+        let Some(surface) = Surface::new(face) else { continue };
+        surface.each_pixel(scene.limits(), |pixel| {
+            let [x, y] = pixel.map(|part| f64::from(part * STEPS + STEPS / 2));
+            let point = [x, y, surface.depth(pixel)];
+            let others = bodies.iter().enumerate().filter(|(other, _)| *other != face.body);
+            let mut hiding = others.filter(|(_, body)| body.hides(point, &mut drawing.tests));
+            if hiding.next().is_none() {
+                drawing.faces[pixel.map(|part| part as usize)] = number;
+            }
+        });
+    }
+    Ok(drawing)
+}
