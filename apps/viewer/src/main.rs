@@ -16,6 +16,7 @@ mod moment;
 mod picture;
 mod replay;
 mod report;
+mod study;
 #[cfg(feature = "window")]
 mod window;
 
@@ -24,11 +25,14 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 
-use crate::args::{Mode, RawArgs, Request};
+use crate::args::{Command, Mode, RawArgs, Request};
 use crate::report::Reporter;
 
 fn main() -> ExitCode {
     let raw = RawArgs::parse();
+    if let Some(Command::Study(arguments)) = &raw.command {
+        return ExitCode::from(study::run(arguments, Reporter::new(raw.verbose)));
+    }
     let mut request = Request::new(raw)
         .unwrap_or_else(|message| RawArgs::command().error(ErrorKind::ArgumentConflict, message).exit());
     let reporter = Reporter::new(request.level);

@@ -13,5 +13,5 @@ pub(crate) use effects::Explanation;
 pub(crate) use output::Destination;
 #[cfg(feature = "window")]
 pub(crate) use output::Template;
-pub(crate) use raw::RawArgs;
+pub(crate) use raw::{Command, RawArgs};
 pub(crate) use request::{Grouping, Mode, Request};

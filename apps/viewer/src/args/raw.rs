@@ -6,7 +6,7 @@
 
 use std::path::PathBuf;
 
-use clap::{ArgAction, Parser, ValueEnum};
+use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use trigon_camera::Viewport;
 use trigon_io::SceneChoice;
 use trigon_math::{DVec3, Vec3};
@@ -17,6 +17,7 @@ use super::effects::EffectArgs;
 use super::output::Destination;
 use super::values;
 use crate::report::Level;
+use crate::study::StudyArgs;
 
 const AFTER_HELP: &str = "\
 Exit codes:
@@ -46,7 +47,11 @@ Examples:
 #[derive(Debug, Parser)]
 #[command(name = "trigon-viewer", version, after_long_help = AFTER_HELP, after_help = "More with --help: every flag in full, exit codes, examples.")]
 #[command(args_override_self = true, max_term_width = 100)]
+#[command(args_conflicts_with_subcommands = true, disable_help_subcommand = true)]
 pub(crate) struct RawArgs {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+
     /// Models to show: OBJ, glTF, GLB (see --list-readers)
     #[arg(value_name = "FILES")]
     pub(crate) files: Vec<PathBuf>,
@@ -305,6 +310,13 @@ pub(crate) enum View {
     Top,
     Bottom,
     Iso,
+}
+
+/// What to do instead of showing models.
+#[derive(Clone, Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Measure what accuracy costs in time on this machine, and write a report (not in F3D)
+    Study(StudyArgs),
 }
 
 /// What is drawn of polygons.
