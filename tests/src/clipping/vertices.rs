@@ -38,11 +38,12 @@ fn positions_follow_weights(triangle: [Vec4; 3], band: f64, polygon: &ClipPolygo
     }
 }
 
-/// Corners on the near plane, some `nudged` by it to one side, before the eye
-/// and behind it.
+/// Corners on the near plane, some `nudged` by it to one side, before the eye, in its
+/// plane (where one nudge is far less than other corners are rounded by) and behind it.
 fn triangles_at_the_near_plane(nudged: fn(f32) -> f32) -> impl Strategy<Value = [Vec4; 3]> {
     let corner = move || {
-        (-4.0..4.0_f32, -4.0..4.0_f32, -4.0..4.0_f32, any::<bool>())
+        let w = prop_oneof![3 => -4.0..4.0_f32, 1 => Just(0.0)];
+        (-4.0..4.0_f32, -4.0..4.0_f32, w, any::<bool>())
             .prop_map(move |(x, y, w, off)| Vec4::new(x, y, if off { nudged(w) } else { w }, w))
     };
     [corner(), corner(), corner()]
