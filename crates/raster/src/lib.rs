@@ -90,6 +90,7 @@
 
 mod bin;
 mod blend;
+mod cancel;
 mod certify;
 mod clip;
 mod clock;
@@ -120,6 +121,7 @@ mod varyings;
 mod vertex;
 mod viewport;
 
+pub use cancel::Cancel;
 pub use certify::{Certainty, Certificate, Tolerance};
 pub use draw::{Culling, Draw, Lines, Outline, PointShape, Points, Surface};
 pub use explain::{

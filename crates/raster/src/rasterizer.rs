@@ -3,7 +3,7 @@
 use crate::frame::{Arena, FrameView, How, draw, prepare};
 use crate::pool::Workers;
 use crate::simd::{SimdLevel, SimdLevelError, Token};
-use crate::{ExecuteSettings, Pass, Stats, Target};
+use crate::{Cancel, ExecuteSettings, Pass, Stats, Target};
 
 /// Draws passes: threads and memory that are kept from frame to frame.
 ///
@@ -14,6 +14,7 @@ pub struct Rasterizer {
     token: Token,
     workers: Workers,
     arena: Arena,
+    cancel: Option<Cancel>,
 }
 
 impl Rasterizer {
@@ -25,7 +26,13 @@ impl Rasterizer {
     pub fn new(settings: ExecuteSettings) -> Result<Self, SimdLevelError> {
         let level = settings.simd.unwrap_or_else(SimdLevel::best);
         let token = level.token().ok_or(SimdLevelError::Unsupported(level))?;
-        Ok(Self { settings, token, workers: Workers::new(settings.threads), arena: Arena::default() })
+        Ok(Self {
+            settings,
+            token,
+            workers: Workers::new(settings.threads),
+            arena: Arena::default(),
+            cancel: None,
+        })
     }
 
     /// How it draws.
@@ -33,11 +40,24 @@ impl Rasterizer {
         &self.settings
     }
 
+    /// Ends drawings that are under way when the token is cancelled, and those that
+    /// follow; `None` to let them be. What the target of such a drawing holds is of
+    /// no use: ask the token when [`draw`](Self::draw) has returned.
+    pub fn set_cancel(&mut self, cancel: Option<Cancel>) {
+        self.cancel = cancel;
+    }
+
     /// Everything up to the tiles of what [`draw`](Self::draw) would do.
     pub(crate) fn prepare<'f>(&'f mut self, pass: &'f Pass<'_>, target: &Target<'_>) -> FrameView<'f> {
         let tile_size = self.settings.tile_size.pixels(target.samples());
-        let how =
-            How { token: self.token, workers: &self.workers, tile_size, hierarchical: true, timed: false };
+        let how = How {
+            token: self.token,
+            workers: &self.workers,
+            tile_size,
+            hierarchical: true,
+            timed: false,
+            cancel: None,
+        };
         prepare(&mut self.arena, pass, target, how)
     }
 
@@ -51,7 +71,8 @@ impl Rasterizer {
         let workers = if pass.is_worth_sharing(target) { &self.workers } else { &Workers::ALONE };
         let hierarchical = self.settings.depth_test == crate::DepthTest::Hierarchical;
         let timed = self.settings.timed;
-        let how = How { token: self.token, workers, tile_size, hierarchical, timed };
+        let cancel = self.cancel.as_ref();
+        let how = How { token: self.token, workers, tile_size, hierarchical, timed, cancel };
         draw(&mut self.arena, pass, target, how)
     }
 }

@@ -65,7 +65,9 @@ pub use showcase::showcase;
 pub use skin::{Skin, SkinPose};
 pub use transform::Transform;
 pub use trigon_raster::simd::{SimdLevel, SimdLevelError};
-pub use trigon_raster::{Filter, MipFilter, Sampler, Stats, Texture, TextureError, TextureFormat, Wrap};
+pub use trigon_raster::{
+    Cancel, Filter, MipFilter, Sampler, Stats, Texture, TextureError, TextureFormat, Wrap,
+};
 pub use views::OVERVIEW_DIRECTION;
 /// The crates below, so that a user of scenes needs no others.
 pub use {trigon_camera as camera, trigon_math as math, trigon_mesh as mesh};

@@ -17,7 +17,7 @@ use crate::target::Bands;
 use crate::tile::{Scratch, draw_tile};
 use crate::vertex::{DrawVertices, ScreenVertex};
 use crate::viewport::Viewport;
-use crate::{Culling, StageTimes, Stats, Target};
+use crate::{Cancel, Culling, StageTimes, Stats, Target};
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -43,6 +43,14 @@ pub(crate) struct How<'w> {
     pub(crate) tile_size: u32,
     pub(crate) hierarchical: bool,
     pub(crate) timed: bool,
+    pub(crate) cancel: Option<&'w Cancel>,
+}
+
+impl How<'_> {
+    /// Whether no more work is to be begun.
+    fn is_cancelled(self) -> bool {
+        self.cancel.is_some_and(Cancel::is_cancelled)
+    }
 }
 
 /// Draws a pass into a target.
@@ -53,7 +61,7 @@ pub(crate) fn draw(arena: &mut Arena, pass: &Pass<'_>, target: &mut Target<'_>, 
     let bands = Bands::new(target, view.grid.size / view.supersampling);
     // Those of workers that rest in this frame are kept.
     scratches.resize_with(how.workers.count().max(scratches.len()), Scratch::new);
-    draw_tiles(&view, &bands, how.workers, &mut scratches);
+    draw_tiles(&view, &bands, how, &mut scratches);
     for scratch in &mut scratches {
         stats += std::mem::take(&mut scratch.stats);
     }
@@ -153,7 +161,9 @@ fn run_vertices(
         Some((draw, slots, places, varyings))
     };
     how.workers.run(plan.vertices > VERTICES, |_| {
-        while let Some((draw, slots, places, varyings)) = next() {
+        while let Some((draw, slots, places, varyings)) = next()
+            && !how.is_cancelled()
+        {
             let pipeline = pass[draw.draw].pipeline;
             pipeline.run_vertices(how.token, plan.slots(draw), slots, viewport, (places, varyings));
         }
@@ -173,7 +183,9 @@ fn set_up(
     let rest = Mutex::new(chunks.iter_mut());
     let next = || rest.lock().unwrap_or_else(PoisonError::into_inner).next();
     how.workers.run(many, |_| {
-        while let Some(chunk) = next() {
+        while let Some(chunk) = next()
+            && !how.is_cancelled()
+        {
             for (draw, range) in plan.parts(chunk.ordinals.clone()) {
                 let recorded = &pass[draw.draw];
                 let vertices = DrawVertices {
@@ -229,15 +241,17 @@ fn set_up_triangles<S: Simd>(simd: S, setup: &mut Setup<'_>, first: u32, triangl
 }
 
 /// The tiles: every worker takes the next one until there are none.
-fn draw_tiles(view: &FrameView<'_>, bands: &Bands<'_>, workers: &Workers, scratches: &mut [Scratch]) {
+fn draw_tiles(view: &FrameView<'_>, bands: &Bands<'_>, how: How<'_>, scratches: &mut [Scratch]) {
     let tiles = view.tiles();
     let next = AtomicU32::new(0);
     let free = Mutex::new(scratches.iter_mut());
-    workers.run(tiles.len() > 1, |_| {
+    how.workers.run(tiles.len() > 1, |_| {
         let Some(scratch) = free.lock().unwrap_or_else(PoisonError::into_inner).next() else {
             return;
         };
-        while let Some([column, row]) = tiles.get(next.fetch_add(1, Ordering::Relaxed)) {
+        while let Some([column, row]) = tiles.get(next.fetch_add(1, Ordering::Relaxed))
+            && !how.is_cancelled()
+        {
             draw_tile(view, scratch, bands, row * view.grid.columns + column);
         }
     });

@@ -2,7 +2,7 @@
 //! the order of the steps that make one.
 
 use trigon_camera::Camera;
-use trigon_raster::{ExecuteSettings, Pass, Rasterizer, Stats, Target, TargetError};
+use trigon_raster::{Cancel, ExecuteSettings, Pass, Rasterizer, Stats, Target, TargetError};
 
 use super::RenderError;
 use super::compose::Composer;
@@ -29,15 +29,15 @@ impl Engine {
     /// nothing of use.
     pub(super) fn draw(
         &mut self,
-        scene: &Scene,
-        camera: &Camera,
-        settings: &RenderSettings,
+        (scene, camera, settings): (&Scene, &Camera, &RenderSettings),
+        cancel: Option<&Cancel>,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
         // Checks the size, before memory is taken for it.
         let sample = blank(settings)?.visibility_sample();
         frame.make_room(settings)?;
         let mut rasterizer = self.rasterizer(settings)?;
+        rasterizer.set_cancel(cancel.cloned());
         let stage = Stage::new(scene, camera, settings);
         let plan = EffectPlan::of_stage(&stage);
         let mut counts = Counts::default();
@@ -51,6 +51,11 @@ impl Engine {
         }
         if settings.outputs.of_triangles() {
             outputs::fill(frame, &stage, (camera, sample), &self.kept.seen, &rasterizer);
+        }
+        if cancel.is_some_and(Cancel::is_cancelled) {
+            self.kept.forget_unfinished();
+            self.rasterizer = Some(rasterizer);
+            return Err(RenderError::Cancelled);
         }
         self.kept.seen.hand_over(frame);
         measure_depth(frame, camera, settings);

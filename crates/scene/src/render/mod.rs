@@ -42,6 +42,9 @@ pub enum RenderError {
     /// The processor lacks the SIMD level asked for.
     #[error(transparent)]
     Simd(#[from] SimdLevelError),
+    /// [`Renderer::render_cancellable`] was cancelled.
+    #[error("the picture was cancelled before it was done")]
+    Cancelled,
 }
 
 /// Draws one picture: a pure function of scene, camera and settings. It begins with

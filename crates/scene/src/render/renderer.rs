@@ -1,7 +1,7 @@
 //! The renderer as its users see it.
 
 use trigon_camera::Camera;
-use trigon_raster::Stats;
+use trigon_raster::{Cancel, Stats};
 
 use super::RenderError;
 use super::builder::RendererBuilder;
@@ -89,7 +89,24 @@ impl Renderer {
         camera: &Camera,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
-        self.engine.draw(scene, camera, &self.settings, frame)
+        self.engine.draw((scene, camera, &self.settings), None, frame)
+    }
+
+    /// As [`render`](Self::render), but gives up soon after `cancel` is cancelled: when
+    /// the tiles under way are done, or what comes before the tiles. For pictures that
+    /// nobody will look at, because the camera has moved on.
+    ///
+    /// # Errors
+    /// As [`render`](Self::render), and [`RenderError::Cancelled`].
+    pub fn render_cancellable(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        cancel: &Cancel,
+    ) -> Result<Frame, RenderError> {
+        let mut frame = Frame::default();
+        self.engine.draw((scene, camera, &self.settings), Some(cancel), &mut frame)?;
+        Ok(frame)
     }
 
     /// Draws what each of these cameras sees, one after the other, and shows every
@@ -168,6 +185,22 @@ mod tests {
                 assert!(drawing.join().expect("no panic") == expected, "the same bytes");
             }
         });
+    }
+
+    #[test]
+    fn a_cancelled_picture_leaves_no_trace() {
+        let (scene, cancel) = (showcase(), Cancel::default());
+        let camera = scene.overview(1.0);
+        let mut renderer = Renderer::builder().size(48, 48).build();
+        renderer.settings_mut().effects.shadows = crate::Shadows::Maps { resolution: 64 };
+        let expected = render(&scene, &camera, renderer.settings()).expect("drawn");
+        let drawn = renderer.render_cancellable(&scene, &camera, &cancel).expect("nobody cancelled it");
+        assert!(drawn == expected, "the same bytes");
+        let mut renderer = Renderer::new(renderer.settings().clone());
+        cancel.cancel();
+        let cancelled = renderer.render_cancellable(&scene, &camera, &cancel);
+        assert_eq!(cancelled.err(), Some(RenderError::Cancelled), "as the token says");
+        assert!(renderer.render(&scene, &camera) == Ok(expected), "no half-drawn shadow was kept");
     }
 
     #[test]

@@ -141,6 +141,13 @@ impl Kept {
         Ok(scenery)
     }
 
+    /// The picture was cancelled: what was drawn for it may not be whole.
+    pub(super) fn forget_unfinished(&mut self) {
+        if self.shadows.drawn() > 0 {
+            self.shadows = ShadowCache::default();
+        }
+    }
+
     /// Adds what the scenery took.
     pub(super) fn count(&self, scenery: &Scenery, plan: &EffectPlan, counts: &mut Counts) {
         if let Some(maps) = &scenery.shadow_maps {
