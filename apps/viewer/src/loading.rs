@@ -27,6 +27,7 @@ pub(crate) fn load(
     progress: Progress<'_>,
 ) -> Result<(Model, Vec<Warning>), Failure> {
     let (mut scene, mut scene_names, mut warnings) = (Scene::new(), Vec::new(), Vec::new());
+    let mut read = Vec::new();
     match source {
         Source::BuiltIn => scene = trigon_scene::showcase(),
         Source::Files(files) => {
@@ -35,6 +36,7 @@ pub(crate) fn load(
                 let loaded = load_file(file, request, &part)?;
                 warnings.extend(loaded.warnings);
                 scene_names.extend(loaded.scene_names);
+                read.extend(loaded.files);
                 scene.append(&loaded.scene);
             }
         }
@@ -43,7 +45,7 @@ pub(crate) fn load(
         moment.apply(&mut scene)?;
     }
     let mut model = Model::new(scene, source.clone(), request)?;
-    model.scene_names = scene_names;
+    (model.scene_names, model.files) = (scene_names, read);
     Ok((model, warnings))
 }
 

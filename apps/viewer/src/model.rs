@@ -75,6 +75,9 @@ pub(crate) struct Model {
     pub(crate) source: Source,
     /// Of all scenes of its files, also of those that are not shown.
     pub(crate) scene_names: Vec<String>,
+    /// All that were read for it: what to watch for changes.
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "only a window watches"))]
+    pub(crate) files: Vec<PathBuf>,
     bounds: Bounds3,
 }
 
@@ -89,14 +92,14 @@ impl Model {
                 source.title()
             )));
         }
-        Ok(Self { scene, source, scene_names: Vec::new(), bounds })
+        Ok(Self { scene, source, scene_names: Vec::new(), files: Vec::new(), bounds })
     }
 
     /// The model of a scene that is shown already.
     #[cfg(feature = "window")]
     pub(crate) fn shown(scene: Scene, source: Source) -> Self {
         let bounds = Bounds3::from_points(scene.visible_points());
-        Self { scene, source, scene_names: Vec::new(), bounds }
+        Self { scene, source, scene_names: Vec::new(), files: Vec::new(), bounds }
     }
 
     /// The camera that the flags ask for. The built-in scene is composed for

@@ -3,12 +3,12 @@
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
-use crate::handler::{Animated, Animation, Handler, Tick};
-use crate::shell::Shell;
-use crate::{Stage, WindowError};
+use crate::handler::{Animation, Closures, Handler, Tick};
+use crate::shell::{Ring, Shell};
+use crate::{Interaction, Stage, WindowError};
 
-/// A closure that is called for each frame.
-type Animate<'a> = Box<dyn FnMut(&mut Stage, Tick) -> Animation + 'a>;
+/// What is to be done with a recording.
+type Recorded<'a> = Box<dyn FnOnce(Interaction) + 'a>;
 
 /// A window on a scene. Mouse and keys turn the camera and the selected object
 /// (H shows which), the picture is drawn when something has changed, and the
@@ -28,21 +28,45 @@ type Animate<'a> = Box<dyn FnMut(&mut Stage, Tick) -> Animation + 'a>;
 pub struct Application<'a> {
     /// What the window shows.
     pub stage: Stage,
-    animate: Option<Animate<'a>>,
+    closures: Closures<'a>,
+    recorded: Option<Recorded<'a>>,
+    played: Interaction,
 }
 
 impl<'a> Application<'a> {
     /// A window with an empty scene.
     #[must_use]
     pub fn new(title: impl Into<String>) -> Self {
-        Self { stage: Stage::new(title), animate: None }
+        Self {
+            stage: Stage::new(title),
+            closures: Closures::default(),
+            recorded: None,
+            played: Interaction::default(),
+        }
     }
 
     /// Calls this before each frame, at about 60 frames a second, for as long
     /// as it answers [`Animation::Running`]. It may add, remove, move and turn
     /// whatever is in the scene.
     pub fn animate(&mut self, frame: impl FnMut(&mut Stage, Tick) -> Animation + 'a) {
-        self.animate = Some(Box::new(frame));
+        self.closures.frame = Some(Box::new(frame));
+    }
+
+    /// Adds panels and windows over the picture, with [`egui`](crate::egui). Called
+    /// whenever they may have changed. What it changes on the stage is drawn.
+    pub fn interface(&mut self, interface: impl FnMut(&mut Stage, &mut egui::Ui) + 'a) {
+        self.closures.interface = Some(Box::new(interface));
+    }
+
+    /// Hands over what was done to the window when it is closed.
+    pub fn record(&mut self, done: impl FnOnce(Interaction) + 'a) {
+        self.recorded = Some(Box::new(done));
+    }
+
+    /// Does this when the window is open; mouse and keyboard are not listened to until
+    /// it is over. For the same pictures the window has to be of the same size.
+    pub fn play(&mut self, interaction: Interaction) {
+        self.played = interaction;
     }
 
     /// Opens the window and returns when it is closed.
@@ -55,15 +79,12 @@ impl<'a> Application<'a> {
     /// # Panics
     /// On macOS, from any thread but the main one.
     pub fn run(mut self) -> Result<(), WindowError> {
-        match self.animate.take() {
-            Some(frame) => self.run_with(&mut Animated(frame)),
-            None => self.run_with(&mut NoHandler),
-        }
+        let mut closures = std::mem::take(&mut self.closures);
+        self.run_with(&mut closures)
     }
 
-    /// Opens the window for an application that does more than animate, and
-    /// returns when it is closed. A closure given to [`Application::animate`]
-    /// is not used.
+    /// Opens the window for an application that does more than closures can, and
+    /// returns when it is closed. Those given to this application are not used.
     ///
     /// # Errors
     /// As [`Application::run`].
@@ -72,24 +93,21 @@ impl<'a> Application<'a> {
     /// On macOS, from any thread but the main one.
     pub fn run_with(self, handler: &mut dyn Handler) -> Result<(), WindowError> {
         let event_loop = event_loop()?;
-        let proxy = event_loop.create_proxy();
-        self.stage.waker().connect(move || {
-            // Fails when the window is closed: then there is nobody to wake.
-            let _ = proxy.send_event(());
-        });
-        let mut shell = Shell::new(self.stage, handler);
+        let mut shell = Shell::new(self.stage, handler, &event_loop.create_proxy());
+        shell.play(self.played);
+        if self.recorded.is_some() {
+            shell.record();
+        }
         let ended = event_loop.run_app(&mut shell);
+        if let (Some(done), Some(recorded)) = (self.recorded, shell.take_recorded()) {
+            done(recorded);
+        }
         shell.into_result()?;
         ended.map_err(|error| WindowError::Disconnected { reason: error.to_string() })
     }
 }
 
-/// Nothing but the window's own keys.
-struct NoHandler;
-
-impl Handler for NoHandler {}
-
-fn event_loop() -> Result<EventLoop<()>, WindowError> {
+fn event_loop() -> Result<EventLoop<Ring>, WindowError> {
     let mut builder = EventLoop::with_user_event();
     allow_any_thread(&mut builder);
     builder.build().map_err(|error| match error {
@@ -101,7 +119,7 @@ fn event_loop() -> Result<EventLoop<()>, WindowError> {
 /// Elsewhere than on macOS a window may belong to any thread; winit would
 /// panic without this.
 #[cfg(target_os = "linux")]
-fn allow_any_thread(builder: &mut winit::event_loop::EventLoopBuilder<()>) {
+fn allow_any_thread(builder: &mut winit::event_loop::EventLoopBuilder<Ring>) {
     use winit::platform::{wayland, x11};
     wayland::EventLoopBuilderExtWayland::with_any_thread(builder, true);
     x11::EventLoopBuilderExtX11::with_any_thread(builder, true);
@@ -110,9 +128,9 @@ fn allow_any_thread(builder: &mut winit::event_loop::EventLoopBuilder<()>) {
 /// Elsewhere than on macOS a window may belong to any thread; winit would
 /// panic without this.
 #[cfg(target_os = "windows")]
-fn allow_any_thread(builder: &mut winit::event_loop::EventLoopBuilder<()>) {
+fn allow_any_thread(builder: &mut winit::event_loop::EventLoopBuilder<Ring>) {
     winit::platform::windows::EventLoopBuilderExtWindows::with_any_thread(builder, true);
 }
 
 #[cfg(not(any(target_os = "linux", target_os = "windows")))]
-fn allow_any_thread(_: &mut winit::event_loop::EventLoopBuilder<()>) {}
+fn allow_any_thread(_: &mut winit::event_loop::EventLoopBuilder<Ring>) {}

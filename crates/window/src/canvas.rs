@@ -1,108 +1,91 @@
-//! The picture that goes into the window: opaque pixels of 8-bit sRGB, in the
-//! layout that windows want.
+//! The pixels of the window: the scene's picture, and over it the interface.
+//! Opaque, 8-bit sRGB, in the order that windows have them in memory.
 
+use trigon_raster::paint2d::Rect;
 use trigon_scene::Frame;
 
-/// Pixels as `0x00RRGGBB`, rows from the top, without padding.
+use crate::egui_painter::{ChannelOrder, EguiPainter};
+
+/// Where no picture is yet: dark, so that nobody is dazzled.
+const EMPTY: [u8; 4] = [24, 24, 24, 255];
+
+/// Rows from the top, without padding; blue, green, red, and an alpha that does not
+/// matter.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Canvas {
-    width: usize,
-    height: usize,
-    pixels: Vec<u32>,
-}
-
-#[cfg(test)]
-impl Canvas {
-    /// For tests: a white canvas.
-    pub(crate) fn white(width: u32, height: u32) -> Self {
-        let color = vec![255; (4 * width * height) as usize];
-        let mut canvas = Self::default();
-        let frame = Frame { width, height, color, ..Frame::default() };
-        canvas.show(&frame, width, height);
-        canvas
-    }
+    size: [u32; 2],
+    /// The scene's picture alone.
+    beneath: Vec<[u8; 4]>,
+    pixels: Vec<[u8; 4]>,
+    painted: Vec<Rect>,
 }
 
 impl Canvas {
-    /// Takes this size and the frame's colours. A frame that was drawn smaller
-    /// is magnified by repeating its pixels; what is transparent in it is black.
-    pub(crate) fn show(&mut self, frame: &Frame, width: u32, height: u32) {
-        (self.width, self.height) = (width as usize, height as usize);
-        self.pixels.resize(self.width * self.height, 0);
-        if self.pixels.is_empty() || frame.color.is_empty() {
-            return;
-        }
-        let (from, across) = (frame.color.as_chunks::<4>().0, frame.width as usize);
-        if (frame.width, frame.height) == (width, height) {
-            self.pixels.iter_mut().zip(from).for_each(|(to, &rgba)| *to = pack(rgba));
-            return;
-        }
-        let down = frame.height as usize;
-        let columns: Vec<usize> = (0..self.width).map(|x| x * across / self.width).collect();
-        for (y, row) in self.pixels.chunks_exact_mut(self.width).enumerate() {
-            let source = &from[y * down / self.height * across..][..across];
-            row.iter_mut().zip(&columns).for_each(|(to, &x)| *to = pack(source[x]));
-        }
-    }
-
-    pub(crate) fn width(&self) -> i32 {
-        i32::try_from(self.width).unwrap_or(i32::MAX)
-    }
-
-    pub(crate) fn height(&self) -> i32 {
-        i32::try_from(self.height).unwrap_or(i32::MAX)
-    }
-
-    /// All pixels, row by row.
-    pub(crate) fn pixels(&self) -> &[u32] {
-        &self.pixels
-    }
-
-    /// Mixes a colour into a pixel: 0 leaves it, 255 replaces it. In gamma
-    /// space, as interfaces are drawn. Pixels outside are ignored.
-    pub(crate) fn blend(&mut self, x: i32, y: i32, color: [u8; 3], alpha: u8) {
-        let (Ok(column), Ok(row)) = (usize::try_from(x), usize::try_from(y)) else { return };
-        if column >= self.width || row >= self.height {
-            return;
-        }
-        let pixel = &mut self.pixels[row * self.width + column];
-        let [_, r, g, b] = pixel.to_be_bytes();
-        let mix = |old: u8, new: u8| {
-            let sum = u32::from(old) * u32::from(255 - alpha) + u32::from(new) * u32::from(alpha);
-            // Below 256, as both weights add up to 255.
-            ((sum + 127) / 255) as u8
-        };
-        *pixel = u32::from_be_bytes([0, mix(r, color[0]), mix(g, color[1]), mix(b, color[2])]);
-    }
-
-    /// Mixes a colour into a rectangle.
-    pub(crate) fn fill(&mut self, area: Area, color: [u8; 3], alpha: u8) {
-        let right = (area.x + area.width).min(self.width());
-        let bottom = (area.y + area.height).min(self.height());
-        for y in area.y.max(0)..bottom {
-            for x in area.x.max(0)..right {
-                self.blend(x, y, color, alpha);
+    /// Takes this size and the frame's colours under the interface. A frame of another
+    /// size is stretched by repeating or leaving out pixels; what is transparent in it
+    /// is black. Without a frame it is dark.
+    pub(crate) fn show(&mut self, frame: Option<&Frame>, [width, height]: [u32; 2]) {
+        self.size = [width, height];
+        let count = width as usize * height as usize;
+        self.pixels.resize(count, EMPTY);
+        match frame.filter(|frame| !frame.color.is_empty()) {
+            Some(frame) => {
+                self.beneath.resize(count, EMPTY);
+                stretch(frame, [width as usize, height as usize], &mut self.beneath);
+            }
+            None => {
+                self.beneath.clear();
+                self.beneath.resize(count, EMPTY);
             }
         }
     }
-}
 
-/// A rectangle in pixels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Area {
-    pub(crate) x: i32,
-    pub(crate) y: i32,
-    pub(crate) width: i32,
-    pub(crate) height: i32,
-}
-
-/// From straight alpha to a pixel over black.
-fn pack([r, g, b, a]: [u8; 4]) -> u32 {
-    if a == 255 {
-        return u32::from_be_bytes([0, r, g, b]);
+    /// Brings the pixels up to date with the interface. Returns whether any changed.
+    pub(crate) fn paint(&mut self, painter: &mut EguiPainter) -> bool {
+        let painted = painter.paint(self.size, &mut self.pixels, &self.beneath);
+        // A window beyond what can be painted stays as it is.
+        self.painted = painted.unwrap_or_default();
+        !self.painted.is_empty()
     }
+
+    /// Width and height.
+    pub(crate) fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// All pixels, row by row.
+    pub(crate) fn pixels(&self) -> &[[u8; 4]] {
+        &self.pixels
+    }
+
+    /// What the last [`paint`](Self::paint) changed.
+    pub(crate) fn painted(&self) -> &[Rect] {
+        &self.painted
+    }
+}
+
+/// Writes a frame into a picture of this size.
+fn stretch(frame: &Frame, [width, height]: [usize; 2], to: &mut [[u8; 4]]) {
+    let (from, across, down) = (frame.color.as_chunks::<4>().0, frame.width as usize, frame.height as usize);
+    if [across, down] == [width, height] {
+        to.iter_mut().zip(from).for_each(|(to, &rgba)| *to = over_black(rgba));
+        return;
+    }
+    let columns: Vec<usize> = (0..width).map(|x| x * across / width).collect();
+    for (y, row) in to.chunks_exact_mut(width.max(1)).enumerate() {
+        let source = &from[y * down / height * across..][..across];
+        row.iter_mut().zip(&columns).for_each(|(to, &x)| *to = over_black(source[x]));
+    }
+}
+
+/// From straight alpha to an opaque pixel over black.
+fn over_black([r, g, b, a]: [u8; 4]) -> [u8; 4] {
+    if a == 255 {
+        return ChannelOrder::Bgra.arrange([r, g, b, a]);
+    }
+    // A product of two bytes, divided by 255 and rounded to the nearest.
     let dim = |channel: u8| ((u32::from(channel) * u32::from(a) + 127) / 255) as u8;
-    u32::from_be_bytes([0, dim(r), dim(g), dim(b)])
+    ChannelOrder::Bgra.arrange([dim(r), dim(g), dim(b), 255])
 }
 
 #[cfg(test)]
@@ -113,33 +96,36 @@ mod tests {
         Frame { width, height, color, ..Frame::default() }
     }
 
-    #[test]
-    fn a_smaller_frame_is_magnified() {
+    fn shown(frame: Option<&Frame>, size: [u32; 2]) -> Vec<[u8; 4]> {
         let mut canvas = Canvas::default();
-        canvas.show(&frame(2, 1, vec![255, 0, 0, 255, 0, 0, 255, 255]), 4, 2);
-        let row = [0xff_0000, 0xff_0000, 0xff, 0xff];
-        assert_eq!(canvas.pixels(), [row, row].concat(), "each pixel became four");
-        canvas.show(&frame(2, 1, vec![255, 0, 0, 255, 0, 0, 255, 255]), 3, 1);
-        assert_eq!(canvas.pixels().len(), 3, "a size that does not divide is no problem");
+        canvas.show(frame, size);
+        let mut painter = EguiPainter::new(ChannelOrder::Bgra);
+        assert!(canvas.paint(&mut painter), "all of it is new");
+        assert!(!canvas.paint(&mut painter), "and then nothing");
+        canvas.pixels().to_vec()
     }
 
     #[test]
-    fn blending_is_exact_at_both_ends_and_clips() {
-        let mut canvas = Canvas::default();
-        canvas.show(&frame(1, 1, vec![10, 20, 30, 255]), 1, 1);
-        canvas.blend(0, 0, [200, 100, 50], 0);
-        assert_eq!(canvas.pixels(), [0x000a_141e], "nothing mixed in");
-        canvas.blend(0, 0, [200, 100, 50], 255);
-        assert_eq!(canvas.pixels(), [0x00c8_6432], "all of it");
-        canvas.fill(Area { x: -5, y: -5, width: 100, height: 100 }, [0, 0, 0], 255);
-        canvas.blend(7, 0, [1, 1, 1], 255);
-        assert_eq!(canvas.pixels(), [0], "outside is ignored");
+    fn a_smaller_frame_is_magnified() {
+        let frame = frame(2, 1, vec![255, 0, 0, 255, 0, 0, 255, 255]);
+        let [red, blue] = [[0, 0, 255, 255], [255, 0, 0, 255]];
+        let row = [red, red, blue, blue];
+        assert_eq!(shown(Some(&frame), [4, 2]), [row, row].concat(), "each pixel became four");
+        assert_eq!(shown(Some(&frame), [3, 1]).len(), 3, "a size that does not divide is no problem");
     }
 
     #[test]
     fn transparent_pixels_are_black() {
-        let mut canvas = Canvas::default();
-        canvas.show(&frame(2, 1, vec![255, 255, 255, 0, 255, 255, 255, 51]), 2, 1);
-        assert_eq!(canvas.pixels(), [0, 0x33_3333], "straight alpha over black");
+        let frame = frame(2, 1, vec![255, 255, 255, 0, 255, 255, 255, 51]);
+        assert_eq!(
+            shown(Some(&frame), [2, 1]),
+            [[0, 0, 0, 255], [51, 51, 51, 255]],
+            "straight alpha over black"
+        );
+    }
+
+    #[test]
+    fn without_a_picture_it_is_dark() {
+        assert_eq!(shown(None, [2, 1]), [EMPTY; 2], "and opaque");
     }
 }

@@ -4,7 +4,6 @@ use trigon_camera::OrbitStyle;
 use trigon_scene::{NodeId, Style};
 
 use crate::keymap::Action;
-use crate::pacing::Change;
 use crate::stage::{Stage, Visibility};
 
 /// Does it. Held keys and the application's commands are not for this function.
@@ -26,20 +25,8 @@ pub(crate) fn act(stage: &mut Stage, action: Action) {
         Action::Dismiss if stage.cheat_sheet == Visibility::Shown => stage.cheat_sheet = Visibility::Hidden,
         Action::Dismiss => stage.selection = None,
         Action::Quit => stage.exit(),
-        Action::Hold(_) | Action::Command => {}
-    }
-}
-
-/// What an action changes.
-pub(crate) fn change_of(action: Action) -> Change {
-    match action {
-        Action::ToggleCheatSheet
-        | Action::ToggleFrameTime
-        | Action::SelectNext
-        | Action::SelectPrevious
-        | Action::Dismiss
-        | Action::Quit => Change::Overlay,
-        _ => Change::Settled,
+        Action::ScaleText(factor) => stage.text_scale = (stage.text_scale * factor).clamp(0.5, 4.0),
+        Action::EnterInterface | Action::Hold(_) | Action::Command => {}
     }
 }
 

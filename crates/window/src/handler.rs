@@ -49,6 +49,13 @@ pub trait Handler {
         let _ = (stage, name);
     }
 
+    /// Adds panels and windows of the application's own; the picture lies behind them.
+    /// Called whenever the interface may have changed, more than once where it has to
+    /// be laid out again. Where no widget is, mouse and keys go to camera and objects.
+    fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {
+        let _ = (stage, ui);
+    }
+
     /// Files or folders were dropped onto the window, all of one drop together.
     fn dropped(&mut self, stage: &mut Stage, paths: Vec<PathBuf>, modifiers: Modifiers) {
         let _ = (stage, paths, modifiers);
@@ -65,11 +72,21 @@ pub trait Handler {
     }
 }
 
-/// An application that is only an animation.
-pub(crate) struct Animated<F>(pub(crate) F);
+/// An application of at most two closures.
+#[derive(Default)]
+pub(crate) struct Closures<'a> {
+    pub(crate) frame: Option<Box<dyn FnMut(&mut Stage, Tick) -> Animation + 'a>>,
+    pub(crate) interface: Option<Box<dyn FnMut(&mut Stage, &mut egui::Ui) + 'a>>,
+}
 
-impl<F: FnMut(&mut Stage, Tick) -> Animation> Handler for Animated<F> {
+impl Handler for Closures<'_> {
     fn frame(&mut self, stage: &mut Stage, tick: Tick) -> Animation {
-        self.0(stage, tick)
+        self.frame.as_mut().map_or(Animation::Resting, |frame| frame(stage, tick))
+    }
+
+    fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {
+        if let Some(interface) = &mut self.interface {
+            interface(stage, ui);
+        }
     }
 }

@@ -10,10 +10,11 @@
 //! files, and nothing about editing.
 //!
 //! An event takes this way: winit → `input` (what it means, in our words) →
-//! `session` (what it does) → `pacing` (when to draw, how well) → `compose`
-//! (what is written over it) → `present` (softbuffer). Only `shell`, `present`
-//! and `input::translate` know the window system; all the rest is tested
-//! without a display.
+//! `session` (what it does) → `pacing` (when to draw, how well) → `worker` (draws
+//! the scene beside the window's thread) → `interface` (what lies over it) →
+//! `egui_painter` (of that, what has changed) → `canvas` → `present` (softbuffer).
+//! Only `shell`, `present` and `input::translate` know the window system; all the
+//! rest is tested without a display.
 //!
 //! ```no_run
 //! use trigon_window::scene::{Material, math::DVec3, mesh::primitives};
@@ -35,30 +36,40 @@
 mod application;
 mod canvas;
 mod commands;
-mod compose;
+mod egui_painter;
 mod error;
 mod handler;
 mod input;
+mod interaction;
+mod interface;
 mod keymap;
 mod motion;
 mod overlay;
 mod pacing;
 mod present;
 mod session;
+mod shared_scene;
 mod shell;
 mod stage;
 mod waker;
+mod worker;
 
 pub use application::Application;
+#[cfg(any(test, feature = "kittest"))]
+pub use egui_painter::EguiTestRenderer;
+pub use egui_painter::{ChannelOrder, EguiPainter, MAX_TEXTURE_SIDE};
 pub use error::WindowError;
 pub use handler::{Animation, Handler, Tick};
 pub use input::{Chord, Key, Modifiers, PointerButton};
+pub use interaction::{Interaction, InteractionError};
 pub use keymap::{Action, Binding, CameraMotion, DragAction, DragBinding, Keymap, Motion, ObjectMotion};
 pub use overlay::{Corner, Overlay};
+pub use shared_scene::SharedScene;
 pub use stage::{FrameReport, Stage, Visibility};
 pub use waker::Waker;
 
 /// The crates below, so that an application needs no others.
+pub use egui;
 pub use trigon_scene as scene;
 
 /// Runs the README's example as a test.

@@ -4,6 +4,7 @@ use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use softbuffer::{Context, SoftBufferError, Surface};
+use trigon_raster::paint2d::Rect;
 use winit::event_loop::{ActiveEventLoop, OwnedDisplayHandle};
 use winit::window::Window;
 
@@ -15,6 +16,8 @@ use crate::canvas::Canvas;
 pub(crate) struct Presenter {
     surface: Surface<OwnedDisplayHandle, Arc<Window>>,
     size: Option<(NonZeroU32, NonZeroU32)>,
+    /// Whether the window shows all of a canvas of its size.
+    whole: bool,
 }
 
 impl Presenter {
@@ -23,7 +26,7 @@ impl Presenter {
     pub(crate) fn new(event_loop: &ActiveEventLoop, window: &Arc<Window>) -> Result<Self, WindowError> {
         let context = Context::new(event_loop.owned_display_handle()).map_err(refused)?;
         let surface = Surface::new(&context, Arc::clone(window)).map_err(refused)?;
-        let mut presenter = Self { surface, size: None };
+        let mut presenter = Self { surface, size: None, whole: false };
         let size = window.inner_size();
         presenter.resize(size.width, size.height)?;
         Ok(presenter)
@@ -38,28 +41,64 @@ impl Presenter {
         if self.size != Some((width, height)) {
             self.surface.resize(width, height).map_err(refused)?;
             self.size = Some((width, height));
+            self.whole = false;
         }
         Ok(())
     }
 
-    /// Shows the canvas. Every pixel is written: what the buffer held before is
-    /// not ours. A canvas of another size, drawn just before a resize, is cut
-    /// off or padded with black.
+    /// The window does not show any more what was presented.
+    pub(crate) fn forget(&mut self) {
+        self.whole = false;
+    }
+
+    /// Shows the canvas. Only what was painted last is written if the buffer is known to
+    /// hold the rest, else all. A canvas of another size, painted just before a resize,
+    /// is cut off or padded with black.
     pub(crate) fn present(&mut self, window: &Window, canvas: &Canvas) -> Result<(), WindowError> {
         let Some((width, height)) = self.size else { return Ok(()) };
         let mut buffer = self.surface.buffer_mut().map_err(refused)?;
-        let (to, from) = (width.get() as usize, canvas.width() as usize);
-        if (to, height.get() as i32) == (from, canvas.height()) {
-            buffer.copy_from_slice(canvas.pixels());
+        let fits = canvas.size() == [width.get(), height.get()];
+        // Age 1: what was presented last is still in it.
+        let all = Rect::new([0, 0], [width.get() as i32, height.get() as i32]);
+        let rects = if fits && self.whole && buffer.age() == 1 { canvas.painted() } else { &[all] };
+        if fits {
+            rects.iter().for_each(|rect| copy(canvas, *rect, &mut buffer));
         } else {
-            buffer.fill(0);
-            let columns = to.min(from);
-            let rows = buffer.chunks_exact_mut(to).zip(canvas.pixels().chunks_exact(from.max(1)));
-            rows.for_each(|(to, from)| to[..columns].copy_from_slice(&from[..columns]));
+            fit(canvas, width.get() as usize, &mut buffer);
         }
+        self.whole = fits;
         window.pre_present_notify();
-        buffer.present().map_err(refused)
+        let damage: Vec<softbuffer::Rect> = rects.iter().filter_map(|rect| damage(*rect)).collect();
+        buffer.present_with_damage(&damage).map_err(refused)
     }
+}
+
+/// Copies a rectangle to the same place.
+fn copy(canvas: &Canvas, rect: Rect, buffer: &mut [u32]) {
+    let width = canvas.size()[0] as usize;
+    for y in rect.min[1] as usize..rect.max[1] as usize {
+        let row = y * width + rect.min[0] as usize..y * width + rect.max[0] as usize;
+        pack(&canvas.pixels()[row.clone()], &mut buffer[row]);
+    }
+}
+
+/// Copies what fits; the rest is black.
+fn fit(canvas: &Canvas, to: usize, buffer: &mut [u32]) {
+    buffer.fill(0);
+    let from = canvas.size()[0] as usize;
+    let columns = to.min(from);
+    let rows = buffer.chunks_exact_mut(to).zip(canvas.pixels().chunks_exact(from.max(1)));
+    rows.for_each(|(to, from)| pack(&from[..columns], &mut to[..columns]));
+}
+
+/// As `0x00RRGGBB`.
+fn pack(pixels: &[[u8; 4]], to: &mut [u32]) {
+    to.iter_mut().zip(pixels).for_each(|(to, &[b, g, r, _])| *to = u32::from_be_bytes([0, r, g, b]));
+}
+
+fn damage(rect: Rect) -> Option<softbuffer::Rect> {
+    let side = |axis: usize| NonZeroU32::new((rect.max[axis] - rect.min[axis]) as u32);
+    Some(softbuffer::Rect { x: rect.min[0] as u32, y: rect.min[1] as u32, width: side(0)?, height: side(1)? })
 }
 
 fn refused(error: SoftBufferError) -> WindowError {

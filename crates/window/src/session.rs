@@ -1,24 +1,26 @@
 //! What happens between an event and a picture, without any window: events and
-//! moments go in, pictures and "wake me then" come out. So all of it can be
+//! moments go in, pixels and "wake me then" come out. So all of it can be
 //! tested without a display.
+
+mod controls;
 
 use std::path::PathBuf;
 use std::time::Duration;
 
-use trigon_camera::Viewport;
+use trigon_camera::{Camera, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
+use trigon_scene::{Frame, RenderError, RenderSettings};
 
 use crate::canvas::Canvas;
-use crate::commands;
-use crate::compose::compose;
 use crate::handler::{Animation, Handler, Tick};
-use crate::input::{
-    Chord, Gesture, HeldKeys, InputEvent, KeyCode, KeyPress, Modifiers, Pointer, PointerButton,
-};
-use crate::keymap::{Action, DragAction};
+use crate::input::{HeldKeys, InputEvent, Modifiers, Pointer};
+use crate::interaction::Interaction;
+use crate::interface::{Interface, Moment};
 use crate::motion;
-use crate::pacing::{Change, Frames, Pacing, Quality, Wake, Work};
-use crate::stage::{FrameReport, Stage, Visibility};
+use crate::pacing::{Change, Frames, Pacing, Quality, Wake};
+use crate::shared_scene::Revision;
+use crate::stage::{FrameReport, Stage, Subject, Visibility};
+use crate::worker::{Finished, Job, Purpose, Worker};
 
 /// The step of an animation's first frame, and of a key's first moment.
 const FIRST_STEP: Duration = Duration::from_micros(16_667);
@@ -30,6 +32,8 @@ const LONGEST_STEP: Duration = Duration::from_millis(100);
 pub(crate) struct Session<'a> {
     stage: Stage,
     handler: &'a mut dyn Handler,
+    interface: Interface,
+    worker: Worker,
     modifiers: Modifiers,
     pointer: Pointer,
     held: HeldKeys,
@@ -40,21 +44,29 @@ pub(crate) struct Session<'a> {
     dropped: Vec<PathBuf>,
     /// What zooming to the pointer keeps in place, for as long as that rests.
     anchor: Option<(DVec2, Option<DVec3>)>,
-    /// Of the scene; `None` if it may have changed.
-    bounds: Option<Bounds3>,
+    /// Of the scene, as it was at this revision.
+    bounds: Option<(Revision, Bounds3)>,
     seen: Visibility,
+    /// What the picture that was asked for last is of.
+    subject: Option<Subject>,
+    /// The last picture, and the camera that it was drawn with.
+    picture: Option<(Frame, Camera)>,
+    /// Pictures that were asked for and not begun.
+    pictures: Vec<RenderSettings>,
     canvas: Canvas,
-    /// The last rendering, under the overlay.
-    frame: Option<trigon_scene::Frame>,
     /// When the current frame was handed over to be presented.
     composed: Duration,
+    /// What has come in, if it is to be remembered.
+    recorded: Option<Interaction>,
 }
 
 impl<'a> Session<'a> {
-    pub(crate) fn new(stage: Stage, handler: &'a mut dyn Handler) -> Self {
+    pub(crate) fn new(stage: Stage, handler: &'a mut dyn Handler, worker: Worker) -> Self {
         Self {
             stage,
             handler,
+            interface: Interface::new(),
+            worker,
             modifiers: Modifiers::NONE,
             pointer: Pointer::default(),
             held: HeldKeys::default(),
@@ -65,14 +77,31 @@ impl<'a> Session<'a> {
             anchor: None,
             bounds: None,
             seen: Visibility::Shown,
+            subject: None,
+            picture: None,
+            pictures: Vec::new(),
             canvas: Canvas::default(),
-            frame: None,
             composed: Duration::ZERO,
+            recorded: None,
         }
     }
 
     pub(crate) fn stage(&self) -> &Stage {
         &self.stage
+    }
+
+    pub(crate) fn interface(&mut self) -> &mut Interface {
+        &mut self.interface
+    }
+
+    /// Remembers from now on what comes in.
+    pub(crate) fn record(&mut self) {
+        self.recorded = Some(Interaction::default());
+    }
+
+    /// What has come in since [`record`](Self::record).
+    pub(crate) fn take_recorded(&mut self) -> Option<Interaction> {
+        self.recorded.take()
     }
 
     /// The window is open and its size is known.
@@ -95,12 +124,20 @@ impl<'a> Session<'a> {
         self.after_handler(now);
     }
 
+    /// The interface has asked for a pass from another thread.
+    pub(crate) fn interface_asked(&mut self, now: Duration) {
+        self.pacing.changed(Change::Overlay, now);
+    }
+
     /// All events that came together have been handled.
     pub(crate) fn settle(&mut self, now: Duration) {
         if !self.dropped.is_empty() {
             let paths = std::mem::take(&mut self.dropped);
             self.handler.dropped(&mut self.stage, paths, self.modifiers);
             self.after_handler(now);
+        }
+        if self.pacing.is_useless() {
+            self.worker.cancel();
         }
     }
 
@@ -109,28 +146,32 @@ impl<'a> Session<'a> {
         if self.is_hidden() {
             return Wake::Never;
         }
-        self.pacing.next(now, self.frames(), self.stage.overlay.next_expiry())
+        let expiries = [self.stage.overlay.next_expiry(), self.interface.due()];
+        self.pacing.next(now, self.frames(), expiries.into_iter().flatten().min())
     }
 
-    /// Draws a frame; `None` while there is nothing to draw on. `clock` tells
-    /// the time, to measure what the frame takes.
+    /// Brings the canvas up to date; `None` if nothing on it has changed, or while there
+    /// is nothing to draw on. `clock` tells the time, to measure what the frame takes.
     pub(crate) fn draw(&mut self, now: Duration, clock: &dyn Fn() -> Duration) -> Option<&Canvas> {
         if self.is_hidden() {
             return None;
         }
-        self.step(now);
-        let begun = clock();
-        if let Work::Render(quality) = self.pacing.begin(now, self.frames()) {
-            self.render(quality);
-            let took = clock().saturating_sub(begun);
-            self.pacing.took(quality, took);
-            self.stage.set_report(FrameReport { render: took, ..self.stage.report() });
+        if self.pacing.can_step() {
+            self.step(now);
+        }
+        if let Some(quality) = self.pacing.begin(now, self.frames()) {
+            self.begin_picture(quality);
+            self.collect(now);
         }
         self.composed = clock();
-        let Viewport { width, height } = self.stage.viewport();
-        self.canvas.show(self.frame.as_ref()?, width, height);
-        compose(&mut self.canvas, &mut self.stage, now);
-        Some(&self.canvas)
+        self.pacing.composed();
+        self.run_interface(now);
+        self.canvas.paint(&mut self.interface.painter).then_some(&self.canvas)
+    }
+
+    /// What was last drawn; of no size before.
+    pub(crate) fn canvas(&self) -> &Canvas {
+        &self.canvas
     }
 
     /// The frame is in the window.
@@ -141,28 +182,10 @@ impl<'a> Session<'a> {
 
     /// Something has happened.
     pub(crate) fn event(&mut self, event: InputEvent, now: Duration) {
+        if let Some(recorded) = &mut self.recorded {
+            recorded.record(event.clone(), now);
+        }
         match event {
-            InputEvent::PointerMoved(to) => {
-                let gesture = self.pointer.moved(to, self.stage.scale());
-                self.gesture(gesture, now);
-            }
-            InputEvent::Button(button, press) => {
-                let gesture = self.pointer.button(button, press, self.modifiers);
-                self.gesture(gesture, now);
-            }
-            InputEvent::Wheel(lines) => self.wheel(lines, now),
-            InputEvent::Pinch(power) => {
-                motion::zoom(&mut self.stage, power, None);
-                self.pacing.changed(Change::Moving, now);
-            }
-            InputEvent::KeyDown(key) => self.key(key, now),
-            InputEvent::KeyUp(code) => self.released(code, now),
-            InputEvent::Modifiers(modifiers) => self.modifiers = modifiers,
-            InputEvent::FocusLost => {
-                self.held.clear();
-                self.pointer.cancel();
-                self.modifiers = Modifiers::NONE;
-            }
             InputEvent::FileDropped(path) => self.dropped.push(path),
             InputEvent::Resized { width, height } => self.resized(Viewport { width, height }, now),
             InputEvent::Scaled(scale) => {
@@ -172,10 +195,38 @@ impl<'a> Session<'a> {
             InputEvent::Hidden => self.seen = Visibility::Hidden,
             InputEvent::Shown => {
                 self.seen = Visibility::Shown;
+                self.interface.painter.invalidate();
                 self.pacing.changed(Change::Overlay, now);
             }
             InputEvent::CloseRequested => self.stage.exit(),
+            input => self.control(input, now),
         }
+    }
+
+    /// Takes over what the worker has finished.
+    pub(crate) fn collect(&mut self, now: Duration) {
+        let Some(Finished { purpose, camera, took, frame }) = self.worker.collect() else { return };
+        self.pacing.occupy(false);
+        match (purpose, frame) {
+            (Purpose::Window(_), Ok(frame)) => {
+                self.pacing.finished(took);
+                self.stage.set_report(FrameReport { render: took, ..self.stage.report() });
+                self.picture = Some((frame, camera));
+                self.show_picture();
+            }
+            (Purpose::Window(_), Err(error)) => {
+                self.pacing.failed();
+                if error != RenderError::Cancelled {
+                    self.stage.overlay.notify(error.to_string());
+                }
+            }
+            (Purpose::Picture, Ok(frame)) => {
+                self.handler.picture(&mut self.stage, frame);
+                self.after_handler(now);
+            }
+            (Purpose::Picture, Err(error)) => self.stage.overlay.notify(error.to_string()),
+        }
+        self.begin_asked(now);
     }
 
     fn is_hidden(&self) -> bool {
@@ -192,29 +243,66 @@ impl<'a> Session<'a> {
     }
 
     fn resized(&mut self, viewport: Viewport, now: Duration) {
-        if viewport == self.stage.viewport() {
+        if viewport == self.stage.viewport() && self.picture.is_some() {
             return;
         }
         self.stage.resize(viewport);
-        // The first size is no movement: the first picture is a full one.
-        let change = if self.frame.is_some() { Change::Moving } else { Change::Settled };
+        // The first size is no movement.
+        let change = if self.picture.is_some() { Change::Moving } else { Change::Settled };
         self.pacing.changed(change, now);
+        self.show_picture();
+    }
+
+    /// Brings the last picture under the interface, at the window's size.
+    fn show_picture(&mut self) {
+        let Viewport { width, height } = self.stage.viewport();
+        self.canvas.show(self.picture.as_ref().map(|(frame, _)| frame), [width, height]);
+        self.interface.painter.invalidate();
+    }
+
+    /// Whatever was done, the interface may show it; and the picture is drawn again if
+    /// what it shows has changed.
+    fn note(&mut self, now: Duration) {
+        let changed = self.subject.as_ref() != Some(&self.stage.subject());
+        self.pacing.changed(if changed { Change::Settled } else { Change::Overlay }, now);
+        if changed {
+            self.anchor = None;
+        }
     }
 
     /// What every call of the handler may have changed.
     fn after_handler(&mut self, now: Duration) {
-        self.bounds = None;
-        self.anchor = None;
-        self.pacing.changed(Change::Settled, now);
-        for settings in std::mem::take(&mut self.stage.wishes().pictures) {
-            match self.stage.render_picture(&settings) {
-                Ok(frame) => self.handler.picture(&mut self.stage, frame),
-                Err(error) => self.stage.overlay.notify(error.to_string()),
-            }
-        }
+        self.note(now);
+        self.pictures.append(&mut self.stage.wishes().pictures);
+        self.begin_asked(now);
         if std::mem::take(&mut self.stage.wishes().animate) {
             self.animation = Animation::Running;
         }
+    }
+
+    /// Begins a picture that was asked for, if the worker has time.
+    fn begin_asked(&mut self, now: Duration) {
+        if self.worker.is_busy() || self.pictures.is_empty() {
+            return;
+        }
+        let settings = self.pictures.remove(0);
+        self.pacing.occupy(true);
+        self.begin(Purpose::Picture, settings);
+        self.collect(now);
+    }
+
+    /// Begins the window's picture.
+    fn begin_picture(&mut self, quality: Quality) {
+        self.subject = Some(self.stage.subject());
+        self.begin(Purpose::Window(quality), self.stage.picture_settings(quality));
+    }
+
+    fn begin(&mut self, purpose: Purpose, settings: RenderSettings) {
+        let revision = self.stage.scene.revision();
+        let known = self.bounds.filter(|(known, _)| *known == revision);
+        let (_, bounds) = *self.bounds.insert(known.unwrap_or_else(|| (revision, self.stage.scene.bounds())));
+        let camera = self.stage.orbit.camera(&bounds);
+        self.worker.begin(Job { purpose, scene: self.stage.scene.share(), camera, settings });
     }
 
     /// Moves what moves by itself: the animation and held keys.
@@ -228,7 +316,6 @@ impl<'a> Session<'a> {
         let seconds = delta.min(LONGEST_STEP).as_secs_f64();
         for motion in self.held.motions() {
             motion::hold(&mut self.stage, motion, seconds);
-            self.bounds = None;
         }
         if self.animation == Animation::Running {
             self.animation = self.handler.frame(&mut self.stage, Tick { time: now, delta });
@@ -237,111 +324,25 @@ impl<'a> Session<'a> {
         self.pacing.changed(Change::Settled, now);
     }
 
-    fn render(&mut self, quality: Quality) {
-        let bounds = *self.bounds.get_or_insert_with(|| self.stage.scene.bounds());
-        let camera = self.stage.orbit.camera(&bounds);
-        match self.stage.render(&camera, quality) {
-            Ok(frame) => self.frame = Some(frame),
-            Err(error) => self.stage.overlay.notify(error.to_string()),
+    /// Runs a pass of the interface.
+    fn run_interface(&mut self, now: Duration) {
+        let (viewport, scale) = (self.stage.viewport(), self.stage.scale());
+        let moment = Moment { now, viewport, scale };
+        let shown_by = self.picture.as_ref().map(|(_, camera)| camera);
+        let handler = &mut self.handler;
+        let mut application = |stage: &mut Stage, ui: &mut egui::Ui| handler.interface(stage, ui);
+        let before = self.stage.subject();
+        let chosen = self.interface.run(moment, &mut self.stage, shown_by, &mut application);
+        if let Some(binding) = chosen {
+            self.act(&binding, now);
         }
-    }
-
-    fn gesture(&mut self, gesture: Option<Gesture>, now: Duration) {
-        match gesture {
-            None | Some(Gesture::Released) => {}
-            Some(Gesture::Drag { button, modifiers, from, to }) => {
-                let Some(action) = self.stage.keymap.find_drag(button, modifiers) else { return };
-                let anchor = match action {
-                    DragAction::ZoomToPointer => self.anchor_at(from),
-                    _ => None,
-                };
-                motion::drag(&mut self.stage, action, from, to, anchor);
-                // The pointer went on, but the drag goes on about its first point.
-                if let Some((at, _)) = self.anchor.as_mut().filter(|_| action == DragAction::ZoomToPointer) {
-                    *at = to;
-                }
-                self.pacing.changed(Change::Moving, now);
-            }
-            Some(Gesture::Click { button, modifiers, at }) => self.click(button, modifiers, at, now),
+        // A widget may have changed what is shown, and asked for pictures.
+        if before != self.stage.subject() || !self.stage.wishes().pictures.is_empty() {
+            self.after_handler(now);
         }
-    }
-
-    fn click(&mut self, button: PointerButton, modifiers: Modifiers, at: DVec2, now: Duration) {
-        match button {
-            PointerButton::Left => {
-                self.stage.selection = self.stage.pick(at).map(|(hit, _)| hit.node);
-                commands::announce_selection(&mut self.stage);
-                self.pacing.changed(Change::Overlay, now);
-            }
-            PointerButton::Middle => {
-                let Some((_, point)) = self.stage.pick(at) else { return };
-                if modifiers.contains(Modifiers::SHIFT) {
-                    // As near as the point was, not as the old target was.
-                    let depth = -self.stage.camera().to_camera(point).z;
-                    self.stage.orbit.set_distance(depth);
-                }
-                self.stage.orbit.set_target(point);
-                self.pacing.changed(Change::Settled, now);
-            }
-            PointerButton::Right => {}
+        if std::mem::take(&mut self.stage.wishes().animate) {
+            self.animation = Animation::Running;
         }
-    }
-
-    fn wheel(&mut self, lines: f64, now: Duration) {
-        let to_pointer = self.modifiers.contains(Modifiers::CTRL);
-        let pointer = self.pointer.position().filter(|_| to_pointer);
-        let anchor = pointer.and_then(|at| self.anchor_at(at));
-        motion::wheel(&mut self.stage, lines, anchor);
-        self.pacing.changed(Change::Moving, now);
-    }
-
-    /// What is under the pointer, or else the point at the target's distance.
-    /// Asked again for the same place, it is the same point: zooming keeps it there.
-    fn anchor_at(&mut self, at: DVec2) -> Option<DVec3> {
-        if let Some((known, anchor)) = self.anchor
-            && known == at
-        {
-            return anchor;
-        }
-        let hit = self.stage.pick(at).map(|(_, point)| point);
-        let anchor = hit.or_else(|| {
-            let projector = trigon_camera::Projector::new(&self.stage.camera(), self.stage.viewport());
-            projector.at_distance(at, self.stage.orbit.distance())
-        });
-        self.anchor = Some((at, anchor));
-        anchor
-    }
-
-    fn key(&mut self, key: KeyPress, now: Duration) {
-        let chords = [key.logical, key.physical].into_iter().flatten();
-        let found = chords
-            .map(|key| Chord::new(self.modifiers, key))
-            .find_map(|chord| self.stage.keymap.find(chord))
-            .cloned();
-        let Some(binding) = found else { return };
-        match binding.action {
-            Action::Hold(motion) => {
-                self.held.press(key.code, motion);
-                self.pacing.changed(Change::Moving, now);
-            }
-            Action::Command => {
-                self.handler.command(&mut self.stage, &binding.name);
-                self.after_handler(now);
-            }
-            other => {
-                commands::act(&mut self.stage, other);
-                self.anchor = None;
-                self.pacing.changed(commands::change_of(other), now);
-            }
-        }
-    }
-
-    fn released(&mut self, code: KeyCode, now: Duration) {
-        if self.held.is_empty() {
-            return;
-        }
-        self.held.release(code);
-        self.pacing.changed(Change::Moving, now);
     }
 }
 

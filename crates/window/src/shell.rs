@@ -6,24 +6,42 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use winit::application::ApplicationHandler;
-use winit::dpi::LogicalSize;
+use winit::dpi::{LogicalSize, PhysicalSize};
 use winit::event::WindowEvent;
-use winit::event_loop::{ActiveEventLoop, ControlFlow};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::window::{Window, WindowId};
 
+use crate::egui_painter::MAX_TEXTURE_SIDE;
 use crate::input::{InputEvent, translate::translate};
+use crate::interaction::Interaction;
 use crate::pacing::Wake;
 use crate::present::Presenter;
 use crate::session::Session;
+use crate::worker::Worker;
 use crate::{Handler, Stage, WindowError};
+
+/// What wakes the loop from other threads.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Ring {
+    /// [`crate::Waker::wake`].
+    Application,
+    /// A picture is finished.
+    Picture,
+    /// The interface wants a pass.
+    Interface,
+}
 
 /// A window that is open. The presenter goes first when it closes.
 struct Open {
     presenter: Presenter,
+    /// From the window system to egui and back.
+    egui: egui_winit::State,
     window: Arc<Window>,
     title: String,
     /// When it was last asked.
     minimised: bool,
+    /// Whether the next frame was asked for by this program.
+    asked: bool,
 }
 
 /// An application between its start and its end.
@@ -32,11 +50,38 @@ pub(crate) struct Shell<'a> {
     open: Option<Open>,
     started: Instant,
     error: Option<WindowError>,
+    /// What is done in place of hands.
+    played: Interaction,
 }
 
 impl<'a> Shell<'a> {
-    pub(crate) fn new(stage: Stage, handler: &'a mut dyn Handler) -> Self {
-        Self { session: Session::new(stage, handler), open: None, started: Instant::now(), error: None }
+    pub(crate) fn new(stage: Stage, handler: &'a mut dyn Handler, proxy: &EventLoopProxy<Ring>) -> Self {
+        // Sending fails when the window is closed: then there is nobody to wake.
+        let ring = |ring| {
+            let proxy = proxy.clone();
+            move || {
+                let _ = proxy.send_event(ring);
+            }
+        };
+        stage.waker().connect(ring(Ring::Application));
+        let mut session = Session::new(stage, handler, Worker::of_thread(ring(Ring::Picture)));
+        session.interface().connect(ring(Ring::Interface));
+        Self { session, open: None, started: Instant::now(), error: None, played: Interaction::default() }
+    }
+
+    /// Remembers what comes in.
+    pub(crate) fn record(&mut self) {
+        self.session.record();
+    }
+
+    /// What has come in.
+    pub(crate) fn take_recorded(&mut self) -> Option<Interaction> {
+        self.session.take_recorded()
+    }
+
+    /// Does this in place of hands, which are not listened to meanwhile.
+    pub(crate) fn play(&mut self, interaction: Interaction) {
+        self.played = interaction;
     }
 
     /// What went wrong, if anything.
@@ -57,12 +102,20 @@ impl<'a> Shell<'a> {
         let refused = |error: winit::error::OsError| WindowError::Window { reason: error.to_string() };
         let window = Arc::new(event_loop.create_window(attributes).map_err(refused)?);
         let presenter = Presenter::new(event_loop, &window)?;
+        let egui = egui_winit::State::new(
+            self.session.interface().context().clone(),
+            egui::ViewportId::ROOT,
+            event_loop,
+            Some(window.scale_factor() as f32),
+            window.theme(),
+            Some(MAX_TEXTURE_SIDE),
+        );
         let now = self.now();
         self.session.event(InputEvent::Scaled(window.scale_factor()), now);
         let size = window.inner_size();
         self.session.event(InputEvent::Resized { width: size.width, height: size.height }, now);
         self.session.start(now);
-        self.open = Some(Open { presenter, window, title, minimised: false });
+        self.open = Some(Open { presenter, egui, window, title, minimised: false, asked: false });
         Ok(())
     }
 
@@ -77,9 +130,17 @@ impl<'a> Shell<'a> {
             let event = if minimised { InputEvent::Hidden } else { InputEvent::Shown };
             self.session.event(event, now);
         }
-        let Some(canvas) = self.session.draw(now, &|| self.started.elapsed()) else { return Ok(()) };
-        open.presenter.present(&open.window, canvas)?;
-        self.session.presented(self.started.elapsed());
+        // The window system asks where the window has lost what it showed.
+        let lost = !std::mem::take(&mut open.asked);
+        let changed = self.session.draw(now, &|| self.started.elapsed()).is_some();
+        if lost {
+            open.presenter.forget();
+        }
+        if changed || lost {
+            open.presenter.present(&open.window, self.session.canvas())?;
+            self.session.presented(self.started.elapsed());
+        }
+        open.egui.handle_platform_output(&open.window, self.session.interface().take_output());
         Ok(())
     }
 
@@ -93,6 +154,35 @@ impl<'a> Shell<'a> {
         Ok(())
     }
 
+    /// Hands an event to the interface. A request to draw is none: it would ask for the
+    /// next one.
+    fn tell_interface(&mut self, event: &WindowEvent) {
+        let Some(open) = self.open.as_mut().filter(|_| !matches!(event, WindowEvent::RedrawRequested)) else {
+            return;
+        };
+        let now = self.started.elapsed();
+        // What it answers is about the last pass; the session asks the interface itself.
+        let _ = open.egui.on_window_event(&open.window, event);
+        let played = !self.played.is_empty();
+        for event in open.egui.egui_input_mut().events.drain(..).filter(|_| !played) {
+            self.session.event(InputEvent::Interface(event), now);
+        }
+    }
+
+    /// Does what is due of what is played. The window has its own scale and is seen or
+    /// not; it is asked for the size.
+    fn step_play(&mut self, now: Duration) {
+        while let Some(event) = self.played.next(now) {
+            match (event, &self.open) {
+                (InputEvent::Resized { width, height }, Some(open)) => {
+                    let _ = open.window.request_inner_size(PhysicalSize::new(width, height));
+                }
+                (event, _) if event.is_by_hand() => self.session.event(event, now),
+                _ => {}
+            }
+        }
+    }
+
     fn fail(&mut self, event_loop: &ActiveEventLoop, result: Result<(), WindowError>) {
         if let Err(error) = result {
             self.error = Some(error);
@@ -101,7 +191,7 @@ impl<'a> Shell<'a> {
     }
 }
 
-impl ApplicationHandler<()> for Shell<'_> {
+impl ApplicationHandler<Ring> for Shell<'_> {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if self.open.is_none() {
             let result = self.open(event_loop);
@@ -113,14 +203,20 @@ impl ApplicationHandler<()> for Shell<'_> {
         self.open = None;
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, (): ()) {
+    fn user_event(&mut self, _: &ActiveEventLoop, ring: Ring) {
         let now = self.now();
-        self.session.woken(now);
+        match ring {
+            Ring::Application => self.session.woken(now),
+            Ring::Picture => self.session.collect(now),
+            Ring::Interface => self.session.interface_asked(now),
+        }
     }
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let now = self.now();
-        if let Some(event) = translate(&event, self.session.stage().scale()) {
+        self.tell_interface(&event);
+        let ours = translate(&event, self.session.stage().scale());
+        if let Some(event) = ours.filter(|event| self.played.is_empty() || !event.is_by_hand()) {
             self.session.event(event, now);
         }
         let result = match event {
@@ -134,6 +230,7 @@ impl ApplicationHandler<()> for Shell<'_> {
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         let now = self.now();
+        self.step_play(now);
         self.session.settle(now);
         if self.session.is_over() {
             event_loop.exit();
@@ -148,13 +245,16 @@ impl ApplicationHandler<()> for Shell<'_> {
             open.window.set_title(title);
             open.title = title.to_owned();
         }
-        event_loop.set_control_flow(match self.session.next(now) {
-            Wake::Now => {
-                open.window.request_redraw();
-                ControlFlow::Wait
-            }
-            Wake::At(time) => ControlFlow::WaitUntil(self.started + time),
-            Wake::Never => ControlFlow::Wait,
+        let next = self.session.next(now);
+        if next == Wake::Now {
+            open.window.request_redraw();
+            open.asked = true;
+        }
+        let later = if let Wake::At(time) = next { Some(time) } else { None };
+        let due = [later, self.played.due()].into_iter().flatten().min();
+        event_loop.set_control_flow(match due {
+            Some(time) => ControlFlow::WaitUntil(self.started + time),
+            None => ControlFlow::Wait,
         });
     }
 }

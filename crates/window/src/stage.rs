@@ -5,11 +5,12 @@ use std::time::Duration;
 
 use trigon_camera::{Camera, DEFAULT_MARGIN, Orbit, Projector, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
-use trigon_scene::{Frame, Hit, NodeId, Outputs, RenderError, RenderSettings, Renderer, Scene};
+use trigon_scene::{Hit, NodeId, Outputs, RenderSettings, Renderer};
 
 use crate::keymap::Keymap;
 use crate::overlay::Overlay;
 use crate::pacing::Quality;
+use crate::shared_scene::{Revision, SharedScene};
 use crate::waker::Waker;
 
 /// Size of a new window in logical pixels, as in F3D.
@@ -18,12 +19,12 @@ const DEFAULT_SIZE: Viewport = Viewport { width: 1000, height: 600 };
 /// From the right, above and before, as in F3D.
 const DEFAULT_DIRECTION: DVec3 = DVec3::new(-1.0, -0.5, -1.0);
 
-/// What the last frame took.
+/// What the last picture took, and bringing it into the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct FrameReport {
-    /// From the scene to colours.
+    /// From the scene to colours, beside the window's thread.
     pub render: Duration,
-    /// Conversion, overlay, and handing it to the window system.
+    /// Conversion, interface, and handing it to the window system.
     pub present: Duration,
 }
 
@@ -61,7 +62,7 @@ enum Home {
 /// and from every method of [`crate::Handler`].
 pub struct Stage {
     /// What is drawn.
-    pub scene: Scene,
+    pub scene: SharedScene,
     /// The camera. A window begins with [`Stage::reset_view`].
     pub orbit: Orbit,
     /// How it is drawn. Width, height and outputs are the window's business;
@@ -77,6 +78,10 @@ pub struct Stage {
     pub cheat_sheet: Visibility,
     /// Whether the time of a frame is shown.
     pub frame_time: Visibility,
+    /// How large text and widgets are, beside the display's own scale: 0.5 to 4.
+    pub text_scale: f32,
+    /// What the list of keys is searched for.
+    pub(crate) command_search: String,
     title: String,
     home: Home,
     renderer: Renderer,
@@ -100,7 +105,7 @@ impl Stage {
     #[must_use]
     pub fn new(title: impl Into<String>) -> Self {
         Self {
-            scene: Scene::new(),
+            scene: SharedScene::default(),
             orbit: Orbit::new(DVec3::Y),
             settings: RenderSettings::new(DEFAULT_SIZE.width, DEFAULT_SIZE.height),
             overlay: Overlay::default(),
@@ -108,6 +113,8 @@ impl Stage {
             selection: None,
             cheat_sheet: Visibility::Hidden,
             frame_time: Visibility::Hidden,
+            text_scale: 1.0,
+            command_search: String::new(),
             title: title.into(),
             home: Home::Fit(DEFAULT_DIRECTION),
             renderer: Renderer::builder().build(),
@@ -130,7 +137,7 @@ impl Stage {
         self.title = title.into();
     }
 
-    /// Size of the picture in physical pixels; 0 while the window is minimised.
+    /// Size of the window in physical pixels; 0 while the window is minimised.
     #[must_use]
     pub fn viewport(&self) -> Viewport {
         self.viewport
@@ -256,28 +263,36 @@ impl Stage {
         self.report = report;
     }
 
-    /// Draws the scene as the window shows it.
-    pub(crate) fn render(&mut self, camera: &Camera, quality: Quality) -> Result<Frame, RenderError> {
+    /// How the window's picture is drawn.
+    pub(crate) fn picture_settings(&self, quality: Quality) -> RenderSettings {
         let mut settings = self.settings.clone();
         settings.outputs = Outputs::default();
         let shrink = match quality {
-            Quality::Full => 1,
+            Quality::Full => 1.0,
             Quality::Draft { shrink } => {
                 (settings.samples_per_axis, settings.samples) = (1, 1);
                 shrink
             }
         };
-        settings.line_width *= (self.scale / f64::from(shrink)) as f32;
-        let smaller = |size: u32| (size / shrink).clamp(1, trigon_scene::MAX_SIZE);
+        settings.line_width *= (self.scale / shrink) as f32;
+        let smaller = |size: u32| ((f64::from(size) / shrink) as u32).clamp(1, trigon_scene::MAX_SIZE);
         (settings.width, settings.height) = (smaller(self.viewport.width), smaller(self.viewport.height));
-        *self.renderer.settings_mut() = settings;
-        self.renderer.render(&self.scene, camera)
+        settings
     }
 
-    /// Draws a picture that was asked for.
-    pub(crate) fn render_picture(&mut self, settings: &RenderSettings) -> Result<Frame, RenderError> {
-        let camera = self.camera();
-        *self.renderer.settings_mut() = settings.clone();
-        self.renderer.render(&self.scene, &camera)
+    /// All that the window's picture depends on.
+    pub(crate) fn subject(&self) -> Subject {
+        let Self { orbit, viewport, scale, .. } = *self;
+        Subject { scene: self.scene.revision(), orbit, settings: self.settings.clone(), viewport, scale }
     }
+}
+
+/// All that the window's picture depends on: as long as this stays, so does the picture.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Subject {
+    scene: Revision,
+    orbit: Orbit,
+    settings: RenderSettings,
+    viewport: Viewport,
+    scale: f64,
 }

@@ -7,6 +7,7 @@ mod output;
 mod raw;
 mod request;
 mod values;
+mod window;
 
 pub(crate) use beside::{Beside, Format};
 pub(crate) use effects::Explanation;

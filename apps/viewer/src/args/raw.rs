@@ -16,6 +16,7 @@ use super::beside::Beside;
 use super::effects::EffectArgs;
 use super::output::Destination;
 use super::values;
+use super::window::WindowArgs;
 use crate::report::Level;
 use crate::study::StudyArgs;
 
@@ -252,6 +253,9 @@ pub(crate) struct RawArgs {
     /// List the window's keys and mouse buttons
     #[arg(long, help_heading = "Program")]
     pub(crate) list_bindings: bool,
+
+    #[command(flatten)]
+    pub(crate) window: WindowArgs,
 
     #[command(flatten)]
     pub(crate) effects: EffectArgs,

@@ -11,6 +11,7 @@ use super::beside::Beside;
 use super::effects::Explanation;
 use super::output::Destination;
 use super::raw::{AntiAliasing, BackfaceType, DrawStyle, MultiFileMode, RawArgs, View};
+use super::window::WindowArgs;
 use crate::framing::{Eye, Framing};
 use crate::look::{Backfaces, Look};
 use crate::moment::Moment;
@@ -41,6 +42,9 @@ pub(crate) struct Request {
     pub(crate) outputs: Vec<Beside>,
     /// How it is drawn.
     pub(crate) settings: RenderSettings,
+    /// What the window does beside showing models.
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
+    pub(crate) window: WindowArgs,
     /// How much is said.
     pub(crate) level: Level,
     /// Flags that were accepted and do nothing.
@@ -113,6 +117,7 @@ impl Request {
             look: look(&raw),
             settings: settings(&raw)?,
             outputs: raw.outputs.clone(),
+            window: raw.window.clone(),
             level: raw.verbose,
             ignored: raw.gpu_only.given(),
         })

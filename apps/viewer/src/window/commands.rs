@@ -12,6 +12,8 @@ pub(super) enum Command {
     PreviousFileSameView,
     NextFileSameView,
     Reload,
+    Open,
+    CancelLoading,
     ResetView,
     ToggleName,
     ToggleMetadata,
@@ -24,12 +26,14 @@ pub(super) enum Command {
 }
 
 impl Command {
-    const ALL: [Self; 14] = [
+    const ALL: [Self; 16] = [
         Self::PreviousFile,
         Self::NextFile,
         Self::PreviousFileSameView,
         Self::NextFileSameView,
         Self::Reload,
+        Self::Open,
+        Self::CancelLoading,
         Self::ResetView,
         Self::ToggleName,
         Self::ToggleMetadata,
@@ -53,6 +57,8 @@ impl Command {
             }
             Self::NextFileSameView => ("file.next.same_view", ctrl(Key::Right), "the same, keeping the view"),
             Self::Reload => ("file.reload", Key::Up.into(), "load the file again"),
+            Self::Open => ("file.open", ctrl(Key::Character('o')), "open files"),
+            Self::CancelLoading => ("file.cancel", ctrl(Key::Character('.')), "cancel loading"),
             Self::ResetView => ("reset_view", Key::Enter.into(), "reset the view"),
             Self::ToggleName => ("file.name", 'n'.into(), "name of the file"),
             Self::ToggleMetadata => ("metadata", 'm'.into(), "counts and sizes"),

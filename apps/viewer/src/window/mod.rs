@@ -2,13 +2,20 @@
 
 mod background;
 mod commands;
+mod open;
+mod recent;
 mod screenshot;
 mod viewer;
+mod watch;
+
+use std::fmt::Display;
+use std::path::Path;
 
 use trigon_camera::Viewport;
-use trigon_window::{Application, DragBinding, WindowError};
+use trigon_window::{Application, DragBinding, Interaction, WindowError};
 
 use crate::args::Request;
+use crate::failure::Failure;
 use crate::model::Source;
 use crate::report::Reporter;
 use viewer::Viewer;
@@ -25,6 +32,10 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
     application.stage.set_size(Viewport { width, height });
     application.stage.settings = request.settings.clone();
     application.stage.keymap = commands::keymap();
+    if let Err(failure) = interactions(&mut application, request, reporter) {
+        reporter.error(&failure);
+        return failure.exit_code();
+    }
     let mut viewer = Viewer::new(request.clone(), sources, reporter);
     match application.run_with(&mut viewer) {
         Ok(()) => viewer.exit_code(),
@@ -37,6 +48,27 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
             1
         }
     }
+}
+
+/// What is recorded, and what is played, if anything.
+fn interactions(
+    application: &mut Application<'_>,
+    request: &Request,
+    reporter: Reporter,
+) -> Result<(), Failure> {
+    let named = |file: &Path, error: &dyn Display| Failure::work(format!("{}: {error}", file.display()));
+    if let Some(file) = &request.window.interaction_play {
+        let text = std::fs::read_to_string(file).map_err(|error| named(file, &error))?;
+        application.play(Interaction::from_text(&text).map_err(|error| named(file, &error))?);
+    }
+    if let Some(file) = request.window.interaction_record.clone() {
+        application.record(move |interaction| {
+            if let Err(error) = std::fs::write(&file, interaction.to_text()) {
+                reporter.error(named(&file, &error));
+            }
+        });
+    }
+    Ok(())
 }
 
 /// `--list-bindings`: the mouse, then the keys; those that do the same share a line.

@@ -6,11 +6,14 @@ use std::path::PathBuf;
 use trigon_camera::Orbit;
 use trigon_io::Warning;
 use trigon_math::DVec3;
-use trigon_scene::{Background, Frame};
-use trigon_window::{Corner, Handler, Modifiers, Stage};
+use trigon_scene::{Background, Frame, Scene};
+use trigon_window::{Corner, Handler, Modifiers, Stage, egui};
 
 use super::background::{Loading, Outcome};
 use super::commands::Command;
+use super::open::{OpenWindow, SystemDialog};
+use super::recent::Recent;
+use super::watch::Watch;
 use super::{screenshot, title};
 use crate::args::Request;
 use crate::failure::Failure;
@@ -30,7 +33,8 @@ enum View {
 struct Shown {
     /// Its scene is on the stage.
     source: Source,
-    summary: Summary,
+    /// Once somebody wants to see it: counting edges takes its time.
+    summary: Option<Summary>,
 }
 
 /// What a load under way is for.
@@ -49,13 +53,28 @@ pub(super) struct Viewer {
     shown: Option<Shown>,
     show_name: bool,
     show_metadata: bool,
+    open: OpenWindow,
+    recent: Recent,
+    /// If files are to be watched, and can be.
+    watch: Option<Watch>,
 }
 
 impl Viewer {
     /// A viewer of these sources; there is at least one.
     pub(super) fn new(request: Request, sources: Vec<Source>, reporter: Reporter) -> Self {
-        let (show_name, show_metadata) = (false, false);
-        Self { request, reporter, sources, current: 0, pending: None, shown: None, show_name, show_metadata }
+        Self {
+            request,
+            reporter,
+            sources,
+            current: 0,
+            pending: None,
+            shown: None,
+            show_name: false,
+            show_metadata: false,
+            open: OpenWindow::default(),
+            recent: Recent::load(),
+            watch: None,
+        }
     }
 
     /// 0 if anything could be shown.
@@ -92,19 +111,56 @@ impl Viewer {
     }
 
     fn show(&mut self, stage: &mut Stage, model: Model, view: View) -> Result<(), Failure> {
-        let summary = model.summary();
         if view == View::Fit || self.shown.is_none() {
             stage.orbit = self.home(stage, &model)?;
             stage.set_home(stage.orbit);
         }
         stage.set_title(title(&model.source));
         stage.selection = None;
-        stage.scene = model.scene;
+        stage.scene = model.scene.into();
         if self.sources.len() > 1 && !self.show_name {
             stage.overlay.notify(self.name());
         }
-        self.shown = Some(Shown { source: model.source, summary });
+        self.follow(stage, &model.files);
+        if let Some(file) = model.source.first_file() {
+            self.recent.add(file);
+        }
+        self.shown = Some(Shown { source: model.source, summary: None });
         Ok(())
+    }
+
+    /// Watches the files that were read, if files are to be watched.
+    fn follow(&mut self, stage: &mut Stage, files: &[PathBuf]) {
+        if self.watch.is_none() && self.request.window.watch == Some(true) {
+            let waker = stage.waker();
+            match Watch::new(move || waker.wake()) {
+                Ok(watch) => self.watch = Some(watch),
+                Err(error) => {
+                    self.tell_failure(stage, &Failure::work(format!("files cannot be watched: {error}")))
+                }
+            }
+        }
+        if let Some(Err(error)) = self.watch.as_mut().map(|watch| watch.follow(files)) {
+            self.tell_failure(stage, &Failure::work(format!("not all files can be watched: {error}")));
+        }
+    }
+
+    /// Shows files after the current one, and the first of them at once.
+    fn add(&mut self, stage: &mut Stage, files: Vec<PathBuf>) {
+        if files.is_empty() {
+            return;
+        }
+        let place = self.current + 1;
+        self.sources.splice(place..place, files.into_iter().map(|file| Source::Files(vec![file])));
+        self.current = place;
+        self.load(stage, View::Fit);
+    }
+
+    /// Nobody waits for what is being loaded any more.
+    fn cancel_loading(&mut self, stage: &mut Stage) {
+        if self.pending.take().is_some() {
+            stage.overlay.notify("loading was cancelled");
+        }
     }
 
     /// The view that the command line asks for.
@@ -143,14 +199,32 @@ impl Viewer {
 
     /// Writes what is to be read beside the model: above it, for messages come
     /// below.
-    fn write_overlay(&self, stage: &mut Stage) {
-        let name = self.show_name.then(|| self.name());
-        let loading = self.pending.as_ref().map(|pending| {
-            format!("loading {}: {} %", self.sources[self.current].title(), pending.loading.percent())
+    fn write_overlay(&mut self, stage: &mut Stage) {
+        stage.overlay.set(Corner::Top, self.show_name.then(|| self.name()));
+        let shown = self.shown.as_mut().filter(|_| self.show_metadata);
+        let lines = shown.map(|Shown { source, summary }| {
+            let count = || Model::shown(Scene::clone(&stage.scene), source.clone()).summary();
+            summary.get_or_insert_with(count).lines()
         });
-        stage.overlay.set(Corner::Top, name.into_iter().chain(loading));
-        let summary = self.shown.as_ref().filter(|_| self.show_metadata).map(|shown| shown.summary.lines());
-        stage.overlay.set(Corner::TopLeft, summary.unwrap_or_default());
+        stage.overlay.set(Corner::TopLeft, lines.unwrap_or_default());
+    }
+
+    /// How far a load is, with a way to end it. Returns whether that was wanted.
+    fn show_progress(&self, context: &egui::Context) -> bool {
+        let Some(pending) = &self.pending else { return false };
+        let mut cancelled = false;
+        let area = egui::Area::new(egui::Id::unique("loading")).anchor(egui::Align2::CENTER_CENTER, [0.0; 2]);
+        area.fade_in(false).show(context, |ui| {
+            egui::Frame::popup(ui.style()).show(ui, |ui| {
+                ui.set_width(280.0);
+                ui.label(format!("loading {}", self.sources[self.current].title()));
+                let percent = pending.loading.percent();
+                let bar = egui::ProgressBar::new(percent as f32 / 100.0).text(format!("{percent} %"));
+                ui.add(bar);
+                cancelled = ui.button("Cancel (Ctrl+.)").clicked();
+            });
+        });
+        cancelled
     }
 
     /// Another up axis, and the view that goes with it.
@@ -162,9 +236,8 @@ impl Viewer {
 
     fn reset_view(&mut self, stage: &mut Stage) {
         let Some(shown) = &self.shown else { return };
-        // The model is on the stage; only its bounds and cameras are asked for.
-        let scene = std::mem::take(&mut stage.scene);
-        let model = Model::shown(scene, shown.source.clone());
+        // Only its bounds and cameras are asked for; meshes and textures are shared.
+        let model = Model::shown(Scene::clone(&stage.scene), shown.source.clone());
         match self.home(stage, &model) {
             Ok(orbit) => {
                 stage.orbit = orbit;
@@ -172,7 +245,6 @@ impl Viewer {
             }
             Err(failure) => self.tell_failure(stage, &failure),
         }
-        stage.scene = model.scene;
     }
 
     fn brighten(stage: &mut Stage, factor: f32) {
@@ -199,6 +271,8 @@ impl Viewer {
             Command::PreviousFileSameView => self.step(stage, -1, View::Keep),
             Command::NextFileSameView => self.step(stage, 1, View::Keep),
             Command::Reload => self.load(stage, View::Keep),
+            Command::Open => self.open.toggle(),
+            Command::CancelLoading => self.cancel_loading(stage),
             Command::ResetView => self.reset_view(stage),
             Command::ToggleName => self.show_name = !self.show_name,
             Command::ToggleMetadata => self.show_metadata = !self.show_metadata,
@@ -232,14 +306,17 @@ impl Handler for Viewer {
         if let Some(other) = others.first() {
             stage.overlay.notify(format!("{} is no file; drop model files", other.display()));
         }
-        if files.is_empty() {
-            return;
-        }
-        let place = self.current + 1;
-        self.sources.splice(place..place, files.into_iter().map(|file| Source::Files(vec![file])));
-        self.current = place;
-        self.load(stage, View::Fit);
+        self.add(stage, files);
         self.write_overlay(stage);
+    }
+
+    fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {
+        if self.show_progress(ui.ctx()) {
+            self.cancel_loading(stage);
+        }
+        let waker = stage.waker();
+        let files = self.open.show(ui.ctx(), &self.recent, |open| open.browse(SystemDialog, waker));
+        self.add(stage, files);
     }
 
     fn picture(&mut self, stage: &mut Stage, frame: Frame) {
@@ -255,6 +332,11 @@ impl Handler for Viewer {
     }
 
     fn woken(&mut self, stage: &mut Stage) {
+        let picked = self.open.picked();
+        self.add(stage, picked);
+        if self.watch.as_ref().is_some_and(Watch::take_changed) {
+            self.load(stage, View::Keep);
+        }
         let outcome = self.pending.as_ref().and_then(|pending| pending.loading.outcome());
         if let Some(outcome) = outcome {
             let view = self.pending.take().map_or(View::Fit, |pending| pending.view);

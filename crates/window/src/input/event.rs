@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
+use serde::{Deserialize, Serialize};
 use trigon_math::DVec2;
 
 use super::key::{Key, Modifiers, PointerButton};
 
 /// Whether something went down or came up.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Press {
     Down,
     Up,
@@ -15,11 +16,11 @@ pub(crate) enum Press {
 
 /// Tells one key of the keyboard from all others, whatever the modifiers make
 /// of it: a release has to find the press that it belongs to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub(crate) struct KeyCode(pub(crate) u64);
 
 /// A key that went down.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct KeyPress {
     pub(crate) code: KeyCode,
     /// By the user's layout.
@@ -31,9 +32,9 @@ pub(crate) struct KeyPress {
 
 /// Everything that can happen to a window from outside. Positions and sizes
 /// are physical pixels from the top-left corner.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) enum InputEvent {
-    PointerMoved(DVec2),
+    PointerMoved(#[serde(with = "place")] DVec2),
     Button(PointerButton, Press),
     /// Lines away from the user, normalised.
     Wheel(f64),
@@ -44,6 +45,8 @@ pub(crate) enum InputEvent {
     Modifiers(Modifiers),
     FocusLost,
     FileDropped(PathBuf),
+    /// Something as the interface takes it; what is for the camera, too, comes beside it.
+    Interface(egui::Event),
     Resized {
         width: u32,
         height: u32,
@@ -54,4 +57,28 @@ pub(crate) enum InputEvent {
     Hidden,
     Shown,
     CloseRequested,
+}
+
+impl InputEvent {
+    /// Whether it is somebody's doing, not the window system's.
+    pub(crate) fn is_by_hand(&self) -> bool {
+        !matches!(
+            self,
+            Self::Resized { .. } | Self::Scaled(_) | Self::Hidden | Self::Shown | Self::CloseRequested
+        )
+    }
+}
+
+/// A place as two numbers.
+mod place {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use trigon_math::DVec2;
+
+    pub(super) fn serialize<S: Serializer>(place: &DVec2, serializer: S) -> Result<S::Ok, S::Error> {
+        place.to_array().serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<DVec2, D::Error> {
+        <[f64; 2]>::deserialize(deserializer).map(DVec2::from_array)
+    }
 }

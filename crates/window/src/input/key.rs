@@ -3,8 +3,10 @@
 use std::fmt;
 use std::ops::BitOr;
 
+use serde::{Deserialize, Serialize};
+
 /// A key by what it means on the user's keyboard, not by where it is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Key {
     /// What the key types without modifiers, in lower case.
@@ -52,7 +54,7 @@ impl fmt::Display for Key {
 }
 
 /// Which modifier keys are down. On macOS the command key counts as [`Modifiers::CTRL`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 pub struct Modifiers(u8);
 
 impl Modifiers {
@@ -128,7 +130,7 @@ impl fmt::Display for Chord {
 }
 
 /// A button of the mouse.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum PointerButton {
     /// The first one.
     Left,

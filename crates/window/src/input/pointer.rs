@@ -42,6 +42,11 @@ impl Pointer {
         self.position
     }
 
+    /// Whether a button is held: then its owner gets all that follows.
+    pub(crate) fn is_held(&self) -> bool {
+        self.held.is_some()
+    }
+
     /// It moved; `scale` is physical pixels per logical one.
     pub(crate) fn moved(&mut self, to: DVec2, scale: f64) -> Option<Gesture> {
         let from = self.position.replace(to)?;

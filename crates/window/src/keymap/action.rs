@@ -27,6 +27,10 @@ pub enum Action {
     CycleSamples,
     /// Shows or hides the list of keys.
     ToggleCheatSheet,
+    /// Makes text and widgets larger, by this factor.
+    ScaleText(f32),
+    /// Gives the keyboard to the first widget of the interface; Escape gives it back.
+    EnterInterface,
     /// Shows or hides what a frame takes.
     ToggleFrameTime,
     /// Selects the next object.

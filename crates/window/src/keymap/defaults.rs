@@ -18,6 +18,9 @@ const SHIFT: f64 = 0.5;
 /// Logarithm of the magnification per second: twice as large in 0.7 s.
 const ZOOM: f64 = 1.0;
 
+/// Text grows by this factor: three steps double it.
+const TEXT_STEP: f32 = 1.25;
+
 /// The four arrows, and where each points.
 const ARROWS: [(Key, f64, f64); 4] =
     [(Key::Left, -1.0, 0.0), (Key::Right, 1.0, 0.0), (Key::Up, 0.0, 1.0), (Key::Down, 0.0, -1.0)];
@@ -63,13 +66,17 @@ fn views() -> Vec<Binding> {
     all
 }
 
-fn display() -> [Binding; 5] {
+fn display() -> [Binding; 8] {
+    let ctrl = |c| Chord::new(Modifiers::CTRL, Key::Character(c));
     let wireframe = Chord::new(Modifiers::SHIFT, Key::Character('e'));
     [
         bind('e', "edges", Action::ToggleEdges, "edges on surfaces"),
         bind(wireframe, "wireframe", Action::CycleWireframe, "surface / wireframe / hidden lines"),
         bind('a', "samples", Action::CycleSamples, "samples per pixel"),
         bind('z', "frame_time", Action::ToggleFrameTime, "frame time"),
+        bind(ctrl('='), "text.larger", Action::ScaleText(TEXT_STEP), "larger, smaller text"),
+        bind(ctrl('-'), "text.smaller", Action::ScaleText(1.0 / TEXT_STEP), "larger, smaller text"),
+        bind(Key::Function(6), "interface", Action::EnterInterface, "into the interface (Escape: out of it)"),
         bind('k', "orbit_style", Action::ToggleOrbitStyle, "turntable / trackball"),
     ]
 }

@@ -1,14 +1,27 @@
 //! The cheat sheet's lines, from the tables themselves: what is not bound is
 //! not listed, and what is bound cannot be forgotten.
 
+use super::action::Action;
 use super::binding::{Binding, Keymap};
 use crate::input::Modifiers;
 
 /// A line of the cheat sheet.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SheetRow {
     pub(crate) keys: String,
     pub(crate) description: String,
+    /// What it does, if it is one thing, done at once.
+    pub(crate) binding: Option<Binding>,
+}
+
+impl SheetRow {
+    /// Whether a search for this text, in lower case, finds it.
+    pub(crate) fn contains(&self, text: &str) -> bool {
+        let name = self.binding.as_ref().map_or("", |binding| binding.name.as_ref());
+        [self.keys.as_str(), self.description.as_str(), name]
+            .iter()
+            .any(|part| part.to_lowercase().contains(text))
+    }
 }
 
 /// What the mouse does besides dragging; these are not in the tables.
@@ -28,13 +41,17 @@ pub(crate) fn sheet(keymap: &Keymap) -> Vec<SheetRow> {
         add(&mut rows, keys, &drag.description);
     }
     for (keys, description) in FIXED {
-        rows.push(SheetRow { keys: keys.into(), description: description.into() });
+        rows.push(SheetRow { keys: keys.into(), description: description.into(), binding: None });
     }
     let mouse = rows.len();
     let mut rest = keymap.bindings();
     while let Some(first) = rest.first() {
         let run = rest.iter().take_while(|next| next.description == first.description).count();
         add_from(&mut rows, mouse, keys_of(&rest[..run]), &first.description);
+        let one = run == 1 && !matches!(first.action, Action::Hold(_));
+        if let Some(row) = rows.last_mut().filter(|row| one && row.description == first.description) {
+            row.binding = Some(first.clone());
+        }
         rest = &rest[run..];
     }
     rows
@@ -48,7 +65,7 @@ fn add(rows: &mut Vec<SheetRow>, keys: String, description: &str) {
 fn add_from(rows: &mut Vec<SheetRow>, start: usize, keys: String, description: &str) {
     match rows[start..].iter_mut().find(|row| row.description == description) {
         Some(row) => row.keys = format!("{}, {keys}", row.keys),
-        None => rows.push(SheetRow { keys, description: description.into() }),
+        None => rows.push(SheetRow { keys, description: description.into(), binding: None }),
     }
 }
 
@@ -73,7 +90,6 @@ fn keys_of(bindings: &[Binding]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::keymap::Action;
 
     #[test]
     fn every_binding_is_on_the_sheet() {

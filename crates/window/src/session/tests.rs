@@ -1,8 +1,12 @@
 //! A window's life without a window.
 
+mod beside;
+mod ownership;
+mod replay;
+
 use super::*;
-use crate::input::{Key, Press};
-use crate::keymap::Keymap;
+use crate::input::{Key, KeyCode, KeyPress, PointerButton, Press};
+use crate::keymap::{Action, Keymap};
 use proptest::prelude::*;
 use trigon_camera::AxisView;
 use trigon_mesh::primitives;
@@ -64,35 +68,40 @@ impl Handler for Recorder {
     }
 }
 
-/// A session that has begun and drawn its first frame.
-fn begun(handler: &mut Recorder) -> Session<'_> {
-    let mut session = Session::new(stage(), handler);
+/// A session that has begun.
+fn started(handler: &mut Recorder) -> Session<'_> {
+    let mut session = Session::new(stage(), handler, Worker::of_caller());
     session.event(InputEvent::Resized { width: SIZE.width, height: SIZE.height }, ms(0));
     session.start(ms(0));
     assert_eq!(session.next(ms(0)), Wake::Now, "there is a picture to draw");
-    draw(&mut session, ms(0));
     session
 }
 
-fn draw(session: &mut Session<'_>, now: Duration) -> Option<Vec<u32>> {
+/// A session that has come to rest: a draft, a full picture, and what the interface
+/// needs to find its place.
+fn begun(handler: &mut Recorder) -> Session<'_> {
+    let mut session = started(handler);
+    run(&mut session, ms(0));
+    session
+}
+
+/// What is in the window after a frame; `None` if nothing of it has changed.
+fn draw(session: &mut Session<'_>, now: Duration) -> Option<Vec<[u8; 4]>> {
     session.draw(now, &|| now).map(|canvas| canvas.pixels().to_vec())
 }
 
 /// Draws whenever the session asks for it until it asks no more; returns when
-/// it drew.
+/// the window changed.
 fn run(session: &mut Session<'_>, start: Duration) -> Vec<Duration> {
     let (mut now, mut times) = (start, Vec::new());
-    loop {
+    for _ in 0..10_000 {
         match session.next(now) {
-            Wake::Now => {
-                draw(session, now);
-                times.push(now);
-            }
+            Wake::Now => times.extend(draw(session, now).map(|_| now)),
             Wake::At(later) => now = later,
             Wake::Never => return times,
         }
-        assert!(times.len() < 10_000, "it never comes to rest");
     }
+    panic!("it never comes to rest");
 }
 
 fn key_down(code: u64, key: Key) -> InputEvent {
@@ -222,7 +231,7 @@ fn object_keys_move_the_selected_object_only() {
 #[test]
 fn an_animation_runs_at_its_pace_and_ends() {
     let mut handler = Recorder { frames_left: 4, ..Recorder::default() };
-    let mut session = begun(&mut handler);
+    let mut session = started(&mut handler);
     let times = run(&mut session, ms(0));
     session.woken(ms(5000));
     let again = run(&mut session, ms(5000));
@@ -251,16 +260,16 @@ fn the_handler_hears_of_everything_that_is_its_own() {
 fn keys_change_the_view_and_the_sheet() {
     let mut handler = Recorder::default();
     let mut session = begun(&mut handler);
-    let plain = draw(&mut session, ms(1)).expect("a picture");
-    session.event(key_down(1, Key::Character('h')), ms(100));
-    assert_eq!(session.next(ms(100)), Wake::Now, "the sheet is to be drawn");
-    let sheet = draw(&mut session, ms(100)).expect("a picture");
-    assert!(sheet != plain, "it is there");
-    session.event(key_down(2, Key::Escape), ms(200));
-    let after = draw(&mut session, ms(200)).expect("a picture");
-    assert!(after == plain, "and gone without a trace");
+    let plain = session.canvas().pixels().to_vec();
+    session.event(key_down(1, Key::Character('h')), ms(1000));
+    assert_eq!(session.next(ms(1000)), Wake::Now, "the sheet is to be drawn");
+    run(&mut session, ms(1000));
+    assert!(session.canvas().pixels() != plain, "it is there");
+    session.event(key_down(2, Key::Escape), ms(3000));
+    run(&mut session, ms(3000));
+    assert!(session.canvas().pixels() == plain, "and gone without a trace");
 
-    session.event(key_down(3, Key::Character('7')), ms(300));
+    session.event(key_down(3, Key::Character('7')), ms(6000));
     let mut top = session.stage.orbit;
     top.set_view(AxisView::Top);
     assert_eq!(session.stage.orbit, top, "7 is the top view");
@@ -269,18 +278,19 @@ fn keys_change_the_view_and_the_sheet() {
         logical: Some(Key::Character('&')),
         physical: Some(Key::Character('1')),
     };
-    session.event(InputEvent::KeyDown(code), ms(400));
+    session.event(InputEvent::KeyDown(code), ms(6100));
     top.set_view(AxisView::Front);
     assert_eq!(session.stage.orbit, top, "digits work where the layout hides them behind Shift");
-    session.event(key_down(5, Key::Enter), ms(500));
-    session.event(InputEvent::CloseRequested, ms(600));
+    session.event(key_down(5, Key::Enter), ms(6200));
+    session.event(InputEvent::CloseRequested, ms(6300));
     assert!(session.is_over(), "the close button closes");
 }
 
 #[test]
 fn a_minimised_window_sleeps_and_comes_back() {
     let mut handler = Recorder { frames_left: 1_000_000, ..Recorder::default() };
-    let mut session = begun(&mut handler);
+    let mut session = started(&mut handler);
+    draw(&mut session, ms(10));
     assert_ne!(session.next(ms(20)), Wake::Never, "an animation runs");
     session.event(InputEvent::Resized { width: 0, height: 0 }, ms(30));
     assert_eq!(session.next(ms(40)), Wake::Never, "but not while nothing is seen");

@@ -1,18 +1,28 @@
-//! Text and lines over the picture: what applications want said, messages that
-//! fade, the cheat sheet, the frame time, the frame around the selected object.
-
-mod block;
-mod outline;
-mod panel;
-mod text;
+//! What is to be read over the picture: what applications want said in the corners,
+//! and messages that go by themselves. `interface` draws it.
 
 use std::time::Duration;
 
-pub use block::Corner;
-pub(crate) use block::{Block, draw_block};
-pub(crate) use outline::draw_box;
-pub(crate) use panel::draw_sheet;
-pub(crate) use text::Font;
+/// Where text goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Corner {
+    /// Above, on the left.
+    TopLeft,
+    /// Above, in the middle.
+    Top,
+    /// Above, on the right.
+    TopRight,
+    /// Below, on the left; messages are written above it.
+    BottomLeft,
+    /// Below, on the right.
+    BottomRight,
+}
+
+impl Corner {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::TopLeft, Self::Top, Self::TopRight, Self::BottomLeft, Self::BottomRight];
+}
 
 /// A message stays this long.
 const MESSAGE_TIME: Duration = Duration::from_secs(3);

@@ -1,18 +1,23 @@
 //! A box drawn by its twelve edges: the mark of the selected object.
 
-use trigon_camera::Projector;
+use egui::{Color32, Stroke, Ui};
+use trigon_camera::{Camera, Projector, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
 
-use crate::canvas::{Area, Canvas};
+const COLOR: Color32 = Color32::from_rgba_premultiplied(200, 138, 50, 200);
 
-const COLOR: [u8; 3] = [255, 176, 64];
-const ALPHA: u8 = 200;
+/// In points.
+const WIDTH: f32 = 1.5;
 
-/// Draws the edges of a box that are before the eye, `width` pixels wide.
-pub(crate) fn draw_box(canvas: &mut Canvas, projector: &Projector, bounds: &Bounds3, width: i32) {
+/// Draws the edges of a box that are before the eye, under all widgets.
+pub(super) fn show(ui: &Ui, camera: &Camera, viewport: Viewport, bounds: &Bounds3) {
+    let projector = Projector::new(camera, viewport);
+    let points = f64::from(ui.ctx().pixels_per_point());
+    let point = |pixel: DVec2| egui::pos2((pixel.x / points) as f32, (pixel.y / points) as f32);
     for (from, to) in edges(bounds) {
-        if let (Some(from), Some(to)) = (projector.to_screen(from), projector.to_screen(to)) {
-            draw_line(canvas, from, to, width);
+        let ends = projector.to_screen(from).zip(projector.to_screen(to));
+        if let Some((from, to)) = ends.and_then(|(from, to)| clip(from, to, viewport.size())) {
+            ui.painter().line_segment([point(from), point(to)], Stroke::new(WIDTH, COLOR));
         }
     }
 }
@@ -27,20 +32,6 @@ fn edges(bounds: &Bounds3) -> impl Iterator<Item = (DVec3, DVec3)> {
     (0..8usize).flat_map(move |i| {
         (0..3).filter(move |axis| i >> axis & 1 == 0).map(move |axis| (corner(i), corner(i | 1 << axis)))
     })
-}
-
-/// A straight line by steps along its longer axis. Only what is within the
-/// canvas is walked, however long the line is.
-fn draw_line(canvas: &mut Canvas, from: DVec2, to: DVec2, width: i32) {
-    let Some((from, to)) = clip(from, to, DVec2::new(canvas.width().into(), canvas.height().into())) else {
-        return;
-    };
-    let steps = (to - from).abs().max_element().ceil().max(1.0) as u32;
-    for step in 0..=steps {
-        let at = from + (to - from) * (f64::from(step) / f64::from(steps));
-        let dot = Area { x: at.x as i32 - width / 2, y: at.y as i32 - width / 2, width, height: width };
-        canvas.fill(dot, COLOR, ALPHA);
-    }
 }
 
 /// The part of a line within `0..size` (Liang and Barsky, "A New Concept and

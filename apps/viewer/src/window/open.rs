@@ -1,0 +1,151 @@
+//! Opening files: the system's dialog, a typed path where there is none, and the files
+//! opened last.
+
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::thread;
+
+use trigon_window::{Waker, egui};
+
+use super::recent::Recent;
+
+/// What asks a user for files.
+pub(super) trait FileDialog {
+    /// Shows itself; `None` if the user changed his mind, or there is no dialog to be
+    /// shown. Called on a thread of its own.
+    fn pick(&self) -> Option<Vec<PathBuf>>;
+}
+
+/// The system's own dialog: on Linux that of the desktop portal.
+pub(super) struct SystemDialog;
+
+impl FileDialog for SystemDialog {
+    fn pick(&self) -> Option<Vec<PathBuf>> {
+        rfd::FileDialog::new().set_title("Open a model").pick_files()
+    }
+}
+
+/// The window in which files are opened.
+#[derive(Default)]
+pub(super) struct OpenWindow {
+    shown: bool,
+    path: String,
+    /// A dialog under way.
+    dialog: Option<Receiver<Option<Vec<PathBuf>>>>,
+    /// What the user should know.
+    note: &'static str,
+}
+
+impl OpenWindow {
+    /// Shows or hides it.
+    pub(super) fn toggle(&mut self) {
+        self.shown = !self.shown;
+        self.note = "";
+    }
+
+    /// Asks for files by a dialog; `waker` is woken when it is closed.
+    pub(super) fn browse(&mut self, dialog: impl FileDialog + Send + 'static, waker: Waker) {
+        let (sender, receiver) = channel();
+        let asked = thread::Builder::new().name("trigon-dialog".into()).spawn(move || {
+            // Nobody waits for it any more when this fails.
+            let _ = sender.send(dialog.pick());
+            waker.wake();
+        });
+        self.dialog = asked.is_ok().then_some(receiver);
+    }
+
+    /// What a dialog ended with, once.
+    pub(super) fn picked(&mut self) -> Vec<PathBuf> {
+        let ended = match self.dialog.as_ref().map(Receiver::try_recv) {
+            None | Some(Err(TryRecvError::Empty)) => return Vec::new(),
+            Some(Ok(files)) => files,
+            Some(Err(TryRecvError::Disconnected)) => None,
+        };
+        self.dialog = None;
+        self.note = "no file was chosen; where the system shows no dialog, type a path";
+        self.shown &= ended.is_none();
+        ended.unwrap_or_default()
+    }
+
+    /// Shows it, if it is to be seen. Returns the files to be opened.
+    pub(super) fn show(
+        &mut self,
+        context: &egui::Context,
+        recent: &Recent,
+        browse: impl FnOnce(&mut Self),
+    ) -> Vec<PathBuf> {
+        let mut files = Vec::new();
+        let (mut shown, mut wants_dialog) = (self.shown, false);
+        egui::Window::new("Open").open(&mut shown).collapsible(false).default_width(420.0).show(
+            context,
+            |ui| {
+                ui.horizontal(|ui| {
+                    let field = egui::TextEdit::singleline(&mut self.path).hint_text("path of a model");
+                    let typed = ui.add(field.desired_width(260.0));
+                    let entered = typed.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+                    let open = ui.add_enabled(!self.path.is_empty(), egui::Button::new("Open")).clicked();
+                    if (open || entered) && !self.path.is_empty() {
+                        files.push(PathBuf::from(self.path.trim()));
+                    }
+                    wants_dialog =
+                        ui.add_enabled(self.dialog.is_none(), egui::Button::new("Browse…")).clicked();
+                });
+                if !self.note.is_empty() {
+                    ui.label(self.note);
+                }
+                if !recent.files().is_empty() {
+                    ui.separator();
+                    ui.label("opened before");
+                }
+                for file in recent.files() {
+                    if ui.button(file.display().to_string()).clicked() {
+                        files.push(file.clone());
+                    }
+                }
+            },
+        );
+        self.shown = shown && files.is_empty();
+        if wants_dialog {
+            browse(self);
+        }
+        files
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    /// A dialog whose user has decided beforehand.
+    struct Decided(Option<Vec<PathBuf>>);
+
+    impl FileDialog for Decided {
+        fn pick(&self) -> Option<Vec<PathBuf>> {
+            self.0.clone()
+        }
+    }
+
+    fn ended(decision: Option<Vec<PathBuf>>) -> (OpenWindow, Vec<PathBuf>) {
+        let mut window = OpenWindow { shown: true, ..OpenWindow::default() };
+        window.browse(Decided(decision), Waker::default());
+        loop {
+            let files = window.picked();
+            if window.dialog.is_none() {
+                return (window, files);
+            }
+            thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    #[test]
+    fn dialogs_answer_with_files_or_leave_the_window_open() {
+        let files = vec![PathBuf::from("a.obj"), "b.glb".into()];
+        let (window, picked) = ended(Some(files.clone()));
+        assert_eq!(picked, files, "both");
+        assert!(!window.shown, "there is nothing more to ask");
+        let (window, picked) = ended(None);
+        assert!(picked.is_empty(), "none");
+        assert!(window.shown && !window.note.is_empty(), "a path can be typed instead");
+    }
+}

@@ -1,0 +1,129 @@
+//! What differs between two passes: the triangles that came, went, or look
+//! different. A pixel that none of them touches is painted by the same triangles in
+//! the same order as before, and so keeps its colour.
+
+use egui::epaint::{ClippedPrimitive, Mesh, Primitive, Vertex};
+use trigon_raster::paint2d::Rect;
+
+use super::damage::Damage;
+use super::gather::to_pixels;
+use super::textures::Textures;
+
+/// Marks what differs between two lists of primitives.
+pub(super) fn mark(
+    damage: &mut Damage,
+    pixels_per_point: f32,
+    [before, after]: [&[ClippedPrimitive]; 2],
+    textures: &Textures,
+) {
+    let first = common(before.iter().zip(after), are_alike);
+    let [rest_before, rest_after] = [&before[first..], &after[first..]];
+    let last = common(rest_before.iter().rev().zip(rest_after.iter().rev()), are_alike);
+    let mut marker = Marker { damage, pixels_per_point, clip: Rect::default() };
+    for primitive in [rest_before, rest_after].iter().flat_map(|rest| &rest[..rest.len() - last]) {
+        marker.all(primitive);
+    }
+    let ends = [before, after].map(|list| list[..first].iter().chain(&list[list.len() - last..]));
+    let [before, after] = ends;
+    for (before, after) in before.zip(after) {
+        marker.differences([before, after], textures);
+    }
+}
+
+/// How many pairs from the start on are alike.
+fn common<T>(mut pairs: impl Iterator<Item = (T, T)>, alike: impl Fn(T, T) -> bool) -> usize {
+    let mut count = 0;
+    while let Some((a, b)) = pairs.next()
+        && alike(a, b)
+    {
+        count += 1;
+    }
+    count
+}
+
+/// Whether two primitives may differ by some triangles only.
+fn are_alike(before: &ClippedPrimitive, after: &ClippedPrimitive) -> bool {
+    let same_texture = match (&before.primitive, &after.primitive) {
+        (Primitive::Mesh(before), Primitive::Mesh(after)) => before.texture_id == after.texture_id,
+        (Primitive::Callback(_), Primitive::Callback(_)) => true,
+        _ => false,
+    };
+    same_texture && before.clip_rect == after.clip_rect
+}
+
+/// Marks triangles of one primitive.
+struct Marker<'a> {
+    damage: &'a mut Damage,
+    pixels_per_point: f32,
+    clip: Rect,
+}
+
+impl Marker<'_> {
+    /// All of a primitive.
+    fn all(&mut self, primitive: &ClippedPrimitive) {
+        self.clip = to_pixels(primitive.clip_rect, self.pixels_per_point);
+        if let Primitive::Mesh(mesh) = &primitive.primitive {
+            triangles(mesh).for_each(|triangle| self.triangle(&triangle));
+        }
+    }
+
+    /// What differs between two primitives that are alike.
+    fn differences(&mut self, pair: [&ClippedPrimitive; 2], textures: &Textures) {
+        let [Primitive::Mesh(before), Primitive::Mesh(after)] = pair.map(|one| &one.primitive) else {
+            return;
+        };
+        self.clip = to_pixels(pair[1].clip_rect, self.pixels_per_point);
+        if before.indices != after.indices {
+            self.rearranged([before, after]);
+        } else if before.vertices != after.vertices {
+            for (before, after) in
+                triangles(before).zip(triangles(after)).filter(|(before, after)| before != after)
+            {
+                self.triangle(&before);
+                self.triangle(&after);
+            }
+        }
+        let changed = textures.changed(after.texture_id);
+        if changed.is_positive() {
+            let shows_it =
+                |triangle: &Triangle<'_>| around(triangle.map(|vertex| vertex.uv)).intersects(changed);
+            triangles(after).filter(shows_it).for_each(|triangle| self.triangle(&triangle));
+        }
+    }
+
+    /// Two meshes of which one has triangles more than the other: what is between
+    /// those that both begin and end with.
+    fn rearranged(&mut self, meshes: [&Mesh; 2]) {
+        let [before, after] = meshes.map(|mesh| triangles(mesh));
+        let first = common(before.zip(after), |a, b| a == b);
+        let [before, after] = meshes.map(|mesh| triangles(mesh).skip(first).rev());
+        let last = common(before.zip(after), |a, b| a == b);
+        for mesh in meshes {
+            let between = triangles(mesh).len() - last;
+            triangles(mesh).take(between).skip(first).for_each(|triangle| self.triangle(&triangle));
+        }
+    }
+
+    fn triangle(&mut self, triangle: &Triangle<'_>) {
+        let bounds = around(triangle.map(|vertex| vertex.pos));
+        // Places are rounded to 1/256 pixel: what is within a pixel may be touched.
+        let pixels = to_pixels(bounds.expand(1.0 / self.pixels_per_point), self.pixels_per_point);
+        self.damage.mark(pixels.intersection(self.clip));
+    }
+}
+
+type Triangle<'a> = [&'a Vertex; 3];
+
+/// The triangles of a mesh. A corner whose index no vertex has is as good as any:
+/// that triangle is not painted.
+fn triangles(mesh: &Mesh) -> impl DoubleEndedIterator<Item = Triangle<'_>> + ExactSizeIterator {
+    static NOWHERE: Vertex =
+        Vertex { pos: egui::Pos2::ZERO, uv: egui::Pos2::ZERO, color: egui::Color32::TRANSPARENT };
+    let vertex = move |index: u32| mesh.vertices.get(index as usize).unwrap_or(&NOWHERE);
+    mesh.indices.as_chunks::<3>().0.iter().map(move |indices| indices.map(vertex))
+}
+
+/// The box around three places.
+fn around(places: [egui::Pos2; 3]) -> egui::Rect {
+    egui::Rect::from_points(&places)
+}

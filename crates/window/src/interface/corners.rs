@@ -1,0 +1,79 @@
+//! Lines of text in the corners, and messages above the lower left ones.
+
+use std::time::Duration;
+
+use egui::{Align, Align2, Area, Color32, Context, Frame, Id, Layout, Order, RichText, vec2};
+
+use crate::overlay::Corner;
+use crate::stage::{FrameReport, Stage, Visibility};
+
+/// White on a dark backdrop is readable on any picture.
+const INK: Color32 = Color32::from_gray(240);
+const BACKDROP: Color32 = Color32::from_rgba_premultiplied(10, 11, 14, 170);
+
+/// From the edges, in points.
+const GAP: f32 = 8.0;
+
+/// Writes all corners of what no panel covers.
+pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: Duration) {
+    let messages = stage.overlay.messages(now);
+    for corner in Corner::ALL {
+        let mut lines = stage.overlay.lines(corner).to_vec();
+        match corner {
+            Corner::TopRight if stage.frame_time == Visibility::Shown => {
+                lines.push(frame_time(stage.report()))
+            }
+            Corner::BottomLeft => drop(lines.splice(..0, messages.iter().cloned())),
+            _ => {}
+        }
+        if !lines.is_empty() {
+            write(context, free, corner, &lines);
+        }
+    }
+}
+
+fn write(context: &Context, free: egui::Rect, corner: Corner, lines: &[String]) {
+    let (anchor, offset) = match corner {
+        Corner::TopLeft => (Align2::LEFT_TOP, vec2(GAP, GAP)),
+        Corner::Top => (Align2::CENTER_TOP, vec2(0.0, GAP)),
+        Corner::TopRight => (Align2::RIGHT_TOP, vec2(-GAP, GAP)),
+        Corner::BottomLeft => (Align2::LEFT_BOTTOM, vec2(GAP, -GAP)),
+        Corner::BottomRight => (Align2::RIGHT_BOTTOM, vec2(-GAP, -GAP)),
+    };
+    let area = Area::new(Id::unique(("corner", corner as usize))).order(Order::Background);
+    let area = area.anchor(anchor, offset).constrain_to(free).interactable(false).fade_in(false);
+    area.show(context, |ui| {
+        ui.set_max_width((free.width() - 4.0 * GAP).max(1.0));
+        let frame = Frame::new().fill(BACKDROP).inner_margin(6).corner_radius(4);
+        frame.show(ui, |ui| {
+            ui.with_layout(Layout::top_down(Align::Min), |ui| {
+                for line in lines {
+                    ui.label(RichText::new(line).monospace().color(INK));
+                }
+            });
+        });
+    });
+}
+
+/// "12.3 ms, 81 fps": how long a picture takes, and how many of them would fit
+/// into a second.
+fn frame_time(report: FrameReport) -> String {
+    let seconds = (report.render + report.present).as_secs_f64();
+    if seconds <= 0.0 {
+        return String::from("- ms");
+    }
+    format!("{:.1} ms, {:.0} fps", seconds * 1e3, seconds.recip())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frame_time_reads_as_both_units() {
+        let render = Duration::from_micros(10_000);
+        let text = frame_time(FrameReport { render, present: Duration::from_micros(2_500) });
+        assert_eq!(text, "12.5 ms, 80 fps", "the whole frame counts");
+        assert_eq!(frame_time(FrameReport::default()), "- ms", "before the first frame");
+    }
+}

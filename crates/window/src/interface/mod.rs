@@ -1,0 +1,169 @@
+//! The interface over the picture: an egui context, what the window itself shows in
+//! it, and the painter that brings it into pixels. It knows no window system: events
+//! and moments go in, triangles come out.
+
+mod corners;
+mod outline;
+mod sheet;
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use egui::{Context, Event, LayerId, Order, Pos2, Ui};
+use trigon_camera::{Camera, Viewport};
+use trigon_math::DVec2;
+
+use crate::egui_painter::{ChannelOrder, EguiPainter, MAX_TEXTURE_SIDE};
+use crate::keymap::Binding;
+use crate::stage::Stage;
+
+/// When, and on what.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moment {
+    pub(crate) now: Duration,
+    pub(crate) viewport: Viewport,
+    /// Physical pixels per logical one.
+    pub(crate) scale: f64,
+}
+
+/// The interface of one window.
+pub(crate) struct Interface {
+    context: Context,
+    pub(crate) painter: EguiPainter,
+    events: Vec<Event>,
+    focused: bool,
+    /// What no panel covers, in points.
+    free: egui::Rect,
+    /// When it wants to change by itself.
+    due: Option<Duration>,
+    /// What is for the window system: pointer shapes, copied text, links.
+    output: egui::PlatformOutput,
+    /// Whether a pass is under way: then asking for another one rings nobody.
+    in_pass: Arc<AtomicBool>,
+}
+
+impl Interface {
+    pub(crate) fn new() -> Self {
+        let context = Context::default();
+        context.set_theme(egui::Theme::Dark);
+        // While nothing changes, nothing runs.
+        context.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
+        Self {
+            context,
+            painter: EguiPainter::new(ChannelOrder::Bgra),
+            events: Vec::new(),
+            focused: true,
+            free: egui::Rect::EVERYTHING,
+            due: None,
+            output: egui::PlatformOutput::default(),
+            in_pass: Arc::default(),
+        }
+    }
+
+    pub(crate) fn context(&self) -> &Context {
+        &self.context
+    }
+
+    /// From now on `ring` is called when another thread asks for a pass.
+    pub(crate) fn connect(&self, ring: impl Fn() + Send + Sync + 'static) {
+        let in_pass = Arc::clone(&self.in_pass);
+        self.context.set_request_repaint_callback(move |_| {
+            if !in_pass.load(Ordering::Relaxed) {
+                ring();
+            }
+        });
+    }
+
+    /// Something for the next pass.
+    pub(crate) fn event(&mut self, event: Event) {
+        if let Event::WindowFocused(focused) = event {
+            self.focused = focused;
+        }
+        self.events.push(event);
+    }
+
+    /// Whether a place in physical pixels is on a panel or a window of the interface, or
+    /// one of them is being dragged.
+    pub(crate) fn wants_pointer(&self, at: DVec2) -> bool {
+        let at = at / f64::from(self.context.pixels_per_point());
+        let at = Pos2::new(at.x as f32, at.y as f32);
+        let covered = match self.context.layer_id_at(at) {
+            Some(LayerId { order: Order::Background, .. }) | None => !self.free.contains(at),
+            Some(_) => true,
+        };
+        covered || self.context.egui_is_using_pointer()
+    }
+
+    /// Whether a widget has the keyboard.
+    pub(crate) fn wants_keyboard(&self) -> bool {
+        self.context.egui_wants_keyboard_input()
+    }
+
+    /// Gives the keyboard to the first widget.
+    pub(crate) fn take_keyboard(&mut self) {
+        let (key, modifiers) = (egui::Key::Tab, egui::Modifiers::NONE);
+        self.events.push(Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers });
+    }
+
+    /// When it wants to change by itself; `None` for never.
+    pub(crate) fn due(&self) -> Option<Duration> {
+        self.due
+    }
+
+    /// What is for the window system since it was last asked.
+    pub(crate) fn take_output(&mut self) -> egui::PlatformOutput {
+        std::mem::take(&mut self.output)
+    }
+
+    /// Runs a pass. `application` adds its own widgets, more than once where egui wants
+    /// to lay out again. Returns the command that was chosen from the list of keys.
+    pub(crate) fn run(
+        &mut self,
+        moment: Moment,
+        stage: &mut Stage,
+        shown_by: Option<&Camera>,
+        application: &mut dyn FnMut(&mut Stage, &mut Ui),
+    ) -> Option<Binding> {
+        self.context.set_zoom_factor(stage.text_scale.clamp(0.5, 4.0));
+        let input = self.input(moment);
+        let (mut chosen, mut free) = (None, egui::Rect::EVERYTHING);
+        self.in_pass.store(true, Ordering::Relaxed);
+        let mut output = self.context.run_ui(input, |ui| {
+            application(stage, ui);
+            free = ui.available_rect_before_wrap();
+            if let (Some(camera), Some(bounds)) = (shown_by, stage.selection_bounds()) {
+                outline::show(ui, camera, moment.viewport, &bounds);
+            }
+            corners::show(ui.ctx(), free, stage, moment.now);
+            chosen = sheet::show(ui.ctx(), stage);
+        });
+        self.in_pass.store(false, Ordering::Relaxed);
+        self.free = free;
+        self.output.append(output.platform_output);
+        self.painter.update_textures(&mut output.textures_delta);
+        let root = output.viewport_output.get(&egui::ViewportId::ROOT);
+        // Far away is never.
+        self.due = root.and_then(|root| moment.now.checked_add(root.repaint_delay));
+        self.due = self.due.filter(|due| *due < Duration::from_secs(u64::MAX / 2));
+        let primitives = self.context.tessellate(output.shapes, output.pixels_per_point);
+        self.painter.set_primitives(primitives, output.pixels_per_point);
+        chosen
+    }
+
+    fn input(&mut self, Moment { now, viewport, scale }: Moment) -> egui::RawInput {
+        let points = scale as f32 * self.context.zoom_factor();
+        let size = egui::vec2(viewport.width as f32, viewport.height as f32) / points;
+        let mut input = egui::RawInput {
+            screen_rect: Some(egui::Rect::from_min_size(Pos2::ZERO, size)),
+            max_texture_side: Some(MAX_TEXTURE_SIDE),
+            time: Some(now.as_secs_f64()),
+            focused: self.focused,
+            events: std::mem::take(&mut self.events),
+            ..egui::RawInput::default()
+        };
+        input.viewports.entry(egui::ViewportId::ROOT).or_default().native_pixels_per_point =
+            Some(scale as f32);
+        input
+    }
+}

@@ -1,0 +1,78 @@
+//! How small drafts are: as large as the time for a frame allows.
+
+use std::time::Duration;
+
+/// What a draft may take: 30 frames a second.
+const BUDGET: Duration = Duration::from_millis(33);
+
+/// Drafts are not drawn smaller than by this factor in each direction.
+const MOST_SHRINK: f64 = 8.0;
+
+/// A draft is made as long as this part of the budget, so that the next one, which
+/// shows something else, is likely to fit, too.
+const AIM: f64 = 0.8;
+
+/// Learns from each draft how large the next one may be.
+#[derive(Debug)]
+pub(super) struct Budget {
+    shrink: f64,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self { shrink: 1.0 }
+    }
+}
+
+impl Budget {
+    /// The factor by which the next draft is smaller in each direction, 1 to 8.
+    pub(super) fn shrink(&self) -> f64 {
+        self.shrink
+    }
+
+    /// A draft of the current size took this long. The time is taken to grow with the
+    /// number of pixels. Where it does not, because of what has to be done before there
+    /// are any, the size falls until it does not matter any more.
+    pub(super) fn took(&mut self, time: Duration) {
+        let share = time.as_secs_f64() / BUDGET.as_secs_f64();
+        // Between half and all of the budget it stays: sizes that flicker are ugly.
+        if share > 1.0 || (share < 0.5 && self.shrink > 1.0) {
+            // Not to more than twice the size at once: one quick frame may be luck.
+            let factor = (share / AIM).sqrt().max(0.5);
+            self.shrink = (self.shrink * factor).clamp(1.0, MOST_SHRINK);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Drafts that take this long at full size, until the size is settled.
+    fn settled(milliseconds: f64) -> f64 {
+        let mut budget = Budget::default();
+        for _ in 0..20 {
+            budget.took(Duration::from_secs_f64(milliseconds / 1e3 / (budget.shrink() * budget.shrink())));
+        }
+        budget.shrink()
+    }
+
+    #[test]
+    fn drafts_are_as_large_as_the_budget_allows() {
+        assert_eq!(settled(5.0), 1.0, "quick ones are whole");
+        assert_eq!(settled(33.0), 1.0, "so are those that just fit");
+        let shrink = settled(330.0);
+        let took = 330.0 / (shrink * shrink);
+        assert!((16.5..=33.0).contains(&took), "ten times too slow: {shrink}, {took} ms");
+        assert_eq!(settled(1e6), MOST_SHRINK, "no smaller than that");
+    }
+
+    #[test]
+    fn quick_drafts_grow_back() {
+        let mut budget = Budget::default();
+        (0..9).for_each(|_| budget.took(Duration::from_secs(1)));
+        assert_eq!(budget.shrink(), MOST_SHRINK, "it was slow");
+        (0..9).for_each(|_| budget.took(Duration::from_millis(1)));
+        assert_eq!(budget.shrink(), 1.0, "and is quick now");
+    }
+}

@@ -1,0 +1,164 @@
+//! When pictures are drawn, and how well, without drawing any.
+
+use super::*;
+
+const fn ms(ms: u64) -> Duration {
+    Duration::from_millis(ms)
+}
+
+/// A frame.
+fn begin(pacing: &mut Pacing, now: Duration, animated: Frames) -> Option<Quality> {
+    let quality = pacing.begin(now, animated);
+    pacing.composed();
+    quality
+}
+
+const DRAFT: Quality = Quality::Draft { shrink: 1.0 };
+
+/// A pacing whose first picture is done: a full one that took this long.
+fn rested(full: Duration) -> Pacing {
+    let mut pacing = Pacing::new();
+    for (quality, took) in [(DRAFT, ms(0)), (Quality::Full, full)] {
+        assert_eq!(begin(&mut pacing, ms(0), Frames::None), Some(quality), "a draft, then a full picture");
+        pacing.finished(took);
+    }
+    begin(&mut pacing, ms(0), Frames::None);
+    assert_eq!(pacing.next(ms(20), Frames::None, None), Wake::Never, "and no more");
+    pacing
+}
+
+/// Draws whenever it is time to, until `end`; pictures take no time. Returns which
+/// were begun when.
+fn run(pacing: &mut Pacing, start: Duration, end: Duration, frames: Frames) -> Vec<(Duration, Quality)> {
+    let (mut now, mut begun) = (start, Vec::new());
+    loop {
+        match pacing.next(now, frames, None) {
+            Wake::Now => {
+                if frames == Frames::Wanted {
+                    pacing.changed(Change::Settled, now);
+                }
+                if let Some(quality) = begin(pacing, now, frames) {
+                    begun.push((now, quality));
+                    pacing.finished(ms(0));
+                }
+            }
+            Wake::At(later) if later < end => now = later,
+            _ => return begun,
+        }
+    }
+}
+
+#[test]
+fn a_movement_is_drawn_as_a_draft_and_refined_once() {
+    let mut pacing = rested(ms(0));
+    pacing.changed(Change::Moving, ms(1000));
+    let begun = run(&mut pacing, ms(1000), ms(100_000), Frames::None);
+    assert_eq!(begun, [(ms(1000), DRAFT), (ms(1150), Quality::Full)], "a draft at once, refined at rest");
+}
+
+#[test]
+fn events_faster_than_frames_are_gathered() {
+    let mut pacing = rested(ms(0));
+    let mut frames = 0;
+    for now in (1000..2000).map(ms) {
+        pacing.changed(Change::Moving, now);
+        if pacing.next(now, Frames::None, None) == Wake::Now
+            && begin(&mut pacing, now, Frames::None).is_some()
+        {
+            pacing.finished(ms(0));
+            frames += 1;
+        }
+    }
+    assert!((55..=61).contains(&frames), "1000 movements in a second gave {frames} pictures");
+}
+
+#[test]
+fn an_animation_is_paced_to_sixty_frames() {
+    let mut pacing = rested(ms(0));
+    let begun = run(&mut pacing, ms(1000), ms(2000), Frames::Wanted);
+    assert!((59..=61).contains(&begun.len()), "{} pictures in a second", begun.len());
+    assert!(begun.iter().all(|&(_, quality)| quality == DRAFT), "all of them drafts");
+    let after = run(&mut pacing, ms(2000), ms(9000), Frames::None);
+    assert_eq!(after.len(), 1, "when it ends, its last picture is refined: {after:?}");
+    assert_eq!(after[0].1, Quality::Full, "in full");
+}
+
+#[test]
+fn a_single_change_is_drawn_in_full_if_that_is_quick() {
+    let mut pacing = rested(ms(50));
+    pacing.changed(Change::Settled, ms(500));
+    let begun = run(&mut pacing, ms(500), ms(9000), Frames::None);
+    assert_eq!(begun, [(ms(500), Quality::Full)], "no draft before");
+    let mut pacing = rested(ms(5000));
+    pacing.changed(Change::Settled, ms(500));
+    let begun: Vec<_> =
+        run(&mut pacing, ms(500), ms(9000), Frames::None).into_iter().map(|(_, q)| q).collect();
+    assert_eq!(begun, [DRAFT, Quality::Full], "nobody waits five seconds to see anything");
+}
+
+#[test]
+fn writing_over_a_picture_draws_none() {
+    let mut pacing = rested(ms(0));
+    pacing.changed(Change::Overlay, ms(1000));
+    assert_eq!(pacing.next(ms(1000), Frames::None, None), Wake::Now, "it is to be seen");
+    assert_eq!(run(&mut pacing, ms(1000), ms(9000), Frames::None), [], "and no picture is drawn");
+    pacing.changed(Change::Moving, ms(9000));
+    assert_eq!(begin(&mut pacing, ms(9000), Frames::None), Some(DRAFT), "over a draft");
+    pacing.finished(ms(0));
+    pacing.changed(Change::Overlay, ms(9020));
+    let begun = run(&mut pacing, ms(9020), ms(20_000), Frames::None);
+    assert_eq!(begun, [(ms(9150), Quality::Full)], "it does not pass for refining it");
+}
+
+#[test]
+fn a_message_is_taken_away_in_time() {
+    let mut pacing = rested(ms(0));
+    assert_eq!(pacing.next(ms(10), Frames::None, Some(ms(3000))), Wake::At(ms(3000)), "wakes for it");
+    assert_eq!(pacing.next(ms(3000), Frames::None, Some(ms(3000))), Wake::Now, "and draws");
+    assert_eq!(begin(&mut pacing, ms(3000), Frames::None), None, "no picture");
+    assert_eq!(pacing.next(ms(3000), Frames::None, None), Wake::Never, "once");
+}
+
+/// A picture that takes long must not keep what is written over it from the screen.
+#[test]
+fn the_overlay_waits_for_no_picture() {
+    let mut pacing = rested(ms(5000));
+    pacing.changed(Change::Settled, ms(1000));
+    assert_eq!(begin(&mut pacing, ms(1000), Frames::None), Some(DRAFT), "under way");
+    pacing.changed(Change::Overlay, ms(1010));
+    assert_eq!(pacing.next(ms(1020), Frames::None, None), Wake::Now, "a key was pressed");
+    assert_eq!(begin(&mut pacing, ms(1020), Frames::None), None, "one picture at a time");
+    assert_eq!(pacing.next(ms(1020), Frames::None, None), Wake::Never, "and nothing spins meanwhile");
+    assert_eq!(pacing.next(ms(1020), Frames::Wanted, None), Wake::Never, "not for an animation either");
+}
+
+#[test]
+fn full_pictures_that_nobody_will_see_are_useless_and_drafts_are_not() {
+    let mut pacing = rested(ms(50));
+    pacing.changed(Change::Moving, ms(1000));
+    assert_eq!(begin(&mut pacing, ms(1000), Frames::None), Some(DRAFT), "a draft");
+    pacing.changed(Change::Moving, ms(1010));
+    assert!(!pacing.is_useless(), "a movement that never shows is none");
+    pacing.finished(ms(10));
+    assert_eq!(begin(&mut pacing, ms(1020), Frames::None), Some(DRAFT), "the movement went on");
+    pacing.finished(ms(10));
+    assert_eq!(begin(&mut pacing, ms(2000), Frames::None), Some(Quality::Full), "at rest");
+    assert!(!pacing.is_useless(), "it is the right picture");
+    pacing.changed(Change::Moving, ms(2010));
+    assert!(pacing.is_useless(), "it was");
+    assert_eq!(pacing.next(ms(2050), Frames::None, None), Wake::Now, "the overlay may have changed");
+    assert_eq!(begin(&mut pacing, ms(2050), Frames::None), None, "it has to end first");
+    pacing.failed();
+    assert_eq!(begin(&mut pacing, ms(2060), Frames::None), Some(DRAFT), "then the movement shows");
+}
+
+#[test]
+fn what_cannot_be_drawn_is_not_tried_again_and_again() {
+    let mut pacing = rested(ms(50));
+    pacing.changed(Change::Settled, ms(1000));
+    begin(&mut pacing, ms(1000), Frames::None);
+    pacing.failed();
+    assert_eq!(run(&mut pacing, ms(1000), ms(9000), Frames::None), [], "it would fail again");
+    pacing.changed(Change::Settled, ms(9000));
+    assert!(begin(&mut pacing, ms(9000), Frames::None).is_some(), "something else may not");
+}

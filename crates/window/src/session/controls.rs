@@ -1,0 +1,180 @@
+//! What hands do to camera, objects and interface. The interface comes first: what
+//! happens on a panel or in a text field is its own. A button belongs to whoever it was
+//! pressed on, until it is released; and all learn of releases.
+
+use std::time::Duration;
+
+use egui::Event;
+use trigon_math::{DVec2, DVec3};
+
+use super::Session;
+use crate::commands;
+use crate::input::{Chord, Gesture, InputEvent, KeyCode, KeyPress, Modifiers, PointerButton, Press};
+use crate::keymap::{Action, Binding, DragAction};
+use crate::motion;
+use crate::pacing::Change;
+
+impl Session<'_> {
+    pub(super) fn control(&mut self, input: InputEvent, now: Duration) {
+        match input {
+            InputEvent::Interface(event) => self.interface_event(event, now),
+            InputEvent::PointerMoved(to) => {
+                let gesture = self.pointer.moved(to, self.stage.scale());
+                self.gesture(gesture, now);
+            }
+            InputEvent::Button(_, Press::Down) if self.is_on_interface() => {}
+            InputEvent::Button(button, press) => {
+                let gesture = self.pointer.button(button, press, self.modifiers);
+                self.gesture(gesture, now);
+            }
+            InputEvent::Wheel(_) | InputEvent::Pinch(_) if self.is_on_interface() => {}
+            InputEvent::Wheel(lines) => self.wheel(lines, now),
+            InputEvent::Pinch(power) => {
+                motion::zoom(&mut self.stage, power, None);
+                self.pacing.changed(Change::Moving, now);
+            }
+            InputEvent::KeyDown(_) if self.interface.wants_keyboard() => {}
+            InputEvent::KeyDown(key) => self.key(key, now),
+            InputEvent::KeyUp(code) => self.released(code, now),
+            InputEvent::Modifiers(modifiers) => self.modifiers = modifiers,
+            InputEvent::FocusLost => {
+                self.held.clear();
+                self.pointer.cancel();
+                self.modifiers = Modifiers::NONE;
+            }
+            _ => {}
+        }
+    }
+
+    /// What the interface is to know. Keys are only for it while a widget has the
+    /// keyboard, and the wheel while the pointer is on it.
+    fn interface_event(&mut self, event: Event, now: Duration) {
+        let wanted = match event {
+            Event::Key { .. }
+            | Event::Text(_)
+            | Event::Copy
+            | Event::Cut
+            | Event::Paste(_)
+            | Event::Ime(_) => self.interface.wants_keyboard(),
+            Event::MouseWheel { .. } | Event::Zoom(_) | Event::Rotate(_) => self.is_on_interface(),
+            _ => true,
+        };
+        if wanted {
+            self.interface.event(event);
+            self.pacing.changed(Change::Overlay, now);
+        }
+    }
+
+    /// Whether the pointer is on the interface, and not dragging something beneath it.
+    fn is_on_interface(&self) -> bool {
+        let at = self.pointer.position().filter(|_| !self.pointer.is_held());
+        at.is_some_and(|at| self.interface.wants_pointer(at))
+    }
+
+    fn gesture(&mut self, gesture: Option<Gesture>, now: Duration) {
+        match gesture {
+            None | Some(Gesture::Released) => {}
+            Some(Gesture::Drag { button, modifiers, from, to }) => {
+                let Some(action) = self.stage.keymap.find_drag(button, modifiers) else { return };
+                let anchor = match action {
+                    DragAction::ZoomToPointer => self.anchor_at(from),
+                    _ => None,
+                };
+                motion::drag(&mut self.stage, action, from, to, anchor);
+                // The pointer went on, but the drag goes on about its first point.
+                if let Some((at, _)) = self.anchor.as_mut().filter(|_| action == DragAction::ZoomToPointer) {
+                    *at = to;
+                }
+                self.pacing.changed(Change::Moving, now);
+            }
+            Some(Gesture::Click { button, modifiers, at }) => self.click(button, modifiers, at, now),
+        }
+    }
+
+    fn click(&mut self, button: PointerButton, modifiers: Modifiers, at: DVec2, now: Duration) {
+        match button {
+            PointerButton::Left => {
+                self.stage.selection = self.stage.pick(at).map(|(hit, _)| hit.node);
+                commands::announce_selection(&mut self.stage);
+            }
+            PointerButton::Middle => {
+                let Some((_, point)) = self.stage.pick(at) else { return };
+                if modifiers.contains(Modifiers::SHIFT) {
+                    // As near as the point was, not as the old target was.
+                    let depth = -self.stage.camera().to_camera(point).z;
+                    self.stage.orbit.set_distance(depth);
+                }
+                self.stage.orbit.set_target(point);
+            }
+            PointerButton::Right => {}
+        }
+        self.note(now);
+    }
+
+    fn wheel(&mut self, lines: f64, now: Duration) {
+        let to_pointer = self.modifiers.contains(Modifiers::CTRL);
+        let pointer = self.pointer.position().filter(|_| to_pointer);
+        let anchor = pointer.and_then(|at| self.anchor_at(at));
+        motion::wheel(&mut self.stage, lines, anchor);
+        self.pacing.changed(Change::Moving, now);
+    }
+
+    /// What is under the pointer, or else the point at the target's distance.
+    /// Asked again for the same place, it is the same point: zooming keeps it there.
+    fn anchor_at(&mut self, at: DVec2) -> Option<DVec3> {
+        if let Some((known, anchor)) = self.anchor
+            && known == at
+        {
+            return anchor;
+        }
+        let hit = self.stage.pick(at).map(|(_, point)| point);
+        let anchor = hit.or_else(|| {
+            let projector = trigon_camera::Projector::new(&self.stage.camera(), self.stage.viewport());
+            projector.at_distance(at, self.stage.orbit.distance())
+        });
+        self.anchor = Some((at, anchor));
+        anchor
+    }
+
+    fn key(&mut self, key: KeyPress, now: Duration) {
+        let chords = [key.logical, key.physical].into_iter().flatten();
+        let found = chords
+            .map(|key| Chord::new(self.modifiers, key))
+            .find_map(|chord| self.stage.keymap.find(chord))
+            .cloned();
+        let Some(binding) = found else { return };
+        match binding.action {
+            Action::Hold(motion) => {
+                self.held.press(key.code, motion);
+                self.pacing.changed(Change::Moving, now);
+            }
+            _ => self.act(&binding, now),
+        }
+    }
+
+    /// Does what a key does that is not held.
+    pub(super) fn act(&mut self, binding: &Binding, now: Duration) {
+        match binding.action {
+            Action::Command => {
+                self.handler.command(&mut self.stage, &binding.name);
+                self.after_handler(now);
+            }
+            Action::EnterInterface => {
+                self.interface.take_keyboard();
+                self.note(now);
+            }
+            other => {
+                commands::act(&mut self.stage, other);
+                self.note(now);
+            }
+        }
+    }
+
+    fn released(&mut self, code: KeyCode, now: Duration) {
+        if self.held.is_empty() {
+            return;
+        }
+        self.held.release(code);
+        self.pacing.changed(Change::Moving, now);
+    }
+}

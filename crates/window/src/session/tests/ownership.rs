@@ -1,0 +1,168 @@
+//! Who gets what: the interface first, then camera and objects.
+
+use super::*;
+use egui::Event;
+
+/// A panel on the left with a text field and a button.
+#[derive(Default)]
+struct Panel {
+    text: String,
+    clicks: u32,
+    passes: u32,
+    turns_edges_on: bool,
+}
+
+const PANEL: f32 = 100.0;
+const WINDOW: Viewport = Viewport { width: 300, height: 200 };
+
+impl Handler for Panel {
+    fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {
+        self.passes += 1;
+        egui::Panel::left("panel").exact_size(PANEL).resizable(false).show(ui, |ui| {
+            ui.text_edit_singleline(&mut self.text);
+            if ui.button("press").clicked() {
+                self.clicks += 1;
+                if self.turns_edges_on {
+                    stage.settings.style = trigon_scene::Style::SurfaceWithEdges;
+                }
+            }
+        });
+    }
+}
+
+fn opened(handler: &mut Panel) -> Session<'_> {
+    let mut session = Session::new(stage(), handler, Worker::of_caller());
+    session.event(InputEvent::Resized { width: WINDOW.width, height: WINDOW.height }, ms(0));
+    session.start(ms(0));
+    run(&mut session, ms(0));
+    session
+}
+
+/// As the shell tells it: the interface's form, then ours.
+fn move_to(session: &mut Session<'_>, x: f64, y: f64, now: Duration) {
+    session.event(InputEvent::Interface(Event::PointerMoved(egui::pos2(x as f32, y as f32))), now);
+    session.event(InputEvent::PointerMoved(DVec2::new(x, y)), now);
+    run(session, now);
+}
+
+fn press(session: &mut Session<'_>, (x, y): (f64, f64), press: Press, now: Duration) {
+    let event = Event::PointerButton {
+        pos: egui::pos2(x as f32, y as f32),
+        button: egui::PointerButton::Primary,
+        pressed: press == Press::Down,
+        modifiers: egui::Modifiers::NONE,
+    };
+    session.event(InputEvent::Interface(event), now);
+    session.event(InputEvent::Button(PointerButton::Left, press), now);
+    run(session, now);
+}
+
+fn click(session: &mut Session<'_>, (x, y): (f64, f64), now: Duration) {
+    move_to(session, x, y, now);
+    press(session, (x, y), Press::Down, now);
+    press(session, (x, y), Press::Up, now);
+}
+
+fn type_letter(session: &mut Session<'_>, letter: char, now: Duration) {
+    session.event(InputEvent::Interface(Event::Text(letter.into())), now);
+    session.event(key_down(u64::from(letter), Key::Character(letter)), now);
+    session.event(InputEvent::KeyUp(KeyCode(u64::from(letter))), now);
+    run(session, now);
+}
+
+/// In the panel: the middle of the text field and of the button.
+const FIELD: (f64, f64) = (40.0, 16.0);
+const BUTTON: (f64, f64) = (24.0, 40.0);
+
+#[test]
+fn drags_belong_to_whoever_they_began_on() {
+    let mut handler = Panel::default();
+    let mut session = opened(&mut handler);
+    let start = session.stage.orbit;
+    move_to(&mut session, 40.0, 150.0, ms(1000));
+    press(&mut session, (40.0, 150.0), Press::Down, ms(1000));
+    move_to(&mut session, 250.0, 150.0, ms(1000));
+    assert_eq!(session.stage.orbit, start, "begun on the panel: nothing turns");
+    press(&mut session, (250.0, 150.0), Press::Up, ms(1000));
+    press(&mut session, (250.0, 150.0), Press::Down, ms(2000));
+    move_to(&mut session, 40.0, 150.0, ms(2000));
+    let turned = session.stage.orbit;
+    assert_ne!(turned, start, "begun beside it: it turns, over the panel, too");
+    press(&mut session, (40.0, 150.0), Press::Up, ms(2000));
+    move_to(&mut session, 250.0, 100.0, ms(3000));
+    assert_eq!(session.stage.orbit, turned, "the release was heard over the panel");
+    session.event(InputEvent::PointerMoved(DVec2::new(40.0, 150.0)), ms(4000));
+    session.event(InputEvent::Wheel(3.0), ms(4000));
+    assert_eq!(session.stage.orbit, turned, "a wheel over the panel scrolls the panel");
+    session.event(InputEvent::PointerMoved(DVec2::new(250.0, 150.0)), ms(4000));
+    session.event(InputEvent::Wheel(3.0), ms(4000));
+    assert!(session.stage.orbit.distance() < turned.distance(), "beside it, it zooms");
+}
+
+#[test]
+fn keys_go_to_a_text_field_that_is_typed_into() {
+    let mut handler = Panel::default();
+    let mut session = opened(&mut handler);
+    type_letter(&mut session, 'h', ms(1000));
+    assert_eq!(session.stage.cheat_sheet, Visibility::Shown, "H is a key of the window");
+    type_letter(&mut session, 'h', ms(1500));
+    click(&mut session, FIELD, ms(2000));
+    type_letter(&mut session, 'h', ms(3000));
+    assert_eq!(session.stage.cheat_sheet, Visibility::Hidden, "and now a letter");
+    click(&mut session, (250.0, 100.0), ms(4000));
+    type_letter(&mut session, 'h', ms(5000));
+    assert_eq!(session.stage.cheat_sheet, Visibility::Shown, "a click beside the field leaves it");
+    drop(session);
+    assert_eq!(handler.text, "h", "typed once");
+}
+
+#[test]
+fn what_a_widget_changes_is_drawn_and_what_it_does_not_is_not() {
+    let mut handler = Panel { turns_edges_on: true, ..Panel::default() };
+    let mut session = opened(&mut handler);
+    let (picture, subject) = (session.picture.clone(), session.subject.clone());
+    move_to(&mut session, BUTTON.0, BUTTON.1, ms(1000));
+    assert!(session.subject == subject, "passing over a widget draws no picture");
+    click(&mut session, BUTTON, ms(2000));
+    run(&mut session, ms(2000));
+    assert!(session.subject != subject, "the edges are on");
+    assert!(session.picture != picture, "and to be seen");
+    drop(session);
+    assert_eq!(handler.clicks, 1, "one click");
+}
+
+#[test]
+fn the_keyboard_finds_into_the_interface_and_out_of_it() {
+    let mut handler = Panel::default();
+    let mut session = opened(&mut handler);
+    assert!(!session.interface.wants_keyboard(), "at first keys are the window's");
+    session.event(key_down(1, Key::Function(6)), ms(1000));
+    run(&mut session, ms(1000));
+    assert!(session.interface.wants_keyboard(), "F6 gives them to the first widget");
+    let (key, modifiers) = (egui::Key::Escape, egui::Modifiers::NONE);
+    let escape = Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers };
+    session.event(InputEvent::Interface(escape), ms(2000));
+    run(&mut session, ms(2000));
+    assert!(!session.interface.wants_keyboard(), "Escape gives them back");
+}
+
+#[test]
+fn commands_are_chosen_from_the_list() {
+    let mut handler = Panel::default();
+    let mut session = opened(&mut handler);
+    session.stage.cheat_sheet = Visibility::Shown;
+    session.stage.command_search = "orthographic".into();
+    session.interface_asked(ms(1000));
+    run(&mut session, ms(1000));
+    let before = session.stage.orbit;
+    // The only row of the window in the middle: its button is found by trying.
+    let places = (60..140).step_by(6).map(|y| (200.0, f64::from(y)));
+    places.for_each(|at| {
+        if session.stage.orbit == before {
+            click(&mut session, at, ms(2000));
+        }
+    });
+    let mut expected = before;
+    expected.toggle_orthographic();
+    assert_eq!(session.stage.orbit, expected, "a click is as good as the key");
+}
