@@ -42,7 +42,8 @@ fn line(left: f32, right: f32, y: i32, canvas: &mut Canvas) {
     let width = canvas.limits()[0] as f32;
     let mut x = if left < -1.0 { left + (-1.0 - left).floor() } else { left };
     while x <= right && x < width {
-        canvas.paint(x.round_ties_even() as i32, y);
+        // Halves go one way, or every other pixel would be left out.
+        canvas.paint((x + 0.5).floor() as i32, y);
         x += 1.0;
     }
 }

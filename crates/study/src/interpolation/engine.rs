@@ -1,13 +1,13 @@
 //! The renderer's varyings.
 
-use super::floor::TRIANGLES;
-use super::{Floor, Texel};
+use super::wall::TRIANGLES;
+use super::{Texel, Wall};
 use crate::engine::{Engine, clip_position, field, target};
 use crate::field::Field;
 use trigon_math::{DVec2, Vec4};
 use trigon_raster::{Culling, Draw, Fragment, Output, Pass, Pipeline, VertexOutput};
 
-impl Pipeline for Floor {
+impl Pipeline for Wall {
     type Varyings = Texel;
 
     fn vertex_count(&self) -> usize {
@@ -27,11 +27,11 @@ impl Pipeline for Floor {
     }
 }
 
-pub(super) fn draw(floor: &Floor) -> Field<Option<Texel>> {
+pub(super) fn draw(wall: &Wall) -> Field<Option<Texel>> {
     let triangles = TRIANGLES.map(|triangle| triangle.map(|index| index as u32));
-    let mut target = target(floor.size, &[Output::Linear]);
+    let mut target = target(wall.size, &[Output::Linear]);
     let mut pass = Pass::new();
-    pass.triangles(Draw { culling: Culling::None, ..Draw::new(floor, &triangles) });
+    pass.triangles(Draw { culling: Culling::None, ..Draw::new(wall, &triangles) });
     Engine::default().rasterizer.draw(&pass, &mut target);
-    field(floor.size, target.linear()).map(|color| (color.w > 0.0).then_some([color.x, color.y]))
+    field(wall.size, target.linear()).map(|color| (color.w > 0.0).then_some([color.x, color.y]))
 }

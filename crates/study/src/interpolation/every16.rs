@@ -1,7 +1,7 @@
 //! Divided at every 16th pixel of a row and at its end, and linear between (M. Abrash,
 //! "Graphics Programming Black Book", 1997, chapter 70, on Quake).
 
-use super::floor::{Facet, Picture, paint};
+use super::wall::{Facet, Picture, paint};
 use std::ops::RangeInclusive;
 
 const STEP: i32 = 16;

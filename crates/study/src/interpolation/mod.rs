@@ -1,16 +1,16 @@
-//! What does a division in each pixel buy? Texture coordinates over a floor seen in
+//! What does a division in each pixel buy? Texture coordinates over a wall seen in
 //! perspective: linear on the screen, linear between divisions, divided in each pixel.
 
 mod affine;
 mod engine;
 mod every16;
-mod floor;
 mod perspective;
+mod wall;
 
 #[cfg(test)]
 mod tests;
 
-pub use floor::Floor;
+pub use wall::Wall;
 
 use crate::field::Field;
 
@@ -44,21 +44,21 @@ impl Interpolation {
         }
     }
 
-    /// The texel at the centre of each pixel of a floor; none beside it.
-    pub fn draw(self, floor: &Floor) -> Field<Option<Texel>> {
+    /// The texel at the centre of each pixel of a wall; none beside it.
+    pub fn draw(self, wall: &Wall) -> Field<Option<Texel>> {
         match self {
-            Self::Affine => floor.draw(affine::row),
-            Self::Every16 => floor.draw(every16::row),
-            Self::Perspective => floor.draw(perspective::row),
-            Self::Engine => engine::draw(floor),
+            Self::Affine => wall.draw(affine::row),
+            Self::Every16 => wall.draw(every16::row),
+            Self::Perspective => wall.draw(perspective::row),
+            Self::Engine => engine::draw(wall),
         }
     }
 
     /// How far the texels are from the right ones.
-    pub fn errors(self, floor: &Floor) -> TexelErrors {
-        let drawn = self.draw(floor);
+    pub fn errors(self, wall: &Wall) -> TexelErrors {
+        let drawn = self.draw(wall);
         let distance = |(place, texel): ([usize; 2], &Option<Texel>)| {
-            let [[u, v], [right_u, right_v]] = [texel.as_ref()?.map(f64::from), floor.texel(place)?];
+            let [[u, v], [right_u, right_v]] = [texel.as_ref()?.map(f64::from), wall.texel(place)?];
             Some((u - right_u) * (u - right_u) + (v - right_v) * (v - right_v))
         };
         let squares: Vec<f64> = drawn.pixels().filter_map(distance).collect();

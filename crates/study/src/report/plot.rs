@@ -7,6 +7,7 @@ use plotters::prelude::*;
 use std::error::Error;
 use std::io;
 use std::path::Path;
+use trigon_math::elementary;
 
 /// One plot.
 pub(super) struct Plot {
@@ -62,10 +63,17 @@ impl Plot {
             .margin(14)
             .caption(&self.title, ("sans-serif", 18))
             .x_label_area_size(44)
-            .y_label_area_size(72)
+            .y_label_area_size(64)
             .build_cartesian_2d((x[0]..x[1]).log_scale(), (y[0]..y[1]).log_scale())?;
         let mesh = (&self.axes[0], &self.axes[1]);
-        chart.configure_mesh().x_desc(mesh.0).y_desc(mesh.1).light_line_style(WHITE).draw()?;
+        chart
+            .configure_mesh()
+            .x_desc(mesh.0)
+            .y_desc(mesh.1)
+            .x_label_formatter(&|value| power(*value))
+            .y_label_formatter(&|value| power(*value))
+            .light_line_style(WHITE)
+            .draw()?;
         match &self.kind {
             Kind::Trade(points) => draw_trade(&mut chart, &root, points, y[0])?,
             Kind::Growth(lines) => draw_growth(&mut chart, lines)?,
@@ -73,8 +81,7 @@ impl Plot {
         Ok(root.present()?)
     }
 
-    /// From a little below the least positive value to a little above the greatest; what
-    /// is 0 goes to the lower end.
+    /// Whole powers of ten about the positive values; what is 0 goes to the lower end.
     fn range(&self, axis: usize) -> [f64; 2] {
         let values: Vec<f64> = match &self.kind {
             Kind::Trade(points) => points.iter().map(|(_, point)| point[axis]).collect(),
@@ -82,7 +89,20 @@ impl Plot {
         };
         let positive = values.iter().copied().filter(|value| *value > 0.0);
         let (low, high) = positive.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));
-        if low.is_finite() { [low / 3.0, high * 3.0] } else { [0.1, 10.0] }
+        let decade = |value: f64| elementary::pow(10.0, value);
+        if !low.is_finite() {
+            return [0.1, 10.0];
+        }
+        [decade(elementary::log10(low / 1.5).floor()), decade(elementary::log10(high * 1.5).ceil())]
+    }
+}
+
+/// A number at an axis.
+fn power(value: f64) -> String {
+    if (1e-3..1e5).contains(&value) {
+        format!("{}", (value * 1e6).round() / 1e6)
+    } else {
+        format!("{value:.0e}")
     }
 }
 
@@ -112,13 +132,15 @@ fn draw_trade(
     let mut taken: Vec<(i32, i32, i32)> = Vec::new();
     for (x, y, label) in labels {
         const HEIGHT: i32 = 14;
+        /// Within the axes.
+        const LABELS: std::ops::Range<i32> = 40..405;
         let width = label.chars().count() as i32 * 7;
         let left = if x + 8 + width > 750 { x - 8 - width } else { x + 8 };
         let is_free = |top: i32| {
             taken.iter().all(|&(l, r, t)| left + width < l || r < left || (t - top).abs() >= HEIGHT)
         };
         let tops = (0..40).flat_map(|step| [y - 7 - step * 4, y - 7 + step * 4]);
-        let top = tops.filter(|&top| top > 30 && top < 420).find(|&top| is_free(top)).unwrap_or(y - 7);
+        let top = tops.filter(|top| LABELS.contains(top)).find(|&top| is_free(top)).unwrap_or(y - 7);
         taken.push((left, left + width, top));
         root.draw(&Text::new(label, (left, top), ("sans-serif", 13)))?;
     }

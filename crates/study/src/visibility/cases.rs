@@ -60,22 +60,21 @@ pub fn balls(side: usize, count: usize, radius: f64, seed: u64) -> Scene {
     Scene::new([side; 2], bodies)
 }
 
-/// 64 balls next to each other, in eight rows.
-pub fn balls_apart(side: usize) -> Scene {
-    let place = |i: usize| DVec3::new((i % 8) as f64 + 0.5, (i / 8) as f64 + 0.5, 1.0);
-    balls_at(side, place)
-}
-
-/// The same 64 balls in one heap.
-pub fn balls_in_a_heap(side: usize) -> Scene {
-    let place = |i: usize| DVec3::new(4.0, 4.0, 1.0) + DVec3::new((i % 8) as f64, (i / 8) as f64, 0.0) / 64.0;
-    balls_at(side, place)
-}
-
-/// By their places in units of an eighth of the picture.
-fn balls_at(side: usize, place: impl Fn(usize) -> DVec3) -> Scene {
-    let unit = side as f64 / 8.0;
-    Scene::new([side; 2], (0..64).map(|i| ball(unit * 0.45, place(i) * unit)).collect())
+/// Sixteen sheets over the whole picture, one behind the other; `tilt` pixels nearer and
+/// farther at their corners, each at others, so that tilted ones cross. What they cover is
+/// the same for any tilt.
+pub fn sheets(side: usize, tilt: i32) -> Scene {
+    let side_px = side as i32;
+    let sheet = |i: i32| {
+        let corner = |j: i32, x: i32, y: i32| {
+            let depth = side_px * 3 / 2 + i * side_px / 64 + ((i * 7 + j) % 3 - 1) * tilt;
+            [x * side_px, y * side_px, depth].map(|part| part * STEPS)
+        };
+        // Its far side is a point behind its middle.
+        let behind = [side_px, side_px, 0].map(|part| part * STEPS);
+        Body::tetrahedron([corner(0, -1, -1), corner(1, 3, -1), corner(2, -1, 3), behind])
+    };
+    Scene::new([side; 2], (0..16).map(sheet).collect())
 }
 
 fn ball(radius: f64, middle: DVec3) -> Body {

@@ -19,7 +19,7 @@ mod z_buffer;
 #[cfg(test)]
 mod tests;
 
-pub use cases::{Case, balls, balls_apart, balls_in_a_heap};
+pub use cases::{Case, balls, sheets};
 pub use errors::OrderErrors;
 pub use roberts::{Line, Lines};
 pub use scene::{Body, Corner, NotConvex, Pose, Scene};

@@ -1,22 +1,22 @@
 //! What does a division in each pixel buy?
 
 use super::*;
-use crate::interpolation::{Floor, Interpolation};
+use crate::interpolation::{Interpolation, Wall};
 
 const RMS: &str = "RMS, texels";
 const WORST: &str = "worst, texels";
 const TIME: &str = "ns per pixel";
 
-const CASE: &str = "a floor of two triangles";
+const CASE: &str = "a wall of two triangles";
 
 pub(super) fn measure(effort: Effort) -> Chapter {
-    let floor = &Floor::new(effort.pick(320, 640));
-    let pixels = Interpolation::Affine.draw(floor).values().iter().flatten().count() as f64;
+    let wall = &Wall::new(effort.pick(320, 640));
+    let pixels = Interpolation::Affine.draw(wall).values().iter().flatten().count() as f64;
     let times = nanoseconds(effort.rounds(), &Interpolation::ALL, |way| -> Box<dyn FnMut()> {
-        Box::new(move || drop(way.draw(floor)))
+        Box::new(move || drop(way.draw(wall)))
     });
     let row = |(way, time): (Interpolation, Spread)| {
-        let errors = way.errors(floor);
+        let errors = way.errors(wall);
         let row = Row::new(CASE, way.name()).with(RMS, errors.rms).with(WORST, errors.worst);
         row.timed(TIME, time.scaled(1.0 / pixels))
     };
@@ -24,20 +24,20 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     Chapter {
         name: "interpolation",
         title: "What does a division in each pixel buy?",
-        text: "Texture coordinates on a floor from 1.5 to 12 metres away, 256 texels to the metre, against what the corners say \
+        text: "Texture coordinates on a wall that leads from 1.5 to 6 metres away, 256 texels to the metre, against what the corners say \
                in `f64`. The engine's time is that of a whole picture with a pipeline of its own.",
         findings: findings(&rows),
-        plots: vec![Plot::trade("floor", &rows, CASE, [TIME, RMS])],
+        plots: vec![Plot::trade("wall", &rows, CASE, [TIME, RMS])],
         pictures: vec![picture()],
         rows,
     }
 }
 
-/// The floor with a checker of half metres.
+/// The wall with a checker of half metres.
 fn picture() -> Picture {
-    let floor = Floor::new(256);
+    let wall = Wall::new(256);
     let panel = |way: Interpolation| {
-        way.draw(&floor).map(|texel| match texel {
+        way.draw(&wall).map(|texel| match texel {
             Some([u, v]) => {
                 let [column, row] = [u, v].map(|part| (part / 128.0).floor() as i64);
                 if (column + row).rem_euclid(2) == 0 { [220; 3] } else { [40, 90, 160] }
@@ -46,7 +46,7 @@ fn picture() -> Picture {
         })
     };
     let ways = [Interpolation::Affine, Interpolation::Every16, Interpolation::Perspective];
-    Picture::new("floor", "Affine, perspective every 16 pixels, perspective", ways.map(panel).to_vec())
+    Picture::new("wall", "Affine, perspective every 16 pixels, perspective", ways.map(panel).to_vec())
 }
 
 fn findings(rows: &[Row]) -> Vec<String> {

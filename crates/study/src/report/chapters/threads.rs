@@ -62,8 +62,7 @@ fn findings(theirs: &[Spread], ours: &[Spread]) -> Vec<String> {
     vec![
         format!(
             "With {cores} processors the source's way is fastest with {their_count} threads, {} as fast as without; the source found 32 \
-             and 4.1× on eight. More threads than processors help there because rows of a triangle's box are unequal work; \
-             starting 128 costs {} µs a frame here.",
+             and 4.1× on eight. With 128 a frame takes {} µs more than with the best here.",
             format_args!("{}×", number(their_gain)),
             number((theirs[8].median - theirs[0].median / their_gain.max(1.0)) * 1e-3),
         ),

@@ -3,13 +3,14 @@
 use super::*;
 use crate::field::Field;
 use crate::line::Line;
-use crate::visibility::{
-    Case, OrderErrors, Scene, Visibility, balls, balls_apart, balls_in_a_heap, visible_lines,
-};
+use crate::visibility::{Case, OrderErrors, Scene, Visibility, balls, sheets, visible_lines};
 
 const WRONG: &str = "misordered pixels, ‰";
 const TIME: &str = "ms per frame";
 const TESTS: &str = "tests";
+
+const PARALLEL: &str = "16 parallel sheets";
+const CROSSING: &str = "16 sheets that cross";
 
 pub(super) fn measure(effort: Effort) -> Chapter {
     let side = effort.pick(128, 256);
@@ -17,10 +18,8 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     for case in Case::ALL {
         rows.extend(of_scene(case.name(), &case.scene(side), effort));
     }
-    for (name, scene) in
-        [("64 balls apart", balls_apart(side)), ("the same in a heap", balls_in_a_heap(side))]
-    {
-        rows.extend(of_scene(name, &scene, effort));
+    for (name, tilt) in [(PARALLEL, 0), (CROSSING, side as i32)] {
+        rows.extend(of_scene(name, &sheets(side, tilt), effort));
     }
     let counts: &[usize] = effort.pick(&[10, 20, 40, 80], &[10, 20, 40, 80, 160, 320, 640, 1280]);
     let (by_time, by_tests) = growth(side, counts, effort);
@@ -44,7 +43,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         text: "The ways that source D weighs on paper, the painter's algorithm and a tree for rays, on the same bodies. A pixel is \
                misordered if it does not show one of the nearest faces, decided in integers. Each algorithm counts its own kind \
                of test: the painter comparisons, Roberts points against planes, Warnock faces against windows, the z-buffer \
-               pixels in bounding boxes, rays faces.",
+               pixels in bounding boxes, rays faces. The tree for rays is built for each picture.",
         findings,
         pictures: vec![errors_picture(), lines_picture()],
         rows,
@@ -143,14 +142,13 @@ fn findings(rows: &[Row], by_time: &Lines) -> Vec<String> {
             number(of(Case::Ring.name(), Visibility::Painter, WRONG)),
         ),
     ];
-    let heap =
-        |way: Visibility| times(of("the same in a heap", way, TESTS), of("64 balls apart", way, TESTS));
+    let unevenness = |way: Visibility| times(of(CROSSING, way, TESTS), of(PARALLEL, way, TESTS));
     findings.push(format!(
         "Source D's claims hold: Roberts' work is quadratic in the number of bodies, and the z-buffer's linear (twice the bodies, \
-         four and two times the tests: see the plot); Warnock's follows what overlaps: the same balls in a heap, which show a \
-         fraction of the pixels, take {} of the tests, the z-buffer's {}.",
-        heap(Visibility::Warnock),
-        heap(Visibility::ZBuffer),
+         four and two times the tests: see the plot); Warnock's follows what overlaps: sheets that cross instead of lying behind \
+         each other take {} of its tests, and of the z-buffer's {}.",
+        unevenness(Visibility::Warnock),
+        unevenness(Visibility::ZBuffer),
     ));
     findings
 }

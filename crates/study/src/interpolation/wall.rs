@@ -1,11 +1,11 @@
-//! A floor of two triangles, seen in perspective.
+//! A wall of two triangles that leads away, seen in perspective.
 
 use super::Texel;
 use crate::field::Field;
 use crate::fill::fixed::Edges;
 use std::ops::RangeInclusive;
 
-/// The texel in each pixel; none where the floor is not.
+/// The texel in each pixel; none where the wall is not.
 pub(super) type Picture = Field<Option<Texel>>;
 
 /// Sets the texel of a pixel of the picture.
@@ -13,8 +13,8 @@ pub(super) fn paint(picture: &mut Picture, [x, y]: [i32; 2], texel: Texel) {
     picture[[x as usize, y as usize]] = Some(texel);
 }
 
-/// A floor with a texture, before an eye one metre above it.
-pub struct Floor {
+/// A wall with a texture, beside an eye one metre from it.
+pub struct Wall {
     pub(super) size: [usize; 2],
     pub(super) corners: [Corner; 4],
     triangles: [Facet; 2],
@@ -44,7 +44,7 @@ pub(super) struct Facet {
 
 impl Facet {
     fn new(corners: [Corner; 3]) -> Self {
-        let edges = Edges::new(corners.map(|corner| corner.place), 256).expect("the floor has an area");
+        let edges = Edges::new(corners.map(|corner| corner.place), 256).expect("the wall has an area");
         let texel = [0, 1].map(|axis| edges.shares(corners.map(|corner| corner.texel[axis])));
         let texel_over_distance =
             [0, 1].map(|axis| edges.shares(corners.map(|corner| corner.texel[axis] / corner.distance)));
@@ -57,7 +57,7 @@ impl Facet {
         self.texel.map(|shares| self.edges.interpolated(&shares, pixel) as f32)
     }
 
-    /// Linear on the floor, computed in `f32`.
+    /// Linear on the wall, computed in `f32`.
     pub(super) fn perspective(&self, pixel: [i32; 2]) -> Texel {
         let inverse = self.edges.interpolated(&self.inverse_distance, pixel) as f32;
         self.texel_over_distance.map(|shares| self.edges.interpolated(&shares, pixel) as f32 / inverse)
@@ -78,22 +78,22 @@ impl Facet {
     }
 }
 
-impl Floor {
-    /// From 1.5 to 12 metres away, 2.8 metres wide, 256 texels to the metre, in a picture
+impl Wall {
+    /// From 1.5 to 6 metres away, 1.8 metres high, 256 texels to the metre, in a picture
     /// of `width` pixels and three quarters of that in height.
     pub fn new(width: usize) -> Self {
         const TEXELS: f64 = 256.0;
         let scale = width as f64 / 2.0;
-        let corner = |[right, distance]: [f64; 2]| {
+        let corner = |[up, distance]: [f64; 2]| {
             let place =
-                [width as f64 / 2.0 + scale * right / distance, width as f64 * 0.2 + scale / distance];
+                [width as f64 * 0.95 - scale / distance, width as f64 * 0.375 - scale * up / distance];
             Corner {
                 place: place.map(|part| (part * 256.0).round() as i64),
                 distance,
-                texel: [right * TEXELS, distance * TEXELS],
+                texel: [distance * TEXELS, up * TEXELS],
             }
         };
-        let corners = [[-1.4, 1.5], [1.4, 1.5], [1.4, 12.0], [-1.4, 12.0]].map(corner);
+        let corners = [[-0.9, 1.5], [-0.9, 6.0], [0.9, 6.0], [0.9, 1.5]].map(corner);
         let triangles = TRIANGLES.map(|triangle| Facet::new(triangle.map(|index| corners[index])));
         Self { size: [width, width * 3 / 4], corners, triangles }
     }
