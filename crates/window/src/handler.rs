@@ -72,11 +72,17 @@ pub trait Handler {
     }
 }
 
+/// What is called for each frame.
+type Frames<'a> = Box<dyn FnMut(&mut Stage, Tick) -> Animation + 'a>;
+
+/// What adds widgets.
+type Interface<'a> = Box<dyn FnMut(&mut Stage, &mut egui::Ui) + 'a>;
+
 /// An application of at most two closures.
 #[derive(Default)]
 pub(crate) struct Closures<'a> {
-    pub(crate) frame: Option<Box<dyn FnMut(&mut Stage, Tick) -> Animation + 'a>>,
-    pub(crate) interface: Option<Box<dyn FnMut(&mut Stage, &mut egui::Ui) + 'a>>,
+    pub(crate) frame: Option<Frames<'a>>,
+    pub(crate) interface: Option<Interface<'a>>,
 }
 
 impl Handler for Closures<'_> {

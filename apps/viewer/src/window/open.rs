@@ -76,34 +76,31 @@ impl OpenWindow {
     ) -> Vec<PathBuf> {
         let mut files = Vec::new();
         let (mut shown, mut wants_dialog) = (self.shown, false);
-        egui::Window::new("Open").open(&mut shown).collapsible(false).default_width(420.0).show(
-            context,
-            |ui| {
-                ui.horizontal(|ui| {
-                    let field = egui::TextEdit::singleline(&mut self.path).hint_text("path of a model");
-                    let typed = ui.add(field.desired_width(260.0));
-                    let entered = typed.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-                    let open = ui.add_enabled(!self.path.is_empty(), egui::Button::new("Open")).clicked();
-                    if (open || entered) && !self.path.is_empty() {
-                        files.push(PathBuf::from(self.path.trim()));
-                    }
-                    wants_dialog =
-                        ui.add_enabled(self.dialog.is_none(), egui::Button::new("Browse…")).clicked();
-                });
-                if !self.note.is_empty() {
-                    ui.label(self.note);
+        let window = egui::Window::new("Open").open(&mut shown).collapsible(false).default_width(420.0);
+        window.anchor(egui::Align2::CENTER_CENTER, [0.0; 2]).show(context, |ui| {
+            ui.horizontal(|ui| {
+                let field = egui::TextEdit::singleline(&mut self.path).hint_text("path of a model");
+                let typed = ui.add(field.desired_width(260.0));
+                let entered = typed.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+                let open = ui.add_enabled(!self.path.is_empty(), egui::Button::new("Open")).clicked();
+                if (open || entered) && !self.path.is_empty() {
+                    files.push(PathBuf::from(self.path.trim()));
                 }
-                if !recent.files().is_empty() {
-                    ui.separator();
-                    ui.label("opened before");
+                wants_dialog = ui.add_enabled(self.dialog.is_none(), egui::Button::new("Browse…")).clicked();
+            });
+            if !self.note.is_empty() {
+                ui.label(self.note);
+            }
+            if !recent.files().is_empty() {
+                ui.separator();
+                ui.label("opened before");
+            }
+            for file in recent.files() {
+                if ui.button(file.display().to_string()).clicked() {
+                    files.push(file.clone());
                 }
-                for file in recent.files() {
-                    if ui.button(file.display().to_string()).clicked() {
-                        files.push(file.clone());
-                    }
-                }
-            },
-        );
+            }
+        });
         self.shown = shown && files.is_empty();
         if wants_dialog {
             browse(self);

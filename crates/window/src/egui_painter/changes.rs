@@ -94,7 +94,7 @@ impl Marker<'_> {
     /// Two meshes of which one has triangles more than the other: what is between
     /// those that both begin and end with.
     fn rearranged(&mut self, meshes: [&Mesh; 2]) {
-        let [before, after] = meshes.map(|mesh| triangles(mesh));
+        let [before, after] = meshes.map(triangles);
         let first = common(before.zip(after), |a, b| a == b);
         let [before, after] = meshes.map(|mesh| triangles(mesh).skip(first).rev());
         let last = common(before.zip(after), |a, b| a == b);

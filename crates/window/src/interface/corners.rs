@@ -21,7 +21,7 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: 
         let mut lines = stage.overlay.lines(corner).to_vec();
         match corner {
             Corner::TopRight if stage.frame_time == Visibility::Shown => {
-                lines.push(frame_time(stage.report()))
+                lines.push(frame_time(stage.report()));
             }
             Corner::BottomLeft => drop(lines.splice(..0, messages.iter().cloned())),
             _ => {}

@@ -6,7 +6,7 @@ use std::time::Duration;
 const BUDGET: Duration = Duration::from_millis(33);
 
 /// Drafts are not drawn smaller than by this factor in each direction.
-const MOST_SHRINK: f64 = 8.0;
+const MOST_SHRINK: f64 = 4.0;
 
 /// A draft is made as long as this part of the budget, so that the next one, which
 /// shows something else, is likely to fit, too.
@@ -16,16 +16,18 @@ const AIM: f64 = 0.8;
 #[derive(Debug)]
 pub(super) struct Budget {
     shrink: f64,
+    /// Of the budget, what the last draft of this size took.
+    last: Option<f64>,
 }
 
 impl Default for Budget {
     fn default() -> Self {
-        Self { shrink: 1.0 }
+        Self { shrink: 1.0, last: None }
     }
 }
 
 impl Budget {
-    /// The factor by which the next draft is smaller in each direction, 1 to 8.
+    /// The factor by which the next draft is smaller in each direction, 1 to 4.
     pub(super) fn shrink(&self) -> f64 {
         self.shrink
     }
@@ -33,14 +35,23 @@ impl Budget {
     /// A draft of the current size took this long. The time is taken to grow with the
     /// number of pixels. Where it does not, because of what has to be done before there
     /// are any, the size falls until it does not matter any more.
+    ///
+    /// A single draft changes nothing: it may have had to wait for other programs.
     pub(super) fn took(&mut self, time: Duration) {
         let share = time.as_secs_f64() / BUDGET.as_secs_f64();
+        let Some(last) = self.last.replace(share) else { return };
+        let (least, most) = if last < share { (last, share) } else { (share, last) };
         // Between half and all of the budget it stays: sizes that flicker are ugly.
-        if share > 1.0 || (share < 0.5 && self.shrink > 1.0) {
-            // Not to more than twice the size at once: one quick frame may be luck.
-            let factor = (share / AIM).sqrt().max(0.5);
-            self.shrink = (self.shrink * factor).clamp(1.0, MOST_SHRINK);
-        }
+        let factor = if least > 1.0 {
+            (least / AIM).sqrt()
+        } else if most < 0.5 {
+            // Not to more than twice the size at once.
+            (most / AIM).sqrt().max(0.5)
+        } else {
+            return;
+        };
+        self.shrink = (self.shrink * factor).clamp(1.0, MOST_SHRINK);
+        self.last = None;
     }
 }
 
