@@ -110,8 +110,8 @@ fn opposite_normals_on_an_edge_leave_no_hole() {
         let frame = render(&scene, &camera, &settings).expect("in range");
         check_numbers(&frame);
         // Both lamps together shine with 0.8 of their light on either side; five ninths
-        // of that are 0.44, and linear 0.43 is the byte 175.
+        // of that are 0.44, six 0.53, and linear 0.43 and 0.54 are the bytes 175 and 194.
         let middle = frame.pixel(PIXELS / 2, 0)[0];
-        assert!(middle >= 175, "{model:?}: the middle of the edge shows {middle}");
+        assert!((175..=194).contains(&middle), "{model:?}: the middle of the edge shows {middle}");
     }
 }
