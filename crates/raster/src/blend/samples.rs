@@ -3,7 +3,7 @@
 
 use crate::frame::FrameView;
 use crate::resolve::mean;
-use crate::shade::Shading;
+use crate::shade::{BEHIND, Shading};
 use crate::simd::LANES;
 use crate::tile::{NOBODY, Scratch, TileArea};
 use trigon_math::Vec4;
@@ -28,10 +28,10 @@ pub(super) fn expand(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scrat
             };
         }
     }
-    for edges in &shading.edge_groups {
-        for (sample, names) in edges.names(shading, count).iter().enumerate() {
-            for lane in edges.lanes().filter(|&lane| names[lane] != NOBODY) {
-                let index = buffer.index(edges.number as usize * LANES + lane, sample);
+    for (group, names) in shading.edges.iter() {
+        for (sample, names) in names.iter().enumerate() {
+            for lane in group.lanes().filter(|&lane| names[lane] as usize != BEHIND) {
+                let index = buffer.index(group.number as usize * LANES + lane, sample);
                 samples[index] = Vec4::from_array(shading.colors[names[lane] as usize]);
             }
         }
@@ -42,9 +42,9 @@ pub(super) fn expand(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scrat
 /// colour then, and none is an edge pixel.
 pub(super) fn collapse(frame: &FrameView<'_>, scratch: &mut Scratch) {
     let Scratch { buffer, shading, samples, .. } = scratch;
-    let Shading { colors, edge_groups, .. } = shading;
+    let Shading { colors, edges, .. } = shading;
     let count = frame.grid.pattern.count();
-    edge_groups.clear();
+    edges.forget();
     for (pixel, color) in colors.iter_mut().enumerate().take(buffer.span()) {
         let first = buffer.index(pixel, 0);
         let of_pixel = (0..count).map(|sample| samples[first + sample * LANES]);

@@ -3,7 +3,7 @@
 use crate::bin::Place;
 use crate::frame::{DrawPlan, FrameView};
 use crate::geometry::Geometry;
-use crate::simd::{I32, Simd, U32, prelude::*};
+use crate::simd::{I32, Mask, Simd, U32, prelude::*};
 use crate::tile::TileArea;
 use crate::vertex::{DrawVertices, Slots};
 use std::ops::Range;
@@ -71,8 +71,8 @@ impl<'f> DrawVaryings<'f> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Work {
     /// Index of the pixel in the tile; bit 12 is set if the triangle may not
-    /// cover the pixel's centre; from bit 13 on one more than the number of the
-    /// sample, if it is to be that one.
+    /// cover the pixel's centre; from bit 13 on one more than the number of a sample:
+    /// the one that it is to be, or with bit 12 one that the triangle covers.
     spot: u32,
     pub(crate) output: u32,
 }
@@ -88,11 +88,19 @@ impl Work {
         Self { spot: pixel as u32 | u32::from(partly) << Self::PARTLY, output: output as u32 }
     }
 
-    /// Spots as [`anywhere`](Self::anywhere) gives them for triangles that may not
-    /// cover the centres.
+    /// As [`anywhere`](Self::anywhere) gives it for a triangle that may not cover the
+    /// centre, and covers a sample for sure.
     #[inline(always)]
-    pub(crate) fn partly<S: Simd>(spots: U32<S>) -> U32<S> {
-        spots | 1 << Self::PARTLY
+    pub(crate) fn covering(pixel: usize, sample: usize, output: usize) -> Self {
+        let spot = pixel as u32 | 1 << Self::PARTLY | (sample as u32 + 1) << Self::SAMPLE;
+        Self { spot, output: output as u32 }
+    }
+
+    /// Spots of triangles that may not cover the centres, and cover the first samples
+    /// for sure.
+    #[inline(always)]
+    pub(crate) fn covering_first<S: Simd>(spots: U32<S>) -> U32<S> {
+        spots | (1 << Self::PARTLY | 1 << Self::SAMPLE)
     }
 
     /// At one of the pixel's samples.
@@ -108,16 +116,29 @@ impl Work {
     }
 
     /// The corners of eight pixels in 1/256 pixel from the tile's; and, unless all
-    /// are shaded at their centres for sure, the samples that they are shaded at:
-    /// one more than their numbers, 0 where the triangle decides.
+    /// are shaded at their centres for sure, where in them they are shaded.
     #[inline(always)]
-    pub(crate) fn corners<S: Simd>(spots: U32<S>) -> ([I32<S>; 2], Option<I32<S>>) {
+    pub(crate) fn corners<S: Simd>(spots: U32<S>) -> ([I32<S>; 2], Option<Spots<S>>) {
         let simd = spots.token();
         let spots: I32<S> = spots.bitcast();
-        let anywhere = spots.simd_ge(I32::splat(simd, 1 << Self::PARTLY)).any_true();
+        let partly = I32::splat(simd, 1 << Self::PARTLY);
         let [x, y] = TileArea::pixels_at(spots & ((1 << Self::PARTLY) - 1));
-        ([x << 8, y << 8], anywhere.then(|| spots >> Self::SAMPLE))
+        let elsewhere = spots
+            .simd_ge(partly)
+            .any_true()
+            .then(|| Spots { partly: (spots & partly).simd_eq(partly), samples: spots >> Self::SAMPLE });
+        ([x << 8, y << 8], elsewhere)
     }
+}
+
+/// Where in eight pixels triangles are shaded.
+pub(crate) struct Spots<S: Simd> {
+    /// At the centre if the triangle covers it, else at the lowest-numbered sample that
+    /// it covers.
+    pub(crate) partly: Mask<S>,
+    /// One more than the number of the sample that it is to be, or of one that is
+    /// covered for sure; 0 where neither is known.
+    pub(crate) samples: I32<S>,
 }
 
 /// The pixels of one triangle in a list of [`Work`].

@@ -1,69 +1,121 @@
 //! Pixels whose samples see different triangles.
 
 use super::Work;
-use super::shading::Shading;
 use super::task::Fragment;
-use crate::simd::{LANES, Mask, Simd, U32, lane_numbers, prelude::*};
+use crate::simd::{LANES, Simd, U32, lane_numbers, prelude::*};
 use crate::tile::{NOBODY, PIXELS};
 
-/// A group with pixels whose samples see different triangles.
+/// The place of the colour behind all triangles.
+pub(crate) const BEHIND: usize = PIXELS;
+
+/// The first place of a colour that only some samples of a pixel have.
+const PARTS: usize = PIXELS + 1;
+
+/// No colour's name.
+const UNNAMED: u32 = u32::MAX;
+
+/// The pixels of a tile whose samples see different triangles, and the names of their
+/// samples' colours: the places where they lie.
+pub(crate) struct Edges {
+    groups: Vec<EdgeGroup>,
+    /// Group by group, sample by sample; and room for more.
+    names: Vec<[u32; LANES]>,
+    samples: usize,
+    /// How many colours have a place of their own, beside those of pixels.
+    parts: usize,
+}
+
+/// A group with such pixels.
 #[derive(Clone, Copy)]
 pub(crate) struct EdgeGroup {
     pub(crate) number: u32,
     /// Those pixels.
-    lanes: u32,
-    /// Where the colours of its samples are named, sample by sample.
-    first: u32,
+    pub(crate) lanes: u32,
 }
 
 impl EdgeGroup {
     /// The pixels, by their lanes.
+    #[inline(always)]
     pub(crate) fn lanes(self) -> impl Iterator<Item = usize> {
-        (0..LANES).filter(move |lane| self.lanes >> lane & 1 != 0)
-    }
-
-    /// For each sample the names of the pixels' colours: an index, or nobody.
-    pub(crate) fn names(self, shading: &Shading, samples: usize) -> &[[u32; LANES]] {
-        &shading.sample_colors[self.first as usize..][..samples]
+        let mut rest = self.lanes;
+        std::iter::from_fn(move || {
+            let lane = (rest != 0).then_some(rest.trailing_zeros() as usize % LANES)?;
+            rest &= rest - 1;
+            Some(lane)
+        })
     }
 }
 
-/// Lists pixels of a group whose samples see different triangles. Their own places
-/// get the colours of what their first samples see, each other triangle's colour a
-/// place of its own, and the samples name theirs.
-#[inline(always)]
-pub(super) fn push_edges<S: Simd>(
-    simd: S,
-    shading: &mut Shading,
-    (group, rows): (usize, &[u32]),
-    lanes: u64,
-) {
-    let Shading { slots, parts, edge_groups, sample_colors, part_colors, .. } = shading;
-    let (rows, pixel) = (rows.as_chunks::<LANES>().0, group * LANES);
-    let first = sample_colors.len();
-    edge_groups.push(EdgeGroup { number: group as u32, lanes: lanes as u32, first: first as u32 });
-    let nobody = U32::splat(simd, NOBODY);
-    let pixels = (lane_numbers(simd) + pixel as i32).bitcast::<U32<S>>();
-    sample_colors.push(U32::simd_from(simd, rows[0]).simd_eq(nobody).select(nobody, pixels).into());
-    for (sample, row) in rows.iter().enumerate().skip(1) {
-        let winners = U32::simd_from(simd, *row);
-        let (mut name, mut named) = (nobody, winners.simd_eq(nobody));
-        for (row, names) in rows[..sample].iter().zip(&sample_colors[first..]) {
-            let same: Mask<S> = winners.simd_eq(U32::simd_from(simd, *row));
-            name = same.select(U32::simd_from(simd, *names), name);
-            named |= same;
+impl Edges {
+    pub(super) fn new() -> Self {
+        Self { groups: Vec::new(), names: Vec::new(), samples: 1, parts: 0 }
+    }
+
+    pub(super) fn clear(&mut self, samples: usize) {
+        (self.samples, self.parts) = (samples, 0);
+        self.forget();
+        let most = PIXELS / LANES * samples;
+        if samples > 1 && self.names.len() < most {
+            self.names.resize(most, [0; LANES]);
         }
-        let mut names: [u32; LANES] = name.into();
-        let mut others = !named.to_bitmask() & lanes;
-        while others != 0 {
-            let lane = others.trailing_zeros() as usize % LANES;
-            others &= others - 1;
-            let place = PIXELS + *part_colors;
-            *part_colors += 1;
-            let work = Work::anywhere(pixel + lane, true, place);
-            parts.push(Fragment { slot: slots[row[lane] as usize], work });
-            names[lane] = place as u32;
+    }
+
+    /// Leaves no pixel in it.
+    pub(crate) fn forget(&mut self) {
+        self.groups.clear();
+    }
+
+    /// How many colours have a place of their own.
+    pub(super) fn part_count(&self) -> usize {
+        self.parts
+    }
+
+    /// How many places there are for colours.
+    pub(super) fn places(&self) -> usize {
+        PARTS + self.parts
+    }
+
+    /// The groups, each with the names of its samples' colours, sample by sample.
+    #[inline(always)]
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (EdgeGroup, &[[u32; LANES]])> {
+        self.groups.iter().copied().zip(self.names.chunks_exact(self.samples))
+    }
+
+    /// Lists pixels of a group whose samples see different triangles. Their own places
+    /// get the colours of what their first samples see, each other triangle's colour a
+    /// place of its own, and the samples name theirs. The triangles are marked.
+    #[inline(always)]
+    pub(super) fn push<S: Simd>(
+        &mut self,
+        simd: S,
+        (group, rows): (usize, &[[u32; LANES]]),
+        lanes: u64,
+        (parts, marks): (&mut Vec<Fragment>, &mut [u32]),
+    ) {
+        let pixel = group * LANES;
+        let names = &mut self.names[self.groups.len() * rows.len()..][..rows.len()];
+        self.groups.push(EdgeGroup { number: group as u32, lanes: lanes as u32 });
+        let (nobody, behind) = (U32::splat(simd, NOBODY), U32::splat(simd, BEHIND as u32));
+        let pixels = (lane_numbers(simd) + pixel as i32).bitcast::<U32<S>>();
+        names[0] = U32::simd_from(simd, rows[0]).simd_eq(nobody).select(behind, pixels).into();
+        for sample in 1..rows.len() {
+            let winners = U32::simd_from(simd, rows[sample]);
+            let unnamed = U32::splat(simd, UNNAMED);
+            let mut name = winners.simd_eq(nobody).select(behind, unnamed);
+            for (row, names) in rows[..sample].iter().zip(&names[..sample]) {
+                name = winners.simd_eq(U32::simd_from(simd, *row)).select(U32::simd_from(simd, *names), name);
+            }
+            names[sample] = name.into();
+            let mut others = name.simd_eq(unnamed).to_bitmask() & lanes;
+            while others != 0 {
+                let lane = others.trailing_zeros() as usize % LANES;
+                others &= others - 1;
+                let (winner, place) = (rows[sample][lane], PARTS + self.parts);
+                self.parts += 1;
+                marks[winner as usize] = 1;
+                parts.push(Fragment { slot: winner, work: Work::covering(pixel + lane, sample, place) });
+                names[sample][lane] = place as u32;
+            }
         }
-        sample_colors.push(names);
     }
 }

@@ -18,8 +18,9 @@ mod task;
 mod visible;
 mod weights;
 
+use context::Spots;
 pub(crate) use context::{Job, ShadeContext, Work};
-pub(crate) use edges::EdgeGroup;
+pub(crate) use edges::{BEHIND, EdgeGroup};
 pub(crate) use encode::Encoding;
 pub(crate) use erased::{AnyPipeline, stride};
 pub use fragment_lanes::{FragmentLanes, MAX_VARYINGS, RawFragment};

@@ -4,7 +4,7 @@
 use super::columns::Columns;
 use super::task::{Task, Vector};
 use super::weights::TriangleLanes;
-use super::{FragmentLanes, Records, ShadeContext, ShadeOutput, Work};
+use super::{FragmentLanes, Records, ShadeContext, ShadeOutput, Spots, Work};
 use crate::LanePipeline;
 use crate::simd::{Each, F32, I32, Simd, U32, prelude::*};
 
@@ -106,28 +106,52 @@ fn points<S: Simd>(
     triangle: &TriangleLanes<'_, S>,
     spots: U32<S>,
 ) -> [I32<S>; 2] {
-    let (corners, samples) = Work::corners(spots);
+    let (corners, elsewhere) = Work::corners(spots);
     let centre = corners.each(
         #[inline(always)]
         |column| column + 128,
     );
-    let Some(samples) = samples else {
-        return centre;
-    };
-    let free = samples.simd_eq(I32::splat(simd, 0));
-    let covered = triangle.covers(simd, centre);
-    if (free & covered).all_true() {
-        return centre;
+    match elsewhere {
+        None => centre,
+        // Apart, so that it takes no registers where pixels have one sample.
+        Some(spots) => simd.vectorize(
+            #[inline(always)]
+            || sample_points(simd, context, triangle, (corners, &spots)),
+        ),
     }
-    let mut points = centre;
-    for (index, offset) in context.frame.grid.pattern.offsets().iter().enumerate().rev() {
+}
+
+/// The same where some pixels may be shaded elsewhere than at their centres.
+#[inline(always)]
+fn sample_points<S: Simd>(
+    simd: S,
+    context: &ShadeContext<'_>,
+    triangle: &TriangleLanes<'_, S>,
+    (corners, spots): ([I32<S>; 2], &Spots<S>),
+) -> [I32<S>; 2] {
+    let Spots { partly, samples } = *spots;
+    let mut points = corners.each(
+        #[inline(always)]
+        |column| column + 128,
+    );
+    let asked = samples.simd_gt(I32::splat(simd, 0)) & !partly;
+    let beside = partly & !triangle.covers(simd, points);
+    let mut pending = asked | beside;
+    for (index, offset) in context.frame.grid.pattern.offsets().iter().enumerate() {
+        if !pending.any_true() {
+            break;
+        }
         let sample = [corners[0] + offset[0], corners[1] + offset[1]];
-        let found = free & !covered & triangle.covers(simd, sample);
-        let here = found | samples.simd_eq(I32::splat(simd, index as i32 + 1));
+        let mut here = pending & samples.simd_eq(I32::splat(simd, index as i32 + 1));
+        // Most often all pixels see their triangles at their first samples.
+        if (pending & !here).any_true() {
+            here |= pending & beside & triangle.covers(simd, sample);
+        }
         points = [0, 1].each(
             #[inline(always)]
             |axis| here.select(sample[axis], points[axis]),
         );
+        pending &= !here;
     }
     points
 }

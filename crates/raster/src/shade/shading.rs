@@ -2,9 +2,8 @@
 
 use super::Records;
 use super::columns::Columns;
-use super::edges::EdgeGroup;
+use super::edges::Edges;
 use super::task::{Fragment, Group};
-use crate::simd::LANES;
 use crate::tile::PIXELS;
 use std::ops::Range;
 
@@ -49,20 +48,28 @@ pub(crate) struct Shading {
     pub(super) flat_colors: Vec<[f32; 4]>,
     /// Pixels as bytes.
     pub(crate) codes: Vec<u32>,
-    /// Pixels in linear light, edge pixels with what their first samples see; and
-    /// from [`PIXELS`] on what other samples of edge pixels see.
+    /// Pixels in linear light, edge pixels with what their first samples see; what is
+    /// seen behind all triangles; and what other samples of edge pixels see.
     pub(crate) colors: Vec<[f32; 4]>,
-    /// How many of the latter there are.
-    pub(super) part_colors: usize,
     /// Groups with pixels that see the background.
     pub(crate) empty_groups: Vec<EmptyGroup>,
-    /// Groups with pixels whose samples see different triangles.
-    pub(crate) edge_groups: Vec<EdgeGroup>,
-    /// For each of their samples and pixels an index into the colours.
-    pub(super) sample_colors: Vec<[u32; LANES]>,
+    /// Pixels whose samples see different triangles.
+    pub(crate) edges: Edges,
 }
 
 impl Shading {
+    /// Forgets the last tile. This one has so many triangles and samples.
+    pub(super) fn clear(&mut self, places: usize, samples: usize) {
+        self.slots.clear();
+        // One more, for nobody.
+        self.slots.resize(places + 1, 0);
+        self.groups.clear();
+        self.fragments.clear();
+        self.parts.clear();
+        self.empty_groups.clear();
+        self.edges.clear(samples);
+    }
+
     pub(crate) fn new() -> Self {
         Self {
             slots: Vec::new(),
@@ -77,11 +84,9 @@ impl Shading {
             flat_codes: Vec::new(),
             flat_colors: Vec::new(),
             codes: vec![0; PIXELS],
-            colors: vec![[0.0; 4]; PIXELS],
-            part_colors: 0,
+            colors: vec![[0.0; 4]; PIXELS + 1],
             empty_groups: Vec::new(),
-            edge_groups: Vec::new(),
-            sample_colors: Vec::new(),
+            edges: Edges::new(),
         }
     }
 }

@@ -129,7 +129,8 @@ impl<'t> Task<'t> {
         let pixel = group.number as usize * LANES;
         let mut spots = (lane_numbers(simd) + pixel as i32).bitcast();
         if group.edges != 0 {
-            spots = Mask::from_bitmask(simd, u64::from(group.edges)).select(Work::partly(spots), spots);
+            spots =
+                Mask::from_bitmask(simd, u64::from(group.edges)).select(Work::covering_first(spots), spots);
         }
         Vector {
             names: names.into(),

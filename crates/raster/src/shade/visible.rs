@@ -1,13 +1,12 @@
 //! Which triangles of a tile are seen, and at which pixels.
 
 use super::Work;
-use super::edges::push_edges;
 use super::shading::{EmptyGroup, Run, Shading};
 use super::task::{Fragment, Group};
 use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::simd::{LANES, Mask, Simd, U32, prelude::*};
-use crate::tile::{NOBODY, PIXELS, VisibilityBuffer};
+use crate::tile::{NOBODY, VisibilityBuffer};
 
 /// Groups with fewer pixels than this that see anything share vectors with others.
 const FULL: u32 = 4;
@@ -21,72 +20,59 @@ pub(super) fn list<S: Simd>(
     places: usize,
     shading: &mut Shading,
 ) -> usize {
-    let winners = buffer.winners();
-    number(simd, winners, places, shading);
-    shading.groups.clear();
-    shading.fragments.clear();
-    shading.parts.clear();
-    shading.empty_groups.clear();
-    shading.edge_groups.clear();
-    shading.sample_colors.clear();
-    shading.part_colors = 0;
-    let mut pixels = 0;
-    for (group, rows) in winners.chunks_exact(LANES * buffer.samples).enumerate() {
-        let (first, others) = rows.split_at(LANES);
-        let lanes = U32::from_slice(simd, first);
-        let agree = others.chunks_exact(LANES).fold(
+    shading.clear(places, buffer.samples);
+    let (mut pixels, mut last) = (0, U32::splat(simd, NOBODY));
+    let rows = buffer.winners().as_chunks::<LANES>().0;
+    let Shading { slots, groups, fragments, parts, empty_groups, edges, .. } = &mut *shading;
+    // As a slice: where it lies is looked up once.
+    let marks = slots.as_mut_slice();
+    for (group, rows) in rows.chunks_exact(buffer.samples).enumerate() {
+        let (first, others) = rows.split_first().expect("a pixel has a sample");
+        let lanes = U32::simd_from(simd, *first);
+        // As before: often within large triangles.
+        if !lanes.simd_eq(last).all_true() {
+            // All of them: which ones are new, nobody can foresee.
+            for winner in <[u32; LANES]>::from(lanes.min(places as u32)) {
+                marks[winner as usize] = 1;
+            }
+        }
+        last = lanes;
+        let agree = others.iter().fold(
             Mask::splat(simd, true),
             #[inline(always)]
-            |agree, row| agree & lanes.simd_eq(U32::from_slice(simd, row)),
+            |agree, row| agree & lanes.simd_eq(U32::simd_from(simd, *row)),
         );
-        let edges = !agree.to_bitmask() & 0xff;
+        let partly = !agree.to_bitmask() & 0xff;
         let empty = lanes.simd_eq(U32::splat(simd, NOBODY)).to_bitmask();
         if empty != 0 {
-            shading.empty_groups.push(EmptyGroup { number: group as u32, lanes: empty as u32 });
+            empty_groups.push(EmptyGroup { number: group as u32, lanes: empty as u32 });
         }
         let seen = !empty & 0xff;
         pixels += seen.count_ones();
-        if seen.count_ones() >= FULL {
-            let slot = shading.slots[first[seen.trailing_zeros() as usize] as usize];
-            let group =
-                Group { slot, number: group as u32, lanes: seen as u32, edges: (seen & edges) as u32 };
-            shading.groups.push(group);
-        } else {
-            push_lanes(shading, (group, first), [seen & !edges, seen & edges]);
+        if partly != 0 {
+            edges.push(simd, (group, rows), partly, (parts, marks));
         }
-        if edges != 0 {
-            push_edges(simd, shading, (group, rows), edges);
+        if seen.count_ones() >= FULL {
+            let slot = first[seen.trailing_zeros() as usize % LANES];
+            let edges = (seen & partly) as u32;
+            groups.push(Group { slot, number: group as u32, lanes: seen as u32, edges });
+        } else {
+            push_lanes([fragments, parts], (group, first), [seen & !partly, seen & partly]);
         }
     }
-    let needed = PIXELS + shading.part_colors;
+    number(places, shading);
+    let needed = shading.edges.places();
     if shading.colors.len() < needed {
         shading.colors.resize(needed, [0.0; 4]);
     }
-    pixels as usize + shading.part_colors
+    pixels as usize + shading.edges.part_count()
 }
 
-/// Finds the triangles that are seen and numbers them in their order.
+/// Numbers the triangles that are marked in their order, and gives what was listed the
+/// numbers instead of the winners.
 #[inline(always)]
-fn number<S: Simd>(simd: S, winners: &[u32], places: usize, shading: &mut Shading) {
-    let Shading { slots, seen, .. } = shading;
-    slots.clear();
-    // One more, for nobody.
-    slots.resize(places + 1, 0);
-    // As a slice: where it lies is looked up once.
-    let marks = slots.as_mut_slice();
-    let mut last = U32::splat(simd, NOBODY);
-    for row in winners.as_chunks::<LANES>().0 {
-        let lanes = U32::simd_from(simd, *row);
-        // As before: often with several samples, and within large triangles.
-        if lanes.simd_eq(last).all_true() {
-            continue;
-        }
-        last = lanes;
-        // All of them: which ones are new, nobody can foresee.
-        for winner in <[u32; LANES]>::from(lanes.min(places as u32)) {
-            marks[winner as usize] = 1;
-        }
-    }
+fn number(places: usize, shading: &mut Shading) {
+    let Shading { slots, seen, groups, fragments, parts, .. } = shading;
     slots.truncate(places);
     seen.resize(places, 0);
     let mut count = 0;
@@ -96,20 +82,25 @@ fn number<S: Simd>(simd: S, winners: &[u32], places: usize, shading: &mut Shadin
         count += std::mem::replace(slot, count as u32) as usize;
     }
     seen.truncate(count);
+    let listed = fragments.iter_mut().chain(parts).map(|fragment| &mut fragment.slot);
+    for slot in listed.chain(groups.iter_mut().map(|group| &mut group.slot)) {
+        *slot = slots[*slot as usize];
+    }
 }
 
-/// Lists some pixels of a group by themselves: those that see one triangle, and
-/// edge pixels with what their first samples see.
+/// Lists some pixels of a group by themselves, with the slots or names of what they
+/// see: those that see one triangle, and edge pixels with what their first samples see,
+/// each kind in its list.
 #[inline(always)]
-fn push_lanes(shading: &mut Shading, (group, winners): (usize, &[u32]), lanes: [u64; 2]) {
-    let Shading { slots, fragments, parts, .. } = shading;
-    for ((list, mut lanes), partly) in [fragments, parts].into_iter().zip(lanes).zip([false, true]) {
+fn push_lanes(lists: [&mut Vec<Fragment>; 2], (group, seen): (usize, &[u32; LANES]), lanes: [u64; 2]) {
+    for ((list, mut lanes), partly) in lists.into_iter().zip(lanes).zip([false, true]) {
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize % LANES;
             lanes &= lanes - 1;
             let pixel = group * LANES + lane;
-            let slot = slots[winners[lane] as usize];
-            list.push(Fragment { slot, work: Work::anywhere(pixel, partly, pixel) });
+            let work =
+                if partly { Work::covering(pixel, 0, pixel) } else { Work::anywhere(pixel, false, pixel) };
+            list.push(Fragment { slot: seen[lane], work });
         }
     }
 }
@@ -154,14 +145,17 @@ fn part_groups(buffer: &VisibilityBuffer, shading: &mut Shading) {
     let mut groups = std::mem::take(&mut shading.groups);
     groups.retain(|group| {
         let number = group.number as usize;
-        let winners = &buffer.winners()[number * LANES * buffer.samples..][..LANES];
+        let winners =
+            buffer.winners()[number * LANES * buffer.samples..].first_chunk().expect("groups are whole");
         let run = shading.runs.partition_point(|run| run.slots.end <= group.slot as usize);
         let slots = shading.runs[run].slots.clone();
-        let belongs = |lane: usize| slots.contains(&(shading.slots[winners[lane] as usize] as usize));
+        let seen: [u32; LANES] =
+            winners.map(|winner| shading.slots.get(winner as usize).copied().unwrap_or(NOBODY));
+        let belongs = |lane: usize| slots.contains(&(seen[lane] as usize));
         let stays = (0..LANES).filter(|lane| group.lanes >> lane & 1 != 0).all(belongs);
         if !stays {
             let lanes = [group.lanes & !group.edges, group.edges].map(u64::from);
-            push_lanes(shading, (number, winners), lanes);
+            push_lanes([&mut shading.fragments, &mut shading.parts], (number, &seen), lanes);
         }
         stays
     });

@@ -155,23 +155,41 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
     #[inline(always)]
     pub(crate) fn covers(&self, simd: S, [x, y]: [I32<S>; 2]) -> Mask<S> {
         let (b, c) = ([self.right[0], self.down[0]], [self.right[1], self.down[1]]);
-        let a = [-(b[0] + c[0]), -(b[1] + c[1])];
-        let (edges, _) = self.edges(simd, x - self.x, y - self.y);
-        is_inside(edges[0], a) & is_inside(edges[1], b) & is_inside(edges[2], c)
+        let owned = [[-(b[0] + c[0]), -(b[1] + c[1])], b, c].each(
+            #[inline(always)]
+            |steps| inclusive(steps),
+        );
+        let (dx, dy) = (x - self.x, y - self.y);
+        let Area::Small(area) = self.area else {
+            let (edges, _) = self.edges(simd, dx, dy);
+            return is_inside(edges[0], owned[0])
+                & is_inside(edges[1], owned[1])
+                & is_inside(edges[2], owned[2]);
+        };
+        let [a, b, c] = self.small_edges(area, dx, dy);
+        // One less where the edge itself is not inside: then the signs decide.
+        let [i, j, k] = owned.each(
+            #[inline(always)]
+            |owned| owned.select(I32::splat(simd, 0), I32::splat(simd, -1)),
+        );
+        ((a + i) | (b + j) | (c + k)).simd_ge(I32::splat(simd, 0))
+    }
+
+    /// The edge functions of small triangles.
+    #[inline(always)]
+    fn small_edges(&self, area: I32<S>, dx: I32<S>, dy: I32<S>) -> [I32<S>; 3] {
+        let [b, c] = [0, 1].each(
+            #[inline(always)]
+            |i| self.right[i] * dx + self.down[i] * dy,
+        );
+        [area - b - c, b, c]
     }
 
     /// The edge functions and the area, each rounded once.
     #[inline(always)]
     fn edges(&self, simd: S, dx: I32<S>, dy: I32<S>) -> ([F32<S>; 3], F32<S>) {
         match &self.area {
-            Area::Small(area) => {
-                let [b, c] = [0, 1].each(
-                    #[inline(always)]
-                    |i| self.right[i] * dx + self.down[i] * dy,
-                );
-                let a = *area - b - c;
-                ([a, b, c].each(SimdCvt::to_f32), area.to_f32())
-            }
+            Area::Small(area) => (self.small_edges(*area, dx, dy).each(SimdCvt::to_f32), area.to_f32()),
             Area::Wide(area) => {
                 let [dx, dy]: [[i32; LANES]; 2] = [dx.into(), dy.into()];
                 let mut edges = [[0.0_f32; LANES]; 3];
@@ -270,12 +288,12 @@ fn inclusive<S: Simd>([right, down]: [I32<S>; 2]) -> Mask<S> {
     right.simd_gt(zero) | (right.simd_eq(zero) & down.simd_gt(zero))
 }
 
-/// Where an edge function is inside of its edge. Rounding keeps the sign, and
-/// whether it is zero.
+/// Where an edge function is inside of its edge, which belongs to the triangle where it
+/// is owned. Rounding keeps the sign, and whether it is zero.
 #[inline(always)]
-fn is_inside<S: Simd>(edge: F32<S>, steps: [I32<S>; 2]) -> Mask<S> {
+fn is_inside<S: Simd>(edge: F32<S>, owned: Mask<S>) -> Mask<S> {
     let zero = F32::splat(edge.token(), 0.0);
-    edge.simd_gt(zero) | (edge.simd_eq(zero) & inclusive(steps))
+    edge.simd_gt(zero) | (edge.simd_eq(zero) & owned)
 }
 
 /// Conversion that rounds to nearest, named so that it can be passed on.

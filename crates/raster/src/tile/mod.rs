@@ -12,6 +12,7 @@ mod masked;
 mod micro;
 mod scratch;
 mod seen;
+mod several;
 mod starts;
 mod store;
 mod tiny;

@@ -3,24 +3,35 @@
 
 use super::cover::Cover;
 use super::eight::Eight;
+use super::several::Several;
 use crate::samples::MAX_SAMPLES;
-use crate::simd::{Each, F32, I32, LANES, Simd, prelude::*, widened};
+use crate::simd::{Each, F32, I32, LANES, Simd, inlined, prelude::*, widened};
 use fearless_simd::f64x4;
 
 /// Whole numbers, so that stepping along from there rounds nothing.
 pub(super) struct Starts {
     /// The edge functions at each sample of the first pixel of the first group, over
-    /// 256.
+    /// 256; of several samples less the greatest.
     pub(super) edges: [[[i32; LANES]; 3]; MAX_SAMPLES],
+    /// The greatest at any of several samples.
+    pub(super) greatest: [[i32; LANES]; 3],
     /// From the triangles' first vertices to the corner of that pixel, in 1/256 pixel.
     pub(super) way: [[f64; LANES]; 2],
     /// Depths of the first vertices.
     pub(super) value: [f64; LANES],
+    /// For one of the triangles, where pixels have several samples.
+    pub(super) several: Several,
 }
 
 impl Starts {
-    pub(super) fn new() -> Self {
-        Self { edges: [[[0; LANES]; 3]; MAX_SAMPLES], way: [[0.0; LANES]; 2], value: [0.0; LANES] }
+    pub(super) fn new(offsets: &[[i32; 2]]) -> Self {
+        Self {
+            edges: [[[0; LANES]; 3]; MAX_SAMPLES],
+            greatest: [[0; LANES]; 3],
+            way: [[0.0; LANES]; 2],
+            value: [0.0; LANES],
+            several: Several::new(offsets),
+        }
     }
 
     /// Finds them for eight triangles.
@@ -32,12 +43,23 @@ impl Starts {
         for k in 0..3 {
             let (right, down) = (column(&eight.right[k]), column(&eight.down[k]));
             let along = right * pixel[0] + down * pixel[1];
-            self.edges[0][k] = (along + column(&eight.first[k])).into();
-            if MULTI {
-                let corner = column(&eight.corner[k]);
-                for (edges, [x, y]) in self.edges.iter_mut().zip(cover.offsets).skip(1) {
-                    edges[k] = (along + ((corner + right * *x + down * *y) >> 8)).into();
-                }
+            if !MULTI {
+                self.edges[0][k] = (along + column(&eight.first[k])).into();
+                continue;
+            }
+            let corner = column(&eight.corner[k]);
+            let at = inlined(
+                #[inline(always)]
+                |[x, y]: [i32; 2]| (corner + right * x + down * y) >> 8,
+            );
+            let greatest = cover.offsets.iter().fold(
+                at(cover.offsets[0]),
+                #[inline(always)]
+                |greatest, offset| greatest.max(at(*offset)),
+            );
+            self.greatest[k] = (along + greatest).into();
+            for (edges, offset) in self.edges.iter_mut().zip(cover.offsets) {
+                edges[k] = (at(*offset) - greatest).into();
             }
         }
         let axes = pixel.into_iter().zip(cover.area.origin).zip(&eight.anchor);

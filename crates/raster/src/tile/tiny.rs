@@ -7,6 +7,7 @@ use super::area::{BLOCKS, TileArea};
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::cover::{Counts, Cover};
 use super::eight::Eight;
+use super::several;
 use super::starts::Starts;
 use super::store::name_where;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lane_numbers, lesser, prelude::*};
@@ -17,30 +18,44 @@ use fearless_simd::f64x4;
 const WRITES: u32 = 4;
 
 /// A triangle on its way through a tile.
-struct Tiny<S: Simd> {
-    place: u32,
+pub(super) struct Tiny<S: Simd> {
+    pub(super) place: u32,
     /// First and last columns and rows of groups.
-    columns: [usize; 2],
-    rows: [usize; 2],
+    pub(super) columns: [usize; 2],
+    pub(super) rows: [usize; 2],
     /// Edge functions' steps within a group, to the next group, and to the next row
     /// of groups.
-    lanes: [I32<S>; 3],
-    right: [I32<S>; 3],
-    down: [I32<S>; 3],
+    pub(super) lanes: [I32<S>; 3],
+    pub(super) right: [I32<S>; 3],
+    pub(super) down: [I32<S>; 3],
     /// The plane of depth, and what it is held to.
-    value: f64x4<S>,
-    slopes: [f64x4<S>; 2],
-    low: F32<S>,
-    high: F32<S>,
+    pub(super) value: f64x4<S>,
+    pub(super) slopes: [f64x4<S>; 2],
+    pub(super) low: F32<S>,
+    pub(super) high: F32<S>,
 }
 
-/// One sample of a triangle's pixels.
+/// Where the one sample of a triangle's pixels begins.
 struct Start<S: Simd> {
-    sample: usize,
     /// The edge functions at the first group.
     edges: [I32<S>; 3],
     /// From the triangle's first vertex to the first group, in 1/256 pixel.
     way: [f64x4<S>; 2],
+}
+
+impl<S: Simd> Start<S> {
+    #[inline(always)]
+    fn new(simd: S, tiny: &Tiny<S>, (starts, lane): (&Starts, usize), offset: [i32; 2]) -> Self {
+        let [dx, dy] = starts.way(simd, lane, offset);
+        let edges = starts.edges(simd, 0, lane);
+        Self {
+            edges: [0, 1, 2].each(
+                #[inline(always)]
+                |k| tiny.lanes[k] + edges[k],
+            ),
+            way: [dx + f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]), dy],
+        }
+    }
 }
 
 impl Cover<'_> {
@@ -49,7 +64,7 @@ impl Cover<'_> {
     pub(super) fn tiny<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        (eight, starts, lane): (&Eight, &Starts, usize),
+        (eight, starts, lane): (&Eight, &mut Starts, usize),
         place: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
@@ -65,7 +80,7 @@ impl Cover<'_> {
     fn tiny_apart<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        (eight, starts, lane): (&Eight, &Starts, usize),
+        (eight, starts, lane): (&Eight, &mut Starts, usize),
         place: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
@@ -77,26 +92,20 @@ impl Cover<'_> {
         }
         let tiny = eight.tiny(simd, (starts, lane), place);
         counts.groups += tiny.groups();
-        let samples = if MULTI { self.offsets.len() } else { 1 };
-        for sample in 0..samples {
-            let [dx, dy] = starts.way(simd, lane, self.offsets[sample]);
-            let edges = starts.edges(simd, sample, lane);
-            let start = Start {
-                sample,
-                edges: [0, 1, 2].each(
-                    #[inline(always)]
-                    |k| tiny.lanes[k] + edges[k],
-                ),
-                way: [dx + f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]), dy],
-            };
+        let ties = if MULTI {
+            several::rows(simd, &tiny, (starts, lane), buffer)
+        } else {
+            let start = Start::new(simd, &tiny, (starts, lane), self.offsets[0]);
             // As many columns as most have without a loop.
-            let ties = match tiny.columns[1] - tiny.columns[0] {
-                0 => rows::<S, MULTI, 1>(simd, &tiny, &start, buffer),
-                1 => rows::<S, MULTI, 2>(simd, &tiny, &start, buffer),
-                2 => rows::<S, MULTI, 3>(simd, &tiny, &start, buffer),
-                _ => rows::<S, MULTI, 0>(simd, &tiny, &start, buffer),
-            };
-            if !self.in_order && ties.any_true() {
+            match tiny.columns[1] - tiny.columns[0] {
+                0 => rows::<S, 1>(simd, &tiny, &start, buffer),
+                1 => rows::<S, 2>(simd, &tiny, &start, buffer),
+                2 => rows::<S, 3>(simd, &tiny, &start, buffer),
+                _ => rows::<S, 0>(simd, &tiny, &start, buffer),
+            }
+        };
+        if !self.in_order && ties.any_true() {
+            for sample in 0..self.offsets.len() {
                 self.win_ties((eight, lane), (place, sample), buffer);
             }
         }
@@ -161,22 +170,21 @@ impl Cover<'_> {
     }
 }
 
-/// Lets one sample of the pixels in all rows compete: of `WIDTH` columns of groups if
-/// that is not 0. Tells where something lies at the same depth.
+/// Lets the only sample of the pixels in all rows compete: of `WIDTH` columns of groups
+/// if that is not 0. Tells where something lies at the same depth.
 ///
 /// Nothing is called from here: no register has to be given up.
 #[inline(always)]
-fn rows<S: Simd, const MULTI: bool, const WIDTH: usize>(
+fn rows<S: Simd, const WIDTH: usize>(
     simd: S,
     tiny: &Tiny<S>,
     start: &Start<S>,
     buffer: &mut VisibilityBuffer,
 ) -> Mask<S> {
-    let samples = if MULTI { buffer.samples } else { 1 };
     let width = if WIDTH > 0 { WIDTH } else { tiny.columns[1] - tiny.columns[0] + 1 };
     let (depths, winners) =
         (buffer.depth.as_chunks_mut::<LANES>().0, buffer.winner.as_chunks_mut::<LANES>().0);
-    let Start { sample, mut edges, way: [first, mut dy] } = *start;
+    let Start { mut edges, way: [first, mut dy] } = *start;
     let [right, down] = tiny.slopes;
     let mut ties = Mask::splat(simd, false);
     for row in tiny.rows[0]..tiny.rows[1] + 1 {
@@ -190,7 +198,7 @@ fn rows<S: Simd, const MULTI: bool, const WIDTH: usize>(
             // What is not covered lies behind everything.
             let covered = (a | b | c).simd_ge(I32::splat(simd, 0));
             let depth = covered.select(depth, F32::splat(simd, f32::NEG_INFINITY));
-            let at = TileArea::group_of([tiny.columns[0] + column, row]) * samples + sample;
+            let at = TileArea::group_of([tiny.columns[0] + column, row]);
             let there = F32::simd_from(simd, depths[at]);
             ties |= depth.simd_eq(there);
             depths[at] = greater(depth, there).into();

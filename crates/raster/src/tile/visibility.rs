@@ -51,7 +51,7 @@ fn cover_opaque<S: Simd, const MULTI: bool>(
         precedes: &precedes,
     };
     let places = &places[..opaque];
-    let mut starts = Starts::new();
+    let mut starts = Starts::new(cover.offsets);
     let mut start = 0;
     while start < opaque {
         let together = side_by_side(frame, &places[start..]);
@@ -64,7 +64,7 @@ fn cover_opaque<S: Simd, const MULTI: bool>(
                 starts.find::<S, MULTI>(simd, &cover, eight);
             }
             for (lane, &place) in places[start..end].iter().enumerate() {
-                let ready = eight.as_ref().map(|eight| (eight, &starts, lane));
+                let ready = eight.as_ref().map(|eight| (eight, &mut starts, lane));
                 cover_one::<S, MULTI>(simd, frame, &cover, ready, (place, start + lane), (buffer, counts));
             }
         }
@@ -78,7 +78,7 @@ fn cover_one<S: Simd, const MULTI: bool>(
     simd: S,
     frame: &FrameView<'_>,
     cover: &Cover<'_>,
-    ready: Option<(&Eight, &Starts, usize)>,
+    ready: Option<(&Eight, &mut Starts, usize)>,
     (place, number): (Place, usize),
     (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
 ) {

@@ -1,0 +1,128 @@
+//! Triangles of a few pixels to a few blocks where pixels have several samples: group by
+//! group all samples, so that a group's place is looked up once.
+
+use super::area::TileArea;
+use super::buffer::VisibilityBuffer;
+use super::starts::Starts;
+use super::store::name_where;
+use super::tiny::Tiny;
+use crate::samples::MAX_SAMPLES;
+use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, lesser, prelude::*};
+use fearless_simd::f64x4;
+
+/// What the samples of a triangle's pixels begin with, in all lanes.
+pub(super) struct Several {
+    /// The edge functions at the first pixel of the first group, less the greatest.
+    edges: [[[i32; LANES]; 3]; MAX_SAMPLES],
+    /// The plane of depth in the upper and the lower row of a row of groups, at its start.
+    planes: [[[f64; 4]; 2]; MAX_SAMPLES],
+    /// From the pixel's corner, in 1/256 pixel.
+    offsets: [[[f64; 4]; 2]; MAX_SAMPLES],
+}
+
+impl Several {
+    pub(super) fn new(offsets: &[[i32; 2]]) -> Self {
+        let mut splat = [[[0.0; 4]; 2]; MAX_SAMPLES];
+        for (splat, offset) in splat.iter_mut().zip(offsets) {
+            *splat = offset.map(|axis| [f64::from(axis); 4]);
+        }
+        Self { edges: [[[0; LANES]; 3]; MAX_SAMPLES], planes: [[[0.0; 4]; 2]; MAX_SAMPLES], offsets: splat }
+    }
+}
+
+/// Lets all samples of the pixels in all rows compete. Tells where something lies at the
+/// same depth.
+#[inline(always)]
+pub(super) fn rows<S: Simd>(
+    simd: S,
+    tiny: &Tiny<S>,
+    (starts, lane): (&mut Starts, usize),
+    buffer: &mut VisibilityBuffer,
+) -> Mask<S> {
+    let samples = buffer.samples;
+    let Starts { edges, greatest, several, .. } = &mut *starts;
+    for (edges, starts) in several.edges.iter_mut().zip(&edges[..samples]) {
+        for (edge, start) in edges.iter_mut().zip(starts) {
+            *edge = I32::splat(simd, start[lane]).into();
+        }
+    }
+    let mut edges = [0, 1, 2].each(
+        #[inline(always)]
+        |k| tiny.lanes[k] + greatest[k][lane],
+    );
+    let [dx, mut dy] = starts.way(simd, lane, [0, 0]);
+    let dx = dx + f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]);
+    let mut ties = Mask::splat(simd, false);
+    for row in tiny.rows[0]..tiny.rows[1] + 1 {
+        let Several { planes, offsets, .. } = &mut starts.several;
+        for (planes, offset) in planes.iter_mut().zip(&offsets[..samples]) {
+            let dy = dy + f64x4::simd_from(simd, offset[1]);
+            for (plane, dy) in planes.iter_mut().zip([dy, dy + 256.0]) {
+                *plane = (tiny.value + tiny.slopes[1] * dy).into();
+            }
+        }
+        ties |= columns(simd, tiny, (row, edges, dx), &starts.several, buffer);
+        for (edge, step) in edges.iter_mut().zip(tiny.down) {
+            *edge += step;
+        }
+        dy += 512.0;
+    }
+    ties
+}
+
+/// The same for one row of groups.
+#[inline(always)]
+fn columns<S: Simd>(
+    simd: S,
+    tiny: &Tiny<S>,
+    (row, mut edges, mut dx): (usize, [I32<S>; 3], f64x4<S>),
+    several: &Several,
+    buffer: &mut VisibilityBuffer,
+) -> Mask<S> {
+    let samples = buffer.samples;
+    let mut ties = Mask::splat(simd, false);
+    for column in tiny.columns[0]..tiny.columns[1] + 1 {
+        let (here, at) = (edges, dx);
+        for (edge, step) in edges.iter_mut().zip(tiny.right) {
+            *edge += step;
+        }
+        dx += 1024.0;
+        // Where not even the greatest are inside of all edges, no sample is.
+        if !inside(simd, here).any_true() {
+            continue;
+        }
+        let group = TileArea::group_of([column, row]) * samples;
+        let depths = &mut buffer.depth.as_chunks_mut::<LANES>().0[group..group + samples];
+        let winners = &mut buffer.winner.as_chunks_mut::<LANES>().0[group..group + samples];
+        let there = depths.iter_mut().zip(winners);
+        let starts = several.edges.iter().zip(&several.planes).zip(&several.offsets);
+        for ((there, winners), ((starts, planes), offset)) in there.zip(starts) {
+            let across = tiny.slopes[0] * (at + f64x4::simd_from(simd, offset[0]));
+            let [upper, lower] = planes.each_ref().each(
+                #[inline(always)]
+                |plane| f64x4::simd_from(simd, *plane) + across,
+            );
+            let depth = lesser(greater(simd.narrow_f64x4(upper, lower), tiny.low), tiny.high);
+            let covered = inside(
+                simd,
+                [0, 1, 2].each(
+                    #[inline(always)]
+                    |k| here[k] + I32::simd_from(simd, starts[k]),
+                ),
+            );
+            // What is not covered lies behind everything.
+            let depth = covered.select(depth, F32::splat(simd, f32::NEG_INFINITY));
+            let before = F32::simd_from(simd, *there);
+            ties |= depth.simd_eq(before);
+            *there = greater(depth, before).into();
+            name_where(simd, depth.simd_gt(before), tiny.place, winners);
+        }
+    }
+    ties
+}
+
+/// Which pixels lie inside of all edges.
+#[inline(always)]
+fn inside<S: Simd>(simd: S, [a, b, c]: [I32<S>; 3]) -> Mask<S> {
+    (a | b | c).simd_ge(I32::splat(simd, 0))
+}
