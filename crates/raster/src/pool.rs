@@ -2,6 +2,7 @@
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::num::NonZeroUsize;
+use std::sync::{Mutex, PoisonError};
 
 /// Who works on a frame: the calling thread, and perhaps others beside it.
 pub(crate) struct Workers {
@@ -47,12 +48,46 @@ impl Workers {
             _ => work(0),
         }
     }
+
+    /// Works through items, each taken by the worker that is free first.
+    pub(crate) fn share<I>(&self, items: I, work: impl Fn(I::Item) + Sync)
+    where
+        I: Iterator + Send,
+    {
+        let items = Mutex::new(items);
+        self.run(true, |_| {
+            // An item that somebody panicked over is gone; the others are still there.
+            while let Some(item) = take(&items) {
+                work(item);
+            }
+        });
+    }
+}
+
+/// Unlocks before the item is worked on.
+fn take<I: Iterator>(items: &Mutex<I>) -> Option<I::Item> {
+    items.lock().unwrap_or_else(PoisonError::into_inner).next()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
+
+    #[test]
+    fn every_item_is_taken_once() {
+        for threads in [1, 2, 3] {
+            let mut numbers = vec![0; 1000];
+            Workers::new(NonZeroUsize::new(threads)).share(
+                numbers.chunks_mut(7).enumerate(),
+                |(at, chunk)| {
+                    chunk.iter_mut().for_each(|number| *number += at + 1);
+                },
+            );
+            let expected: Vec<_> = (0..1000).map(|i| i / 7 + 1).collect();
+            assert_eq!(numbers, expected, "{threads} threads");
+        }
+    }
 
     #[test]
     fn every_worker_takes_part_once() {

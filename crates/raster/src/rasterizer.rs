@@ -75,6 +75,16 @@ impl Rasterizer {
         let how = How { token: self.token, workers, tile_size, hierarchical, timed, cancel };
         draw(&mut self.arena, pass, target, how)
     }
+
+    /// Works through items of any kind on the threads that draw, each item taken by the
+    /// thread that is free first: what is to be done beside a frame needs no threads of
+    /// its own. Returns when all is done.
+    pub fn share<I>(&self, items: I, work: impl Fn(I::Item) + Sync)
+    where
+        I: Iterator + Send,
+    {
+        self.workers.share(items, work);
+    }
 }
 
 impl Default for Rasterizer {

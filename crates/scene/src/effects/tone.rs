@@ -4,27 +4,27 @@
 //! The background is what the user chose for the display: it lies behind the mapped
 //! picture as it is.
 
-use rayon::prelude::*;
 use trigon_math::{Vec3, Vec4, color};
+use trigon_raster::Rasterizer;
 
-use super::{EffectSettings, ToneMapping};
-use crate::background::Background;
+use super::ToneMapping;
+use crate::settings::RenderSettings;
 
 /// A picture in linear light, premultiplied, on nothing, becomes sRGB bytes on its
 /// background.
 pub(crate) fn map_picture(
     linear: &[Vec4],
-    settings: &EffectSettings,
-    background: &Background,
-    [width, height]: [u32; 2],
+    settings: &RenderSettings,
     pixels: &mut [[u8; 4]],
+    rasterizer: &Rasterizer,
 ) {
-    let factor = settings.exposure_factor();
-    let rows = pixels.par_chunks_mut(width as usize).zip(linear.par_chunks(width as usize));
-    rows.enumerate().for_each(|(y, (row, linear))| {
-        let behind = background.row(y as u32, height);
+    let RenderSettings { width, height, background, effects, .. } = settings;
+    let (width, factor) = (*width as usize, effects.exposure_factor());
+    let rows = pixels.chunks_mut(width).zip(linear.chunks(width)).enumerate();
+    rasterizer.share(rows, |(y, (row, linear))| {
+        let behind = background.row(y as u32, *height);
         for (pixel, &light) in row.iter_mut().zip(linear) {
-            *pixel = encoded(mapped(light, factor, settings.tone_mapping), behind);
+            *pixel = encoded(mapped(light, factor, effects.tone_mapping), behind);
         }
     });
 }
@@ -75,6 +75,7 @@ fn encoded(color: Vec4, behind: Vec4) -> [u8; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::background::Background;
 
     #[test]
     fn colours_below_the_knee_lose_only_the_reflection_of_the_surface() {
@@ -99,11 +100,12 @@ mod tests {
 
     #[test]
     fn the_background_is_not_mapped() {
-        let settings = EffectSettings { exposure: 3.0, ..EffectSettings::default() };
+        let mut settings = RenderSettings::new(2, 1);
+        settings.effects.exposure = 3.0;
+        settings.background = Background::Color(Vec3::splat(0.2));
         let mut pixels = [[0; 4]; 2];
         let linear = [Vec4::ZERO, Vec4::new(0.05, 0.0, 0.0, 1.0)];
-        let background = Background::Color(Vec3::splat(0.2));
-        map_picture(&linear, &settings, &background, [2, 1], &mut pixels);
+        map_picture(&linear, &settings, &mut pixels, &Rasterizer::default());
         let grey = color::linear_to_srgb8(0.2);
         let red = color::linear_to_srgb8(0.4);
         assert_eq!(

@@ -1,10 +1,8 @@
 //! Visits the pixels, and puts into the frame what it is to hold.
 
-use std::num::NonZeroUsize;
-
-use rayon::prelude::*;
 use trigon_camera::{Camera, Projector, Viewport};
 use trigon_math::{DVec2, DVec3, Vec2, Vec3};
+use trigon_raster::Rasterizer;
 
 use super::facet::Beam;
 use super::seen::Seen;
@@ -17,18 +15,19 @@ const ROWS: usize = 8;
 
 /// Finds everything that follows from the triangles that are seen. `sample` is where
 /// in each pixel they were seen.
-pub(crate) fn fill(frame: &mut Frame, stage: &Stage<'_>, camera: &Camera, sample: [f64; 2], seen: &Seen) {
+pub(crate) fn fill(
+    frame: &mut Frame,
+    stage: &Stage<'_>,
+    (camera, sample): (&Camera, [f64; 2]),
+    seen: &Seen,
+    rasterizer: &Rasterizer,
+) {
     let Some(lens) = Lens::new(stage, camera, sample) else { return };
-    let (width, height) = (frame.width as usize, frame.height as usize);
+    let width = frame.width as usize;
     let sources: Vec<Option<Source<'_>>> = sources(stage, &seen.objects);
-    let rows = match stage.settings.threads.map(NonZeroUsize::get) {
-        // No more pieces than threads that may work on them.
-        Some(threads) => height.div_ceil(threads),
-        None => ROWS,
-    };
-    let pieces: Vec<Piece<'_>> = Piece::cut(frame, width * rows);
-    pieces.into_par_iter().enumerate().for_each(|(number, mut piece)| {
-        piece.fill((&lens, &sources), (seen, width), number * width * rows);
+    let pieces: Vec<Piece<'_>> = Piece::cut(frame, width * ROWS);
+    rasterizer.share(pieces.into_iter().enumerate(), |(number, mut piece)| {
+        piece.fill((&lens, &sources), (seen, width), number * width * ROWS);
     });
 }
 
