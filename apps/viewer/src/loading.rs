@@ -93,8 +93,12 @@ pub(crate) fn light(request: &mut Request, reporter: Reporter) -> Result<(), Fai
 fn load_file(path: &Path, request: &Request, progress: Progress<'_>) -> Result<Loaded, Failure> {
     check_size(path, request.max_bytes)?;
     let follow = |at: trigon_io::Progress| progress(at.fraction);
-    let options =
-        LoadOptions { scene: request.scene.clone(), progress: Some(&follow), ..LoadOptions::default() };
+    let options = LoadOptions {
+        scene: request.scene.clone(),
+        threads: request.settings.threads,
+        progress: Some(&follow),
+        ..LoadOptions::default()
+    };
     trigon_io::load(path, &options).map_err(Failure::work)
 }
 

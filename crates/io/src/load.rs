@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
+use rayon::ThreadPoolBuilder;
 use trigon_scene::Scene;
 
 use crate::error::{LoadError, LoadErrorKind};
@@ -46,7 +47,7 @@ pub fn load(path: impl AsRef<Path>, options: &LoadOptions<'_>) -> Result<Loaded,
     let mut folder = Folder::of(path, &options.limits).map_err(|error| LoadError::read(path, &error))?;
     let bytes = folder.read_model(path)?;
     options.report(path, Stage::Reading, 1.0)?;
-    import(path, Cow::Owned(bytes), folder, options)
+    import_on(path, Cow::Owned(bytes), folder, options)
 }
 
 /// Loads a model from memory, such as what came through standard input. It
@@ -66,7 +67,22 @@ pub fn load_from_slice(
         return Err(Refusal::TooLarge(length, limit).of_model(name));
     }
     options.report(name, Stage::Reading, 1.0)?;
-    import(name, Cow::Borrowed(bytes), Folder::none(&options.limits), options)
+    import_on(name, Cow::Borrowed(bytes), Folder::none(&options.limits), options)
+}
+
+/// Imports on as many threads as the options allow.
+fn import_on(
+    path: &Path,
+    bytes: Cow<'_, [u8]>,
+    folder: Folder,
+    options: &LoadOptions<'_>,
+) -> Result<Loaded, LoadError> {
+    let Some(threads) = options.threads else { return import(path, bytes, folder, options) };
+    let pool = ThreadPoolBuilder::new().num_threads(threads.get()).build().map_err(|error| {
+        let what = format!("there are no {threads} threads to load it with ({error})");
+        LoadError::new(LoadErrorKind::Read, path, what, "ask for fewer threads")
+    })?;
+    pool.install(|| import(path, bytes, folder, options))
 }
 
 fn import(

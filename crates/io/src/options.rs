@@ -1,6 +1,7 @@
 //! How to load: limits, and a callback that follows along.
 
 use std::fmt;
+use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -48,6 +49,9 @@ pub struct LoadOptions<'a> {
     /// The scene to load of a file that has several; without it the one that
     /// the file itself shows. Formats without scenes take no notice.
     pub scene: Option<SceneChoice>,
+    /// How many threads may work on it: as many as the machine runs at once, unless
+    /// given.
+    pub threads: Option<NonZeroUsize>,
     /// Follows the progress, and may cancel.
     pub progress: Option<ProgressHook<'a>>,
 }
@@ -55,10 +59,11 @@ pub struct LoadOptions<'a> {
 impl fmt::Debug for LoadOptions<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let progress = self.progress.map(|_| "a callback");
-        let Self { limits, scene, .. } = self;
+        let Self { limits, scene, threads, .. } = self;
         f.debug_struct("LoadOptions")
             .field("limits", limits)
             .field("scene", scene)
+            .field("threads", threads)
             .field("progress", &progress)
             .finish()
     }

@@ -54,7 +54,12 @@ impl FromStr for Beside {
                 return Err(format!(".{ending} is no format for one output; there are .npy and .png"));
             }
         };
-        let output = name.parse().map_err(|error: trigon_io::UnknownOutput| error.to_string())?;
+        let output: Output = name.parse().map_err(|error: trigon_io::UnknownOutput| error.to_string())?;
+        if format == Some(Format::Png16) && !output.fits_png16() {
+            return Err(format!(
+                "{output} has no place in a PNG of 16 bits; write it as {output}.npy or into an OpenEXR file"
+            ));
+        }
         Ok(Self { output, format })
     }
 }
@@ -77,8 +82,12 @@ mod tests {
 
     #[test]
     fn mistakes_are_named() {
-        for (text, words) in [("dept", "geometric-normals"), ("depth.tiff", ".npy and .png"), ("", "albedo")]
-        {
+        for (text, words) in [
+            ("dept", "geometric-normals"),
+            ("depth.tiff", ".npy and .png"),
+            ("", "albedo"),
+            ("albedo.png", "albedo.npy"),
+        ] {
             let error = text.parse::<Beside>().expect_err("refused");
             assert!(error.contains(words), "{text}: {error}");
         }

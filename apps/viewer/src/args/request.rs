@@ -104,7 +104,7 @@ impl Request {
         };
         let mode = mode(&raw);
         check_output(&mode, files.len(), grouping)?;
-        check_outputs(raw.output.as_ref(), &raw.outputs)?;
+        check_outputs(&mode, &raw.outputs)?;
         Ok(Self {
             mode,
             files,
@@ -162,9 +162,15 @@ fn check_output(mode: &Mode, files: usize, grouping: Grouping) -> Result<(), Str
 }
 
 /// Outputs need a place: files beside the picture, or channels in it.
-fn check_outputs(output: Option<&Destination>, outputs: &[Beside]) -> Result<(), String> {
+fn check_outputs(mode: &Mode, outputs: &[Beside]) -> Result<(), String> {
+    if outputs.is_empty() {
+        return Ok(());
+    }
+    let Mode::Picture { output, .. } = mode else {
+        return Err("--outputs goes with a picture, and none is drawn; leave out --outputs, or the flag that asks for something else".to_owned());
+    };
     match output {
-        Some(Destination::Stdout) if !outputs.is_empty() => Err(
+        Some(Destination::Stdout) => Err(
             "--outputs writes files beside the picture, but standard output has no name; name one (--output picture.png)".to_owned(),
         ),
         Some(Destination::File(template)) if template.is_exr() => {
@@ -460,6 +466,10 @@ mod tests {
         assert_eq!(outputs("--output o.exr"), Outputs::default(), "colours alone");
         assert!(refusal("--outputs depth").contains("--output"), "needs a name");
         assert!(refusal("--output - --outputs depth").contains("standard output"), "needs a name");
+        for other in ["--no-render", "--explain", "--list-readers"] {
+            let message = refusal(&format!("--output o.png --outputs depth {other}"));
+            assert!(message.contains("none is drawn"), "{other}: {message}");
+        }
         assert!(refusal("--output o.EXR --outputs depth.png").contains("--outputs=depth"), "explained");
         assert!(refusal("--output o.png --outputs dept").contains("triangle-ids"), "all names");
     }

@@ -136,7 +136,7 @@ impl Viewer {
             match Watch::new(move || waker.wake()) {
                 Ok(watch) => self.watch = Some(watch),
                 Err(error) => {
-                    self.tell_failure(stage, &Failure::work(format!("files cannot be watched: {error}")))
+                    self.tell_failure(stage, &Failure::work(format!("files cannot be watched: {error}")));
                 }
             }
         }

@@ -104,6 +104,15 @@ impl Output {
         *switch = true;
     }
 
+    /// Whether [`write_png16`] has a place for it.
+    pub fn fits_png16(self) -> bool {
+        match self {
+            Self::Depth | Self::ObjectIds | Self::FaceIds | Self::MaterialIds | Self::TriangleIds => true,
+            Self::Normals | Self::GeometricNormals => true,
+            Self::Color | Self::Barycentrics | Self::Positions | Self::Uvs | Self::Albedo => false,
+        }
+    }
+
     fn names() -> String {
         Self::ALL.map(Self::name).join(", ")
     }
