@@ -155,7 +155,8 @@ const UNIT: f64 = 1.0 / (1 << 24) as f64;
 const ROUNDED: f64 = 10.5 * UNIT;
 
 proptest! {
-    #![proptest_config(cases(200))]
+    // Differences leave out slivers and steep perspective, most of the probes.
+    #![proptest_config(ProptestConfig { max_global_rejects: 1 << 14, ..cases(200) })]
 
     #[test]
     fn values_are_perspective_correct(probe in probe()) {

@@ -38,7 +38,7 @@ pub(super) struct Facet {
     is_cut: bool,
     /// The box around what is seen of it; unbounded if it is cut.
     bounds: [DVec2; 2],
-    /// Edges opposite to each corner beyond which the mesh surely turns away.
+    /// Edges opposite to each corner beyond which the mesh may turn away.
     rims: [bool; 3],
 }
 
@@ -180,7 +180,7 @@ fn bounds(seen: &[(DVec3, DVec3); 3]) -> [DVec2; 2] {
     [low[0].min(low[1]).min(low[2]), high[0].max(high[1]).max(high[2])]
 }
 
-/// Finds the edges of a closed mesh beyond which it surely turns away.
+/// Finds the edges of a closed mesh beyond which it may turn away.
 pub(super) fn find_rims(facets: &mut [Facet]) {
     let key = |corner: DVec3| corner.to_array().map(f64::to_bits);
     let mut facing = std::collections::HashMap::new();
@@ -197,7 +197,8 @@ pub(super) fn find_rims(facets: &mut [Facet]) {
             facet.rims[corner] = beyond.is_none_or(|beyond| match facet.front {
                 // Seen from both sides it turns away where it turns over.
                 0.0 => beyond == 0.0 || beyond != facet.facing(),
-                _ => beyond < 0.0,
+                // One that is nearly edge-on may be turned over by snapping.
+                _ => beyond <= 0.0,
             });
         }
     }
