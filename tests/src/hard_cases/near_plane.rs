@@ -45,7 +45,11 @@ fn triangle() -> impl Strategy<Value = [Vec4; 3]> {
 
 /// Compares what is drawn of a triangle with what rays meet.
 fn check(corners: [Vec4; 3]) {
-    let facet = Facet::new(corners, UVec2::splat(SIDE as u32));
+    // In the near plane itself rounding would decide what a ray meets: what is seen is the
+    // same from half as deep on.
+    let is_in_plane = corners.iter().all(|corner| corner.z == corner.w);
+    let before = if is_in_plane { corners.map(|c| Vec4::new(c.x, c.y, 0.5 * c.z, c.w)) } else { corners };
+    let facet = Facet::new(before, UVec2::splat(SIDE as u32));
     let pipeline = Values::ones(corners);
     let mut pass = Pass::new();
     pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &[[0, 1, 2]]) });
@@ -60,6 +64,7 @@ fn check(corners: [Vec4; 3]) {
         let met = facet.meets(point);
         assert_eq!(id == 0, met.is_some(), "at {point} of {corners:?}");
         let Some(exact) = met else { continue };
+        let exact = if is_in_plane { 1.0 } else { exact };
         let bound = facet.steepness() * TOLERANCE.outline + TOLERANCE.depth;
         assert!((f64::from(depth) - exact).abs() <= bound, "depth {depth} instead of {exact} at {point}");
     }
