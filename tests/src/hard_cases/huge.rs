@@ -1,16 +1,16 @@
 //! Triangles that reach far beyond the picture: to the rim of the guard band,
 //! 32768 pixels from the middle, over it, and to the end of what is a coordinate.
 
+use super::against_rays::check;
 use crate::coverage::fan_triangles;
-use crate::coverage_support::{SIDE, Values, clip_position, count, draw, pixel};
+use crate::coverage_support::{SIDE, Values, clip_position, count, pixel};
 use crate::effort::cases;
 use crate::multisampling::light;
 use proptest::prelude::*;
-use trigon_math::{DVec2, UVec2, Vec4, elementary};
-use trigon_raster::{Culling, Draw, Pass};
+use trigon_math::{Vec4, elementary};
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::coverage::mask;
-use trigon_study::oracle::ray::{Facet, Tolerance};
+use trigon_study::oracle::ray::Tolerance;
 
 /// The guard band's rim in steps of the grid from the picture's middle.
 const RIM: i32 = 32768 * 256;
@@ -83,23 +83,7 @@ proptest! {
     /// lies as deep.
     #[test]
     fn huge_triangles_cover_what_rays_meet_and_at_its_depth(corners in [far_corner(), far_corner(), far_corner()]) {
-        let facet = Facet::new(corners, UVec2::splat(SIDE as u32));
-        let pipeline = Values::ones(corners);
-        let mut pass = Pass::new();
-        pass.triangles(Draw { culling: Culling::None, ..Draw::new(&pipeline, &[[0, 1, 2]]) });
-        let pictures = draw(&pass);
-        let (ids, depths) = (pictures.triangles.expect("asked for"), pictures.depth.expect("asked for"));
-        for (index, (&id, &depth)) in ids.iter().zip(&depths).enumerate() {
-            let point = DVec2::from(pixel(index).map(f64::from)) + 0.5;
-            if facet.distance_to_outline(point) <= TOLERANCE.outline {
-                continue;
-            }
-            let met = facet.meets(point);
-            prop_assert_eq!(id == 0, met.is_some(), "at {}", point);
-            let Some(exact) = met else { continue };
-            let bound = facet.steepness() * TOLERANCE.outline + TOLERANCE.depth;
-            prop_assert!((f64::from(depth) - exact).abs() <= bound, "depth {depth} instead of {exact} at {point}");
-        }
+        check(corners, TOLERANCE);
     }
 
     /// Beyond what rays can tell, too: neighbours are cut at the same points.

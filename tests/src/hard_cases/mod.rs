@@ -1,6 +1,7 @@
 //! The cases of `docs/hard-cases.md` that no other module holds yet, one file for
 //! each family.
 
+mod against_rays;
 mod blending;
 mod camera;
 mod coverage;
