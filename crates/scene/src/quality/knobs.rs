@@ -1,0 +1,151 @@
+//! The settings that trade accuracy for time, and no others.
+
+use std::fmt;
+
+use crate::effects::Shadows;
+use crate::settings::{RenderSettings, ShadingModel};
+
+/// The settings that trade accuracy for time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quality {
+    /// As [`RenderSettings::samples_per_axis`], 1 to 4.
+    pub samples_per_axis: u32,
+    /// As [`RenderSettings::samples`]: 1, 2, 4, 8 or 16.
+    pub samples: u32,
+    /// Where on surfaces light is found.
+    pub shading: ShadingModel,
+    /// How shadows are found where a picture has them; [`Shadows::Off`] leaves that as
+    /// it is.
+    pub shadows: Shadows,
+    /// Rays of each sample where a picture has ambient occlusion, 1 to 256; 0 leaves
+    /// them as they are.
+    pub occlusion_rays: u32,
+}
+
+impl Quality {
+    /// What these settings say. What they do not ask for is off or 0.
+    pub fn of(settings: &RenderSettings) -> Self {
+        let RenderSettings { samples_per_axis, samples, shading, effects, .. } = settings;
+        Self {
+            samples_per_axis: *samples_per_axis,
+            samples: *samples,
+            shading: *shading,
+            shadows: effects.shadows,
+            occlusion_rays: effects.ambient_occlusion.map_or(0, |occlusion| occlusion.rays),
+        }
+    }
+
+    /// Puts it into settings. What those do not ask for, shadows or ambient occlusion,
+    /// they do not get.
+    pub fn apply(&self, settings: &mut RenderSettings) {
+        settings.samples_per_axis = self.samples_per_axis;
+        settings.samples = self.samples;
+        settings.shading = self.shading;
+        let effects = &mut settings.effects;
+        if effects.shadows != Shadows::Off && self.shadows != Shadows::Off {
+            effects.shadows = self.shadows;
+        }
+        if let Some(occlusion) = &mut effects.ambient_occlusion
+            && self.occlusion_rays > 0
+        {
+            occlusion.rays = self.occlusion_rays;
+        }
+    }
+
+    /// What becomes of it in such a picture: without what the picture does not ask for.
+    #[must_use]
+    pub fn within(&self, settings: &RenderSettings) -> Self {
+        let mut settings = settings.clone();
+        self.apply(&mut settings);
+        Self::of(&settings)
+    }
+
+    /// Points of each pixel at which light is found.
+    pub fn shaded_samples(&self) -> u32 {
+        self.samples_per_axis * self.samples_per_axis
+    }
+
+    /// Points of each pixel at which it is decided what is seen.
+    pub fn covered_samples(&self) -> u32 {
+        self.shaded_samples() * self.samples
+    }
+}
+
+impl fmt::Display for Quality {
+    /// `3×3 samples of 2, light at each pixel, shadows by rays, 16 occlusion rays`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.samples_per_axis, self.samples) {
+            (1, 1) => write!(f, "1 sample")?,
+            (1, samples) => write!(f, "{samples} samples")?,
+            (axis, 1) => write!(f, "{axis}×{axis} samples")?,
+            (axis, samples) => write!(f, "{axis}×{axis} samples of {samples}")?,
+        }
+        f.write_str(match self.shading {
+            ShadingModel::Flat => ", light once for each triangle",
+            ShadingModel::Gouraud => ", light at the vertices",
+            ShadingModel::Phong => ", light at each pixel",
+        })?;
+        match self.shadows {
+            Shadows::Off => {}
+            Shadows::Maps { resolution } => write!(f, ", shadow maps of {resolution} texels")?,
+            Shadows::Rays => write!(f, ", shadows by rays")?,
+        }
+        match self.occlusion_rays {
+            0 => Ok(()),
+            1 => write!(f, ", 1 occlusion ray"),
+            rays => write!(f, ", {rays} occlusion rays"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::{AmbientOcclusion, EffectSettings};
+    use crate::quality::Preset;
+
+    fn asking_for_all() -> RenderSettings {
+        let effects = EffectSettings {
+            shadows: Shadows::Maps { resolution: 100 },
+            ambient_occlusion: Some(AmbientOcclusion { rays: 3, distance: 0.7 }),
+            ..EffectSettings::default()
+        };
+        RenderSettings { effects, ..RenderSettings::new(30, 20) }
+    }
+
+    #[test]
+    fn what_was_put_in_comes_out() {
+        for preset in Preset::ALL {
+            let (quality, mut settings) = (preset.quality(), asking_for_all());
+            quality.apply(&mut settings);
+            assert_eq!(Quality::of(&settings), quality, "{preset}");
+            let occlusion = settings.effects.ambient_occlusion.expect("asked for");
+            assert_eq!(occlusion.distance, 0.7, "{preset}: what it looks like is not touched");
+        }
+        let (mut same, before) = (asking_for_all(), asking_for_all());
+        Quality::of(&before).apply(&mut same);
+        assert_eq!(same, before, "its own quality changes nothing");
+    }
+
+    #[test]
+    fn nothing_is_added_to_a_picture() {
+        let mut settings = RenderSettings::new(30, 20);
+        let before = settings.clone();
+        Preset::Reference.apply(&mut settings);
+        assert_eq!(settings.effects, before.effects, "no shadows, no occlusion");
+        let left = Preset::Reference.quality().within(&before);
+        assert_eq!((left.shadows, left.occlusion_rays), (Shadows::Off, 0), "and it says so");
+    }
+
+    #[test]
+    fn it_can_be_read() {
+        let mut quality = Preset::Draft.quality().within(&RenderSettings::new(1, 1));
+        assert_eq!(quality.to_string(), "1 sample, light at each pixel", "one");
+        (quality.samples, quality.shading, quality.occlusion_rays) = (4, ShadingModel::Flat, 1);
+        assert_eq!(quality.to_string(), "4 samples, light once for each triangle, 1 occlusion ray", "four");
+        (quality.samples_per_axis, quality.shadows) = (2, Shadows::Maps { resolution: 512 });
+        assert!(quality.to_string().starts_with("2×2 samples of 4,"), "{quality}");
+        assert!(quality.to_string().contains("shadow maps of 512 texels"), "{quality}");
+        assert_eq!((quality.shaded_samples(), quality.covered_samples()), (4, 16), "of a pixel");
+    }
+}

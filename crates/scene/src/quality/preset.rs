@@ -1,0 +1,101 @@
+//! Qualities with names.
+
+use std::fmt;
+use std::str::FromStr;
+
+use super::Quality;
+use crate::effects::Shadows;
+use crate::settings::{RenderSettings, ShadingModel};
+
+/// A quality with a name. Each has about a third of the error of the one before it, for
+/// about three times its time; what they cost and how far they are from the reference on
+/// whole pictures is in `docs/accuracy.md`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Preset {
+    /// One sample a pixel: to find a view, and for pictures that only programs see.
+    Draft,
+    /// 2×2 samples: for pictures that move.
+    Standard,
+    /// 3×3 samples, each of two for outlines, and exact shadows: for pictures that stay.
+    High,
+    /// The best that the engine does: what the others are measured against.
+    Reference,
+}
+
+impl Preset {
+    /// From the quickest to the most accurate.
+    pub const ALL: [Self; 4] = [Self::Draft, Self::Standard, Self::High, Self::Reference];
+
+    /// What it stands for.
+    ///
+    /// Light is found at each pixel in all of them: with light at the vertices pictures
+    /// are less accurate by a third, and not drawn sooner.
+    pub const fn quality(self) -> Quality {
+        let (samples_per_axis, samples, shadows, occlusion_rays) = match self {
+            Self::Draft => (1, 1, Shadows::Maps { resolution: 1024 }, 8),
+            Self::Standard => (2, 1, Shadows::Maps { resolution: 1024 }, 16),
+            Self::High => (3, 2, Shadows::Rays, 16),
+            Self::Reference => (4, 16, Shadows::Rays, 64),
+        };
+        Quality { samples_per_axis, samples, shading: ShadingModel::Phong, shadows, occlusion_rays }
+    }
+
+    /// Puts its quality into settings, and leaves all else in them as it is.
+    pub fn apply(self, settings: &mut RenderSettings) {
+        self.quality().apply(settings);
+    }
+
+    /// The name in commands and interfaces.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Draft => "draft",
+            Self::Standard => "standard",
+            Self::High => "high",
+            Self::Reference => "reference",
+        }
+    }
+}
+
+impl fmt::Display for Preset {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Preset {
+    type Err = UnknownPreset;
+
+    fn from_str(text: &str) -> Result<Self, UnknownPreset> {
+        let named = |preset: &Self| preset.name().eq_ignore_ascii_case(text);
+        Self::ALL.into_iter().find(named).ok_or_else(|| UnknownPreset(text.to_owned()))
+    }
+}
+
+/// A name that no preset has.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no preset {0:?}; write draft, standard, high or reference")]
+pub struct UnknownPreset(pub String);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_as_they_are_written() {
+        for preset in Preset::ALL {
+            assert_eq!(preset.to_string().parse(), Ok(preset), "{preset}");
+        }
+        assert_eq!("HIGH".parse(), Ok(Preset::High), "in any case");
+        let error = "ultra".parse::<Preset>().expect_err("there is none");
+        assert!(error.to_string().contains("\"ultra\"") && error.to_string().contains("standard"), "{error}");
+    }
+
+    #[test]
+    fn each_decides_more_than_the_one_before() {
+        let samples = Preset::ALL.map(|preset| {
+            let quality = preset.quality();
+            (quality.shaded_samples(), quality.covered_samples(), quality.occlusion_rays)
+        });
+        assert!(samples.is_sorted() && samples.windows(2).all(|pair| pair[0].1 < pair[1].1), "{samples:?}");
+    }
+}
