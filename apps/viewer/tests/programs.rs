@@ -498,4 +498,8 @@ fn a_radiance_picture_lights_the_model() {
         "no picture"
     );
     folder.said("floor.obj --hdri-file room.hdr --sky --output o.png", 2);
+    folder.said("floor.obj --hdri-skybox --output o.png", 2);
+    folder.said("floor.obj --hdri-file room.hdr --hdri-skybox --view=top --resolution 60x40 --output o.png", 0);
+    let corner = &picture(&folder.path("o.png")).rgba[..4];
+    assert!(corner[0] > 2 * corner[2] && corner[3] == 255, "beside the floor is the room's: {corner:?}");
 }

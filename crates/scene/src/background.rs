@@ -16,6 +16,10 @@ pub enum Background {
     },
     /// Nothing: the picture's alpha is 0 there.
     Transparent,
+    /// The [environment](crate::EffectSettings::environment) that lights the scene,
+    /// black where there is none. It is light like that of surfaces: exposure and tone
+    /// mapping change it. Fog does not.
+    Environment,
 }
 
 impl Default for Background {
@@ -26,7 +30,8 @@ impl Default for Background {
 }
 
 impl Background {
-    /// Premultiplied linear colour of a row, `y` of `height`.
+    /// Premultiplied linear colour of a row, `y` of `height`. Nothing for what has no
+    /// rows.
     pub(crate) fn row(&self, y: u32, height: u32) -> Vec4 {
         match *self {
             Self::Color(color) => color.extend(1.0),
@@ -34,7 +39,7 @@ impl Background {
                 let down = (y as f32 + 0.5) / height as f32;
                 (top + (bottom - top) * down).extend(1.0)
             }
-            Self::Transparent => Vec4::ZERO,
+            Self::Transparent | Self::Environment => Vec4::ZERO,
         }
     }
 }

@@ -218,6 +218,11 @@ impl RenderSettings {
         }
     }
 
+    /// The factor for every light.
+    pub(crate) fn light_factor(&self) -> f32 {
+        if self.light_intensity > 0.0 && self.light_intensity.is_finite() { self.light_intensity } else { 0.0 }
+    }
+
     /// Width over height.
     pub fn aspect(&self) -> f64 {
         f64::from(self.width.max(1)) / f64::from(self.height.max(1))

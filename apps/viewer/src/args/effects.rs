@@ -7,38 +7,45 @@ use std::sync::Arc;
 use clap::ValueEnum;
 use trigon_math::Vec3;
 use trigon_scene::{
-    AmbientOcclusion, EffectSettings, Environment, Fog, Reflection, RenderSettings, ShadingModel, Shadows,
-    Sky, ToneMapping,
+    AmbientOcclusion, Background, EffectSettings, Environment, Fog, Reflection, RenderSettings, ShadingModel,
+    Shadows, Sky, ToneMapping,
 };
 
+use super::quality::Insisted;
 use super::values;
+
+/// Width and height of shadow maps when nobody says anything, in texels.
+const USUAL_SHADOW_RESOLUTION: u32 = 2048;
+
+/// Rays of each sample for ambient occlusion when nobody says anything.
+const USUAL_OCCLUSION_RAYS: u32 = 16;
 
 /// Flags of effects.
 #[derive(Debug, clap::Args)]
 pub(crate) struct EffectArgs {
-    /// Where on surfaces light is found: flat is once for each triangle, gouraud at its corners, phong at each pixel (not in F3D)
-    #[arg(long, value_name = "MODEL", default_value = "phong", help_heading = "Effects")]
-    pub(crate) shading: ShadingArg,
+    /// Where on surfaces light is found: flat is once for each triangle, gouraud at its corners, phong at each pixel (not in F3D) [default: phong]
+    #[arg(long, value_name = "MODEL", help_heading = "Effects")]
+    pub(crate) shading: Option<ShadingArg>,
 
     /// By which law surfaces answer to light, instead of the one that their materials name (not in F3D)
     #[arg(long, value_name = "LAW", default_value = "material", help_heading = "Effects")]
     pub(crate) reflection: ReflectionArg,
 
-    /// How lamps cast shadows: maps are quick, rays exact (not in F3D)
-    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "maps", default_value = "off", value_name = "WAY", help_heading = "Effects")]
+    /// How lamps cast shadows: maps are quick, rays exact, and on is as --preset says or else maps (not in F3D)
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "on", default_value = "off", value_name = "WAY", help_heading = "Effects")]
     pub(crate) shadows: ShadowsArg,
 
-    /// Width and height of shadow maps in texels (not in F3D)
-    #[arg(long, value_name = "TEXELS", default_value = "2048", value_parser = clap::value_parser!(u32).range(16..=8192), allow_negative_numbers = true, help_heading = "Effects")]
-    pub(crate) shadow_resolution: u32,
+    /// Width and height of shadow maps in texels (not in F3D) [default: 2048, or as --preset says]
+    #[arg(long, value_name = "TEXELS", value_parser = clap::value_parser!(u32).range(16..=8192), allow_negative_numbers = true, help_heading = "Effects")]
+    pub(crate) shadow_resolution: Option<u32>,
 
     /// Darken ambient light where the surroundings are near, by rays
     #[arg(long, short = 'q', num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) ambient_occlusion: Option<bool>,
 
-    /// Rays of each sample for ambient occlusion (not in F3D)
-    #[arg(long, value_name = "N", default_value = "16", value_parser = clap::value_parser!(u32).range(1..=256), allow_negative_numbers = true, help_heading = "Effects")]
-    pub(crate) ambient_occlusion_rays: u32,
+    /// Rays of each sample for ambient occlusion (not in F3D) [default: 16, or as --preset says]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=256), allow_negative_numbers = true, help_heading = "Effects")]
+    pub(crate) ambient_occlusion_rays: Option<u32>,
 
     /// How far surroundings count for ambient occlusion, in metres (not in F3D)
     #[arg(long, value_name = "METRES", default_value = "1", value_parser = values::intensity, allow_negative_numbers = true, help_heading = "Effects")]
@@ -48,9 +55,13 @@ pub(crate) struct EffectArgs {
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) sky: Option<bool>,
 
-    /// Light the model by a Radiance picture (.hdr) of all directions; it is not shown behind the model
+    /// Light the model by a Radiance picture (.hdr) of all directions
     #[arg(long, value_name = "FILE", conflicts_with = "sky", help_heading = "Effects")]
     pub(crate) hdri_file: Option<PathBuf>,
+
+    /// Show what lights the model behind it: the picture of --hdri-file, or the sky
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
+    pub(crate) hdri_skybox: Option<bool>,
 
     /// Follow rays of sight so many times at mirrors (metals without roughness) and through glass (not in F3D)
     #[arg(long, value_name = "N", default_value = "0", value_parser = clap::value_parser!(u32).range(0..=16), allow_negative_numbers = true, help_heading = "Effects")]
@@ -98,6 +109,7 @@ pub(crate) enum ReflectionArg {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ShadowsArg {
     Off,
+    On,
     Maps,
     Rays,
 }
@@ -112,35 +124,67 @@ pub(crate) enum Explanation {
 }
 
 impl EffectArgs {
-    /// Puts them into the settings.
-    pub(crate) fn apply(&self, settings: &mut RenderSettings) {
-        settings.shading = match self.shading {
+    /// What is seen behind the model, if it is what lights it.
+    pub(crate) fn skybox(&self) -> Result<Option<Background>, String> {
+        match (self.hdri_skybox, self.sky == Some(true) || self.hdri_file.is_some()) {
+            (Some(true), true) => Ok(Some(Background::Environment)),
+            (Some(true), false) => {
+                Err("--hdri-skybox shows what lights the model: add --sky or --hdri-file=FILE".to_owned())
+            }
+            (None | Some(false), _) => Ok(None),
+        }
+    }
+
+    /// What they say about the quality.
+    pub(crate) fn insisted(&self) -> Insisted {
+        Insisted {
+            shading: self.shading_model(),
+            shadows: match self.shadows {
+                ShadowsArg::Rays => Some(Shadows::Rays),
+                ShadowsArg::Maps => Some(self.shadow_maps()),
+                ShadowsArg::Off | ShadowsArg::On => self.shadow_resolution.map(|_| self.shadow_maps()),
+            },
+            occlusion_rays: self.ambient_occlusion_rays,
+            samples: None,
+        }
+    }
+
+    fn shading_model(&self) -> Option<ShadingModel> {
+        Some(match self.shading? {
             ShadingArg::Flat => ShadingModel::Flat,
             ShadingArg::Gouraud => ShadingModel::Gouraud,
             ShadingArg::Phong => ShadingModel::Phong,
-        };
+        })
+    }
+
+    fn shadow_maps(&self) -> Shadows {
+        Shadows::Maps { resolution: self.shadow_resolution.unwrap_or(USUAL_SHADOW_RESOLUTION) }
+    }
+
+    /// Puts them into the settings.
+    pub(crate) fn apply(&self, settings: &mut RenderSettings) {
+        settings.shading = self.shading_model().unwrap_or_default();
         settings.reflection = match self.reflection {
             ReflectionArg::Material => Reflection::Material,
             ReflectionArg::Lambert => Reflection::Lambert,
             ReflectionArg::BlinnPhong => Reflection::BlinnPhong,
             ReflectionArg::MetallicRoughness => Reflection::MetallicRoughness,
         };
-        let on = |switch: Option<bool>| switch == Some(true);
         settings.effects = EffectSettings {
             shadows: match self.shadows {
                 ShadowsArg::Off => Shadows::Off,
-                ShadowsArg::Maps => Shadows::Maps { resolution: self.shadow_resolution },
+                ShadowsArg::On | ShadowsArg::Maps => self.shadow_maps(),
                 ShadowsArg::Rays => Shadows::Rays,
             },
-            ambient_occlusion: on(self.ambient_occlusion).then_some(AmbientOcclusion {
-                rays: self.ambient_occlusion_rays,
+            ambient_occlusion: (self.ambient_occlusion == Some(true)).then_some(AmbientOcclusion {
+                rays: self.ambient_occlusion_rays.unwrap_or(USUAL_OCCLUSION_RAYS),
                 distance: self.ambient_occlusion_distance,
             }),
-            environment: on(self.sky).then(|| Arc::new(Environment::from_sky(&Sky::default()))),
+            environment: (self.sky == Some(true)).then(|| Arc::new(Environment::from_sky(&Sky::default()))),
             bounces: self.bounces,
             fog: self.fog.map(|density| Fog { color: self.fog_color, density }),
             exposure: self.exposure,
-            tone_mapping: if on(self.tone_mapping) {
+            tone_mapping: if self.tone_mapping == Some(true) {
                 ToneMapping::KhronosPbrNeutral
             } else {
                 ToneMapping::None

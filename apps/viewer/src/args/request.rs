@@ -10,6 +10,7 @@ use trigon_scene::{Background, RenderSettings, Style};
 use super::beside::Beside;
 use super::effects::Explanation;
 use super::output::Destination;
+use super::quality::{Insisted, Limit};
 use super::raw::{AntiAliasing, BackfaceType, DrawStyle, MultiFileMode, RawArgs, View};
 use super::window::WindowArgs;
 use crate::framing::{Eye, Framing};
@@ -42,6 +43,8 @@ pub(crate) struct Request {
     pub(crate) outputs: Vec<Beside>,
     /// How it is drawn.
     pub(crate) settings: RenderSettings,
+    /// The time that it is to fit into.
+    pub(crate) limit: Option<Limit>,
     /// What the window does beside showing models.
     #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
     pub(crate) window: WindowArgs,
@@ -106,6 +109,7 @@ impl Request {
         check_output(&mode, files.len(), grouping)?;
         check_outputs(&mode, &raw.outputs)?;
         Ok(Self {
+            limit: limit(&raw, &mode)?,
             mode,
             files,
             grouping,
@@ -250,6 +254,8 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
     (settings.samples_per_axis, settings.samples) = samples(raw)?;
     if raw.no_background == Some(true) {
         settings.background = Background::Transparent;
+    } else if let Some(skybox) = raw.effects.skybox()? {
+        settings.background = skybox;
     } else if let Some(color) = raw.background_color {
         settings.background = Background::Color(color);
     }
@@ -265,6 +271,9 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
     settings.line_width = raw.line_width;
     settings.light_intensity = raw.light_intensity;
     raw.effects.apply(&mut settings);
+    if let Some(preset) = raw.quality.preset {
+        insisted(raw)?.change(preset.quality()).apply(&mut settings);
+    }
     raw.outputs.iter().for_each(|beside| beside.output.ask_for(&mut settings.outputs));
     settings.threads = raw.threads;
     settings.simd = raw.simd;
@@ -274,7 +283,7 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
 /// Samples along each side of a pixel by supersampling, and in each of those by
 /// multisampling.
 fn samples(raw: &RawArgs) -> Result<(u32, u32), String> {
-    match (raw.anti_aliasing, raw.samples) {
+    match (raw.anti_aliasing.unwrap_or(AntiAliasing::Ssaa), raw.samples) {
         (AntiAliasing::None, None | Some(1)) => Ok((1, 1)),
         (AntiAliasing::None, Some(samples)) => Err(format!(
             "--anti-aliasing=none means one sample per pixel, but --samples={samples} asks for more; leave one of them out"
@@ -292,6 +301,22 @@ fn samples(raw: &RawArgs) -> Result<(u32, u32), String> {
     }
 }
 
+/// What single flags say about the quality.
+fn insisted(raw: &RawArgs) -> Result<Insisted, String> {
+    let says_samples = raw.anti_aliasing.is_some() || raw.samples.is_some();
+    let samples = if says_samples { Some(samples(raw)?) } else { None };
+    Ok(Insisted { samples, ..raw.effects.insisted() })
+}
+
+/// The time for a picture.
+fn limit(raw: &RawArgs, mode: &Mode) -> Result<Option<Limit>, String> {
+    let Some(time) = raw.quality.time_budget else { return Ok(None) };
+    if !matches!(mode, Mode::Picture { .. }) {
+        return Err("--time-budget goes with a picture, and none is drawn; name one (--output picture.png), or choose a --preset".to_owned());
+    }
+    Ok(Some(Limit::new(time, insisted(raw)?)))
+}
+
 /// The colour of edges before a background: the usual dark one, or a light one
 /// where it would not be seen. Linear RGB.
 fn edges_before(background: Vec3, usual: Vec3) -> Vec3 {
@@ -307,7 +332,8 @@ fn edges_before(background: Vec3, usual: Vec3) -> Vec3 {
 mod tests {
     use clap::{CommandFactory, Parser};
     use trigon_math::DVec3;
-    use trigon_scene::Outputs;
+    use trigon_scene::quality::{Preset, Quality};
+    use trigon_scene::{Outputs, ShadingModel, Shadows};
 
     use super::*;
 
@@ -411,6 +437,35 @@ mod tests {
         assert!(refusal("--samples=5").contains("--anti-aliasing=msaa"), "explained");
         assert!(refusal("--anti-aliasing=msaa --samples=3").contains("1, 2, 4, 8 or 16"), "explained");
         assert!(refusal("--samples=17").contains("1..=16"), "explained");
+    }
+
+    #[test]
+    fn a_preset_says_what_no_other_flag_says() {
+        let quality = |flags: &str| Quality::of(&request(flags).expect("fine").settings);
+        let high = quality("--preset=high --shadows -q");
+        assert_eq!(high, Preset::High.quality(), "all of it");
+        assert_eq!(quality("--preset high").shadows, Shadows::Off, "nothing that was not asked for");
+        let changed = quality("--preset high --samples=2 --shadows=maps --shading=flat");
+        assert_eq!((changed.samples_per_axis, changed.samples), (2, 1), "--samples wins");
+        assert_eq!(changed.shadows, Shadows::Maps { resolution: 2048 }, "--shadows=maps wins");
+        assert_eq!(changed.shading, ShadingModel::Flat, "--shading wins");
+        let small = quality("--preset high --shadows --shadow-resolution=64").shadows;
+        assert_eq!(small, Shadows::Maps { resolution: 64 }, "whoever names texels wants maps");
+        let rays = quality("--preset=draft -q --ambient-occlusion-rays=5 --anti-aliasing=msaa");
+        assert_eq!((rays.occlusion_rays, rays.samples), (5, 4), "rays and samples win");
+        assert_eq!(quality("--shadows").shadows, Shadows::Maps { resolution: 2048 }, "without a preset");
+        assert!(refusal("--preset=best").contains("draft, standard, high or reference"), "explained");
+    }
+
+    #[test]
+    fn a_time_budget_is_for_pictures() {
+        let limit = request("--output o.png --time-budget 16ms --samples=2").expect("fine").limit;
+        let choice = limit.expect("asked for").budget().choose(&RenderSettings::new(64, 64));
+        assert_eq!(choice.limit.as_millis(), 16, "as typed");
+        assert_eq!(choice.chosen.quality.shaded_samples(), 4, "--samples is not changed");
+        assert!(refusal("--time-budget 16ms").contains("--output"), "explained");
+        assert!(refusal("--output o.png --time-budget 16").contains("16ms"), "explained");
+        assert!(refusal("--output o.png --time-budget=9ms --preset=high").contains("cannot be used"), "one");
     }
 
     /// Dark edges on `--background-color=black` made an empty picture.

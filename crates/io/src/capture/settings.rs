@@ -4,7 +4,7 @@ use trigon_camera::{Camera, CameraError, PixelCenters, Projection, Viewport};
 use trigon_math::{DQuat, DVec2, DVec3};
 use trigon_scene::{
     AmbientOcclusion, Background, EffectSettings, Environment, Fog, Lighting, Outline, Outputs, Reflection,
-    RenderSettings, ShadingModel, Shadows, Style, ToneMapping,
+    RenderSettings, ShadingModel, Shadows, Sky, Style, ToneMapping,
 };
 
 use super::stored::{Stored, choice, record};
@@ -26,22 +26,32 @@ record!(Fog { color, density });
 choice!(ToneMapping { 0 => None, 1 => KhronosPbrNeutral });
 record!(Outline { nodes, color, width });
 
-choice!(Background { 0 => Color(color), 1 => Gradient { top, bottom }, 2 => Transparent });
+choice!(Background { 0 => Color(color), 1 => Gradient { top, bottom }, 2 => Transparent, 3 => Environment });
 choice!(Style { 0 => Surface, 1 => SurfaceWithEdges, 2 => Wireframe, 3 => HiddenLine });
 choice!(Lighting { 0 => Automatic, 1 => Scene, 2 => Studio });
 choice!(ShadingModel { 0 => Flat, 1 => Gouraud, 2 => Phong });
 choice!(Reflection { 0 => Material, 1 => Lambert, 2 => BlinnPhong, 3 => MetallicRoughness });
 
-/// The map of directions; the blurred ones are made again.
+/// A sky's colours behind a side of 0, or the map of directions. What follows from
+/// them is made again.
 impl Stored for Environment {
     fn write(&self, to: &mut Writer<'_>) {
+        if let Some(Sky { zenith, horizon, ground }) = self.sky() {
+            0_u32.write(to);
+            return [*zenith, *horizon, *ground].iter().for_each(|color| color.write(to));
+        }
         let (side, texels) = self.texels();
         (side as u32).write(to);
         texels.write(to);
     }
 
     fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
-        let (side, texels): (u32, Vec<[f32; 3]>) = (Stored::read(from)?, Stored::read(from)?);
+        let side = u32::read(from)?;
+        if side == 0 {
+            let [zenith, horizon, ground] = [Stored::read(from)?, Stored::read(from)?, Stored::read(from)?];
+            return Ok(Self::from_sky(&Sky { zenith, horizon, ground }));
+        }
+        let texels: Vec<[f32; 3]> = Stored::read(from)?;
         Self::from_texels(side as usize, &texels).map_err(|error| Damage::malformed(error.to_string()))
     }
 }

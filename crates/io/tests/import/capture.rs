@@ -79,6 +79,14 @@ fn every_style_law_and_background() {
         RenderSettings { reflection: Reflection::Lambert, samples_per_axis: 2, ..settings() },
         RenderSettings { reflection: Reflection::BlinnPhong, lighting: Lighting::Scene, ..plain },
         RenderSettings { reflection: Reflection::MetallicRoughness, ..settings() },
+        RenderSettings { background: Background::Environment, ..settings() },
+        RenderSettings {
+            background: Background::Environment,
+            ..with_effects(EffectSettings {
+                environment: Some(std::sync::Arc::new(Environment::from_sky(&Sky::default()))),
+                ..EffectSettings::default()
+            })
+        },
     ] {
         check(&format!("{settings:?}"), &scene, &camera, &settings);
     }

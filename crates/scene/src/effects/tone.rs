@@ -1,8 +1,8 @@
 //! Exposure and tone mapping: from the picture's linear light to what the display
 //! shows, after all samples are averaged.
 //!
-//! The background is what the user chose for the display: it lies behind the mapped
-//! picture as it is.
+//! A background of colours is what the user chose for the display: it lies behind the
+//! mapped picture as it is. An environment is light and in the picture already.
 
 use trigon_math::{Vec3, Vec4, color};
 use trigon_raster::Rasterizer;

@@ -5,6 +5,7 @@ use trigon_camera::Camera;
 use trigon_math::Vec3;
 use trigon_raster::Culling;
 
+use super::backdrop::Backdrop;
 use super::geometry::{Geometry, Run};
 use super::placement::{Eye, Placement};
 use super::record::{Dots, Record, Segments, Triangles};
@@ -27,10 +28,14 @@ pub(super) struct Composer<'s> {
     shapes: &'s Shapes,
     scenery: &'s Scenery,
     eye: &'s Eye,
+    backdrop: &'s Backdrop,
     rays: Rays,
     default_material: Material,
     purpose: Purpose,
 }
+
+/// What lies around the camera.
+type Around<'s> = (&'s Shapes, &'s Scenery, &'s Eye, &'s Backdrop);
 
 /// What a pass is drawn for.
 #[derive(Clone, Copy, PartialEq)]
@@ -55,11 +60,21 @@ impl<'s> Composer<'s> {
         scene: &'s Scene,
         camera: &Camera,
         settings: &'s RenderSettings,
-        (shapes, scenery, eye): (&'s Shapes, &'s Scenery, &'s Eye),
+        (shapes, scenery, eye, backdrop): Around<'s>,
     ) -> Self {
         let rays = if camera.projection.is_orthographic() { Rays::Parallel } else { Rays::Meeting };
         let default_material = Material::default();
-        Self { scene, settings, shapes, scenery, eye, rays, default_material, purpose: Purpose::Colors }
+        Self {
+            scene,
+            settings,
+            shapes,
+            scenery,
+            eye,
+            backdrop,
+            rays,
+            default_material,
+            purpose: Purpose::Colors,
+        }
     }
 
     /// For a pass of which only depth and ids are kept. The scenery has to be empty.
@@ -67,7 +82,7 @@ impl<'s> Composer<'s> {
         scene: &'s Scene,
         camera: &Camera,
         settings: &'s RenderSettings,
-        around: (&'s Shapes, &'s Scenery, &'s Eye),
+        around: Around<'s>,
     ) -> Self {
         Self { purpose: Purpose::Shapes, ..Self::new(scene, camera, settings, around) }
     }
@@ -237,8 +252,7 @@ impl<'s> Composer<'s> {
         let pipeline = HiddenLine {
             columns: &geometry.columns,
             place: object.place,
-            background: self.settings.background,
-            height: self.settings.height,
+            backdrop: self.backdrop,
             edges: self.edge_overlay(),
         };
         let flags = geometry.edge_flags(object.asset.mesh());

@@ -2,9 +2,10 @@
 //! the order of the steps that make one.
 
 use trigon_camera::Camera;
-use trigon_raster::{Cancel, ExecuteSettings, Pass, Rasterizer, Stats, Target, TargetError};
+use trigon_raster::{Background, Cancel, ExecuteSettings, Pass, Rasterizer, Stats, Target, TargetError};
 
 use super::RenderError;
+use super::backdrop::Backdrop;
 use super::compose::Composer;
 use super::placement::DepthToDistance;
 use super::stage::{Kept, Stage};
@@ -75,15 +76,21 @@ impl Engine {
     ) -> Result<(), RenderError> {
         let scenery = self.kept.scenery(stage, plan, rasterizer)?;
         let (scene, settings) = (stage.scene, stage.settings);
-        let composer = Composer::new(scene, camera, settings, (&stage.shapes, &scenery, &stage.eye));
+        let composer =
+            Composer::new(scene, camera, settings, (&stage.shapes, &scenery, &stage.eye, &stage.backdrop));
         let draws = composer.draws(counts);
+        let behind = |pixel| stage.backdrop.at(pixel);
         let mut pass = Pass::new();
+        pass.background(match stage.backdrop {
+            Backdrop::Color(color) => Background::Color(color),
+            Backdrop::Rows(..) | Backdrop::Environment(_) => Background::PerPixel(&behind),
+        });
         draws.iter().for_each(|draw| draw.record(&mut pass));
         let needed = if apart { Needed::default() } else { Needed::of(&settings.outputs) };
         // Depth that has a pass of its own is not to be written twice.
         let depth = if apart { frame.depth.take() } else { None };
         let target = (blank(settings)?, &mut *frame, needed);
-        self.stats = self.kept.draw(pass, (settings, plan), target, (rasterizer, counts))?;
+        self.stats = self.kept.draw(&pass, (settings, plan), target, (rasterizer, counts))?;
         if apart {
             frame.depth = depth;
         }
@@ -100,7 +107,12 @@ impl Engine {
         rasterizer: &mut Rasterizer,
     ) -> Result<(), RenderError> {
         let (dark, settings) = (Scenery::default(), stage.settings);
-        let composer = Composer::of_shapes(stage.scene, camera, settings, (&stage.shapes, &dark, &stage.eye));
+        let composer = Composer::of_shapes(
+            stage.scene,
+            camera,
+            settings,
+            (&stage.shapes, &dark, &stage.eye, &stage.backdrop),
+        );
         // Effects have no part in it.
         let draws = composer.draws(&mut Counts::default());
         let mut pass = Pass::new();

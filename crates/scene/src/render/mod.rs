@@ -3,6 +3,7 @@
 //!
 //! A picture is a pure function of scene, camera and settings.
 
+mod backdrop;
 mod builder;
 mod columns;
 mod compose;

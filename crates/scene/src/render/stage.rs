@@ -2,13 +2,13 @@
 //! is kept of it for the next one.
 
 use trigon_camera::Camera;
-use trigon_math::{DAffine3, DMat3, DVec3, UVec2, Vec4};
+use trigon_math::{DAffine3, DMat3, DVec3, Vec4};
 use trigon_raster::{Pass, Rasterizer, Stats, Target, TargetError};
 
+use super::backdrop::Backdrop;
 use super::lighting::{Lamp, Lights, Source};
 use super::placement::Eye;
 use super::shapes::{Onlookers, Shape, Shapes};
-use crate::background::Background;
 use crate::effects::{
     AmbientRays, Casters, Counts, Effect, EffectPlan, LampPose, Mist, RayCache, Scenery, ShadowCache,
     Shadows, Surroundings, draw_outline, map_picture,
@@ -26,6 +26,7 @@ pub(crate) struct Stage<'s> {
     transforms: Vec<Option<DAffine3>>,
     camera_to_world: DAffine3,
     pub(crate) eye: Eye,
+    pub(super) backdrop: Backdrop,
     pub(crate) shapes: Shapes,
     pub(crate) lights: Lights,
 }
@@ -54,7 +55,8 @@ impl<'s> Stage<'s> {
         let lights = Lights::gather(scene, &transforms, &eye, settings);
         let turn = DMat3::from_quat(camera.orientation);
         let camera_to_world = DAffine3::from_mat3_translation(turn, camera.position);
-        Self { scene, settings, transforms, camera_to_world, eye, shapes, lights }
+        let backdrop = Backdrop::new(camera, settings);
+        Self { scene, settings, transforms, camera_to_world, eye, backdrop, shapes, lights }
     }
 
     /// Whether the camera may see something of a shape's faces.
@@ -82,11 +84,10 @@ impl<'s> Stage<'s> {
     }
 
     fn surroundings(&self) -> Option<Surroundings> {
-        let intensity = self.settings.light_intensity;
         Some(Surroundings {
             environment: self.settings.effects.environment.clone()?,
             to_world: self.camera_to_world.matrix3.as_mat3(),
-            intensity: if intensity > 0.0 && intensity.is_finite() { intensity } else { 0.0 },
+            intensity: self.settings.light_factor(),
         })
     }
 
@@ -178,7 +179,7 @@ impl Kept {
     /// in `seen` and in the frame's depth what is needed of the pass beside colours.
     pub(super) fn draw(
         &mut self,
-        pass: Pass<'_>,
+        pass: &Pass<'_>,
         (settings, plan): (&RenderSettings, &EffectPlan),
         (blank, frame, needed): (Target<'_>, &mut Frame, Needed),
         (rasterizer, counts): (&mut Rasterizer, &mut Counts),
@@ -193,9 +194,9 @@ impl Kept {
         let stats = if plan.is_on(Effect::ToneMapping) {
             counts.of(Effect::ToneMapping).passes = 1;
             counts.of(Effect::ToneMapping).bytes = (colors.len() * size_of::<Vec4>()) as u64;
-            self.draw_mapped(&pass, settings, (target, colors), rasterizer)?
+            self.draw_mapped(pass, settings, (target, colors), rasterizer)?
         } else {
-            draw_directly(pass, settings, (target, colors), rasterizer)?
+            rasterizer.draw(pass, &mut target.with_srgb8(colors)?)
         };
         if let (true, Some(outline)) = (plan.is_on(Effect::Outline), &settings.effects.outline) {
             counts.of(Effect::Outline).passes = 1;
@@ -220,7 +221,7 @@ impl Kept {
         Ok(rasterizer.draw(pass, &mut self.seen.with(blank, frame.depth.as_mut())?))
     }
 
-    /// Draws linear light on nothing, and maps its tones into the frame.
+    /// Draws linear light, and maps its tones into the frame.
     pub(super) fn draw_mapped(
         &mut self,
         pass: &Pass<'_>,
@@ -234,24 +235,4 @@ impl Kept {
         map_picture(&self.linear, settings, colors, rasterizer);
         Ok(stats)
     }
-}
-
-/// Draws bytes on the background.
-fn draw_directly(
-    pass: Pass<'_>,
-    settings: &RenderSettings,
-    (target, colors): (Target<'_>, &mut [[u8; 4]]),
-    rasterizer: &mut Rasterizer,
-) -> Result<Stats, TargetError> {
-    let (background, height) = (settings.background, settings.height);
-    let behind = |pixel: UVec2| background.row(pixel.y, height);
-    // Of a shorter life, so that it may borrow the function.
-    let mut pass = pass;
-    pass.background(match background {
-        Background::Gradient { .. } => trigon_raster::Background::PerPixel(&behind),
-        Background::Color(_) | Background::Transparent => {
-            trigon_raster::Background::Color(background.row(0, height))
-        }
-    });
-    Ok(rasterizer.draw(&pass, &mut target.with_srgb8(colors)?))
 }

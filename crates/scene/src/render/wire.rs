@@ -1,14 +1,14 @@
 //! The pipelines that draw edges, loose lines and points, and the faces that
 //! do nothing but hide what is behind them.
 
-use trigon_math::{Vec3, Vec4};
-use trigon_raster::simd::{Each, F32, LANES, Simd, prelude::*};
+use trigon_math::{UVec2, Vec3, Vec4};
+use trigon_raster::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
 use trigon_raster::{Fragment, FragmentLanes, LanePipeline, Pipeline, VertexLanes, VertexOutput};
 
+use super::backdrop::Backdrop;
 use super::columns::Columns;
 use super::placement::Placement;
 use super::surface::EdgeOverlay;
-use crate::background::Background;
 
 /// Vertices of a mesh in one colour, unlit.
 pub(super) struct Wire<'a> {
@@ -40,9 +40,7 @@ impl Pipeline for Wire<'_> {
 pub(super) struct HiddenLine<'a> {
     pub(super) columns: &'a Columns,
     pub(super) place: Placement,
-    pub(super) background: Background,
-    /// Of the picture, in pixels.
-    pub(super) height: u32,
+    pub(super) backdrop: &'a Backdrop,
     pub(super) edges: EdgeOverlay,
 }
 
@@ -62,11 +60,9 @@ impl LanePipeline for HiddenLine<'_> {
 
     #[inline(always)]
     fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
-        let rows: [f32; LANES] = fragments.position()[1].into();
-        let papers = rows.each(
-            #[inline(always)]
-            |y| self.background.row(y as u32, self.height).to_array(),
-        );
+        let [columns, rows] = [0, 1].map(|axis| <[f32; LANES]>::from(fragments.position()[axis]));
+        let papers =
+            lanes_of(|lane| self.backdrop.at(UVec2::new(columns[lane] as u32, rows[lane] as u32)).to_array());
         let paper = [0, 1, 2, 3].each(
             #[inline(always)]
             |channel| {

@@ -23,16 +23,23 @@ use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
 
 use crate::render::lanes::{V3, turned};
 
-/// Side of the sharpest map in texels.
-const SIZE: usize = 256;
+/// Side of the sharpest map in texels, at least. (The horizon is four sides long.)
+const LEAST: usize = 256;
+/// And at most: as sharp as a picture of 8192 × 4096 pixels, in 50 MB.
+const MOST: usize = 2048;
 
 /// Ambient light that comes from somewhere. Radiance is in the unit of
 /// [`Light::intensity`](crate::Light): 1 all around shows a white surface as 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
+    /// What it was made from, if that was no picture.
+    sky: Option<Sky>,
     matt: Harmonics,
-    /// From a mirror to the roughest surface, in equal steps of roughness.
-    mirrored: Vec<Octahedral>,
+    /// From the sharpest map on, each half as wide as the last one.
+    halved: Vec<Octahedral>,
+    /// What rough surfaces mirror, in equal steps of roughness; a mirror shows the
+    /// sharpest map.
+    blurred: Vec<Octahedral>,
 }
 
 /// Why a picture is no environment.
@@ -40,7 +47,7 @@ pub struct Environment {
 pub enum EnvironmentError {
     /// A side is 0 (or too long for a map), or there are not `width * height` pixels.
     #[error(
-        "{given} pixels are no picture of {width}x{height}: each side must be at least 1, and that of a map at most {SIZE}"
+        "{given} pixels are no picture of {width}x{height}: each side must be at least 1, and that of a map at most {MOST}"
     )]
     Size {
         /// Pixels from left to right.
@@ -67,12 +74,20 @@ impl Environment {
         if width == 0 || height == 0 || width.checked_mul(height) != Some(pixels.len()) {
             return Err(EnvironmentError::Size { width, height, given: pixels.len() });
         }
-        Ok(Self::from_sharp(Octahedral::from_equirectangular(SIZE, (width, height), pixels)))
+        // The horizon of the map is as long as the picture is wide.
+        let side = (width / 4).clamp(LEAST, MOST).next_power_of_two();
+        Ok(Self::from_sharp(Octahedral::from_equirectangular(side, (width, height), pixels)))
     }
 
     /// From a sky.
     pub fn from_sky(sky: &Sky) -> Self {
-        Self::from_sharp(Octahedral::from_function(SIZE, |direction| sky.radiance(direction)))
+        let map = Octahedral::from_function(LEAST, |direction| sky.radiance(direction));
+        Self { sky: Some(*sky), ..Self::from_sharp(map) }
+    }
+
+    /// The sky that it was made from, if it was.
+    pub fn sky(&self) -> Option<&Sky> {
+        self.sky.as_ref()
     }
 
     /// The same linear RGB from everywhere.
@@ -85,9 +100,9 @@ impl Environment {
     /// are negative or not finite count as 0.
     ///
     /// # Errors
-    /// If there are not `side * side` texels, or none, or more than 256 on a side.
+    /// If there are not `side * side` texels, or none, or more than 2048 on a side.
     pub fn from_texels(side: usize, texels: &[[f32; 3]]) -> Result<Self, EnvironmentError> {
-        if side == 0 || side > SIZE || side * side != texels.len() {
+        if side == 0 || side > MOST || side * side != texels.len() {
             return Err(EnvironmentError::Size { width: side, height: side, given: texels.len() });
         }
         let texels: Vec<Vec3> = texels.iter().map(|&texel| octahedral::clean(texel)).collect();
@@ -97,24 +112,48 @@ impl Environment {
     /// The side and the texels (linear RGB) of the map that everything else is made
     /// from, see [`Self::from_texels`].
     pub fn texels(&self) -> (usize, Vec<[f32; 3]>) {
-        let sharp = &self.mirrored[0];
+        let sharp = &self.halved[0];
         (sharp.size(), sharp.iter().map(|(_, _, light)| light.to_array()).collect())
     }
 
     fn from_sharp(sharp: Octahedral) -> Self {
-        Self { matt: Harmonics::of(&sharp), mirrored: prefilter::levels(sharp) }
+        let halved = prefilter::halved(sharp);
+        // Finer ones would tell matt surfaces nothing.
+        let matt = Harmonics::of(halved.iter().find(|map| map.size() <= LEAST).unwrap_or(&halved[0]));
+        let blurred = prefilter::blurred(&halved);
+        Self { sky: None, matt, halved, blurred }
     }
 
     /// The light from a direction of the world (of any length but 0) as a surface
     /// of a roughness from 0 to 1 mirrors it.
     pub fn radiance(&self, direction: Vec3, roughness: f32) -> Vec3 {
-        let last = self.mirrored.len() - 1;
+        let last = self.blurred.len();
         let place = if roughness > 0.0 { roughness * last as f32 } else { 0.0 };
         let place = if place < last as f32 { place } else { last as f32 };
-        let level = place as usize;
-        let below = self.mirrored[level].at(direction);
-        let share = place - level as f32;
-        if share == 0.0 { below } else { below.lerp(self.mirrored[level + 1].at(direction), share) }
+        let (level, share) = (place as usize, place - (place as usize) as f32);
+        let shown = |level: usize| match level.checked_sub(1) {
+            None => self.halved[0].at(direction),
+            Some(level) => self.blurred[level].at(direction),
+        };
+        if share == 0.0 { shown(level) } else { shown(level).lerp(shown(level + 1), share) }
+    }
+
+    /// The light from a direction of the world (of any length but 0) as a pixel shows
+    /// it that is so many radians wide: no finer than that, so that pixels do not miss
+    /// what lies between them.
+    pub(crate) fn seen(&self, direction: Vec3, width: f32) -> Vec3 {
+        if let Some(sky) = &self.sky {
+            return sky.radiance(direction.normalize_or_zero());
+        }
+        // On average, for a texel has its part of the whole sphere.
+        let texel = (4.0 * std::f32::consts::PI).sqrt() / self.halved[0].size() as f32;
+        let last = self.halved.len() - 1;
+        let wider = width / texel;
+        let place = if wider > 1.0 { elementary::log2_f32(wider) } else { 0.0 };
+        let place = if place < last as f32 { place } else { last as f32 };
+        let (level, share) = (place as usize, place - (place as usize) as f32);
+        let shown = self.halved[level].at(direction);
+        if share == 0.0 { shown } else { shown.lerp(self.halved[level + 1].at(direction), share) }
     }
 
     /// What a white matt surface shows that is turned to a unit vector.
@@ -124,7 +163,8 @@ impl Environment {
 
     /// Bytes of memory that it takes.
     pub fn byte_count(&self) -> usize {
-        self.mirrored.iter().map(Octahedral::byte_count).sum::<usize>() + size_of::<Harmonics>()
+        let maps = self.halved.iter().chain(&self.blurred);
+        maps.map(Octahedral::byte_count).sum::<usize>() + size_of::<Harmonics>()
     }
 }
 
@@ -222,9 +262,9 @@ mod tests {
 
     #[test]
     fn an_environment_is_made_again_from_its_texels() {
-        for environment in
-            [Environment::uniform(Vec3::new(0.1, 0.2, 3.0)), Environment::from_sky(&Sky::default())]
-        {
+        let picture: Vec<[f32; 3]> = (0..64_u8).map(|i| [f32::from(i), 0.5, 0.0]).collect();
+        let picture = Environment::from_equirectangular(16, 4, &picture).expect("the size fits");
+        for environment in [Environment::uniform(Vec3::new(0.1, 0.2, 3.0)), picture] {
             let (side, texels) = environment.texels();
             assert_eq!(Environment::from_texels(side, &texels), Ok(environment), "every bit, at {side}");
         }

@@ -7,34 +7,38 @@ use trigon_math::Vec3;
 use super::Octahedral;
 use super::octahedral::direction;
 
-/// Sides of the maps in texels, from a mirror to the roughest surface: blurred
+/// Sides of the maps in texels, from a quarter of the greatest roughness on: blurred
 /// light needs few.
-const SIDES: [usize; 5] = [256, 64, 32, 16, 16];
+const SIDES: [usize; 4] = [64, 32, 16, 16];
 
 /// Sides of the maps that they are made from: texels no wider than the blur.
-const SOURCES: [usize; 5] = [256, 128, 64, 32, 32];
+const SOURCES: [usize; 4] = [128, 64, 32, 32];
 
-/// The sharp map and its blurred ones.
-pub(super) fn levels(sharp: Octahedral) -> Vec<Octahedral> {
-    // The same from everywhere: there is nothing to blur.
-    if sharp.size() < SIDES[1] {
-        return vec![sharp];
-    }
-    let mut sources = vec![sharp.clone()];
-    while let Some(last) = sources.last().filter(|last| last.size() > SOURCES[4]) {
+/// The sharp map and halves of it, down to the smallest that is of use.
+pub(super) fn halved(sharp: Octahedral) -> Vec<Octahedral> {
+    let mut maps = vec![sharp];
+    while let Some(last) = maps.last().filter(|last| last.size() > SOURCES[3]) {
         let halved = last.halved();
-        sources.push(halved);
+        maps.push(halved);
     }
-    let mut levels = vec![sharp];
-    for level in 1..SIDES.len() {
-        let roughness = level as f32 / (SIDES.len() - 1) as f32;
-        let source = sources.iter().find(|source| source.size() <= SOURCES[level]);
-        levels.push(blurred(source.unwrap_or(&levels[0]), SIDES[level], roughness));
-    }
-    levels
+    maps
 }
 
-fn blurred(source: &Octahedral, size: usize, roughness: f32) -> Octahedral {
+/// What rough surfaces mirror; nothing where the light is the same from everywhere.
+pub(super) fn blurred(halved: &[Octahedral]) -> Vec<Octahedral> {
+    if halved[0].size() < SIDES[0] {
+        return Vec::new();
+    }
+    let levels = SIDES.into_iter().zip(SOURCES).zip(1_u8..);
+    levels
+        .map(|((side, source), level)| {
+            let source = halved.iter().find(|map| map.size() <= source).unwrap_or(&halved[0]);
+            blur(source, side, f32::from(level) / SIDES.len() as f32)
+        })
+        .collect()
+}
+
+fn blur(source: &Octahedral, size: usize, roughness: f32) -> Octahedral {
     let lights: Vec<(Vec3, f32, Vec3)> = source.iter().collect();
     let alpha = roughness * roughness;
     let square = alpha * alpha;

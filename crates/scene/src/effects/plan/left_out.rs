@@ -4,6 +4,7 @@ use trigon_math::Vec3;
 
 use super::super::{Shadows, ToneMapping};
 use super::Effect;
+use crate::background::Background;
 use crate::material::{Material, Shading};
 use crate::scene::Scene;
 use crate::settings::{Reflection, RenderSettings, Style};
@@ -16,7 +17,12 @@ impl Effect {
         let effects = &mut settings.effects;
         match self {
             Self::Highlights => settings.reflection = Reflection::Lambert,
-            Self::Environment => effects.environment = None,
+            Self::Environment => {
+                effects.environment = None;
+                if settings.background == Background::Environment {
+                    settings.background = Background::default();
+                }
+            }
             Self::ShadowMaps | Self::ShadowRays => effects.shadows = Shadows::Off,
             Self::AmbientOcclusion => effects.ambient_occlusion = None,
             Self::Reflection | Self::Refraction => effects.bounces = 0,

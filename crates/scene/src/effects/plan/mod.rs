@@ -18,6 +18,7 @@ use trigon_camera::Camera;
 use trigon_math::Vec3;
 
 use super::{Mist, Shadows};
+use crate::background::Background;
 use crate::render::Stage;
 use crate::scene::Scene;
 use crate::settings::{RenderSettings, ShadingModel, Style};
@@ -146,6 +147,9 @@ fn ambient_light(stage: &Stage<'_>, survey: &Survey) -> Outcome {
 fn environment(stage: &Stage<'_>, survey: &Survey) -> Outcome {
     if stage.settings.effects.environment.is_none() {
         return Err(Absence::NotAsked);
+    }
+    if stage.settings.background == Background::Environment {
+        return Ok(Cause::Background);
     }
     check_lit(stage, survey)?;
     Ok(Cause::Asked)

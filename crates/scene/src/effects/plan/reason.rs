@@ -16,6 +16,8 @@ pub enum Decision {
 pub enum Cause {
     /// The settings ask for it.
     Asked,
+    /// It is the background.
+    Background,
     /// Lights of the scene shine on what is in view.
     Lights(usize),
     /// What is in view is lit, and the scene has no such light of its own.
@@ -89,6 +91,7 @@ impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Asked => f.write_str("the settings ask for it"),
+            Self::Background => f.write_str("it is the background"),
             Self::Lights(1) => f.write_str("one light shines on what is in view"),
             Self::Lights(count) => write!(f, "{count} lights shine on what is in view"),
             Self::Studio => f.write_str("what is in view is lit, and the scene has no such light of its own"),

@@ -1,6 +1,7 @@
 //! Pictures of single effects against what geometry says.
 
 mod ambient;
+mod backdrop;
 mod outline;
 mod planning;
 mod poses;

@@ -38,7 +38,7 @@ impl Lights {
         eye: &Eye,
         settings: &RenderSettings,
     ) -> Self {
-        let (lighting, factor) = (settings.lighting, settings.light_intensity);
+        let lighting = settings.lighting;
         let lights = Self::of_scene(scene, transforms, eye, lighting);
         match lighting {
             Lighting::Studio => Self::studio(),
@@ -50,7 +50,7 @@ impl Lights {
             Lighting::Automatic if lights.ambient == Vec3::ZERO => Self { ambient: STUDIO_AMBIENT, ..lights },
             Lighting::Automatic | Lighting::Scene => lights,
         }
-        .scaled(factor)
+        .scaled(settings.light_factor())
     }
 
     fn of_scene(scene: &Scene, transforms: &[Option<DAffine3>], eye: &Eye, lighting: Lighting) -> Self {
@@ -85,7 +85,6 @@ impl Lights {
     /// Every light this many times as bright; a factor that is no positive
     /// number puts them out.
     pub(crate) fn scaled(mut self, factor: f32) -> Self {
-        let factor = if factor > 0.0 && factor.is_finite() { factor } else { 0.0 };
         self.ambient *= factor;
         self.lamps.iter_mut().for_each(|lamp| lamp.radiance *= factor);
         self
@@ -138,7 +137,8 @@ mod tests {
     fn intensity_is_a_factor_for_every_light() {
         let shown = |factor| shown(&Lights::studio().scaled(factor));
         assert_eq!(shown(2.0), shown(1.0) * 2.0, "twice as bright");
-        assert_eq!(shown(f32::NAN), Vec3::ZERO, "no number, no light");
+        let broken = RenderSettings { light_intensity: f32::NAN, ..RenderSettings::new(1, 1) };
+        assert_eq!(broken.light_factor(), 0.0, "no number, no light");
     }
 
     #[test]

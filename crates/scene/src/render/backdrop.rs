@@ -1,0 +1,92 @@
+//! What lies behind everything, ready for the pass of colours.
+
+use std::sync::Arc;
+
+use trigon_camera::{Camera, Projector, Viewport};
+use trigon_math::{DVec2, DVec3, UVec2, Vec3, Vec4};
+
+use crate::background::Background;
+use crate::effects::Environment;
+use crate::settings::RenderSettings;
+
+/// What the pass of colours draws on.
+#[derive(Clone, Debug)]
+pub(crate) enum Backdrop {
+    /// The same everywhere, premultiplied.
+    Color(Vec4),
+    /// The same in each row of a picture of this height.
+    Rows(Background, u32),
+    /// Light from far away.
+    Environment(Panorama),
+}
+
+/// The environment, as a camera sees it.
+#[derive(Clone, Debug)]
+pub(crate) struct Panorama {
+    environment: Arc<Environment>,
+    intensity: f32,
+    /// Directions of the world, of a length of 1 along the line of sight: at the
+    /// corner of the picture, and the steps to the next pixel to the right and below.
+    corner: Vec3,
+    steps: [Vec3; 2],
+    /// Of a pixel in the middle of the picture, in radians.
+    pixel: f32,
+}
+
+impl Backdrop {
+    /// Where tones are mapped afterwards, what was chosen for the display waits until
+    /// then: the pass draws on nothing.
+    pub(super) fn new(camera: &Camera, settings: &RenderSettings) -> Self {
+        match settings.background {
+            Background::Environment => match &settings.effects.environment {
+                Some(environment) => Panorama::new(camera, settings, environment)
+                    .map_or(Self::Color(Vec4::ZERO), Self::Environment),
+                None => Self::Color(Vec3::ZERO.extend(1.0)),
+            },
+            _ if settings.effects.maps_tones() => Self::Color(Vec4::ZERO),
+            Background::Gradient { .. } => Self::Rows(settings.background, settings.height),
+            Background::Color(_) | Background::Transparent => {
+                Self::Color(settings.background.row(0, settings.height))
+            }
+        }
+    }
+
+    /// At a pixel, premultiplied linear RGB.
+    pub(super) fn at(&self, pixel: UVec2) -> Vec4 {
+        match self {
+            Self::Color(color) => *color,
+            Self::Rows(background, height) => background.row(pixel.y, *height),
+            Self::Environment(panorama) => panorama.at(pixel).extend(1.0),
+        }
+    }
+}
+
+impl Panorama {
+    /// `None` if the picture has no area.
+    fn new(camera: &Camera, settings: &RenderSettings, environment: &Arc<Environment>) -> Option<Self> {
+        let viewport = Viewport { width: settings.width, height: settings.height };
+        let (projector, DVec2 { x: width, y: height }) = (Projector::new(camera, viewport), viewport.size());
+        let ray = |x: f64, y: f64| {
+            let direction = projector.ray(DVec2::new(x, y))?.direction;
+            Some(direction / direction.dot(camera.forward()))
+        };
+        let corner: DVec3 = ray(0.0, 0.0)?;
+        let [right, below] = [(ray(width, 0.0)? - corner) / width, (ray(0.0, height)? - corner) / height];
+        // In the middle a step of the directions is an angle: they have a length of 1.
+        let pixel = right.length().max(below.length()) as f32;
+        Some(Self {
+            environment: Arc::clone(environment),
+            intensity: settings.light_factor(),
+            corner: corner.as_vec3(),
+            steps: [right.as_vec3(), below.as_vec3()],
+            pixel,
+        })
+    }
+
+    /// Linear RGB.
+    fn at(&self, pixel: UVec2) -> Vec3 {
+        let [right, below] = self.steps;
+        let towards = self.corner + right * (pixel.x as f32 + 0.5) + below * (pixel.y as f32 + 0.5);
+        self.environment.seen(towards, self.pixel) * self.intensity
+    }
+}
