@@ -76,7 +76,6 @@ pub(crate) struct Model {
     /// Of all scenes of its files, also of those that are not shown.
     pub(crate) scene_names: Vec<String>,
     /// All that were read for it: what to watch for changes.
-    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "only a window watches"))]
     pub(crate) files: Vec<PathBuf>,
     bounds: Bounds3,
 }
