@@ -1,0 +1,209 @@
+//! The most accurate picture that fits into a time.
+
+use std::time::Duration;
+
+use trigon_camera::Camera;
+
+use super::patience::Patience;
+use super::{Choice, CostModel, ErrorModel, Foreseen, Preset, Quality, candidates};
+use crate::frame::Frame;
+use crate::render::{RenderError, Renderer};
+use crate::scene::Scene;
+use crate::settings::RenderSettings;
+
+/// Of two qualities that fit the one of the last picture is kept, unless the other has
+/// less than this part of its error: pictures that flicker are ugly.
+const WORTH_A_CHANGE: f64 = 0.9;
+
+/// Chooses for each picture of a scene the most accurate quality that fits into a time,
+/// from what the pictures before it took.
+///
+/// It knows no clock: whoever draws measures, and tells. Where pictures are drawn here
+/// `clock` is asked before and after each; it tells the time since any fixed moment.
+///
+/// ```
+/// use std::time::{Duration, Instant};
+/// use trigon_scene::quality::{TimeBudget, rmse};
+/// use trigon_scene::{Renderer, showcase};
+///
+/// let (scene, start) = (showcase(), Instant::now());
+/// let camera = scene.cameras()[0].1;
+/// let mut renderer = Renderer::builder().size(50, 30).build();
+/// let mut budget = TimeBudget::new(Duration::from_millis(16));
+/// let clock = &mut || start.elapsed();
+/// budget.calibrate(&mut renderer, &scene, &camera, clock)?;
+///
+/// let (frame, choice) = budget.render(&mut renderer, &scene, &camera, clock)?;
+/// assert_eq!(frame.width, 50);
+/// println!("{choice}");
+/// # Ok::<(), trigon_scene::RenderError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct TimeBudget {
+    limit: Duration,
+    pub(super) candidates: Vec<Quality>,
+    pub(super) reference: Quality,
+    pub(super) costs: CostModel,
+    pub(super) errors: ErrorModel,
+    pub(super) patience: Patience,
+    pub(super) last: Option<Quality>,
+    /// Windows that were looked at.
+    pub(super) windows: u32,
+}
+
+impl TimeBudget {
+    /// A budget of so much time for each picture. Nothing is known of the scene yet.
+    pub fn new(limit: Duration) -> Self {
+        Self {
+            limit,
+            candidates: candidates().to_vec(),
+            reference: Preset::Reference.quality(),
+            costs: CostModel::default(),
+            errors: ErrorModel::default(),
+            patience: Patience::default(),
+            last: None,
+            windows: 0,
+        }
+    }
+
+    /// With all qualities changed, the reference, too: settings that somebody insists on
+    /// are then no longer chosen.
+    #[must_use]
+    pub fn insisting(self, change: impl Fn(Quality) -> Quality) -> Self {
+        let mut candidates: Vec<Quality> = Vec::new();
+        for quality in self.candidates.iter().map(|&quality| change(quality)) {
+            if !candidates.contains(&quality) {
+                candidates.push(quality);
+            }
+        }
+        Self { candidates, reference: change(self.reference), ..self }
+    }
+
+    /// The time for each picture.
+    pub fn limit(&self) -> Duration {
+        self.limit
+    }
+
+    /// What will be drawn next, with settings that say all but the quality.
+    pub fn choose(&self, settings: &RenderSettings) -> Choice {
+        let all = self.foreseen(settings);
+        let fits = |foreseen: &&Foreseen| {
+            self.patience.with_margin(foreseen.time) <= self.limit
+                && !self.patience.is_resting(foreseen.quality)
+        };
+        let best = all.iter().filter(fits).reduce(more_accurate);
+        let stays = self.last.and_then(|last| all.iter().filter(fits).find(|one| one.quality == last));
+        let chosen = match (stays, best) {
+            (Some(last), Some(best)) if !is_worth_a_change(last, best) => Some(last),
+            _ => best,
+        };
+        let quickest = || all.iter().min_by_key(|foreseen| foreseen.time).expect("there are candidates");
+        let choice = chosen.unwrap_or_else(quickest);
+        Choice {
+            chosen: *choice,
+            limit: self.limit,
+            fits: chosen.is_some() || choice.time <= self.limit,
+            given_up: next_better(&all, choice).copied(),
+            reference: self.reference.within(settings),
+        }
+    }
+
+    /// A picture was drawn as chosen.
+    pub fn saw(&mut self, choice: &Choice, frame: &Frame) {
+        self.errors.saw(choice.chosen.quality, frame);
+    }
+
+    /// It took this long.
+    pub fn took(&mut self, choice: &Choice, settings: &RenderSettings, time: Duration) {
+        let Foreseen { quality, time: foreseen, .. } = choice.chosen;
+        self.patience.note(quality, [time, foreseen, self.limit]);
+        self.costs.learn(&of_quality(settings, quality), time);
+        self.last = Some(quality);
+    }
+
+    /// Chooses, draws, and learns from it. The renderer's settings have the quality that
+    /// was chosen afterwards.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn render(
+        &mut self,
+        renderer: &mut Renderer,
+        scene: &Scene,
+        camera: &Camera,
+        clock: &mut dyn FnMut() -> Duration,
+    ) -> Result<(Frame, Choice), RenderError> {
+        let mut frame = Frame::default();
+        let choice = self.render_into(renderer, (scene, camera), clock, &mut frame)?;
+        Ok((frame, choice))
+    }
+
+    /// As [`render`](Self::render), into a frame whose memory is used again.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn render_into(
+        &mut self,
+        renderer: &mut Renderer,
+        (scene, camera): (&Scene, &Camera),
+        clock: &mut dyn FnMut() -> Duration,
+        frame: &mut Frame,
+    ) -> Result<Choice, RenderError> {
+        let start = clock();
+        let choice = self.choose(renderer.settings());
+        choice.chosen.quality.apply(renderer.settings_mut());
+        renderer.render_into(scene, camera, frame)?;
+        // Looking at the picture is part of what it takes.
+        self.saw(&choice, frame);
+        self.took(&choice, renderer.settings(), clock().saturating_sub(start));
+        Ok(choice)
+    }
+
+    /// What is known of all candidates, as far as such a picture tells them apart.
+    pub(super) fn foreseen(&self, settings: &RenderSettings) -> Vec<Foreseen> {
+        let mut all: Vec<Foreseen> = Vec::new();
+        for candidate in &self.candidates {
+            let quality = candidate.within(settings);
+            if all.iter().all(|foreseen| foreseen.quality != quality) {
+                let time = self.costs.predict(&of_quality(settings, quality));
+                all.push(Foreseen { quality, time, error: self.errors.predict(quality) });
+            }
+        }
+        all
+    }
+}
+
+/// The one with the smaller error; while an error is unknown the second, which comes later
+/// in the order of candidates.
+fn more_accurate<'a>(first: &'a Foreseen, second: &'a Foreseen) -> &'a Foreseen {
+    match (first.error, second.error) {
+        (Some(a), Some(b)) if a <= b => first,
+        _ => second,
+    }
+}
+
+/// The quickest of those that are more accurate than one of them; while errors are unknown,
+/// of those that come later.
+fn next_better<'a>(all: &'a [Foreseen], than: &Foreseen) -> Option<&'a Foreseen> {
+    let later = all.iter().skip_while(|one| one.quality != than.quality).skip(1);
+    match than.error {
+        Some(error) => {
+            let better = all.iter().filter(|one| one.error.is_some_and(|other| other < error));
+            better.min_by_key(|one| one.time)
+        }
+        None => later.min_by_key(|one| one.time),
+    }
+}
+
+fn is_worth_a_change(last: &Foreseen, best: &Foreseen) -> bool {
+    match (last.error, best.error) {
+        (Some(last), Some(best)) => best < WORTH_A_CHANGE * last,
+        _ => last.quality != best.quality,
+    }
+}
+
+pub(super) fn of_quality(settings: &RenderSettings, quality: Quality) -> RenderSettings {
+    let mut settings = settings.clone();
+    quality.apply(&mut settings);
+    settings
+}

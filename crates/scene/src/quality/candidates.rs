@@ -1,0 +1,28 @@
+//! The qualities that a budget chooses from.
+
+use super::{Preset, Quality};
+
+/// The qualities that a budget chooses from, the quickest first; the presets are among
+/// them.
+///
+/// Ways to find shadows and numbers of rays are few, because changing the size of shadow
+/// maps means to draw them again.
+pub fn candidates() -> [Quality; 12] {
+    let [draft, standard, high, reference] = Preset::ALL.map(Preset::quality);
+    let samples = |quality, samples| Quality { samples, ..quality };
+    let fine = |quality| Quality { samples_per_axis: 4, ..quality };
+    [
+        draft,
+        samples(draft, 2),
+        samples(draft, 4),
+        samples(draft, 8),
+        standard,
+        samples(standard, 2),
+        samples(standard, 4),
+        samples(high, 1),
+        high,
+        fine(samples(high, 1)),
+        fine(high),
+        reference,
+    ]
+}

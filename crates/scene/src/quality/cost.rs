@@ -1,0 +1,233 @@
+//! What pictures cost, learnt from those that were drawn.
+
+use std::time::Duration;
+
+use super::Quality;
+use crate::effects::Shadows;
+use crate::settings::{RenderSettings, ShadingModel};
+
+/// Units of work that a picture's time is a sum of: the frame itself (its vertices and
+/// triangles), pixels, shaded samples, further samples, light found at each shaded
+/// sample, shadows found by rays there, rays of ambient occlusion.
+const UNITS: usize = 7;
+
+/// Nanoseconds of a unit each, before anything was measured. Only their proportions
+/// count, and only until frames have told more; they are those of the built-in scene on
+/// two threads.
+const USUAL: [f64; UNITS] = [500_000.0, 4.0, 15.0, 4.0, 10.0, 60.0, 40.0];
+
+/// How much the usual proportions count against a frame that was measured.
+const TRUST_IN_USUAL: f64 = 0.001;
+
+/// As many frames of different work are remembered.
+const MOST_SEEN: usize = 32;
+
+/// Learns from measured frames of a scene how long others will take.
+///
+/// Time is taken to be linear in a few units of work, none of which saves time. What each
+/// costs is fitted to relative errors by least squares that hold it at 0 or above
+/// (cyclic coordinate descent; C. Lawson and R. Hanson, "Solving Least Squares Problems",
+/// 1974, chapter 23, has the problem), drawn to usual proportions where frames do not
+/// tell. More of every unit so never is predicted to take less.
+///
+/// When work that was done before takes longer now, the scene has come to cost more, and
+/// all that is remembered is scaled half of the way: a moving camera is followed, and
+/// a frame that had to wait for another program misleads only once.
+///
+/// ```
+/// use std::time::Duration;
+/// use trigon_scene::quality::CostModel;
+/// use trigon_scene::RenderSettings;
+///
+/// let small = RenderSettings { samples_per_axis: 1, ..RenderSettings::new(100, 100) };
+/// let large = RenderSettings { width: 200, height: 200, ..small.clone() };
+/// let mut costs = CostModel::default();
+/// costs.learn(&small, Duration::from_millis(2));
+/// costs.learn(&large, Duration::from_millis(5));
+/// let between = costs.predict(&RenderSettings { height: 200, ..small });
+/// assert!(between > Duration::from_millis(2) && between < Duration::from_millis(5));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct CostModel {
+    seen: Vec<Seen>,
+    /// Nanoseconds of each unit.
+    costs: [f64; UNITS],
+}
+
+/// Work that was measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Seen {
+    work: [f64; UNITS],
+    /// Nanoseconds, greater than 0.
+    time: f64,
+}
+
+impl Default for CostModel {
+    /// Of a scene and a machine that nothing is known about.
+    fn default() -> Self {
+        Self { seen: Vec::new(), costs: USUAL }
+    }
+}
+
+impl CostModel {
+    /// A frame with these settings took this long.
+    pub fn learn(&mut self, settings: &RenderSettings, time: Duration) {
+        /// One frame tells of no more than such a change.
+        const MOST_CHANGE: f64 = 8.0;
+        let (work, time) = (work(settings), (time.as_nanos() as f64).max(1.0));
+        if let Some(known) = self.seen.iter().find(|seen| seen.work == work) {
+            let change = (time / known.time).clamp(1.0 / MOST_CHANGE, MOST_CHANGE).sqrt();
+            self.seen.iter_mut().for_each(|seen| seen.time *= change);
+            self.costs.iter_mut().for_each(|cost| *cost *= change);
+            return;
+        }
+        if self.seen.len() == MOST_SEEN {
+            self.seen.remove(0);
+        }
+        self.seen.push(Seen { work, time });
+        self.costs = fitted(&self.seen);
+    }
+
+    /// How long a frame with these settings will take.
+    pub fn predict(&self, settings: &RenderSettings) -> Duration {
+        let work = work(settings);
+        let same = self.seen.iter().find(|seen| seen.work == work).map(|seen| seen.time);
+        let time = same.unwrap_or_else(|| sum(&work, &self.costs));
+        // No less than what was measured of less work in as many pixels.
+        let is_part = |seen: &&Seen| {
+            seen.work[1] == work[1] && seen.work.iter().zip(&work).all(|(part, whole)| part <= whole)
+        };
+        let parts = self.seen.iter().filter(is_part).map(|seen| seen.time);
+        Duration::from_nanos(parts.fold(time, f64::max) as u64)
+    }
+}
+
+/// The units of work in a picture.
+fn work(settings: &RenderSettings) -> [f64; UNITS] {
+    let quality = Quality::of(settings);
+    let pixels = f64::from(settings.width) * f64::from(settings.height);
+    let shaded = pixels * f64::from(quality.shaded_samples());
+    let when = |is_so: bool| if is_so { shaded } else { 0.0 };
+    [
+        1.0,
+        pixels,
+        shaded,
+        shaded * f64::from(quality.samples.saturating_sub(1)),
+        when(quality.shading == ShadingModel::Phong),
+        when(quality.shadows == Shadows::Rays),
+        shaded * f64::from(quality.occlusion_rays),
+    ]
+}
+
+fn sum(work: &[f64; UNITS], costs: &[f64; UNITS]) -> f64 {
+    work.iter().zip(costs).map(|(work, cost)| work * cost).sum()
+}
+
+/// The costs that fit what was seen.
+fn fitted(seen: &[Seen]) -> [f64; UNITS] {
+    /// More than it takes until nothing changes that matters.
+    const SWEEPS: usize = 256;
+    let mut scales: Vec<f64> = seen.iter().map(|seen| seen.time / sum(&seen.work, &USUAL)).collect();
+    scales.sort_by(f64::total_cmp);
+    let scale = scales.get(scales.len() / 2).copied().unwrap_or(1.0);
+    let usual = USUAL.map(|cost| cost * scale);
+    // Each unit's share of each time, if it costs what is usual.
+    let share = |seen: &Seen| std::array::from_fn(|unit| seen.work[unit] * usual[unit] / seen.time);
+    let rows: Vec<[f64; UNITS]> = seen.iter().map(share).collect();
+    let mut factors = [1.0; UNITS];
+    for _ in 0..SWEEPS {
+        for unit in 0..UNITS {
+            let (mut above, mut below) = (TRUST_IN_USUAL, TRUST_IN_USUAL);
+            for row in &rows {
+                let others = sum(row, &factors) - row[unit] * factors[unit];
+                above += row[unit] * (1.0 - others);
+                below += row[unit] * row[unit];
+            }
+            factors[unit] = (above / below).max(0.0);
+        }
+    }
+    std::array::from_fn(|unit| factors[unit] * usual[unit])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quality::{Preset, candidates};
+
+    fn picture(quality: Quality) -> RenderSettings {
+        let mut settings = RenderSettings::new(320, 200);
+        quality.apply(&mut settings);
+        settings
+    }
+
+    /// Milliseconds on an invented machine, which follows no usual proportions.
+    fn invented(settings: &RenderSettings) -> Duration {
+        let costs = [3e6, 1.0, 40.0, 1.0, 2.0, 0.0, 0.0];
+        Duration::from_nanos(sum(&work(settings), &costs) as u64)
+    }
+
+    #[test]
+    fn an_unknown_machine_is_learnt_from_a_few_frames() {
+        let mut costs = CostModel::default();
+        let learnt = [(1, 1), (1, 4), (2, 1)];
+        for (samples_per_axis, samples) in learnt {
+            let quality = Quality { samples_per_axis, samples, ..Preset::Draft.quality() };
+            costs.learn(&picture(quality), invented(&picture(quality)));
+        }
+        for quality in candidates() {
+            let (said, is) = (costs.predict(&picture(quality)), invented(&picture(quality)));
+            let ratio = said.as_secs_f64() / is.as_secs_f64();
+            assert!((0.8..1.25).contains(&ratio), "{quality}: {said:?} of {is:?}");
+        }
+    }
+
+    #[test]
+    fn more_work_never_takes_less() {
+        let mut costs = CostModel::default();
+        // Nonsense: the least work took longest.
+        let qualities = Preset::ALL.map(Preset::quality);
+        for (quality, milliseconds) in qualities.into_iter().zip([9, 1, 5, 2]) {
+            costs.learn(&picture(quality), Duration::from_millis(milliseconds));
+        }
+        let times = qualities.map(|quality| costs.predict(&picture(quality)));
+        assert!(times.is_sorted(), "{times:?}");
+        assert!(costs.costs.iter().all(|&cost| cost >= 0.0), "{:?}", costs.costs);
+    }
+
+    #[test]
+    fn a_scene_that_comes_to_cost_more_does_so_at_every_quality() {
+        let mut costs = CostModel::default();
+        let [draft, standard, ..] = Preset::ALL.map(|preset| picture(preset.quality()));
+        [&draft, &standard].into_iter().for_each(|settings| costs.learn(settings, invented(settings)));
+        for _ in 0..8 {
+            costs.learn(&draft, 3 * invented(&draft));
+        }
+        let ratio = costs.predict(&standard).as_secs_f64() / invented(&standard).as_secs_f64();
+        // Each frame goes half of the way that is left, in logarithms: 3^(1 − 2⁻⁸).
+        assert!((2.98..3.0001).contains(&ratio), "also at the other one: {ratio}");
+    }
+
+    #[test]
+    fn one_frame_that_waited_misleads_little_and_not_for_long() {
+        let mut costs = CostModel::default();
+        let draft = picture(Preset::Draft.quality());
+        let usual = invented(&draft);
+        costs.learn(&draft, usual);
+        costs.learn(&draft, 1000 * usual);
+        assert!(costs.predict(&draft) < 3 * usual, "the root of eight");
+        (0..4).for_each(|_| costs.learn(&draft, usual));
+        // 8^(1/2 / 2⁴) = 1.07
+        assert!(costs.predict(&draft) < usual.mul_f64(1.08), "it is forgotten");
+    }
+
+    #[test]
+    fn memory_has_an_end() {
+        let mut costs = CostModel::default();
+        for width in 1..100 {
+            costs.learn(&RenderSettings::new(width, 10), Duration::from_micros(u64::from(width)));
+        }
+        assert_eq!(costs.seen.len(), MOST_SEEN, "the newest");
+        costs.learn(&RenderSettings::new(5, 5), Duration::ZERO);
+        assert!(costs.costs.iter().all(|cost| cost.is_finite()), "a clock that stands still");
+    }
+}

@@ -1,0 +1,216 @@
+//! How far pictures are from the reference, and how far the next ones will be.
+
+use trigon_math::color;
+
+use super::Quality;
+use crate::frame::Frame;
+
+/// The root of the mean square of the differences between two pictures, in linear light:
+/// red, green and blue from 0 to 1, premultiplied. 0 for pictures of different sizes or
+/// without colours, which cannot be compared.
+pub fn rmse(picture: &Frame, reference: &Frame) -> f64 {
+    let pixels = picture.color.len() / 4;
+    if pixels == 0 { 0.0 } else { (squares(picture, reference) / (3 * pixels) as f64).sqrt() }
+}
+
+/// Learns from pictures of a scene and their references what error others will have.
+///
+/// What a shortcut misses lies where light changes from pixel to pixel: at outlines,
+/// edges of shadows, highlights, fine textures. The sum of squared second differences
+/// along rows and columns, called detail here, says how much of that a picture has, and
+/// needs no reference. The error of a quality is taken to be in proportion to the root of
+/// the detail in its own pictures; the proportion is learnt, and the detail is that of the
+/// last frame. So errors follow a moving camera without drawing anything twice.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ErrorModel {
+    known: Vec<Known>,
+    /// The last frame's quality, and its detail of a pixel.
+    last: Option<(Quality, f64)>,
+}
+
+/// What is known of one quality: sums over pictures, the newest counting most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Known {
+    quality: Quality,
+    squares: f64,
+    detail: f64,
+    pixels: f64,
+}
+
+impl Known {
+    /// Of a pixel.
+    fn mean_detail(&self) -> f64 {
+        self.detail / self.pixels
+    }
+}
+
+impl ErrorModel {
+    /// A picture of a quality, and what it should be. Both may be a part of a frame.
+    pub fn learn(&mut self, quality: Quality, picture: &Frame, reference: &Frame) {
+        /// What older pictures count beside a new one.
+        const KEPT: f64 = 0.8;
+        let pixels = (picture.color.len() / 4) as f64;
+        if pixels == 0.0 {
+            return;
+        }
+        let squares = squares(picture, reference);
+        let new = Known { quality, squares, detail: mean_detail(picture) * pixels, pixels };
+        match self.known.iter_mut().find(|known| known.quality == quality) {
+            None => self.known.push(new),
+            Some(known) => {
+                known.squares = known.squares * KEPT + new.squares;
+                known.detail = known.detail * KEPT + new.detail;
+                known.pixels = known.pixels * KEPT + new.pixels;
+            }
+        }
+    }
+
+    /// A frame of this quality was drawn; the next one will be like it.
+    pub fn saw(&mut self, quality: Quality, frame: &Frame) {
+        if !frame.color.is_empty() {
+            self.last = Some((quality, mean_detail(frame)));
+        }
+    }
+
+    /// What [`rmse`] will be in the next frame; `None` of a quality that nothing was
+    /// learnt of.
+    pub fn predict(&self, quality: Quality) -> Option<f64> {
+        let known = self.of(quality)?;
+        if known.detail == 0.0 {
+            return Some((known.squares / (3.0 * known.pixels)).sqrt());
+        }
+        Some((known.squares / known.detail * self.detail_now(known) / 3.0).sqrt())
+    }
+
+    /// The detail of a pixel that the next frame would have at a quality.
+    fn detail_now(&self, known: &Known) -> f64 {
+        let Some((quality, detail)) = self.last else { return known.mean_detail() };
+        match self.of(quality).map(Known::mean_detail) {
+            Some(usual) if usual > 0.0 => detail * (known.mean_detail() / usual),
+            _ => detail,
+        }
+    }
+
+    fn of(&self, quality: Quality) -> Option<&Known> {
+        self.known.iter().find(|known| known.quality == quality)
+    }
+}
+
+/// The sum of the squares of all differences.
+fn squares(picture: &Frame, reference: &Frame) -> f64 {
+    if [picture.width, picture.height] != [reference.width, reference.height] {
+        return 0.0;
+    }
+    let pairs = pixels(picture).iter().zip(pixels(reference));
+    pairs.filter(|(a, b)| a != b).map(|(&a, &b)| apart(light(a), light(b))).sum()
+}
+
+fn pixels(frame: &Frame) -> &[[u8; 4]] {
+    frame.color.as_chunks().0
+}
+
+fn light(pixel: [u8; 4]) -> [f32; 3] {
+    let alpha = f32::from(pixel[3]) / 255.0;
+    [0, 1, 2].map(|channel| color::srgb8_to_linear(pixel[channel]) * alpha)
+}
+
+fn apart(a: [f32; 3], b: [f32; 3]) -> f64 {
+    (0..3).map(|channel| f64::from(a[channel] - b[channel])).map(|difference| difference * difference).sum()
+}
+
+/// The mean square of second differences in linear light, of every fourth row and column.
+fn mean_detail(frame: &Frame) -> f64 {
+    /// A quarter says enough of the whole, and takes a quarter of the time.
+    const STEP: usize = 4;
+    let (pixels, width) = (pixels(frame), frame.width as usize);
+    let (mut sum, mut count) = (0.0, 0_usize);
+    let mut add = |line: &mut dyn Iterator<Item = [u8; 4]>| {
+        let (mut before, mut middle) = (None, None);
+        for after in line.map(light) {
+            if let (Some(a), Some(b)) = (before, middle) {
+                let [a, b]: [[f32; 3]; 2] = [a, b];
+                let doubled = b.map(|channel| 2.0 * channel);
+                let around = [0, 1, 2].map(|channel| a[channel] + after[channel]);
+                sum += apart(around, doubled);
+                count += 1;
+            }
+            (before, middle) = (middle, Some(after));
+        }
+    };
+    pixels.chunks(width.max(1)).skip(STEP / 2).step_by(STEP).for_each(|row| add(&mut row.iter().copied()));
+    for column in (0..width).skip(STEP / 2).step_by(STEP) {
+        add(&mut pixels[column..].iter().step_by(width).copied());
+    }
+    if count == 0 { 0.0 } else { sum / count as f64 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quality::Preset;
+
+    /// Stripes of so many pixels, of a grey and black.
+    fn stripes(width: usize, grey: u8) -> Frame {
+        let pixel = |i: usize| {
+            let light = if (i % 32 / width).is_multiple_of(2) { grey } else { 0 };
+            [light, light, light, 255]
+        };
+        Frame { width: 32, height: 32, color: (0..32 * 32).flat_map(pixel).collect(), ..Frame::default() }
+    }
+
+    #[test]
+    fn errors_are_means_in_linear_light() {
+        let (white, half) = (stripes(32, 255), stripes(16, 255));
+        assert_eq!(rmse(&white, &white), 0.0, "the same");
+        // Half of the pixels are off by 1.
+        assert_eq!(rmse(&white, &half), 0.5_f64.sqrt(), "half of it");
+        assert_eq!(rmse(&Frame::default(), &white), 0.0, "nothing to compare");
+        let clear = Frame { color: [255, 255, 255, 0].repeat(32 * 32), ..white.clone() };
+        assert_eq!(rmse(&clear, &white), 1.0, "what is transparent has no light");
+    }
+
+    #[test]
+    fn errors_grow_with_the_detail_of_the_last_frame() {
+        let [draft, high] = [Preset::Draft, Preset::High].map(Preset::quality);
+        let (coarse, reference) = (stripes(8, 255), stripes(8, 250));
+        let mut errors = ErrorModel::default();
+        assert_eq!(errors.predict(draft), None, "nothing is known");
+        errors.learn(draft, &coarse, &reference);
+        let learnt = errors.predict(draft).expect("just learnt");
+        assert!((learnt / rmse(&coarse, &reference) - 1.0).abs() < 1e-12, "as it was: {learnt}");
+        assert_eq!(errors.predict(high), None, "of this one nothing");
+        errors.saw(draft, &coarse);
+        assert_eq!(errors.predict(draft), Some(learnt), "the same picture again");
+        let detail = [8, 2].map(|width| mean_detail(&stripes(width, 255)));
+        errors.saw(draft, &stripes(2, 255));
+        let more = errors.predict(draft).expect("learnt");
+        // In proportion to its root; the predictions are a few roundings of f64 away.
+        assert!((more / learnt - (detail[1] / detail[0]).sqrt()).abs() < 1e-12, "{learnt} becomes {more}");
+        assert!(more > 1.5 * learnt, "with four times the edges: {learnt} becomes {more}");
+    }
+
+    #[test]
+    fn what_another_quality_shows_is_converted() {
+        let [draft, high] = [Preset::Draft, Preset::High].map(Preset::quality);
+        let mut errors = ErrorModel::default();
+        errors.learn(draft, &stripes(4, 255), &stripes(4, 240));
+        errors.learn(high, &stripes(4, 128), &stripes(4, 125));
+        let before = errors.predict(draft).expect("learnt");
+        errors.saw(high, &stripes(4, 128));
+        let after = errors.predict(draft).expect("learnt");
+        assert!((after / before - 1.0).abs() < 1e-12, "the scene is the same: {before}, {after}");
+    }
+
+    #[test]
+    fn odd_pictures_are_no_trouble() {
+        let mut errors = ErrorModel::default();
+        let quality = Preset::Draft.quality();
+        errors.learn(quality, &Frame::default(), &Frame::default());
+        errors.saw(quality, &Frame::default());
+        assert_eq!(errors, ErrorModel::default(), "no picture tells nothing");
+        let dot = Frame { width: 1, height: 1, color: vec![9, 9, 9, 255], ..Frame::default() };
+        errors.learn(quality, &dot, &dot);
+        errors.saw(quality, &dot);
+        assert_eq!(errors.predict(quality), Some(0.0), "right, and without detail");
+    }
+}

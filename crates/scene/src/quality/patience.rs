@@ -1,0 +1,109 @@
+//! How far foreseen times are trusted, and which qualities have to wait.
+
+use std::time::Duration;
+
+use super::Quality;
+
+/// Times are taken to be this much longer than foreseen at least.
+const LEAST_MARGIN: f64 = 0.08;
+
+/// And this much at most.
+const MOST_MARGIN: f64 = 0.5;
+
+/// How many usual misses the margin leaves room for.
+const MISSES: f64 = 2.5;
+
+/// A quality that was too slow waits for so many pictures, twice as many the next time.
+const FIRST_REST: u32 = 8;
+
+/// It does not wait longer than that.
+const LONGEST_REST: u32 = 256;
+
+/// Learns how well times are foreseen, and lets wait what was too slow.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Patience {
+    /// How much longer than foreseen pictures took of late, on average, as a part.
+    miss: f64,
+    resting: Vec<Rest>,
+}
+
+/// A quality that was too slow.
+#[derive(Clone, Copy, Debug)]
+struct Rest {
+    quality: Quality,
+    /// Pictures to wait.
+    left: u32,
+    /// Pictures that it waits the next time.
+    next: u32,
+}
+
+impl Patience {
+    /// A picture took a time, was foreseen to take another, and had a limit.
+    pub(super) fn note(&mut self, quality: Quality, [time, foreseen, limit]: [Duration; 3]) {
+        /// What the last picture counts.
+        const NEW: f64 = 0.1;
+        let miss = time.as_secs_f64() / foreseen.as_secs_f64().max(1e-9) - 1.0;
+        self.miss += NEW * (miss.clamp(0.0, MOST_MARGIN) - self.miss);
+        self.resting.iter_mut().for_each(|rest| rest.left = rest.left.saturating_sub(1));
+        if time > limit {
+            self.rest(quality);
+        }
+    }
+
+    fn rest(&mut self, quality: Quality) {
+        match self.resting.iter_mut().find(|rest| rest.quality == quality) {
+            Some(rest) => (rest.left, rest.next) = (rest.next, (2 * rest.next).min(LONGEST_REST)),
+            None => self.resting.push(Rest { quality, left: FIRST_REST, next: 2 * FIRST_REST }),
+        }
+    }
+
+    /// Whether a quality has to wait.
+    pub(super) fn is_resting(&self, quality: Quality) -> bool {
+        self.resting.iter().any(|rest| rest.quality == quality && rest.left > 0)
+    }
+
+    /// The time that may be needed where this one is foreseen.
+    pub(super) fn with_margin(&self, time: Duration) -> Duration {
+        time.mul_f64(1.0 + (LEAST_MARGIN + MISSES * self.miss).min(MOST_MARGIN))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quality::Preset;
+
+    const LIMIT: Duration = Duration::from_millis(16);
+
+    fn ms(milliseconds: u64) -> Duration {
+        Duration::from_millis(milliseconds)
+    }
+
+    #[test]
+    fn what_was_too_slow_waits_longer_each_time() {
+        let [draft, high] = [Preset::Draft, Preset::High].map(Preset::quality);
+        let mut patience = Patience::default();
+        for expected in [8, 16, 32] {
+            patience.note(high, [ms(17), ms(12), LIMIT]);
+            let mut waited = 0;
+            while patience.is_resting(high) {
+                patience.note(draft, [ms(2), ms(2), LIMIT]);
+                waited += 1;
+            }
+            assert_eq!(waited, expected, "pictures");
+        }
+        assert!(!patience.is_resting(draft), "what is quick does not wait");
+    }
+
+    #[test]
+    fn margins_follow_what_was_missed() {
+        let (mut patience, quality) = (Patience::default(), Preset::Draft.quality());
+        assert_eq!(patience.with_margin(ms(100)), ms(108), "to begin with");
+        (0..50).for_each(|_| patience.note(quality, [ms(11), ms(10), LIMIT]));
+        let margin = patience.with_margin(ms(100));
+        // A tenth too long each time: 0.08 + 2.5 · 0.1, reached up to 0.9^50 = 0.5 %.
+        assert!((ms(132)..=ms(133)).contains(&margin), "{margin:?}");
+        (0..50).for_each(|_| patience.note(quality, [ms(99), ms(10), LIMIT]));
+        assert_eq!(patience.with_margin(ms(100)), ms(150), "and have an end");
+    }
+}

@@ -1,0 +1,114 @@
+//! Parts of a picture, drawn by cameras of their own.
+
+use trigon_camera::{Camera, Projection};
+
+use crate::settings::RenderSettings;
+
+/// A part of a picture, in pixels from the top left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Window {
+    corner: [u32; 2],
+    size: [u32; 2],
+}
+
+impl Window {
+    /// One of a sequence that comes about everywhere: a part of the picture's width and
+    /// height, neither longer than `most` pixels.
+    ///
+    /// The first lies in the middle, the others at the points of the sequence R2 (M.
+    /// Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018).
+    pub(super) fn nth(number: u32, settings: &RenderSettings, part: f64, most: u32) -> Self {
+        const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
+        let whole = [settings.width, settings.height];
+        let size = whole.map(|side| ((f64::from(side) * part) as u32).clamp(1, most.max(1)));
+        let place = |axis: usize| {
+            let free = f64::from(whole[axis].saturating_sub(size[axis]));
+            let point = 0.5 + f64::from(number) * STEPS[axis];
+            (free * (point - point.floor())) as u32
+        };
+        Self { corner: [place(0), place(1)], size }
+    }
+
+    /// The settings of a picture of it alone.
+    pub(super) fn settings(&self, whole: &RenderSettings) -> RenderSettings {
+        RenderSettings { width: self.size[0], height: self.size[1], ..whole.clone() }
+    }
+
+    /// The camera that sees of a picture what lies in the window, pixel on pixel; `None`
+    /// where numbers do not reach.
+    pub(super) fn camera(&self, camera: &Camera, whole: &RenderSettings) -> Option<Camera> {
+        let sides = [whole.width, whole.height].map(f64::from);
+        // From −1 at the left and the lower edge to 1.
+        let at = |axis: usize, pixel: u32| f64::from(pixel) / sides[axis] * 2.0 - 1.0;
+        let [left, top] = self.corner;
+        let [right, bottom] = [left + self.size[0], top + self.size[1]];
+        let (x, y) = ([at(0, left), at(0, right)], [-at(1, bottom), -at(1, top)]);
+        if let Projection::Orthographic { height, near, far, .. } = camera.projection {
+            let half = [height * 0.5 * whole.aspect(), height * 0.5];
+            let middle = [(x[0] + x[1]) * 0.5 * half[0], (y[0] + y[1]) * 0.5 * half[1]];
+            let position = camera.position + camera.right() * middle[0] + camera.up() * middle[1];
+            let height = height * f64::from(self.size[1]) / sides[1];
+            let projection = Projection::orthographic(height, near, far).ok()?;
+            return Some(Camera { position, projection, ..*camera });
+        }
+        let matrix = camera.projection.matrix(whole.aspect());
+        let (near, far) = (camera.projection.near(), camera.projection.far());
+        // Where on the near plane clip space has these coordinates.
+        let across = x.map(|x| near * (x + matrix.z_axis.x) / matrix.x_axis.x);
+        let along = y.map(|y| near * (y + matrix.z_axis.y) / matrix.y_axis.y);
+        let projection = Projection::frustum(across[0], across[1], along[0], along[1], near, far).ok()?;
+        Some(Camera { projection, ..*camera })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quality::rmse;
+    use crate::{Background, Frame, render, showcase};
+    use trigon_math::Vec3;
+
+    #[test]
+    fn windows_come_about_everywhere() {
+        let settings = RenderSettings::new(100, 60);
+        let middle = Window { corner: [37, 22], size: [25, 15] };
+        assert_eq!(Window::nth(0, &settings, 0.25, 999), middle, "the first is in the middle");
+        assert_eq!(Window::nth(0, &settings, 0.25, 8).size, [8, 8], "none is too large");
+        assert_eq!(Window::nth(7, &RenderSettings::new(1, 1), 0.1, 9).size, [1, 1], "nor too small");
+        for quarter in 0..4 {
+            let inside = |window: &Window| {
+                let [x, y] = [0, 1].map(|axis| window.corner[axis] + window.size[axis] / 2);
+                (x / 50 + y / 30 * 2) == quarter
+            };
+            let seen = (0..16).map(|number| Window::nth(number, &settings, 0.25, 999)).filter(inside).count();
+            assert!((2..=6).contains(&seen), "of 16, the quarter {quarter} has {seen}");
+        }
+    }
+
+    #[test]
+    fn a_window_shows_the_pixels_of_the_whole() {
+        let scene = showcase();
+        let background = Background::Color(Vec3::splat(0.2));
+        let settings = RenderSettings { background, ..RenderSettings::new(80, 48) };
+        let overview = scene.overview(settings.aspect());
+        let orthographic = overview.projection.to_orthographic(9.0).expect("in range");
+        for camera in [overview, scene.cameras()[0].1, overview.with_projection(orthographic)] {
+            let whole = render(&scene, &camera, &settings).expect("drawn");
+            let window = Window::nth(1, &settings, 0.5, 999);
+            let there = window.camera(&camera, &settings).expect("in range");
+            let part = render(&scene, &there, &window.settings(&settings)).expect("drawn");
+            let cut = cut(&whole, &window);
+            // Vertices are snapped to 1/256 pixel in both, so that few of nine samples of an edge differ,
+            // and those by less than white. Half a pixel beside it is off by ten times as much.
+            let error = rmse(&part, &cut);
+            assert!(error < 0.004, "{:?}: {error}", camera.projection);
+        }
+    }
+
+    fn cut(whole: &Frame, window: &Window) -> Frame {
+        let ([left, top], [width, height]) = (window.corner, window.size);
+        let places = (0..width * height).map(|i| (left + i % width, top + i / width));
+        let color = places.flat_map(|(x, y)| whole.pixel(x, y)).collect();
+        Frame { width, height, color, ..Frame::default() }
+    }
+}
