@@ -5,6 +5,7 @@ use trigon_raster::paint2d::Rect;
 use trigon_scene::Frame;
 
 use crate::egui_painter::{ChannelOrder, EguiPainter};
+use crate::refinement;
 
 /// Where no picture is yet: dark, so that nobody is dazzled.
 const EMPTY: [u8; 4] = [24, 24, 24, 255];
@@ -78,14 +79,10 @@ fn stretch(frame: &Frame, [width, height]: [usize; 2], to: &mut [[u8; 4]]) {
     }
 }
 
-/// From straight alpha to an opaque pixel over black.
-fn over_black([r, g, b, a]: [u8; 4]) -> [u8; 4] {
-    if a == 255 {
-        return ChannelOrder::Bgra.arrange([r, g, b, a]);
-    }
-    // A product of two bytes, divided by 255 and rounded to the nearest.
-    let dim = |channel: u8| ((u32::from(channel) * u32::from(a) + 127) / 255) as u8;
-    ChannelOrder::Bgra.arrange([dim(r), dim(g), dim(b), 255])
+/// From straight alpha to an opaque pixel over black, as windows have it.
+fn over_black(rgba: [u8; 4]) -> [u8; 4] {
+    let [r, g, b] = refinement::over_black(rgba);
+    ChannelOrder::Bgra.arrange([r, g, b, 255])
 }
 
 #[cfg(test)]

@@ -36,6 +36,7 @@
 mod application;
 mod canvas;
 mod commands;
+mod drawer;
 mod egui_painter;
 mod error;
 mod handler;
@@ -47,6 +48,7 @@ mod motion;
 mod overlay;
 mod pacing;
 mod present;
+mod refinement;
 mod session;
 mod shared_scene;
 mod shell;
@@ -55,6 +57,7 @@ mod waker;
 mod worker;
 
 pub use application::Application;
+pub use drawer::Drawer;
 #[cfg(any(test, feature = "kittest"))]
 pub use egui_painter::EguiTestRenderer;
 pub use egui_painter::{ChannelOrder, EguiPainter, MAX_TEXTURE_SIDE};
@@ -64,6 +67,7 @@ pub use input::{Chord, Key, Modifiers, PointerButton};
 pub use interaction::{Interaction, InteractionError};
 pub use keymap::{Action, Binding, CameraMotion, DragAction, DragBinding, Keymap, Motion, ObjectMotion};
 pub use overlay::{Corner, Overlay};
+pub use refinement::{Comparison, Difference, QualityReport, Refinement};
 pub use shared_scene::SharedScene;
 pub use stage::{FrameReport, Stage, Visibility};
 pub use waker::Waker;

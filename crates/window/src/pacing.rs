@@ -2,13 +2,16 @@
 //! caller reads: the heart of "nothing runs when nothing changes".
 //!
 //! - Something moves: draft pictures, at most 60 a second, as small as the time allows.
-//! - It has come to rest: one full picture, and then nothing. Where that takes long,
-//!   there is a draft before it.
+//! - It has come to rest: a full picture, then the further steps that are wanted, each
+//!   better than the one before, and then nothing. Where the first takes long, there is
+//!   a draft before it.
 //! - Pictures are drawn beside the window. One at a time: a draft is always finished,
-//!   so that a movement shows; a full picture that nobody will see is cancelled.
+//!   so that a movement shows; any other that nobody will see is cancelled.
 //! - What is written over the picture waits for none.
 
 mod budget;
+
+pub(crate) use budget::USUAL as USUAL_BUDGET;
 
 use std::time::Duration;
 
@@ -39,8 +42,8 @@ pub(crate) enum Change {
 pub(crate) enum Quality {
     /// One sample per pixel, and fewer pixels in each direction by this factor, at least 1.
     Draft { shrink: f64 },
-    /// As the settings say.
-    Full,
+    /// In full: step 0 is as the settings say, later ones are better.
+    Full(usize),
 }
 
 /// When to draw next.
@@ -66,7 +69,8 @@ pub(crate) enum Frames {
 /// The picture on the screen, compared to what should be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Shown {
-    Full,
+    /// The right one, up to this step.
+    Full(usize),
     /// A draft of the right picture.
     Draft,
     /// The wrong picture, or none.
@@ -95,8 +99,19 @@ pub(crate) struct Pacing {
     /// When the last frame began.
     drawn: Option<Duration>,
     budget: Budget,
-    /// What a full picture takes, as far as is known.
+    /// What a picture as the settings say takes, as far as is known.
     full: Option<Duration>,
+    /// The steps to be done at rest, upwards from 0.
+    wanted: Vec<usize>,
+}
+
+/// How far the refinement at rest is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Progress {
+    /// The step under way, counted from 1.
+    pub(crate) step: usize,
+    /// How many there are.
+    pub(crate) of: usize,
 }
 
 impl Pacing {
@@ -110,7 +125,36 @@ impl Pacing {
             drawn: None,
             budget: Budget::default(),
             full: None,
+            wanted: vec![0],
         }
+    }
+
+    /// What is to be done at rest, upwards from 0. Steps keep their numbers for as long as
+    /// the picture is the right one.
+    pub(crate) fn want(&mut self, steps: Vec<usize>) {
+        self.wanted = steps;
+    }
+
+    /// What a draft may take.
+    pub(crate) fn allow(&mut self, budget: Duration) {
+        self.budget.set(budget);
+    }
+
+    /// How far the refinement is; `None` when there is none under way.
+    pub(crate) fn progress(&self) -> Option<Progress> {
+        let next = self.wanted.iter().position(|&step| Some(step) == self.next_step())?;
+        Some(Progress { step: next + 1, of: self.wanted.len() })
+    }
+
+    /// Whether the picture under way is only better than the one that is shown.
+    pub(crate) fn is_refining(&self) -> bool {
+        self.under_way.is_some_and(|picture| matches!(picture.quality, Quality::Full(1..)))
+    }
+
+    /// The first step that is wanted and not done.
+    fn next_step(&self) -> Option<usize> {
+        let Shown::Full(done) = self.shown else { return None };
+        self.wanted.iter().copied().find(|&step| step > done)
     }
 
     /// Something has changed.
@@ -130,12 +174,15 @@ impl Pacing {
 
     /// Whether nobody will look at the picture under way.
     pub(crate) fn is_useless(&self) -> bool {
-        self.under_way.is_some_and(|picture| picture.outdated && picture.quality == Quality::Full)
+        self.under_way.is_some_and(|UnderWay { quality, outdated }| match quality {
+            Quality::Draft { .. } => false,
+            Quality::Full(step) => outdated || !self.wanted.contains(&step),
+        })
     }
 
     /// Whether the next step of what moves by itself can be shown.
     pub(crate) fn can_step(&self) -> bool {
-        self.under_way.is_none_or(|picture| picture.quality == Quality::Full)
+        self.under_way.is_none_or(|picture| matches!(picture.quality, Quality::Full(_)))
     }
 
     /// When to draw next. `animated`: the program itself asks for pictures; `expiry`:
@@ -151,7 +198,7 @@ impl Pacing {
             (Some(_), ..) => None,
             (None, Shown::Old, Frames::None) => Some(paced),
             (None, Shown::Draft, Frames::None) => Some(self.moved.map_or(now, |moved| moved + REST)),
-            (None, Shown::Full, Frames::None) => None,
+            (None, Shown::Full(_), Frames::None) => self.next_step().map(|_| paced),
         };
         let expiry = expiry.map(|due| due.max(paced));
         match [overlay, picture, expiry].into_iter().flatten().min() {
@@ -168,11 +215,11 @@ impl Pacing {
         let draft = moving || (self.shown == Shown::Old && self.full.is_none_or(|full| full > PATIENCE));
         let quality = match self.shown {
             _ if self.under_way.is_some() || self.occupied => return None,
-            Shown::Full => return None,
             // It will be refined when it rests.
-            Shown::Draft if moving => return None,
+            Shown::Full(_) | Shown::Draft if moving => return None,
+            Shown::Full(_) => Quality::Full(self.next_step()?),
             _ if draft => Quality::Draft { shrink: self.budget.shrink() },
-            _ => Quality::Full,
+            _ => Quality::Full(0),
         };
         self.under_way = Some(UnderWay { quality, outdated: false });
         Some(quality)
@@ -194,20 +241,29 @@ impl Pacing {
         self.overlay = true;
         self.shown = match quality {
             _ if outdated => Shown::Old,
-            Quality::Full => Shown::Full,
+            Quality::Full(step) => Shown::Full(step),
             Quality::Draft { .. } => Shown::Draft,
         };
         match quality {
-            Quality::Full => self.full = Some(took),
+            Quality::Full(0) => self.full = Some(took),
+            Quality::Full(_) => {}
             Quality::Draft { .. } => self.budget.took(took),
         }
     }
 
-    /// The picture under way was cancelled, or cannot be drawn. `Shown` stays as it is:
-    /// what cannot be drawn is not tried again before something changes.
+    /// The picture under way was cancelled; if it is still wanted, it is begun again.
+    pub(crate) fn cancelled(&mut self) {
+        if self.under_way.take().is_some_and(|picture| picture.outdated) {
+            self.shown = Shown::Old;
+        }
+        self.overlay = true;
+    }
+
+    /// The picture under way cannot be drawn. That and what would follow is not tried
+    /// again before something changes.
     pub(crate) fn failed(&mut self) {
         let outdated = self.under_way.take().is_some_and(|picture| picture.outdated);
-        self.shown = if outdated { Shown::Old } else { Shown::Full };
+        self.shown = if outdated { Shown::Old } else { Shown::Full(usize::MAX) };
         self.overlay = true;
     }
 }

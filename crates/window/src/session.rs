@@ -3,13 +3,15 @@
 //! tested without a display.
 
 mod controls;
+mod pictures;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
-use trigon_camera::{Camera, Viewport};
+use trigon_camera::Viewport;
 use trigon_math::{Bounds3, DVec2, DVec3};
-use trigon_scene::{Frame, RenderError, RenderSettings};
+use trigon_scene::{Frame, RenderSettings};
 
 use crate::canvas::Canvas;
 use crate::handler::{Animation, Handler, Tick};
@@ -17,10 +19,11 @@ use crate::input::{HeldKeys, InputEvent, Modifiers, Pointer};
 use crate::interaction::Interaction;
 use crate::interface::{Interface, Moment};
 use crate::motion;
-use crate::pacing::{Change, Frames, Pacing, Quality, Wake};
+use crate::pacing::{Change, Frames, Pacing, Wake};
+use crate::refinement::Gallery;
 use crate::shared_scene::Revision;
 use crate::stage::{FrameReport, Stage, Subject, Visibility};
-use crate::worker::{Finished, Job, Purpose, Worker};
+use crate::worker::Worker;
 
 /// The step of an animation's first frame, and of a key's first moment.
 const FIRST_STEP: Duration = Duration::from_micros(16_667);
@@ -49,8 +52,11 @@ pub(crate) struct Session<'a> {
     seen: Visibility,
     /// What the picture that was asked for last is of.
     subject: Option<Subject>,
-    /// The last picture, and the camera that it was drawn with.
-    picture: Option<(Frame, Camera)>,
+    /// The pictures of the window, and what they are of.
+    gallery: Gallery,
+    pictured: Option<Subject>,
+    /// The one on the canvas.
+    shown: Option<Arc<Frame>>,
     /// Pictures that were asked for and not begun.
     pictures: Vec<RenderSettings>,
     canvas: Canvas,
@@ -78,7 +84,9 @@ impl<'a> Session<'a> {
             bounds: None,
             seen: Visibility::Shown,
             subject: None,
-            picture: None,
+            gallery: Gallery::default(),
+            pictured: None,
+            shown: None,
             pictures: Vec::new(),
             canvas: Canvas::default(),
             composed: Duration::ZERO,
@@ -203,32 +211,6 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// Takes over what the worker has finished.
-    pub(crate) fn collect(&mut self, now: Duration) {
-        let Some(Finished { purpose, camera, took, frame }) = self.worker.collect() else { return };
-        self.pacing.occupy(false);
-        match (purpose, frame) {
-            (Purpose::Window(_), Ok(frame)) => {
-                self.pacing.finished(took);
-                self.stage.set_report(FrameReport { render: took, ..self.stage.report() });
-                self.picture = Some((frame, camera));
-                self.show_picture();
-            }
-            (Purpose::Window(_), Err(error)) => {
-                self.pacing.failed();
-                if error != RenderError::Cancelled {
-                    self.stage.overlay.notify(error.to_string());
-                }
-            }
-            (Purpose::Picture, Ok(frame)) => {
-                self.handler.picture(&mut self.stage, frame);
-                self.after_handler(now);
-            }
-            (Purpose::Picture, Err(error)) => self.stage.overlay.notify(error.to_string()),
-        }
-        self.begin_asked(now);
-    }
-
     fn is_hidden(&self) -> bool {
         let Viewport { width, height } = self.stage.viewport();
         width == 0 || height == 0 || self.seen == Visibility::Hidden
@@ -243,21 +225,14 @@ impl<'a> Session<'a> {
     }
 
     fn resized(&mut self, viewport: Viewport, now: Duration) {
-        if viewport == self.stage.viewport() && self.picture.is_some() {
+        if viewport == self.stage.viewport() && self.shown.is_some() {
             return;
         }
         self.stage.resize(viewport);
         // The first size is no movement.
-        let change = if self.picture.is_some() { Change::Moving } else { Change::Settled };
+        let change = if self.shown.is_some() { Change::Moving } else { Change::Settled };
         self.pacing.changed(change, now);
         self.show_picture();
-    }
-
-    /// Brings the last picture under the interface, at the window's size.
-    fn show_picture(&mut self) {
-        let Viewport { width, height } = self.stage.viewport();
-        self.canvas.show(self.picture.as_ref().map(|(frame, _)| frame), [width, height]);
-        self.interface.painter.invalidate();
     }
 
     /// Whatever was done, the interface may show it; and the picture is drawn again if
@@ -268,6 +243,7 @@ impl<'a> Session<'a> {
         if changed {
             self.anchor = None;
         }
+        self.plan(now);
     }
 
     /// What every call of the handler may have changed.
@@ -278,31 +254,6 @@ impl<'a> Session<'a> {
         if std::mem::take(&mut self.stage.wishes().animate) {
             self.animation = Animation::Running;
         }
-    }
-
-    /// Begins a picture that was asked for, if the worker has time.
-    fn begin_asked(&mut self, now: Duration) {
-        if self.worker.is_busy() || self.pictures.is_empty() {
-            return;
-        }
-        let settings = self.pictures.remove(0);
-        self.pacing.occupy(true);
-        self.begin(Purpose::Picture, settings);
-        self.collect(now);
-    }
-
-    /// Begins the window's picture.
-    fn begin_picture(&mut self, quality: Quality) {
-        self.subject = Some(self.stage.subject());
-        self.begin(Purpose::Window(quality), self.stage.picture_settings(quality));
-    }
-
-    fn begin(&mut self, purpose: Purpose, settings: RenderSettings) {
-        let revision = self.stage.scene.revision();
-        let known = self.bounds.filter(|(known, _)| *known == revision);
-        let (_, bounds) = *self.bounds.insert(known.unwrap_or_else(|| (revision, self.stage.scene.bounds())));
-        let camera = self.stage.orbit.camera(&bounds);
-        self.worker.begin(Job { purpose, scene: self.stage.scene.share(), camera, settings });
     }
 
     /// Moves what moves by itself: the animation and held keys.
@@ -328,7 +279,7 @@ impl<'a> Session<'a> {
     fn run_interface(&mut self, now: Duration) {
         let (viewport, scale) = (self.stage.viewport(), self.stage.scale());
         let moment = Moment { now, viewport, scale };
-        let shown_by = self.picture.as_ref().map(|(_, camera)| camera);
+        let shown_by = self.gallery.camera();
         let handler = &mut self.handler;
         let mut application = |stage: &mut Stage, ui: &mut egui::Ui| handler.interface(stage, ui);
         let before = self.stage.subject();
@@ -343,6 +294,7 @@ impl<'a> Session<'a> {
         if std::mem::take(&mut self.stage.wishes().animate) {
             self.animation = Animation::Running;
         }
+        self.plan(now);
     }
 }
 

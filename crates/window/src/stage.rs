@@ -1,15 +1,18 @@
 //! What a window shows, in one place for the application and for the window:
 //! scene, camera, settings, keys, and what is written over the picture.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use trigon_camera::{Camera, DEFAULT_MARGIN, Orbit, Projector, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
 use trigon_scene::{Hit, NodeId, Outputs, RenderSettings, Renderer};
 
+use crate::drawer::{Drawer, DrawnBy};
 use crate::keymap::Keymap;
 use crate::overlay::Overlay;
-use crate::pacing::Quality;
+use crate::pacing::{Progress, USUAL_BUDGET};
+use crate::refinement::{self, Comparison, QualityReport, Refinement, Wanted};
 use crate::shared_scene::{Revision, SharedScene};
 use crate::waker::Waker;
 
@@ -68,6 +71,16 @@ pub struct Stage {
     /// How it is drawn. Width, height and outputs are the window's business;
     /// the line width counts in logical pixels.
     pub settings: RenderSettings,
+    /// How far it is refined at rest.
+    pub refinement: Refinement,
+    /// Whether it is compared with the reference at rest.
+    pub comparison: Comparison,
+    /// Draws the picture at rest in place of the renderer. It is not refined then, but
+    /// compared with the renderer's reference, if it is to be compared.
+    pub drawer: Option<Arc<dyn Drawer>>,
+    /// What a picture may take while something moves: it is made as small as that asks
+    /// for. 33 ms when nothing else is said; less than 1 ms counts as that.
+    pub frame_budget: Duration,
     /// What is written over it.
     pub overlay: Overlay,
     /// What keys and drags do.
@@ -89,6 +102,8 @@ pub struct Stage {
     viewport: Viewport,
     scale: f64,
     report: FrameReport,
+    quality_report: Option<QualityReport>,
+    progress: Option<Progress>,
     wishes: Wishes,
 }
 
@@ -108,6 +123,10 @@ impl Stage {
             scene: SharedScene::default(),
             orbit: Orbit::new(DVec3::Y),
             settings: RenderSettings::new(DEFAULT_SIZE.width, DEFAULT_SIZE.height),
+            refinement: Refinement::default(),
+            comparison: Comparison::default(),
+            drawer: None,
+            frame_budget: USUAL_BUDGET,
             overlay: Overlay::default(),
             keymap: Keymap::default(),
             selection: None,
@@ -122,6 +141,8 @@ impl Stage {
             viewport: DEFAULT_SIZE,
             scale: 1.0,
             report: FrameReport::default(),
+            quality_report: None,
+            progress: None,
             wishes: Wishes::default(),
         }
     }
@@ -155,7 +176,14 @@ impl Stage {
         self.scale
     }
 
-    /// What the last frame took.
+    /// What the pictures at rest took and how far they are apart, of scene, camera and
+    /// settings as they are; `None` before they are drawn.
+    #[must_use]
+    pub fn quality_report(&self) -> Option<QualityReport> {
+        self.quality_report
+    }
+
+    /// What the last frame took: a draft, or the picture that the settings give.
     #[must_use]
     pub fn report(&self) -> FrameReport {
         self.report
@@ -263,17 +291,54 @@ impl Stage {
         self.report = report;
     }
 
-    /// How the window's picture is drawn.
-    pub(crate) fn picture_settings(&self, quality: Quality) -> RenderSettings {
-        let mut settings = self.settings.clone();
+    pub(crate) fn set_quality_report(&mut self, report: Option<QualityReport>) {
+        self.quality_report = report;
+    }
+
+    /// How far the refinement is that is under way.
+    pub(crate) fn progress(&self) -> Option<Progress> {
+        self.progress
+    }
+
+    pub(crate) fn set_progress(&mut self, progress: Option<Progress>) {
+        self.progress = progress;
+    }
+
+    /// How the window's pictures at rest are drawn, step by step.
+    pub(crate) fn ladder(&self) -> Vec<RenderSettings> {
+        let steps = refinement::ladder(&self.settings, self.drawer.is_some());
+        steps.into_iter().map(|settings| self.fitted(settings, 1.0)).collect()
+    }
+
+    /// The steps to be done at rest: those of the ladder, and after its last the comparison.
+    pub(crate) fn wanted_steps(&self) -> Vec<usize> {
+        let length = refinement::ladder(&self.settings, self.drawer.is_some()).len();
+        refinement::wanted(length, self.shown_refinement(), self.comparison)
+    }
+
+    /// What a drawer of the application's own draws is not replaced by a better picture.
+    fn shown_refinement(&self) -> Refinement {
+        if self.drawer.is_some() { Refinement::Settings } else { self.refinement }
+    }
+
+    /// Which picture is to be seen at rest.
+    pub(crate) fn wanted_picture(&self) -> Wanted {
+        match (self.comparison, self.shown_refinement()) {
+            (Comparison::Shown, _) => Wanted::Difference,
+            (_, Refinement::Reference) => Wanted::Best,
+            (_, Refinement::Settings) => Wanted::Settings,
+        }
+    }
+
+    /// How drafts are drawn, smaller by a factor in each direction.
+    pub(crate) fn draft_settings(&self, shrink: f64) -> RenderSettings {
+        let settings = RenderSettings { samples_per_axis: 1, samples: 1, ..self.settings.clone() };
+        self.fitted(settings, shrink)
+    }
+
+    /// For the window's size, smaller by a factor in each direction.
+    fn fitted(&self, mut settings: RenderSettings, shrink: f64) -> RenderSettings {
         settings.outputs = Outputs::default();
-        let shrink = match quality {
-            Quality::Full => 1.0,
-            Quality::Draft { shrink } => {
-                (settings.samples_per_axis, settings.samples) = (1, 1);
-                shrink
-            }
-        };
         settings.line_width *= (self.scale / shrink) as f32;
         let smaller = |size: u32| ((f64::from(size) / shrink) as u32).clamp(1, trigon_scene::MAX_SIZE);
         (settings.width, settings.height) = (smaller(self.viewport.width), smaller(self.viewport.height));
@@ -283,7 +348,8 @@ impl Stage {
     /// All that the window's picture depends on.
     pub(crate) fn subject(&self) -> Subject {
         let Self { orbit, viewport, scale, .. } = *self;
-        Subject { scene: self.scene.revision(), orbit, settings: self.settings.clone(), viewport, scale }
+        let (settings, drawer) = (self.settings.clone(), DrawnBy(self.drawer.clone()));
+        Subject { scene: self.scene.revision(), orbit, settings, drawer, viewport, scale }
     }
 }
 
@@ -293,6 +359,7 @@ pub(crate) struct Subject {
     scene: Revision,
     orbit: Orbit,
     settings: RenderSettings,
+    drawer: DrawnBy,
     viewport: Viewport,
     scale: f64,
 }

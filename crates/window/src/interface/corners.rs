@@ -5,14 +5,15 @@ use std::time::Duration;
 use egui::{Align, Align2, Area, Color32, Context, Frame, Id, Layout, Order, RichText, vec2};
 
 use crate::overlay::Corner;
+use crate::pacing::Progress;
 use crate::stage::{FrameReport, Stage, Visibility};
 
 /// White on a dark backdrop is readable on any picture.
-const INK: Color32 = Color32::from_gray(240);
-const BACKDROP: Color32 = Color32::from_rgba_premultiplied(10, 11, 14, 170);
+pub(super) const INK: Color32 = Color32::from_gray(240);
+pub(super) const BACKDROP: Color32 = Color32::from_rgba_premultiplied(10, 11, 14, 170);
 
 /// From the edges, in points.
-const GAP: f32 = 8.0;
+pub(super) const GAP: f32 = 8.0;
 
 /// Writes all corners of what no panel covers.
 pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: Duration) {
@@ -23,6 +24,7 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: 
             Corner::TopRight if stage.frame_time == Visibility::Shown => {
                 lines.push(frame_time(stage.report()));
             }
+            Corner::BottomRight => lines.extend(stage.progress().map(refining)),
             Corner::BottomLeft => drop(lines.splice(..0, messages.iter().cloned())),
             _ => {}
         }
@@ -53,6 +55,11 @@ fn write(context: &Context, free: egui::Rect, corner: Corner, lines: &[String]) 
             });
         });
     });
+}
+
+/// "refining 3/4"
+fn refining(Progress { step, of }: Progress) -> String {
+    format!("refining {step}/{of}")
 }
 
 /// "12.3 ms, 81 fps": how long a picture takes, and how many of them would fit

@@ -3,6 +3,7 @@
 //! and moments go in, triangles come out.
 
 mod corners;
+mod legend;
 mod outline;
 mod sheet;
 
@@ -136,6 +137,7 @@ impl Interface {
                 outline::show(ui, camera, moment.viewport, &bounds);
             }
             corners::show(ui.ctx(), free, stage, moment.now);
+            legend::show(ui.ctx(), free, stage);
             chosen = sheet::show(ui.ctx(), stage);
         });
         self.in_pass.store(false, Ordering::Relaxed);

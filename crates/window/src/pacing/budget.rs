@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-/// What a draft may take: 30 frames a second.
-const BUDGET: Duration = Duration::from_millis(33);
+/// What a draft may take when nothing else is said: 30 frames a second.
+pub(crate) const USUAL: Duration = Duration::from_millis(33);
 
 /// Drafts are not drawn smaller than by this factor in each direction.
 const MOST_SHRINK: f64 = 4.0;
@@ -15,6 +15,7 @@ const AIM: f64 = 0.8;
 /// Learns from each draft how large the next one may be.
 #[derive(Debug)]
 pub(super) struct Budget {
+    time: Duration,
     shrink: f64,
     /// Of the budget, what the last draft of this size took.
     last: Option<f64>,
@@ -22,7 +23,7 @@ pub(super) struct Budget {
 
 impl Default for Budget {
     fn default() -> Self {
-        Self { shrink: 1.0, last: None }
+        Self { time: USUAL, shrink: 1.0, last: None }
     }
 }
 
@@ -32,13 +33,21 @@ impl Budget {
         self.shrink
     }
 
+    /// What a draft may take.
+    pub(super) fn set(&mut self, time: Duration) {
+        // What was learned is a share of the time before.
+        if std::mem::replace(&mut self.time, time) != time {
+            self.last = None;
+        }
+    }
+
     /// A draft of the current size took this long. The time is taken to grow with the
     /// number of pixels. Where it does not, because of what has to be done before there
     /// are any, the size falls until it does not matter any more.
     ///
     /// A single draft changes nothing: it may have had to wait for other programs.
     pub(super) fn took(&mut self, time: Duration) {
-        let share = time.as_secs_f64() / BUDGET.as_secs_f64();
+        let share = time.as_secs_f64() / self.time.as_secs_f64();
         let Some(last) = self.last.replace(share) else { return };
         let (least, most) = if last < share { (last, share) } else { (share, last) };
         // Between half and all of the budget it stays: sizes that flicker are ugly.
@@ -76,6 +85,17 @@ mod tests {
         let took = 330.0 / (shrink * shrink);
         assert!((16.5..=33.0).contains(&took), "ten times too slow: {shrink}, {took} ms");
         assert_eq!(settled(1e6), MOST_SHRINK, "no smaller than that");
+    }
+
+    #[test]
+    fn another_budget_gives_another_size() {
+        let mut budget = Budget::default();
+        budget.set(Duration::from_millis(100));
+        (0..9).for_each(|_| budget.took(Duration::from_millis(90)));
+        assert_eq!(budget.shrink(), 1.0, "they fit");
+        budget.set(Duration::from_millis(16));
+        (0..9).for_each(|_| budget.took(Duration::from_millis(90)));
+        assert_eq!(budget.shrink(), MOST_SHRINK, "and now they do not");
     }
 
     #[test]

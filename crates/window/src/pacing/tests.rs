@@ -15,10 +15,13 @@ fn begin(pacing: &mut Pacing, now: Duration, animated: Frames) -> Option<Quality
 
 const DRAFT: Quality = Quality::Draft { shrink: 1.0 };
 
+/// As the settings say.
+const FULL: Quality = Quality::Full(0);
+
 /// A pacing whose first picture is done: a full one that took this long.
 fn rested(full: Duration) -> Pacing {
     let mut pacing = Pacing::new();
-    for (quality, took) in [(DRAFT, ms(0)), (Quality::Full, full)] {
+    for (quality, took) in [(DRAFT, ms(0)), (FULL, full)] {
         assert_eq!(begin(&mut pacing, ms(0), Frames::None), Some(quality), "a draft, then a full picture");
         pacing.finished(took);
     }
@@ -53,7 +56,7 @@ fn a_movement_is_drawn_as_a_draft_and_refined_once() {
     let mut pacing = rested(ms(0));
     pacing.changed(Change::Moving, ms(1000));
     let begun = run(&mut pacing, ms(1000), ms(100_000), Frames::None);
-    assert_eq!(begun, [(ms(1000), DRAFT), (ms(1150), Quality::Full)], "a draft at once, refined at rest");
+    assert_eq!(begun, [(ms(1000), DRAFT), (ms(1150), FULL)], "a draft at once, refined at rest");
 }
 
 #[test]
@@ -80,7 +83,7 @@ fn an_animation_is_paced_to_sixty_frames() {
     assert!(begun.iter().all(|&(_, quality)| quality == DRAFT), "all of them drafts");
     let after = run(&mut pacing, ms(2000), ms(9000), Frames::None);
     assert_eq!(after.len(), 1, "when it ends, its last picture is refined: {after:?}");
-    assert_eq!(after[0].1, Quality::Full, "in full");
+    assert_eq!(after[0].1, FULL, "in full");
 }
 
 #[test]
@@ -88,12 +91,12 @@ fn a_single_change_is_drawn_in_full_if_that_is_quick() {
     let mut pacing = rested(ms(50));
     pacing.changed(Change::Settled, ms(500));
     let begun = run(&mut pacing, ms(500), ms(9000), Frames::None);
-    assert_eq!(begun, [(ms(500), Quality::Full)], "no draft before");
+    assert_eq!(begun, [(ms(500), FULL)], "no draft before");
     let mut pacing = rested(ms(5000));
     pacing.changed(Change::Settled, ms(500));
     let begun: Vec<_> =
         run(&mut pacing, ms(500), ms(9000), Frames::None).into_iter().map(|(_, q)| q).collect();
-    assert_eq!(begun, [DRAFT, Quality::Full], "nobody waits five seconds to see anything");
+    assert_eq!(begun, [DRAFT, FULL], "nobody waits five seconds to see anything");
 }
 
 #[test]
@@ -107,7 +110,7 @@ fn writing_over_a_picture_draws_none() {
     pacing.finished(ms(0));
     pacing.changed(Change::Overlay, ms(9020));
     let begun = run(&mut pacing, ms(9020), ms(20_000), Frames::None);
-    assert_eq!(begun, [(ms(9150), Quality::Full)], "it does not pass for refining it");
+    assert_eq!(begun, [(ms(9150), FULL)], "it does not pass for refining it");
 }
 
 #[test]
@@ -142,13 +145,13 @@ fn full_pictures_that_nobody_will_see_are_useless_and_drafts_are_not() {
     pacing.finished(ms(10));
     assert_eq!(begin(&mut pacing, ms(1020), Frames::None), Some(DRAFT), "the movement went on");
     pacing.finished(ms(10));
-    assert_eq!(begin(&mut pacing, ms(2000), Frames::None), Some(Quality::Full), "at rest");
+    assert_eq!(begin(&mut pacing, ms(2000), Frames::None), Some(FULL), "at rest");
     assert!(!pacing.is_useless(), "it is the right picture");
     pacing.changed(Change::Moving, ms(2010));
     assert!(pacing.is_useless(), "it was");
     assert_eq!(pacing.next(ms(2050), Frames::None, None), Wake::Now, "the overlay may have changed");
     assert_eq!(begin(&mut pacing, ms(2050), Frames::None), None, "it has to end first");
-    pacing.failed();
+    pacing.cancelled();
     assert_eq!(begin(&mut pacing, ms(2060), Frames::None), Some(DRAFT), "then the movement shows");
 }
 
@@ -161,4 +164,43 @@ fn what_cannot_be_drawn_is_not_tried_again_and_again() {
     assert_eq!(run(&mut pacing, ms(1000), ms(9000), Frames::None), [], "it would fail again");
     pacing.changed(Change::Settled, ms(9000));
     assert!(begin(&mut pacing, ms(9000), Frames::None).is_some(), "something else may not");
+}
+
+#[test]
+fn at_rest_all_that_is_wanted_follows_and_then_nothing() {
+    let mut pacing = rested(ms(50));
+    pacing.want(vec![0, 2, 5]);
+    assert_eq!(pacing.progress(), Some(Progress { step: 2, of: 3 }), "the first one is there");
+    let steps =
+        |begun: Vec<(Duration, Quality)>| begun.into_iter().map(|(_, quality)| quality).collect::<Vec<_>>();
+    let begun = steps(run(&mut pacing, ms(100), ms(99_000), Frames::None));
+    assert_eq!(begun, [Quality::Full(2), Quality::Full(5)], "those that were not wanted before");
+    assert_eq!(pacing.progress(), None, "done");
+    pacing.changed(Change::Moving, ms(100_000));
+    assert_eq!(pacing.progress(), None, "nothing is refined while it moves");
+    let begun = steps(run(&mut pacing, ms(100_000), ms(200_000), Frames::None));
+    assert_eq!(begun, [DRAFT, FULL, Quality::Full(2), Quality::Full(5)], "and again from the start");
+    pacing.want(vec![0]);
+    assert_eq!(pacing.next(ms(300_000), Frames::None, None), Wake::Never, "silence");
+}
+
+#[test]
+fn refining_gives_way_and_goes_on_where_it_was() {
+    let mut pacing = rested(ms(50));
+    pacing.want(vec![0, 1, 2]);
+    assert_eq!(begin(&mut pacing, ms(100), Frames::None), Some(Quality::Full(1)), "a better one");
+    assert!(pacing.is_refining() && !pacing.is_useless(), "is under way, and wanted");
+    pacing.cancelled();
+    assert_eq!(begin(&mut pacing, ms(200), Frames::None), Some(Quality::Full(1)), "it is begun again");
+    pacing.want(vec![0, 2]);
+    assert!(pacing.is_useless(), "nobody wants it any more");
+    pacing.cancelled();
+    assert_eq!(begin(&mut pacing, ms(300), Frames::None), Some(Quality::Full(2)), "but another");
+    pacing.failed();
+    assert_eq!(
+        run(&mut pacing, ms(400), ms(9000), Frames::None),
+        [],
+        "what cannot be drawn is not tried again"
+    );
+    assert_eq!(pacing.progress(), None, "and not waited for");
 }

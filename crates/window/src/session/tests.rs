@@ -2,6 +2,7 @@
 
 mod beside;
 mod ownership;
+mod refinement;
 mod replay;
 
 use super::*;

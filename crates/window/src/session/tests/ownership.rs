@@ -120,13 +120,13 @@ fn keys_go_to_a_text_field_that_is_typed_into() {
 fn what_a_widget_changes_is_drawn_and_what_it_does_not_is_not() {
     let mut handler = Panel { turns_edges_on: true, ..Panel::default() };
     let mut session = opened(&mut handler);
-    let (picture, subject) = (session.picture.clone(), session.subject.clone());
+    let (picture, subject) = (session.shown.clone(), session.subject.clone());
     move_to(&mut session, BUTTON.0, BUTTON.1, ms(1000));
     assert!(session.subject == subject, "passing over a widget draws no picture");
     click(&mut session, BUTTON, ms(2000));
     run(&mut session, ms(2000));
     assert!(session.subject != subject, "the edges are on");
-    assert!(session.picture != picture, "and to be seen");
+    assert!(session.shown != picture, "and to be seen");
     drop(session);
     assert_eq!(handler.clicks, 1, "one click");
 }

@@ -1,0 +1,65 @@
+//! What the colours of the heat map mean.
+
+use egui::{Align2, Area, Color32, Context, Frame, Id, Order, RichText, vec2};
+
+use super::corners::{BACKDROP, GAP, INK};
+use crate::refinement::{CLASSES, Comparison, Difference};
+use crate::stage::Stage;
+
+/// In points.
+const SWATCH: egui::Vec2 = vec2(14.0, 14.0);
+
+/// Shows it under the map, in the middle of what no panel covers.
+pub(super) fn show(context: &Context, free: egui::Rect, stage: &Stage) {
+    if stage.comparison != Comparison::Shown {
+        return;
+    }
+    let difference = stage.quality_report().and_then(|report| report.difference);
+    let area = Area::new(Id::unique("legend")).order(Order::Background).interactable(false).fade_in(false);
+    area.anchor(Align2::CENTER_BOTTOM, vec2(0.0, -GAP)).constrain_to(free).show(context, |ui| {
+        Frame::new().fill(BACKDROP).inner_margin(6).corner_radius(4).show(ui, |ui| match difference {
+            None => {
+                ui.label(RichText::new("drawing the reference to compare with").color(INK));
+            }
+            Some(difference) => {
+                ui.label(RichText::new(figures(&difference)).color(INK));
+                ui.horizontal(swatches);
+            }
+        });
+    });
+}
+
+fn swatches(ui: &mut egui::Ui) {
+    ui.label(RichText::new("levels of 255:").color(INK));
+    for class in &CLASSES {
+        let (place, _) = ui.allocate_exact_size(SWATCH, egui::Sense::hover());
+        let [r, g, b] = class.color;
+        ui.painter().rect_filled(place, 2, Color32::from_rgb(r, g, b));
+        ui.label(RichText::new(class.label).monospace().color(INK));
+    }
+}
+
+/// "difference from the reference: RMSE 0.0123, worst 0.510 (120 levels), in 3.1 % of the pixels"
+fn figures(difference: &Difference) -> String {
+    let Difference { rmse, worst, worst_levels, share } = *difference;
+    if share == 0.0 {
+        return "no difference from the reference".to_owned();
+    }
+    format!(
+        "difference from the reference: RMSE {rmse:.4}, worst {worst:.3} ({worst_levels} levels), in {:.1} % of the pixels",
+        share * 100.0
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_have_their_units() {
+        let difference = Difference { rmse: 0.012_34, worst: 0.51, worst_levels: 120, share: 0.031 };
+        let text = figures(&difference);
+        assert!(text.ends_with("RMSE 0.0123, worst 0.510 (120 levels), in 3.1 % of the pixels"), "{text}");
+        assert_eq!(figures(&Difference::default()), "no difference from the reference", "of equal pictures");
+    }
+}

@@ -1,0 +1,85 @@
+//! The pictures that a window has of its scene, and which of them it shows.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use trigon_camera::Camera;
+use trigon_scene::Frame;
+
+use super::{Compared, QualityReport};
+use crate::pacing::Quality;
+
+/// Pictures of one state of the scene: a draft, the one that the settings give, the best
+/// so far, and what lies between the last two.
+#[derive(Default)]
+pub(crate) struct Gallery {
+    /// The one that all were drawn with.
+    camera: Option<Camera>,
+    draft: Option<Arc<Frame>>,
+    settings: Option<Arc<Frame>>,
+    best: Option<Arc<Frame>>,
+    map: Option<Arc<Frame>>,
+    report: QualityReport,
+}
+
+/// Which picture is to be seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    /// The one that the settings give.
+    Settings,
+    /// The best there is.
+    Best,
+    /// How far they are apart.
+    Difference,
+}
+
+impl Gallery {
+    /// A new picture. Those of other states of the scene are given back.
+    pub(crate) fn add(&mut self, quality: Quality, frame: Frame, camera: Camera, took: Duration) {
+        let frame = Arc::new(frame);
+        match quality {
+            Quality::Draft { .. } => *self = Self { draft: Some(frame), ..Self::default() },
+            Quality::Full(0) => {
+                let report = QualityReport { settings: took, ..QualityReport::default() };
+                let best = Some(Arc::clone(&frame));
+                *self = Self { settings: Some(frame), best, report, ..Self::default() };
+            }
+            Quality::Full(_) => {
+                self.best = Some(frame);
+                self.report.best = Some(took);
+            }
+        }
+        self.camera = Some(camera);
+    }
+
+    /// The picture of the settings and the best one, which is the reference, are compared.
+    pub(crate) fn compared(&mut self, compared: Compared) {
+        self.map = Some(Arc::new(compared.map));
+        self.report.difference = Some(compared.difference);
+    }
+
+    /// What is to be compared.
+    pub(crate) fn pair(&self) -> Option<[Arc<Frame>; 2]> {
+        Some([Arc::clone(self.settings.as_ref()?), Arc::clone(self.best.as_ref()?)])
+    }
+
+    /// What is shown, if that is wanted.
+    pub(crate) fn shown(&self, wanted: Wanted) -> Option<&Arc<Frame>> {
+        let at_rest = match wanted {
+            Wanted::Best => self.best.as_ref(),
+            Wanted::Settings => self.settings.as_ref(),
+            Wanted::Difference => self.map.as_ref().or(self.settings.as_ref()),
+        };
+        at_rest.or(self.draft.as_ref())
+    }
+
+    /// The camera of what is shown.
+    pub(crate) fn camera(&self) -> Option<&Camera> {
+        self.camera.as_ref()
+    }
+
+    /// What was measured of pictures at rest; `None` for drafts.
+    pub(crate) fn report(&self) -> Option<QualityReport> {
+        self.settings.as_ref().map(|_| self.report)
+    }
+}

@@ -1,0 +1,147 @@
+//! Which pictures are drawn beside the window, and what becomes of them.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use trigon_camera::Viewport;
+use trigon_scene::RenderSettings;
+
+use super::Session;
+use crate::pacing::{Change, Quality};
+use crate::stage::FrameReport;
+use crate::worker::{Finished, Job, Product, Purpose, Task, Unfinished};
+
+/// No picture is expected in less than this.
+const SHORTEST_BUDGET: Duration = Duration::from_millis(1);
+
+impl Session<'_> {
+    /// Takes over what the worker has finished.
+    pub(crate) fn collect(&mut self, now: Duration) {
+        let Some(finished) = self.worker.collect() else { return };
+        self.pacing.occupy(false);
+        match finished.purpose {
+            Purpose::Window(quality) => self.window_finished(quality, finished),
+            Purpose::Picture => self.picture_finished(finished, now),
+        }
+        self.begin_asked(now);
+        self.plan(now);
+    }
+
+    fn window_finished(&mut self, quality: Quality, finished: Finished) {
+        let Finished { camera, took, product, .. } = finished;
+        match product {
+            Ok(Product::Picture(frame)) => {
+                self.pacing.finished(took);
+                self.gallery.add(quality, frame, camera, took);
+                self.pictured.clone_from(&self.subject);
+                if matches!(quality, Quality::Draft { .. } | Quality::Full(0)) {
+                    self.stage.set_report(FrameReport { render: took, ..self.stage.report() });
+                }
+            }
+            Ok(Product::Comparison(compared)) => {
+                self.pacing.finished(took);
+                self.gallery.compared(compared);
+            }
+            Err(Unfinished::Cancelled) => self.pacing.cancelled(),
+            Err(Unfinished::Impossible(reason)) => {
+                self.pacing.failed();
+                self.stage.overlay.notify(reason);
+            }
+        }
+    }
+
+    fn picture_finished(&mut self, finished: Finished, now: Duration) {
+        match finished.product {
+            Ok(Product::Picture(frame)) => {
+                self.handler.picture(&mut self.stage, frame);
+                self.after_handler(now);
+            }
+            Err(Unfinished::Impossible(reason)) => self.stage.overlay.notify(reason),
+            // Nobody cancels pictures that were asked for, and they are no comparisons.
+            Ok(Product::Comparison(_)) | Err(Unfinished::Cancelled) => {}
+        }
+    }
+
+    /// What is wanted at rest may be something else now, and so may be what is shown.
+    pub(super) fn plan(&mut self, now: Duration) {
+        self.pacing.want(self.stage.wanted_steps());
+        self.pacing.allow(self.stage.frame_budget.max(SHORTEST_BUDGET));
+        let is_current = self.pictured.as_ref() == Some(&self.stage.subject());
+        let report = self.gallery.report().filter(|_| is_current);
+        let progress = self.pacing.progress();
+        if (report, progress) != (self.stage.quality_report(), self.stage.progress()) {
+            self.stage.set_quality_report(report);
+            self.stage.set_progress(progress);
+            self.pacing.changed(Change::Overlay, now);
+        }
+        let wanted = self.gallery.shown(self.stage.wanted_picture()).cloned();
+        let is_same = match (&wanted, &self.shown) {
+            (Some(wanted), Some(shown)) => Arc::ptr_eq(wanted, shown),
+            _ => wanted.is_none(),
+        };
+        if !is_same {
+            self.shown = wanted;
+            self.show_picture();
+        }
+    }
+
+    /// Brings the picture under the interface, at the window's size.
+    pub(super) fn show_picture(&mut self) {
+        let Viewport { width, height } = self.stage.viewport();
+        self.canvas.show(self.shown.as_deref(), [width, height]);
+        self.interface.painter.invalidate();
+    }
+
+    /// Begins a picture that was asked for, if the worker has time. It need not wait for
+    /// one that is only better than what is shown.
+    pub(super) fn begin_asked(&mut self, now: Duration) {
+        if self.pictures.is_empty() {
+            return;
+        }
+        if self.worker.is_busy() {
+            if self.pacing.is_refining() {
+                self.worker.cancel();
+            }
+            return;
+        }
+        let settings = self.pictures.remove(0);
+        self.pacing.occupy(true);
+        self.begin(Purpose::Picture, self.drawing(settings));
+        self.collect(now);
+    }
+
+    /// Begins the window's picture.
+    pub(super) fn begin_picture(&mut self, quality: Quality) {
+        self.subject = Some(self.stage.subject());
+        match self.task(quality) {
+            Some(task) => self.begin(Purpose::Window(quality), task),
+            None => self.pacing.failed(),
+        }
+    }
+
+    /// What is to be done for the window; `None` if there is nothing to be compared.
+    fn task(&self, quality: Quality) -> Option<Task> {
+        let step = match quality {
+            Quality::Draft { shrink } => return Some(self.drawing(self.stage.draft_settings(shrink))),
+            Quality::Full(step) => step,
+        };
+        let Some(settings) = self.stage.ladder().into_iter().nth(step) else {
+            return self.gallery.pair().map(Task::Compare);
+        };
+        let drawer = self.stage.drawer.clone().filter(|_| step == 0);
+        Some(Task::Draw { scene: self.stage.scene.share(), settings: Box::new(settings), drawer })
+    }
+
+    /// A picture by the renderer.
+    fn drawing(&self, settings: RenderSettings) -> Task {
+        Task::Draw { scene: self.stage.scene.share(), settings: Box::new(settings), drawer: None }
+    }
+
+    fn begin(&mut self, purpose: Purpose, task: Task) {
+        let revision = self.stage.scene.revision();
+        let known = self.bounds.filter(|(known, _)| *known == revision);
+        let (_, bounds) = *self.bounds.insert(known.unwrap_or_else(|| (revision, self.stage.scene.bounds())));
+        let camera = self.stage.orbit.camera(&bounds);
+        self.worker.begin(Job { purpose, camera, task });
+    }
+}

@@ -1,0 +1,188 @@
+//! Better and better pictures at rest, and how far they are from the best.
+
+use std::sync::Mutex;
+use std::sync::mpsc::channel;
+use std::time::Instant;
+
+use super::*;
+use crate::drawer::Drawer;
+use crate::refinement::{Comparison, Refinement};
+use trigon_camera::Camera;
+use trigon_scene::quality::Preset;
+use trigon_scene::{Cancel, Scene, render};
+
+/// Two cubes with one sample a pixel, which are refined to the reference if that is said.
+fn coarse_stage(refinement: Refinement) -> Stage {
+    let mut stage = stage();
+    stage.settings.samples_per_axis = 1;
+    stage.refinement = refinement;
+    stage
+}
+
+fn opened(stage: Stage, handler: &mut Recorder) -> Session<'_> {
+    let mut session = Session::new(stage, handler, Worker::of_caller());
+    session.event(InputEvent::Resized { width: SIZE.width, height: SIZE.height }, ms(0));
+    session.start(ms(0));
+    session
+}
+
+/// What a picture file would hold.
+fn file(stage: &Stage, preset: Option<Preset>) -> Frame {
+    let mut settings = RenderSettings { width: SIZE.width, height: SIZE.height, ..stage.settings.clone() };
+    if let Some(preset) = preset {
+        preset.apply(&mut settings);
+    }
+    render(&stage.scene, &stage.camera(), &settings).expect("drawn")
+}
+
+#[test]
+fn at_rest_the_picture_becomes_the_reference_and_then_nothing_runs() {
+    let mut handler = Recorder::default();
+    let mut session = opened(coarse_stage(Refinement::Reference), &mut handler);
+    let (mut now, mut seen, mut notes) = (ms(0), Vec::new(), Vec::new());
+    while let Wake::Now | Wake::At(_) = session.next(now) {
+        if let Wake::At(later) = session.next(now) {
+            now = later;
+        }
+        draw(&mut session, now);
+        let shown = session.shown.clone().expect("a picture");
+        if seen.last() != Some(&shown) {
+            seen.push(shown);
+            notes.push(session.stage.progress().map(|progress| (progress.step, progress.of)));
+        }
+    }
+    // The draft, which is in full size here, is what the settings give.
+    let expected = [None, Some(Preset::Standard), Some(Preset::High), Some(Preset::Reference)];
+    assert_eq!(seen.len(), expected.len(), "{notes:?}");
+    for (shown, preset) in seen.iter().zip(expected) {
+        assert!(**shown == file(&session.stage, preset), "the bytes of a picture file, {preset:?}");
+    }
+    assert_eq!(notes[1..], [Some((3, 4)), Some((4, 4)), None], "what is still to come");
+    assert_eq!(session.next(now + Duration::from_secs(3600)), Wake::Never, "silence");
+}
+
+#[test]
+fn refining_can_be_switched_on_and_off_and_shows_what_is_there() {
+    let mut handler = Recorder::default();
+    let mut session = opened(coarse_stage(Refinement::Settings), &mut handler);
+    run(&mut session, ms(0));
+    let (coarse, reference) = (file(&session.stage, None), file(&session.stage, Some(Preset::Reference)));
+    assert!(session.shown.as_deref() == Some(&coarse), "as the settings say, and no better");
+    session.stage.refinement = Refinement::Reference;
+    session.woken(ms(1000));
+    session.animation = Animation::Resting;
+    run(&mut session, ms(1000));
+    assert!(session.shown.as_deref() == Some(&reference), "refined");
+    session.stage.refinement = Refinement::Settings;
+    session.note(ms(9000));
+    assert!(session.shown.as_deref() == Some(&coarse), "it is still there: nothing has to be drawn");
+    assert!(!session.worker.is_busy(), "nothing is");
+}
+
+#[test]
+fn the_difference_is_shown_with_its_figures_and_a_legend() {
+    let mut handler = Recorder::default();
+    let mut session = opened(coarse_stage(Refinement::Settings), &mut handler);
+    run(&mut session, ms(0));
+    let plain = session.canvas().pixels().to_vec();
+    assert_eq!(session.stage.quality_report().and_then(|report| report.difference), None, "nobody asked");
+    session.stage.comparison = Comparison::Shown;
+    session.note(ms(1000));
+    run(&mut session, ms(1000));
+    let map = session.canvas().pixels().to_vec();
+    let report = session.stage.quality_report().expect("at rest");
+    let difference = report.difference.expect("compared");
+    let (coarse, reference) = (file(&session.stage, None), file(&session.stage, Some(Preset::Reference)));
+    let pairs = coarse.color.as_chunks::<4>().0.iter().zip(reference.color.as_chunks::<4>().0);
+    let differing = pairs.filter(|(one, other)| one != other).count();
+    assert!(differing > 50, "outlines are jagged with one sample: {differing}");
+    assert_eq!(
+        difference.share,
+        differing as f64 / f64::from(SIZE.width * SIZE.height),
+        "as many are marked"
+    );
+    assert!(map != plain, "the map is to be seen");
+    session.stage.comparison = Comparison::Measured;
+    session.note(ms(2000));
+    run(&mut session, ms(2000));
+    assert!(session.canvas().pixels() == plain, "and gone without a trace");
+    assert!(session.stage.quality_report().is_some_and(|r| r.difference.is_some()), "the figures stay");
+    session.event(key_down(1, Key::Character('7')), ms(3000));
+    assert_eq!(session.stage.quality_report(), None, "until something else is seen");
+}
+
+/// A movement, or a picture that somebody waits for, comes before a better one.
+#[test]
+fn refining_keeps_nobody_waiting() {
+    const LARGE: Viewport = Viewport { width: 800, height: 500 };
+    let mut handler = Recorder::default();
+    let (ring, rung) = channel();
+    let worker = Worker::of_thread(move || {
+        let _ = ring.send(());
+    });
+    let mut session = Session::new(coarse_stage(Refinement::Reference), &mut handler, worker);
+    session.event(InputEvent::Resized { width: LARGE.width, height: LARGE.height }, ms(0));
+    session.start(ms(0));
+    let begun = Instant::now();
+    // Until the reference is under way: 256 samples a pixel take more than a second.
+    while session.stage.progress().is_none_or(|progress| progress.step < progress.of)
+        || !session.worker.is_busy()
+    {
+        draw(&mut session, begun.elapsed());
+        if session.worker.is_busy() && rung.recv_timeout(ms(5)).is_ok() {
+            session.collect(begun.elapsed());
+        }
+    }
+    session.event(key_down(3, Key::Character('g')), begun.elapsed());
+    rung.recv_timeout(Duration::from_secs(60)).expect("the reference is given up");
+    session.collect(begun.elapsed());
+    rung.recv_timeout(Duration::from_secs(60)).expect("the picture is drawn");
+    session.collect(begun.elapsed());
+    assert!(session.is_over(), "whoever asked has it");
+    draw(&mut session, begun.elapsed() + ms(20));
+    assert!(session.worker.is_busy() && session.pacing.is_refining(), "and refining goes on");
+    session.event(key_down(4, Key::Character('7')), begun.elapsed());
+    session.settle(begun.elapsed());
+    rung.recv_timeout(Duration::from_secs(60)).expect("given up again");
+    session.collect(begun.elapsed());
+    assert_eq!(session.stage.progress(), None, "another view has to be drawn first");
+}
+
+/// Paints everything in one colour, or refuses, and counts.
+struct Flat(Mutex<u32>, Result<u8, String>);
+
+impl Drawer for Flat {
+    fn draw(&self, _: &Scene, _: &Camera, settings: &RenderSettings, _: &Cancel) -> Result<Frame, String> {
+        *self.0.lock().expect("nobody panics") += 1;
+        let RenderSettings { width, height, .. } = *settings;
+        let color = vec![self.1.clone()?; 4 * width as usize * height as usize];
+        Ok(Frame { width, height, color, ..Frame::default() })
+    }
+}
+
+#[test]
+fn another_drawer_is_used_at_rest_and_compared_with_the_renderer() {
+    let mut handler = Recorder::default();
+    let mut session = opened(coarse_stage(Refinement::Reference), &mut handler);
+    let drawer = Arc::new(Flat(Mutex::default(), Ok(255)));
+    session.stage.drawer = Some(drawer.clone());
+    session.stage.comparison = Comparison::Measured;
+    session.note(ms(0));
+    run(&mut session, ms(0));
+    assert!(session.shown.as_deref().is_some_and(|frame| frame.color[0] == 255), "its picture stays");
+    let report = session.stage.quality_report().expect("at rest");
+    assert!(
+        report.difference.is_some_and(|difference| difference.share > 0.5),
+        "it is far from the right one"
+    );
+    assert_eq!(*drawer.0.lock().expect("nobody panics"), 1, "drawn once");
+    session.stage.drawer = Some(Arc::new(Flat(Mutex::default(), Err("only convex bodies".into()))));
+    session.note(ms(5000));
+    for now in (5000..5500).step_by(17).map(ms) {
+        draw(&mut session, now);
+    }
+    let said = session.stage.overlay.messages(ms(5500)).join(" ");
+    assert!(said.contains("only convex bodies"), "its reason is told: {said}");
+    run(&mut session, ms(5500));
+    assert_eq!(session.next(ms(99_000)), Wake::Never, "and it is not asked again and again");
+}
