@@ -8,9 +8,9 @@ use std::time::Instant;
 
 use trigon_camera::Camera;
 use trigon_io::{Capture, Pixels, WriteError, encode_png, write_exr, write_npy, write_png, write_png16};
-use trigon_scene::{Frame, Renderer};
+use trigon_scene::{Frame, RenderSettings, Renderer};
 
-use crate::args::{Beside, Destination, Format, Request};
+use crate::args::{Beside, Destination, Format, Limit, Request};
 use crate::failure::Failure;
 use crate::loading;
 use crate::model::{Model, Source};
@@ -38,19 +38,28 @@ fn draw_one(
     outlet.refuse_terminal()?;
     let model = loading::load_aloud(source, request, reporter)?;
     let camera = model.shot(&request.framing, request.settings.aspect())?.camera;
-    let frame = draw(&model, &camera, request, reporter)?;
+    let (frame, settings) = draw(&model, &camera, request, reporter)?;
     outlet.put(source.first_file(), &frame)?;
     let Some(path) = capture else { return Ok(()) };
-    let capture = Capture::new(model.scene, camera, request.settings.clone(), &frame);
+    let capture = Capture::new(model.scene, camera, settings, &frame);
     capture.write(path).map_err(Failure::work)?;
     reporter.info(format_args!("captured {} ({:016x})", path.display(), capture.picture_hash()));
     Ok(())
 }
 
-fn draw(model: &Model, camera: &Camera, request: &Request, reporter: Reporter) -> Result<Frame, Failure> {
+/// A picture, and the settings that it was drawn with.
+fn draw(
+    model: &Model,
+    camera: &Camera,
+    request: &Request,
+    reporter: Reporter,
+) -> Result<(Frame, RenderSettings), Failure> {
     let started = Instant::now();
     let mut renderer = Renderer::new(request.settings.clone());
-    let frame = renderer.render(&model.scene, camera).map_err(Failure::work)?;
+    let frame = match &request.limit {
+        None => renderer.render(&model.scene, camera).map_err(Failure::work)?,
+        Some(limit) => draw_within(limit, model, camera, (&mut renderer, reporter))?,
+    };
     let title = model.source.title();
     if renderer.stats().pixels_shaded == 0 {
         reporter.warning(format_args!(
@@ -59,6 +68,23 @@ fn draw(model: &Model, camera: &Camera, request: &Request, reporter: Reporter) -
     }
     let (milliseconds, faces) = (started.elapsed().as_secs_f64() * 1e3, model.face_count());
     reporter.debug(format_args!("drew {title} ({faces} faces) in {milliseconds:.1} ms"));
+    Ok((frame, renderer.settings().clone()))
+}
+
+/// The most accurate picture that fits into a time; says what that gives up.
+fn draw_within(
+    limit: &Limit,
+    model: &Model,
+    camera: &Camera,
+    (renderer, reporter): (&mut Renderer, Reporter),
+) -> Result<Frame, Failure> {
+    let (mut budget, started) = (limit.budget(), Instant::now());
+    let clock = &mut || started.elapsed();
+    budget.calibrate(renderer, &model.scene, camera, clock).map_err(Failure::work)?;
+    let drawing = started.elapsed();
+    let (frame, choice) = budget.render(renderer, &model.scene, camera, clock).map_err(Failure::work)?;
+    let took = (started.elapsed() - drawing).as_secs_f64() * 1e3;
+    reporter.info(format_args!("{}: {choice}; took {took:.1} ms", model.source.title()));
     Ok(frame)
 }
 

@@ -180,6 +180,38 @@ fn every_flag_about_the_picture_changes_it() {
 }
 
 #[test]
+fn a_preset_is_some_settings_at_once() {
+    let folder = Folder::new();
+    let drawn = |flags: &str| {
+        folder.said(&format!("corner.obj --output o.png --resolution 60,40 {flags}"), 0);
+        picture(&folder.path("o.png"))
+    };
+    assert!(drawn("--preset=draft") == drawn("--anti-aliasing=none"), "one sample");
+    assert!(drawn("--preset=standard") == drawn("--samples=2"), "2×2");
+    assert!(drawn("--preset=standard --samples=3") == drawn(""), "what is said for itself wins");
+    assert!(drawn("--preset=reference") != drawn("--samples=4"), "sixteen times as many");
+}
+
+#[test]
+fn a_time_budget_says_what_it_chose_and_what_that_gives_up() {
+    let folder = Folder::new();
+    // Anything fits into the one, and nothing into the other.
+    for (time, quality, gives_up) in [
+        ("9s", "4×4 samples of 16,", "gives up nothing"),
+        ("0.001ms", "1 sample,", "nothing is quicker; gives up "),
+    ] {
+        let flags = format!("--output o.png --capture o.trigon --resolution 60,40 --time-budget={time}");
+        let said = folder.said(&format!("corner.obj {flags}"), 0);
+        let choice = said.lines().next().expect("a line");
+        assert!(choice.contains(quality) && choice.contains(gives_up), "{choice}");
+        assert!(choice.contains("; took ") && choice.contains("RMSE"), "time and error: {choice}");
+        folder.said("--replay o.trigon", 0);
+    }
+    let said = folder.said("--output o.png --time-budget=16", 2);
+    assert!(said.contains("16ms"), "a unit is missing: {said}");
+}
+
+#[test]
 fn several_files_are_drawn_together_or_under_several_names() {
     let folder = Folder::new();
     folder.write("b.obj", "v 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\n");
@@ -499,7 +531,8 @@ fn a_radiance_picture_lights_the_model() {
     );
     folder.said("floor.obj --hdri-file room.hdr --sky --output o.png", 2);
     folder.said("floor.obj --hdri-skybox --output o.png", 2);
-    folder.said("floor.obj --hdri-file room.hdr --hdri-skybox --view=top --resolution 60x40 --output o.png", 0);
+    folder
+        .said("floor.obj --hdri-file room.hdr --hdri-skybox --view=top --resolution 60x40 --output o.png", 0);
     let corner = &picture(&folder.path("o.png")).rgba[..4];
     assert!(corner[0] > 2 * corner[2] && corner[3] == 255, "beside the floor is the room's: {corner:?}");
 }

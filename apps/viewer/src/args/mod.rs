@@ -4,6 +4,7 @@
 mod beside;
 mod effects;
 mod output;
+mod quality;
 mod raw;
 mod request;
 mod values;
@@ -14,5 +15,6 @@ pub(crate) use effects::Explanation;
 pub(crate) use output::Destination;
 #[cfg(feature = "window")]
 pub(crate) use output::Template;
+pub(crate) use quality::Limit;
 pub(crate) use raw::{Command, RawArgs};
 pub(crate) use request::{Grouping, Mode, Request};

@@ -15,6 +15,7 @@ use trigon_scene::SimdLevel;
 use super::beside::Beside;
 use super::effects::EffectArgs;
 use super::output::Destination;
+use super::quality::QualityArgs;
 use super::values;
 use super::window::WindowArgs;
 use crate::report::Level;
@@ -198,9 +199,9 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "PIXELS", default_value = "1", value_parser = values::line_width, allow_negative_numbers = true, help_heading = "Look")]
     pub(crate) line_width: f32,
 
-    /// Smooth outlines by drawing several samples per pixel
-    #[arg(long, short, num_args = 0..=1, require_equals = true, default_missing_value = "ssaa", default_value = "ssaa", value_name = "METHOD", help_heading = "Look")]
-    pub(crate) anti_aliasing: AntiAliasing,
+    /// Smooth outlines by drawing several samples per pixel [default: ssaa, or as --preset says]
+    #[arg(long, short, num_args = 0..=1, require_equals = true, default_missing_value = "ssaa", value_name = "METHOD", help_heading = "Look")]
+    pub(crate) anti_aliasing: Option<AntiAliasing>,
 
     /// Samples: along each side of a pixel with ssaa, 1 to 4, so 3 means 9; in all with msaa, 1, 2, 4, 8 or 16 (not in F3D) [default: 3, or 4 with msaa]
     #[arg(long, value_name = "1-16", value_parser = clap::value_parser!(u32).range(1..=16), allow_negative_numbers = true, help_heading = "Look")]
@@ -259,6 +260,9 @@ pub(crate) struct RawArgs {
 
     #[command(flatten)]
     pub(crate) effects: EffectArgs,
+
+    #[command(flatten)]
+    pub(crate) quality: QualityArgs,
 
     #[command(flatten)]
     pub(crate) gpu_only: GpuOnly,

@@ -3,6 +3,7 @@
 
 use std::convert::Infallible;
 use std::num::NonZeroUsize;
+use std::time::Duration;
 
 use trigon_camera::Viewport;
 use trigon_io::SceneChoice;
@@ -146,6 +147,21 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     finite(text).ok_or_else(|| "write a number of seconds, such as 1.5".to_owned())
 }
 
+/// A length of time greater than 0, with its unit.
+pub(crate) fn duration(text: &str) -> Result<Duration, String> {
+    const LONGEST: f64 = 3600.0;
+    let (number, unit) = match (text.trim().strip_suffix("ms"), text.trim().strip_suffix('s')) {
+        (Some(number), _) => (number, 1e-3),
+        (None, Some(number)) => (number, 1.0),
+        (None, None) => (text, f64::NAN),
+    };
+    let seconds = finite(number).map(|number| number * unit);
+    let inside = seconds.filter(|seconds| (1e-6..=LONGEST).contains(seconds));
+    inside
+        .map(Duration::from_secs_f64)
+        .ok_or_else(|| "write a time with its unit, such as 16ms or 0.5s, up to an hour".to_owned())
+}
+
 /// A scene of a file: digits are its number, anything else its name.
 pub(crate) fn scene(text: &str) -> Result<SceneChoice, Infallible> {
     Ok(text.parse().map_or_else(|_| SceneChoice::Name(text.to_owned()), SceneChoice::Index))
@@ -252,6 +268,16 @@ mod tests {
         }
         for text in ["", "1.5", "-1", "150%", "1/0", "nan", "half"] {
             assert!(unit_ratio(text).is_err(), "{text:?} is no ratio");
+        }
+    }
+
+    #[test]
+    fn times_have_a_unit() {
+        for (text, milliseconds) in [("16ms", 16), ("0.5s", 500), (" 2 ms ", 2), ("3600s", 3_600_000)] {
+            assert_eq!(duration(text), Ok(Duration::from_millis(milliseconds)), "{text}");
+        }
+        for text in ["16", "0ms", "-1s", "nans", "infms", "2h", "ms", "", "3601s"] {
+            assert!(duration(text).is_err(), "{text:?} is no time");
         }
     }
 

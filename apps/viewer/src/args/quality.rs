@@ -1,0 +1,75 @@
+//! Flags that choose a whole quality: a preset, or a time to fit into; and what other
+//! flags insist on.
+
+use std::time::Duration;
+
+use trigon_scene::quality::{Preset, Quality, TimeBudget};
+use trigon_scene::{ShadingModel, Shadows};
+
+use super::values;
+
+/// Flags of the quality as a whole.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(crate) struct QualityArgs {
+    /// Set samples, shading, shadows and rays at once: draft, standard, high or reference (not in F3D)
+    ///
+    /// What another flag says, such as --samples, wins over it. Shadows and ambient occlusion
+    /// are drawn only if they are asked for; the preset says how.
+    #[arg(
+        long,
+        value_name = "NAME",
+        conflicts_with_all = ["time_budget", "replay"],
+        help_heading = "Look"
+    )]
+    pub(crate) preset: Option<Preset>,
+
+    /// Draw the picture as accurately as fits into this time, such as 16ms or 0.5s (not in F3D)
+    ///
+    /// Costs and errors are measured first, on parts of the picture, and do not count. It is
+    /// said what was chosen, and what that gives up. What another flag says, such as
+    /// --samples, is not changed.
+    #[arg(long, value_name = "TIME", value_parser = values::duration, allow_negative_numbers = true, conflicts_with = "replay", help_heading = "Look")]
+    pub(crate) time_budget: Option<Duration>,
+}
+
+/// What single flags say about the quality; `None` where they say nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Insisted {
+    /// Samples along each side of a pixel, and in each of those.
+    pub(crate) samples: Option<(u32, u32)>,
+    pub(crate) shading: Option<ShadingModel>,
+    pub(crate) shadows: Option<Shadows>,
+    pub(crate) occlusion_rays: Option<u32>,
+}
+
+impl Insisted {
+    /// A quality, but for what is insisted on.
+    pub(crate) fn change(&self, quality: Quality) -> Quality {
+        let (samples_per_axis, samples) = self.samples.unwrap_or((quality.samples_per_axis, quality.samples));
+        Quality {
+            samples_per_axis,
+            samples,
+            shading: self.shading.unwrap_or(quality.shading),
+            shadows: self.shadows.unwrap_or(quality.shadows),
+            occlusion_rays: self.occlusion_rays.unwrap_or(quality.occlusion_rays),
+        }
+    }
+}
+
+/// A time to fit into.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Limit {
+    time: Duration,
+    insisted: Insisted,
+}
+
+impl Limit {
+    pub(crate) fn new(time: Duration, insisted: Insisted) -> Self {
+        Self { time, insisted }
+    }
+
+    /// A budget that knows nothing of any scene yet.
+    pub(crate) fn budget(&self) -> TimeBudget {
+        TimeBudget::new(self.time).insisting(|quality| self.insisted.change(quality))
+    }
+}
