@@ -271,16 +271,23 @@ impl Scene {
         for (id, node) in self.nodes.iter() {
             let (Some(world), Some(mesh)) = (transforms[id.index()], node.mesh) else { continue };
             let Some(asset) = self.meshes.get(mesh) else { continue };
-            let posed = self.posed_bounds(id, node, asset);
-            let (local, world) = posed.unwrap_or_else(|| (asset.bounds(), world));
+            let (local, world) = match self.posed_positions(id, node, asset) {
+                Some((positions, world)) => (used_bounds(&asset.mesh, &positions), world),
+                None => (asset.bounds(), world),
+            };
             bounds = bounds.union(local.transformed(&world));
         }
         bounds
     }
 
-    /// The box around a mesh that follows joints or is moved towards morph
-    /// targets, and its map into the world; none when it is at rest.
-    fn posed_bounds(&self, id: NodeId, node: &Node, asset: &MeshAsset) -> Option<(Bounds3, DAffine3)> {
+    /// The vertices of a mesh that follows joints or is moved towards morph
+    /// targets, and their map into the world; none when it is at rest.
+    pub(crate) fn posed_positions(
+        &self,
+        id: NodeId,
+        node: &Node,
+        asset: &MeshAsset,
+    ) -> Option<(Vec<Vec3>, DAffine3)> {
         let attributes = asset.mesh.attributes();
         let pose = attributes.skin.as_ref().and_then(|_| self.skin_pose(id));
         let is_morphed =
@@ -289,8 +296,7 @@ impl Scene {
             return None;
         }
         let pose = pose.unwrap_or_else(|| SkinPose { world: self.world_transform(id), palette: Vec::new() });
-        let positions = asset.mesh.deformed_positions(&node.morph_weights, &pose.palette);
-        Some((used_bounds(&asset.mesh, &positions), pose.world))
+        Some((asset.mesh.deformed_positions(&node.morph_weights, &pose.palette), pose.world))
     }
 
     /// The cameras that stand in the scene, in the order of their nodes: what

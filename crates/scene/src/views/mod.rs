@@ -12,7 +12,7 @@ use trigon_math::{Bounds3, DVec3, Vec3};
 
 pub use viewpoints::{hemisphere, sphere, turntable};
 
-use crate::scene::{MeshAsset, Scene};
+use crate::scene::Scene;
 
 /// Where the overview looks: down from the upper right, in front.
 pub const OVERVIEW_DIRECTION: DVec3 = DVec3::new(-1.0, -0.5, -1.0);
@@ -55,17 +55,22 @@ impl Scene {
         })
     }
 
-    /// The vertices of everything visible, in the world, without those that no
-    /// face, edge or point uses: what a camera is fitted to.
+    /// The vertices of everything visible, in the world and in their poses, without
+    /// those that no face, edge or point uses: what a camera is fitted to.
     pub fn visible_points(&self) -> Vec<DVec3> {
         let transforms = self.visible_transforms();
         let mut points = Vec::new();
         for (id, node) in self.nodes().iter() {
             let (Some(world), Some(mesh)) = (&transforms[id.index()], node.mesh) else { continue };
-            let Some(mesh) = self.meshes().get(mesh).map(MeshAsset::mesh) else { continue };
+            let Some(asset) = self.meshes().get(mesh) else { continue };
+            let posed = self.posed_positions(id, node, asset);
+            let (positions, world) = match &posed {
+                Some((positions, world)) => (positions.as_slice(), world),
+                None => (asset.mesh().positions(), world),
+            };
             let placed =
                 |(point, used): (&Vec3, bool)| used.then(|| world.transform_point3(point.as_dvec3()));
-            points.extend(mesh.positions().iter().zip(mesh.used_vertices()).filter_map(placed));
+            points.extend(positions.iter().zip(asset.mesh().used_vertices()).filter_map(placed));
         }
         points
     }

@@ -68,3 +68,14 @@ fn a_morphed_mesh_throws_its_shadow_from_where_it_is() {
         assert!(dark(100) && dark(120) && !dark(40), "{shadows:?}: the shadow is a metre further");
     }
 }
+
+/// A camera was fitted to meshes at rest, and missed those whose pose is elsewhere.
+#[test]
+fn a_camera_is_fitted_to_a_mesh_in_its_pose() {
+    let (scene, _) = morphed(3.0);
+    let points = scene.visible_points();
+    assert_eq!(points.len(), 4, "the square's corners");
+    let across: Vec<f64> = points.iter().map(|point| point.x).collect();
+    assert!(across.iter().all(|x| (2.5..=3.5).contains(x)), "moved by three metres: {across:?}");
+    assert_eq!(trigon_math::Bounds3::from_points(points), scene.bounds(), "as the scene's box says");
+}
