@@ -17,6 +17,8 @@ pub(super) enum Command {
     ResetView,
     ToggleName,
     ToggleMetadata,
+    ToggleDifference,
+    ToggleQuality,
     Brighter,
     Darker,
     UpY,
@@ -26,7 +28,7 @@ pub(super) enum Command {
 }
 
 impl Command {
-    const ALL: [Self; 16] = [
+    const ALL: [Self; 18] = [
         Self::PreviousFile,
         Self::NextFile,
         Self::PreviousFileSameView,
@@ -37,6 +39,8 @@ impl Command {
         Self::ResetView,
         Self::ToggleName,
         Self::ToggleMetadata,
+        Self::ToggleDifference,
+        Self::ToggleQuality,
         Self::Brighter,
         Self::Darker,
         Self::UpY,
@@ -48,7 +52,7 @@ impl Command {
     /// Its name in the keymap, its key, and what the cheat sheet says.
     fn binding(self) -> (&'static str, Chord, &'static str) {
         let ctrl = |key| Chord::new(Modifiers::CTRL, key);
-        let shift_l = Chord::new(Modifiers::SHIFT, Key::Character('l'));
+        let shift = |key| Chord::new(Modifiers::SHIFT, Key::Character(key));
         match self {
             Self::PreviousFile => ("file.previous", Key::Left.into(), "previous, next file"),
             Self::NextFile => ("file.next", Key::Right.into(), "previous, next file"),
@@ -62,8 +66,10 @@ impl Command {
             Self::ResetView => ("reset_view", Key::Enter.into(), "reset the view"),
             Self::ToggleName => ("file.name", 'n'.into(), "name of the file"),
             Self::ToggleMetadata => ("metadata", 'm'.into(), "counts and sizes"),
+            Self::ToggleDifference => ("quality.difference", 'd'.into(), "difference from the reference"),
+            Self::ToggleQuality => ("quality", shift('d'), "accuracy and what it costs"),
             Self::Brighter => ("light.brighter", 'l'.into(), "brighter, darker light"),
-            Self::Darker => ("light.darker", shift_l, "brighter, darker light"),
+            Self::Darker => ("light.darker", shift('l'), "brighter, darker light"),
             Self::UpY => ("up.y", ctrl(Key::Character('y')), "+Y up, +Z up"),
             Self::UpZ => ("up.z", ctrl(Key::Character('z')), "+Y up, +Z up"),
             Self::Screenshot => ("screenshot", Key::Function(12).into(), "screenshot"),

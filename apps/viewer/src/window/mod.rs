@@ -1,8 +1,11 @@
 //! Window mode: the models of the command line in a window, one at a time.
 
 mod background;
+#[cfg(feature = "study")]
+mod classic;
 mod commands;
 mod open;
+mod quality;
 mod recent;
 mod screenshot;
 mod viewer;
@@ -12,7 +15,8 @@ use std::fmt::Display;
 use std::path::Path;
 
 use trigon_camera::Viewport;
-use trigon_window::{Application, DragBinding, Interaction, WindowError};
+use trigon_scene::ShadingModel;
+use trigon_window::{Application, DragBinding, Interaction, Refinement, WindowError};
 
 use crate::args::Request;
 use crate::failure::Failure;
@@ -31,6 +35,7 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
     let (width, height) = (request.settings.width, request.settings.height);
     application.stage.set_size(Viewport { width, height });
     application.stage.settings = request.settings.clone();
+    application.stage.refinement = refinement(request);
     application.stage.keymap = commands::keymap();
     if let Err(failure) = interactions(&mut application, request, reporter) {
         reporter.error(&failure);
@@ -48,6 +53,13 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
             1
         }
     }
+}
+
+/// At rest the picture becomes the reference, unless somebody asked for something else,
+/// or for another shading: then for its look.
+fn refinement(request: &Request) -> Refinement {
+    let usual = request.settings.shading == ShadingModel::Phong;
+    if request.window.refine.unwrap_or(usual) { Refinement::Reference } else { Refinement::Settings }
 }
 
 /// What is recorded, and what is played, if anything.
@@ -106,4 +118,24 @@ fn no_display(request: &Request) -> String {
     format!(
         "there is no display to open a window on; write a picture instead: trigon-viewer{file} --output picture.png"
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+    use crate::args::RawArgs;
+
+    #[test]
+    fn at_rest_the_picture_is_refined_unless_its_look_or_a_flag_says_otherwise() {
+        let refinement = |flags: &[&str]| {
+            let words = ["trigon-viewer"].into_iter().chain(flags.iter().copied());
+            refinement(&Request::new(RawArgs::parse_from(words)).expect("consistent flags"))
+        };
+        assert_eq!(refinement(&[]), Refinement::Reference, "usually");
+        assert_eq!(refinement(&["--shading=flat"]), Refinement::Settings, "flat was asked for");
+        assert_eq!(refinement(&["--shading=flat", "--refine"]), Refinement::Reference, "and so was this");
+        assert_eq!(refinement(&["--refine=false"]), Refinement::Settings, "or the other way round");
+    }
 }

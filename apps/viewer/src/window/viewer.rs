@@ -10,8 +10,11 @@ use trigon_scene::{Background, Frame, Scene};
 use trigon_window::{Corner, Handler, Modifiers, Stage, egui};
 
 use super::background::{Loading, Outcome};
+#[cfg(feature = "study")]
+use super::classic::Classics;
 use super::commands::Command;
 use super::open::{OpenWindow, SystemDialog};
+use super::quality::QualityPanel;
 use super::recent::Recent;
 use super::watch::Watch;
 use super::{screenshot, title};
@@ -54,6 +57,9 @@ pub(super) struct Viewer {
     show_name: bool,
     show_metadata: bool,
     open: OpenWindow,
+    quality: QualityPanel,
+    #[cfg(feature = "study")]
+    classics: Classics,
     recent: Recent,
     /// If files are to be watched, and can be.
     watch: Option<Watch>,
@@ -72,6 +78,9 @@ impl Viewer {
             show_name: false,
             show_metadata: false,
             open: OpenWindow::default(),
+            quality: QualityPanel::default(),
+            #[cfg(feature = "study")]
+            classics: Classics::default(),
             recent: Recent::load(),
             watch: None,
         }
@@ -276,6 +285,8 @@ impl Viewer {
             Command::ResetView => self.reset_view(stage),
             Command::ToggleName => self.show_name = !self.show_name,
             Command::ToggleMetadata => self.show_metadata = !self.show_metadata,
+            Command::ToggleDifference => self.quality.toggle_difference(stage),
+            Command::ToggleQuality => self.quality.toggle(stage),
             Command::Brighter => Self::brighten(stage, BRIGHTER),
             Command::Darker => Self::brighten(stage, 1.0 / BRIGHTER),
             Command::UpY => self.set_up(stage, DVec3::Y, "+Y"),
@@ -314,6 +325,10 @@ impl Handler for Viewer {
         if self.show_progress(ui.ctx()) {
             self.cancel_loading(stage);
         }
+        #[cfg(feature = "study")]
+        self.quality.show(ui.ctx(), stage, |ui, stage| self.classics.show(ui, stage));
+        #[cfg(not(feature = "study"))]
+        self.quality.show(ui.ctx(), stage, |_, _| {});
         let waker = stage.waker();
         let files = self.open.show(ui.ctx(), &self.recent, |open| open.browse(SystemDialog, waker));
         self.add(stage, files);

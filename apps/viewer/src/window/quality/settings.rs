@@ -1,0 +1,143 @@
+//! The settings that trade accuracy for time, each with the choices it has.
+
+use trigon_scene::{AmbientOcclusion, Reflection, RenderSettings, ShadingModel, Shadows};
+
+/// One of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Setting {
+    Supersampling,
+    Multisampling,
+    Shading,
+    Reflection,
+    Shadows,
+    Occlusion,
+    Bounces,
+}
+
+/// How far surroundings count for ambient occlusion that is switched on here, in metres:
+/// as on the command line.
+const OCCLUSION_DISTANCE: f32 = 1.0;
+
+impl Setting {
+    /// In the order of the panel.
+    pub(super) const ALL: [Self; 7] = [
+        Self::Supersampling,
+        Self::Multisampling,
+        Self::Shading,
+        Self::Reflection,
+        Self::Shadows,
+        Self::Occlusion,
+        Self::Bounces,
+    ];
+
+    /// What the panel calls it.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Supersampling => "supersampling",
+            Self::Multisampling => "multisampling",
+            Self::Shading => "light is found",
+            Self::Reflection => "reflection",
+            Self::Shadows => "shadows",
+            Self::Occlusion => "ambient occlusion",
+            Self::Bounces => "mirrors and glass",
+        }
+    }
+
+    /// Its choices with their names: these settings, with one thing changed. From the
+    /// cheapest on, where that can be said.
+    pub(super) fn choices(self, settings: &RenderSettings) -> Vec<(String, RenderSettings)> {
+        let with = |name: String, change: &dyn Fn(&mut RenderSettings)| {
+            let mut settings = settings.clone();
+            change(&mut settings);
+            (name, settings)
+        };
+        let named = |name: &str, change: &dyn Fn(&mut RenderSettings)| with(name.to_owned(), change);
+        match self {
+            Self::Supersampling => (1..=4)
+                .map(|n| with(format!("{n}×{n} shaded samples"), &|settings| settings.samples_per_axis = n))
+                .collect(),
+            Self::Multisampling => [1, 2, 4, 8, 16]
+                .map(|n| with(format!("{n} in each for outlines"), &|settings| settings.samples = n))
+                .into(),
+            Self::Shading => [
+                ("once for each triangle (flat)", ShadingModel::Flat),
+                ("at the vertices (Gouraud)", ShadingModel::Gouraud),
+                ("at each pixel (Phong)", ShadingModel::Phong),
+            ]
+            .map(|(name, shading)| named(name, &|settings| settings.shading = shading))
+            .into(),
+            Self::Reflection => [
+                ("as the material says", Reflection::Material),
+                ("diffuse (Lambert)", Reflection::Lambert),
+                ("highlights (Blinn-Phong)", Reflection::BlinnPhong),
+                ("metallic-roughness (GGX)", Reflection::MetallicRoughness),
+            ]
+            .map(|(name, reflection)| named(name, &|settings| settings.reflection = reflection))
+            .into(),
+            Self::Shadows => [
+                ("none", Shadows::Off),
+                ("maps of 1024", Shadows::Maps { resolution: 1024 }),
+                ("maps of 2048", Shadows::Maps { resolution: 2048 }),
+                ("maps of 4096", Shadows::Maps { resolution: 4096 }),
+                ("rays", Shadows::Rays),
+            ]
+            .map(|(name, shadows)| named(name, &|settings| settings.effects.shadows = shadows))
+            .into(),
+            Self::Occlusion => [0, 4, 8, 16, 32, 64, 128]
+                .map(|rays| with(rays_name(rays), &|settings| set_rays(settings, rays)))
+                .into(),
+            Self::Bounces => [0, 1, 2, 4, 8]
+                .map(|bounces| with(bounces_name(bounces), &|settings| settings.effects.bounces = bounces))
+                .into(),
+        }
+    }
+}
+
+fn rays_name(rays: u32) -> String {
+    if rays == 0 { "none".to_owned() } else { format!("{rays} rays a sample") }
+}
+
+fn bounces_name(bounces: u32) -> String {
+    match bounces {
+        0 => "not followed".to_owned(),
+        1 => "one bounce".to_owned(),
+        bounces => format!("{bounces} bounces"),
+    }
+}
+
+fn set_rays(settings: &mut RenderSettings, rays: u32) {
+    let occlusion = &mut settings.effects.ambient_occlusion;
+    let distance = occlusion.map_or(OCCLUSION_DISTANCE, |occlusion| occlusion.distance);
+    *occlusion = (rays > 0).then_some(AmbientOcclusion { rays, distance });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn usual_settings_are_among_the_choices_and_all_choices_differ() {
+        let settings = RenderSettings::new(8, 8);
+        for setting in Setting::ALL {
+            let choices = setting.choices(&settings);
+            let current = choices.iter().filter(|(_, choice)| *choice == settings).count();
+            assert_eq!(current, 1, "{setting:?}");
+            for (i, (name, choice)) in choices.iter().enumerate() {
+                let twin = choices[..i].iter().any(|(other, same)| other == name || same == choice);
+                assert!(!twin, "{setting:?}: {name} is there twice");
+            }
+        }
+    }
+
+    #[test]
+    fn occlusion_keeps_its_distance() {
+        let mut settings = RenderSettings::new(8, 8);
+        settings.effects.ambient_occlusion = Some(AmbientOcclusion { rays: 8, distance: 0.25 });
+        let choices = Setting::Occlusion.choices(&settings);
+        let kept = choices.iter().filter_map(|(_, choice)| choice.effects.ambient_occlusion);
+        assert!(
+            kept.clone().count() == 6 && kept.clone().all(|kept| kept.distance == 0.25),
+            "however many rays"
+        );
+    }
+}
