@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use trigon_math::{Vec2, Vec3};
+use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_raster::TargetError;
 
 use crate::arena::Arena;
@@ -20,6 +20,10 @@ pub struct Frame {
     /// Four bytes a pixel: sRGB and straight (not premultiplied) alpha. Empty when
     /// it was not asked for.
     pub color: Vec<u8>,
+    /// Linear RGB, premultiplied with alpha, which is the fourth number: 1 is what the
+    /// display shows as white, and light may be brighter. Before exposure and tone
+    /// mapping, on the background.
+    pub radiance: Option<Vec<Vec4>>,
     /// Distance from the camera along its view axis in metres, infinite where
     /// nothing was drawn. Taken at the sample in the middle of the pixel, or with
     /// an even number of samples per axis at the one right and below of it.
@@ -115,6 +119,7 @@ impl Frame {
         let full = TargetError::Memory { width, height };
         let bytes = if outputs.color { 4 * pixels } else { 0 };
         resize(&mut self.color, bytes, 0).ok_or(full)?;
+        resize_optional(&mut self.radiance, outputs.radiance, pixels, Vec4::ZERO).ok_or(full)?;
         resize_optional(&mut self.depth, outputs.depth, pixels, 0.0).ok_or(full)?;
         for (ids, wanted) in [
             (&mut self.object_ids, outputs.ids),

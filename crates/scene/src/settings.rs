@@ -67,16 +67,19 @@ pub enum Reflection {
 }
 
 /// What a picture holds. What is not asked for is not computed and not allocated;
-/// without `color` nothing is shaded at all: neither lights nor effects are
+/// without `color` and `radiance` nothing is shaded at all: neither lights nor effects are
 /// prepared, and only masks are looked up.
 ///
-/// Everything but the colour is of one sample of each pixel and never mixed: of
+/// Everything but these two is of one sample of each pixel and never mixed: of
 /// the sample in the middle, or with an even number of samples per axis of the one
 /// right and below of it. Asking for it changes no byte of the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs {
     /// What the picture looks like.
     pub color: bool,
+    /// The light that reaches the camera, in floating point: what `color` is before
+    /// exposure, tone mapping and outlines.
+    pub radiance: bool,
     /// Distance along the view axis.
     pub depth: bool,
     /// The node and the polygon.
@@ -116,6 +119,7 @@ impl Outputs {
     /// Nothing yet.
     pub const NONE: Self = Self {
         color: false,
+        radiance: false,
         depth: false,
         ids: false,
         material_ids: false,
@@ -142,14 +146,19 @@ impl Outputs {
             || self.albedo
     }
 
-    /// Whether anything but the colour is asked for.
+    /// Whether surfaces are shaded.
+    pub(crate) fn of_light(&self) -> bool {
+        self.color || self.radiance
+    }
+
+    /// Whether anything is asked for that needs no light.
     pub(crate) fn beside_color(&self) -> bool {
         self.depth || self.ids || self.of_triangles()
     }
 
     /// Whether a pass of its own has to find what is seen, beside the colours'.
     pub(crate) fn need_own_pass(&self, has_blended: bool) -> bool {
-        self.beside_color() && (!self.color || (self.of_blended && has_blended))
+        self.beside_color() && (!self.of_light() || (self.of_blended && has_blended))
     }
 }
 

@@ -64,7 +64,7 @@ pub(crate) struct RawArgs {
 
     /// Write a PNG or an OpenEXR picture instead of opening a window; - is a PNG on standard output
     ///
-    /// OpenEXR holds linear light, premultiplied with alpha. The name may hold {model} (the file's name without its ending),
+    /// OpenEXR holds linear light, premultiplied with alpha, before exposure and tone mapping. The name may hold {model} (the file's name without its ending),
     /// {model.ext} (with it), {model_ext} (the ending), {n:3} (the first number whose file does not
     /// exist yet, padded to three digits), {app} and {version}; {{x}} stands for {x} itself.
     #[arg(long, value_name = "FILE.png|FILE.exr|-", help_heading = "Files")]
@@ -72,7 +72,7 @@ pub(crate) struct RawArgs {
 
     /// Write this, too: depth, normals and other outputs, with a comma between them (not in F3D)
     ///
-    /// There are color, depth (metres along the view axis), object-ids, face-ids, material-ids,
+    /// There are color, radiance (linear light, premultiplied), depth (metres along the view axis), object-ids, face-ids, material-ids,
     /// triangle-ids, barycentrics, positions, normals, geometric-normals, uvs and albedo. With
     /// --output chair.exr they are channels of that file. With --output chair.png each becomes a
     /// NumPy array beside it: depth goes to chair.depth.npy. Depth, ids and normals can be PNGs of

@@ -275,6 +275,9 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
         insisted(raw)?.change(preset.quality()).apply(&mut settings);
     }
     raw.outputs.iter().for_each(|beside| beside.output.ask_for(&mut settings.outputs));
+    // OpenEXR is for light: bytes would hold it to the display's range.
+    settings.outputs.radiance |=
+        matches!(&raw.output, Some(Destination::File(template)) if template.is_exr());
     settings.threads = raw.threads;
     settings.simd = raw.simd;
     Ok(settings)
@@ -518,7 +521,8 @@ mod tests {
         let outputs = |flags: &str| request(flags).expect("fine").settings.outputs;
         let asked = outputs("--output o.png --outputs depth,face-ids.png");
         assert_eq!(asked, Outputs { depth: true, ids: true, ..Outputs::default() }, "both, and colours");
-        assert_eq!(outputs("--output o.exr"), Outputs::default(), "colours alone");
+        let light = Outputs { radiance: true, ..Outputs::default() };
+        assert_eq!(outputs("--output o.exr"), light, "colours beyond white");
         assert!(refusal("--outputs depth").contains("--output"), "needs a name");
         assert!(refusal("--output - --outputs depth").contains("standard output"), "needs a name");
         for other in ["--no-render", "--explain", "--list-readers"] {

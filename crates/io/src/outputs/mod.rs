@@ -21,6 +21,8 @@ pub use png16::{encode_png16, write_png16};
 pub enum Output {
     /// [`Frame::color`](trigon_scene::Frame::color).
     Color,
+    /// [`Frame::radiance`](trigon_scene::Frame::radiance).
+    Radiance,
     /// [`Frame::depth`](trigon_scene::Frame::depth).
     Depth,
     /// [`Frame::object_ids`](trigon_scene::Frame::object_ids).
@@ -52,8 +54,9 @@ pub struct UnknownOutput(pub String);
 
 impl Output {
     /// All of them, in the order of the frame's fields.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Color,
+        Self::Radiance,
         Self::Depth,
         Self::ObjectIds,
         Self::FaceIds,
@@ -71,6 +74,7 @@ impl Output {
     pub fn name(self) -> &'static str {
         match self {
             Self::Color => "color",
+            Self::Radiance => "radiance",
             Self::Depth => "depth",
             Self::ObjectIds => "object-ids",
             Self::FaceIds => "face-ids",
@@ -90,6 +94,7 @@ impl Output {
     pub fn ask_for(self, outputs: &mut Outputs) {
         let switch = match self {
             Self::Color => &mut outputs.color,
+            Self::Radiance => &mut outputs.radiance,
             Self::Depth => &mut outputs.depth,
             Self::ObjectIds | Self::FaceIds => &mut outputs.ids,
             Self::MaterialIds => &mut outputs.material_ids,
@@ -109,7 +114,8 @@ impl Output {
         match self {
             Self::Depth | Self::ObjectIds | Self::FaceIds | Self::MaterialIds | Self::TriangleIds => true,
             Self::Normals | Self::GeometricNormals => true,
-            Self::Color | Self::Barycentrics | Self::Positions | Self::Uvs | Self::Albedo => false,
+            Self::Color | Self::Radiance | Self::Barycentrics => false,
+            Self::Positions | Self::Uvs | Self::Albedo => false,
         }
     }
 

@@ -46,6 +46,7 @@ fn encode(writer: &mut dyn Write, frame: &Frame, values: Values<'_>) -> io::Resu
         Values::Floats(numbers) => floats(numbers),
         Values::Pairs(pairs) => pairs.iter().try_for_each(|pair| floats(&pair.to_array())),
         Values::Vectors(vectors) => vectors.iter().try_for_each(|vector| floats(&vector.to_array())),
+        Values::Lights(lights) => lights.iter().try_for_each(|light| floats(&light.to_array())),
         Values::Ids(ids) => ids.iter().try_for_each(|id| writer.write_all(&id.to_le_bytes())),
     }
 }
@@ -55,7 +56,7 @@ fn header(frame: &Frame, values: Values<'_>) -> Vec<u8> {
     let kind = match values {
         Values::Colors(_) => "|u1",
         Values::Ids(_) => "<u4",
-        Values::Floats(_) | Values::Pairs(_) | Values::Vectors(_) => "<f4",
+        Values::Floats(_) | Values::Pairs(_) | Values::Vectors(_) | Values::Lights(_) => "<f4",
     };
     let last = values.per_pixel().map(|numbers| format!(", {numbers}")).unwrap_or_default();
     let (height, width) = (frame.height, frame.width);

@@ -21,7 +21,7 @@ type Channel = AnyChannel<FlatSamples>;
 ///
 /// | output | channels |
 /// |---|---|
-/// | colour | `R` `G` `B` `A`: linear light, premultiplied, as OpenEXR has it; in the 256 steps of sRGB that the frame holds |
+/// | radiance; or, of a frame without it, colour | `R` `G` `B` `A`: linear light, premultiplied, as OpenEXR has it; of a colour in the 256 steps of sRGB |
 /// | depth | `Z` |
 /// | ids, as u32 | `id.object` `id.face` `id.material` `id.triangle` |
 /// | barycentrics | `barycentric.X` `.Y` `.Z` |
@@ -29,7 +29,7 @@ type Channel = AnyChannel<FlatSamples>;
 /// | texture coordinates | `U` `V` |
 /// | albedo | `albedo.R` `.G` `.B` |
 ///
-/// All but the colour is, bit for bit, what the frame holds. As with
+/// All but a colour is, bit for bit, what the frame holds. As with
 /// [`write_png`](crate::write_png), an old file is replaced whole or not at all.
 ///
 /// # Errors
@@ -51,7 +51,9 @@ pub fn encode_exr(mut writer: impl Write, frame: &Frame) -> Result<(), WriteErro
 /// is known last.
 fn encode(frame: &Frame) -> Result<Vec<u8>, WriteError> {
     let values = Values::all(frame)?;
-    let channels = values.into_iter().flat_map(|(output, values)| channels(output, values)).collect();
+    let shown = |output| output != Output::Color || frame.radiance.is_none();
+    let values = values.into_iter().filter(|&(output, _)| shown(output));
+    let channels = values.flat_map(|(output, values)| channels(output, values)).collect();
     let size = (frame.width as usize, frame.height as usize);
     let encoding = Encoding {
         compression: Compression::ZIP16,
@@ -77,6 +79,11 @@ fn channels(output: Output, values: Values<'_>) -> Vec<Channel> {
             let axis = |axis: usize| FlatSamples::F32(pairs.iter().map(|pair| pair[axis]).collect());
             vec![channel("U", axis(0)), channel("V", axis(1))]
         }
+        Values::Lights(lights) => {
+            let column = |at: usize| FlatSamples::F32(lights.iter().map(|light| light[at]).collect());
+            let channels = ["R", "G", "B", "A"].into_iter().enumerate();
+            channels.map(|(at, axis)| channel(axis, column(at))).collect()
+        }
         Values::Vectors(vectors) => {
             let axes = if output == Output::Albedo { ["R", "G", "B"] } else { ["X", "Y", "Z"] };
             let column = |axis: usize| FlatSamples::F32(vectors.iter().map(|vector| vector[axis]).collect());
@@ -88,8 +95,8 @@ fn channels(output: Output, values: Values<'_>) -> Vec<Channel> {
 /// The channel of an output that has one, or what stands before the dot.
 fn name(output: Output) -> &'static str {
     match output {
-        // These two have names of their own for each number.
-        Output::Color | Output::Uvs => "",
+        // These have names of their own for each number.
+        Output::Color | Output::Radiance | Output::Uvs => "",
         Output::Depth => "Z",
         Output::ObjectIds => "id.object",
         Output::FaceIds => "id.face",

@@ -1,7 +1,7 @@
 //! Frames are written, read back by other means, and compared bit for bit.
 
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
-use trigon_math::{Vec2, Vec3};
+use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_scene::{Frame, Outputs, RenderSettings, render, showcase};
 
 use super::*;
@@ -54,6 +54,9 @@ fn arrays_hold_the_frame_bit_for_bit() {
         let uvs = || bytes_of(frame.uvs.iter().flatten().flat_map(Vec2::to_array));
         let (kind, last, numbers) = match output {
             Output::Color => ("|u1", Some(4), frame.color.clone()),
+            Output::Radiance => {
+                ("<f4", Some(4), bytes_of(frame.radiance.iter().flatten().flat_map(Vec4::to_array)))
+            }
             Output::Depth => ("<f4", None, bytes_of(frame.depth.iter().flatten().copied())),
             Output::ObjectIds => ("<u4", None, bytes_of_ids(&frame.object_ids)),
             Output::FaceIds => ("<u4", None, bytes_of_ids(&frame.face_ids)),
@@ -105,6 +108,10 @@ fn open_exr_holds_the_frame_bit_for_bit() {
         assert_eq!(bytes_of(read.iter().copied()), bytes_of(expected), "{name}");
     };
     floats("Z", frame.depth.clone().expect("asked for"));
+    let lights = frame.radiance.as_ref().expect("asked for");
+    for (name, at) in [("R", 0), ("G", 1), ("B", 2), ("A", 3)] {
+        floats(name, lights.iter().map(|light| light[at]).collect());
+    }
     let uvs = frame.uvs.as_ref().expect("asked for");
     floats("U", uvs.iter().map(|uv| uv.x).collect());
     floats("V", uvs.iter().map(|uv| uv.y).collect());
@@ -174,7 +181,14 @@ fn what_does_not_fit_sixteen_bits_is_refused() {
     let many = message(&row(None, Some(vec![65535]), None), Output::ObjectIds);
     assert!(many.contains("65535") && many.contains(".exr"), "{many}");
     let frame = frame();
-    for output in [Output::Color, Output::Positions, Output::Uvs, Output::Albedo, Output::Barycentrics] {
+    for output in [
+        Output::Color,
+        Output::Radiance,
+        Output::Positions,
+        Output::Uvs,
+        Output::Albedo,
+        Output::Barycentrics,
+    ] {
         let refusal = message(&frame, output);
         assert!(refusal.starts_with(output.name()), "{refusal}");
     }

@@ -1,6 +1,6 @@
 //! An output of a frame as numbers, whatever it means.
 
-use trigon_math::{Vec2, Vec3};
+use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_scene::Frame;
 
 use super::Output;
@@ -15,6 +15,8 @@ pub(super) enum Values<'a> {
     Ids(&'a [u32]),
     Pairs(&'a [Vec2]),
     Vectors(&'a [Vec3]),
+    /// Red, green, blue and alpha.
+    Lights(&'a [Vec4]),
 }
 
 impl<'a> Values<'a> {
@@ -24,6 +26,7 @@ impl<'a> Values<'a> {
         let ids = |list: &'a Option<Vec<u32>>| list.as_deref().map(Self::Ids);
         match output {
             Output::Color => Some(Self::Colors(&frame.color)).filter(|_| !frame.color.is_empty()),
+            Output::Radiance => frame.radiance.as_deref().map(Self::Lights),
             Output::Depth => frame.depth.as_deref().map(Self::Floats),
             Output::ObjectIds => ids(&frame.object_ids),
             Output::FaceIds => ids(&frame.face_ids),
@@ -56,7 +59,7 @@ impl<'a> Values<'a> {
     /// Numbers of a pixel; `None` for a number alone.
     pub(super) fn per_pixel(&self) -> Option<usize> {
         match self {
-            Self::Colors(_) => Some(4),
+            Self::Colors(_) | Self::Lights(_) => Some(4),
             Self::Floats(_) | Self::Ids(_) => None,
             Self::Pairs(_) => Some(2),
             Self::Vectors(_) => Some(3),
@@ -71,6 +74,7 @@ impl<'a> Values<'a> {
             Self::Ids(values) => (values.len(), 1),
             Self::Pairs(values) => (values.len(), 1),
             Self::Vectors(values) => (values.len(), 1),
+            Self::Lights(values) => (values.len(), 1),
         };
         let fits = u128::from(width) * u128::from(height) * per_pixel == length as u128;
         if fits && length > 0 { Ok(()) } else { Err(WriteError::Size { width, height, length }) }

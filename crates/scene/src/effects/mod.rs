@@ -23,7 +23,7 @@ pub(crate) use rays::{AmbientRays, Optics, RayCache};
 pub(crate) use scenery::Scenery;
 pub use settings::{AmbientOcclusion, EffectSettings, Fog, Outline, Shadows, ToneMapping};
 pub(crate) use shadow::{LampPose, ShadowCache};
-pub(crate) use tone::map_picture;
+pub(crate) use tone::{lay_on_background, map_picture};
 
 #[cfg(test)]
 mod tests;

@@ -29,6 +29,17 @@ pub(crate) fn map_picture(
     });
 }
 
+/// Lays a picture in linear light on its background.
+pub(crate) fn lay_on_background(linear: &mut [Vec4], settings: &RenderSettings) {
+    let RenderSettings { width, height, background, .. } = settings;
+    for (y, row) in linear.chunks_mut(*width as usize).enumerate() {
+        let behind = background.row(y as u32, *height);
+        for light in row {
+            *light += behind * (1.0 - light.w);
+        }
+    }
+}
+
 /// The colour is mapped as it is where nothing shines through it.
 fn mapped(light: Vec4, factor: f32, tone: ToneMapping) -> Vec4 {
     if light.w <= 0.0 {

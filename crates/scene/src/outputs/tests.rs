@@ -7,12 +7,13 @@ use trigon_math::{DVec2, DVec3, Vec2, Vec3, Vec4, color};
 use trigon_mesh::{Mesh, primitives};
 
 use crate::{
-    AlphaMode, Frame, Lighting, Material, NodeId, Outputs, RenderSettings, Renderer, Scene, Shading, Style,
-    Texture, TextureFormat, Transform, render, showcase,
+    AlphaMode, Background, Frame, Lighting, Material, NodeId, Outputs, RenderSettings, Renderer, Scene,
+    Shading, Style, Texture, TextureFormat, Transform, render, showcase,
 };
 
 const EVERYTHING: Outputs = Outputs {
     color: true,
+    radiance: true,
     depth: true,
     ids: true,
     material_ids: true,
@@ -232,9 +233,10 @@ fn outputs_change_neither_colours_nor_each_other() {
             color == Frame { width: 97, height: 61, color: all.color.clone(), ..Frame::default() },
             "{style:?}"
         );
-        renderer.settings_mut().outputs = Outputs { color: false, ..EVERYTHING };
+        renderer.settings_mut().outputs = Outputs { color: false, radiance: false, ..EVERYTHING };
         let rest = renderer.render(&scene, &camera).expect("drawn");
-        assert!(rest == Frame { color: Vec::new(), ..all.clone() }, "without colours, {style:?}");
+        let unlit = Frame { color: Vec::new(), radiance: None, ..all.clone() };
+        assert!(rest == unlit, "without colours, {style:?}");
         assert_eq!(renderer.stats().pixels_shaded, 0, "nothing is shaded, {style:?}");
     }
 }
@@ -295,4 +297,54 @@ fn positions_relative_to_an_origin_are_as_good_anywhere() {
 
 fn list<T>(list: &Option<Vec<T>>) -> &[T] {
     list.as_deref().expect("asked for")
+}
+
+/// Light is what the bytes are made of, with exposure and tone mapping or without; and
+/// asking for it changes none of them.
+#[test]
+fn radiance_is_the_light_that_colours_are_made_of() {
+    let mut scene = showcase();
+    let glass = scene.add_object("glass", primitives::cube(1.0), unlit(Material::default()));
+    let material = Material {
+        base_color: Vec4::new(4.0, 0.5, 0.0, 0.5),
+        alpha_mode: AlphaMode::Blend,
+        ..unlit(Material::default())
+    };
+    let material = scene.add_material(material);
+    scene.node_mut(glass).expect("just added").materials = vec![material];
+    let camera = scene.overview(1.5);
+    for (background, (axis, samples), exposure) in [
+        (Background::default(), (1, 1), 0.0),
+        (Background::Transparent, (2, 4), 0.0),
+        (Background::default(), (2, 1), 1.5),
+        (Background::Color(Vec3::splat(0.3)), (1, 8), -1.0),
+    ] {
+        let mut settings =
+            RenderSettings { background, samples_per_axis: axis, samples, ..settings(Outputs::default()) };
+        settings.effects.exposure = exposure;
+        let plain = render(&scene, &camera, &settings).expect("drawn");
+        settings.outputs.radiance = true;
+        let both = render(&scene, &camera, &settings).expect("drawn");
+        assert!(both.color == plain.color, "the same bytes, {background:?}");
+        settings.outputs.color = false;
+        let light = render(&scene, &camera, &settings).expect("drawn");
+        assert!(light.radiance == both.radiance && light.color.is_empty(), "light alone, {background:?}");
+        if exposure == 0.0 {
+            let lights = both.radiance.iter().flatten();
+            for (light, shown) in lights.zip(both.color.as_chunks::<4>().0) {
+                assert_eq!(bytes_of(*light), *shown, "{light}");
+            }
+        }
+        let brightest = both.radiance.iter().flatten().fold(0.0, |most: f32, light| most.max(light.x));
+        assert!(brightest > 1.5, "brighter than white: {brightest}");
+    }
+}
+
+/// The bytes of light, premultiplied.
+fn bytes_of(light: Vec4) -> [u8; 4] {
+    if light.w <= 0.0 {
+        return [0; 4];
+    }
+    let [r, g, b] = (light.truncate() / light.w).to_array().map(color::linear_to_srgb8);
+    [r, g, b, (light.w * 255.0 + 0.5) as u8]
 }

@@ -44,7 +44,7 @@ impl Engine {
         let mut counts = Counts::default();
         let apart = settings.outputs.need_own_pass(plan.is_on(Effect::Transparency));
         self.stats = Stats::default();
-        if settings.outputs.color {
+        if settings.outputs.of_light() {
             self.draw_colors(&stage, camera, (&plan, frame, apart), (&mut rasterizer, &mut counts))?;
         }
         if apart {

@@ -11,7 +11,7 @@ use super::placement::Eye;
 use super::shapes::{Onlookers, Shape, Shapes};
 use crate::effects::{
     AmbientRays, Casters, Counts, Effect, EffectPlan, LampPose, Mist, RayCache, Scenery, ShadowCache,
-    Shadows, Surroundings, draw_outline, map_picture,
+    Shadows, Surroundings, draw_outline, lay_on_background, map_picture,
 };
 use crate::frame::{Frame, resize};
 use crate::light::LightKind;
@@ -184,24 +184,26 @@ impl Kept {
         (blank, frame, needed): (Target<'_>, &mut Frame, Needed),
         (rasterizer, counts): (&mut Rasterizer, &mut Counts),
     ) -> Result<Stats, TargetError> {
-        let colors = frame.color.as_chunks_mut().0;
+        let Frame { color, radiance, depth, .. } = frame;
+        let (colors, pixels) = (color.as_chunks_mut().0, settings.width as usize * settings.height as usize);
         let needed = needed.with_objects(plan.is_on(Effect::Outline));
         let full = TargetError::Memory { width: settings.width, height: settings.height };
-        self.seen.make_room(colors.len(), needed).ok_or(full)?;
+        self.seen.make_room(pixels, needed).ok_or(full)?;
         // The lists are borrowed for as long as the target lives.
         let mut seen = std::mem::take(&mut self.seen);
-        let target = seen.with(blank, frame.depth.as_mut())?;
+        let target = seen.with(blank, depth.as_mut())?;
+        let pictures = (colors, radiance.as_mut());
         let stats = if plan.is_on(Effect::ToneMapping) {
             counts.of(Effect::ToneMapping).passes = 1;
-            counts.of(Effect::ToneMapping).bytes = (colors.len() * size_of::<Vec4>()) as u64;
-            self.draw_mapped(pass, settings, (target, colors), rasterizer)?
+            counts.of(Effect::ToneMapping).bytes = (pixels * size_of::<Vec4>()) as u64;
+            self.draw_mapped(pass, settings, (target, pictures), rasterizer)?
         } else {
-            rasterizer.draw(pass, &mut target.with_srgb8(colors)?)
+            draw_directly(pass, (target, pictures), rasterizer)?
         };
         if let (true, Some(outline)) = (plan.is_on(Effect::Outline), &settings.effects.outline) {
             counts.of(Effect::Outline).passes = 1;
             counts.of(Effect::Outline).bytes = size_of_val(seen.objects.as_slice()) as u64;
-            draw_outline(outline, &seen.objects, settings.width as usize, colors);
+            draw_outline(outline, &seen.objects, settings.width as usize, color.as_chunks_mut().0);
         }
         self.seen = seen;
         Ok(stats)
@@ -221,18 +223,42 @@ impl Kept {
         Ok(rasterizer.draw(pass, &mut self.seen.with(blank, frame.depth.as_mut())?))
     }
 
-    /// Draws linear light, and maps its tones into the frame.
-    pub(super) fn draw_mapped(
+    /// Draws linear light, and maps its tones into the picture.
+    fn draw_mapped(
         &mut self,
         pass: &Pass<'_>,
         settings: &RenderSettings,
-        (target, colors): (Target<'_>, &mut [[u8; 4]]),
+        (target, (colors, radiance)): (Target<'_>, Pictures<'_>),
         rasterizer: &mut Rasterizer,
     ) -> Result<Stats, TargetError> {
         let RenderSettings { width, height, .. } = *settings;
-        resize(&mut self.linear, colors.len(), Vec4::ZERO).ok_or(TargetError::Memory { width, height })?;
-        let stats = rasterizer.draw(pass, &mut target.with_linear(&mut self.linear)?);
-        map_picture(&self.linear, settings, colors, rasterizer);
+        let (is_asked_for, linear) = (radiance.is_some(), radiance.unwrap_or(&mut self.linear));
+        let pixels = width as usize * height as usize;
+        resize(linear, pixels, Vec4::ZERO).ok_or(TargetError::Memory { width, height })?;
+        let stats = rasterizer.draw(pass, &mut target.with_linear(linear)?);
+        map_picture(linear, settings, colors, rasterizer);
+        if is_asked_for {
+            lay_on_background(linear, settings);
+        }
         Ok(stats)
     }
+}
+
+/// The pictures of a pass of colours, as far as they are asked for: bytes, or none, and
+/// light.
+type Pictures<'a> = (&'a mut [[u8; 4]], Option<&'a mut Vec<Vec4>>);
+
+/// Draws what is not changed afterwards.
+fn draw_directly(
+    pass: &Pass<'_>,
+    (mut target, (colors, radiance)): (Target<'_>, Pictures<'_>),
+    rasterizer: &mut Rasterizer,
+) -> Result<Stats, TargetError> {
+    if let Some(radiance) = radiance {
+        target = target.with_linear(radiance)?;
+    }
+    if !colors.is_empty() {
+        target = target.with_srgb8(colors)?;
+    }
+    Ok(rasterizer.draw(pass, &mut target))
 }

@@ -76,7 +76,7 @@ impl fmt::Display for EffectPlan {
 
 fn decide(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Decision {
     let outcome = match effect {
-        _ if !stage.settings.outputs.color && !shapes(effect) => Err(Absence::NoColor),
+        _ if !stage.settings.outputs.of_light() && !shapes(effect) => Err(Absence::NoColor),
         Effect::Lamps => lamps(stage, survey),
         Effect::AmbientLight => ambient_light(stage, survey),
         Effect::Environment => environment(stage, survey),
