@@ -146,6 +146,7 @@ impl<'a> Session<'a> {
         }
         if self.pacing.is_useless() {
             self.worker.cancel();
+            self.collect(now);
         }
     }
 

@@ -64,16 +64,33 @@ pub(crate) struct Finished {
     pub(crate) product: Result<Product, Unfinished>,
 }
 
-/// Draws one job at a time.
+/// Does one job at a time.
 pub(crate) struct Worker {
-    hands: Hands,
-    /// Of the job under way.
-    cancel: Option<Cancel>,
+    /// What somebody waits for.
+    first: Hands,
+    /// What is only better than what is shown. Once that is cancelled, nobody waits until
+    /// its last tiles are given up, which may take seconds where rays are cast.
+    second: Option<Hands>,
+    under_way: Option<UnderWay>,
+    /// Given up, and not collected yet.
+    abandoned: Option<UnderWay>,
+    begun: u64,
 }
+
+/// A job that was begun.
+struct UnderWay {
+    number: u64,
+    purpose: Purpose,
+    camera: Camera,
+    cancel: Cancel,
+}
+
+/// A job with its number, and what ends it.
+type Numbered = (u64, Job, Cancel);
 
 enum Hands {
     /// A thread, and what it has finished.
-    Thread { jobs: Sender<(Job, Cancel)>, finished: Receiver<Finished> },
+    Thread { jobs: Sender<Numbered>, finished: Receiver<(u64, Finished)> },
     /// The thread that asks. It takes no time, as far as others can tell: so what is
     /// drawn, and how well, does not depend on the machine.
     Caller { renderer: Box<Renderer>, finished: Option<Box<Finished>> },
@@ -82,70 +99,124 @@ enum Hands {
 impl Worker {
     /// A worker that draws where it is asked to, at once.
     pub(crate) fn of_caller() -> Self {
-        let renderer = Box::new(Renderer::builder().build());
-        Self { hands: Hands::Caller { renderer, finished: None }, cancel: None }
+        Self::new(Hands::of_caller(), None)
     }
 
-    /// A worker with a thread of its own, which calls `ring` whenever a job is
-    /// finished. Where there are no threads to be had, the caller's.
-    pub(crate) fn of_thread(ring: impl Fn() + Send + 'static) -> Self {
-        let (jobs, to_do) = channel::<(Job, Cancel)>();
-        let (done, finished) = channel();
-        let work = move || {
-            let mut renderer = Renderer::builder().build();
-            while let Ok((job, cancel)) = to_do.recv() {
-                if done.send(job.run(&mut renderer, &cancel)).is_err() {
-                    return;
-                }
-                ring();
-            }
-        };
-        match thread::Builder::new().name("trigon-render".into()).spawn(work) {
-            Ok(_) => Self { hands: Hands::Thread { jobs, finished }, cancel: None },
-            Err(_) => Self::of_caller(),
+    /// A worker with threads of its own, which call `ring` whenever a job is finished.
+    /// Where there are no threads to be had, the caller's.
+    pub(crate) fn of_thread(ring: impl Fn() + Clone + Send + 'static) -> Self {
+        match Hands::of_thread(ring.clone()) {
+            Some(first) => Self::new(first, Hands::of_thread(ring)),
+            None => Self::of_caller(),
         }
+    }
+
+    fn new(first: Hands, second: Option<Hands>) -> Self {
+        Self { first, second, under_way: None, abandoned: None, begun: 0 }
     }
 
     /// Whether a job is under way.
     pub(crate) fn is_busy(&self) -> bool {
-        self.cancel.is_some()
+        self.under_way.is_some()
     }
 
     /// Begins a job; the last one is finished.
     pub(crate) fn begin(&mut self, job: Job) {
-        let cancel = Cancel::default();
-        self.cancel = Some(cancel.clone());
-        match &mut self.hands {
-            // The thread lives for as long as this does.
-            Hands::Thread { jobs, .. } => drop(jobs.send((job, cancel))),
-            Hands::Caller { renderer, finished } => {
-                let done = job.run(renderer, &cancel);
-                *finished = Some(Box::new(Finished { took: Duration::ZERO, ..done }));
-            }
-        }
+        self.begun += 1;
+        let (number, cancel) = (self.begun, Cancel::default());
+        let Job { purpose, camera, .. } = job;
+        self.under_way = Some(UnderWay { number, purpose, camera, cancel: cancel.clone() });
+        self.hands(purpose).begin((number, job, cancel));
     }
 
     /// Nobody will look at the job under way. It still has to be collected.
-    pub(crate) fn cancel(&self) {
-        if let Some(cancel) = &self.cancel {
-            cancel.cancel();
+    pub(crate) fn cancel(&mut self) {
+        let Some(job) = &self.under_way else { return };
+        job.cancel.cancel();
+        if self.second.is_some() && job.purpose.is_refinement() {
+            self.abandoned = self.under_way.take();
         }
     }
 
     /// The job that was under way, if it is finished.
     pub(crate) fn collect(&mut self) -> Option<Finished> {
-        let finished = match &mut self.hands {
-            Hands::Thread { finished, .. } => finished.try_recv().ok(),
-            Hands::Caller { finished, .. } => finished.take().map(|finished| *finished),
-        }?;
-        self.cancel = None;
+        if let Some(UnderWay { purpose, camera, .. }) = self.abandoned.take() {
+            return Some(Finished {
+                purpose,
+                camera,
+                took: Duration::ZERO,
+                product: Err(Unfinished::Cancelled),
+            });
+        }
+        let &UnderWay { number, purpose, .. } = self.under_way.as_ref()?;
+        let finished = self.hands(purpose).finished(number)?;
+        self.under_way = None;
         Some(finished)
+    }
+
+    /// Who does what is for this purpose.
+    fn hands(&mut self, purpose: Purpose) -> &mut Hands {
+        match &mut self.second {
+            Some(second) if purpose.is_refinement() => second,
+            _ => &mut self.first,
+        }
     }
 }
 
 impl Drop for Worker {
     fn drop(&mut self) {
         self.cancel();
+    }
+}
+
+impl Purpose {
+    /// Whether there is a right picture already.
+    fn is_refinement(self) -> bool {
+        matches!(self, Self::Window(Quality::Full(1..)))
+    }
+}
+
+impl Hands {
+    fn of_caller() -> Self {
+        Self::Caller { renderer: Box::new(Renderer::builder().build()), finished: None }
+    }
+
+    /// `None` where there are no threads to be had.
+    fn of_thread(ring: impl Fn() + Send + 'static) -> Option<Self> {
+        let (jobs, to_do) = channel::<Numbered>();
+        let (done, finished) = channel();
+        let work = move || {
+            let mut renderer = Renderer::builder().build();
+            while let Ok((number, job, cancel)) = to_do.recv() {
+                if done.send((number, job.run(&mut renderer, &cancel))).is_err() {
+                    return;
+                }
+                ring();
+            }
+        };
+        thread::Builder::new().name("trigon-render".into()).spawn(work).ok()?;
+        Some(Self::Thread { jobs, finished })
+    }
+
+    fn begin(&mut self, (number, job, cancel): Numbered) {
+        match self {
+            // The thread lives for as long as this does.
+            Self::Thread { jobs, .. } => drop(jobs.send((number, job, cancel))),
+            Self::Caller { renderer, finished } => {
+                let done = job.run(renderer, &cancel);
+                *finished = Some(Box::new(Finished { took: Duration::ZERO, ..done }));
+            }
+        }
+    }
+
+    /// What became of a job; what was abandoned before it is dropped.
+    fn finished(&mut self, number: u64) -> Option<Finished> {
+        match self {
+            Self::Thread { finished, .. } => {
+                finished.try_iter().find_map(|(of, finished)| (of == number).then_some(finished))
+            }
+            Self::Caller { finished, .. } => finished.take().map(|finished| *finished),
+        }
     }
 }
 
@@ -208,8 +279,8 @@ fn draw_otherwise(
 #[cfg(test)]
 mod tests {
     use super::{
-        Cancel, Drawer, Finished, Frame, Job, Product, Purpose, RenderSettings, Scene, Task, Unfinished,
-        Worker,
+        Cancel, Drawer, Finished, Frame, Job, Product, Purpose, Quality, RenderSettings, Scene, Task,
+        Unfinished, Worker,
     };
     use std::sync::Arc;
     use std::sync::mpsc::channel;
@@ -266,6 +337,26 @@ mod tests {
         worker.begin(job(8, 1));
         rung.recv_timeout(Duration::from_secs(60)).expect("it goes on");
         assert!(picture(&mut worker).is_some(), "with the next one");
+    }
+
+    #[test]
+    fn nobody_waits_for_the_last_tiles_of_what_was_only_better() {
+        let (ring, rung) = channel();
+        let mut worker = Worker::of_thread(move || {
+            let _ = ring.send(());
+        });
+        worker.begin(Job { purpose: Purpose::Window(Quality::Full(2)), ..job(8192, 4) });
+        worker.cancel();
+        assert!(!worker.is_busy(), "there is room at once");
+        let given_up = worker.collect().expect("told at once, too");
+        assert_eq!(given_up.product.err(), Some(Unfinished::Cancelled), "without a picture");
+        worker.begin(Job { purpose: Purpose::Window(Quality::Full(1)), ..job(8, 1) });
+        let found = std::iter::from_fn(|| {
+            rung.recv_timeout(Duration::from_secs(60)).expect("it goes on");
+            Some(picture(&mut worker))
+        });
+        let found = found.flatten().next().expect("in the end");
+        assert_eq!(found.width, 8, "with the next one, and not with what was given up");
     }
 
     /// Draws a picture of some size, or refuses.

@@ -101,6 +101,7 @@ impl Session<'_> {
         if self.worker.is_busy() {
             if self.pacing.is_refining() {
                 self.worker.cancel();
+                self.collect(now);
             }
             return;
         }
