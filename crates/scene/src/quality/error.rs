@@ -28,16 +28,42 @@ pub struct ErrorModel {
     last: Option<(Quality, f64)>,
 }
 
-/// What is known of one quality: sums over pictures, the newest counting most.
+/// What is known of one quality.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Known {
     quality: Quality,
+    /// Sums over all pictures, the newest counting most.
+    now: Sums,
+    /// Sums over those that every quality was learnt from.
+    at_first: Sums,
+}
+
+/// Sums over pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Sums {
     squares: f64,
     detail: f64,
     pixels: f64,
 }
 
-impl Known {
+impl Sums {
+    fn of(picture: &Frame, reference: &Frame) -> Self {
+        let pixels = (picture.color.len() / 4) as f64;
+        Self { squares: squares(picture, reference), detail: mean_detail(picture) * pixels, pixels }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            squares: self.squares + other.squares,
+            detail: self.detail + other.detail,
+            pixels: self.pixels + other.pixels,
+        }
+    }
+
+    fn times(self, factor: f64) -> Self {
+        Self { squares: self.squares * factor, detail: self.detail * factor, pixels: self.pixels * factor }
+    }
+
     /// Of a pixel.
     fn mean_detail(&self) -> f64 {
         self.detail / self.pixels
@@ -45,23 +71,38 @@ impl Known {
 }
 
 impl ErrorModel {
-    /// A picture of a quality, and what it should be. Both may be a part of a frame.
+    /// A picture of a quality, and what it should be. Both may be a part of a frame; all
+    /// qualities are to be learnt from the same parts.
     pub fn learn(&mut self, quality: Quality, picture: &Frame, reference: &Frame) {
-        /// What older pictures count beside a new one.
-        const KEPT: f64 = 0.8;
-        let pixels = (picture.color.len() / 4) as f64;
-        if pixels == 0.0 {
+        let new = Sums::of(picture, reference);
+        if new.pixels == 0.0 {
             return;
         }
-        let squares = squares(picture, reference);
-        let new = Known { quality, squares, detail: mean_detail(picture) * pixels, pixels };
-        match self.known.iter_mut().find(|known| known.quality == quality) {
-            None => self.known.push(new),
-            Some(known) => {
-                known.squares = known.squares * KEPT + new.squares;
-                known.detail = known.detail * KEPT + new.detail;
-                known.pixels = known.pixels * KEPT + new.pixels;
-            }
+        match self.of_mut(quality) {
+            Some(known) => (known.now, known.at_first) = (known.now.plus(new), known.at_first.plus(new)),
+            None => self.known.push(Known { quality, now: new, at_first: new }),
+        }
+    }
+
+    /// A newer picture of a quality that was learnt, from any part of the scene, and what
+    /// it should be. Older ones count less from now on.
+    ///
+    /// Qualities with as many shaded samples and the same shadows are mostly wrong in the
+    /// same places: they go half of the way with it.
+    pub fn correct(&mut self, quality: Quality, picture: &Frame, reference: &Frame) {
+        /// Of what is older, this part stays: some ten pictures count.
+        const KEPT: f64 = 0.9;
+        let Some(known) = self.of_mut(quality) else { return };
+        let before = known.now.squares / known.now.detail;
+        known.now = known.now.times(KEPT).plus(Sums::of(picture, reference));
+        let change = (known.now.squares / known.now.detail / before).sqrt();
+        let is_alike = |other: Quality| {
+            other != quality
+                && (other.shaded_samples(), other.shadows) == (quality.shaded_samples(), quality.shadows)
+        };
+        // Where nothing was wrong, or there was no detail, there is nothing to compare.
+        for known in self.known.iter_mut().filter(|known| change.is_normal() && is_alike(known.quality)) {
+            known.now.squares *= change;
         }
     }
 
@@ -76,23 +117,27 @@ impl ErrorModel {
     /// learnt of.
     pub fn predict(&self, quality: Quality) -> Option<f64> {
         let known = self.of(quality)?;
-        if known.detail == 0.0 {
-            return Some((known.squares / (3.0 * known.pixels)).sqrt());
+        if known.now.detail == 0.0 {
+            return Some((known.now.squares / (3.0 * known.now.pixels)).sqrt());
         }
-        Some((known.squares / known.detail * self.detail_now(known) / 3.0).sqrt())
+        Some((known.now.squares / known.now.detail * self.detail_now(known) / 3.0).sqrt())
     }
 
     /// The detail of a pixel that the next frame would have at a quality.
     fn detail_now(&self, known: &Known) -> f64 {
-        let Some((quality, detail)) = self.last else { return known.mean_detail() };
-        match self.of(quality).map(Known::mean_detail) {
-            Some(usual) if usual > 0.0 => detail * (known.mean_detail() / usual),
+        let Some((quality, detail)) = self.last else { return known.at_first.mean_detail() };
+        match self.of(quality).map(|last| last.at_first.mean_detail()) {
+            Some(usual) if usual > 0.0 => detail * (known.at_first.mean_detail() / usual),
             _ => detail,
         }
     }
 
     fn of(&self, quality: Quality) -> Option<&Known> {
         self.known.iter().find(|known| known.quality == quality)
+    }
+
+    fn of_mut(&mut self, quality: Quality) -> Option<&mut Known> {
+        self.known.iter_mut().find(|known| known.quality == quality)
     }
 }
 
@@ -102,7 +147,11 @@ fn squares(picture: &Frame, reference: &Frame) -> f64 {
         return 0.0;
     }
     let pairs = pixels(picture).iter().zip(pixels(reference));
-    pairs.filter(|(a, b)| a != b).map(|(&a, &b)| apart(light(a), light(b))).sum()
+    // An empty sum of floats is −0.
+    pairs
+        .filter(|(a, b)| a != b)
+        .map(|(&a, &b)| apart(light(a), light(b)))
+        .fold(0.0, |sum, square| sum + square)
 }
 
 fn pixels(frame: &Frame) -> &[[u8; 4]] {
@@ -187,6 +236,22 @@ mod tests {
         // In proportion to its root; the predictions are a few roundings of f64 away.
         assert!((more / learnt - (detail[1] / detail[0]).sqrt()).abs() < 1e-12, "{learnt} becomes {more}");
         assert!(more > 1.5 * learnt, "with four times the edges: {learnt} becomes {more}");
+    }
+
+    #[test]
+    fn newer_pictures_correct_older_ones() {
+        let [draft, high] = [Preset::Draft, Preset::High].map(Preset::quality);
+        let (coarse, fine) = (stripes(8, 255), stripes(2, 255));
+        let mut errors = ErrorModel::default();
+        errors.learn(draft, &coarse, &stripes(8, 250));
+        errors.learn(high, &coarse, &stripes(8, 254));
+        errors.saw(draft, &fine);
+        let before = errors.predict(high);
+        (0..60).for_each(|_| errors.correct(draft, &fine, &stripes(2, 200)));
+        let (said, is) = (errors.predict(draft).expect("learnt"), rmse(&fine, &stripes(2, 200)));
+        // What is old is left to 0.9^60 = 0.2 %.
+        assert!((said / is - 1.0).abs() < 0.01, "as it is now: {said} for {is}");
+        assert_eq!(errors.predict(high), before, "of a quality that is not like it that tells nothing");
     }
 
     #[test]

@@ -7,9 +7,9 @@ use super::Quality;
 use crate::effects::Shadows;
 use crate::settings::{RenderSettings, ShadingModel};
 
-/// A quality with a name. Each has about a third of the error of the one before it, for
-/// about three times its time; what they cost and how far they are from the reference on
-/// whole pictures is in `docs/accuracy.md`.
+/// A quality with a name. Each has about a third of the error of the one before it, for two
+/// to three times its time, and the reference for several times; what they cost and how
+/// far they are from the reference on whole pictures is in `docs/accuracy.md`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Preset {
     /// One sample a pixel: to find a view, and for pictures that only programs see.
@@ -29,11 +29,11 @@ impl Preset {
     /// What it stands for.
     ///
     /// Light is found at each pixel in all of them: with light at the vertices pictures
-    /// are less accurate by a third, and not drawn sooner.
+    /// are less accurate, and not drawn sooner.
     pub const fn quality(self) -> Quality {
         let (samples_per_axis, samples, shadows, occlusion_rays) = match self {
-            Self::Draft => (1, 1, Shadows::Maps { resolution: 1024 }, 8),
-            Self::Standard => (2, 1, Shadows::Maps { resolution: 1024 }, 16),
+            Self::Draft => (1, 1, Shadows::Maps { resolution: 2048 }, 8),
+            Self::Standard => (2, 1, Shadows::Maps { resolution: 2048 }, 16),
             Self::High => (3, 2, Shadows::Rays, 16),
             Self::Reference => (4, 16, Shadows::Rays, 64),
         };

@@ -7,22 +7,26 @@ use trigon_camera::Camera;
 
 use super::budget::of_quality;
 use super::window::Window;
-use super::{Quality, TimeBudget};
+use super::{ErrorModel, Quality, TimeBudget};
 use crate::frame::Frame;
 use crate::render::{RenderError, Renderer};
 use crate::scene::Scene;
 use crate::settings::{Outputs, RenderSettings};
 
-/// The part of a picture's width and height that is drawn in all qualities to begin with,
-/// and the most pixels of its sides.
-const FIRST_WINDOW: (f64, u32) = (0.5, 256);
+/// How many parts of a picture are drawn in all qualities to begin with. They lie about
+/// everywhere: the middle of a picture is not like its rest.
+const FIRST_WINDOWS: u32 = 9;
+
+/// The part of a picture's width and height that each of them has, and the most pixels of
+/// its sides.
+const FIRST_WINDOW: (f64, u32) = (1.0 / 6.0, 96);
 
 /// The same for looking again.
-const LATER_WINDOW: (f64, u32) = (0.25, 128);
+const LATER_WINDOW: (f64, u32) = (1.0 / 8.0, 64);
 
 impl TimeBudget {
-    /// Learns what this scene costs, and what its errors are: draws the middle of the
-    /// picture in all qualities, and the whole in the quickest.
+    /// Learns what this scene costs, and what its errors are: draws parts of the picture,
+    /// together a quarter of it, in all qualities, and the whole in the quickest.
     ///
     /// # Errors
     /// As [`Renderer::render`].
@@ -34,14 +38,19 @@ impl TimeBudget {
         clock: &mut dyn FnMut() -> Duration,
     ) -> Result<(), RenderError> {
         let whole = colors_alone(renderer.settings());
-        let window = self.window(&whole, FIRST_WINDOW);
-        let (part, there) = (window.settings(&whole), window.camera(camera, &whole));
+        self.errors = ErrorModel::default();
         let mut studio = Studio { renderer, scene, clock, repetitions: 2 };
-        if let Some(there) = there {
-            let all = self.candidates.clone();
-            for (settings, time) in self.compare(&all, &part, &there, &mut studio)? {
-                self.costs.learn(&settings, time);
-            }
+        let mut times = vec![Duration::ZERO; self.candidates.len()];
+        let mut part = whole.clone();
+        for _ in 0..FIRST_WINDOWS {
+            let window = self.window(&whole, FIRST_WINDOW);
+            part = window.settings(&whole);
+            let Some(there) = window.camera(camera, &whole) else { continue };
+            self.compare(&part, &there, (&mut studio, &mut times))?;
+        }
+        for (quality, time) in self.candidates.iter().zip(times).filter(|(_, time)| !time.is_zero()) {
+            // Their mean: what lies in one window is not what lies in the picture.
+            self.costs.learn(&of_quality(&part, *quality), time / FIRST_WINDOWS);
         }
         let quickest = self.foreseen(&whole).into_iter().min_by_key(|foreseen| foreseen.time);
         let quality = quickest.expect("there are candidates").quality;
@@ -51,9 +60,9 @@ impl TimeBudget {
         Ok(())
     }
 
-    /// Looks again how far the last quality and its neighbours are from the reference,
-    /// at some part of the picture, if that is foreseen to fit into some time; says
-    /// whether it did. A camera that moves on sees other things.
+    /// Looks again how far the last quality is from the reference, at some part of the
+    /// picture, if that is foreseen to fit into some time; says whether it did. A camera
+    /// that moves on sees other things.
     ///
     /// # Errors
     /// As [`Renderer::render`].
@@ -67,21 +76,16 @@ impl TimeBudget {
         let whole = colors_alone(renderer.settings());
         let window = self.window(&whole, LATER_WINDOW);
         let part = window.settings(&whole);
-        let qualities = self.about_the_last(&whole);
-        let foreseen = |&quality: &Quality| self.costs.predict(&of_quality(&part, quality));
-        let time: Duration = qualities.iter().chain([&self.reference]).map(foreseen).sum();
+        let Some(quality) = self.last else { return Ok(false) };
+        let both = [self.reference, quality].map(|quality| of_quality(&part, quality));
+        let time = both.iter().map(|settings| self.costs.predict(settings)).sum();
         let fits = self.patience.with_margin(time) <= spare;
         let Some(there) = window.camera(camera, &whole).filter(|_| fits) else { return Ok(false) };
-        // Costs are not learnt from it: what lies in the window is not what lies in the picture.
-        self.compare(&qualities, &part, &there, &mut Studio { renderer, scene, clock, repetitions: 1 })?;
+        let mut studio = Studio { renderer, scene, clock, repetitions: 1 };
+        let [(reference, _), (picture, _)] = [studio.draw(&both[0], &there)?, studio.draw(&both[1], &there)?];
+        // Costs are not learnt from it: a window is not the picture.
+        self.errors.correct(quality, &picture, &reference);
         Ok(true)
-    }
-
-    /// The last quality and those before and after it.
-    fn about_the_last(&self, settings: &RenderSettings) -> Vec<Quality> {
-        let all = self.foreseen(settings);
-        let at = all.iter().position(|foreseen| Some(foreseen.quality) == self.last).unwrap_or(0);
-        all[at.saturating_sub(1)..all.len().min(at + 2)].iter().map(|foreseen| foreseen.quality).collect()
     }
 
     /// The next window.
@@ -91,29 +95,27 @@ impl TimeBudget {
         window
     }
 
-    /// Draws the reference and some qualities of the same thing, and learns their errors
-    /// from it; returns how long those took that are not the reference.
+    /// Draws the reference and all candidates of a part, learns their errors from it, and
+    /// adds up how long each took.
     fn compare(
         &mut self,
-        qualities: &[Quality],
-        settings: &RenderSettings,
+        part: &RenderSettings,
         camera: &Camera,
-        studio: &mut Studio<'_>,
-    ) -> Result<Vec<(RenderSettings, Duration)>, RenderError> {
-        let best = of_quality(settings, self.reference);
-        // Once: nobody will wait for it.
-        let (reference, _) = Studio { repetitions: 1, ..studio.reborrow() }.draw(&best, camera)?;
+        (studio, times): (&mut Studio<'_>, &mut [Duration]),
+    ) -> Result<(), RenderError> {
+        let best = of_quality(part, self.reference);
+        let (reference, _) = studio.draw_once(&best, camera)?;
         self.errors.learn(Quality::of(&best), &reference, &reference);
-        let mut times = Vec::new();
-        for quality in qualities {
-            let settings = of_quality(settings, *quality);
+        for (quality, sum) in self.candidates.iter().zip(times) {
+            let settings = of_quality(part, *quality);
+            // The reference takes long and nobody waits for it.
             if settings != best {
                 let (picture, time) = studio.draw(&settings, camera)?;
                 self.errors.learn(Quality::of(&settings), &picture, &reference);
-                times.push((settings, time));
+                *sum += time;
             }
         }
-        Ok(times)
+        Ok(())
     }
 }
 
@@ -132,9 +134,15 @@ struct Studio<'a> {
 }
 
 impl Studio<'_> {
-    fn reborrow(&mut self) -> Studio<'_> {
-        let Self { renderer, scene, clock, repetitions } = self;
-        Studio { renderer, scene, clock, repetitions: *repetitions }
+    fn draw_once(
+        &mut self,
+        settings: &RenderSettings,
+        camera: &Camera,
+    ) -> Result<(Frame, Duration), RenderError> {
+        let repetitions = std::mem::replace(&mut self.repetitions, 1);
+        let drawn = self.draw(settings, camera);
+        self.repetitions = repetitions;
+        drawn
     }
 
     /// A picture, and how long it takes. The renderer's settings stay.
