@@ -17,9 +17,9 @@ use trigon_math::glam::Affine2;
 use trigon_math::{DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::primitives::{self, TorusKnot};
 use trigon_scene::{
-    AmbientOcclusion, Effect, EffectPlan, Environment, Fog, Frame, Light, Material, MetallicRoughness, Node,
-    NodeId, NormalMap, Outline, RenderSettings, Renderer, Scene, Shading, Shadows, Sky, Style, Texture,
-    TextureBinding, TextureFormat, ToneMapping, Transform, render, showcase,
+    AmbientOcclusion, Background, Effect, EffectPlan, Environment, Fog, Frame, Light, Material,
+    MetallicRoughness, Node, NodeId, NormalMap, Outline, RenderSettings, Renderer, Scene, Shading, Shadows,
+    Sky, Style, Texture, TextureBinding, TextureFormat, ToneMapping, Transform, render, showcase,
 };
 
 /// Pictures of which the quickest counts.
@@ -153,7 +153,10 @@ fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
         asked(Effect::Textures, &|_| {}),
         asked(Effect::NormalMaps, &|_| {}),
         asked(Effect::Emission, &|_| {}),
-        asked(Effect::Environment, &|settings| settings.effects.environment = Some(Arc::clone(&sky))),
+        asked(Effect::Environment, &|settings| {
+            settings.effects.environment = Some(Arc::clone(&sky));
+            settings.background = Background::Environment;
+        }),
         asked(Effect::ShadowMaps, &|settings| settings.effects.shadows = Shadows::Maps { resolution: 2048 }),
         asked(Effect::ShadowRays, &|settings| settings.effects.shadows = Shadows::Rays),
         asked(Effect::AmbientOcclusion, &|settings| {
