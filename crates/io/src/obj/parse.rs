@@ -9,7 +9,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::chunks::{Chunk, census, cut, number};
+use super::chunks::{Census, Chunk, census, cut, number};
 use super::content::Content;
 use super::index::{Counts, NONE};
 use super::lines::plain_bytes;
@@ -57,7 +57,7 @@ pub(super) fn parse_in_pieces(
         .map_err(|what| LoadError::malformed(path, what, "fetch the real file with `git lfs pull`"))?;
     options.report(path, Stage::Geometry, 0.0)?;
     let pieces = cut(&text, size);
-    let (chunks, total) = number(&pieces, &side_by_side(&pieces, |piece| census(piece)));
+    let (chunks, total) = number(&pieces, &count_all(path, &pieces, options)?);
     // Above the largest index there is `NONE`, whatever the caller allows.
     let limit = options.limits.vertices.min(NONE as usize);
     if total.positions.max(total.coordinates).max(total.normals) > limit {
@@ -72,6 +72,24 @@ pub(super) fn parse_in_pieces(
     Ok(parsed)
 }
 
+/// How many pieces a thread has before it is asked whether to go on.
+const PIECES_PER_THREAD: usize = 4;
+
+/// The part of the work that counting is; the last quarter is for building the mesh.
+const COUNTED: f32 = 0.1;
+const READ: f32 = 0.75;
+
+/// Counts some pieces at a time: that takes seconds for a gigabyte, and can be cancelled.
+fn count_all(path: &Path, pieces: &[&[u8]], options: &LoadOptions<'_>) -> Result<Vec<Census>, LoadError> {
+    let mut censuses = Vec::with_capacity(pieces.len());
+    for some in pieces.chunks(PIECES_PER_THREAD * rayon::current_num_threads()) {
+        censuses.extend(side_by_side(some, |piece| census(piece)));
+        let share = censuses.len() as f32 / pieces.len() as f32;
+        options.report(path, Stage::Geometry, COUNTED * share)?;
+    }
+    Ok(censuses)
+}
+
 /// Reads some pieces at a time, so that no more than those are in memory besides
 /// what has been kept.
 fn read_all(
@@ -80,7 +98,6 @@ fn read_all(
     total: Counts,
     options: &LoadOptions<'_>,
 ) -> Result<Parsed, LoadError> {
-    const PIECES_PER_THREAD: usize = 4;
     let most_corners = options.limits.corners;
     let mut parsed = Parsed::default();
     parsed.content.reserve(total);
@@ -91,8 +108,8 @@ fn read_all(
             parsed.append(path, chunk, section, most_corners)?;
         }
         done += some.len();
-        // The last quarter is for building the mesh.
-        options.report(path, Stage::Geometry, 0.75 * done as f32 / chunks.len() as f32)?;
+        let share = done as f32 / chunks.len() as f32;
+        options.report(path, Stage::Geometry, COUNTED + (READ - COUNTED) * share)?;
     }
     Ok(parsed)
 }
@@ -140,9 +157,13 @@ fn nothing(path: &Path, vertices: usize) -> LoadError {
 
 #[cfg(test)]
 mod tests {
+    use std::ops::ControlFlow;
+    use std::sync::Mutex;
+
     use proptest::prelude::*;
 
     use super::*;
+    use crate::options::Progress;
 
     /// All that there is to know about what came out.
     fn read(text: &str, size: usize, threads: usize) -> String {
@@ -153,6 +174,32 @@ mod tests {
             let parsed = parse_in_pieces(path, text.as_bytes(), size, &LoadOptions::default(), &mut warnings);
             format!("{parsed:#?} {:#?}", warnings.into_list())
         })
+    }
+
+    /// Counting a gigabyte takes seconds, too: whoever cancels does not wait for its end.
+    #[test]
+    fn the_first_look_at_a_file_can_be_cancelled_as_well() {
+        const BATCHES: usize = 5;
+        let text = "v 0 0 0\n".repeat(BATCHES * PIECES_PER_THREAD);
+        let reports = Mutex::new(Vec::new());
+        let parse = |most: usize| {
+            let follow = |progress: Progress| {
+                let mut reports = reports.lock().expect("nobody panics");
+                reports.push(progress.fraction);
+                if reports.len() < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            };
+            let options = LoadOptions { progress: Some(&follow), ..LoadOptions::default() };
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
+            let path = Path::new("a.obj");
+            let parse = || parse_in_pieces(path, text.as_bytes(), 1, &options, &mut Warnings::about(path));
+            pool.install(parse).map(drop).map_err(|error| error.kind)
+        };
+        assert_eq!(parse(3), Err(LoadErrorKind::Cancelled), "after the second batch that was counted");
+        reports.lock().expect("nobody panics").clear();
+        assert_eq!(parse(usize::MAX), Err(LoadErrorKind::Empty), "there are no faces");
+        let reports = reports.lock().expect("nobody panics");
+        assert_eq!(reports.len(), 1 + 2 * BATCHES, "at the start, and in both looks: {reports:?}");
+        assert!(reports.is_sorted(), "forwards: {reports:?}");
     }
 
     proptest! {
