@@ -3,7 +3,8 @@
 //! - A module for each question, in which the classical algorithms stand beside the
 //!   engine, each in a file of its own with its source: [`fill`], [`visibility`],
 //!   [`mod@line`], [`shading`], [`interpolation`], [`depth`], [`antialiasing`], [`texture`],
-//!   [`transparency`], [`shadow`], [`color`], [`coordinates`], [`storage`], [`threads`].
+//!   [`transparency`], [`shadow`], [`color`], [`coordinates`], [`storage`], [`threads`];
+//!   [`frames`] for whole pictures.
 //! - Exact answers to hold them against: [`oracle`].
 //! - What all that costs: [`report`].
 //! - [`workloads`] that other renderers draw too, and the harness that times them;
@@ -36,6 +37,7 @@ pub mod color;
 pub mod coordinates;
 pub mod depth;
 pub mod fill;
+pub mod frames;
 pub mod interpolation;
 pub mod limits;
 pub mod line;

@@ -3,7 +3,9 @@
 use super::pipelines::{BlinnPhong, Flat, Gouraud, Textured};
 use super::{Scene, Shading};
 use trigon_math::Vec4;
-use trigon_raster::{Background, Draw, LanePipeline, Pass, Rasterizer, Stats, Target, TargetError};
+use trigon_raster::{
+    Background, Certificate, Draw, LanePipeline, Pass, Rasterizer, Stats, Target, TargetError, Tolerance,
+};
 
 /// The caller's pixels and what it takes to draw into them, kept from frame to
 /// frame.
@@ -31,19 +33,33 @@ impl<'a> Canvas<'a> {
     /// Draws one frame of a scene of the same size and samples, and tells what it
     /// took; the picture is complete when this returns.
     pub fn draw(&mut self, scene: &Scene) -> Stats {
-        match &scene.shading {
-            Shading::Flat => self.draw_with(&Flat(scene), scene),
-            Shading::Gouraud => self.draw_with(&Gouraud(scene), scene),
-            Shading::BlinnPhong => self.draw_with(&BlinnPhong(scene), scene),
-            Shading::Textured(texture) => self.draw_with(&Textured { scene, texture }, scene),
-        }
+        let Self { rasterizer, target } = self;
+        recorded(scene, |pass| rasterizer.draw(pass, target))
     }
 
-    fn draw_with(&mut self, pipeline: &impl LanePipeline, scene: &Scene) -> Stats {
-        let background = Vec4::from(Scene::BACKGROUND.map(f32::from)) / 255.0;
-        let mut pass = Pass::new();
-        pass.background(Background::Color(background));
-        pass.triangles(Draw { culling: scene.culling, ..Draw::new(pipeline, &scene.mesh.triangles) });
-        self.rasterizer.draw(&pass, &mut self.target)
+    /// Proves which pixels of such a frame stay as they are within a tolerance.
+    ///
+    /// # Errors
+    /// Not enough memory.
+    pub fn certify(&mut self, scene: &Scene, tolerance: Tolerance) -> Result<Certificate, TargetError> {
+        recorded(scene, |pass| self.rasterizer.certify(pass, &self.target, tolerance))
     }
+}
+
+/// Does something with the pass of a frame.
+fn recorded<R>(scene: &Scene, then: impl FnOnce(&Pass<'_>) -> R) -> R {
+    match &scene.shading {
+        Shading::Flat => with(&Flat(scene), scene, then),
+        Shading::Gouraud => with(&Gouraud(scene), scene, then),
+        Shading::BlinnPhong => with(&BlinnPhong(scene), scene, then),
+        Shading::Textured(texture) => with(&Textured { scene, texture }, scene, then),
+    }
+}
+
+fn with<R>(pipeline: &impl LanePipeline, scene: &Scene, then: impl FnOnce(&Pass<'_>) -> R) -> R {
+    let background = Vec4::from(Scene::BACKGROUND.map(f32::from)) / 255.0;
+    let mut pass = Pass::new();
+    pass.background(Background::Color(background));
+    pass.triangles(Draw { culling: scene.culling, ..Draw::new(pipeline, &scene.mesh.triangles) });
+    then(&pass)
 }

@@ -5,6 +5,7 @@ mod color;
 mod coordinates;
 mod depth;
 mod fill;
+mod frames;
 mod interpolation;
 mod line;
 mod shading;
@@ -20,7 +21,7 @@ use super::{Chapter, Effort, Picture, Plot, Question, grey, heat, tint, tinted};
 use crate::measure::{Spread, interleaved};
 
 /// The chapters in their order.
-pub(super) const CHAPTERS: [Question; 14] = [
+pub(super) const CHAPTERS: [Question; 15] = [
     ("fill", fill::measure),
     ("visibility", visibility::measure),
     ("line", line::measure),
@@ -35,6 +36,7 @@ pub(super) const CHAPTERS: [Question; 14] = [
     ("coordinates", coordinates::measure),
     ("storage", storage::measure),
     ("threads", threads::measure),
+    ("frames", frames::measure),
 ];
 
 /// The nanoseconds that each variant takes, in turn.

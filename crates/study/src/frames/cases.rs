@@ -1,0 +1,104 @@
+//! The scenes, and a flight past each.
+
+use trigon_math::{DQuat, DVec3, Vec3};
+use trigon_mesh::primitives::{self, TorusKnot};
+use trigon_scene::camera::Camera;
+use trigon_scene::{
+    Light, Material, Node, RenderSettings, Scene, Shadows, Texture, TextureFormat, Transform, showcase,
+};
+
+/// A scene, and what is asked for of its picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Case {
+    /// The built-in scene: some objects, many lights, fine wood.
+    Showcase,
+    /// Knots on a chequered floor, with shadows.
+    Shadows,
+    /// 36 balls of 5,120 triangles: most are smaller than a pixel.
+    Dense,
+}
+
+impl Case {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Showcase, Self::Shadows, Self::Dense];
+
+    /// The name in tables and plots.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Showcase => "the built-in scene",
+            Self::Shadows => "knots and their shadows",
+            Self::Dense => "184,320 triangles",
+        }
+    }
+
+    /// What is drawn.
+    pub fn scene(self) -> Scene {
+        match self {
+            Self::Showcase => showcase(),
+            Self::Shadows => knots(),
+            Self::Dense => balls(),
+        }
+    }
+
+    /// A picture of it, at no particular quality.
+    pub fn settings(self, [width, height]: [u32; 2]) -> RenderSettings {
+        let mut settings = RenderSettings::new(width, height);
+        if self == Self::Shadows {
+            settings.effects.shadows = Shadows::Maps { resolution: 1024 };
+        }
+        settings
+    }
+
+    /// Where a flight is in a part of it, from 0 to 1: a fifth of a circle about the
+    /// scene, and a quarter of the way nearer.
+    pub fn camera(self, scene: &Scene, aspect: f64, part: f64) -> Camera {
+        let start = scene.cameras().first().map_or_else(|| scene.overview(aspect), |(_, camera)| *camera);
+        let turn = DQuat::from_axis_angle(DVec3::Y, std::f64::consts::TAU / 5.0 * part);
+        let position = turn * start.position * (1.0 - 0.25 * part);
+        Camera { position, orientation: (turn * start.orientation).normalize(), ..start }
+    }
+}
+
+/// Nine knots in rows on a floor with a fine pattern, in the sun.
+fn knots() -> Scene {
+    let mut scene = Scene::new();
+    let pattern = scene.add_texture("pattern", chequered());
+    scene.add_object("floor", primitives::plane(8.0, 8.0), Material::from_texture(pattern));
+    let shape =
+        TorusKnot { major_radius: 0.5, minor_radius: 0.22, tube_radius: 0.12, ..TorusKnot::default() };
+    let mesh = scene.add_mesh("knot", primitives::torus_knot(&shape));
+    for place in 0..9 {
+        let [column, row] = [place % 3, place / 3].map(|step| f64::from(step - 1));
+        let color = Vec3::new(0.7 - 0.2 * row as f32, 0.4, 0.5 + 0.2 * column as f32);
+        let material = scene.add_material(Material::from_color(color));
+        scene.add(Node::from_mesh(mesh, material).at(DVec3::new(2.2 * column, 0.8, 2.2 * row)));
+    }
+    let down = DQuat::from_axis_angle(DVec3::Y, 0.6) * DQuat::from_axis_angle(DVec3::X, -0.9);
+    let sun = Transform::from_scale_rotation_translation(DVec3::ONE, down, DVec3::ZERO);
+    scene.add(Node::from_light(Light::directional(0.8)).with_transform(sun));
+    scene.add(Node::from_light(Light::ambient(0.25)));
+    scene
+}
+
+/// Fields of 16 texels.
+fn chequered() -> Texture {
+    const SIDE: u32 = 512;
+    let texel = |index: u32| {
+        let is_light = (index % SIDE / 16 + index / SIDE / 16).is_multiple_of(2);
+        if is_light { [220, 214, 200, 255] } else { [60, 70, 92, 255] }
+    };
+    let texels = (0..SIDE * SIDE).map(texel).collect();
+    Texture::new(SIDE, SIDE, texels, TextureFormat::Srgb).expect("the size is within the limits")
+}
+
+/// Balls in a square; lit by the lights that come with the camera.
+fn balls() -> Scene {
+    let mut scene = Scene::new();
+    let mesh = scene.add_mesh("ball", primitives::icosphere(0.45, 4));
+    let material = scene.add_material(Material::from_color(Vec3::new(0.75, 0.55, 0.3)));
+    for place in 0..36 {
+        let [x, z] = [place % 6, place / 6].map(|step| f64::from(step) - 2.5);
+        scene.add(Node::from_mesh(mesh, material).at(DVec3::new(x, 0.0, z)));
+    }
+    scene
+}
