@@ -10,7 +10,7 @@ use super::{Preset, Quality};
 pub fn candidates() -> [Quality; 12] {
     let [draft, standard, high, reference] = Preset::ALL.map(Preset::quality);
     let samples = |quality, samples| Quality { samples, ..quality };
-    let fine = |quality| Quality { samples_per_axis: 4, ..quality };
+    let nine = |quality| Quality { samples_per_axis: 3, ..quality };
     [
         draft,
         samples(draft, 2),
@@ -19,10 +19,10 @@ pub fn candidates() -> [Quality; 12] {
         standard,
         samples(standard, 2),
         samples(standard, 4),
-        samples(high, 1),
+        nine(high),
+        nine(samples(high, 2)),
         high,
-        fine(samples(high, 1)),
-        fine(high),
+        samples(high, 2),
         reference,
     ]
 }

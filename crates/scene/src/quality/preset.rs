@@ -8,7 +8,7 @@ use crate::effects::Shadows;
 use crate::settings::{RenderSettings, ShadingModel};
 
 /// A quality with a name. Each has about a third of the error of the one before it, for two
-/// to three times its time, and the reference for several times; what they cost and how
+/// to three times its time; what they cost and how
 /// far they are from the reference on whole pictures is in `docs/accuracy.md`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Preset {
@@ -16,7 +16,7 @@ pub enum Preset {
     Draft,
     /// 2×2 samples: for pictures that move.
     Standard,
-    /// 3×3 samples, each of two for outlines, and exact shadows: for pictures that stay.
+    /// 4×4 samples and exact shadows: for pictures that stay.
     High,
     /// The best that the engine does: what the others are measured against.
     Reference,
@@ -34,7 +34,7 @@ impl Preset {
         let (samples_per_axis, samples, shadows, occlusion_rays) = match self {
             Self::Draft => (1, 1, Shadows::Maps { resolution: 2048 }, 8),
             Self::Standard => (2, 1, Shadows::Maps { resolution: 2048 }, 16),
-            Self::High => (3, 2, Shadows::Rays, 16),
+            Self::High => (4, 1, Shadows::Rays, 16),
             Self::Reference => (4, 16, Shadows::Rays, 64),
         };
         Quality { samples_per_axis, samples, shading: ShadingModel::Phong, shadows, occlusion_rays }

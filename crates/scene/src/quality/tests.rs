@@ -83,8 +83,8 @@ fn a_choice_says_what_it_gives_up() {
     };
     assert_eq!(
         choice.to_string(),
-        "2×2 samples, light at each pixel: about 8.0 ms of 16.0 ms, error about 0.0034; gives up 3×3 samples \
-         of 2, light at each pixel (about 32.0 ms, error about 0.0012); errors are RMSE in linear light \
+        "2×2 samples, light at each pixel: about 8.0 ms of 16.0 ms, error about 0.0034; gives up 4×4 samples, \
+         light at each pixel (about 32.0 ms, error about 0.0012); errors are RMSE in linear light \
          against 4×4 samples of 16, light at each pixel",
         "in one line"
     );
