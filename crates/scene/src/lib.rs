@@ -59,7 +59,6 @@ pub use light::{Light, LightKind};
 pub use material::{AlphaMode, Material, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding};
 pub use node::Node;
 pub use pick::{Pick, Picked, Picker};
-pub use quality::Preset;
 pub use render::{RenderError, Renderer, RendererBuilder, render};
 pub use scene::{MaterialId, MeshAsset, MeshId, NodeId, Scene, SceneError, SkinId, TextureAsset, TextureId};
 pub use settings::{Lighting, MAX_SIZE, Outputs, Reflection, RenderSettings, ShadingModel, Style};
