@@ -8,7 +8,7 @@ use crate::effects::Shadows;
 use crate::settings::{RenderSettings, ShadingModel};
 
 /// A quality with a name. Each has about a third of the error of the one before it, for two
-/// to three times its time; what they cost and how
+/// to five times its time; what they cost and how
 /// far they are from the reference on whole pictures is in `docs/accuracy.md`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Preset {
