@@ -229,7 +229,11 @@ impl RenderSettings {
 
     /// The factor for every light.
     pub(crate) fn light_factor(&self) -> f32 {
-        if self.light_intensity > 0.0 && self.light_intensity.is_finite() { self.light_intensity } else { 0.0 }
+        if self.light_intensity > 0.0 && self.light_intensity.is_finite() {
+            self.light_intensity
+        } else {
+            0.0
+        }
     }
 
     /// Width over height.
