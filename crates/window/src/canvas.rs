@@ -73,8 +73,15 @@ fn stretch(frame: &Frame, [width, height]: [usize; 2], to: &mut [[u8; 4]]) {
         return;
     }
     let columns: Vec<usize> = (0..width).map(|x| x * across / width).collect();
-    for (y, row) in to.chunks_exact_mut(width.max(1)).enumerate() {
-        let source = &from[y * down / height * across..][..across];
+    let source = |y: usize| y * down / height;
+    for y in 0..height {
+        let (above, row) = to.split_at_mut(y * width);
+        let row = &mut row[..width];
+        if y > 0 && source(y) == source(y - 1) {
+            row.copy_from_slice(&above[(y - 1) * width..]);
+            continue;
+        }
+        let source = &from[source(y) * across..][..across];
         row.iter_mut().zip(&columns).for_each(|(to, &x)| *to = over_black(source[x]));
     }
 }
