@@ -1,6 +1,7 @@
 //! The scene: a forest of nodes over shared meshes, materials and textures.
 
 mod append;
+mod placed;
 
 use std::sync::{Arc, OnceLock};
 
@@ -15,7 +16,8 @@ use crate::arena::{Arena, Id};
 use crate::material::Material;
 use crate::node::Node;
 use crate::render::Geometry;
-use crate::skin::{Skin, SkinPose};
+use crate::skin::Skin;
+pub(crate) use placed::PlacedMesh;
 
 /// Names a node.
 pub type NodeId = Id<Node>;
@@ -266,37 +268,8 @@ impl Scene {
 
     /// The smallest box around everything that is visible; empty when nothing is.
     pub fn bounds(&self) -> Bounds3 {
-        let transforms = self.visible_transforms();
-        let mut bounds = Bounds3::EMPTY;
-        for (id, node) in self.nodes.iter() {
-            let (Some(world), Some(mesh)) = (transforms[id.index()], node.mesh) else { continue };
-            let Some(asset) = self.meshes.get(mesh) else { continue };
-            let (local, world) = match self.posed_positions(id, node, asset) {
-                Some((positions, world)) => (used_bounds(&asset.mesh, &positions), world),
-                None => (asset.bounds(), world),
-            };
-            bounds = bounds.union(local.transformed(&world));
-        }
-        bounds
-    }
-
-    /// The vertices of a mesh that follows joints or is moved towards morph
-    /// targets, and their map into the world; none when it is at rest.
-    pub(crate) fn posed_positions(
-        &self,
-        id: NodeId,
-        node: &Node,
-        asset: &MeshAsset,
-    ) -> Option<(Vec<Vec3>, DAffine3)> {
-        let attributes = asset.mesh.attributes();
-        let pose = attributes.skin.as_ref().and_then(|_| self.skin_pose(id));
-        let is_morphed =
-            !attributes.morph_targets.is_empty() && node.morph_weights.iter().any(|&weight| weight != 0.0);
-        if pose.is_none() && !is_morphed {
-            return None;
-        }
-        let pose = pose.unwrap_or_else(|| SkinPose { world: self.world_transform(id), palette: Vec::new() });
-        Some((asset.mesh.deformed_positions(&node.morph_weights, &pose.palette), pose.world))
+        let around = |bounds: Bounds3, mesh: PlacedMesh<'_>| bounds.union(mesh.bounds());
+        self.placed_meshes().fold(Bounds3::EMPTY, around)
     }
 
     /// The cameras that stand in the scene, in the order of their nodes: what

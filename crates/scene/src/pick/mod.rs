@@ -12,11 +12,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use trigon_camera::{Camera, Projector, Viewport};
-use trigon_math::{DAffine3, DVec2, DVec3, Vec3};
-use trigon_mesh::Mesh;
+use trigon_math::DVec2;
 
 use crate::frame::{Frame, Hit};
-use crate::scene::{MeshAsset, NodeId, Scene};
+use crate::scene::{NodeId, PlacedMesh, Scene};
 use outline::Outline;
 
 /// How far from a pixel's centre its vertices and edges may be to count as seen in a
@@ -49,7 +48,7 @@ pub struct Picker<'p> {
     scene: &'p Scene,
     frame: &'p Frame,
     projector: Projector,
-    objects: BTreeMap<u32, Object<'p>>,
+    objects: BTreeMap<u32, PlacedMesh<'p>>,
 }
 
 /// What is under a pixel.
@@ -78,14 +77,6 @@ pub struct Picked {
     pub edges: BTreeSet<(NodeId, u32)>,
 }
 
-/// A mesh that is seen, where it is.
-struct Object<'p> {
-    mesh: &'p Mesh,
-    world: DAffine3,
-    /// In its pose, unless it is at rest.
-    posed: Option<Vec<Vec3>>,
-}
-
 impl<'p> Picker<'p> {
     /// For a frame with ids, of the scene as it was drawn. Poses are found anew, once
     /// for each object that is seen.
@@ -95,7 +86,7 @@ impl<'p> Picker<'p> {
         let mut last = u32::MAX;
         for &object in frame.object_ids.iter().flatten() {
             if object != last && object != u32::MAX && !objects.contains_key(&object) {
-                objects.extend(Object::new(scene, object).map(|seen| (object, seen)));
+                objects.extend(seen(scene, object).map(|mesh| (object, mesh)));
             }
             last = object;
         }
@@ -146,30 +137,15 @@ impl<'p> Picker<'p> {
     /// The polygon of a hit on the screen; `None` for lines and points.
     fn outline(&self, hit: &Hit) -> Option<Outline<'_>> {
         let object = self.objects.get(&(hit.node.index() as u32))?;
-        let face = hit.face.filter(|&face| face < object.mesh.face_count())?;
-        Some(Outline::new(object.mesh, face, &self.projector, |vertex| object.place(vertex)))
+        let face = hit.face.filter(|&face| face < object.mesh().face_count())?;
+        Some(Outline::new(object.mesh(), face, &self.projector, |vertex| object.place(vertex)))
     }
 }
 
-impl<'p> Object<'p> {
-    fn new(scene: &'p Scene, index: u32) -> Option<Self> {
-        let id = scene.nodes().id_at(index as usize)?;
-        let node = scene.node(id)?;
-        let mesh = scene.meshes().get(node.mesh?).map(MeshAsset::mesh)?;
-        let attributes = mesh.attributes();
-        let pose = attributes.skin.as_ref().and_then(|_| scene.skin_pose(id));
-        let world = pose.as_ref().map_or_else(|| scene.world_transform(id), |pose| pose.world);
-        let moved = pose.is_some() || !attributes.morph_targets.is_empty();
-        let palette = pose.map(|pose| pose.palette).unwrap_or_default();
-        let posed = moved.then(|| mesh.deformed_positions(&node.morph_weights, &palette));
-        Some(Self { mesh, world, posed })
-    }
-
-    /// Where a vertex is in the world.
-    fn place(&self, vertex: u32) -> DVec3 {
-        let positions = self.posed.as_deref().unwrap_or(self.mesh.positions());
-        self.world.transform_point3(positions[vertex as usize].as_dvec3())
-    }
+/// The mesh of a node by its number, where it is.
+fn seen(scene: &Scene, index: u32) -> Option<PlacedMesh<'_>> {
+    let id = scene.nodes().id_at(index as usize)?;
+    scene.placed_mesh(id, scene.world_transform(id))
 }
 
 fn center(x: u32, y: u32) -> DVec2 {

@@ -144,7 +144,7 @@ fn a_rectangle_finds_what_is_seen_in_it_and_nothing_behind() {
 fn vertices_are_found_where_poses_put_them() {
     let mut scene = Scene::new();
     let mut mesh = primitives::plane(1.0, 1.0);
-    let positions = Deltas::from_dense(vec![Vec3::X * 2.0; mesh.vertex_count()]);
+    let positions = Deltas::from_dense(vec![trigon_math::Vec3::X * 2.0; mesh.vertex_count()]);
     let target = MorphTarget { positions, ..MorphTarget::default() };
     let attributes = trigon_mesh::Attributes { morph_targets: vec![target], ..mesh.attributes().clone() };
     mesh.set_attributes(attributes).expect("one delta each");

@@ -6,13 +6,13 @@
 
 use std::sync::Arc;
 
+use trigon_math::glam::Affine3;
 use trigon_math::{Bounds3, DAffine3, is_mirroring};
 
 use super::geometry::Geometry;
 use super::placement::Eye;
 use crate::node::Node;
 use crate::scene::{MeshAsset, NodeId, Place, Scene};
-use crate::skin::SkinPose;
 
 /// A mesh at a place.
 #[derive(Clone, Debug)]
@@ -68,31 +68,25 @@ fn shape(
     onlookers: Onlookers<'_>,
 ) -> Option<Shape> {
     let rest = Shape { geometry: Arc::clone(asset.geometry()), place, is_posed: false };
-    let attributes = asset.mesh().attributes();
-    let pose = attributes.skin.as_ref().and_then(|_| scene.skin_pose(id));
-    let morphs =
-        !attributes.morph_targets.is_empty() && node.morph_weights.iter().any(|&weight| weight != 0.0);
-    if pose.is_none() && !morphs {
-        return Some(rest);
-    }
+    let Some(bend) = scene.bend(id, asset) else { return Some(rest) };
     // Joints may have taken the mesh to another space.
-    let place = pose
+    let place = bend
+        .joints
         .as_ref()
         .map_or(place, |pose| Place { world: pose.world, is_mirrored: is_mirroring(&pose.world.matrix3) });
-    let pose = pose.unwrap_or_else(|| SkinPose { world: place.world, palette: Vec::new() });
-    if let (Onlookers::Camera(eye), false) = (onlookers, morphs)
-        && !eye.may_see(&reach(&asset.bounds(), &pose), &pose.world)
+    if let (Onlookers::Camera(eye), false) = (onlookers, bend.is_morphed)
+        && !eye.may_see(&reach(&asset.bounds(), bend.palette()), &place.world)
     {
         return None;
     }
-    let geometry = asset.geometry().posed(&node.morph_weights, &pose.palette);
+    let geometry = asset.geometry().posed(&node.morph_weights, bend.palette());
     let posed = geometry.map(|geometry| Shape { geometry: Arc::new(geometry), place, is_posed: true });
     Some(posed.unwrap_or(rest))
 }
 
 /// A box around all that joints can make of a box: weights only mix their maps.
-fn reach(rest: &Bounds3, pose: &SkinPose) -> Bounds3 {
-    pose.palette.iter().fold(*rest, |reach, joint| {
+fn reach(rest: &Bounds3, palette: &[Affine3]) -> Bounds3 {
+    palette.iter().fold(*rest, |reach, joint| {
         let matrix = joint.matrix3;
         let joint = DAffine3::from_mat3_translation(
             trigon_math::DMat3::from_cols(

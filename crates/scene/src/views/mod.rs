@@ -8,7 +8,7 @@ mod random;
 mod viewpoints;
 
 use trigon_camera::{Camera, DEFAULT_MARGIN, Extent};
-use trigon_math::{Bounds3, DVec3, Vec3};
+use trigon_math::{Bounds3, DVec3};
 
 pub use viewpoints::{hemisphere, sphere, turntable};
 
@@ -58,20 +58,8 @@ impl Scene {
     /// The vertices of everything visible, in the world and in their poses, without
     /// those that no face, edge or point uses: what a camera is fitted to.
     pub fn visible_points(&self) -> Vec<DVec3> {
-        let transforms = self.visible_transforms();
         let mut points = Vec::new();
-        for (id, node) in self.nodes().iter() {
-            let (Some(world), Some(mesh)) = (&transforms[id.index()], node.mesh) else { continue };
-            let Some(asset) = self.meshes().get(mesh) else { continue };
-            let posed = self.posed_positions(id, node, asset);
-            let (positions, world) = match &posed {
-                Some((positions, world)) => (positions.as_slice(), world),
-                None => (asset.mesh().positions(), world),
-            };
-            let placed =
-                |(point, used): (&Vec3, bool)| used.then(|| world.transform_point3(point.as_dvec3()));
-            points.extend(positions.iter().zip(asset.mesh().used_vertices()).filter_map(placed));
-        }
+        self.placed_meshes().for_each(|mesh| points.extend(mesh.used_points()));
         points
     }
 }
