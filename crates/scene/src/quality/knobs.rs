@@ -60,6 +60,27 @@ impl Quality {
         Self::of(&settings)
     }
 
+    /// Whether nothing about it is coarser, and something is finer.
+    pub fn is_finer_than(&self, other: &Self) -> bool {
+        let (own, others) = (self.fineness(), other.fineness());
+        own != others && own.iter().zip(others).all(|(own, other)| *own >= other)
+    }
+
+    /// More is finer.
+    fn fineness(&self) -> [u32; 5] {
+        let shading = match self.shading {
+            ShadingModel::Flat => 0,
+            ShadingModel::Gouraud => 1,
+            ShadingModel::Phong => 2,
+        };
+        let shadows = match self.shadows {
+            Shadows::Off => 0,
+            Shadows::Maps { resolution } => resolution,
+            Shadows::Rays => u32::MAX,
+        };
+        [self.shaded_samples(), self.covered_samples(), shading, shadows, self.occlusion_rays]
+    }
+
     /// Points of each pixel at which light is found.
     pub fn shaded_samples(&self) -> u32 {
         self.samples_per_axis * self.samples_per_axis
@@ -125,6 +146,17 @@ mod tests {
         let (mut same, before) = (asking_for_all(), asking_for_all());
         Quality::of(&before).apply(&mut same);
         assert_eq!(same, before, "its own quality changes nothing");
+    }
+
+    #[test]
+    fn finer_is_finer_in_something_and_coarser_in_nothing() {
+        for pair in Preset::ALL.map(Preset::quality).windows(2) {
+            assert!(pair[1].is_finer_than(&pair[0]) && !pair[0].is_finer_than(&pair[1]), "{}", pair[1]);
+        }
+        let high = Preset::High.quality();
+        assert!(!high.is_finer_than(&high), "not than itself");
+        let other = Quality { samples: 16, occlusion_rays: high.occlusion_rays - 1, ..high };
+        assert!(!other.is_finer_than(&high) && !high.is_finer_than(&other), "neither, of two of each kind");
     }
 
     #[test]

@@ -8,8 +8,8 @@ use crate::effects::Shadows;
 use crate::settings::{RenderSettings, ShadingModel};
 
 /// A quality with a name. Each has about a third of the error of the one before it, for two
-/// to five times its time; what they cost and how
-/// far they are from the reference on whole pictures is in `docs/accuracy.md`.
+/// to five times its time; what they cost and how far they are from the reference on whole
+/// pictures is in `docs/accuracy.md`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Preset {
     /// One sample a pixel: to find a view, and for pictures that only programs see.
@@ -29,7 +29,7 @@ impl Preset {
     /// What it stands for.
     ///
     /// Light is found at each pixel in all of them: with light at the vertices pictures
-    /// are less accurate, and not drawn sooner.
+    /// are less accurate, and hardly drawn sooner.
     pub const fn quality(self) -> Quality {
         let (samples_per_axis, samples, shadows, occlusion_rays) = match self {
             Self::Draft => (1, 1, Shadows::Maps { resolution: 2048 }, 8),

@@ -1,7 +1,7 @@
 //! Which pictures follow each other at rest.
 
+use trigon_scene::RenderSettings;
 use trigon_scene::quality::{Preset, Quality};
-use trigon_scene::{RenderSettings, ShadingModel, Shadows};
 
 use super::{Comparison, Refinement};
 
@@ -41,26 +41,8 @@ pub(crate) fn wanted(length: usize, refinement: Refinement, comparison: Comparis
     }
 }
 
-/// Whether nothing about a picture is coarser, and something is finer.
 fn is_better(one: &RenderSettings, other: &RenderSettings) -> bool {
-    let (one, other) = (fineness(one), fineness(other));
-    one != other && one.iter().zip(other).all(|(one, other)| *one >= other)
-}
-
-/// More is finer.
-fn fineness(settings: &RenderSettings) -> [u32; 5] {
-    let quality = Quality::of(settings);
-    let shading = match quality.shading {
-        ShadingModel::Flat => 0,
-        ShadingModel::Gouraud => 1,
-        ShadingModel::Phong => 2,
-    };
-    let shadows = match quality.shadows {
-        Shadows::Off => 0,
-        Shadows::Maps { resolution } => resolution,
-        Shadows::Rays => u32::MAX,
-    };
-    [quality.shaded_samples(), quality.covered_samples(), shading, shadows, quality.occlusion_rays]
+    Quality::of(one).is_finer_than(&Quality::of(other))
 }
 
 #[cfg(test)]
