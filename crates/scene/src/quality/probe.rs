@@ -24,6 +24,9 @@ const FIRST_WINDOW: (f64, u32) = (1.0 / 6.0, 96);
 /// The same for looking again.
 const LATER_WINDOW: (f64, u32) = (1.0 / 8.0, 64);
 
+/// How often a picture is drawn whose time counts: the first may fill caches.
+const MEASURED: u32 = 2;
+
 impl TimeBudget {
     /// Learns what this scene costs, and what its errors are: draws parts of the picture,
     /// together a quarter of it, in all qualities, and the whole in the quickest.
@@ -39,7 +42,7 @@ impl TimeBudget {
     ) -> Result<(), RenderError> {
         let whole = colors_alone(renderer.settings());
         self.errors = ErrorModel::default();
-        let mut studio = Studio { renderer, scene, clock, repetitions: 2 };
+        let mut studio = Studio { renderer, scene, clock };
         let mut times = vec![Duration::ZERO; self.candidates.len()];
         let mut part = whole.clone();
         for _ in 0..FIRST_WINDOWS {
@@ -54,7 +57,7 @@ impl TimeBudget {
         }
         let quickest = self.foreseen(&whole).into_iter().min_by_key(|foreseen| foreseen.time);
         let quality = quickest.expect("there are candidates").quality;
-        let (frame, time) = studio.draw(&of_quality(&whole, quality), camera)?;
+        let (frame, time) = studio.draw(&of_quality(&whole, quality), camera, MEASURED)?;
         self.costs.learn(&of_quality(&whole, quality), time);
         self.errors.saw(quality, &frame);
         Ok(())
@@ -81,8 +84,9 @@ impl TimeBudget {
         let time = both.iter().map(|settings| self.costs.predict(settings)).sum();
         let fits = self.patience.with_margin(time) <= spare;
         let Some(there) = window.camera(camera, &whole).filter(|_| fits) else { return Ok(false) };
-        let mut studio = Studio { renderer, scene, clock, repetitions: 1 };
-        let [(reference, _), (picture, _)] = [studio.draw(&both[0], &there)?, studio.draw(&both[1], &there)?];
+        let mut studio = Studio { renderer, scene, clock };
+        let [(reference, _), (picture, _)] =
+            [studio.draw(&both[0], &there, 1)?, studio.draw(&both[1], &there, 1)?];
         // Costs are not learnt from it: a window is not the picture.
         self.errors.correct(quality, &picture, &reference);
         Ok(true)
@@ -104,13 +108,13 @@ impl TimeBudget {
         (studio, times): (&mut Studio<'_>, &mut [Duration]),
     ) -> Result<(), RenderError> {
         let best = of_quality(part, self.reference);
-        let (reference, _) = studio.draw_once(&best, camera)?;
+        let (reference, _) = studio.draw(&best, camera, 1)?;
         self.errors.learn(Quality::of(&best), &reference, &reference);
         for (quality, sum) in self.candidates.iter().zip(times) {
             let settings = of_quality(part, *quality);
             // The reference takes long and nobody waits for it.
             if settings != best {
-                let (picture, time) = studio.draw(&settings, camera)?;
+                let (picture, time) = studio.draw(&settings, camera, MEASURED)?;
                 self.errors.learn(Quality::of(&settings), &picture, &reference);
                 *sum += time;
             }
@@ -129,27 +133,20 @@ struct Studio<'a> {
     renderer: &'a mut Renderer,
     scene: &'a Scene,
     clock: &'a mut dyn FnMut() -> Duration,
-    /// How often each is drawn; the shortest time counts, as the first may fill caches.
-    repetitions: u32,
 }
 
 impl Studio<'_> {
-    fn draw_once(
+    /// A picture, and how long it takes: the shortest time of so many. The renderer's
+    /// settings stay.
+    fn draw(
         &mut self,
         settings: &RenderSettings,
         camera: &Camera,
+        repetitions: u32,
     ) -> Result<(Frame, Duration), RenderError> {
-        let repetitions = std::mem::replace(&mut self.repetitions, 1);
-        let drawn = self.draw(settings, camera);
-        self.repetitions = repetitions;
-        drawn
-    }
-
-    /// A picture, and how long it takes. The renderer's settings stay.
-    fn draw(&mut self, settings: &RenderSettings, camera: &Camera) -> Result<(Frame, Duration), RenderError> {
         let before = std::mem::replace(self.renderer.settings_mut(), settings.clone());
         let (mut frame, mut shortest, mut drawn) = (Frame::default(), Duration::MAX, Ok(()));
-        for _ in 0..self.repetitions {
+        for _ in 0..repetitions {
             let start = (self.clock)();
             drawn = drawn.and_then(|()| self.renderer.render_into(self.scene, camera, &mut frame));
             shortest = shortest.min((self.clock)().saturating_sub(start));

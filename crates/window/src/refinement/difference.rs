@@ -3,14 +3,15 @@
 use trigon_math::color;
 use trigon_raster::Cancel;
 use trigon_scene::Frame;
+use trigon_scene::quality::rmse;
 
 use super::heat;
 
-/// How far a picture is from the reference, over all pixels and the three colours, as
-/// a window shows them: over black.
+/// How far a picture is from the reference, over all pixels and the three colours, on
+/// black as a window shows them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Difference {
-    /// The root of the mean square, in linear light with white being 1.
+    /// As [`rmse`] measures it.
     pub rmse: f64,
     /// The greatest one, in linear light with white being 1.
     pub worst: f64,
@@ -46,7 +47,8 @@ pub(crate) fn compare(found: &Frame, right: &Frame, cancel: &Cancel) -> Option<C
         }
     }
     let map = Frame { width: found.width, height: found.height, color: map, ..Frame::default() };
-    Some(Compared { difference: sums.difference(), map })
+    let difference = Difference { rmse: rmse(found, right), ..sums.difference() };
+    Some(Compared { difference, map })
 }
 
 /// From straight alpha to the colour over black.
@@ -60,7 +62,6 @@ pub(crate) fn over_black([r, g, b, a]: [u8; 4]) -> [u8; 3] {
 struct Sums {
     pixels: u64,
     differing: u64,
-    squares: f64,
     worst: f64,
     worst_levels: u8,
 }
@@ -77,7 +78,6 @@ impl Sums {
         for (found, right) in found.into_iter().zip(right) {
             let light = |byte| f64::from(color::srgb8_to_linear(byte));
             let error = (light(found) - light(right)).abs();
-            self.squares += error * error;
             self.worst = if error > self.worst { error } else { self.worst };
             most = most.max(found.abs_diff(right));
         }
@@ -88,10 +88,10 @@ impl Sums {
     fn difference(&self) -> Difference {
         let pixels = self.pixels.max(1) as f64;
         Difference {
-            rmse: (self.squares / (3.0 * pixels)).sqrt(),
             worst: self.worst,
             worst_levels: self.worst_levels,
             share: self.differing as f64 / pixels,
+            ..Difference::default()
         }
     }
 }
