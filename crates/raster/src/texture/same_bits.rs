@@ -72,7 +72,8 @@ fn any_texture() -> impl Strategy<Value = Texture> {
             [r, g, b, if opaque { 255 } else { a }]
         };
         let format = if srgb { TextureFormat::Srgb } else { TextureFormat::Linear };
-        Texture::new(width, height, (0..width * height).map(texel).collect(), format).unwrap()
+        Texture::new(width, height, (0..width * height).map(texel).collect(), format)
+            .expect("the sides and the texels agree")
     })
 }
 
@@ -100,7 +101,7 @@ fn the_largest_texture_is_addressed_to_its_last_texel() {
     let side = crate::MAX_TEXTURE_SIZE;
     let mut texels = vec![[0; 4]; side as usize];
     texels[side as usize - 1] = [255; 4];
-    let texture = Texture::new(side, 1, texels, TextureFormat::Linear).unwrap();
+    let texture = Texture::new(side, 1, texels, TextureFormat::Linear).expect("as long as one may be");
     let sampler = Sampler { wrap_u: Wrap::ClampToEdge, ..Sampler::default() };
     let inputs = [[[1.0, 0.5], [0.0; 2], [0.0; 2]]; LANES];
     let white = 1.0_f32.to_bits();
