@@ -17,7 +17,7 @@ use std::time::Duration;
 
 use budget::Budget;
 
-/// Between the beginnings of two frames: 60 a second.
+/// Between the beginnings of two frames, and of two pictures: 60 a second.
 const FRAME: Duration = Duration::from_micros(16_667);
 
 /// After this long without a movement, the picture is refined.
@@ -98,6 +98,9 @@ pub(crate) struct Pacing {
     moved: Option<Duration>,
     /// When the last frame began.
     drawn: Option<Duration>,
+    /// When the last picture was begun. Frames between two of them, for what is written
+    /// over them, do not put off the next.
+    begun: Option<Duration>,
     budget: Budget,
     /// What a picture as the settings say takes, as far as is known.
     full: Option<Duration>,
@@ -123,6 +126,7 @@ impl Pacing {
             overlay: true,
             moved: None,
             drawn: None,
+            begun: None,
             budget: Budget::default(),
             full: None,
             wanted: vec![0],
@@ -188,8 +192,9 @@ impl Pacing {
     /// When to draw next. `animated`: the program itself asks for pictures; `expiry`:
     /// when what is written over them changes by itself.
     pub(crate) fn next(&self, now: Duration, animated: Frames, expiry: Option<Duration>) -> Wake {
-        let paced = self.drawn.map_or(now, |drawn| drawn + FRAME);
-        let overlay = self.overlay.then_some(paced);
+        let after = |last: Option<Duration>| last.map_or(now, |last| last + FRAME);
+        let (frame, paced) = (after(self.drawn), after(self.begun));
+        let overlay = self.overlay.then_some(frame);
         let picture = match (self.under_way, self.shown, animated) {
             // Its end will be told.
             (Some(UnderWay { quality: Quality::Draft { .. }, .. }), ..) => None,
@@ -200,7 +205,7 @@ impl Pacing {
             (None, Shown::Draft, Frames::None) => Some(self.moved.map_or(now, |moved| moved + REST)),
             (None, Shown::Full(_), Frames::None) => self.next_step().map(|_| paced),
         };
-        let expiry = expiry.map(|due| due.max(paced));
+        let expiry = expiry.map(|due| due.max(frame));
         match [overlay, picture, expiry].into_iter().flatten().min() {
             Some(due) if due <= now => Wake::Now,
             Some(due) => Wake::At(due),
@@ -221,6 +226,7 @@ impl Pacing {
             _ if draft => Quality::Draft { shrink: self.budget.shrink() },
             _ => Quality::Full(0),
         };
+        self.begun = Some(now);
         self.under_way = Some(UnderWay { quality, outdated: false });
         Some(quality)
     }

@@ -60,6 +60,8 @@ pub(crate) struct Session<'a> {
     /// Pictures that were asked for and not begun.
     pictures: Vec<RenderSettings>,
     canvas: Canvas,
+    /// Whether the canvas is yet to take that picture, or another size.
+    stale: bool,
     /// When the current frame was handed over to be presented.
     composed: Duration,
     /// What has come in, if it is to be remembered.
@@ -89,6 +91,7 @@ impl<'a> Session<'a> {
             shown: None,
             pictures: Vec::new(),
             canvas: Canvas::default(),
+            stale: true,
             composed: Duration::ZERO,
             recorded: None,
         }
@@ -173,6 +176,8 @@ impl<'a> Session<'a> {
             self.collect(now);
         }
         self.composed = clock();
+        // Not before the next picture is under way: that need not wait for it.
+        self.show_picture();
         self.pacing.composed();
         self.run_interface(now);
         self.canvas.paint(&mut self.interface.painter).then_some(&self.canvas)
@@ -233,7 +238,7 @@ impl<'a> Session<'a> {
         // The first size is no movement.
         let change = if self.shown.is_some() { Change::Moving } else { Change::Settled };
         self.pacing.changed(change, now);
-        self.show_picture();
+        self.stale = true;
     }
 
     /// Whatever was done, the interface may show it; and the picture is drawn again if

@@ -76,6 +76,28 @@ fn events_faster_than_frames_are_gathered() {
 }
 
 #[test]
+fn a_draft_follows_the_last_one_at_once() {
+    let mut pacing = rested(ms(500));
+    let (mut begun, mut done) = (Vec::new(), Duration::MAX);
+    // The mouse moves a thousand times a second; a draft takes a frame and a half.
+    for now in (1000..1100).map(ms) {
+        pacing.changed(Change::Moving, now);
+        if now >= done {
+            pacing.finished(ms(25));
+            done = Duration::MAX;
+        }
+        if pacing.next(now, Frames::None, None) == Wake::Now
+            && begin(&mut pacing, now, Frames::None).is_some()
+        {
+            begun.push(now);
+            done = now + ms(25);
+        }
+    }
+    let expected = [1000, 1025, 1050, 1075].map(ms);
+    assert_eq!(begun, expected, "frames for what is written over the picture hold up none");
+}
+
+#[test]
 fn an_animation_is_paced_to_sixty_frames() {
     let mut pacing = rested(ms(0));
     let begun = run(&mut pacing, ms(1000), ms(2000), Frames::Wanted);

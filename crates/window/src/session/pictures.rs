@@ -81,12 +81,15 @@ impl Session<'_> {
         };
         if !is_same {
             self.shown = wanted;
-            self.show_picture();
+            self.stale = true;
         }
     }
 
-    /// Brings the picture under the interface, at the window's size.
+    /// Brings the picture under the interface, at the window's size, unless it is there.
     pub(super) fn show_picture(&mut self) {
+        if !std::mem::take(&mut self.stale) {
+            return;
+        }
         let Viewport { width, height } = self.stage.viewport();
         self.canvas.show(self.shown.as_deref(), [width, height]);
         self.interface.painter.invalidate();
