@@ -57,7 +57,7 @@ pub(crate) struct Shot {
 impl Framing {
     /// The camera for a scene.
     pub(crate) fn shot(&self, scene: &Scene, aspect: f64) -> Result<Shot, Failure> {
-        let points = scene.visible_points();
+        let points: Vec<_> = scene.visible_points().collect();
         let bounds = Bounds3::from_points(points.iter().copied().filter(|point| point.is_finite()));
         let center = self.focal_point.unwrap_or_else(|| Extent::new(&bounds).center());
         let shot = match self.eye {
@@ -248,7 +248,8 @@ mod tests {
     /// How much of the picture the model takes, in the direction where it takes more.
     fn filled(camera: &Camera) -> f64 {
         let projector = Projector::new(camera, PICTURE);
-        let out = scene().visible_points().into_iter().map(|point| {
+        let scene = scene();
+        let out = scene.visible_points().map(|point| {
             let at = projector.to_screen(point).expect("before the eye");
             let (x, y) = ((at.x / 500.0 - 1.0).abs(), (at.y / 300.0 - 1.0).abs());
             if x > y { x } else { y }

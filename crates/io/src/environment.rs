@@ -7,7 +7,7 @@ use image::{ImageFormat, ImageReader};
 use trigon_scene::Environment;
 
 use crate::error::{LoadError, LoadErrorKind, Place};
-use crate::folder::Folder;
+use crate::folder::{Folder, to_the_end};
 use crate::limits::Limits;
 use crate::picture::{check_claim, decoder_limits, reason};
 use crate::warning::{Warning, Warnings};
@@ -32,7 +32,7 @@ pub fn load_environment(
     limits: &Limits,
 ) -> Result<(Environment, Vec<Warning>), LoadError> {
     let path = path.as_ref();
-    let bytes = Folder::none(limits).read_model(path)?;
+    let bytes = Folder::none(limits).read_model(path, &to_the_end)?;
     let mut warnings = Warnings::about(path);
     let environment = decode(&bytes, limits, &mut warnings).map_err(|why| {
         LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as a Radiance picture (.hdr)")

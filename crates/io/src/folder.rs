@@ -35,6 +35,14 @@ pub(crate) struct Found {
     pub(crate) respelled: bool,
 }
 
+/// Is told how much of a file has been read, 0 to 1, and may refuse to go on.
+pub(crate) type Follow<'a> = &'a dyn Fn(f32) -> Result<(), Refusal>;
+
+/// Follows nothing and ends nothing.
+pub(crate) fn to_the_end(_: f32) -> Result<(), Refusal> {
+    Ok(())
+}
+
 /// A folder to read from, and a record of what was read.
 #[derive(Debug)]
 pub(crate) struct Folder {
@@ -80,9 +88,10 @@ impl Folder {
         self.read
     }
 
-    /// Reads the file that the user named: the one path that is not confined.
-    pub(crate) fn read_model(&mut self, path: &Path) -> Result<Vec<u8>, LoadError> {
-        let bytes = self.read_regular(path).map_err(|refusal| refusal.of_model(path))?;
+    /// Reads the file that the user named: the one path that is not confined. `follow`
+    /// is told how much of it has been read, 0 to 1, and may end it.
+    pub(crate) fn read_model(&mut self, path: &Path, follow: Follow<'_>) -> Result<Vec<u8>, LoadError> {
+        let bytes = self.read_regular(path, follow).map_err(|refusal| refusal.of_model(path))?;
         self.note(path.to_owned());
         Ok(bytes)
     }
@@ -134,12 +143,12 @@ impl Folder {
         let path = fs::canonicalize(root.join(&relative)).map_err(Refusal::from_io)?;
         let inside = path.strip_prefix(root).map_err(|_| Refusal::Outside)?;
         let shown = self.shown.join(inside);
-        let bytes = self.read_regular(&path)?;
+        let bytes = self.read_regular(&path, &to_the_end)?;
         self.note(shown.clone());
         Ok(Found { bytes, path: shown, respelled: false })
     }
 
-    fn read_regular(&mut self, path: &Path) -> Result<Vec<u8>, Refusal> {
+    fn read_regular(&mut self, path: &Path, follow: Follow<'_>) -> Result<Vec<u8>, Refusal> {
         // Before opening: opening a FIFO would wait for a writer.
         if !fs::metadata(path).map_err(Refusal::from_io)?.is_file() {
             return Err(Refusal::NotAFile);
@@ -150,9 +159,8 @@ impl Folder {
         if length > limit {
             return Err(Refusal::TooLarge(length, limit));
         }
-        let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
         // One more than the limit, to notice a file that grew.
-        file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(Refusal::Read)?;
+        let bytes = read_in_pieces(file.take(limit.saturating_add(1)), length, follow)?;
         if bytes.len() as u64 > limit {
             return Err(Refusal::TooLarge(bytes.len() as u64, limit));
         }
@@ -199,6 +207,16 @@ impl Folder {
         }
         Some(found.to_str()?.to_owned())
     }
+}
+
+/// Reads to the end, and asks between pieces whether to go on: a gigabyte takes a while.
+fn read_in_pieces(mut from: impl Read, length: u64, follow: Follow<'_>) -> Result<Vec<u8>, Refusal> {
+    const PIECE: u64 = 1 << 22;
+    let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
+    while from.by_ref().take(PIECE).read_to_end(&mut bytes).map_err(Refusal::Read)? > 0 {
+        follow(bytes.len() as f32 / length.max(1) as f32)?;
+    }
+    Ok(bytes)
 }
 
 /// The names in a folder by their lower case; of several with the same, the
@@ -312,7 +330,8 @@ mod tests {
             b"sub/a.png",
             "its target"
         );
-        let device = folder.read_model(Path::new("/dev/zero")).expect_err("the model itself is a device");
+        let device =
+            folder.read_model(Path::new("/dev/zero"), &to_the_end).expect_err("the model itself is a device");
         assert_eq!(device.kind, LoadErrorKind::Forbidden, "{device}");
         assert!(device.to_string().contains("it is not a regular file"), "{device}");
     }

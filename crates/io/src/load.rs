@@ -45,7 +45,8 @@ pub fn load(path: impl AsRef<Path>, options: &LoadOptions<'_>) -> Result<Loaded,
         return Err(LoadError::new(LoadErrorKind::Read, path, "it is a folder", "name a file in it"));
     }
     let mut folder = Folder::of(path, &options.limits).map_err(|error| LoadError::read(path, &error))?;
-    let bytes = folder.read_model(path)?;
+    let follow = |share| options.report(path, Stage::Reading, share).map_err(|_| Refusal::Cancelled);
+    let bytes = folder.read_model(path, &follow)?;
     options.report(path, Stage::Reading, 1.0)?;
     import_on(path, Cow::Owned(bytes), folder, options)
 }

@@ -13,7 +13,7 @@ use std::path::Path;
 use image::{ImageError, ImageFormat, ImageReader};
 
 use crate::error::{LoadError, LoadErrorKind};
-use crate::folder::Folder;
+use crate::folder::{Folder, to_the_end};
 use crate::limits::Limits;
 
 /// A picture in memory: sRGB colours with straight alpha.
@@ -35,7 +35,7 @@ pub struct Picture {
 /// larger than the limits.
 pub fn load_image(path: impl AsRef<Path>, limits: &Limits) -> Result<Picture, LoadError> {
     let path = path.as_ref();
-    let bytes = Folder::none(limits).read_model(path)?;
+    let bytes = Folder::none(limits).read_model(path, &to_the_end)?;
     decode_picture(&bytes, limits)
         .map_err(|why| LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as PNG, JPEG or WebP"))
 }

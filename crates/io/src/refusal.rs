@@ -28,6 +28,8 @@ pub(crate) enum Refusal {
     TooLarge(u64, u64),
     #[error("it cannot be read ({0})")]
     Read(io::Error),
+    #[error("loading was cancelled")]
+    Cancelled,
 }
 
 impl Refusal {
@@ -47,6 +49,7 @@ impl Refusal {
     pub(crate) fn of_model(&self, path: &Path) -> LoadError {
         let (kind, remedy) = match self {
             Self::Read(error) => return LoadError::read(path, error),
+            Self::Cancelled => return LoadError::cancelled(path),
             Self::TooLarge(..) => (LoadErrorKind::Limit, "raise the limit if you trust the file"),
             Self::Missing => (LoadErrorKind::Read, "check the name and the folder"),
             _ => (LoadErrorKind::Forbidden, "name a regular file; pipe streams through `-`"),

@@ -219,7 +219,8 @@ impl Stage {
 
     /// Takes the whole scene into the picture, seen from the same side.
     pub fn fit_view(&mut self) {
-        self.orbit.fit_points(&self.scene.visible_points(), self.viewport.aspect(), DEFAULT_MARGIN);
+        let points: Vec<_> = self.scene.visible_points().collect();
+        self.orbit.fit_points(&points, self.viewport.aspect(), DEFAULT_MARGIN);
     }
 
     /// What a pixel shows, and where in the world. Draws the ids once for it.

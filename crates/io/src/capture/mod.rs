@@ -40,7 +40,7 @@ use trigon_camera::Camera;
 use trigon_scene::{Frame, RenderSettings, Scene};
 
 use crate::error::{LoadError, LoadErrorKind};
-use crate::folder::Folder;
+use crate::folder::{Folder, to_the_end};
 use crate::limits::Limits;
 use crate::write::{WriteError, write_atomically};
 use hash::fnv1a;
@@ -133,7 +133,7 @@ impl Capture {
     /// When it cannot be read, or as [`Self::from_bytes`].
     pub fn read(path: impl AsRef<Path>, limits: &Limits) -> Result<Self, LoadError> {
         let path = path.as_ref();
-        let bytes = Folder::none(limits).read_model(path)?;
+        let bytes = Folder::none(limits).read_model(path, &to_the_end)?;
         Self::from_bytes(path, &bytes, limits)
     }
 

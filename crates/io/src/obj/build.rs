@@ -9,7 +9,7 @@ use super::content::Content;
 use super::index::NONE;
 use super::parse::Parsed;
 use super::smoothing::group_normals;
-use crate::error::Place;
+use crate::error::{LoadError, Place};
 use crate::rebase::offset_for;
 use crate::warning::Warnings;
 
@@ -30,22 +30,35 @@ struct Span {
     smoothing: u32,
 }
 
+/// Is told which share of the elements has been built, and may end it.
+pub(super) type Follow<'a> = &'a dyn Fn(f32) -> Result<(), LoadError>;
+
+/// So many elements are built before [`Follow`] is asked again: some milliseconds.
+pub(super) const STRIDE: usize = 1 << 17;
+
 /// Cuts the file into parts. The offset is to be added to every position.
-pub(crate) fn build_parts(parsed: &Parsed, warnings: &mut Warnings) -> (Vec<Part>, DVec3) {
+pub(crate) fn build_parts(
+    parsed: &Parsed,
+    warnings: &mut Warnings,
+    follow: Follow<'_>,
+) -> Result<(Vec<Part>, DVec3), LoadError> {
     let content = &parsed.content;
+    follow(0.0)?;
     let used = used_vertices(content);
+    follow(0.0)?;
     let positions =
         content.positions.iter().zip(&used).filter(|&(_, &used)| used).map(|(&position, _)| position);
-    let cutter = Cutter { content, offset: offset_for(positions) };
+    let cutter = Cutter { content, offset: offset_for(positions), follow };
+    follow(0.0)?;
     let mut local = vec![NOT_YET; content.positions.len()];
-    let mut dropped = Dropped::default();
+    let mut passed = Passed::default();
     let spans = spans_by_part(parsed);
     let names = parsed.record.parts.list();
-    let cut = |(name, spans): (&String, &Vec<Span>)| cutter.part(name, spans, &mut local, &mut dropped);
-    let parts = names.iter().zip(&spans).map(cut).collect();
+    let cut = |(name, spans): (&String, &Vec<Span>)| cutter.part(name, spans, &mut local, &mut passed);
+    let parts = names.iter().zip(&spans).map(cut).collect::<Result<_, _>>()?;
     let place = parsed.non_finite_line.map_or(Place::Whole, Place::Line);
     warnings.push_counted(
-        dropped.non_finite,
+        passed.non_finite,
         place,
         "a face has a vertex that is not finite and is left out",
         "export the model again",
@@ -58,12 +71,12 @@ pub(crate) fn build_parts(parsed: &Parsed, warnings: &mut Warnings) -> (Vec<Part
         "export the model again",
     );
     warnings.push_counted(
-        dropped.flat,
+        passed.flat,
         Place::Whole,
         "a face has fewer than 3 different vertices and is left out",
         "clean the model up",
     );
-    (parts, cutter.offset)
+    Ok((parts, cutter.offset))
 }
 
 /// Which vertices of the file belong to an element.
@@ -78,8 +91,10 @@ fn used_vertices(content: &Content) -> Vec<bool> {
 /// Marks a vertex that the current part has not used.
 const NOT_YET: u32 = u32::MAX;
 
+/// How many elements there were, and how many of them were left out.
 #[derive(Default)]
-struct Dropped {
+struct Passed {
+    elements: usize,
     non_finite: usize,
     flat: usize,
 }
@@ -106,6 +121,7 @@ fn spans_by_part(parsed: &Parsed) -> Vec<Vec<Span>> {
 struct Cutter<'a> {
     content: &'a Content,
     offset: DVec3,
+    follow: Follow<'a>,
 }
 
 /// A part under construction.
@@ -123,7 +139,13 @@ struct Draft {
 }
 
 impl Cutter<'_> {
-    fn part(&self, name: &str, spans: &[Span], local: &mut [u32], dropped: &mut Dropped) -> Part {
+    fn part(
+        &self,
+        name: &str,
+        spans: &[Span],
+        local: &mut [u32],
+        passed: &mut Passed,
+    ) -> Result<Part, LoadError> {
         let faces = spans.iter().map(|span| span.elements.1 - span.elements.0).sum();
         let builder = MeshBuilder::with_capacity(faces / 2, faces, 3 * faces);
         let (sources, face_slots) = (Vec::with_capacity(3 * faces), Vec::with_capacity(faces));
@@ -139,22 +161,39 @@ impl Cutter<'_> {
             face: Vec::new(),
         };
         for span in spans {
-            self.span(span, &mut draft, local, dropped);
+            self.span(span, &mut draft, local, passed)?;
         }
         for &vertex in &draft.used {
             local[vertex as usize] = NOT_YET;
         }
         let Draft { builder, sources, face_slots, face_groups, mut materials, .. } = draft;
         let mut mesh = builder.build();
-        let attributes = self.attributes(&mesh, &sources, face_slots, &face_groups, materials.len());
+        self.go_on(passed)?;
+        let mut attributes = self.attributes(&sources, face_slots, &face_groups, materials.len());
+        self.go_on(passed)?;
+        if has_several_groups(&face_groups) {
+            let given = attributes.corner_normals.take();
+            let go_on = || self.go_on(passed);
+            attributes.corner_normals = Some(group_normals(&mesh, given, &face_groups, &go_on)?);
+        }
         mesh.set_attributes(attributes).expect("one value per accepted corner and face");
         if materials.is_empty() {
             materials.push(None);
         }
-        Part { name: name.to_owned(), mesh, materials }
+        Ok(Part { name: name.to_owned(), mesh, materials })
     }
 
-    fn span(&self, span: &Span, draft: &mut Draft, local: &mut [u32], dropped: &mut Dropped) {
+    fn go_on(&self, passed: &Passed) -> Result<(), LoadError> {
+        (self.follow)(passed.elements as f32 / self.content.arities.len().max(1) as f32)
+    }
+
+    fn span(
+        &self,
+        span: &Span,
+        draft: &mut Draft,
+        local: &mut [u32],
+        passed: &mut Passed,
+    ) -> Result<(), LoadError> {
         let slot = draft.slot(span.material);
         let mut corner = span.first_corner;
         for &arity in &self.content.arities[span.elements.0..span.elements.1] {
@@ -165,12 +204,17 @@ impl Cutter<'_> {
                 let Some(index) = self.vertex(vertex, draft, local) else { break };
                 draft.face.push(index);
             }
+            passed.elements += 1;
+            if passed.elements.is_multiple_of(STRIDE) {
+                self.go_on(passed)?;
+            }
             if draft.face.len() < corners.len() {
-                dropped.non_finite += 1;
+                passed.non_finite += 1;
                 continue;
             }
-            draft.push(corners.start, slot, span.smoothing, dropped);
+            draft.push(corners.start, slot, span.smoothing, passed);
         }
+        Ok(())
     }
 
     /// The part's own index of a vertex; `None` when it has no finite place.
@@ -190,20 +234,14 @@ impl Cutter<'_> {
 
     fn attributes(
         &self,
-        mesh: &Mesh,
         sources: &[u32],
         face_slots: Vec<u32>,
         face_groups: &[u32],
         slots: usize,
     ) -> Attributes {
-        let given = self.normals(sources);
         let is_smooth = face_groups.iter().any(|&group| group != 0);
-        let mut groups: Vec<u32> = face_groups.iter().copied().filter(|&group| group != 0).collect();
-        groups.dedup();
-        let several = groups.iter().any(|&group| group != groups[0]);
-        let corner_normals = if several { Some(group_normals(mesh, given, face_groups)) } else { given };
         Attributes {
-            corner_normals,
+            corner_normals: self.normals(sources),
             uv_sets: self.coordinates(sources).into_iter().collect(),
             corner_colors: self.colors(sources),
             face_materials: (slots > 1).then_some(face_slots),
@@ -255,6 +293,12 @@ impl Cutter<'_> {
     }
 }
 
+fn has_several_groups(face_groups: &[u32]) -> bool {
+    let mut groups = face_groups.iter().filter(|&&group| group != 0);
+    let first = groups.next();
+    groups.any(|group| Some(group) != first)
+}
+
 impl Draft {
     /// The slot of a material, a new one for a new material.
     fn slot(&mut self, material: Option<u32>) -> u32 {
@@ -265,7 +309,7 @@ impl Draft {
     }
 
     /// Adds the element in `self.face`, whose corners start at `corner`.
-    fn push(&mut self, corner: usize, slot: u32, smoothing: u32, dropped: &mut Dropped) {
+    fn push(&mut self, corner: usize, slot: u32, smoothing: u32, passed: &mut Passed) {
         let added = match *self.face.as_slice() {
             [point] => self.builder.push_loose_point(point),
             [from, to] if from == to => self.builder.push_loose_point(from),
@@ -277,6 +321,6 @@ impl Draft {
             }),
         };
         // Its vertices were just added: it can only be too few different ones.
-        dropped.flat += usize::from(added.is_err());
+        passed.flat += usize::from(added.is_err());
     }
 }

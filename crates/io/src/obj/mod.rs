@@ -51,7 +51,10 @@ pub(crate) fn import_obj(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Resul
             format!("it has {count} groups; the limit is {limit} nodes"),
         ));
     }
-    let (parts, offset) = build::build_parts(&parsed, &mut import.warnings);
+    let follow = |share| {
+        import.options.report(import.path, Stage::Geometry, parse::READ + (1.0 - parse::READ) * share)
+    };
+    let (parts, offset) = build::build_parts(&parsed, &mut import.warnings, &follow)?;
     import.options.report(import.path, Stage::Geometry, 1.0)?;
     let has_colors = !parsed.content.colors.is_empty();
     let record = parsed.record;

@@ -77,7 +77,7 @@ const PIECES_PER_THREAD: usize = 4;
 
 /// The part of the work that counting is; the last quarter is for building the mesh.
 const COUNTED: f32 = 0.1;
-const READ: f32 = 0.75;
+pub(super) const READ: f32 = 0.75;
 
 /// Counts some pieces at a time: that takes seconds for a gigabyte, and can be cancelled.
 fn count_all(path: &Path, pieces: &[&[u8]], options: &LoadOptions<'_>) -> Result<Vec<Census>, LoadError> {

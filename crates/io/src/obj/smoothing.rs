@@ -6,25 +6,36 @@ use std::collections::HashMap;
 use trigon_math::Vec3;
 use trigon_mesh::Mesh;
 
+use super::build::STRIDE;
+use crate::error::LoadError;
+
 /// Fills in the normals of smooth faces where none is given (zero). Faces of
-/// group 0 keep zero, which means flat.
-pub(crate) fn group_normals(mesh: &Mesh, given: Option<Vec<Vec3>>, face_groups: &[u32]) -> Vec<Vec3> {
+/// group 0 keep zero, which means flat. `go_on` is asked now and then, and may end it.
+pub(crate) fn group_normals(
+    mesh: &Mesh,
+    given: Option<Vec<Vec3>>,
+    face_groups: &[u32],
+    go_on: &dyn Fn() -> Result<(), LoadError>,
+) -> Result<Vec<Vec3>, LoadError> {
+    let ask = |face: usize| if face.is_multiple_of(STRIDE) { go_on() } else { Ok(()) };
     let mut normals = given.unwrap_or_else(|| vec![Vec3::ZERO; mesh.corner_count()]);
     let mut sums: HashMap<(u32, u32), Vec3> = HashMap::new();
     for (face, &group) in face_groups.iter().enumerate().filter(|&(_, &group)| group != 0) {
+        ask(face)?;
         let area = area_vector(mesh, face);
         for &vertex in mesh.face_vertices(face) {
             *sums.entry((vertex, group)).or_default() += area;
         }
     }
     for (face, &group) in face_groups.iter().enumerate().filter(|&(_, &group)| group != 0) {
+        ask(face)?;
         for (corner, &vertex) in mesh.face_corners(face).zip(mesh.face_vertices(face)) {
             if normals[corner] == Vec3::ZERO {
                 normals[corner] = sums[&(vertex, group)].normalize_or_zero();
             }
         }
     }
-    normals
+    Ok(normals)
 }
 
 /// The normal of a polygon, as long as twice its area (Newell's method; Sutherland,

@@ -40,6 +40,37 @@ fn a_load_can_be_cancelled() {
     assert_eq!(error.kind, LoadErrorKind::Cancelled, "{error}");
 }
 
+/// Half a second and more passed in which a gigabyte of geometry could not be cancelled.
+#[test]
+fn building_a_mesh_can_be_cancelled_as_reading_it_can() {
+    // More faces than are built between two questions, in two smoothing groups.
+    let text = grid(370).replacen("f ", "s 1\nf ", 1) + "s 2\nf 1 2 3\n";
+    let calls = Mutex::new(Vec::new());
+    let load = |last: usize| {
+        calls.lock().expect("no panic").clear();
+        let hook = |progress: trigon_io::Progress| {
+            let mut calls = calls.lock().expect("no panic");
+            calls.push(progress.fraction);
+            if calls.len() < last { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        };
+        let options = LoadOptions { progress: Some(&hook), ..LoadOptions::default() };
+        let result = load_from_slice("a.obj", text.as_bytes(), &options).map(drop);
+        (result.map_err(|error| error.kind), calls.lock().expect("no panic").clone())
+    };
+    let (loaded, all) = load(usize::MAX);
+    assert_eq!(loaded, Ok(()), "nobody objects");
+    // Reading ends at 0.1 + 0.6 · 0.75. Then: three times for what is found out before, once
+    // among the faces, twice for the mesh, twice in each of two loops for the normals,
+    // and at the ends of geometry and textures.
+    let building = all.iter().filter(|&&fraction| fraction > 0.549).count();
+    assert!(building >= 3 + 1 + 2 + 4 + 2, "{building} questions: {all:?}");
+    for call in [all.len() - building + 1, all.len() - 6, all.len() - 2] {
+        let (loaded, calls) = load(call);
+        assert_eq!(loaded, Err(LoadErrorKind::Cancelled), "question {call} of {}", all.len());
+        assert_eq!(calls.len(), call, "and not asked again");
+    }
+}
+
 #[test]
 fn every_limit_holds() {
     let text = grid(10);

@@ -70,9 +70,10 @@ impl<'s> PlacedMesh<'s> {
     }
 
     /// The vertices in the world that faces, edges or points use.
-    pub(crate) fn used_points(&self) -> impl Iterator<Item = DVec3> {
-        let vertices = self.positions().iter().zip(self.asset.mesh.used_vertices());
-        vertices.filter(|&(_, used)| used).map(|(point, _)| self.world.transform_point3(point.as_dvec3()))
+    pub(crate) fn into_used_points(self) -> impl Iterator<Item = DVec3> {
+        let used = self.asset.mesh.used_vertices();
+        let vertices = (0..).zip(used).filter(|&(_, used)| used);
+        vertices.map(move |(vertex, _)| self.place(vertex))
     }
 
     /// A box in the world around them.

@@ -12,7 +12,7 @@ use trigon_math::{Bounds3, DVec3};
 
 pub use viewpoints::{hemisphere, sphere, turntable};
 
-use crate::scene::Scene;
+use crate::scene::{PlacedMesh, Scene};
 
 /// Where the overview looks: down from the upper right, in front.
 pub const OVERVIEW_DIRECTION: DVec3 = DVec3::new(-1.0, -0.5, -1.0);
@@ -22,7 +22,7 @@ impl Scene {
     /// in front, with +Y up and a tenth of the picture left free. `aspect` is
     /// width over height.
     pub fn overview(&self, aspect: f64) -> Camera {
-        let points = self.visible_points();
+        let points: Vec<DVec3> = self.visible_points().collect();
         Camera::default().fit_points(&points, OVERVIEW_DIRECTION, DVec3::Y, aspect, DEFAULT_MARGIN)
     }
 
@@ -45,7 +45,7 @@ impl Scene {
     where
         V: IntoIterator<Item = DVec3>,
     {
-        let points = self.visible_points();
+        let points: Vec<DVec3> = self.visible_points().collect();
         let bounds = Bounds3::from_points(points.iter().copied().filter(|point| point.is_finite()));
         let center = Extent::new(&bounds).center();
         let distance = ball_distance(&points, &bounds, aspect);
@@ -57,10 +57,8 @@ impl Scene {
 
     /// The vertices of everything visible, in the world and in their poses, without
     /// those that no face, edge or point uses: what a camera is fitted to.
-    pub fn visible_points(&self) -> Vec<DVec3> {
-        let mut points = Vec::new();
-        self.placed_meshes().for_each(|mesh| points.extend(mesh.used_points()));
-        points
+    pub fn visible_points(&self) -> impl Iterator<Item = DVec3> {
+        self.placed_meshes().flat_map(PlacedMesh::into_used_points)
     }
 }
 

@@ -73,7 +73,7 @@ fn a_morphed_mesh_throws_its_shadow_from_where_it_is() {
 #[test]
 fn a_camera_is_fitted_to_a_mesh_in_its_pose() {
     let (scene, _) = morphed(3.0);
-    let points = scene.visible_points();
+    let points: Vec<_> = scene.visible_points().collect();
     assert_eq!(points.len(), 4, "the square's corners");
     let across: Vec<f64> = points.iter().map(|point| point.x).collect();
     assert!(across.iter().all(|x| (2.5..=3.5).contains(x)), "moved by three metres: {across:?}");
