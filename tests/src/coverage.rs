@@ -154,14 +154,19 @@ proptest! {
         let counts = count(&Values::ones(positions), &grid_triangles(cells, &mut random));
         // The lowest row that the near plane leaves: the ground at its distance.
         let tangent = elementary::tan(0.6);
-        let lowest = f64::from(SIDE) / 2.0 * (1.0 + f64::from(height) / (f64::from(near) * tangent));
+        let horizon = f64::from(SIDE) / 2.0;
+        let lowest = horizon * (1.0 + f64::from(height) / (f64::from(near) * tangent));
+        // All corners have the same y, so rounding moves them along the ground only. Its far
+        // edge, 10⁶ cos 0.6 away and more, lies 0.0002 pixel below the horizon; snapping, and
+        // the cut at the guard band's rim, move it by 1/90 (see `hard_cases::huge`).
+        let off = 1.0 / 80.0;
         for (index, &count) in counts.iter().enumerate() {
             let y = f64::from(pixel(index)[1]);
             prop_assert!(count <= 1, "covered twice at {:?}", pixel(index));
-            if y + 0.5 > f64::from(SIDE) / 2.0 + 0.1 && y + 0.5 < lowest - 0.1 {
+            if y + 0.5 > horizon + off && y + 0.5 < lowest - off {
                 prop_assert_eq!(count, 1, "a hole at {:?}", pixel(index));
             }
-            if y < f64::from(SIDE) / 2.0 - 1.0 {
+            if y + 0.5 < horizon - off {
                 prop_assert_eq!(count, 0, "ground in the sky at {:?}", pixel(index));
             }
         }

@@ -55,7 +55,8 @@ proptest! {
                 let along = f64::from(256 * at[major] + 128 - ends[0][major]) / f64::from(span[major]);
                 let line = f64::from(ends[0][1 - major]) + f64::from(span[1 - major]) * along;
                 let distance = f64::from(256 * at[1 - major] + 128) - line;
-                prop_assert!(span[major] == 0 || distance.abs() <= 130.0, "{distance} off at {at:?}");
+                // Half a pixel, and half a step for the corners of the line's outline.
+                prop_assert!(span[major] == 0 || distance.abs() <= 128.5, "{distance} off at {at:?}");
             }
         }
         let (low, high) = (ends[0][major].min(ends[1][major]), ends[0][major].max(ends[1][major]));

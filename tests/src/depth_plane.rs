@@ -16,7 +16,7 @@ use trigon_study::oracle::depth::Plane;
 /// What the depth is off by at most before it is rounded to f32: the bound that
 /// `tile/depth.rs` states, `2^-50 Δz XY/A`, for the slopes; an eighth more and
 /// two roundings of depths in f64 for the two sums.
-fn bound(plane: &Plane) -> f64 {
+pub(crate) fn bound(plane: &Plane) -> f64 {
     let [low, high] = plane.range().map(f64::from);
     9.0 / 8.0 * exp2(-50) * (high - low) * plane.stretch() + 2.0 * exp2(-53) * high
 }

@@ -262,7 +262,9 @@ fn layers_blend_in_depth_order_whatever_the_order_of_draws() {
         expected = (color.truncate() * 0.1).extend(0.1) + expected * 0.9;
     }
     let middle = forward.linear.expect("asked for")[8 * 16 + 4];
-    assert!((middle - expected).abs().max_element() < 1e-6, "{middle} instead of {expected}");
+    // Three roundings a layer, as in `blending`, here and in the expectation.
+    let bound = 2.0 * 3.0 * 40.0 * f32::EPSILON / 2.0;
+    assert!((middle - expected).abs().max_element() <= bound, "{middle} instead of {expected}");
 }
 
 /// At equal depth the smaller (object, face) lies on top, as it would be seen if
@@ -369,7 +371,10 @@ fn thousands_of_layers_are_blended_in_parts() {
     assert!(many == draw(&triangles, TileSize::Pixels8), "another cut");
     for (many, few) in many.iter().zip(draw(&few, TileSize::Pixels64)) {
         assert_eq!(many.w > 0.0, few.w > 0.0, "the same pixels as with few layers");
-        assert!(many.w == 0.0 || many.w > 0.9999, "nothing shines through so many layers: {many}");
+        // 0.99 to the power of 5000 is 10⁻²²; near 1 each layer rounds by half a unit of f32,
+        // and what is missing shrinks by a hundredth with each: it stays within 100 of those.
+        let missing = 1.0 - many.w;
+        assert!(many.w == 0.0 || missing <= 50.0 * f32::EPSILON, "light shines through: {many}");
     }
 }
 

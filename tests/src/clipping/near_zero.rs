@@ -25,10 +25,12 @@ fn w_about_zero_is_finite_and_continuous() {
         let here = clipped(w);
         assert_eq!(here.len(), at_zero.len(), "w = {w:e}");
         for (vertex, expected) in here.iter().zip(&at_zero) {
-            // The apex moves by w, and cut points with it: by d(w) = 64 w over
-            // distances of order 1.
+            // The plane y = 64 w cuts both sides at the share 65 / (67 - 64 w) of their way to the
+            // apex, which changes by 65 · 64 / 66.9² < 0.93 for each 1 of w; the way is 3 long
+            // on its longest axis. Numbers below 2 round to f32 by 2⁻²⁴, here and there.
             let moved = (*vertex - *expected).abs().max_element();
-            assert!(moved <= 128.0 * w.abs() + 1e-7, "w = {w:e} moves a vertex by {moved}");
+            let bound = 3.0 * 0.93 * w.abs() + f32::EPSILON;
+            assert!(moved <= bound, "w = {w:e} moves a vertex by {moved}");
         }
     }
 }

@@ -39,10 +39,13 @@ fn positions_follow_weights(triangle: [Vec4; 3], band: f64, polygon: &ClipPolygo
 }
 
 /// Corners on the near plane, some `nudged` by it to one side, before the eye, in its
-/// plane (where one nudge is far less than other corners are rounded by) and behind it.
+/// plane (where one nudge is far less than other corners are rounded by) and behind it;
+/// some so near to the eye's plane that a cut between them and the others rounds by more
+/// than they are off.
 fn triangles_at_the_near_plane(nudged: fn(f32) -> f32) -> impl Strategy<Value = [Vec4; 3]> {
     let corner = move || {
-        let w = prop_oneof![3 => -4.0..4.0_f32, 1 => Just(0.0)];
+        let tiny = (-4.0..4.0_f32, 1..120_u8).prop_map(|(w, e)| w * exp2(-f64::from(e)) as f32);
+        let w = prop_oneof![3 => -4.0..4.0_f32, 1 => Just(0.0), 2 => tiny];
         (-4.0..4.0_f32, -4.0..4.0_f32, w, any::<bool>())
             .prop_map(move |(x, y, w, off)| Vec4::new(x, y, if off { nudged(w) } else { w }, w))
     };

@@ -6,7 +6,7 @@ use trigon_scene::{Frame, Outputs, RenderSettings, Renderer};
 
 use super::flight_oracle::{Oracle, Seen};
 use super::flight_scenes::{self, Hard};
-use crate::effort::cases;
+use crate::effort::scaled;
 
 const SIZE: [u32; 2] = [48, 36];
 
@@ -15,7 +15,7 @@ const SIZE: [u32; 2] = [48, 36];
 fn frames() -> u32 {
     const USUAL: u32 = 48;
     const LONG: u32 = 10_000;
-    if cases(USUAL).cases > USUAL { LONG } else { USUAL }
+    if scaled(USUAL) > USUAL { LONG } else { USUAL }
 }
 
 pub(super) fn settings(size: [u32; 2]) -> RenderSettings {
@@ -35,6 +35,7 @@ pub(super) fn settings(size: [u32; 2]) -> RenderSettings {
 pub(super) fn check_numbers(frame: &Frame) {
     let depth = frame.depth.iter().flatten();
     assert!(depth.clone().all(|depth| !depth.is_nan()), "a depth is NaN");
+    assert!(frame.radiance.iter().flatten().all(|light| !light.is_nan()), "a pixel's light is NaN");
     let vectors =
         [&frame.barycentrics, &frame.positions, &frame.normals, &frame.geometric_normals, &frame.albedo];
     for (name, list) in ["weights", "positions", "normals", "plane normals", "albedo"].iter().zip(vectors) {

@@ -112,6 +112,7 @@ fn material() -> impl Strategy<Value = Material> {
 fn everything(style: Style, shading: ShadingModel, of_blended: bool) -> RenderSettings {
     let outputs = Outputs {
         color: true,
+        radiance: true,
         depth: true,
         ids: true,
         material_ids: true,

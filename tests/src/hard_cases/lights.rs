@@ -41,12 +41,14 @@ fn floor(shading: Shading, model: ShadingModel, lights: &[(Light, DVec3)]) -> Fr
     }
     let projection = Projection::orthographic(4.0, 0.1, 20.0).expect("in range");
     let camera = Camera::look_at(DVec3::Y * EYE, DVec3::ZERO, DVec3::NEG_Z).with_projection(projection);
-    let settings = RenderSettings {
+    let mut settings = RenderSettings {
         shading: model,
         lighting: Lighting::Scene,
         background: Background::Color(Vec3::ZERO),
         ..settings([SIDE, SIDE])
     };
+    // In bytes, what is no number would be black.
+    settings.outputs.radiance = true;
     render(&scene, &camera, &settings).expect("in range")
 }
 
@@ -100,9 +102,9 @@ proptest! {
             }
             let at = |up: f64, out: f64| lambert(f64::from(intensity), height + up * off, across + out * off);
             let around = [at(-1.0, -1.0), at(-1.0, 1.0), at(1.0, -1.0), at(1.0, 1.0), at(0.0, 0.0)];
-            // At the height where the law has its greatest value, that is between the ends.
-            let peak = if (height - off..=height + off).contains(&(across / 2.0_f64.sqrt())) { 1.001 } else { 1.0 };
-            let most = around.iter().fold(0.0_f64, |most, &light| most.max(light)) * peak * (1.0 + 1e-6);
+            // Where the law has its greatest value between the ends, that is greater than at them by
+            // a share of (off / h)² only, with h = r / √2 of 4 cm and more: 2 · 10⁻⁹.
+            let most = around.iter().fold(0.0_f64, |most, &light| most.max(light)) * (1.0 + 1e-6);
             let least = around.iter().fold(f64::INFINITY, |least, &light| least.min(light)) * (1.0 - 1e-6);
             let [low, high] = [least, most].map(|light| color::linear_to_srgb8(light as f32));
             prop_assert!(
@@ -176,11 +178,14 @@ proptest! {
             // The places of lamp and floor, and the cosine's own roundings, f32's of a
             // few metres: 10 · 2⁻²⁴ · 3, as above; a cone's edge is up to 1000 times as steep.
             let off = 30.0 * f64::from(f32::EPSILON) / 2.0;
+            // The law itself goes with the cube of places that are so much off, and rounds ten
+            // times: 100 · 2⁻²⁴ of it.
+            let share = 6e-6;
             let light = |cosine: f64| {
                 let fade = ((cosine - far) * scale).clamp(0.0, 1.0);
                 fade * fade * lambert(1.0, height, trigon_math::elementary::hypot(x, z))
             };
-            let [low, high] = [light(cosine - off) * (1.0 - 1e-5), light(cosine + off) * (1.0 + 1e-5)]
+            let [low, high] = [light(cosine - off) * (1.0 - share), light(cosine + off) * (1.0 + share)]
                 .map(|light| color::linear_to_srgb8(light as f32));
             prop_assert!((low..=high).contains(&pixel[1]), "{} is not between {} and {}", pixel[1], low, high);
         }
