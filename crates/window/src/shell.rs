@@ -2,6 +2,9 @@
 //! everything. Events go in, pictures come out, and between them the loop
 //! sleeps for as long as the session says.
 
+#[cfg(feature = "accesskit")]
+mod accessibility;
+
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -21,7 +24,7 @@ use crate::worker::Worker;
 use crate::{Handler, Stage, WindowError};
 
 /// What wakes the loop from other threads.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Ring {
     /// [`crate::Waker::wake`].
     Application,
@@ -29,6 +32,9 @@ pub(crate) enum Ring {
     Picture,
     /// The interface wants a pass.
     Interface,
+    /// Whoever reads the screen aloud wants something.
+    #[cfg(feature = "accesskit")]
+    Accessibility(egui_winit::accesskit_winit::WindowEvent),
 }
 
 /// A window that is open. The presenter goes first when it closes.
@@ -47,6 +53,8 @@ struct Open {
 /// An application between its start and its end.
 pub(crate) struct Shell<'a> {
     session: Session<'a>,
+    #[cfg(feature = "accesskit")]
+    proxy: EventLoopProxy<Ring>,
     open: Option<Open>,
     started: Instant,
     error: Option<WindowError>,
@@ -57,16 +65,24 @@ pub(crate) struct Shell<'a> {
 impl<'a> Shell<'a> {
     pub(crate) fn new(stage: Stage, handler: &'a mut dyn Handler, proxy: &EventLoopProxy<Ring>) -> Self {
         // Sending fails when the window is closed: then there is nobody to wake.
-        let ring = |ring| {
+        let ring = |ring: Ring| {
             let proxy = proxy.clone();
             move || {
-                let _ = proxy.send_event(ring);
+                let _ = proxy.send_event(ring.clone());
             }
         };
         stage.waker().connect(ring(Ring::Application));
         let mut session = Session::new(stage, handler, Worker::of_thread(ring(Ring::Picture)));
         session.interface().connect(ring(Ring::Interface));
-        Self { session, open: None, started: Instant::now(), error: None, played: Interaction::default() }
+        Self {
+            session,
+            #[cfg(feature = "accesskit")]
+            proxy: proxy.clone(),
+            open: None,
+            started: Instant::now(),
+            error: None,
+            played: Interaction::default(),
+        }
     }
 
     /// Remembers what comes in.
@@ -98,11 +114,14 @@ impl<'a> Shell<'a> {
         let (title, size) = (stage.title().to_owned(), stage.viewport());
         let attributes = Window::default_attributes()
             .with_title(&title)
+            // Screen readers have to know of it before anybody sees it.
+            .with_visible(cfg!(not(feature = "accesskit")))
             .with_inner_size(LogicalSize::new(size.width.max(1), size.height.max(1)));
         let refused = |error: winit::error::OsError| WindowError::Window { reason: error.to_string() };
         let window = Arc::new(event_loop.create_window(attributes).map_err(refused)?);
         let presenter = Presenter::new(event_loop, &window)?;
-        let egui = egui_winit::State::new(
+        #[cfg_attr(not(feature = "accesskit"), expect(unused_mut, reason = "only screen readers are added"))]
+        let mut egui = egui_winit::State::new(
             self.session.interface().context().clone(),
             egui::ViewportId::ROOT,
             event_loop,
@@ -110,6 +129,11 @@ impl<'a> Shell<'a> {
             window.theme(),
             Some(MAX_TEXTURE_SIDE),
         );
+        #[cfg(feature = "accesskit")]
+        {
+            egui.init_accesskit(event_loop, &window, self.proxy.clone());
+            window.set_visible(true);
+        }
         let now = self.now();
         self.session.event(InputEvent::Scaled(window.scale_factor()), now);
         let size = window.inner_size();
@@ -171,15 +195,23 @@ impl<'a> Shell<'a> {
 
     /// Does what is due of what is played. The window has its own scale and is seen or
     /// not; it is asked for the size.
-    fn step_play(&mut self, now: Duration) {
+    fn step_play(&mut self, now: Duration) -> Result<(), WindowError> {
         while let Some(event) = self.played.next(now) {
-            match (event, &self.open) {
-                (InputEvent::Resized { width, height }, Some(open)) => {
-                    let _ = open.window.request_inner_size(PhysicalSize::new(width, height));
-                }
-                (event, _) if event.is_by_hand() => self.session.event(event, now),
+            match event {
+                InputEvent::Resized { width, height } => self.ask_for_size(width, height)?,
+                event if event.is_by_hand() => self.session.event(event, now),
                 _ => {}
             }
+        }
+        Ok(())
+    }
+
+    fn ask_for_size(&mut self, width: u32, height: u32) -> Result<(), WindowError> {
+        let Some(open) = &self.open else { return Ok(()) };
+        match open.window.request_inner_size(PhysicalSize::new(width, height)) {
+            // It has it already, and no event will tell, as under Wayland.
+            Some(_) => self.fit_surface(),
+            None => Ok(()),
         }
     }
 
@@ -209,6 +241,8 @@ impl ApplicationHandler<Ring> for Shell<'_> {
             Ring::Application => self.session.woken(now),
             Ring::Picture => self.session.collect(now),
             Ring::Interface => self.session.interface_asked(now),
+            #[cfg(feature = "accesskit")]
+            Ring::Accessibility(event) => self.accessibility(event),
         }
     }
 
@@ -230,7 +264,8 @@ impl ApplicationHandler<Ring> for Shell<'_> {
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         let now = self.now();
-        self.step_play(now);
+        let played = self.step_play(now);
+        self.fail(event_loop, played);
         self.session.settle(now);
         if self.session.is_over() {
             event_loop.exit();

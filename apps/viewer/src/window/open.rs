@@ -81,6 +81,7 @@ impl OpenWindow {
             ui.horizontal(|ui| {
                 let field = egui::TextEdit::singleline(&mut self.path).hint_text("path of a model");
                 let typed = ui.add(field.desired_width(260.0));
+                context.accesskit_node_builder(typed.id, |node| node.set_label("path of a model"));
                 let entered = typed.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
                 let open = ui.add_enabled(!self.path.is_empty(), egui::Button::new("Open")).clicked();
                 if (open || entered) && !self.path.is_empty() {

@@ -133,6 +133,7 @@ impl Interface {
         let mut output = self.context.run_ui(input, |ui| {
             application(stage, ui);
             free = ui.available_rect_before_wrap();
+            name_view(ui.ctx(), free, stage);
             if let (Some(camera), Some(bounds)) = (shown_by, stage.selection_bounds()) {
                 outline::show(ui, camera, moment.viewport, &bounds);
             }
@@ -168,4 +169,17 @@ impl Interface {
             Some(scale as f32);
         input
     }
+}
+
+/// Tells those who cannot see it what the window and the picture are, if somebody listens.
+fn name_view(context: &Context, free: egui::Rect, stage: &Stage) {
+    context.accesskit_node_builder(egui::accesskit_root_id(), |window| window.set_label(stage.title()));
+    context.accesskit_node_builder(egui::Id::unique("view"), |node| {
+        let selected = stage.selection.and_then(|id| stage.scene.node(id));
+        let selected = selected.map(|node| format!("; selected: {}", node.name)).unwrap_or_default();
+        let [x0, y0, x1, y1] = [free.min.x, free.min.y, free.max.x, free.max.y].map(f64::from);
+        node.set_role(egui::Role::Image);
+        node.set_label(format!("3D view: {}{selected}", stage.title()));
+        node.set_bounds(egui::accesskit::Rect { x0, y0, x1, y1 });
+    });
 }

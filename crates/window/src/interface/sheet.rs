@@ -18,7 +18,8 @@ pub(super) fn show(context: &Context, stage: &mut Stage) -> Option<Binding> {
     let height = (context.content_rect().height() - 120.0).max(40.0);
     window.show(context, |ui| {
         let search = TextEdit::singleline(&mut stage.command_search).hint_text("search");
-        ui.add(search.desired_width(f32::INFINITY));
+        let search = ui.add(search.desired_width(f32::INFINITY));
+        context.accesskit_node_builder(search.id, |node| node.set_label("search keys and commands"));
         ScrollArea::vertical().max_height(height).show(ui, |ui| {
             let rows = sheet(&stage.keymap);
             let wanted = stage.command_search.to_lowercase();

@@ -80,22 +80,22 @@ fn drags_belong_to_whoever_they_began_on() {
     let mut session = opened(&mut handler);
     let start = session.stage.orbit;
     move_to(&mut session, 40.0, 150.0, ms(1000));
-    press(&mut session, (40.0, 150.0), Press::Down, ms(1000));
-    move_to(&mut session, 250.0, 150.0, ms(1000));
+    press(&mut session, (40.0, 150.0), Press::Down, ms(2000));
+    move_to(&mut session, 250.0, 150.0, ms(3000));
     assert_eq!(session.stage.orbit, start, "begun on the panel: nothing turns");
-    press(&mut session, (250.0, 150.0), Press::Up, ms(1000));
-    press(&mut session, (250.0, 150.0), Press::Down, ms(2000));
-    move_to(&mut session, 40.0, 150.0, ms(2000));
+    press(&mut session, (250.0, 150.0), Press::Up, ms(4000));
+    press(&mut session, (250.0, 150.0), Press::Down, ms(5000));
+    move_to(&mut session, 40.0, 150.0, ms(6000));
     let turned = session.stage.orbit;
     assert_ne!(turned, start, "begun beside it: it turns, over the panel, too");
-    press(&mut session, (40.0, 150.0), Press::Up, ms(2000));
-    move_to(&mut session, 250.0, 100.0, ms(3000));
+    press(&mut session, (40.0, 150.0), Press::Up, ms(7000));
+    move_to(&mut session, 250.0, 100.0, ms(8000));
     assert_eq!(session.stage.orbit, turned, "the release was heard over the panel");
-    session.event(InputEvent::PointerMoved(DVec2::new(40.0, 150.0)), ms(4000));
-    session.event(InputEvent::Wheel(3.0), ms(4000));
+    session.event(InputEvent::PointerMoved(DVec2::new(40.0, 150.0)), ms(9000));
+    session.event(InputEvent::Wheel(3.0), ms(10000));
     assert_eq!(session.stage.orbit, turned, "a wheel over the panel scrolls the panel");
-    session.event(InputEvent::PointerMoved(DVec2::new(250.0, 150.0)), ms(4000));
-    session.event(InputEvent::Wheel(3.0), ms(4000));
+    session.event(InputEvent::PointerMoved(DVec2::new(250.0, 150.0)), ms(11000));
+    session.event(InputEvent::Wheel(3.0), ms(12000));
     assert!(session.stage.orbit.distance() < turned.distance(), "beside it, it zooms");
 }
 
@@ -165,4 +165,29 @@ fn commands_are_chosen_from_the_list() {
     let mut expected = before;
     expected.toggle_orthographic();
     assert_eq!(session.stage.orbit, expected, "a click is as good as the key");
+}
+
+#[test]
+fn screen_readers_learn_names_and_press_buttons() {
+    use egui::accesskit::{Action, ActionRequest, TreeId, TreeUpdate};
+    let mut handler = Panel::default();
+    let mut session = opened(&mut handler);
+    let names = |update: &TreeUpdate| -> Vec<_> {
+        update.nodes.iter().filter_map(|(id, node)| Some((node.label()?.to_owned(), *id))).collect()
+    };
+    assert!(session.interface().take_output().accesskit_update.is_none(), "nobody has asked");
+    session.interface().context().enable_accesskit();
+    session.event(key_down(9, Key::Tab), ms(1000));
+    run(&mut session, ms(1000));
+    let told = session.interface().take_output().accesskit_update.expect("now somebody has");
+    let names = names(&told);
+    assert!(names.iter().any(|(name, _)| name == "3D view: test; selected: left"), "the picture: {names:?}");
+    assert!(names.iter().any(|(name, _)| name == "test"), "and the window: {names:?}");
+    let (_, button) = names.iter().find(|(name, _)| name == "press").expect("the button has a name");
+    let request =
+        ActionRequest { action: Action::Click, target_tree: TreeId::ROOT, target_node: *button, data: None };
+    session.event(InputEvent::Interface(Event::AccessKitActionRequest(request)), ms(2000));
+    run(&mut session, ms(2000));
+    drop(session);
+    assert_eq!(handler.clicks, 1, "as if it had been clicked");
 }

@@ -1,0 +1,31 @@
+//! Names of widgets for those who read the screen aloud, and what they do with them.
+//! Nothing is named before somebody asks.
+
+use egui_winit::accesskit_winit::{Event, WindowEvent};
+
+use super::{Ring, Shell};
+use crate::input::InputEvent;
+
+impl From<Event> for Ring {
+    fn from(event: Event) -> Self {
+        Self::Accessibility(event.window_event)
+    }
+}
+
+impl Shell<'_> {
+    pub(super) fn accessibility(&mut self, event: WindowEvent) {
+        let now = self.now();
+        let context = self.session.interface().context();
+        match event {
+            WindowEvent::InitialTreeRequested => {
+                context.enable_accesskit();
+                self.session.interface_asked(now);
+            }
+            WindowEvent::ActionRequested(request) => {
+                let action = egui::Event::AccessKitActionRequest(request);
+                self.session.event(InputEvent::Interface(action), now);
+            }
+            WindowEvent::AccessibilityDeactivated => context.disable_accesskit(),
+        }
+    }
+}
