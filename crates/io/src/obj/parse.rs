@@ -72,20 +72,20 @@ pub(super) fn parse_in_pieces(
     Ok(parsed)
 }
 
-/// How many pieces a thread has before it is asked whether to go on.
+/// How many pieces a thread has before what has come of them is put together.
 const PIECES_PER_THREAD: usize = 4;
 
 /// The part of the work that counting is; the last quarter is for building the mesh.
 const COUNTED: f32 = 0.1;
 pub(super) const READ: f32 = 0.75;
 
-/// Counts some pieces at a time: that takes seconds for a gigabyte, and can be cancelled.
+/// Counts some pieces at a time: that takes seconds for a gigabyte.
 fn count_all(path: &Path, pieces: &[&[u8]], options: &LoadOptions<'_>) -> Result<Vec<Census>, LoadError> {
     let mut censuses = Vec::with_capacity(pieces.len());
     for some in pieces.chunks(PIECES_PER_THREAD * rayon::current_num_threads()) {
-        censuses.extend(side_by_side(some, |piece| census(piece)));
-        let share = censuses.len() as f32 / pieces.len() as f32;
-        options.report(path, Stage::Geometry, COUNTED * share)?;
+        let share = COUNTED * censuses.len() as f32 / pieces.len() as f32;
+        let ask = || options.report(path, Stage::Geometry, share);
+        censuses.extend(side_by_side(some, ask, |piece| census(piece))?);
     }
     Ok(censuses)
 }
@@ -103,21 +103,27 @@ fn read_all(
     parsed.content.reserve(total);
     let mut done = 0;
     for some in chunks.chunks(PIECES_PER_THREAD * rayon::current_num_threads()) {
-        let sections = side_by_side(some, |chunk| read_section(chunk, total, most_corners));
+        let share = COUNTED + (READ - COUNTED) * done as f32 / chunks.len() as f32;
+        let ask = || options.report(path, Stage::Geometry, share);
+        let sections = side_by_side(some, ask, |chunk| read_section(chunk, total, most_corners))?;
         for (chunk, section) in some.iter().zip(sections) {
             parsed.append(path, chunk, section, most_corners)?;
         }
         done += some.len();
-        let share = done as f32 / chunks.len() as f32;
-        options.report(path, Stage::Geometry, COUNTED + (READ - COUNTED) * share)?;
     }
     Ok(parsed)
 }
 
-/// The results in the order of the items; a single one needs no threads.
-fn side_by_side<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
+/// The results in the order of the items; a single one needs no threads. Before each,
+/// `ask` tells whether to go on: whoever cancels does not wait for all of them.
+fn side_by_side<T: Sync, R: Send>(
+    items: &[T],
+    ask: impl Fn() -> Result<(), LoadError> + Sync,
+    work: impl Fn(&T) -> R + Sync,
+) -> Result<Vec<R>, LoadError> {
+    let work = |item: &T| ask().map(|()| work(item));
     match items {
-        [only] => vec![work(only)],
+        [only] => Ok(vec![work(only)?]),
         several => several.par_iter().map(work).collect(),
     }
 }
@@ -194,11 +200,12 @@ mod tests {
             let parse = || parse_in_pieces(path, text.as_bytes(), 1, &options, &mut Warnings::about(path));
             pool.install(parse).map(drop).map_err(|error| error.kind)
         };
-        assert_eq!(parse(3), Err(LoadErrorKind::Cancelled), "after the second batch that was counted");
+        assert_eq!(parse(3), Err(LoadErrorKind::Cancelled), "before the second piece that was counted");
         reports.lock().expect("nobody panics").clear();
         assert_eq!(parse(usize::MAX), Err(LoadErrorKind::Empty), "there are no faces");
         let reports = reports.lock().expect("nobody panics");
-        assert_eq!(reports.len(), 1 + 2 * BATCHES, "at the start, and in both looks: {reports:?}");
+        let pieces = BATCHES * PIECES_PER_THREAD;
+        assert_eq!(reports.len(), 1 + 2 * pieces, "at the start, and in both looks: {reports:?}");
         assert!(reports.is_sorted(), "forwards: {reports:?}");
     }
 
