@@ -22,6 +22,7 @@ pub(crate) fn act(stage: &mut Stage, action: Action) {
         Action::ToggleFrameTime => stage.frame_time = stage.frame_time.toggled(),
         Action::SelectNext => select(stage, Direction::Forward),
         Action::SelectPrevious => select(stage, Direction::Backward),
+        Action::LookAtSelected => look_at_selected(stage),
         Action::Dismiss if stage.cheat_sheet == Visibility::Shown => stage.cheat_sheet = Visibility::Hidden,
         Action::Dismiss => stage.selection = None,
         Action::Quit => stage.exit(),
@@ -59,6 +60,12 @@ fn select(stage: &mut Stage, direction: Direction) {
     };
     stage.selection = objects.get(next).copied();
     announce_selection(stage);
+}
+
+fn look_at_selected(stage: &mut Stage) {
+    if let Some(middle) = stage.selection_bounds().and_then(|bounds| bounds.center()) {
+        stage.orbit.set_target(middle);
+    }
 }
 
 fn toggle_orbit_style(stage: &mut Stage) {

@@ -63,6 +63,7 @@ pub(crate) fn hold(stage: &mut Stage, motion: Motion, seconds: f64) {
             stage.orbit.pan(right * height, up * height);
         }
         Motion::Camera(CameraMotion::Zoom(power)) => zoom(stage, power * seconds, None),
+        Motion::Camera(CameraMotion::Roll(angle)) => stage.orbit.roll(angle * seconds),
         Motion::Object(ObjectMotion::Move(by)) => {
             let height = stage.orbit.height_at_target();
             move_selection(stage, by * height * seconds);
@@ -144,6 +145,8 @@ mod tests {
         drag(&mut stage, DragAction::Roll, DVec2::new(300.0, 150.0), DVec2::new(200.0, 250.0), None);
         let at = screen(&stage) - middle;
         assert!(at.x.abs() < 1e-9 && at.y > 0.0, "it is below now: {at}");
+        hold(&mut stage, Motion::Camera(CameraMotion::Roll(1.0)), 0.1);
+        assert!((screen(&stage) - middle).x < at.x, "the eye turns counter-clockwise, the picture clockwise");
     }
 
     #[test]
@@ -184,6 +187,19 @@ mod tests {
         // Half a turn about z by the parent, then half a radian about y.
         let (sin, cos) = elementary::sin_cos(0.5);
         assert!(front.distance(DVec3::new(-cos, 0.0, sin)) < 1e-9, "turned about the upward axis: {front}");
+    }
+
+    #[test]
+    fn the_selected_object_is_looked_at() {
+        let mut stage = stage();
+        let child = stage.selection.expect("the cube is selected");
+        let away = DVec3::new(3.0, -2.0, 5.0);
+        stage.scene.node_mut(child).expect("it is there").transform.translate(away);
+        crate::commands::act(&mut stage, crate::keymap::Action::LookAtSelected);
+        assert_eq!(stage.orbit.target(), away, "its middle");
+        stage.selection = None;
+        crate::commands::act(&mut stage, crate::keymap::Action::LookAtSelected);
+        assert_eq!(stage.orbit.target(), away, "and nothing without one");
     }
 
     #[test]

@@ -37,6 +37,8 @@ pub enum Action {
     SelectNext,
     /// Selects the one before.
     SelectPrevious,
+    /// Turns the camera's target to the middle of the selected object.
+    LookAtSelected,
     /// Hides the list of keys, or else selects nothing.
     Dismiss,
     /// Closes the window.
@@ -66,6 +68,8 @@ pub enum CameraMotion {
     Pan(f64, f64),
     /// Closer: natural logarithm of the magnification.
     Zoom(f64),
+    /// About its line of sight: radians counter-clockwise.
+    Roll(f64),
 }
 
 /// How a held key moves the selected object, per second, in axes of the

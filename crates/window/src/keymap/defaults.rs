@@ -95,6 +95,10 @@ fn camera() -> Vec<Binding> {
         let zoom = Action::Hold(Motion::Camera(CameraMotion::Zoom(sign * ZOOM)));
         all.push(bind(key, "zoom", zoom, "zoom in, out"));
     }
+    for (key, sign) in [(Key::PageUp, 1.0), (Key::PageDown, -1.0)] {
+        let roll = Action::Hold(Motion::Camera(CameraMotion::Roll(sign * TURN)));
+        all.push(bind(Chord::new(Modifiers::CTRL, key), "roll", roll, "roll"));
+    }
     all
 }
 
@@ -108,6 +112,7 @@ fn objects() -> Vec<Binding> {
             Action::SelectPrevious,
             "select the next, previous object",
         ),
+        bind('.', "look_at_selected", Action::LookAtSelected, "look at the selected object"),
     ];
     let mut object = |modifiers, key, name, description, motion| {
         all.push(bind(Chord::new(modifiers, key), name, Action::Hold(Motion::Object(motion)), description));
@@ -170,7 +175,9 @@ mod tests {
     #[test]
     fn object_keys_stay_clear_of_f3d() {
         for binding in objects() {
-            let free = binding.chord.modifiers.contains(Modifiers::ALT) || binding.chord.key == Key::Tab;
+            let key = binding.chord.key;
+            let free = binding.chord.modifiers.contains(Modifiers::ALT)
+                || [Key::Tab, Key::Character('.')].contains(&key);
             assert!(free, "{} may mean something to F3D's users", binding.chord);
         }
     }
