@@ -82,10 +82,10 @@ impl Interaction {
         self.steps.front().map(|step| Duration::from_secs_f64(step.ms / 1e3))
     }
 
-    /// The next event, if it is due.
-    pub(crate) fn next(&mut self, now: Duration) -> Option<InputEvent> {
-        self.due().filter(|due| *due <= now)?;
-        self.steps.pop_front().map(|step| step.event)
+    /// The next event with its moment, if it is due.
+    pub(crate) fn next(&mut self, now: Duration) -> Option<(Duration, InputEvent)> {
+        let due = self.due().filter(|due| *due <= now)?;
+        self.steps.pop_front().map(|step| (due, step.event))
     }
 }
 

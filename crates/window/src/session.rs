@@ -18,18 +18,14 @@ use crate::handler::{Animation, Handler, Tick};
 use crate::input::{HeldKeys, InputEvent, Modifiers, Pointer};
 use crate::interaction::Interaction;
 use crate::interface::{Interface, Moment};
-use crate::motion;
 use crate::pacing::{Change, Frames, Pacing, Wake};
 use crate::refinement::Gallery;
 use crate::shared_scene::Revision;
 use crate::stage::{FrameReport, Stage, Subject, Visibility};
 use crate::worker::Worker;
 
-/// The step of an animation's first frame, and of a key's first moment.
+/// The step of an animation's first frame.
 const FIRST_STEP: Duration = Duration::from_micros(16_667);
-
-/// A held key moves by no more than this much time at once, whatever a frame took.
-const LONGEST_STEP: Duration = Duration::from_millis(100);
 
 /// A window's life.
 pub(crate) struct Session<'a> {
@@ -270,10 +266,7 @@ impl<'a> Session<'a> {
         }
         let delta = self.stepped.map_or(FIRST_STEP, |last| now.saturating_sub(last));
         self.stepped = Some(now);
-        let seconds = delta.min(LONGEST_STEP).as_secs_f64();
-        for motion in self.held.motions() {
-            motion::hold(&mut self.stage, motion, seconds);
-        }
+        self.move_held(now);
         if self.animation == Animation::Running {
             self.animation = self.handler.frame(&mut self.stage, Tick { time: now, delta });
             self.after_handler(now);

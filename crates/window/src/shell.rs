@@ -196,10 +196,11 @@ impl<'a> Shell<'a> {
     /// Does what is due of what is played. The window has its own scale and is seen or
     /// not; it is asked for the size.
     fn step_play(&mut self, now: Duration) -> Result<(), WindowError> {
-        while let Some(event) = self.played.next(now) {
+        // With its own moment: how long a key was held counts, not when that was found out.
+        while let Some((moment, event)) = self.played.next(now) {
             match event {
                 InputEvent::Resized { width, height } => self.ask_for_size(width, height)?,
-                event if event.is_by_hand() => self.session.event(event, now),
+                event if event.is_by_hand() => self.session.event(event, moment),
                 _ => {}
             }
         }

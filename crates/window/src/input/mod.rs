@@ -9,7 +9,7 @@ pub(crate) mod translate;
 mod wheel;
 
 pub(crate) use event::{InputEvent, KeyCode, KeyPress, Press};
-pub(crate) use held::HeldKeys;
+pub(crate) use held::{HeldKeys, STEP};
 pub use key::{Chord, Key, Modifiers, PointerButton};
 pub(crate) use pointer::{Gesture, Pointer};
 pub(crate) use wheel::{WheelDelta, wheel_lines};

@@ -9,7 +9,7 @@ use trigon_math::{DVec2, DVec3};
 
 use super::Session;
 use crate::commands;
-use crate::input::{Chord, Gesture, InputEvent, KeyCode, KeyPress, Modifiers, PointerButton, Press};
+use crate::input::{Chord, Gesture, InputEvent, KeyCode, KeyPress, Modifiers, PointerButton, Press, STEP};
 use crate::keymap::{Action, Binding, DragAction};
 use crate::motion;
 use crate::pacing::Change;
@@ -38,6 +38,7 @@ impl Session<'_> {
             InputEvent::KeyUp(code) => self.released(code, now),
             InputEvent::Modifiers(modifiers) => self.modifiers = modifiers,
             InputEvent::FocusLost => {
+                self.move_held(now);
                 self.held.clear();
                 self.pointer.cancel();
                 self.modifiers = Modifiers::NONE;
@@ -145,7 +146,9 @@ impl Session<'_> {
         let Some(binding) = found else { return };
         match binding.action {
             Action::Hold(motion) => {
-                self.held.press(key.code, motion);
+                self.move_held(now);
+                let steps = self.held.press(key.code, motion, now);
+                (0..steps).for_each(|_| motion::hold(&mut self.stage, motion, STEP.as_secs_f64()));
                 self.pacing.changed(Change::Moving, now);
             }
             _ => self.act(&binding, now),
@@ -174,7 +177,17 @@ impl Session<'_> {
         if self.held.is_empty() {
             return;
         }
+        self.move_held(now);
         self.held.release(code);
         self.pacing.changed(Change::Moving, now);
+    }
+
+    /// Moves by what keys that are held have not moved by yet.
+    pub(super) fn move_held(&mut self, now: Duration) {
+        for _ in 0..self.held.steps(now) {
+            for motion in self.held.motions() {
+                motion::hold(&mut self.stage, motion, STEP.as_secs_f64());
+            }
+        }
     }
 }

@@ -9,12 +9,12 @@ fn replay(mut interaction: Interaction) -> Vec<Vec<[u8; 4]>> {
     let mut handler = Recorder::default();
     let mut session = Session::new(stage(), &mut handler, Worker::of_caller());
     let (mut now, mut seen) = (ms(0), Vec::new());
-    while let Some(event) = interaction.next(now) {
+    while let Some((_, event)) = interaction.next(now) {
         session.event(event, now);
     }
     session.start(now);
     for _ in 0..10_000 {
-        while let Some(event) = interaction.next(now) {
+        while let Some((_, event)) = interaction.next(now) {
             session.event(event, now);
         }
         session.settle(now);
@@ -57,4 +57,28 @@ fn a_recorded_session_gives_the_same_pictures() {
     assert!(one.len() > 5, "there was something to see: {} frames", one.len());
     assert!(one == other, "the same frames");
     assert_eq!(one.last().expect("a last frame"), session.canvas().pixels(), "which end as the first time");
+}
+
+/// A replay zoomed further than the hands had, because its frames took longer.
+#[test]
+fn held_keys_move_as_far_whenever_frames_are_drawn() {
+    let end = |frame_time: usize| {
+        let mut handler = Recorder::default();
+        let mut session = begun(&mut handler);
+        let start = session.stage.orbit;
+        let mut frames = (1000..2000).step_by(frame_time).map(ms);
+        for (at, event) in [
+            (1003, key_down(7, Key::Left)),
+            (1250, key_down(8, Key::PageUp)),
+            (1502, InputEvent::KeyUp(KeyCode(7))),
+            (1733, InputEvent::KeyUp(KeyCode(8))),
+        ] {
+            frames.by_ref().take_while(|now| *now < ms(at)).for_each(|now| drop(draw(&mut session, now)));
+            session.event(event, ms(at));
+        }
+        assert_ne!(session.stage.orbit, start, "they move");
+        session.stage.orbit
+    };
+    assert_eq!(end(16), end(390), "to the bit");
+    assert_eq!(end(16), end(7), "to the bit");
 }
