@@ -12,7 +12,7 @@
 
 use super::{Filter, Wrap};
 use crate::simd::prelude::*;
-use crate::simd::{F32, I32, Mask, Simd, greater, lesser};
+use crate::simd::{F32, I32, Mask, Simd, U32, greater, lesser};
 
 /// Numbers from here on are integers: they have no fraction to look up.
 const WHOLE: f32 = 8_388_608.0;
@@ -142,17 +142,18 @@ pub(super) enum Filters<S: Simd> {
 #[inline(always)]
 pub(super) fn texel_lanes<S: Simd>(
     reduced: F32<S>,
-    size: F32<S>,
+    size: I32<S>,
     wrap: Wrap,
     filters: Filters<S>,
 ) -> (I32<S>, F32<S>) {
     let zero = F32::splat(size.token(), 0.0);
     match filters {
-        Filters::Uniform(Filter::Nearest) => (nearest_lanes(reduced, size, wrap), zero),
+        Filters::Uniform(Filter::Nearest) => (nearest_lanes(reduced, size.to_float(), wrap), zero),
         Filters::Uniform(Filter::Linear) => linear_lanes(reduced, size, wrap),
         Filters::Linear(mask) => {
             let (first, share) = linear_lanes(reduced, size, wrap);
-            (mask.select(first, nearest_lanes(reduced, size, wrap)), mask.select(share, zero))
+            let nearest = nearest_lanes(reduced, size.to_float(), wrap);
+            (mask.select(first, nearest), mask.select(share, zero))
         }
     }
 }
@@ -172,22 +173,24 @@ fn nearest_lanes<S: Simd>(reduced: F32<S>, size: F32<S>, wrap: Wrap) -> I32<S> {
 }
 
 #[inline(always)]
-fn linear_lanes<S: Simd>(reduced: F32<S>, size: F32<S>, wrap: Wrap) -> (I32<S>, F32<S>) {
-    let last = size - 1.0;
+fn linear_lanes<S: Simd>(reduced: F32<S>, size: I32<S>, wrap: Wrap) -> (I32<S>, F32<S>) {
+    let whole = size.to_float::<F32<S>>();
     match wrap {
         Wrap::Repeat => {
-            let position = reduced * size - 0.5;
-            let before = position.simd_lt(0.0);
-            let first = position.to_int::<I32<S>>();
-            let share = before.select(position + 1.0, position - first.to_float::<F32<S>>());
-            (before.select(last.to_int(), first), share)
+            let position = reduced * whole - 0.5;
+            // The sign is -1 before the first centre: between the last texel, of which
+            // -1 without a sign is the lesser, and the first.
+            let first = position.to_int::<I32<S>>() + (position.bitcast::<I32<S>>() >> 31);
+            let share = position - first.to_float::<F32<S>>();
+            let last = (size - 1).bitcast::<U32<S>>();
+            (first.bitcast::<U32<S>>().min(last).bitcast(), share)
         }
         Wrap::MirroredRepeat | Wrap::ClampToEdge => {
             let reduced = match wrap {
                 Wrap::MirroredRepeat => reduced.simd_gt(1.0).select(2.0 - reduced, reduced),
                 _ => reduced,
             };
-            let position = held_lanes(reduced * size - 0.5, last);
+            let position = held_lanes(reduced * whole - 0.5, whole - 1.0);
             let first = position.to_int::<I32<S>>();
             (first, position - first.to_float::<F32<S>>())
         }

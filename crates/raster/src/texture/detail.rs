@@ -3,7 +3,7 @@
 
 use super::{Sampler, Texture};
 use crate::simd::prelude::*;
-use crate::simd::{F32, I32, Simd, greater, lesser};
+use crate::simd::{Each, F32, I32, Simd, greater, lesser};
 use trigon_math::Vec2;
 
 /// The detail of a gradient that is not finite or too large to square: beyond
@@ -84,7 +84,11 @@ impl<S: Simd> FootprintLanes<S> {
             return Self { detail: zero, probes: one, axis: [zero; 2] };
         }
         let most_probes = sampler.most_probes();
-        let (x, y) = (squared_lanes(texture, ddx), squared_lanes(texture, ddy));
+        let size = [texture.width(), texture.height()].each(
+            #[inline(always)]
+            |side| I32::splat(simd, side as i32).to_float(),
+        );
+        let (x, y) = (squared_lanes(size, ddx), squared_lanes(size, ddy));
         let finite = (x + y).simd_lt(f32::INFINITY);
         let steep = y.simd_gt(x);
         let longer = steep.select(y, x);
@@ -111,8 +115,8 @@ impl<S: Simd> FootprintLanes<S> {
 
 /// The square of a side in texels.
 #[inline(always)]
-fn squared_lanes<S: Simd>(texture: &Texture, [u, v]: [F32<S>; 2]) -> F32<S> {
-    let (u, v) = (u * texture.width() as f32, v * texture.height() as f32);
+fn squared_lanes<S: Simd>([width, height]: [F32<S>; 2], [u, v]: [F32<S>; 2]) -> F32<S> {
+    let (u, v) = (u * width, v * height);
     u * u + v * v
 }
 

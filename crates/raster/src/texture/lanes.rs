@@ -7,12 +7,12 @@
 //! channel after it: the filter's arithmetic needs no shuffle.
 
 use super::axis::{Filters, reduced_lanes, texel_lanes};
-use super::blocks::{AREA, Footprint, PITCH, SIDE};
 use super::channels::{ALPHA, Channels, Color, Data, Texels, mix};
 use super::detail::FootprintLanes;
+use super::strips::{COLUMNS, Footprint, PITCH, Strips};
 use super::{MipFilter, Sampler, Texture, TextureFormat};
 use crate::simd::prelude::*;
-use crate::simd::{Each, F32, I32, LANES, Simd, U32, lesser};
+use crate::simd::{Each, F32, I32, LANES, Simd, U32, greater, lanes_of, lesser, transposed};
 use fearless_simd::{f32x4, u64x2};
 
 #[inline(always)]
@@ -106,7 +106,8 @@ struct Lookup<'a, S: Simd> {
     sampler: &'a Sampler,
     uv: [F32<S>; 2],
     filters: Filters<S>,
-    finer: F32<S>,
+    finer: Levels<S>,
+    /// Of the next level.
     share: F32<S>,
 }
 
@@ -116,16 +117,17 @@ impl<'a, S: Simd> Lookup<'a, S> {
         let Probes { simd, texture, sampler, .. } = *of;
         let zero = F32::splat(simd, 0.0);
         let minified = detail.simd_gt(0.0);
-        let held = minified.select(lesser(detail, last_level(simd, texture)), zero);
+        let last = I32::splat(simd, texture.strips.last_level as i32).to_float();
+        let held = greater(lesser(detail, last), zero);
         let level = match sampler.mip {
             MipFilter::None => zero,
             MipFilter::Nearest => minified.select(held + 0.5, zero),
             MipFilter::Linear | MipFilter::Anisotropic(_) => held,
         };
-        let finer = level.to_int::<I32<S>>().to_float::<F32<S>>();
+        let finer = Levels::new(level.to_int());
         let share = match sampler.mip {
             MipFilter::None | MipFilter::Nearest => zero,
-            MipFilter::Linear | MipFilter::Anisotropic(_) => level - finer,
+            MipFilter::Linear | MipFilter::Anisotropic(_) => level - finer.each.to_float::<F32<S>>(),
         };
         let filters = match (sampler.minification, sampler.magnification) {
             (minification, magnification) if minification == magnification => Filters::Uniform(minification),
@@ -137,7 +139,7 @@ impl<'a, S: Simd> Lookup<'a, S> {
 
     #[inline(always)]
     fn value<T: Texels>(&self) -> Channels<S> {
-        let finer = self.place(self.finer);
+        let finer = self.place(&self.finer);
         if !self.share.simd_gt(0.0).any_true() {
             let texels = self.texels(&finer);
             return self.channels(
@@ -148,7 +150,7 @@ impl<'a, S: Simd> Lookup<'a, S> {
         // Each step waits for the one before. So every step is taken for both
         // levels before the next one: the processor has twice as much to do.
         // Where there is no next level its share is 0.
-        let next = self.place(lesser(self.finer + 1.0, last_level(self.simd, self.texture)));
+        let next = self.place(&self.finer.next(self.texture.strips.last_level));
         let (finer_texels, next_texels) = (self.texels(&finer), self.texels(&next));
         self.channels(
             #[inline(always)]
@@ -167,40 +169,69 @@ impl<'a, S: Simd> Lookup<'a, S> {
         [channel(0), channel(1), channel(2), alpha]
     }
 
-    /// Where in a level the look-up goes.
+    /// Where in its level each lane's look-up goes.
     #[inline(always)]
-    fn place(&self, level: F32<S>) -> Place<S> {
-        let level = level.to_int::<I32<S>>();
-        // 2 to the power of -level: a shift by another number of bits in each
-        // lane is not to be had everywhere.
-        let scale = ((127 - level) * (1 << 23)).bitcast::<F32<S>>();
-        let width = side(self.texture.width(), scale);
-        let height = side(self.texture.height(), scale);
-        let (x, s) = texel_lanes(self.uv[0], width.to_float(), self.sampler.wrap_u, self.filters);
-        let (y, t) = texel_lanes(self.uv[1], height.to_float(), self.sampler.wrap_v, self.filters);
-        Place { level, index: index(width, [x, y]), s, t }
+    fn place(&self, levels: &Levels<S>) -> Place<S> {
+        let [start, width, height] = levels.of(self.simd, &self.texture.strips);
+        let (x, s) = texel_lanes(self.uv[0], width, self.sampler.wrap_u, self.filters);
+        let (y, t) = texel_lanes(self.uv[1], height, self.sampler.wrap_v, self.filters);
+        Place { index: start + index(height, [x, y]), s, t }
     }
 
     /// Top left and right, bottom left and right.
     #[inline(always)]
     fn texels(&self, place: &Place<S>) -> [[U32<S>; 2]; 2] {
-        let blocks = &self.texture.blocks;
-        let first = place.level.as_array()[0];
-        let start = if place.level.simd_eq(first).all_true() {
-            I32::splat(self.simd, blocks.start(first as u32) as i32)
-        } else {
-            I32::from_fn(self.simd, |lane| blocks.start(place.level.as_array()[lane] as u32) as i32)
-        };
-        let at = (start + place.index).to_array();
-        let rows: [Footprint; LANES] = std::array::from_fn(|lane| blocks.footprint(at[lane] as u32));
+        let index: [u32; LANES] = place.index.bitcast::<U32<S>>().into();
+        let footprints = self.texture.strips.footprints();
+        let rows = lanes_of(
+            #[inline(always)]
+            |lane| footprints.at(index[lane]),
+        );
         [neighbours(self.simd, &rows, 0), neighbours(self.simd, &rows, 1)]
     }
 }
 
-/// Where in a level a look-up goes.
+/// The levels of eight look-ups.
+struct Levels<S: Simd> {
+    each: I32<S>,
+    /// The one that most often all lanes share.
+    shared: Option<u32>,
+}
+
+impl<S: Simd> Levels<S> {
+    #[inline(always)]
+    fn new(each: I32<S>) -> Self {
+        let first = each.as_array()[0];
+        Self { each, shared: each.simd_eq(first).all_true().then_some(first as u32) }
+    }
+
+    /// The next ones, up to the last.
+    #[inline(always)]
+    fn next(&self, last: u32) -> Self {
+        let each = (self.each + 1).min(last as i32);
+        Self { each, shared: self.shared.map(|level| (level + 1).min(last)) }
+    }
+
+    /// Where they start, their widths and their heights.
+    #[inline(always)]
+    fn of(&self, simd: S, strips: &Strips) -> [I32<S>; 3] {
+        if let Some(level) = self.shared {
+            let [start, width, height, _] = *strips.level(level);
+            return [I32::splat(simd, start), I32::splat(simd, width), I32::splat(simd, height)];
+        }
+        let each: [i32; LANES] = self.each.into();
+        let levels = lanes_of(
+            #[inline(always)]
+            |lane| strips.level(each[lane] as u32),
+        );
+        let [start, width, height, _] = transposed(simd, levels);
+        [start, width, height]
+    }
+}
+
+/// Where look-ups go.
 struct Place<S: Simd> {
-    level: I32<S>,
-    /// Of the first texel, within the level.
+    /// The first texel's, counted from the start of the base level.
     index: I32<S>,
     /// The share of the right texels, and of the lower ones.
     s: F32<S>,
@@ -219,25 +250,13 @@ impl<S: Simd> Place<S> {
     }
 }
 
-/// A side of a level, given that of the base level.
+/// [`Strips::index`](super::strips::Strips::index), for lanes.
 #[inline(always)]
-fn side<S: Simd>(base: u32, scale: F32<S>) -> I32<S> {
-    (scale * base as f32).to_int::<I32<S>>().max(1)
-}
-
-/// [`Blocks::index`](super::blocks::Blocks::index), for lanes.
-#[inline(always)]
-fn index<S: Simd>(width: I32<S>, [x, y]: [I32<S>; 2]) -> I32<S> {
-    const SHIFT: u32 = SIDE.trailing_zeros();
-    const IN_BLOCK: i32 = SIDE as i32 - 1;
-    let columns = (width + IN_BLOCK) >> SHIFT;
-    let block = (y >> SHIFT) * columns + (x >> SHIFT);
-    block * AREA as i32 + (y & IN_BLOCK) * PITCH as i32 + (x & IN_BLOCK)
-}
-
-#[inline(always)]
-fn last_level<S: Simd>(simd: S, texture: &Texture) -> F32<S> {
-    F32::splat(simd, (texture.blocks.level_count - 1) as f32)
+fn index<S: Simd>(height: I32<S>, [x, y]: [I32<S>; 2]) -> I32<S> {
+    let strip = x >> COLUMNS.trailing_zeros();
+    // The border makes a strip one row longer; eight columns less for each strip are
+    // one more than that takes.
+    (strip * height + y) * PITCH as i32 + (x + strip)
 }
 
 /// The first and the second texels of one row of all footprints.

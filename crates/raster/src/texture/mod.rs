@@ -1,7 +1,6 @@
 //! Pictures on surfaces: texels, mip levels and the ways to look them up.
 
 mod axis;
-mod blocks;
 mod channels;
 mod detail;
 mod dual;
@@ -11,13 +10,14 @@ mod mips;
 mod same_bits;
 mod sample;
 mod sampler;
+mod strips;
 
 pub use dual::Dual;
 pub use sampler::{Filter, MAX_ANISOTROPY, MipFilter, Sampler, Wrap};
 
 use crate::simd::{F32, Simd};
-use blocks::Blocks;
 use mips::Rows;
+use strips::Strips;
 use thiserror::Error;
 use trigon_math::{Vec2, Vec4, color};
 
@@ -62,7 +62,7 @@ pub enum TextureError {
 #[derive(Clone, Debug)]
 pub struct Texture {
     format: TextureFormat,
-    blocks: Blocks,
+    strips: Strips,
     /// Whether every texel is opaque: then alpha need not be looked up.
     opaque: bool,
 }
@@ -92,22 +92,22 @@ impl Texture {
         }
         let opaque = texels.iter().all(|&[.., alpha]| alpha == u8::MAX);
         let base = Rows { width, height, texels };
-        Ok(Self { format, blocks: Blocks::new(base, |rows| mips::halved(rows, format)), opaque })
+        Ok(Self { format, strips: Strips::new(base, |rows| mips::halved(rows, format)), opaque })
     }
 
     /// Width of the base level in texels.
     pub fn width(&self) -> u32 {
-        self.blocks.width
+        self.strips.width
     }
 
     /// Height of the base level in texels.
     pub fn height(&self) -> u32 {
-        self.blocks.height
+        self.strips.height
     }
 
     /// How many mip levels there are, the base included.
     pub fn level_count(&self) -> usize {
-        self.blocks.level_count as usize
+        self.strips.last_level as usize + 1
     }
 
     /// What the bytes mean.
@@ -119,7 +119,7 @@ impl Texture {
     /// [`Texture::new`] was given.
     pub fn texels(&self) -> impl Iterator<Item = [u8; 4]> + '_ {
         let (width, height) = (self.width(), self.height());
-        (0..height).flat_map(move |y| (0..width).map(move |x| self.blocks.base_texel([x, y])))
+        (0..height).flat_map(move |y| (0..width).map(move |x| self.strips.base_texel([x, y])))
     }
 
     /// The value at `uv` in linear light, alpha straight, filtered as the

@@ -5,8 +5,8 @@
 //! for lanes repeats bit for bit.
 
 use super::axis::{reduced, texel};
-use super::blocks::Blocks;
 use super::detail::Footprint;
+use super::strips::Strips;
 use super::{Filter, MipFilter, Sampler, Texture, decode, full_scale};
 use trigon_math::{Vec2, Vec4};
 
@@ -52,7 +52,7 @@ impl<'a> Lookup<'a> {
     #[inline]
     fn new(texture: &'a Texture, uv: Vec2, detail: f32, sampler: &'a Sampler) -> Self {
         let minified = detail > 0.0;
-        let last = (texture.blocks.level_count - 1) as f32;
+        let last = texture.strips.last_level as f32;
         let held = if detail < last { detail } else { last };
         let level = match sampler.mip {
             MipFilter::None => 0.0,
@@ -76,12 +76,12 @@ impl<'a> Lookup<'a> {
 
     #[inline]
     fn level(&self, level: u32) -> Vec4 {
-        let blocks = &self.texture.blocks;
-        let [width, height] = blocks.size(level);
+        let strips = &self.texture.strips;
+        let [start, width, height, _] = strips.level(level).map(i32::cast_unsigned);
         let (x, s) = texel(self.uv.x, width as f32, self.sampler.wrap_u, self.filter);
         let (y, t) = texel(self.uv.y, height as f32, self.sampler.wrap_v, self.filter);
-        let index = blocks.start(level) + Blocks::index(width, [x, y]);
-        let [top, bottom] = blocks.footprint(index);
+        let index = start + Strips::index(height, [x, y]);
+        let [top, bottom] = strips.footprints().at(index);
         mix(self.row(top, s), self.row(bottom, s), t)
     }
 
