@@ -21,9 +21,10 @@ struct Few<S: Simd> {
 
 impl<S: Simd> Few<S> {
     #[inline(always)]
-    fn find(simd: S, vector: &Vector<'_>) -> Option<Self> {
-        let lanes = U32::simd_from(simd, vector.names);
-        let first = vector.names[0];
+    fn find(simd: S, vector: &Vector<'_, S>) -> Option<Self> {
+        let lanes = vector.names;
+        let names: [u32; LANES] = lanes.into();
+        let first = names[0];
         let mut others = !lanes.simd_eq(U32::splat(simd, first)).to_bitmask() & 0xff;
         let slot = vector.slot(first);
         let masks = [Mask::splat(simd, false); TRIANGLES - 1];
@@ -32,7 +33,7 @@ impl<S: Simd> Few<S> {
             if others == 0 {
                 return Some(few);
             }
-            let name = vector.names[others.trailing_zeros() as usize % LANES];
+            let name = names[others.trailing_zeros() as usize % LANES];
             *mask = lanes.simd_eq(U32::splat(simd, name));
             *slot = vector.slot(name);
             few.count += 1;
@@ -42,26 +43,46 @@ impl<S: Simd> Few<S> {
     }
 }
 
+/// Rows for the longest record, in whole records' rows.
+const ROWS: usize = (hot::COUNT + 3 * MAX_VARYINGS).next_multiple_of(LANES);
+
 /// A row of eight numbers for each column of a record, the triangles of eight
 /// pixels side by side.
 pub(crate) struct Columns {
-    rows: Vec<Row>,
-    /// Filled only for vectors with a wide or cut triangle.
-    pub(super) cold: [Row; cold::COUNT],
-    cut: CutColumns,
-    /// Whether one of them is cut.
-    is_cut: bool,
+    rows: Box<[Row; ROWS]>,
+    /// Whether a triangle is wide or cut.
+    is_special: bool,
+    /// Filled only then.
+    special: Special,
     /// The one triangle that all lanes hold.
     uniform: Option<u32>,
 }
 
+/// What only vectors with a wide or cut triangle need.
+pub(super) struct Special {
+    pub(super) cold: [Row; cold::COUNT],
+    /// Twice the areas.
+    pub(super) areas: [f64; LANES],
+    cut: CutColumns,
+    /// Whether one of them is cut.
+    is_cut: bool,
+}
+
+impl Special {
+    /// The corners' weights at the vertices, if a triangle is cut.
+    #[inline(always)]
+    pub(super) fn cut(&self) -> Option<&CutColumns> {
+        self.is_cut.then_some(&self.cut)
+    }
+}
+
 impl Columns {
     pub(crate) fn new() -> Self {
+        let (cold, cut) = ([[0; LANES]; cold::COUNT], [[[0.0; LANES]; 3]; 3]);
         Self {
-            rows: vec![[0; LANES]; (hot::COUNT + 3 * MAX_VARYINGS).next_multiple_of(LANES)],
-            cold: [[0; LANES]; cold::COUNT],
-            cut: [[[0.0; LANES]; 3]; 3],
-            is_cut: false,
+            rows: Box::new([[0; LANES]; ROWS]),
+            is_special: false,
+            special: Special { cold, areas: [0.0; LANES], cut, is_cut: false },
             uniform: None,
         }
     }
@@ -85,11 +106,10 @@ impl Columns {
         [first, second, &others[..count]]
     }
 
-    /// The corners' weights at the vertices, if a triangle is cut, and some are
-    /// special.
+    /// What is special, if a triangle is wide or cut.
     #[inline(always)]
-    pub(super) fn cut(&self) -> Option<&CutColumns> {
-        self.is_cut.then_some(&self.cut)
+    pub(super) fn special(&self) -> Option<&Special> {
+        self.is_special.then_some(&self.special)
     }
 
     /// Loads the records of eight pixels.
@@ -99,7 +119,7 @@ impl Columns {
         simd: S,
         context: &ShadeContext<'_>,
         records: &Records,
-        vector: &Vector<'_>,
+        vector: &Vector<'_, S>,
     ) {
         match Few::find(simd, vector) {
             Some(Few { count: 1, slots: [slot, ..], .. }) => {
@@ -129,15 +149,16 @@ impl Columns {
                 }
             }
         }
-        if self.any_special(simd) {
-            self.cold = records.cold(simd, context, vector.slots());
-            self.load_cuts(context);
+        self.is_special = self.any_special(simd);
+        if self.is_special {
+            self.special.cold = records.cold(simd, context, vector.slots());
+            self.special.load(context);
         }
     }
 
     /// Whether a triangle is wide or cut: no other has steps of 0.
     #[inline(always)]
-    pub(super) fn any_special<S: Simd>(&self, simd: S) -> bool {
+    fn any_special<S: Simd>(&self, simd: S) -> bool {
         let hot = self.hot();
         let steps = I32::simd_from(simd, hot[hot::STEPS]) | I32::simd_from(simd, hot[hot::STEPS + 1]);
         steps.simd_eq(I32::splat(simd, 0)).any_true()
@@ -169,7 +190,7 @@ impl Columns {
 
     /// Apart, so that it takes no registers where it is not needed.
     #[inline(always)]
-    fn gather_apart<S: Simd>(&mut self, simd: S, records: &Records, vector: &Vector<'_>) {
+    fn gather_apart<S: Simd>(&mut self, simd: S, records: &Records, vector: &Vector<'_, S>) {
         simd.vectorize(
             #[inline(always)]
             || self.gather(simd, records, vector.slots()),
@@ -192,10 +213,22 @@ impl Columns {
             transpose(simd, rows, columns);
         }
     }
+}
+
+impl Special {
+    /// The rest, from the cold columns.
+    #[cold]
+    fn load(&mut self, context: &ShadeContext<'_>) {
+        self.areas = std::array::from_fn(|lane| {
+            let side = |column: usize| f64::from(self.cold[column][lane]);
+            let [right, down] = [cold::RIGHT, cold::DOWN];
+            (side(right) * side(down + 1) - side(right + 1) * side(down)).abs()
+        });
+        self.load_cuts(context);
+    }
 
     /// The corners' weights at the vertices of cut triangles; the vertices are the
     /// corners in all other lanes.
-    #[cold]
     fn load_cuts(&mut self, context: &ShadeContext<'_>) {
         self.is_cut = false;
         for lane in 0..LANES {

@@ -20,7 +20,7 @@ pub struct FragmentLanes<'a, S: Simd> {
     pub(crate) place: Weights<S>,
     /// In 1/256 internal pixel from the tile's corner.
     pub(crate) point: [I32<S>; 2],
-    pub(super) vector: &'a Vector<'a>,
+    pub(super) vector: &'a Vector<'a, S>,
     pub(super) records: &'a Records,
     pub(crate) context: &'a ShadeContext<'a>,
 }

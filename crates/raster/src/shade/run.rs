@@ -58,7 +58,7 @@ pub(super) fn for_each_vector<S: Simd>(
     simd: S,
     context: &ShadeContext<'_>,
     (task, columns): (&Task<'_>, &mut Columns),
-    mut visit: impl FnMut(&FragmentLanes<'_, S>, &Vector<'_>),
+    mut visit: impl FnMut(&FragmentLanes<'_, S>, &Vector<'_, S>),
 ) {
     columns.reset();
     for number in 0..task.vectors() {
@@ -81,10 +81,10 @@ fn fragments<'v, S: Simd>(
     simd: S,
     context: &'v ShadeContext<'v>,
     (records, columns): (&'v Records, &'v Columns),
-    vector: &'v Vector<'_>,
+    vector: &'v Vector<'_, S>,
 ) -> FragmentLanes<'v, S> {
+    let point = points(simd, context, columns, vector.spots);
     let triangles = TriangleLanes::load(simd, columns);
-    let point = points(simd, context, &triangles, U32::simd_from(simd, vector.spots));
     FragmentLanes {
         simd,
         varyings: columns.varyings(records.shape().varyings),
@@ -100,25 +100,21 @@ fn fragments<'v, S: Simd>(
 /// the sample that is asked for; else at their centre, or if their triangle does
 /// not cover it at the lowest-numbered sample that it covers.
 #[inline(always)]
-fn points<S: Simd>(
-    simd: S,
-    context: &ShadeContext<'_>,
-    triangle: &TriangleLanes<'_, S>,
-    spots: U32<S>,
-) -> [I32<S>; 2] {
+fn points<S: Simd>(simd: S, context: &ShadeContext<'_>, columns: &Columns, spots: U32<S>) -> [I32<S>; 2] {
     let (corners, elsewhere) = Work::corners(spots);
-    let centre = corners.each(
-        #[inline(always)]
-        |column| column + 128,
-    );
-    match elsewhere {
-        None => centre,
-        // Apart, so that it takes no registers where pixels have one sample.
-        Some(spots) => simd.vectorize(
+    let Some(spots) = elsewhere else {
+        return corners.each(
             #[inline(always)]
-            || sample_points(simd, context, triangle, (corners, &spots)),
-        ),
-    }
+            |column| column + 128,
+        );
+    };
+    // Apart, and nothing lent to it that others would have to keep in memory for that:
+    // it takes no registers where pixels have one sample.
+    let [x, y] = simd.vectorize(
+        #[inline(always)]
+        move || sample_points(simd, context, &TriangleLanes::load(simd, columns), (corners, &spots)),
+    );
+    [x, y]
 }
 
 /// The same where some pixels may be shaded elsewhere than at their centres.

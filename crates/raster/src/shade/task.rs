@@ -47,12 +47,12 @@ pub(crate) enum Destination<'t> {
 }
 
 /// Eight pixels to be shaded together.
-pub(super) struct Vector<'t> {
+pub(super) struct Vector<'t, S: Simd> {
     /// What the lanes see, by names that stand for records. Lanes to spare repeat one
     /// that is asked for.
-    pub(super) names: [u32; LANES],
+    pub(super) names: U32<S>,
     named: Names<'t>,
-    pub(super) spots: [u32; LANES],
+    pub(super) spots: U32<S>,
     /// The lanes that are asked for.
     pub(super) active: u64,
     pub(super) destination: Destination<'t>,
@@ -68,7 +68,7 @@ enum Names<'t> {
     Winners(&'t [u32], u32),
 }
 
-impl<'t> Vector<'t> {
+impl<'t, S: Simd> Vector<'t, S> {
     /// The number of the record that a name stands for.
     #[inline(always)]
     pub(super) fn slot(&self, name: u32) -> u32 {
@@ -81,7 +81,7 @@ impl<'t> Vector<'t> {
     /// The numbers of the lanes' records.
     #[inline(always)]
     pub(super) fn slots(&self) -> [u32; LANES] {
-        self.names.each(
+        <[u32; LANES]>::from(self.names).each(
             #[inline(always)]
             |name| self.slot(name),
         )
@@ -111,15 +111,15 @@ impl<'t> Task<'t> {
 
     /// One of the vectors.
     #[inline(always)]
-    pub(super) fn vector<S: Simd>(&self, simd: S, number: usize) -> Vector<'t> {
+    pub(super) fn vector<S: Simd>(&self, simd: S, number: usize) -> Vector<'t, S> {
         match self.groups.get(number) {
             Some(group) => self.group(simd, group),
-            None => self.listed((number - self.groups.len()) * LANES),
+            None => self.listed(simd, (number - self.groups.len()) * LANES),
         }
     }
 
     #[inline(always)]
-    fn group<S: Simd>(&self, simd: S, group: &Group) -> Vector<'t> {
+    fn group<S: Simd>(&self, simd: S, group: &Group) -> Vector<'t, S> {
         let (winners, step) = self.winners;
         let winners =
             winners[group.number as usize * step..].first_chunk().expect("a group has eight pixels");
@@ -133,28 +133,30 @@ impl<'t> Task<'t> {
                 Mask::from_bitmask(simd, u64::from(group.edges)).select(Work::covering_first(spots), spots);
         }
         Vector {
-            names: names.into(),
+            names,
             named: Names::Winners(self.slots, self.base),
-            spots: spots.into(),
+            spots,
             active,
             destination: Destination::Group(pixel, group.edges != 0),
         }
     }
 
     #[inline(always)]
-    fn listed(&self, first: usize) -> Vector<'t> {
+    fn listed<S: Simd>(&self, simd: S, first: usize) -> Vector<'t, S> {
         let fragments = &self.fragments[first..self.fragments.len().min(first + LANES)];
         let lane = |lane: usize| fragments.get(lane).unwrap_or(&fragments[0]);
+        let names = lanes_of(
+            #[inline(always)]
+            |number| lane(number).slot - self.base,
+        );
+        let spots = lanes_of(
+            #[inline(always)]
+            |number| lane(number).work.spot(),
+        );
         Vector {
-            names: lanes_of(
-                #[inline(always)]
-                |number| lane(number).slot - self.base,
-            ),
+            names: U32::simd_from(simd, names),
             named: Names::Slots,
-            spots: lanes_of(
-                #[inline(always)]
-                |number| lane(number).work.spot(),
-            ),
+            spots: U32::simd_from(simd, spots),
             active: (1 << fragments.len()) - 1,
             destination: Destination::Listed(fragments),
         }

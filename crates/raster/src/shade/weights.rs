@@ -39,7 +39,10 @@ pub(crate) struct TriangleLanes<'c, S: Simd> {
     /// vertex 0.
     right: [I32<S>; 2],
     down: [I32<S>; 2],
-    area: Area<S>,
+    /// Twice the area.
+    area: I32<S>,
+    /// The same where a triangle is wide or cut: in 32 bits it need not fit.
+    wide: Option<&'c [f64; LANES]>,
     /// 1/w of the vertices over a power of two near the largest.
     q: [F32<S>; 3],
     cut: Option<&'c CutColumns>,
@@ -48,12 +51,6 @@ pub(crate) struct TriangleLanes<'c, S: Simd> {
 /// The weights of the corners at the vertices of cut triangles, in lanes:
 /// `[vertex][corner]`.
 pub(super) type CutColumns = [[[f32; LANES]; 3]; 3];
-
-/// Twice the area, in 32 bits where every lane's triangle is small.
-enum Area<S: Simd> {
-    Small(I32<S>),
-    Wide([f64; LANES]),
-}
 
 /// Where eight points lie in their triangles.
 pub(crate) struct Weights<S: Simd> {
@@ -92,29 +89,26 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
             y: point >> 16,
             right,
             down,
-            area: small_area(right, down),
+            area: (right[0] * down[1] - right[1] * down[0]).abs(),
+            wide: None,
             q: [0, 1, 2].each(
                 #[inline(always)]
                 |vertex| column(hot::Q + vertex).bitcast(),
             ),
             cut: None,
         };
-        if !columns.any_special(simd) {
-            return small;
-        }
+        let Some(special) = columns.special() else { return small };
         let column = inlined(
             #[inline(always)]
-            |column: usize| I32::simd_from(simd, columns.cold[column]),
+            |column: usize| I32::simd_from(simd, special.cold[column]),
         );
-        let right = [column(cold::RIGHT), column(cold::RIGHT + 1)];
-        let down = [column(cold::DOWN), column(cold::DOWN + 1)];
         Self {
             x: column(cold::POINT),
             y: column(cold::POINT + 1),
-            right,
-            down,
-            area: wide_area(right, down),
-            cut: columns.cut(),
+            right: [column(cold::RIGHT), column(cold::RIGHT + 1)],
+            down: [column(cold::DOWN), column(cold::DOWN + 1)],
+            wide: Some(&special.areas),
+            cut: special.cut(),
             ..small
         }
     }
@@ -132,9 +126,14 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
         );
         let [share_x, share_y] = [self.right, self.down].each(
             #[inline(always)]
-            |step| self.share_steps(simd, step),
+            |step| self.share_steps(step),
         );
-        let (right, down) = (slopes(share_x, weights, inverse), slopes(share_y, weights, inverse));
+        // A power of two, which rounds nothing wherever it is multiplied in.
+        let pixel = F32::splat(simd, 256.0);
+        let [right, down] = [share_x, share_y].each(
+            #[inline(always)]
+            |steps| slopes(steps, weights, inverse * pixel),
+        );
         Weights {
             weights,
             slopes: [[right[0], down[0]], [right[1], down[1]]],
@@ -144,7 +143,7 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
             distances: [0, 1, 2].each(
                 #[inline(always)]
                 |k| {
-                    let (dx, dy) = (share_x[k], share_y[k]);
+                    let (dx, dy) = (share_x[k] * pixel, share_y[k] * pixel);
                     shares[k] / (dx * dx + dy * dy).sqrt()
                 },
             ),
@@ -160,13 +159,13 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
             |steps| inclusive(steps),
         );
         let (dx, dy) = (x - self.x, y - self.y);
-        let Area::Small(area) = self.area else {
+        if self.wide.is_some() {
             let (edges, _) = self.edges(simd, dx, dy);
             return is_inside(edges[0], owned[0])
                 & is_inside(edges[1], owned[1])
                 & is_inside(edges[2], owned[2]);
-        };
-        let [a, b, c] = self.small_edges(area, dx, dy);
+        }
+        let [a, b, c] = self.small_edges(dx, dy);
         // One less where the edge itself is not inside: then the signs decide.
         let [i, j, k] = owned.each(
             #[inline(always)]
@@ -177,46 +176,42 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
 
     /// The edge functions of small triangles.
     #[inline(always)]
-    fn small_edges(&self, area: I32<S>, dx: I32<S>, dy: I32<S>) -> [I32<S>; 3] {
+    fn small_edges(&self, dx: I32<S>, dy: I32<S>) -> [I32<S>; 3] {
         let [b, c] = [0, 1].each(
             #[inline(always)]
             |i| self.right[i] * dx + self.down[i] * dy,
         );
-        [area - b - c, b, c]
+        [self.area - b - c, b, c]
     }
 
     /// The edge functions and the area, each rounded once.
     #[inline(always)]
     fn edges(&self, simd: S, dx: I32<S>, dy: I32<S>) -> ([F32<S>; 3], F32<S>) {
-        match &self.area {
-            Area::Small(area) => (self.small_edges(*area, dx, dy).each(SimdCvt::to_f32), area.to_f32()),
-            Area::Wide(area) => {
-                let [dx, dy]: [[i32; LANES]; 2] = [dx.into(), dy.into()];
-                let mut edges = [[0.0_f32; LANES]; 3];
-                let right: [[i32; LANES]; 2] = self.right.each(Into::into);
-                let down: [[i32; LANES]; 2] = self.down.each(Into::into);
-                for lane in 0..LANES {
-                    // Whole numbers below 2^53: exact.
-                    let (x, y) = (f64::from(dx[lane]), f64::from(dy[lane]));
-                    let b = f64::from(right[0][lane]) * x + f64::from(down[0][lane]) * y;
-                    let c = f64::from(right[1][lane]) * x + f64::from(down[1][lane]) * y;
-                    edges[0][lane] = (area[lane] - b - c) as f32;
-                    edges[1][lane] = b as f32;
-                    edges[2][lane] = c as f32;
-                }
-                let area = area.each(
-                    #[inline(always)]
-                    |area| area as f32,
-                );
-                (
-                    edges.each(
-                        #[inline(always)]
-                        |edge| F32::simd_from(simd, edge),
-                    ),
-                    F32::simd_from(simd, area),
-                )
-            }
+        let Some(areas) = self.wide else {
+            return (self.small_edges(dx, dy).each(SimdCvt::to_f32), self.area.to_f32());
+        };
+        let [dx, dy]: [[i32; LANES]; 2] = [dx.into(), dy.into()];
+        let mut edges = [[0.0_f32; LANES]; 3];
+        let right: [[i32; LANES]; 2] = self.right.each(Into::into);
+        let down: [[i32; LANES]; 2] = self.down.each(Into::into);
+        for lane in 0..LANES {
+            // Whole numbers below 2^53: exact.
+            let (x, y) = (f64::from(dx[lane]), f64::from(dy[lane]));
+            let b = f64::from(right[0][lane]) * x + f64::from(down[0][lane]) * y;
+            let c = f64::from(right[1][lane]) * x + f64::from(down[1][lane]) * y;
+            edges[0][lane] = (areas[lane] - b - c) as f32;
+            edges[1][lane] = b as f32;
+            edges[2][lane] = c as f32;
         }
+        let area = areas.each(
+            #[inline(always)]
+            |area| area as f32,
+        );
+        let edges = edges.each(
+            #[inline(always)]
+            |edge| F32::simd_from(simd, edge),
+        );
+        (edges, F32::simd_from(simd, area))
     }
 
     /// The corners' shares for values of the edge functions.
@@ -238,15 +233,11 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
         }
     }
 
-    /// What the shares change by in a pixel.
+    /// What the shares change by in 1/256 pixel.
     #[inline(always)]
-    fn share_steps(&self, simd: S, steps: [I32<S>; 2]) -> [F32<S>; 3] {
-        let pixel = F32::splat(simd, 256.0);
+    fn share_steps(&self, steps: [I32<S>; 2]) -> [F32<S>; 3] {
         let [b, c] = steps;
-        self.shares([-(b + c), b, c].each(
-            #[inline(always)]
-            |step| step.to_f32() * pixel,
-        ))
+        self.shares([-(b + c), b, c].each(SimdCvt::to_f32))
     }
 }
 
@@ -306,23 +297,6 @@ impl<S: Simd> SimdCvt<S> for I32<S> {
     fn to_f32(self) -> F32<S> {
         self.to_float()
     }
-}
-
-/// Twice the area, from the sides along which the edge functions step.
-#[inline(always)]
-fn small_area<S: Simd>(right: [I32<S>; 2], down: [I32<S>; 2]) -> Area<S> {
-    Area::Small((right[0] * down[1] - right[1] * down[0]).abs())
-}
-
-#[cold]
-fn wide_area<S: Simd>(right: [I32<S>; 2], down: [I32<S>; 2]) -> Area<S> {
-    let [right, down]: [[Row; 2]; 2] = [right.each(Into::into), down.each(Into::into)];
-    let side = |of: &[Row; 2], edge: usize, lane: usize| f64::from(of[edge][lane]);
-    Area::Wide(std::array::from_fn(|lane| {
-        let area =
-            side(&right, 0, lane) * side(&down, 1, lane) - side(&right, 1, lane) * side(&down, 0, lane);
-        area.abs()
-    }))
 }
 
 /// The largest power of two not above a normal positive number.
