@@ -20,13 +20,28 @@ pub(super) fn list<S: Simd>(
     places: usize,
     shading: &mut Shading,
 ) -> usize {
-    shading.clear(places, buffer.samples);
+    match buffer.samples {
+        1 => list_samples::<S, 1>(simd, buffer, places, shading),
+        _ => list_samples::<S, 0>(simd, buffer, places, shading),
+    }
+}
+
+/// The same with `SAMPLES` samples to a pixel, if that is not 0.
+#[inline(always)]
+fn list_samples<S: Simd, const SAMPLES: usize>(
+    simd: S,
+    buffer: &VisibilityBuffer,
+    places: usize,
+    shading: &mut Shading,
+) -> usize {
+    let samples = if SAMPLES > 0 { SAMPLES } else { buffer.samples };
+    shading.clear(places, samples);
     let (mut pixels, mut last) = (0, U32::splat(simd, NOBODY));
     let rows = buffer.winners().as_chunks::<LANES>().0;
     let Shading { slots, groups, fragments, parts, empty_groups, edges, .. } = &mut *shading;
     // As a slice: where it lies is looked up once.
     let marks = slots.as_mut_slice();
-    for (group, rows) in rows.chunks_exact(buffer.samples).enumerate() {
+    for (group, rows) in rows.chunks_exact(samples).enumerate() {
         let (first, others) = rows.split_first().expect("a pixel has a sample");
         let lanes = U32::simd_from(simd, *first);
         // As before: often within large triangles.
@@ -82,9 +97,11 @@ fn number(places: usize, shading: &mut Shading) {
         count += std::mem::replace(slot, count as u32) as usize;
     }
     seen.truncate(count);
-    let listed = fragments.iter_mut().chain(parts).map(|fragment| &mut fragment.slot);
-    for slot in listed.chain(groups.iter_mut().map(|group| &mut group.slot)) {
-        *slot = slots[*slot as usize];
+    for group in groups {
+        group.slot = slots[group.slot as usize];
+    }
+    for fragment in fragments.iter_mut().chain(parts) {
+        fragment.slot = slots[fragment.slot as usize];
     }
 }
 
