@@ -104,7 +104,7 @@ impl<'f> FrameView<'f> {
     #[inline(always)]
     pub(crate) fn vertices(&self, draw: usize) -> DrawVertices<'f> {
         let plan = &self.plan.draws[draw];
-        let places = &self.places[plan.places..plan.places + plan.used.len()];
+        let places = &self.places[plan.places.clone()];
         let pipeline = self.pass[plan.draw].pipeline;
         DrawVertices { slots: self.plan.slots(plan), places, pipeline, token: self.token }
     }

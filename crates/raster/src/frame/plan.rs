@@ -17,8 +17,9 @@ pub(crate) struct DrawPlan {
     /// Ordinals of its primitives in the frame.
     pub(crate) ordinals: Range<u32>,
     pub(crate) used: UsedVertices,
-    /// Where its vertices' places start in the frame's array.
-    pub(crate) places: usize,
+    /// Its vertices' places in the frame's array, and one more, of those that do not
+    /// exist.
+    pub(crate) places: Range<usize>,
     /// The same for its varyings.
     pub(crate) varyings: usize,
 }
@@ -32,8 +33,9 @@ pub(crate) struct Plan {
     pub(crate) draws: Vec<DrawPlan>,
     /// The vertices of those draws that use few of many.
     listed: Vec<u32>,
-    /// How many places and varyings there are in all.
+    /// How many vertices, places and varyings there are in all.
     pub(crate) vertices: usize,
+    pub(crate) places: usize,
     pub(crate) varyings: usize,
     /// Whether the order of ordinals is the order of (object, face) throughout
     /// the opaque draws.
@@ -46,11 +48,11 @@ impl Plan {
     pub(crate) fn make(&mut self, recorded: &[Recorded<'_>], chunks: &mut Vec<Chunk>) -> usize {
         self.draws.clear();
         self.listed.clear();
-        (self.vertices, self.varyings) = (0, 0);
+        (self.vertices, self.places, self.varyings) = (0, 0, 0);
         self.draws.extend((0..recorded.len()).map(|draw| {
             let Recorded { geometry, pipeline } = &recorded[draw];
             let used = UsedVertices::new(geometry.indices(), pipeline.vertex_count(), &mut self.listed);
-            DrawPlan { draw, ordinals: 0..0, used, places: 0, varyings: 0 }
+            DrawPlan { draw, ordinals: 0..0, used, places: 0..0, varyings: 0 }
         }));
         // Equal keys stay in the order of the pass.
         self.draws.sort_unstable_by_key(|plan| {
@@ -63,7 +65,8 @@ impl Plan {
             let end = ordinal + geometry.len() as u32;
             plan.ordinals = ordinal..end;
             ordinal = end;
-            plan.places = self.vertices;
+            plan.places = self.places..self.places + plan.used.len() + 1;
+            self.places = plan.places.end;
             plan.varyings = self.varyings;
             self.vertices += plan.used.len();
             self.varyings += plan.used.len() * pipeline.stride();

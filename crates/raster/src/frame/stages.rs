@@ -83,7 +83,7 @@ pub(crate) fn prepare<'f>(
     let Arena { plan, places, varyings, chunks, .. } = arena;
     let used = plan.make(&pass.draws, chunks);
     let chunks = &mut chunks[..used];
-    places.resize(plan.vertices, ScreenVertex::default());
+    places.resize(plan.places, ScreenVertex::MISSING);
     varyings.resize(plan.varyings, 0.0);
     let mut clock = Clock::new(how.timed);
     run_vertices(&pass.draws, plan, viewport, how, (places, varyings));
@@ -149,6 +149,9 @@ fn run_vertices(
         let mut rest = rest.lock().unwrap_or_else(PoisonError::into_inner);
         while plan.draws.get(rest.draw).is_some_and(|draw| rest.slot == draw.used.len()) {
             (rest.draw, rest.slot) = (rest.draw + 1, 0);
+            let (missing, others) = std::mem::take(&mut rest.places).split_first_mut()?;
+            *missing = ScreenVertex::MISSING;
+            rest.places = others;
         }
         let draw = plan.draws.get(rest.draw)?;
         let slots = rest.slot..draw.used.len().min(rest.slot + VERTICES);
@@ -190,7 +193,7 @@ fn set_up(
                 let recorded = &pass[draw.draw];
                 let vertices = DrawVertices {
                     slots: plan.slots(draw),
-                    places: &places[draw.places..draw.places + draw.used.len()],
+                    places: &places[draw.places.clone()],
                     pipeline: recorded.pipeline,
                     token: how.token,
                 };

@@ -6,13 +6,11 @@ use crate::shade::AnyPipeline;
 use crate::simd::Token;
 use trigon_math::Vec4;
 
-/// A vertex that does not exist.
-static MISSING: ScreenVertex = ScreenVertex([ScreenVertex::NOWHERE, Outcode::INVALID.bits() as i32, 0, 0]);
-
 /// Looks up a draw's vertices by the indices that the draw uses.
 #[derive(Clone, Copy)]
 pub(crate) struct DrawVertices<'a> {
     pub(crate) slots: Slots<'a>,
+    /// The last is that of vertices that do not exist.
     pub(crate) places: &'a [ScreenVertex],
     pub(crate) pipeline: &'a dyn AnyPipeline,
     pub(crate) token: Token,
@@ -22,7 +20,8 @@ impl DrawVertices<'_> {
     /// The vertex of an index; one without a place and invalid if there is none.
     #[inline(always)]
     pub(crate) fn get(&self, index: u32) -> &ScreenVertex {
-        self.places.get(self.slots.of(index)).unwrap_or(&MISSING)
+        let missing = self.places.len().checked_sub(1).expect("there is one place more than vertices");
+        &self.places[self.slots.of(index).min(missing)]
     }
 
     /// The planes that a vertex lies beyond; none for one that needs no cutting.

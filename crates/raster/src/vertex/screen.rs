@@ -10,6 +10,9 @@ use trigon_math::{Fixed, FixedPoint};
 pub(crate) struct ScreenVertex(pub(crate) [i32; 4]);
 
 impl ScreenVertex {
+    /// A vertex that does not exist.
+    pub(crate) const MISSING: Self = Self([Self::NOWHERE, Outcode::INVALID.bits() as i32, 0, 0]);
+
     /// In place of x: no vertex on the grid has it.
     pub(crate) const NOWHERE: i32 = i32::MIN;
 
