@@ -4,8 +4,9 @@ use crate::frame::FrameView;
 use crate::pass::Background;
 use crate::shade::{EmptyGroup, Encoding, Shading};
 use crate::simd::LANES;
-use crate::target::Bands;
+use crate::target::{Band, Bands};
 use crate::tile::TileArea;
+use std::ops::Range;
 use trigon_math::{UVec2, Vec4};
 
 impl FrameView<'_> {
@@ -28,37 +29,54 @@ impl FrameView<'_> {
 
 /// Draws a tile that nothing is in.
 pub(crate) fn fill_background(frame: &FrameView<'_>, area: &TileArea, bands: &Bands<'_>) {
-    let [left, top] = area.origin.map(|v| v as u32 / frame.supersampling);
-    let [columns, rows] = frame.drawn_part(area);
-    let constant = matches!(frame.background, Background::Color(_));
-    let color = frame.background_of(UVec2::ZERO);
-    let codes = [Encoding::Srgb8, Encoding::Unorm8].map(|encoding| encoding.encode(color));
-    let (mut band, first) = bands.lock([left, top]);
-    for y in rows {
-        let start = first + y * bands.width();
-        let row = start + columns.start..start + columns.end;
-        if let Some(depths) = band.depth.get_mut(row.clone()) {
-            depths.fill(0.0);
+    let corner = area.origin.map(|v| v as u32 / frame.supersampling);
+    let (mut band, first) = bands.lock(corner);
+    let band = &mut *band;
+    let part = Part { first, width: bands.width(), drawn: frame.drawn_part(area) };
+    part.fill(band.depth, 0.0);
+    for ids in [&mut band.objects, &mut band.faces, &mut band.triangles] {
+        part.fill(ids, u32::MAX);
+    }
+    match frame.background {
+        Background::Color(_) => {
+            let color = frame.background_of(UVec2::ZERO);
+            part.fill(band.srgb8, Encoding::Srgb8.encode(color));
+            part.fill(band.unorm8, Encoding::Unorm8.encode(color));
+            part.fill(band.linear, color);
         }
-        let band = &mut *band;
-        for ids in [&mut band.objects, &mut band.faces, &mut band.triangles] {
-            if let Some(ids) = ids.get_mut(row.clone()) {
-                ids.fill(u32::MAX);
-            }
+        Background::PerPixel(_) => part.paint(band, |at| frame.background_of(UVec2::from(corner) + at)),
+    }
+}
+
+/// The part of a band that a tile draws.
+struct Part {
+    /// The index of the tile's first pixel.
+    first: usize,
+    /// Pixels in a row of the band.
+    width: usize,
+    /// Columns and rows, from the tile's first pixel.
+    drawn: [Range<usize>; 2],
+}
+
+impl Part {
+    /// Fills a plane, if there is one.
+    fn fill<T: Copy>(&self, plane: &mut [T], value: T) {
+        if plane.is_empty() {
+            return;
         }
-        if constant {
-            for (picture, code) in [&mut band.srgb8, &mut band.unorm8].into_iter().zip(codes) {
-                if let Some(pixels) = picture.get_mut(row.clone()) {
-                    pixels.fill(code);
-                }
-            }
-            if let Some(pixels) = band.linear.get_mut(row) {
-                pixels.fill(color);
-            }
-            continue;
+        let [columns, rows] = &self.drawn;
+        for y in rows.clone() {
+            let start = self.first + y * self.width;
+            plane[start + columns.start..start + columns.end].fill(value);
         }
-        for (x, index) in columns.clone().zip(row) {
-            let color = frame.background_of(UVec2::new(left + x as u32, top + y as u32));
+    }
+
+    /// Gives each pixel a colour of its own.
+    fn paint(&self, band: &mut Band<'_>, color_at: impl Fn(UVec2) -> Vec4) {
+        let [columns, rows] = &self.drawn;
+        for (y, x) in rows.clone().flat_map(|y| columns.clone().map(move |x| (y, x))) {
+            let color = color_at(UVec2::new(x as u32, y as u32));
+            let index = self.first + y * self.width + x;
             if let Some(pixel) = band.linear.get_mut(index) {
                 *pixel = color;
             }

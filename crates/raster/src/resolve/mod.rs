@@ -60,12 +60,13 @@ fn copy_codes(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: 
         let whole = columns.start + head.len();
         let (eights, tail) = row.as_chunks_mut::<8>();
         let copied = whole + 8 * eights.len();
-        if let Some(codes) = codes.get(TileArea::index_of([whole, y])..) {
-            for (pixels, block) in eights.iter_mut().zip(codes.chunks(BLOCK)) {
-                let row = [0, LANES].map(|group| block[group..].first_chunk::<4>());
-                for (pixels, codes) in pixels.as_chunks_mut().0.iter_mut().zip(row) {
-                    *pixels = codes.expect("groups are whole").each(u32::to_le_bytes);
-                }
+        let blocks = &codes.as_chunks::<BLOCK>().0[TileArea::index_of([whole, y]) / BLOCK..];
+        // The same in each block: what is known of it is not asked for each.
+        let left = TileArea::index_of([0, y % 8]);
+        for (pixels, block) in eights.iter_mut().zip(blocks) {
+            for (pixels, at) in pixels.as_chunks_mut().0.iter_mut().zip([left, left + LANES]) {
+                let codes = block[at..].first_chunk::<4>().expect("groups are whole");
+                *pixels = codes.each(u32::to_le_bytes);
             }
         }
         copy_some(tail, codes, [copied, y]);
