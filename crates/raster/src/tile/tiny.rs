@@ -141,6 +141,8 @@ impl Cover<'_> {
     #[inline(always)]
     fn hides_tiny(&self, eight: &Eight, lane: usize, buffer: &mut VisibilityBuffer) -> bool {
         let high = eight.high[lane];
+        // The least of what hides it.
+        let limit = if self.in_order { high } else { high.next_up() };
         let [[left, width], [top, height]] = eight.pixels.each_ref().each(
             #[inline(always)]
             |[first, last]| [first[lane] >> 3, (last[lane] >> 3) + 1 - (first[lane] >> 3)],
@@ -157,7 +159,7 @@ impl Cover<'_> {
             } else {
                 bounds.farthest
             };
-            if !self.hides(farthest, high) {
+            if farthest < limit {
                 hidden = false;
                 buffer.note_write(block, high);
             }
@@ -184,6 +186,8 @@ fn rows<S: Simd, const WIDTH: usize>(
     let width = if WIDTH > 0 { WIDTH } else { tiny.columns[1] - tiny.columns[0] + 1 };
     let (depths, winners) =
         (buffer.depth.as_chunks_mut::<LANES>().0, buffer.winner.as_chunks_mut::<LANES>().0);
+    // As many: what one comparison finds in the one is in the other, too.
+    let winners = &mut winners[..depths.len()];
     let Start { mut edges, way: [first, mut dy] } = *start;
     let [right, down] = tiny.slopes;
     let mut ties = Mask::splat(simd, false);
