@@ -35,6 +35,7 @@ mod clip_map;
 mod controller;
 mod error;
 mod fit;
+mod part;
 mod pinhole;
 mod projection;
 mod projector;

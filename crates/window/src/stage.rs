@@ -223,7 +223,7 @@ impl Stage {
         self.orbit.fit_points(&points, self.viewport.aspect(), DEFAULT_MARGIN);
     }
 
-    /// What a pixel shows, and where in the world. Draws the ids once for it.
+    /// What a pixel shows, and where in the world. Draws the ids of that pixel alone.
     pub fn pick(&mut self, at: DVec2) -> Option<(Hit, DVec3)> {
         let size = self.viewport.size();
         if !at.cmpge(DVec2::ZERO).all() || !at.cmplt(size).all() {
@@ -233,12 +233,12 @@ impl Stage {
         let outputs = Outputs { depth: true, ids: true, ..Outputs::NONE };
         let mut settings =
             RenderSettings { outputs, samples_per_axis: 1, samples: 1, ..self.settings.clone() };
-        (settings.width, settings.height) = (self.viewport.width, self.viewport.height);
+        (settings.width, settings.height) = (1, 1);
         *self.renderer.settings_mut() = settings;
-        let frame = self.renderer.render(&self.scene, &camera).ok()?;
-        let (x, y) = (at.x as u32, at.y as u32);
-        let hit = frame.hit(self.scene.nodes(), x, y)?;
-        let distance = frame.depth.as_ref()?[(y * frame.width + x) as usize];
+        let pixel = camera.part(self.viewport, [at.x as u32, at.y as u32], [1, 1]).ok()?;
+        let frame = self.renderer.render(&self.scene, &pixel).ok()?;
+        let hit = frame.hit(self.scene.nodes(), 0, 0)?;
+        let distance = frame.depth?[0];
         let point = Projector::new(&camera, self.viewport).at_distance(at, distance.into())?;
         Some((hit, point))
     }

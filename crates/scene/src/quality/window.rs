@@ -1,6 +1,6 @@
 //! Parts of a picture, drawn by cameras of their own.
 
-use trigon_camera::{Camera, Projection};
+use trigon_camera::{Camera, Viewport};
 
 use crate::settings::RenderSettings;
 
@@ -37,27 +37,8 @@ impl Window {
     /// The camera that sees of a picture what lies in the window, pixel on pixel; `None`
     /// where numbers do not reach.
     pub(super) fn camera(&self, camera: &Camera, whole: &RenderSettings) -> Option<Camera> {
-        let sides = [whole.width, whole.height].map(f64::from);
-        // From −1 at the left and the lower edge to 1.
-        let at = |axis: usize, pixel: u32| f64::from(pixel) / sides[axis] * 2.0 - 1.0;
-        let [left, top] = self.corner;
-        let [right, bottom] = [left + self.size[0], top + self.size[1]];
-        let (x, y) = ([at(0, left), at(0, right)], [-at(1, bottom), -at(1, top)]);
-        if let Projection::Orthographic { height, near, far, .. } = camera.projection {
-            let half = [height * 0.5 * whole.aspect(), height * 0.5];
-            let middle = [(x[0] + x[1]) * 0.5 * half[0], (y[0] + y[1]) * 0.5 * half[1]];
-            let position = camera.position + camera.right() * middle[0] + camera.up() * middle[1];
-            let height = height * f64::from(self.size[1]) / sides[1];
-            let projection = Projection::orthographic(height, near, far).ok()?;
-            return Some(Camera { position, projection, ..*camera });
-        }
-        let matrix = camera.projection.matrix(whole.aspect());
-        let (near, far) = (camera.projection.near(), camera.projection.far());
-        // Where on the near plane clip space has these coordinates.
-        let across = x.map(|x| near * (x + matrix.z_axis.x) / matrix.x_axis.x);
-        let along = y.map(|y| near * (y + matrix.z_axis.y) / matrix.y_axis.y);
-        let projection = Projection::frustum(across[0], across[1], along[0], along[1], near, far).ok()?;
-        Some(Camera { projection, ..*camera })
+        let whole = Viewport { width: whole.width, height: whole.height };
+        camera.part(whole, self.corner, self.size).ok()
     }
 }
 

@@ -128,7 +128,7 @@ mod tests {
         let viewport = Viewport { width: 200, height: 200 };
         for camera in scene.surround(hemisphere(5, 1), 1.0) {
             let projector = Projector::new(&camera, viewport);
-            let rows = scene.visible_points().into_iter().filter_map(|point| projector.to_screen(point));
+            let rows = scene.visible_points().filter_map(|point| projector.to_screen(point));
             let lowest = rows.map(|at| at.y).fold(0.0, f64::max);
             assert!((lowest - 190.0).abs() < 1.0, "a twentieth of 200 pixels stays free below: {lowest}");
         }
