@@ -106,6 +106,20 @@ proptest! {
         }
     }
 
+    /// And it makes no vertex of its own there: what has no side of the border is kept or left
+    /// out as it is.
+    #[test]
+    fn a_plane_with_no_corner_inside_makes_no_vertex(
+        triangle in triangles_at_the_near_plane(f32::next_up), planes in input::planes(),
+    ) {
+        let [with, without] = [true, false].map(|near| {
+            let planes = input::Planes { near, far: false, horizontal: None, vertical: None, ..planes };
+            let polygon = check::clip(triangle, &planes);
+            polygon.vertices().iter().map(|vertex| vertex.weights).collect::<Vec<_>>()
+        });
+        prop_assert!(with.iter().all(|weights| without.contains(weights)), "{:?} of {:?}", with, without);
+    }
+
     /// Hard case 20.
     #[test]
     fn what_is_not_finite_is_dropped(
