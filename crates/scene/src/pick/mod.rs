@@ -60,7 +60,7 @@ pub struct Pick {
     /// of equally near ones the first. `None` for lines and points.
     pub vertex: Option<u32>,
     /// Of the polygon's edges the one that is seen nearest, as an index into
-    /// [`Mesh::edges`]; of equally near ones the first. `None` for lines and points.
+    /// [`Mesh::edges`](trigon_mesh::Mesh::edges); of equally near ones the first. `None` for lines and points.
     pub edge: Option<u32>,
 }
 

@@ -85,7 +85,7 @@ impl Workload {
             Self::FillReject => Scene::flat(geometry::layers(0..LAYERS)),
             Self::Torus => Scene::torus(Grid { along: 1000, around: 500 }),
             Self::KnotPhong => Scene::knot(Shading::BlinnPhong),
-            Self::KnotTextured => Scene::knot(Shading::Textured(knot_surface())),
+            Self::KnotTextured => Scene::knot(Shading::Textured(Box::new(knot_surface()))),
             Self::Cubes => Scene {
                 culling: Culling::Back,
                 ..Scene::flat(geometry::cubes()).seen_from(Vec3::new(30.0, 20.0, 36.0), [1.0, 200.0])

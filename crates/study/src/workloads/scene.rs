@@ -17,7 +17,7 @@ pub enum Shading {
     /// Light and highlight in each pixel, from interpolated normals.
     BlinnPhong,
     /// A texture, read trilinearly, times light at the vertices.
-    Textured(Texture),
+    Textured(Box<Texture>),
 }
 
 /// A mesh, how it looks and from where it is seen.
