@@ -199,7 +199,9 @@ impl Pacing {
             // Its end will be told.
             (Some(UnderWay { quality: Quality::Draft { .. }, .. }), ..) => None,
             _ if self.occupied => None,
-            (_, _, Frames::Wanted) => Some(paced),
+            // It is about to be given up, which takes a moment.
+            (Some(_), _, Frames::Wanted) => Some(frame),
+            (None, _, Frames::Wanted) => Some(paced),
             (Some(_), ..) => None,
             (None, Shown::Old, Frames::None) => Some(paced),
             (None, Shown::Draft, Frames::None) => Some(self.moved.map_or(now, |moved| moved + REST)),

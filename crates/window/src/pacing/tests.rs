@@ -98,6 +98,25 @@ fn a_draft_follows_the_last_one_at_once() {
 }
 
 #[test]
+fn what_moves_waits_in_frames_until_a_picture_is_given_up() {
+    let mut pacing = rested(ms(500));
+    pacing.changed(Change::Settled, ms(1000));
+    assert_eq!(begin(&mut pacing, ms(1000), Frames::None), Some(DRAFT), "it takes long, so first a draft");
+    pacing.finished(ms(1));
+    assert_eq!(begin(&mut pacing, ms(1100), Frames::None), Some(FULL), "at rest");
+    // A key goes down, and the picture has not noticed yet that nobody wants it.
+    let mut frames = 0;
+    for now in (1200..1300).map(ms) {
+        pacing.changed(Change::Settled, now);
+        if pacing.next(now, Frames::Wanted, None) == Wake::Now {
+            assert_eq!(begin(&mut pacing, now, Frames::Wanted), None, "another is under way");
+            frames += 1;
+        }
+    }
+    assert!((6..=7).contains(&frames), "{frames} frames in a tenth of a second, not as many as fit");
+}
+
+#[test]
 fn an_animation_is_paced_to_sixty_frames() {
     let mut pacing = rested(ms(0));
     let begun = run(&mut pacing, ms(1000), ms(2000), Frames::Wanted);
