@@ -4,7 +4,7 @@
 //! - Something moves: draft pictures, at most 60 a second, as small as the time allows.
 //! - It has come to rest: a full picture, then the further steps that are wanted, each
 //!   better than the one before, and then nothing. Where the first takes long, there is
-//!   a draft before it.
+//!   a draft before it; where that was not to be foreseen, it is given up for the draft.
 //! - Pictures are drawn beside the window. One at a time: a draft is always finished,
 //!   so that a movement shows; any other that nobody will see is cancelled.
 //! - What is written over the picture waits for none.
@@ -25,6 +25,9 @@ const REST: Duration = Duration::from_millis(150);
 
 /// Where a full picture takes longer than this, a draft goes before it.
 const PATIENCE: Duration = Duration::from_millis(100);
+
+/// And where it was expected sooner, it is given up after this long.
+const OVERDUE: Duration = Duration::from_millis(200);
 
 /// What has happened to the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -176,6 +179,23 @@ impl Pacing {
         }
     }
 
+    /// When a picture under way is to be given up for a draft, as what it takes was
+    /// known of another scene or from another place.
+    fn overdue(&self) -> Option<Duration> {
+        let Some(UnderWay { quality: Quality::Full(0), outdated: false }) = self.under_way else {
+            return None;
+        };
+        self.begun.filter(|_| self.shown == Shown::Old).map(|begun| begun + OVERDUE)
+    }
+
+    /// Time has passed: a picture that it takes too long to wait for is useless from now on.
+    pub(crate) fn lose_patience(&mut self, now: Duration) {
+        if self.overdue().is_some_and(|due| due <= now) {
+            self.full = Some(OVERDUE);
+            self.under_way = self.under_way.map(|picture| UnderWay { outdated: true, ..picture });
+        }
+    }
+
     /// Whether nobody will look at the picture under way.
     pub(crate) fn is_useless(&self) -> bool {
         self.under_way.is_some_and(|UnderWay { quality, outdated }| match quality {
@@ -202,7 +222,7 @@ impl Pacing {
             // It is about to be given up, which takes a moment.
             (Some(_), _, Frames::Wanted) => Some(frame),
             (None, _, Frames::Wanted) => Some(paced),
-            (Some(_), ..) => None,
+            (Some(_), ..) => self.overdue(),
             (None, Shown::Old, Frames::None) => Some(paced),
             (None, Shown::Draft, Frames::None) => Some(self.moved.map_or(now, |moved| moved + REST)),
             (None, Shown::Full(_), Frames::None) => self.next_step().map(|_| paced),

@@ -143,6 +143,7 @@ impl<'a> Session<'a> {
             self.handler.dropped(&mut self.stage, paths, self.modifiers);
             self.after_handler(now);
         }
+        self.pacing.lose_patience(now);
         if self.pacing.is_useless() {
             self.worker.cancel();
             self.collect(now);

@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use trigon_camera::{Camera, DEFAULT_MARGIN, Orbit, Projector, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
-use trigon_scene::{Hit, NodeId, Outputs, RenderSettings, Renderer};
+use trigon_scene::quality::Preset;
+use trigon_scene::{Hit, NodeId, Outputs, RenderSettings, Renderer, Shadows};
 
 use crate::drawer::{Drawer, DrawnBy};
 use crate::keymap::Keymap;
@@ -331,9 +332,17 @@ impl Stage {
         }
     }
 
-    /// How drafts are drawn, smaller by a factor in each direction.
+    /// How drafts are drawn: with no more rays than the preset for drafts has, and smaller
+    /// by a factor in each direction.
     pub(crate) fn draft_settings(&self, shrink: f64) -> RenderSettings {
-        let settings = RenderSettings { samples_per_axis: 1, samples: 1, ..self.settings.clone() };
+        let mut settings = RenderSettings { samples_per_axis: 1, samples: 1, ..self.settings.clone() };
+        let (effects, most) = (&mut settings.effects, Preset::Draft.quality());
+        if effects.shadows == Shadows::Rays {
+            effects.shadows = most.shadows;
+        }
+        if let Some(occlusion) = &mut effects.ambient_occlusion {
+            occlusion.rays = occlusion.rays.min(most.occlusion_rays);
+        }
         self.fitted(settings, shrink)
     }
 

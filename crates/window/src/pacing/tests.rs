@@ -141,6 +141,27 @@ fn a_single_change_is_drawn_in_full_if_that_is_quick() {
 }
 
 #[test]
+fn a_picture_that_takes_longer_than_was_known_is_given_up_for_a_draft() {
+    let mut pacing = rested(ms(20));
+    pacing.changed(Change::Settled, ms(1000));
+    assert_eq!(begin(&mut pacing, ms(1000), Frames::None), Some(FULL), "it is expected in 20 ms");
+    assert_eq!(pacing.next(ms(1020), Frames::None, None), Wake::At(ms(1200)), "what if it is not there?");
+    pacing.lose_patience(ms(1199));
+    assert!(!pacing.is_useless(), "not yet");
+    pacing.lose_patience(ms(1200));
+    assert!(pacing.is_useless(), "nobody waits for it");
+    assert_eq!(pacing.next(ms(1200), Frames::None, None), Wake::Never, "its end will be told");
+    pacing.cancelled();
+    let begun = run(&mut pacing, ms(1201), ms(100_000), Frames::None);
+    assert_eq!(begun.iter().map(|&(_, quality)| quality).collect::<Vec<_>>(), [DRAFT, FULL], "a draft first");
+    pacing.changed(Change::Settled, ms(200_000));
+    begin(&mut pacing, ms(200_000), Frames::None);
+    pacing.finished(ms(0));
+    pacing.changed(Change::Settled, ms(300_000));
+    assert_eq!(begin(&mut pacing, ms(300_000), Frames::None), Some(FULL), "what it took is known again");
+}
+
+#[test]
 fn writing_over_a_picture_draws_none() {
     let mut pacing = rested(ms(0));
     pacing.changed(Change::Overlay, ms(1000));

@@ -184,3 +184,17 @@ fn another_drawer_is_used_at_rest_and_compared_with_the_renderer() {
     run(&mut session, ms(5500));
     assert_eq!(session.next(ms(99_000)), Wake::Never, "and it is not asked again and again");
 }
+
+/// With the reference and ambient occlusion the window showed nothing for minutes.
+#[test]
+fn drafts_cast_few_rays() {
+    let mut stage = stage();
+    stage.settings.effects.shadows = trigon_scene::Shadows::Rays;
+    let occlusion = trigon_scene::AmbientOcclusion { rays: 256, distance: 1.0 };
+    stage.settings.effects.ambient_occlusion = Some(occlusion);
+    let draft = trigon_scene::quality::Quality::of(&stage.draft_settings(1.0));
+    assert_eq!(draft, Preset::Draft.quality(), "as the preset for drafts says");
+    stage.settings.effects.ambient_occlusion = None;
+    let plain = stage.draft_settings(1.0).effects;
+    assert_eq!(plain.ambient_occlusion, None, "and nothing is added");
+}
