@@ -84,7 +84,7 @@ macro_rules! flights {
         #[test]
         fn $test() {
             let scenes = flight_scenes::all();
-            fly(&scenes[$index], frames() / scenes.len() as u32);
+            fly(&scenes[$index], frames().div_ceil(scenes.len() as u32));
         }
     )*};
 }
