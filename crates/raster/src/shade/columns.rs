@@ -7,39 +7,53 @@ use super::{MAX_VARYINGS, ShadeContext};
 use crate::setup::Corners;
 use crate::simd::{Each, I32, LANES, Mask, Row, Simd, U32, inlined, prelude::*, transpose};
 
-/// Up to so many triangles are loaded side by side.
-const TRIANGLES: usize = 4;
-
-/// The triangles of eight pixels, if they are few.
-struct Few<S: Simd> {
-    count: usize,
-    /// The numbers of their records; the first stands in for those that are not.
-    slots: [u32; TRIANGLES],
-    /// The lanes of all but the first.
-    masks: [Mask<S>; TRIANGLES - 1],
+/// The records of the triangles of eight pixels, and the lanes of all but the first.
+enum Seen<S: Simd> {
+    One([u32; 1]),
+    Two([u32; 2], [Mask<S>; 1]),
+    Three([u32; 3], [Mask<S>; 2]),
+    Four([u32; 4], [Mask<S>; 3]),
+    /// Any number.
+    Many([u32; LANES]),
 }
 
-impl<S: Simd> Few<S> {
+impl<S: Simd> Seen<S> {
+    /// How many there are, nobody can foresee: the sooner it is known, the better. So the
+    /// first and the last of the others are looked for at once.
     #[inline(always)]
-    fn find(simd: S, vector: &Vector<'_, S>) -> Option<Self> {
+    fn find(simd: S, vector: &Vector<'_, S>) -> Self {
         let lanes = vector.names;
         let names: [u32; LANES] = lanes.into();
+        let of = inlined(
+            #[inline(always)]
+            |name: u32| lanes.simd_eq(U32::splat(simd, name)),
+        );
+        let slot = inlined(
+            #[inline(always)]
+            |name: u32| vector.slot(name),
+        );
         let first = names[0];
-        let mut others = !lanes.simd_eq(U32::splat(simd, first)).to_bitmask() & 0xff;
-        let slot = vector.slot(first);
-        let masks = [Mask::splat(simd, false); TRIANGLES - 1];
-        let mut few = Self { count: 1, slots: [slot; TRIANGLES], masks };
-        for (slot, mask) in few.slots[1..].iter_mut().zip(&mut few.masks) {
-            if others == 0 {
-                return Some(few);
-            }
-            let name = names[others.trailing_zeros() as usize % LANES];
-            *mask = lanes.simd_eq(U32::splat(simd, name));
-            *slot = vector.slot(name);
-            few.count += 1;
-            others &= !mask.to_bitmask();
+        let others = !of(first).to_bitmask() as u32 & 0xff;
+        if others == 0 {
+            return Self::One([slot(first)]);
         }
-        (others == 0).then_some(few)
+        let second = names[others.trailing_zeros() as usize % LANES];
+        let last = names[others.ilog2() as usize % LANES];
+        let masks = [of(second), of(last)];
+        let rest = others & !(masks[0] | masks[1]).to_bitmask() as u32;
+        if rest == 0 {
+            return match second == last {
+                true => Self::Two([slot(first), slot(second)], [masks[0]]),
+                false => Self::Three([slot(first), slot(second), slot(last)], masks),
+            };
+        }
+        let third = names[rest.trailing_zeros() as usize % LANES];
+        let mask = of(third);
+        if rest & !mask.to_bitmask() as u32 == 0 {
+            let slots = [slot(first), slot(second), slot(last), slot(third)];
+            return Self::Four(slots, [masks[0], masks[1], mask]);
+        }
+        Self::Many(vector.slots())
     }
 }
 
@@ -121,33 +135,23 @@ impl Columns {
         records: &Records,
         vector: &Vector<'_, S>,
     ) {
-        match Few::find(simd, vector) {
-            Some(Few { count: 1, slots: [slot, ..], .. }) => {
-                if self.uniform == Some(slot) {
+        let before = self.uniform.take();
+        let of = inlined(
+            #[inline(always)]
+            |slot: u32| records.of(slot),
+        );
+        match Seen::find(simd, vector) {
+            Seen::One(slots) => {
+                self.uniform = Some(slots[0]);
+                if self.uniform == before {
                     return;
                 }
-                self.uniform = Some(slot);
-                self.mix(simd, [records.of(slot)], []);
+                self.mix(simd, slots.each(of), []);
             }
-            few => {
-                self.uniform = None;
-                let of = inlined(
-                    #[inline(always)]
-                    |slot: u32| records.of(slot),
-                );
-                match few {
-                    Some(Few { count: 2, slots: [a, b, ..], masks: [mask, ..] }) => {
-                        self.mix(simd, [of(a), of(b)], [mask]);
-                    }
-                    Some(Few { count: 3, slots: [a, b, c, _], masks: [second, third, _] }) => {
-                        self.mix(simd, [of(a), of(b), of(c)], [second, third]);
-                    }
-                    Some(Few { slots: [a, b, c, d], masks, .. }) => {
-                        self.mix(simd, [of(a), of(b), of(c), of(d)], masks);
-                    }
-                    None => self.gather_apart(simd, records, vector),
-                }
-            }
+            Seen::Two(slots, masks) => self.mix(simd, slots.each(of), masks),
+            Seen::Three(slots, masks) => self.mix(simd, slots.each(of), masks),
+            Seen::Four(slots, masks) => self.mix(simd, slots.each(of), masks),
+            Seen::Many(slots) => self.gather_apart(simd, records, slots),
         }
         self.is_special = self.any_special(simd);
         if self.is_special {
@@ -190,10 +194,10 @@ impl Columns {
 
     /// Apart, so that it takes no registers where it is not needed.
     #[inline(always)]
-    fn gather_apart<S: Simd>(&mut self, simd: S, records: &Records, vector: &Vector<'_, S>) {
+    fn gather_apart<S: Simd>(&mut self, simd: S, records: &Records, slots: [u32; LANES]) {
         simd.vectorize(
             #[inline(always)]
-            || self.gather(simd, records, vector.slots()),
+            || self.gather(simd, records, slots),
         );
     }
 
