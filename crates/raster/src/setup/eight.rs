@@ -109,20 +109,28 @@ impl Setup<'_> {
         let eight = Eight::new(simd, vertices);
         let lanes = (1_u64 << triangles.len()) - 1;
         let plain = eight.plain.to_bitmask() & lanes;
-        let drawn = self.push_plain(simd, &eight, plain, first);
+        let (drawn, [columns, rows]) = self.seen(simd, &eight, plain);
         self.chunk.stats.culled += u64::from((plain & !drawn).count_ones());
         self.chunk.stats.set_up += u64::from(drawn.count_ones());
-        let mut others = lanes & !plain;
-        while others != 0 {
-            let lane = others.trailing_zeros();
-            others &= others - 1;
-            self.triangle(first + lane, triangles[lane as usize]);
+        // One after another: tiles list their triangles in the order of the primitives.
+        let mut rest = drawn | (lanes & !plain);
+        while rest != 0 {
+            let lane = rest.trailing_zeros() as usize % LANES;
+            rest &= rest - 1;
+            let primitive = first + lane as u32;
+            if plain >> lane & 1 != 0 {
+                let ends = |[begin, end]: &[[i32; LANES]; 2]| [begin[lane], end[lane]];
+                self.push_box(primitive, ends(&columns), ends(&rows));
+            } else {
+                self.triangle(primitive, triangles[lane]);
+            }
         }
     }
 
-    /// Bins those of the `plain` lanes that may be seen, and tells which.
+    /// Those of the `plain` lanes that may be seen, and the first and last columns and
+    /// rows that they may have samples in.
     #[inline(always)]
-    fn push_plain<S: Simd>(&mut self, simd: S, eight: &Eight<S>, plain: u64, first: u32) -> u64 {
+    fn seen<S: Simd>(&self, simd: S, eight: &Eight<S>, plain: u64) -> (u64, [[[i32; LANES]; 2]; 2]) {
         let zero = I32::splat(simd, 0);
         let faces = match self.culling {
             Culling::None => !eight.area.simd_eq(zero),
@@ -150,18 +158,11 @@ impl Setup<'_> {
             );
             seen &= !(x & y & eight.miss(simd, [pixels[0][0], pixels[1][0]]));
         }
-        let seen = seen.to_bitmask() & plain;
-        let [[left, right], [top, bottom]] = pixels.each(
+        let pixels = pixels.each(
             #[inline(always)]
             |range| range.each(<[i32; LANES]>::from),
         );
-        let mut rest = seen;
-        while rest != 0 {
-            let lane = rest.trailing_zeros() as usize;
-            rest &= rest - 1;
-            self.push_box(first + lane as u32, [left[lane], right[lane]], [top[lane], bottom[lane]]);
-        }
-        seen
+        (seen.to_bitmask() & plain, pixels)
     }
 
     /// Bins a small triangle by its bounding box: at most two tiles each way,

@@ -15,6 +15,8 @@ mod seen;
 mod several;
 mod starts;
 mod store;
+#[cfg(test)]
+mod tests;
 mod tiny;
 mod visibility;
 

@@ -1,0 +1,235 @@
+//! What tiles show, against a search through all triangles at every sample.
+
+use super::{BEHIND_ALL, DepthPlane, Edge};
+use crate::samples::SamplePattern;
+use crate::setup::SetupTriangle;
+use crate::simd::SimdLevel;
+use crate::vertex::ScreenVertex;
+use crate::{
+    Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Rasterizer, Surface, Target,
+    TileSize, VertexOutput,
+};
+use proptest::prelude::*;
+use std::num::NonZeroUsize;
+use trigon_math::{Fixed, FixedPoint, Vec4};
+
+/// No whole number of tiles, of blocks or of groups.
+const SIZE: [i32; 2] = [75, 45];
+
+/// Corners in 1/256 pixel, and their depths.
+#[derive(Clone, Copy, Debug)]
+struct Flat {
+    points: [[i32; 2]; 3],
+    depths: [f32; 3],
+}
+
+/// Triangles of one draw, each with a whole number of its own for its light. The mask
+/// leaves out every third.
+#[derive(Clone, Debug)]
+struct Heap {
+    object: u32,
+    surface: Surface,
+    triangles: Vec<Flat>,
+    faces: Vec<u32>,
+    /// The light of the first.
+    light: u32,
+}
+
+impl Pipeline for Heap {
+    type Varyings = f32;
+
+    fn vertex_count(&self) -> usize {
+        3 * self.triangles.len()
+    }
+
+    fn vertex(&self, index: usize) -> VertexOutput<f32> {
+        let Flat { points, depths } = self.triangles[index / 3];
+        // Nearer to the point than to any other of the grid.
+        let [x, y] =
+            [0, 1].map(|axis| f64::from(points[index % 3][axis]) / f64::from(128 * SIZE[axis]) - 1.0);
+        let position = Vec4::new(x as f32, -y as f32, depths[index % 3], 1.0);
+        VertexOutput { position, varyings: (self.light + index as u32 / 3) as f32 }
+    }
+
+    fn fragment(&self, fragment: &Fragment<f32>) -> Vec4 {
+        // Layers without alpha add up.
+        Vec4::new(fragment.varyings, 0.0, 0.0, 0.0)
+    }
+
+    fn mask(&self, fragment: &Fragment<f32>) -> bool {
+        fragment.varyings % 3.0 != 0.0
+    }
+}
+
+/// What the search asks of a triangle.
+struct Known {
+    edges: [Edge; 3],
+    depth: DepthPlane,
+    /// Of two equally deep ones the smaller key is seen.
+    key: (u32, u32, usize, usize),
+    light: f32,
+    is_layer: bool,
+}
+
+impl Known {
+    fn new(heap: &Heap, draw: usize, index: usize) -> Option<Self> {
+        let Flat { points, depths } = heap.triangles[index];
+        let vertices = [0, 1, 2].map(|corner| {
+            let [x, y] = points[corner].map(Fixed::from_raw);
+            ScreenVertex::new(FixedPoint::new(x, y), depths[corner], 1.0)
+        });
+        let triangle = SetupTriangle::whole(vertices, 0);
+        let light = heap.light + index as u32;
+        let is_masked = matches!(heap.surface, Surface::Masked | Surface::MaskedPerSample);
+        let exists = triangle.doubled_area() != 0 && !(is_masked && light.is_multiple_of(3));
+        exists.then(|| Self {
+            edges: Edge::of(&triangle),
+            depth: DepthPlane::of(&triangle),
+            key: (heap.object, heap.faces.get(index).map_or(index as u32, |&face| face), index, draw),
+            light: light as f32,
+            is_layer: heap.surface == Surface::Translucent,
+        })
+    }
+
+    /// The depth at a point, if it covers that.
+    fn at(&self, point: [i32; 2]) -> Option<f32> {
+        let covers = self.edges.iter().all(|edge| edge.at(point) + edge.bias() >= 0);
+        covers.then(|| self.depth.at(point))
+    }
+
+    fn is_before(&self, depth: f32, (other, there): (Option<&Self>, f32)) -> bool {
+        depth > there || (depth == there && other.is_some_and(|other| self.key < other.key))
+    }
+}
+
+/// The depth of what is seen at a point, 0 if that is nothing, and all light from there.
+fn search(known: &[Known], point: [i32; 2]) -> (f32, f32) {
+    let covering = |layers: bool| {
+        let of_kind = known.iter().filter(move |triangle| triangle.is_layer == layers);
+        of_kind.filter_map(|triangle| Some((triangle, triangle.at(point)?)))
+    };
+    let seen = covering(false).fold((None, BEHIND_ALL), |seen, (triangle, depth)| {
+        if triangle.is_before(depth, seen) { (Some(triangle), depth) } else { seen }
+    });
+    let layers = covering(true).filter(|(triangle, depth)| triangle.is_before(*depth, seen));
+    let light: f32 = layers.map(|(triangle, _)| triangle.light).sum();
+    (seen.0.map_or(0.0, |_| seen.1), light + seen.0.map_or(0.0, |triangle| triangle.light))
+}
+
+/// All corners within some distance from a place in the picture or beside it.
+fn flat(reach: i32) -> impl Strategy<Value = Flat> {
+    let middle = SIZE.map(|side| -2000..side * 256 + 2000);
+    let corner = || [-reach..=reach, -reach..=reach];
+    // Many are equal.
+    let depth =
+        || prop_oneof![2 => (1..8_u8).prop_map(|eighths| f32::from(eighths) / 8.0), 1 => 0.0_f32..=1.0];
+    let depths = prop_oneof![depth().prop_map(|depth| [depth; 3]), [depth(), depth(), depth()]];
+    (middle, [corner(), corner(), corner()], depths).prop_map(|(middle, corners, depths)| {
+        let points = corners.map(|[x, y]| [middle[0] + x, middle[1] + y]);
+        Flat { points, depths }
+    })
+}
+
+/// Runs of triangles from less than a pixel to far more than the picture.
+fn flats() -> impl Strategy<Value = Vec<Flat>> {
+    let reach = prop_oneof![Just(300), Just(600), Just(2500), Just(7000), Just(30_000), Just(1 << 18)];
+    let run = reach.prop_flat_map(|reach| prop::collection::vec(flat(reach), 1..12));
+    prop::collection::vec(run, 1..5).prop_map(|runs| runs.concat())
+}
+
+/// Two draws of opaque triangles, one of masked ones, one of layers: in the order of their
+/// keys or in none.
+fn heaps() -> impl Strategy<Value = Vec<Heap>> {
+    let masked = prop_oneof![Just(Surface::Masked), Just(Surface::MaskedPerSample)];
+    let face = prop::collection::vec(0..4_u32, 64);
+    ([flats(), flats(), flats(), flats()], masked, prop::option::of(face)).prop_map(
+        |(flats, masked, faces)| {
+            let surfaces = [Surface::Opaque, Surface::Opaque, masked, Surface::Translucent];
+            let objects = if faces.is_some() { [1, 0, 1, 1] } else { [0, 1, 2, 1] };
+            let mut light = 1;
+            let heap = |((triangles, surface), object): ((Vec<Flat>, _), _)| {
+                let first = light;
+                light += triangles.len() as u32;
+                let faces = faces.iter().flatten().copied().cycle().take(if faces.is_some() {
+                    triangles.len()
+                } else {
+                    0
+                });
+                Heap { object, surface, faces: faces.collect(), triangles, light: first }
+            };
+            flats.into_iter().zip(surfaces).zip(objects).map(heap).collect()
+        },
+    )
+}
+
+fn settings() -> impl Strategy<Value = ExecuteSettings> {
+    let levels: Vec<_> = SimdLevel::ALL.into_iter().filter(|level| level.is_supported()).collect();
+    let tiles = vec![TileSize::Pixels8, TileSize::Pixels16, TileSize::Pixels32, TileSize::Pixels64];
+    let tests = vec![DepthTest::Hierarchical, DepthTest::Hierarchical, DepthTest::Late];
+    use prop::sample::select;
+    (select(levels), select(tiles), select(tests)).prop_map(|(level, tile_size, depth_test)| {
+        ExecuteSettings {
+            threads: NonZeroUsize::new(1),
+            simd: Some(level),
+            tile_size,
+            depth_test,
+            ..ExecuteSettings::default()
+        }
+    })
+}
+
+/// Holds every pixel of a frame of the heaps against the search.
+fn check(heaps: &[Heap], settings: ExecuteSettings, samples: u32) {
+    let corners =
+        |heap: &Heap| (0..heap.triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let indices: Vec<Vec<_>> = heaps.iter().map(corners).collect();
+    let mut pass = Pass::new();
+    for (heap, indices) in heaps.iter().zip(&indices) {
+        let faces = (!heap.faces.is_empty()).then_some(&heap.faces[..]);
+        let draw = Draw { object: heap.object, surface: heap.surface, faces, ..Draw::new(heap, indices) };
+        pass.triangles(Draw { culling: Culling::None, ..draw });
+    }
+    let [width, height] = SIZE.map(|side| side as u32);
+    let mut target = Target::new(width, height, &[Output::Linear, Output::Depth]).unwrap();
+    target = target.with_samples(samples).unwrap();
+    Rasterizer::new(settings).unwrap().draw(&pass, &mut target);
+    let (linear, depth) = (target.linear().unwrap(), target.depth().unwrap());
+
+    let of_heap = |(draw, heap): (usize, &Heap)| {
+        (0..heap.triangles.len()).filter_map(|index| Known::new(heap, draw, index)).collect::<Vec<_>>()
+    };
+    let known: Vec<_> = heaps.iter().enumerate().flat_map(of_heap).collect();
+    let offsets = SamplePattern::of(samples).unwrap().offsets();
+    for (index, (shown, depth)) in linear.iter().zip(depth).enumerate() {
+        let pixel = [index as i32 % SIZE[0], index as i32 / SIZE[0]];
+        let at = |offset: &[i32; 2]| search(&known, [0, 1].map(|axis| pixel[axis] * 256 + offset[axis]));
+        // Whole numbers and their sixteenths: no sum rounds.
+        let light = offsets.iter().map(|offset| at(offset).1).sum::<f32>() / samples as f32;
+        assert_eq!(shown.x, light, "the light of pixel {pixel:?}");
+        assert_eq!(*depth, at(&offsets[0]).0, "the depth of pixel {pixel:?}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: ProptestConfig::default().cases / 8, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_sample_shows_what_a_search_finds(
+        heaps in heaps(),
+        settings in settings(),
+        samples in prop_oneof![2 => Just(1_u32), 1 => Just(2), 1 => Just(4), 1 => Just(16)],
+    ) {
+        check(&heaps, settings, samples);
+    }
+}
+
+/// Of eight triangles that are set up together, small ones once came before large ones, and
+/// were seen where both are equally deep.
+#[test]
+fn a_large_triangle_is_seen_before_a_later_small_one_of_its_depth() {
+    let large = [[25456, 1936], [6150, 1936], [6150, 6865]];
+    let small = [[7297, 2834], [7363, 2834], [7458, 2967]];
+    let triangles = [large, small].map(|points| Flat { points, depths: [0.875; 3] }).to_vec();
+    let heap = Heap { object: 0, surface: Surface::Opaque, triangles, faces: Vec::new(), light: 1 };
+    check(&[heap], ExecuteSettings::default(), 4);
+}
