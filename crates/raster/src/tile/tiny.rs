@@ -96,12 +96,13 @@ impl Cover<'_> {
             several::rows(simd, &tiny, (starts, lane), buffer)
         } else {
             let start = Start::new(simd, &tiny, (starts, lane), self.offsets[0]);
-            // As many columns as most have without a loop.
-            match tiny.columns[1] - tiny.columns[0] {
-                0 => rows::<S, 1>(simd, &tiny, &start, buffer),
-                1 => rows::<S, 2>(simd, &tiny, &start, buffer),
-                2 => rows::<S, 3>(simd, &tiny, &start, buffer),
-                _ => rows::<S, 0>(simd, &tiny, &start, buffer),
+            // As many columns as most have without a loop, where ties need not be known.
+            match (self.in_order, tiny.columns[1] - tiny.columns[0]) {
+                (true, 0) => rows::<S, 1, false>(simd, &tiny, &start, buffer),
+                (true, 1) => rows::<S, 2, false>(simd, &tiny, &start, buffer),
+                (true, 2) => rows::<S, 3, false>(simd, &tiny, &start, buffer),
+                (true, _) => rows::<S, 0, false>(simd, &tiny, &start, buffer),
+                (false, _) => rows::<S, 0, true>(simd, &tiny, &start, buffer),
             }
         };
         if !self.in_order && ties.any_true() {
@@ -173,11 +174,11 @@ impl Cover<'_> {
 }
 
 /// Lets the only sample of the pixels in all rows compete: of `WIDTH` columns of groups
-/// if that is not 0. Tells where something lies at the same depth.
+/// if that is not 0. Tells where something lies at the same depth, if `TIES` asks for it.
 ///
 /// Nothing is called from here: no register has to be given up.
 #[inline(always)]
-fn rows<S: Simd, const WIDTH: usize>(
+fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
     simd: S,
     tiny: &Tiny<S>,
     start: &Start<S>,
@@ -204,7 +205,9 @@ fn rows<S: Simd, const WIDTH: usize>(
             let depth = covered.select(depth, F32::splat(simd, f32::NEG_INFINITY));
             let at = TileArea::group_of([tiny.columns[0] + column, row]);
             let there = F32::simd_from(simd, depths[at]);
-            ties |= depth.simd_eq(there);
+            if TIES {
+                ties |= depth.simd_eq(there);
+            }
             depths[at] = greater(depth, there).into();
             name_where(simd, depth.simd_gt(there), tiny.place, &mut winners[at]);
             a += tiny.right[0];
