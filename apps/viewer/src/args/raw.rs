@@ -75,8 +75,8 @@ pub(crate) struct RawArgs {
     /// There are color, radiance (linear light, premultiplied), depth (metres along the view axis), object-ids, face-ids, material-ids,
     /// triangle-ids, barycentrics, positions, normals, geometric-normals, uvs and albedo. With
     /// --output chair.exr they are channels of that file. With --output chair.png each becomes a
-    /// NumPy array beside it: depth goes to chair.depth.npy. Depth, ids and normals can be PNGs of
-    /// 16 bits instead: depth.png goes to chair.depth.png, in millimetres.
+    /// NumPy array beside it: depth goes to chair.depth.npy. Depth, ids and normals can be PNG
+    /// files of 16 bits instead: depth.png goes to chair.depth.png, in millimetres.
     #[arg(
         long,
         value_name = "NAME,...",
