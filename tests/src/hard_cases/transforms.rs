@@ -1,8 +1,8 @@
 //! Maps between nodes, meshes and the camera: deep, large, small, flat and mirrored.
 
 use proptest::prelude::*;
-use trigon_camera::{Camera, Projection};
-use trigon_math::{DAffine3, DMat3, DQuat, DVec3, elementary};
+use trigon_camera::{Camera, Projection, Projector, Viewport};
+use trigon_math::{DAffine3, DMat3, DQuat, DVec2, DVec3, elementary};
 use trigon_mesh::primitives::{self, TorusKnot};
 use trigon_mesh::{Attributes, SkinWeights};
 use trigon_scene::{
@@ -223,28 +223,9 @@ proptest! {
     fn normals_stand_square_to_faces_under_any_map(
         columns in prop::array::uniform3(vector(-1.0..1.0)), exponents in prop::array::uniform3(-3.0..3.0_f64),
     ) {
-        let [x, y, z] = [0, 1, 2].map(|axis| columns[axis] * elementary::pow(10.0, exponents[axis]));
-        let matrix3 = DMat3::from_cols(x, y, z);
-        let volume = x.normalize().cross(y.normalize()).dot(z.normalize());
-        prop_assume!(volume.abs() > 0.05);
-        let mut scene = Scene::new();
-        let cube = scene.add_object("cube", primitives::cube(1.0), shell());
-        scene.node_mut(cube).expect("just added").transform =
-            Transform::Affine(DAffine3 { matrix3, translation: DVec3::ZERO });
-        let mesh = primitives::cube(1.0);
-        let frame = draw(&scene, &scene.overview(4.0 / 3.0));
-        let (faces, normals) = (frame.face_ids.expect("asked for"), frame.normals.expect("asked for"));
-        for (&face, normal) in faces.iter().zip(&normals).filter(|(face, _)| **face != u32::MAX) {
-            let corners = mesh.face_vertices(face as usize);
-            let corner = |i: usize| matrix3 * mesh.positions()[corners[i] as usize].as_dvec3();
-            let (along, across) = (corner(1) - corner(0), corner(2) - corner(1));
-            let expected = along.cross(across).normalize() * volume.signum();
-            // A cube's normals are axes: they pick a column of f32 entries (half a unit
-            // of the last place each), and length, quotient and result round once each
-            // more; twice that, as three components share it.
-            let error = (normal.as_dvec3() - expected).length();
-            prop_assert!(error < 8.0 * f64::from(f32::EPSILON), "{} is off by {}", normal, error);
-        }
+        let unit = columns.map(DVec3::normalize);
+        prop_assume!(unit[0].cross(unit[1]).dot(unit[2]).abs() > 0.05);
+        check_normals([0, 1, 2].map(|axis| columns[axis] * elementary::pow(10.0, exponents[axis])));
     }
 
     /// Millimetres, ten million metres from the origin, at any offset.
@@ -316,4 +297,55 @@ fn flattened_objects_are_drawn_without_nan() {
         assert!((seen > 100) == (scale.x != 0.0), "scaled by {scale}: {seen} pixels show it");
         assert!(2 * upright >= seen, "scaled by {scale}: {upright} of {seen} normals are square to it");
     }
+}
+
+/// A face so thin that rounding shows the eye its back was once taken for a wrong normal.
+#[test]
+fn a_face_seen_edge_on_shows_its_back_by_rounding_only() {
+    let columns = [
+        DVec3::new(-0.5968793130672319, -0.4020702406147786, 0.0),
+        DVec3::new(0.6076361706843828, 0.5369069658163824, 0.7195228885839583),
+        DVec3::new(-0.9650511975229622, -0.5084630864780072, -0.2953448875909784),
+    ];
+    let exponents = [-2.210953865307193, -0.6292225965874402, 2.4735007322334384];
+    check_normals([0, 1, 2].map(|axis| columns[axis] * elementary::pow(10.0, exponents[axis])));
+}
+
+/// Holds what is seen of a cube under a map against its faces in f64.
+fn check_normals([x, y, z]: [DVec3; 3]) {
+    let matrix3 = DMat3::from_cols(x, y, z);
+    let mut scene = Scene::new();
+    let cube = scene.add_object("cube", primitives::cube(1.0), shell());
+    scene.node_mut(cube).expect("just added").transform =
+        Transform::Affine(DAffine3 { matrix3, translation: DVec3::ZERO });
+    let mesh = primitives::cube(1.0);
+    let camera = scene.overview(4.0 / 3.0);
+    let projector = Projector::new(&camera, Viewport { width: SIZE[0], height: SIZE[1] });
+    let frame = draw(&scene, &camera);
+    let (faces, normals) = (frame.face_ids.expect("asked for"), frame.normals.expect("asked for"));
+    for (&face, normal) in faces.iter().zip(&normals).filter(|(face, _)| **face != u32::MAX) {
+        let corners = mesh.face_vertices(face as usize);
+        let corner = |i: usize| matrix3 * mesh.positions()[corners[i] as usize].as_dvec3();
+        let (along, across) = (corner(1) - corner(0), corner(2) - corner(1));
+        let expected = along.cross(across).normalize() * matrix3.determinant().signum();
+        // Snapping moves corners by half a step on either axis, √2/512 pixel, and turns a
+        // triangle over whose least height is twice that at most; the rest of a 128th is for
+        // f32, whose roundings are 2⁻¹⁸ of a picture of 48 pixels.
+        let screen = [0, 1, 2, 3].map(|i| projector.to_screen(corner(i)).expect("before the eye"));
+        let is_thin =
+            (0..4).any(|left| least_height([1, 2, 3].map(|i| screen[(left + i) % 4])) <= 1.0 / 128.0);
+        let towards = expected.dot(camera.position - corner(0));
+        assert!(towards > 0.0 || is_thin, "face {face} is seen from behind");
+        // A cube's normals are axes: they pick a column of f32 entries (half a unit
+        // of the last place each), and length, quotient and result round once each
+        // more; twice that, as three components share it.
+        let error = (normal.as_dvec3() - expected).length();
+        assert!(is_thin || error < 8.0 * f64::from(f32::EPSILON), "{normal} is off by {error}");
+    }
+}
+
+/// The least height of a triangle: twice its area over its longest side.
+fn least_height([a, b, c]: [DVec2; 3]) -> f64 {
+    let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+    (b - a).perp_dot(c - a).abs() / longest
 }
