@@ -2,6 +2,7 @@
 //! the depths over blocks and over the whole tile.
 
 use super::area::{BLOCKS, GROUPS, TileArea};
+use super::blocks::Blocks;
 use crate::simd::LANES;
 
 /// No triangle: the background.
@@ -108,6 +109,14 @@ impl VisibilityBuffer {
     /// What is seen: group by group, sample by sample, eight lanes.
     pub(crate) fn winners(&self) -> &[u32] {
         &self.winner[..self.span * self.samples]
+    }
+
+    /// How many samples see a triangle, in the blocks that the tile has a pixel of:
+    /// what the arrays hold beside them means nothing.
+    pub(crate) fn seen(&self, area: &TileArea) -> usize {
+        let length = GROUPS * LANES * self.samples;
+        let of_block = |block: usize| &self.winner[block * length..(block + 1) * length];
+        Blocks::of(area).iter().flat_map(of_block).filter(|&&winner| winner != NOBODY).count()
     }
 
     /// How many pixels the arrays hold.

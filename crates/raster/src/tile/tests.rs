@@ -29,6 +29,7 @@ struct Flat {
 struct Heap {
     object: u32,
     surface: Surface,
+    culling: Culling,
     triangles: Vec<Flat>,
     faces: Vec<u32>,
     /// The light of the first.
@@ -83,7 +84,12 @@ impl Known {
         let triangle = SetupTriangle::whole(vertices, 0);
         let light = heap.light + index as u32;
         let is_masked = matches!(heap.surface, Surface::Masked | Surface::MaskedPerSample);
-        let exists = triangle.doubled_area() != 0 && !(is_masked && light.is_multiple_of(3));
+        let faces = match heap.culling {
+            Culling::None => true,
+            Culling::Back => triangle.front_facing,
+            Culling::Front => !triangle.front_facing,
+        };
+        let exists = faces && triangle.doubled_area() != 0 && !(is_masked && light.is_multiple_of(3));
         exists.then(|| Self {
             extent: [0, 1].map(|axis| triangle.extent(axis)),
             edges: Edge::of(&triangle),
@@ -107,8 +113,8 @@ impl Known {
     }
 }
 
-/// The depth of what is seen at a point, 0 if that is nothing, and all light from there.
-fn search(known: &[Known], point: [i32; 2]) -> (f32, f32) {
+/// The depth of what is seen at a point, and all light from there.
+fn search(known: &[Known], point: [i32; 2]) -> (Option<f32>, f32) {
     let covering = |layers: bool| {
         let of_kind = known.iter().filter(move |triangle| triangle.is_layer == layers);
         of_kind.filter_map(|triangle| Some((triangle, triangle.at(point)?)))
@@ -118,27 +124,33 @@ fn search(known: &[Known], point: [i32; 2]) -> (f32, f32) {
     });
     let layers = covering(true).filter(|(triangle, depth)| triangle.is_before(*depth, seen));
     let light: f32 = layers.map(|(triangle, _)| triangle.light).sum();
-    (seen.0.map_or(0.0, |_| seen.1), light + seen.0.map_or(0.0, |triangle| triangle.light))
+    (seen.0.map(|_| seen.1), light + seen.0.map_or(0.0, |triangle| triangle.light))
 }
 
-/// All corners within some distance from a place in the picture or beside it.
-fn flat(reach: i32) -> impl Strategy<Value = Flat> {
+/// All corners within some distance from a place in the picture or beside it; on whole
+/// multiples of some steps.
+fn flat(reach: [i32; 2], steps: i32) -> impl Strategy<Value = Flat> {
     let middle = SIZE.map(|side| -2000..side * 256 + 2000);
-    let corner = || [-reach..=reach, -reach..=reach];
+    let corner = || reach.map(|reach| -reach..=reach);
     // Many are equal.
     let depth =
-        || prop_oneof![2 => (1..8_u8).prop_map(|eighths| f32::from(eighths) / 8.0), 1 => 0.0_f32..=1.0];
+        || prop_oneof![2 => (0..=8_u8).prop_map(|eighths| f32::from(eighths) / 8.0), 1 => 0.0_f32..=1.0];
     let depths = prop_oneof![depth().prop_map(|depth| [depth; 3]), [depth(), depth(), depth()]];
-    (middle, [corner(), corner(), corner()], depths).prop_map(|(middle, corners, depths)| {
-        let points = corners.map(|[x, y]| [middle[0] + x, middle[1] + y]);
+    (middle, [corner(), corner(), corner()], depths).prop_map(move |(middle, corners, depths)| {
+        let on_steps = |axis: usize, way: i32| (middle[axis] + way) / steps * steps;
+        let points = corners.map(|[x, y]| [on_steps(0, x), on_steps(1, y)]);
         Flat { points, depths }
     })
 }
 
-/// Runs of triangles from less than a pixel to far more than the picture.
+/// Runs of triangles from less than a pixel to far more than the picture, half of them with
+/// corners on samples.
 fn flats() -> impl Strategy<Value = Vec<Flat>> {
-    let reach = prop_oneof![Just(300), Just(600), Just(2500), Just(7000), Just(30_000), Just(1 << 18)];
-    let run = reach.prop_flat_map(|reach| prop::collection::vec(flat(reach), 1..12));
+    let reach = || prop::sample::select(vec![300, 600, 2500, 7000, 30_000, 1 << 18]);
+    let alike = reach().prop_map(|reach| [reach; 2]);
+    let reach = prop_oneof![3 => alike, 1 => [reach(), reach()]];
+    let steps = prop_oneof![Just(1), Just(128)];
+    let run = (reach, steps).prop_flat_map(|(reach, steps)| prop::collection::vec(flat(reach, steps), 1..12));
     prop::collection::vec(run, 1..5).prop_map(|runs| runs.concat())
 }
 
@@ -146,25 +158,23 @@ fn flats() -> impl Strategy<Value = Vec<Flat>> {
 /// keys or in none.
 fn heaps() -> impl Strategy<Value = Vec<Heap>> {
     let masked = prop_oneof![Just(Surface::Masked), Just(Surface::MaskedPerSample)];
-    let face = prop::collection::vec(0..4_u32, 64);
-    ([flats(), flats(), flats(), flats()], masked, prop::option::of(face)).prop_map(
-        |(flats, masked, faces)| {
-            let surfaces = [Surface::Opaque, Surface::Opaque, masked, Surface::Translucent];
-            let objects = if faces.is_some() { [1, 0, 1, 1] } else { [0, 1, 2, 1] };
-            let mut light = 1;
-            let heap = |((triangles, surface), object): ((Vec<Flat>, _), _)| {
-                let first = light;
-                light += triangles.len() as u32;
-                let faces = faces.iter().flatten().copied().cycle().take(if faces.is_some() {
-                    triangles.len()
-                } else {
-                    0
-                });
-                Heap { object, surface, faces: faces.collect(), triangles, light: first }
-            };
-            flats.into_iter().zip(surfaces).zip(objects).map(heap).collect()
-        },
-    )
+    let faces = prop::option::of(prop::collection::vec(0..4_u32, 64));
+    let culling = prop::sample::select(vec![Culling::None, Culling::None, Culling::Back, Culling::Front]);
+    let draws = ([flats(), flats(), flats(), flats()], prop::array::uniform4(culling));
+    (draws, masked, faces).prop_map(|((flats, culling), masked, faces)| {
+        let surfaces = [Surface::Opaque, Surface::Opaque, masked, Surface::Translucent];
+        let objects = if faces.is_some() { [1, 0, 1, 1] } else { [0, 1, 2, 1] };
+        let mut light = 1;
+        let heap = |(draw, triangles): (usize, Vec<Flat>)| {
+            let first = light;
+            light += triangles.len() as u32;
+            let faces =
+                faces.iter().map(|faces| faces[..triangles.len()].to_vec()).next().unwrap_or_default();
+            let (object, surface, culling) = (objects[draw], surfaces[draw], culling[draw]);
+            Heap { object, surface, culling, faces, triangles, light: first }
+        };
+        flats.into_iter().enumerate().map(heap).collect()
+    })
 }
 
 fn settings() -> impl Strategy<Value = ExecuteSettings> {
@@ -178,6 +188,7 @@ fn settings() -> impl Strategy<Value = ExecuteSettings> {
             simd: Some(level),
             tile_size,
             depth_test,
+            timed: true,
             ..ExecuteSettings::default()
         }
     })
@@ -192,12 +203,12 @@ fn check(heaps: &[Heap], settings: ExecuteSettings, samples: u32) {
     for (heap, indices) in heaps.iter().zip(&indices) {
         let faces = (!heap.faces.is_empty()).then_some(&heap.faces[..]);
         let draw = Draw { object: heap.object, surface: heap.surface, faces, ..Draw::new(heap, indices) };
-        pass.triangles(Draw { culling: Culling::None, ..draw });
+        pass.triangles(Draw { culling: heap.culling, ..draw });
     }
     let [width, height] = SIZE.map(|side| side as u32);
     let mut target = Target::new(width, height, &[Output::Linear, Output::Depth]).unwrap();
     target = target.with_samples(samples).unwrap();
-    Rasterizer::new(settings).unwrap().draw(&pass, &mut target);
+    let stats = Rasterizer::new(settings).unwrap().draw(&pass, &mut target);
     let (linear, depth) = (target.linear().unwrap(), target.depth().unwrap());
 
     let of_heap = |(draw, heap): (usize, &Heap)| {
@@ -205,15 +216,18 @@ fn check(heaps: &[Heap], settings: ExecuteSettings, samples: u32) {
     };
     let known: Vec<_> = heaps.iter().enumerate().flat_map(of_heap).collect();
     let offsets = SamplePattern::of(samples).unwrap().offsets();
+    let mut seen = 0;
     for (index, (shown, depth)) in linear.iter().zip(depth).enumerate() {
         let pixel = [index as i32 % SIZE[0], index as i32 / SIZE[0]];
         let at = |offset: &[i32; 2]| search(&known, [0, 1].map(|axis| pixel[axis] * 256 + offset[axis]));
-        let first = at(&offsets[0]);
+        let found: Vec<_> = offsets.iter().map(at).collect();
         // Whole numbers and their sixteenths: no sum rounds.
-        let light = offsets[1..].iter().fold(first.1, |light, offset| light + at(offset).1);
-        assert_eq!(shown.x, light / samples as f32, "the light of pixel {pixel:?}");
-        assert_eq!(*depth, first.0, "the depth of pixel {pixel:?}");
+        let light = found.iter().map(|(_, light)| light).sum::<f32>() / samples as f32;
+        assert_eq!(shown.x, light, "the light of pixel {pixel:?}");
+        assert_eq!(*depth, found[0].0.unwrap_or(0.0), "the depth of pixel {pixel:?}");
+        seen += found.iter().filter(|(depth, _)| depth.is_some()).count() as u64;
     }
+    assert_eq!(stats.samples_seen, seen, "samples of the picture that see a triangle");
 }
 
 proptest! {
@@ -229,13 +243,36 @@ proptest! {
     }
 }
 
+fn heap(object: u32, light: u32, triangles: &[[[i32; 2]; 3]]) -> Heap {
+    let triangles = triangles.iter().map(|&points| Flat { points, depths: [0.875; 3] }).collect();
+    let (surface, culling) = (Surface::Opaque, Culling::None);
+    Heap { object, surface, culling, triangles, faces: Vec::new(), light }
+}
+
+fn timed() -> ExecuteSettings {
+    ExecuteSettings { timed: true, ..ExecuteSettings::default() }
+}
+
 /// Of eight triangles that are set up together, small ones once came before large ones, and
 /// were seen where both are equally deep.
 #[test]
 fn a_large_triangle_is_seen_before_a_later_small_one_of_its_depth() {
     let large = [[25456, 1936], [6150, 1936], [6150, 6865]];
     let small = [[7297, 2834], [7363, 2834], [7458, 2967]];
-    let triangles = [large, small].map(|points| Flat { points, depths: [0.875; 3] }).to_vec();
-    let heap = Heap { object: 0, surface: Surface::Opaque, triangles, faces: Vec::new(), light: 1 };
-    check(&[heap], ExecuteSettings::default(), 4);
+    check(&[heap(0, 1, &[large, small])], timed(), 4);
+}
+
+/// What lies at the depth of all of a tile is not hidden by that: keys decide.
+#[test]
+fn keys_decide_where_a_tile_is_as_deep_as_a_triangle() {
+    let all = heap(1, 1, &[[[-100_000, -100_000], [200_000, -100_000], [-100_000, 200_000]]]);
+    for side in [700, 3000, 9000, 40_000, 200_000] {
+        let triangles = [0, 1, 2, 3, 4, 5, 6, 7].map(|i| {
+            let [x, y] = [800 * i - side / 8, 900 * i - side / 8];
+            [[x, y], [x + side, y], [x, y + side]]
+        });
+        for samples in [1, 4] {
+            check(&[all.clone(), heap(0, 2, &triangles)], timed(), samples);
+        }
+    }
 }

@@ -3,7 +3,7 @@
 use super::cover::Cover;
 use super::eight::Eight;
 use super::starts::Starts;
-use super::{Counts, Covering, NOBODY, Scratch, Surfaces, TileArea, VisibilityBuffer, masked};
+use super::{Counts, Covering, Scratch, Surfaces, TileArea, VisibilityBuffer, masked};
 use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::setup::SetupTriangle;
@@ -27,8 +27,7 @@ pub(crate) fn resolve_visibility(
     masked::cover_masked(frame, area, scratch, surfaces.masked.clone());
     scratch.buffer.blank_outside(area);
     if frame.timed {
-        let seen = scratch.buffer.winners().iter().filter(|&&winner| winner != NOBODY);
-        scratch.stats.samples_seen += seen.count() as u64;
+        scratch.stats.samples_seen += scratch.buffer.seen(area) as u64;
     }
     scratch.stats.add_counts(&counts);
 }
