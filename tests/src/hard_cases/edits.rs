@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use proptest::prelude::*;
 use trigon_math::{DAffine3, DQuat, DVec3, elementary};
-use trigon_mesh::primitives;
+use trigon_mesh::{Mesh, primitives};
 use trigon_scene::Transform;
 
 use crate::effort::cases;
@@ -75,21 +75,82 @@ proptest! {
     }
 
     /// What has an exact inverse in binary comes back to the bit, however often: scales
-    /// by powers of two, mirrors, exchanged axes.
+    /// by powers of two and mirrors.
     #[test]
-    fn exact_edits_undone_in_reverse_give_the_first_mesh_back(
-        edits in prop::collection::vec((0..3_usize, -2..=2_i32, any::<bool>()), 1..40),
-    ) {
-        let before = primitives::torus_knot(&primitives::TorusKnot { segments: 12, sides: 4, ..Default::default() });
-        let map = |&(axis, power, mirror): &(usize, i32, bool), back: f64| {
-            let mut scale = DVec3::ONE;
-            scale[axis] = elementary::exp2(back * f64::from(power)) * if mirror { -1.0 } else { 1.0 };
-            DAffine3::from_scale(scale)
-        };
+    fn exact_edits_undone_in_reverse_give_the_first_mesh_back(edits in edits(40)) {
+        let before = knot();
         let mut mesh = before.clone();
-        edits.iter().for_each(|edit| mesh.transform(&map(edit, 1.0)));
-        edits.iter().rev().for_each(|edit| mesh.transform(&map(edit, -1.0)));
-        prop_assert!(mesh.positions() == before.positions(), "positions differ");
-        prop_assert!(mesh.corner_vertices() == before.corner_vertices(), "faces differ");
+        edits.iter().for_each(|edit| mesh.transform(&edit.forth()));
+        edits.iter().rev().for_each(|edit| mesh.transform(&edit.back()));
+        prop_assert!(is_same(&mesh, &before), "it differs from the first");
     }
+}
+
+proptest! {
+    // Each case is ten thousand edits.
+    #![proptest_config(cases(4))]
+
+    /// Any way to and fro through a history, 10,000 edits long, leads to the meshes of
+    /// the first way there, and in the end to the first mesh: nothing piles up.
+    #[test]
+    fn edits_undone_and_redone_ten_thousand_times_give_the_same_meshes_to_the_bit(
+        edits in edits(16),
+        mut way: u64,
+    ) {
+        let mut history = vec![knot()];
+        for edit in &edits {
+            history.push(history[history.len() - 1].transformed(&edit.forth()));
+        }
+        let (mut at, mut count) = (edits.len(), 0);
+        let mut mesh = history[at].clone();
+        while count < 10_000 || at > 0 {
+            // D. Knuth's generator for 64 bits (The Art of Computer Programming, 3.3.4).
+            way = way.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            let to = if count < 10_000 { (way >> 33) as usize % history.len() } else { 0 };
+            edits[to.min(at)..at].iter().rev().for_each(|edit| mesh.transform(&edit.back()));
+            edits[at.min(to)..to].iter().for_each(|edit| mesh.transform(&edit.forth()));
+            count += at.abs_diff(to);
+            at = to;
+            prop_assert!(is_same(&mesh, &history[at]), "mesh {} differs after {} edits", at, count);
+        }
+    }
+}
+
+/// A scale along an axis by a power of two, and perhaps a mirror.
+#[derive(Debug, Clone)]
+struct Edit {
+    axis: usize,
+    power: i32,
+    mirrors: bool,
+}
+
+impl Edit {
+    fn forth(&self) -> DAffine3 {
+        self.map(self.power)
+    }
+
+    fn back(&self) -> DAffine3 {
+        self.map(-self.power)
+    }
+
+    fn map(&self, power: i32) -> DAffine3 {
+        let mut scale = DVec3::ONE;
+        scale[self.axis] = elementary::exp2(f64::from(power)) * if self.mirrors { -1.0 } else { 1.0 };
+        DAffine3::from_scale(scale)
+    }
+}
+
+fn edits(most: usize) -> impl Strategy<Value = Vec<Edit>> {
+    let edit = (0..3_usize, -2..=2_i32, any::<bool>());
+    prop::collection::vec(edit.prop_map(|(axis, power, mirrors)| Edit { axis, power, mirrors }), 1..most)
+}
+
+fn knot() -> Mesh {
+    primitives::torus_knot(&primitives::TorusKnot { segments: 12, sides: 4, ..Default::default() })
+}
+
+/// In positions and faces. (Normals are made of unit length again at each step, which
+/// rounds.)
+fn is_same(a: &Mesh, b: &Mesh) -> bool {
+    a.positions() == b.positions() && a.corner_vertices() == b.corner_vertices()
 }
