@@ -189,7 +189,6 @@ fn settings() -> impl Strategy<Value = ExecuteSettings> {
             tile_size,
             depth_test,
             timed: true,
-            ..ExecuteSettings::default()
         }
     })
 }
