@@ -261,17 +261,22 @@ fn a_large_triangle_is_seen_before_a_later_small_one_of_its_depth() {
     check(&[heap(0, 1, &[large, small])], timed(), 4);
 }
 
-/// What lies at the depth of all of a tile is not hidden by that: keys decide.
+/// What lies at the depth of all of a tile is neither hidden by that nor hides it: keys decide.
 #[test]
 fn keys_decide_where_a_tile_is_as_deep_as_a_triangle() {
-    let all = heap(1, 1, &[[[-100_000, -100_000], [200_000, -100_000], [-100_000, 200_000]]]);
+    let all = [[-100_000, -100_000], [200_000, -100_000], [-100_000, 200_000]];
     for side in [700, 3000, 9000, 40_000, 200_000] {
         let triangles = [0, 1, 2, 3, 4, 5, 6, 7].map(|i| {
             let [x, y] = [800 * i - side / 8, 900 * i - side / 8];
             [[x, y], [x + side, y], [x, y + side]]
         });
-        for samples in [1, 4] {
-            check(&[all.clone(), heap(0, 2, &triangles)], timed(), samples);
+        // Descending, so that the order of the triangles is not that of the keys.
+        for (face, faces) in [(8, [7, 6, 5, 4, 3, 2, 1, 0]), (0, [8, 7, 6, 5, 4, 3, 2, 1])] {
+            let all = Heap { faces: vec![face], ..heap(0, 1, &[all]) };
+            let others = Heap { faces: faces.to_vec(), ..heap(0, 2, &triangles) };
+            for samples in [1, 4] {
+                check(&[all.clone(), others.clone()], timed(), samples);
+            }
         }
     }
 }
