@@ -2,7 +2,6 @@
 //! the depths over blocks and over the whole tile.
 
 use super::area::{BLOCKS, GROUPS, TileArea};
-use super::blocks::Blocks;
 use crate::simd::LANES;
 
 /// No triangle: the background.
@@ -36,6 +35,8 @@ pub(crate) struct VisibilityBuffer {
     fill: Option<(f32, u32)>,
     pub(crate) samples: usize,
     span: usize,
+    /// Blocks in a row that the tile has a pixel of.
+    columns: usize,
 }
 
 impl VisibilityBuffer {
@@ -50,12 +51,14 @@ impl VisibilityBuffer {
             fill: None,
             samples: 1,
             span: 0,
+            columns: 0,
         }
     }
 
     /// Empties it for a tile.
     pub(crate) fn clear(&mut self, area: &TileArea, samples: usize) {
         self.span = area.span();
+        self.columns = area.padded()[0] / 8;
         self.samples = samples;
         let length = self.span * samples;
         if self.depth.len() < length {
@@ -76,13 +79,18 @@ impl VisibilityBuffer {
         self.fill.map(|(depth, _)| depth)
     }
 
-    /// Makes the arrays hold what they stand for.
+    /// Makes the arrays hold what they stand for; beside the tile's blocks nobody wins.
     pub(crate) fn settle(&mut self) {
         if let Some((depth, winner)) = self.fill {
             self.fill = None;
             let length = self.span * self.samples;
             self.depth[..length].fill(depth);
-            self.winner[..length].fill(winner);
+            let block = GROUPS * LANES * self.samples;
+            for row in self.winner[..length].chunks_mut(BLOCKS * block) {
+                let (within, beside) = row.split_at_mut(self.columns * block);
+                within.fill(winner);
+                beside.fill(NOBODY);
+            }
             self.blocks.fill(BlockBounds { farthest: depth, nearest: depth, writes: 0 });
         }
     }
@@ -111,12 +119,9 @@ impl VisibilityBuffer {
         &self.winner[..self.span * self.samples]
     }
 
-    /// How many samples see a triangle, in the blocks that the tile has a pixel of:
-    /// what the arrays hold beside them means nothing.
-    pub(crate) fn seen(&self, area: &TileArea) -> usize {
-        let length = GROUPS * LANES * self.samples;
-        let of_block = |block: usize| &self.winner[block * length..(block + 1) * length];
-        Blocks::of(area).iter().flat_map(of_block).filter(|&&winner| winner != NOBODY).count()
+    /// How many samples see a triangle.
+    pub(crate) fn seen(&self) -> usize {
+        self.winners().iter().filter(|&&winner| winner != NOBODY).count()
     }
 
     /// How many pixels the arrays hold.

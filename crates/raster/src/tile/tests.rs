@@ -1,13 +1,15 @@
 //! What tiles show, against a search through all triangles at every sample.
 
+mod quick;
+
 use super::{BEHIND_ALL, DepthPlane, Edge};
 use crate::samples::SamplePattern;
 use crate::setup::SetupTriangle;
 use crate::simd::SimdLevel;
 use crate::vertex::ScreenVertex;
 use crate::{
-    Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Rasterizer, Surface, Target,
-    TileSize, VertexOutput,
+    Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Rasterizer, Stats, Surface,
+    Target, TileSize, VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
@@ -193,8 +195,8 @@ fn settings() -> impl Strategy<Value = ExecuteSettings> {
     })
 }
 
-/// Holds every pixel of a frame of the heaps against the search.
-fn check(heaps: &[Heap], settings: ExecuteSettings, samples: u32) {
+/// A frame of the heaps.
+fn draw(heaps: &[Heap], settings: ExecuteSettings, samples: u32) -> (Target<'static>, Stats) {
     let corners =
         |heap: &Heap| (0..heap.triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     let indices: Vec<Vec<_>> = heaps.iter().map(corners).collect();
@@ -205,9 +207,15 @@ fn check(heaps: &[Heap], settings: ExecuteSettings, samples: u32) {
         pass.triangles(Draw { culling: heap.culling, ..draw });
     }
     let [width, height] = SIZE.map(|side| side as u32);
-    let mut target = Target::new(width, height, &[Output::Linear, Output::Depth]).unwrap();
-    target = target.with_samples(samples).unwrap();
+    let target = Target::new(width, height, &[Output::Linear, Output::Depth]).unwrap();
+    let mut target = target.with_samples(samples).unwrap();
     let stats = Rasterizer::new(settings).unwrap().draw(&pass, &mut target);
+    (target, stats)
+}
+
+/// Holds every pixel of a frame of the heaps against the search.
+fn check(heaps: &[Heap], settings: ExecuteSettings, samples: u32) {
+    let (target, stats) = draw(heaps, settings, samples);
     let (linear, depth) = (target.linear().unwrap(), target.depth().unwrap());
 
     let of_heap = |(draw, heap): (usize, &Heap)| {

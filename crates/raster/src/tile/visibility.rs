@@ -27,7 +27,7 @@ pub(crate) fn resolve_visibility(
     masked::cover_masked(frame, area, scratch, surfaces.masked.clone());
     scratch.buffer.blank_outside(area);
     if frame.timed {
-        scratch.stats.samples_seen += scratch.buffer.seen(area) as u64;
+        scratch.stats.samples_seen += scratch.buffer.seen() as u64;
     }
     scratch.stats.add_counts(&counts);
 }
