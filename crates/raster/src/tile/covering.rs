@@ -171,3 +171,109 @@ impl Covering {
         Some((greatest - least) >> 8 >= i64::from(i32::MAX))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::samples::SamplePattern;
+    use crate::viewport::Viewport;
+    use proptest::prelude::*;
+
+    fn area(size: [usize; 2]) -> TileArea {
+        TileArea { origin: [64, 128], size }
+    }
+
+    /// Holds what a tile knows of a triangle against its edges, asked at every sample.
+    fn check(triangle: &SetupTriangle, samples: u32, area: &TileArea) {
+        let pattern = SamplePattern::of(samples).unwrap();
+        let grid = Grid::new(Viewport { width: 1024, height: 1024 }, pattern, 64);
+        let edges = Edge::of(triangle);
+        let [[left, right], [top, bottom]] = [0, 1].map(|axis| triangle.extent(axis).map(i64::from));
+        let exact = |[x, y]: [i32; 2]| {
+            let [dx, dy] = [2 * i64::from(x) - left - right, 2 * i64::from(y) - top - bottom];
+            let within = dx * dx + dy * dy < (right - left) * (right - left);
+            edges.iter().all(|edge| edge.at([x, y]) + edge.bias() >= 0)
+                && (triangle.kind != Kind::RoundPoint || within)
+        };
+        let covering = Covering::new(triangle, &grid, area);
+        let [columns, rows] = area.padded().map(|side| side as i32);
+        for block in (0..rows / 8).flat_map(|y| (0..columns / 8).map(move |x| [x * 8, y * 8])) {
+            let sides = covering.as_ref().map(|covering| covering.block_sides(block));
+            for pixel in (0..64).map(|i| [block[0] + i % 8, block[1] + i / 8]) {
+                for (sample, &offset) in pattern.offsets().iter().enumerate() {
+                    let point = area.point(pixel, offset);
+                    let covered = exact(point);
+                    let Some(covering) = &covering else {
+                        assert!(!covered, "{point:?} of a tile that it was to be beside of");
+                        continue;
+                    };
+                    assert_eq!(covering.covers(pixel, sample, point), covered, "{point:?}");
+                    let [outside, inside] = sides.expect("as the tile's");
+                    assert!(!(outside && covered), "{point:?} of a block outside");
+                    assert!(covered || !inside, "{point:?} of a block inside");
+                }
+            }
+        }
+    }
+
+    /// Samples and places beside them, many at corners of blocks.
+    fn place() -> impl Strategy<Value = [i32; 2]> {
+        let corner = prop_oneof![
+            (0..4).prop_map(|block| 8 * block * 256 + 128),
+            (0..4).prop_map(|block| { (8 * block + 7) * 256 + 128 })
+        ];
+        let any = -2000..10_000_i32;
+        let axis = || prop_oneof![2 => corner.clone(), 1 => any.clone()];
+        [axis(), axis()].prop_map(|[x, y]| [x + 64 * 256, y + 128 * 256])
+    }
+
+    /// Triangles with an edge through a place, and discs around it.
+    fn triangle() -> impl Strategy<Value = SetupTriangle> {
+        let reach = prop::sample::select(vec![300, 2500, 30_000, 1 << 20, 1 << 24]);
+        let way = (reach, 0..4_u8).prop_flat_map(|(reach, kind)| {
+            let along = [-reach..=reach, -reach..=reach];
+            (along.clone(), along).prop_map(move |([x, y], other)| match kind {
+                0 => ([x, 0], other),
+                1 => ([x, x], other),
+                _ => ([x, y], other),
+            })
+        });
+        let edge = (place(), way).prop_map(|([x, y], ([dx, dy], [cx, cy]))| {
+            SetupTriangle::on_grid([[x - dx, y - dy], [x + dx, y + dy], [x + cx, y + cy]])
+        });
+        let disc = (place(), 1..40_i32, any::<bool>()).prop_map(|([x, y], half, upper)| {
+            let [left, right, top, bottom] = [x - half * 256, x + half * 256, y - half * 256, y + half * 256];
+            let other = if upper { [right, top] } else { [left, bottom] };
+            let triangle = SetupTriangle::on_grid([[left, top], other, [right, bottom]]);
+            SetupTriangle { kind: Kind::RoundPoint, ..triangle }
+        });
+        prop_oneof![3 => edge, 1 => disc].prop_filter("an area", |triangle| triangle.doubled_area() != 0)
+    }
+
+    proptest! {
+        #[test]
+        fn a_tile_knows_what_edges_say(
+            triangle in triangle(),
+            samples in prop_oneof![2 => Just(1_u32), 1 => Just(4), 1 => Just(16)],
+            size in [1..=32_usize, 1..=32_usize],
+        ) {
+            check(&triangle, samples, &area(size));
+        }
+    }
+
+    /// From one corner of a tile to the other, first an edge whose values just fit 32 bits,
+    /// then some whose do not.
+    #[test]
+    fn the_steepest_edges_do_not_wrap() {
+        let span = |reach: i64| (4 * reach * 63 * 256) >> 8;
+        let most = i64::from(i32::MAX);
+        assert!(span(8_475_000) < most && span(8_475_000) / 63 * 64 > most, "but a pixel");
+        let [x, y] = [64 * 256 + 128, 128 * 256 + 128];
+        for reach in [8_475_000, 8_600_000, 16_000_000] {
+            let edge = [[x - reach, y + reach], [x + reach, y - reach]];
+            for third in [[x + reach, y + reach], [x - reach, y - reach]] {
+                check(&SetupTriangle::on_grid([edge[0], edge[1], third]), 1, &area([64, 64]));
+            }
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! What tiles show, against a search through all triangles at every sample.
 
+mod large;
 mod quick;
 
 use super::{BEHIND_ALL, DepthPlane, Edge};
