@@ -4,6 +4,8 @@
 mod columns;
 mod ears;
 mod eight;
+#[cfg(test)]
+mod tests;
 mod triangle;
 
 pub(crate) use columns::{Column, small_lanes, sorted_columns};
@@ -69,7 +71,7 @@ impl Setup<'_> {
         let triangle = SetupTriangle::whole(vertices, self.first + primitive);
         let [a, b, c] = vertices.map(ScreenVertex::point);
         let area = trigon_math::orientation_fixed(a, b, c);
-        if self.is_culled(area) || area == 0 || self.grid.pixels_of(&triangle).is_none() {
+        if self.is_culled(area) || self.grid.pixels_of(&triangle).is_none() {
             self.chunk.stats.culled += 1;
             return;
         }

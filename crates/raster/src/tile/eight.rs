@@ -272,11 +272,12 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Against the single way, value by value.
+        /// Against the single way, value by value; also where corners lie above each other or side by side.
         #[test]
         fn eight_at_once_are_as_one_by_one(
             points: [[[u16; 2]; 3]; 8],
             depths: [[f32; 3]; 8],
+            steps in prop_oneof![Just(1), Just(1 << 10)],
             samples in prop_oneof![Just(1), Just(4), Just(16)],
         ) {
             let pattern = SamplePattern::of(samples).unwrap();
@@ -284,7 +285,8 @@ mod tests {
             let area = TileArea { origin: [64, 128], size: [64, 60] };
             let vertices: [[ScreenVertex; 3]; 8] = std::array::from_fn(|lane| {
                 std::array::from_fn(|corner| {
-                    let point = [0, 1].map(|i| i32::from(points[lane][corner][i]) / 3 + area.origin[i] * 256 - 3000);
+                    let place = |i: usize| i32::from(points[lane][corner][i]) / 3 / steps * steps;
+                    let point = [0, 1].map(|i| place(i) + area.origin[i] * 256 - 3000);
                     let vertex = SetupTriangle::on_grid([point; 3]).vertices[0];
                     vertex.with_depth(depths[lane][corner].abs().fract())
                 })

@@ -2,6 +2,7 @@
 
 mod large;
 mod quick;
+mod small;
 
 use super::{BEHIND_ALL, DepthPlane, Edge};
 use crate::samples::SamplePattern;
