@@ -1,9 +1,15 @@
 //! What set-up makes of triangles, as frames and their counts tell.
 
+use super::{SMALL, SetupTriangle};
+use crate::bin::Grid;
+use crate::samples::SamplePattern;
+use crate::tile::Edge;
+use crate::viewport::Viewport;
 use crate::{
     Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Rasterizer, Stats, Target, TileSize,
     VertexOutput,
 };
+use proptest::prelude::*;
 use trigon_math::Vec4;
 
 /// Of the picture, in pixels.
@@ -144,5 +150,78 @@ fn what_is_not_drawn_is_counted_where_it_was_dropped() {
     for culling in ALL_CULLING {
         let (_, stats) = alone(line(near), culling);
         assert_eq!(counts(stats), [0, 0, 1, 1, 0], "without area, {culling:?}");
+    }
+}
+
+/// Triangles of all sizes and shapes or small ones only, with corners on whole multiples of
+/// some steps.
+fn triangles() -> impl Strategy<Value = Vec<[[i32; 2]; 3]>> {
+    let triangle = |reaches: &[i32]| {
+        let reach = || prop::sample::select(reaches.to_vec());
+        let steps = prop::sample::select(vec![1, 64, 128]);
+        (steps, [reach(), reach()]).prop_flat_map(|(steps, reach)| {
+            let corner = || reach.map(|reach| -reach..=reach);
+            let middle = [-2000..SIDE as i32 * 256 + 2000, -2000..SIDE as i32 * 256 + 2000];
+            (middle, [corner(), corner(), corner()]).prop_map(move |([x, y], corners)| {
+                corners.map(|[right, down]| [(x + right) / steps * steps, (y + down) / steps * steps])
+            })
+        })
+    };
+    let [small, all] = [&[100, 200, 600, 3000][..], &[100, 3000, 9000, 40_000]].map(triangle);
+    prop_oneof![prop::collection::vec(small, 1..20), prop::collection::vec(all, 1..20)]
+}
+
+fn is_small(triangle: &SetupTriangle) -> bool {
+    let extents = [0, 1].map(|axis| triangle.extent(axis));
+    extents.iter().all(|[low, high]| high - low < SMALL)
+}
+
+/// How many tiles a triangle is listed in, if it is small; `None` if it is culled.
+fn tiles_of(points: [[i32; 2]; 3], culling: Culling, grid: &Grid) -> Option<u64> {
+    let triangle = SetupTriangle::on_grid(points);
+    let [a, b, c] = points.map(|point| point.map(i64::from));
+    let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    let is_culled = match culling {
+        Culling::None => area == 0,
+        Culling::Back => area >= 0,
+        Culling::Front => area <= 0,
+    };
+    let [columns, rows] = grid.pixels_of(&triangle).filter(|_| !is_culled)?;
+    // Those of a pixel or two are asked whether they cover a centre.
+    let edges = Edge::of(&triangle);
+    let covers = |[x, y]: [i32; 2]| {
+        let centre = [x * 256 + 128, y * 256 + 128];
+        edges.iter().all(|edge| edge.at(centre) + edge.bias() >= 0)
+    };
+    let is_tiny = columns[1] - columns[0] <= 1 && rows[1] - rows[0] <= 1;
+    let mut pixels = (columns[0]..=columns[1]).flat_map(|x| (rows[0]..=rows[1]).map(move |y| [x, y]));
+    let is_missed = grid.pattern.count() == 1 && is_tiny && !pixels.any(covers);
+    (!is_missed).then(|| grid.tiles_of(columns, rows).len() as u64)
+}
+
+proptest! {
+    #[test]
+    fn eight_at_once_are_culled_and_listed_as_one_by_one(
+        triangles in triangles(),
+        culling in prop::sample::select(ALL_CULLING.to_vec()),
+        samples in prop::sample::select(vec![1, 1, 4]),
+        (tile_size, side) in prop::sample::select(vec![(TileSize::Pixels8, 8), (TileSize::Pixels64, 64)]),
+    ) {
+        let place = |raw: i32| raw as f32 / (SIDE * 128) as f32 - 1.0;
+        let corners = triangles.iter().flatten().map(|&[x, y]| [place(x), -place(y), 0.5, 1.0]).collect();
+        let indices: Vec<_> = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        let (_, stats) = frame(corners, &indices, (culling, samples, tile_size));
+
+        let viewport = Viewport { width: SIDE, height: SIDE };
+        let pattern = SamplePattern::of(samples).unwrap();
+        let grid = Grid::new(viewport, pattern, side);
+        let tiles: Vec<_> = triangles.iter().filter_map(|&points| tiles_of(points, culling, &grid)).collect();
+        let (set_up, binned) = (tiles.len() as u64, tiles.iter().sum::<u64>());
+        let culled = triangles.len() as u64 - set_up;
+        prop_assert_eq!([stats.culled, stats.set_up], [culled, set_up]);
+        // Large ones are not listed one by one in tiles that they fill.
+        if triangles.iter().all(|&points| is_small(&SetupTriangle::on_grid(points))) {
+            prop_assert_eq!(stats.binned, binned);
+        }
     }
 }
