@@ -261,6 +261,19 @@ mod tests {
         }
     }
 
+    #[test]
+    fn edges_through_a_corner_of_a_tile_are_told_from_those_beside_it() {
+        for corner in [[0, 0], [63, 0], [0, 63], [63, 63]] {
+            let [x, y] = [(64 + corner[0]) * 256 + 128, (128 + corner[1]) * 256 + 128];
+            for [dx, dy] in [[0, 1], [1, 0], [1, 1], [1, -1]].map(|way| way.map(|axis| axis * 30_000)) {
+                for [cx, cy] in [[dy, -dx], [-dy, dx]] {
+                    let points = [[x - dx, y - dy], [x + dx, y + dy], [x + cx, y + cy]];
+                    check(&SetupTriangle::on_grid(points), 1, &area([64, 64]));
+                }
+            }
+        }
+    }
+
     /// From one corner of a tile to the other, first an edge whose values just fit 32 bits,
     /// then some whose do not.
     #[test]
