@@ -128,6 +128,17 @@ fn values_run_on_where_a_triangle_is_cut() {
 }
 
 #[test]
+fn cut_triangles_are_seen_among_whole_ones() {
+    let whole = [corner(-0.9, -0.9, SEEN), corner(-0.7, -0.9, SEEN), corner(-0.9, -0.7, SEEN)];
+    let cut = [corner(-0.5, -0.5, SEEN), corner(0.5, -0.5, SEEN), corner(0.0, 0.75, TOO_NEAR)];
+    let shown = |picture: &[Vec4]| picture.iter().filter(|pixel| pixel.x != 0.0).count();
+    let [of_whole, of_cut] = [whole, cut].map(|corners| shown(&alone(corners, Culling::None).0));
+    let settings = (Culling::None, 1, TileSize::default());
+    let (picture, _) = frame([whole, cut].concat(), &[[0, 1, 2], [3, 4, 5], [0, 1, 2]], settings);
+    assert_eq!(shown(&picture), of_whole + of_cut, "{of_whole} and {of_cut} pixels");
+}
+
+#[test]
 fn what_is_not_drawn_is_counted_where_it_was_dropped() {
     let (seen, near) = (SEEN, TOO_NEAR);
     let counts = |stats: Stats| [stats.invalid, stats.outside, stats.clipped, stats.culled, stats.set_up];
@@ -167,7 +178,7 @@ fn triangles() -> impl Strategy<Value = Vec<[[i32; 2]; 3]>> {
             })
         })
     };
-    let [small, all] = [&[100, 200, 600, 3000][..], &[100, 3000, 9000, 40_000]].map(triangle);
+    let [small, all] = [&[100, 200, 600, 3000][..], &[100, 3000, 9000, 40_000, 1 << 20]].map(triangle);
     prop_oneof![prop::collection::vec(small, 1..20), prop::collection::vec(all, 1..20)]
 }
 

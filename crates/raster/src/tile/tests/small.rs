@@ -46,6 +46,20 @@ fn keys_decide_between_equal_small_triangles() {
     }
 }
 
+/// A smaller key decides where depths are equal, and nowhere else.
+#[test]
+fn farther_small_triangles_take_nothing_by_their_keys() {
+    for samples in [1, 4] {
+        for side in [600, 1700] {
+            let at = |x: i32| [[x, 900], [x + side, 900], [x, 900 + side]];
+            let mut there = heap(1, 1, &[at(900), at(900 + side / 2)]);
+            there.triangles[0].depths = [0.5; 3];
+            let later = at_depths(heap(0, 9, &[at(900 + side / 4)]), [0.5; 3]);
+            check(&[there, later], timed(), samples);
+        }
+    }
+}
+
 /// As deep as what stands for nobody is not before it.
 #[test]
 fn what_is_as_deep_as_the_background_is_not_seen() {
