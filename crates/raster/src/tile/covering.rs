@@ -281,7 +281,8 @@ mod tests {
         let span = |reach: i64| (4 * reach * 63 * 256) >> 8;
         let most = i64::from(i32::MAX);
         assert!(span(8_475_000) < most && span(8_475_000) / 63 * 64 > most, "but a pixel");
-        let [x, y] = [64 * 256 + 128, 128 * 256 + 128];
+        // Just beside the first sample, so that the edge crosses the tile.
+        let [x, y] = [64 * 256 + 129, 128 * 256 + 129];
         for reach in [8_475_000, 8_600_000, 16_000_000] {
             let edge = [[x - reach, y + reach], [x + reach, y - reach]];
             for third in [[x + reach, y + reach], [x - reach, y - reach]] {
