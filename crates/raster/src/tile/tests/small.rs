@@ -50,12 +50,14 @@ fn keys_decide_between_equal_small_triangles() {
 #[test]
 fn farther_small_triangles_take_nothing_by_their_keys() {
     for samples in [1, 4] {
-        for side in [600, 1700] {
+        for side in [600, 900, 1700] {
             let at = |x: i32| [[x, 900], [x + side, 900], [x, 900 + side]];
-            let mut there = heap(1, 1, &[at(900), at(900 + side / 2)]);
+            // Descending, so that the order of the triangles is not that of the keys.
+            let mut there = Heap { faces: vec![2, 1], ..heap(0, 1, &[at(900), at(900 + side / 2)]) };
             there.triangles[0].depths = [0.5; 3];
-            let later = at_depths(heap(0, 9, &[at(900 + side / 4)]), [0.5; 3]);
-            check(&[there, later], timed(), samples);
+            there.triangles[1].depths = [0.75; 3];
+            let later = Heap { faces: vec![0], ..heap(0, 9, &[at(900 + side / 4)]) };
+            check(&[there, at_depths(later, [0.5; 3])], timed(), samples);
         }
     }
 }
@@ -102,13 +104,16 @@ fn triangles_of_a_speck_cover_the_sample_that_they_hold() {
 fn depths_of_slivers_keep_to_those_of_their_corners() {
     for samples in [1, 4] {
         let [x, y] = first_sample(samples).map(|v| v + 256 * 20);
-        for (reach, third) in [(1, 0.0), (1, 1.0), (3, 0.0), (3, 1.0), (9, 0.0), (9, 1.0)] {
+        // In the far plane rounding would leave the picture, too.
+        let depths = [[0.7, 0.0], [0.7, 1.0], [0.0, 1.0]];
+        for (reach, [ends_depth, third]) in [1, 3, 9].into_iter().flat_map(|reach| depths.map(|d| (reach, d)))
+        {
             let slivers = (1..=40).flat_map(|i| {
                 let [dx, dy] = [41 * reach + i, 7 * i * reach % 431 - 200];
                 let ends = [[x - dx, y - dy], [x + dx, y + dy]];
                 [-1, 1].map(|side| Flat {
                     points: [ends[0], ends[1], [x - dx, y - dy + side]],
-                    depths: [0.7, 0.7, third],
+                    depths: [ends_depth, ends_depth, third],
                 })
             });
             for triangle in slivers {
