@@ -20,6 +20,9 @@ use trigon_math::{Fixed, FixedPoint, Vec4};
 /// No whole number of tiles, of blocks or of groups.
 const SIZE: [i32; 2] = [75, 45];
 
+/// A triangle over all of the picture.
+const ALL: [[i32; 2]; 3] = [[-100_000, -100_000], [200_000, -100_000], [-100_000, 200_000]];
+
 /// Corners in 1/256 pixel, and their depths.
 #[derive(Clone, Copy, Debug)]
 struct Flat {
@@ -274,7 +277,6 @@ fn a_large_triangle_is_seen_before_a_later_small_one_of_its_depth() {
 /// What lies at the depth of all of a tile is neither hidden by that nor hides it: keys decide.
 #[test]
 fn keys_decide_where_a_tile_is_as_deep_as_a_triangle() {
-    let all = [[-100_000, -100_000], [200_000, -100_000], [-100_000, 200_000]];
     for side in [700, 3000, 9000, 40_000, 200_000] {
         let triangles = [0, 1, 2, 3, 4, 5, 6, 7].map(|i| {
             let [x, y] = [800 * i - side / 8, 900 * i - side / 8];
@@ -282,7 +284,7 @@ fn keys_decide_where_a_tile_is_as_deep_as_a_triangle() {
         });
         // Descending, so that the order of the triangles is not that of the keys.
         for (face, faces) in [(8, [7, 6, 5, 4, 3, 2, 1, 0]), (0, [8, 7, 6, 5, 4, 3, 2, 1])] {
-            let all = Heap { faces: vec![face], ..heap(0, 1, &[all]) };
+            let all = Heap { faces: vec![face], ..heap(0, 1, &[ALL]) };
             let others = Heap { faces: faces.to_vec(), ..heap(0, 2, &triangles) };
             for samples in [1, 4] {
                 check(&[all.clone(), others.clone()], timed(), samples);

@@ -1,10 +1,9 @@
 //! The quick ways through a tile: that they are taken, which no picture tells.
 
-use super::{Heap, SIZE, draw, heap, timed};
+use super::{ALL, Heap, SIZE, draw, heap, timed};
 use crate::{DepthTest, ExecuteSettings, Stats, Surface, TileSize};
 
-/// A triangle over all of the picture: two tiles, 48 and 12 blocks with a pixel in it.
-const ALL: [[i32; 2]; 3] = [[-100_000, -100_000], [200_000, -100_000], [-100_000, 200_000]];
+/// In the picture: of 48 and of 12 blocks.
 const TILES: u64 = 2;
 const BLOCKS: u64 = 60;
 

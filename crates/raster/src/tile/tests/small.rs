@@ -1,8 +1,6 @@
 //! Triangles of a pixel or a few, eight side by side.
 
-use super::{Flat, Heap, check, heap, timed};
-
-const ALL: [[i32; 2]; 3] = [[-100_000, -100_000], [200_000, -100_000], [-100_000, 200_000]];
+use super::{ALL, Flat, Heap, check, heap, timed};
 
 /// Eight triangles of some size in 1/256 pixel, none on another.
 fn eight(side: i32) -> [[[i32; 2]; 3]; 8] {
