@@ -3,6 +3,7 @@
 use super::{Grid, TileRange};
 use crate::line::Stroke;
 use crate::setup::{CutWeights, Kind, SetupTriangle};
+use crate::simd::{Each, LANES, Mask, Simd, U32, prelude::*};
 use crate::{Stats, Surface};
 use std::ops::Range;
 
@@ -82,8 +83,9 @@ pub(crate) struct Chunk {
     /// What the anti-aliased lines and points cover.
     strokes: Vec<Stroke>,
     pub(crate) stats: Stats,
-    /// (tile, entry) in the order of the primitives.
-    pairs: Vec<(u32, Entry)>,
+    /// Tiles, and what each of them lists for it, in the order of the primitives.
+    tiles: Vec<u32>,
+    pushed: Vec<Entry>,
     large: Vec<Large>,
     /// The first tile that has entries, and where each tile's entries start.
     first_tile: u32,
@@ -100,7 +102,8 @@ impl Chunk {
         self.weights.clear();
         self.strokes.clear();
         self.stats = Stats::default();
-        self.pairs.clear();
+        self.tiles.clear();
+        self.pushed.clear();
         self.large.clear();
         self.starts.clear();
         self.entries.clear();
@@ -109,7 +112,20 @@ impl Chunk {
     /// Notes that a triangle may have samples in one tile.
     #[inline(always)]
     pub(crate) fn push(&mut self, tile: u32, entry: Entry) {
-        self.pairs.push((tile, entry));
+        self.tiles.push(tile);
+        self.pushed.push(entry);
+    }
+
+    /// Notes that some of eight primitives may have samples in one tile each.
+    #[inline(always)]
+    pub(crate) fn push_some<S: Simd>(&mut self, mask: Mask<S>, tiles: U32<S>, places: U32<S>) {
+        let count = self.tiles.len() + mask.to_bitmask().count_ones() as usize;
+        let [tiles, places]: [[u32; LANES]; 2] = [tiles.compress(mask).into(), places.compress(mask).into()];
+        // All eight, as that is one store, and forgotten again.
+        self.tiles.extend_from_slice(&tiles);
+        self.pushed.extend_from_slice(&places.each(Entry::primitive));
+        self.tiles.truncate(count);
+        self.pushed.truncate(count);
     }
 
     /// Notes all tiles that a triangle may have samples in.
@@ -121,8 +137,7 @@ impl Chunk {
         if tiles.len() >= LARGE {
             self.large.push(Large { entry, tiles });
         } else {
-            let pairs = &mut self.pairs;
-            grid.for_each_tile(triangle, |tile| pairs.push((tile, entry)));
+            grid.for_each_tile(triangle, |tile| self.push(tile, entry));
         }
     }
 
@@ -147,27 +162,27 @@ impl Chunk {
 
     /// How many triangles are listed.
     pub(crate) fn binned(&self) -> u64 {
-        (self.pairs.len() + self.large.len()) as u64
+        (self.tiles.len() + self.large.len()) as u64
     }
 
-    /// Sorts the pairs by tile, each tile's in their order, by counting.
+    /// Sorts the entries by tile, each tile's in their order, by counting.
     pub(crate) fn sort(&mut self) {
-        let tiles = || self.pairs.iter().map(|&(tile, _)| tile);
-        let (Some(first), Some(last)) = (tiles().min(), tiles().max()) else {
+        let tiles = self.tiles.iter().copied();
+        let (Some(first), Some(last)) = (tiles.clone().min(), tiles.max()) else {
             return;
         };
         self.first_tile = first;
         // One more than there are tiles, and one before that the filling in
         // moves to its place.
         self.starts.resize((last - first) as usize + 3, 0);
-        for &(tile, _) in &self.pairs {
+        for &tile in &self.tiles {
             self.starts[(tile - first) as usize + 2] += 1;
         }
         for tile in 1..self.starts.len() {
             self.starts[tile] += self.starts[tile - 1];
         }
-        self.entries.resize(self.pairs.len(), Entry(0));
-        for &(tile, entry) in &self.pairs {
+        self.entries.resize(self.pushed.len(), Entry(0));
+        for (&tile, &entry) in self.tiles.iter().zip(&self.pushed) {
             let next = &mut self.starts[(tile - first) as usize + 1];
             self.entries[*next as usize] = entry;
             *next += 1;

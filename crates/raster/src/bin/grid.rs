@@ -2,6 +2,7 @@
 
 use crate::samples::SamplePattern;
 use crate::setup::SetupTriangle;
+use crate::simd::{F32, I32, Simd, prelude::*};
 use crate::tile::Edge;
 use crate::viewport::Viewport;
 use std::ops::Range;
@@ -15,6 +16,8 @@ pub(crate) struct Grid {
     pub(crate) columns: u32,
     /// 2^32 / size, rounded up: a product with it divides.
     reciprocal: u64,
+    /// 1 / size.
+    inverse: f32,
 }
 
 /// A rectangle of tiles.
@@ -42,13 +45,20 @@ impl Grid {
     pub(crate) fn new(viewport: Viewport, pattern: SamplePattern, size: u32) -> Self {
         let columns = viewport.width.div_ceil(size);
         let reciprocal = (1_u64 << 32).div_ceil(u64::from(size));
-        Self { viewport, pattern, size, columns, reciprocal }
+        Self { viewport, pattern, size, columns, reciprocal, inverse: 1.0 / size as f32 }
     }
 
     /// The column or row of tiles that a pixel lies in.
     #[inline(always)]
     pub(crate) fn tile_of(&self, pixel: u32) -> u32 {
         ((u64::from(pixel) * self.reciprocal) >> 32) as u32
+    }
+
+    /// [`tile_of`](Self::tile_of), for lanes.
+    #[inline(always)]
+    pub(crate) fn tiles_at<S: Simd>(&self, pixels: I32<S>) -> I32<S> {
+        // A centre lies half a pixel from the next tile, and the product within 2^-7 pixels.
+        ((pixels.to_float::<F32<S>>() + 0.5) * self.inverse).to_int()
     }
 
     /// The tiles that hold these pixels, ends included and not empty; what lies
@@ -125,6 +135,7 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simd::{LANES, SimdLevel, at_level, lane_numbers};
     use proptest::prelude::*;
 
     fn point() -> impl Strategy<Value = [i32; 2]> {
@@ -138,6 +149,14 @@ mod tests {
             let grid = Grid::new(Viewport { width: 1, height: 1 }, SamplePattern::SINGLE, size);
             for pixel in 0..1 << 16 {
                 assert_eq!(grid.tile_of(pixel), pixel / size, "{pixel} / {size}");
+            }
+            let token = SimdLevel::best().token().expect("the best level is there");
+            for first in (0..1 << 16).step_by(LANES) {
+                let tiles: [i32; LANES] = at_level!(token, simd => {
+                    grid.tiles_at(lane_numbers(simd) + first).into()
+                });
+                let expected: [i32; LANES] = std::array::from_fn(|lane| (first + lane as i32) / size as i32);
+                assert_eq!(tiles, expected, "{first} / {size}");
             }
         }
     }

@@ -4,7 +4,7 @@
 use super::Setup;
 use crate::Culling;
 use crate::bin::Entry;
-use crate::simd::{Each, I32, LANES, Mask, Simd, lanes_of, prelude::*, transposed};
+use crate::simd::{Each, I32, LANES, Mask, Simd, lane_numbers, lanes_of, prelude::*, transposed};
 use crate::vertex::ScreenVertex;
 
 /// Triangles whose sides are shorter than this on both axes, in 1/256 pixel,
@@ -109,9 +109,16 @@ impl Setup<'_> {
         let eight = Eight::new(simd, vertices);
         let lanes = (1_u64 << triangles.len()) - 1;
         let plain = eight.plain.to_bitmask() & lanes;
-        let (drawn, [columns, rows]) = self.seen(simd, &eight, plain);
+        let (drawn, pixels) = self.seen(simd, &eight, plain);
         self.chunk.stats.culled += u64::from((plain & !drawn).count_ones());
         self.chunk.stats.set_up += u64::from(drawn.count_ones());
+        if plain == lanes && self.push_together(simd, first, drawn, pixels) {
+            return;
+        }
+        let [columns, rows] = pixels.each(
+            #[inline(always)]
+            |range| range.each(<[i32; LANES]>::from),
+        );
         // One after another: tiles list their triangles in the order of the primitives.
         let mut rest = drawn | (lanes & !plain);
         while rest != 0 {
@@ -130,7 +137,7 @@ impl Setup<'_> {
     /// Those of the `plain` lanes that may be seen, and the first and last columns and
     /// rows that they may have samples in.
     #[inline(always)]
-    fn seen<S: Simd>(&self, simd: S, eight: &Eight<S>, plain: u64) -> (u64, [[[i32; LANES]; 2]; 2]) {
+    fn seen<S: Simd>(&self, simd: S, eight: &Eight<S>, plain: u64) -> (u64, [[I32<S>; 2]; 2]) {
         let zero = I32::splat(simd, 0);
         let faces = match self.culling {
             Culling::None => !eight.area.simd_eq(zero),
@@ -158,11 +165,32 @@ impl Setup<'_> {
             );
             seen &= !(x & y & eight.miss(simd, [pixels[0][0], pixels[1][0]]));
         }
-        let pixels = pixels.each(
-            #[inline(always)]
-            |range| range.each(<[i32; LANES]>::from),
-        );
         (seen.to_bitmask() & plain, pixels)
+    }
+
+    /// Bins small triangles that lie in one tile each, if all that are drawn do.
+    #[inline(always)]
+    fn push_together<S: Simd>(&mut self, simd: S, first: u32, drawn: u64, pixels: [[I32<S>; 2]; 2]) -> bool {
+        let grid = self.grid;
+        let [columns, rows] = [(0, grid.viewport.width), (1, grid.viewport.height)].each(
+            #[inline(always)]
+            |(axis, side)| {
+                let [begin, end] = pixels[axis];
+                [begin.max(0), end.min(side as i32 - 1)].each(
+                    #[inline(always)]
+                    |pixel| grid.tiles_at(pixel),
+                )
+            },
+        );
+        let drawn = Mask::from_bitmask(simd, drawn);
+        let alone = columns[0].simd_eq(columns[1]) & rows[0].simd_eq(rows[1]);
+        if (drawn & !alone).any_true() {
+            return false;
+        }
+        let tiles = (rows[0] * grid.columns as i32 + columns[0]).bitcast();
+        let places = (lane_numbers(simd) + self.place(first) as i32).bitcast();
+        self.chunk.push_some(drawn, tiles, places);
+        true
     }
 
     /// Bins a small triangle by its bounding box: at most two tiles each way,
