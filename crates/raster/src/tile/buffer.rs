@@ -160,12 +160,13 @@ impl VisibilityBuffer {
     fn refresh(&mut self, block: usize) {
         let length = GROUPS * LANES * self.samples;
         let depths = &self.depth[block * length..(block + 1) * length];
-        let mut least = [f32::INFINITY; LANES];
-        for group in depths.chunks_exact(LANES) {
-            for (least, &depth) in least.iter_mut().zip(group) {
-                *least = if depth < *least { depth } else { *least };
-            }
+        // Several at once: hardly a comparison waits for the one before.
+        let mut least = [f32::INFINITY; GROUPS / 2 * LANES];
+        for groups in depths.as_chunks().0 {
+            least = lesser(&least, groups);
         }
+        let [first, others @ ..] = least.as_chunks::<LANES>().0 else { unreachable!("it has groups") };
+        let least = others.iter().fold(*first, |least, group| lesser(&least, group));
         let farthest = least.into_iter().fold(f32::INFINITY, |a, b| if b < a { b } else { a });
         self.stale |= farthest > self.blocks[block].farthest;
         self.blocks[block] = BlockBounds { farthest, writes: 0, ..self.blocks[block] };
@@ -186,4 +187,14 @@ impl VisibilityBuffer {
         }
         self.farthest
     }
+}
+
+/// The lesser of each two.
+#[inline(always)]
+fn lesser<const COUNT: usize>(a: &[f32; COUNT], b: &[f32; COUNT]) -> [f32; COUNT] {
+    let mut least = *a;
+    for (least, &b) in least.iter_mut().zip(b) {
+        *least = if b < *least { b } else { *least };
+    }
+    least
 }

@@ -5,7 +5,9 @@ use super::area::{BLOCKS, GROUPS};
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::cover::{Counts, Cover};
 use super::eight::Eight;
-use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, lesser, prelude::*, widened};
+use crate::simd::{
+    Each, F32, I32, LANES, Mask, Simd, U32, greater, lane_numbers, lesser, prelude::*, widened,
+};
 use fearless_simd::f64x4;
 
 /// Triangles that reach over no more pixels than this each way.
@@ -20,13 +22,42 @@ struct Depths<S: Simd> {
     high: F32<S>,
 }
 
+/// Most pixels that eight triangles reach over.
+const PIXELS: usize = (MICRO * MICRO) as usize * LANES;
+
+/// The pixels that eight triangles cover.
+pub(super) struct Covered {
+    count: usize,
+    /// Their numbers in the tile, times eight, plus the lanes of their triangles; and room
+    /// for what is written eight at a time.
+    places: [u32; PIXELS + LANES],
+    depths: [f32; PIXELS + LANES],
+}
+
+impl Covered {
+    pub(super) fn new() -> Self {
+        Self { count: 0, places: [0; PIXELS + LANES], depths: [0.0; PIXELS + LANES] }
+    }
+
+    /// Lists one pixel of each of some triangles. How many there are, nobody can foresee:
+    /// they are gone through later, once for all pixels.
+    #[inline(always)]
+    fn push<S: Simd>(&mut self, simd: S, lanes: Mask<S>, (depth, index): (F32<S>, I32<S>)) {
+        let places = ((index << 3) + lane_numbers(simd)).bitcast::<U32<S>>();
+        let count = self.count;
+        places.compress(lanes).store_slice(&mut self.places[count..count + LANES]);
+        depth.compress(lanes).store_slice(&mut self.depths[count..count + LANES]);
+        self.count += lanes.to_bitmask().count_ones() as usize;
+    }
+}
+
 impl Cover<'_> {
     /// Triangles with one sample to a pixel; the first of them has number `first`.
     #[inline(always)]
     pub(super) fn micro<S: Simd>(
         &self,
         simd: S,
-        eight: &Eight,
+        (eight, pixels): (&Eight, &mut Covered),
         first: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
@@ -50,7 +81,7 @@ impl Cover<'_> {
             let y = top + down;
             let in_row = live & y.simd_le(bottom);
             if !in_row.any_true() {
-                return;
+                break;
             }
             let depths = self.depths(simd, eight, y);
             let mut values = edges;
@@ -62,10 +93,8 @@ impl Cover<'_> {
                 }
                 let [a, b, c] = values;
                 let covered = here & (a | b | c).simd_ge(I32::splat(simd, 0));
-                if covered.any_true() {
-                    let depth = self.depths_at(simd, eight, &depths, x);
-                    self.scatter(covered, (eight, first), (depth, index_of(x, y)), buffer);
-                }
+                let depth = self.depths_at(simd, eight, &depths, x);
+                pixels.push(simd, covered, (depth, index_of(x, y)));
                 for (value, step) in values.iter_mut().zip(steps_right) {
                     *value += step;
                 }
@@ -74,6 +103,7 @@ impl Cover<'_> {
                 *edge += step;
             }
         }
+        self.scatter(eight, first, pixels, buffer);
     }
 
     /// The lanes that may be seen in the tile.
@@ -138,25 +168,15 @@ impl Cover<'_> {
         widened((place - I32::simd_from(simd, anchor[axis])).to_float())
     }
 
-    /// Lets the covered lanes compete, each for its own pixel.
+    /// Lets the triangles compete for the pixels that they cover.
     #[inline(always)]
-    fn scatter<S: Simd>(
-        &self,
-        covered: Mask<S>,
-        (eight, first): (&Eight, u32),
-        (depth, index): (F32<S>, I32<S>),
-        buffer: &mut VisibilityBuffer,
-    ) {
-        let depth: [f32; LANES] = depth.into();
-        let index: [i32; LANES] = index.into();
-        let mut lanes = covered.to_bitmask();
-        while lanes != 0 {
-            let lane = lanes.trailing_zeros() as usize & (LANES - 1);
-            lanes &= lanes - 1;
-            let (at, place) = (index[lane] as usize, first + lane as u32);
-            let there = buffer.depth[at];
-            if depth[lane] > there || (depth[lane] == there && self.wins_tie(place, buffer.winner[at])) {
-                buffer.depth[at] = depth[lane];
+    fn scatter(&self, eight: &Eight, first: u32, pixels: &mut Covered, buffer: &mut VisibilityBuffer) {
+        let count = std::mem::take(&mut pixels.count);
+        for (&place, &depth) in pixels.places[..count].iter().zip(&pixels.depths) {
+            let (at, lane) = (place as usize / LANES, place as usize % LANES);
+            let (there, place) = (buffer.depth[at], first + lane as u32);
+            if depth > there || (depth == there && self.wins_tie(place, buffer.winner[at])) {
+                buffer.depth[at] = depth;
                 buffer.winner[at] = place;
                 buffer.note_write(at / (GROUPS * LANES), eight.high[lane]);
             }

@@ -8,14 +8,14 @@ use super::store::name_where;
 use super::tiny::Tiny;
 use crate::samples::MAX_SAMPLES;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, lesser, prelude::*};
-use fearless_simd::f64x4;
+use fearless_simd::{f64x4, f64x8};
 
 /// What the samples of a triangle's pixels begin with, in all lanes.
 pub(super) struct Several {
     /// The edge functions at the first pixel of the first group, less the greatest.
     edges: [[[i32; LANES]; 3]; MAX_SAMPLES],
     /// The plane of depth in the upper and the lower row of a row of groups, at its start.
-    planes: [[[f64; 4]; 2]; MAX_SAMPLES],
+    planes: [[f64; LANES]; MAX_SAMPLES],
     /// From the pixel's corner, in 1/256 pixel.
     offsets: [[[f64; 4]; 2]; MAX_SAMPLES],
 }
@@ -26,14 +26,14 @@ impl Several {
         for (splat, offset) in splat.iter_mut().zip(offsets) {
             *splat = offset.map(|axis| [f64::from(axis); 4]);
         }
-        Self { edges: [[[0; LANES]; 3]; MAX_SAMPLES], planes: [[[0.0; 4]; 2]; MAX_SAMPLES], offsets: splat }
+        Self { edges: [[[0; LANES]; 3]; MAX_SAMPLES], planes: [[0.0; LANES]; MAX_SAMPLES], offsets: splat }
     }
 }
 
 /// Lets all samples of the pixels in all rows compete. Tells where something lies at the
-/// same depth.
+/// same depth, if `TIES` asks for it.
 #[inline(always)]
-pub(super) fn rows<S: Simd>(
+pub(super) fn rows<S: Simd, const TIES: bool>(
     simd: S,
     tiny: &Tiny<S>,
     (starts, lane): (&mut Starts, usize),
@@ -57,11 +57,14 @@ pub(super) fn rows<S: Simd>(
         let Several { planes, offsets, .. } = &mut starts.several;
         for (planes, offset) in planes.iter_mut().zip(&offsets[..samples]) {
             let dy = dy + f64x4::simd_from(simd, offset[1]);
-            for (plane, dy) in planes.iter_mut().zip([dy, dy + 256.0]) {
-                *plane = (tiny.value + tiny.slopes[1] * dy).into();
-            }
+            let [upper, lower] = [dy, dy + 256.0].each(
+                #[inline(always)]
+                |dy| tiny.value + tiny.slopes[1] * dy,
+            );
+            // As one, as it is loaded as one soon.
+            *planes = upper.combine(lower).into();
         }
-        ties |= columns(simd, tiny, (row, edges, dx), &starts.several, buffer);
+        ties |= columns::<S, TIES>(simd, tiny, (row, edges, dx), &starts.several, buffer);
         for (edge, step) in edges.iter_mut().zip(tiny.down) {
             *edge += step;
         }
@@ -72,7 +75,7 @@ pub(super) fn rows<S: Simd>(
 
 /// The same for one row of groups.
 #[inline(always)]
-fn columns<S: Simd>(
+fn columns<S: Simd, const TIES: bool>(
     simd: S,
     tiny: &Tiny<S>,
     (row, mut edges, mut dx): (usize, [I32<S>; 3], f64x4<S>),
@@ -98,10 +101,7 @@ fn columns<S: Simd>(
         let starts = several.edges.iter().zip(&several.planes).zip(&several.offsets);
         for ((there, winners), ((starts, planes), offset)) in there.zip(starts) {
             let across = tiny.slopes[0] * (at + f64x4::simd_from(simd, offset[0]));
-            let [upper, lower] = planes.each_ref().each(
-                #[inline(always)]
-                |plane| f64x4::simd_from(simd, *plane) + across,
-            );
+            let (upper, lower) = (f64x8::simd_from(simd, *planes) + across.combine(across)).split();
             let depth = lesser(greater(simd.narrow_f64x4(upper, lower), tiny.low), tiny.high);
             let covered = inside(
                 simd,
@@ -113,7 +113,9 @@ fn columns<S: Simd>(
             // What is not covered lies behind everything.
             let depth = covered.select(depth, F32::splat(simd, f32::NEG_INFINITY));
             let before = F32::simd_from(simd, *there);
-            ties |= depth.simd_eq(before);
+            if TIES {
+                ties |= depth.simd_eq(before);
+            }
             *there = greater(depth, before).into();
             name_where(simd, depth.simd_gt(before), tiny.place, winners);
         }

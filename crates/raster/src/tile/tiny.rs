@@ -93,7 +93,10 @@ impl Cover<'_> {
         let tiny = eight.tiny(simd, (starts, lane), place);
         counts.groups += tiny.groups();
         let ties = if MULTI {
-            several::rows(simd, &tiny, (starts, lane), buffer)
+            match self.in_order {
+                true => several::rows::<S, false>(simd, &tiny, (starts, lane), buffer),
+                false => several::rows::<S, true>(simd, &tiny, (starts, lane), buffer),
+            }
         } else {
             let start = Start::new(simd, &tiny, (starts, lane), self.offsets[0]);
             // As many columns as most have without a loop, where ties need not be known.

@@ -2,6 +2,7 @@
 
 use super::cover::Cover;
 use super::eight::Eight;
+use super::micro::Covered;
 use super::starts::Starts;
 use super::{Counts, Covering, Scratch, Surfaces, TileArea, VisibilityBuffer, masked};
 use crate::bin::Place;
@@ -51,13 +52,14 @@ fn cover_opaque<S: Simd, const MULTI: bool>(
     };
     let places = &places[..opaque];
     let mut starts = Starts::new(cover.offsets);
+    let mut covered = Covered::new();
     let mut start = 0;
     while start < opaque {
         let together = side_by_side(frame, &places[start..]);
         let eight = (together > 0).then(|| eight(simd, frame, area, &places[start..start + together]));
         let end = start + together.max(1);
         if !MULTI && let Some(eight) = eight.as_ref().filter(|eight| eight.micro) {
-            cover.micro(simd, eight, start as u32, buffer, counts);
+            cover.micro(simd, (eight, &mut covered), start as u32, buffer, counts);
         } else {
             if let Some(eight) = &eight {
                 starts.find::<S, MULTI>(simd, &cover, eight);
