@@ -10,6 +10,7 @@ use crate::line::LineStyle;
 use crate::pass::{Pass, Recorded};
 use crate::point::PointStyle;
 use crate::pool::Workers;
+use crate::resolve::fill_background;
 use crate::setup::Setup;
 use crate::shade::Encoding;
 use crate::simd::{Simd, Token, at_level};
@@ -252,10 +253,21 @@ fn draw_tiles(view: &FrameView<'_>, bands: &Bands<'_>, how: How<'_>, scratches: 
         let Some(scratch) = free.lock().unwrap_or_else(PoisonError::into_inner).next() else {
             return;
         };
+        // Neighbours that nothing is in: their rows are filled as one.
+        let mut empty = 0..0;
         while let Some([column, row]) = tiles.get(next.fetch_add(1, Ordering::Relaxed))
             && !how.is_cancelled()
         {
-            draw_tile(view, scratch, bands, row * view.grid.columns + column);
+            let tile = row * view.grid.columns + column;
+            if draw_tile(view, scratch, bands, tile) {
+                continue;
+            }
+            if tile != empty.end || column == tiles.columns.start {
+                fill_background(view, empty, bands);
+                empty = tile..tile;
+            }
+            empty.end += 1;
         }
+        fill_background(view, empty, bands);
     });
 }

@@ -27,12 +27,17 @@ impl FrameView<'_> {
     }
 }
 
-/// Draws a tile that nothing is in.
-pub(crate) fn fill_background(frame: &FrameView<'_>, area: &TileArea, bands: &Bands<'_>) {
-    let corner = area.origin.map(|v| v as u32 / frame.supersampling);
+/// Draws neighbouring tiles of one row that nothing is in.
+pub(crate) fn fill_background(frame: &FrameView<'_>, tiles: Range<u32>, bands: &Bands<'_>) {
+    let Some(last) = tiles.clone().last() else { return };
+    let [first, last] = [tiles.start, last].map(|tile| frame.area(tile));
+    let corner = first.origin.map(|v| v as u32 / frame.supersampling);
+    let [columns, rows] = frame.drawn_part(&first);
+    let way = (last.origin[0] - first.origin[0]) as usize / frame.supersampling as usize;
+    let columns = columns.start..way + frame.drawn_part(&last)[0].end;
     let (mut band, first) = bands.lock(corner);
     let band = &mut *band;
-    let part = Part { first, width: bands.width(), drawn: frame.drawn_part(area) };
+    let part = Part { first, width: bands.width(), drawn: [columns, rows] };
     part.fill(band.depth, 0.0);
     for ids in [&mut band.objects, &mut band.faces, &mut band.triangles] {
         part.fill(ids, u32::MAX);
@@ -48,13 +53,13 @@ pub(crate) fn fill_background(frame: &FrameView<'_>, area: &TileArea, bands: &Ba
     }
 }
 
-/// The part of a band that a tile draws.
+/// The part of a band that tiles draw.
 struct Part {
-    /// The index of the tile's first pixel.
+    /// The index of the first tile's first pixel.
     first: usize,
     /// Pixels in a row of the band.
     width: usize,
-    /// Columns and rows, from the tile's first pixel.
+    /// Columns and rows, from that pixel.
     drawn: [Range<usize>; 2],
 }
 

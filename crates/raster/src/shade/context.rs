@@ -96,11 +96,10 @@ impl Work {
         Self { spot, output: output as u32 }
     }
 
-    /// Spots of triangles that may not cover the centres, and cover the first samples
-    /// for sure.
+    /// [`covering`](Self::covering), for the spots of lanes.
     #[inline(always)]
-    pub(crate) fn covering_first<S: Simd>(spots: U32<S>) -> U32<S> {
-        spots | (1 << Self::PARTLY | 1 << Self::SAMPLE)
+    pub(crate) fn covering_lanes<S: Simd>(pixels: U32<S>, sample: usize) -> U32<S> {
+        pixels | (1 << Self::PARTLY | (sample as u32 + 1) << Self::SAMPLE)
     }
 
     /// At one of the pixel's samples.

@@ -1,8 +1,8 @@
 //! Pixels whose samples see different triangles.
 
 use super::Work;
-use super::task::Fragment;
-use crate::simd::{LANES, Simd, U32, lane_numbers, prelude::*};
+use super::fragments::FragmentList;
+use crate::simd::{LANES, Mask, Simd, U32, lane_numbers, prelude::*};
 use crate::tile::{NOBODY, PIXELS};
 
 /// The place of the colour behind all triangles.
@@ -83,20 +83,21 @@ impl Edges {
 
     /// Lists pixels of a group whose samples see different triangles. Their own places
     /// get the colours of what their first samples see, each other triangle's colour a
-    /// place of its own, and the samples name theirs. The triangles are marked.
+    /// place of its own, and the samples name theirs.
     #[inline(always)]
     pub(super) fn push<S: Simd>(
         &mut self,
         simd: S,
         (group, rows): (usize, &[[u32; LANES]]),
         lanes: u64,
-        (parts, marks): (&mut Vec<Fragment>, &mut [u32]),
+        parts: &mut FragmentList,
     ) {
         let pixel = group * LANES;
         let names = &mut self.names[self.groups.len() * rows.len()..][..rows.len()];
         self.groups.push(EdgeGroup { number: group as u32, lanes: lanes as u32 });
         let (nobody, behind) = (U32::splat(simd, NOBODY), U32::splat(simd, BEHIND as u32));
         let pixels = (lane_numbers(simd) + pixel as i32).bitcast::<U32<S>>();
+        let listed = Mask::from_bitmask(simd, lanes);
         names[0] = U32::simd_from(simd, rows[0]).simd_eq(nobody).select(behind, pixels).into();
         for sample in 1..rows.len() {
             let winners = U32::simd_from(simd, rows[sample]);
@@ -105,17 +106,12 @@ impl Edges {
             for (row, names) in rows[..sample].iter().zip(&names[..sample]) {
                 name = winners.simd_eq(U32::simd_from(simd, *row)).select(U32::simd_from(simd, *names), name);
             }
-            names[sample] = name.into();
-            let mut others = name.simd_eq(unnamed).to_bitmask() & lanes;
-            while others != 0 {
-                let lane = others.trailing_zeros() as usize % LANES;
-                others &= others - 1;
-                let (winner, place) = (rows[sample][lane], PARTS + self.parts);
-                self.parts += 1;
-                marks[winner as usize] = 1;
-                parts.push(Fragment { slot: winner, work: Work::covering(pixel + lane, sample, place) });
-                names[sample][lane] = place as u32;
-            }
+            // How many have no name yet, nobody can foresee: all at once.
+            let others = name.simd_eq(unnamed) & listed;
+            let places = (lane_numbers(simd) + (PARTS + self.parts) as i32).bitcast::<U32<S>>();
+            parts.push_some(others, [winners, Work::covering_lanes(pixels, sample)], places);
+            self.parts += others.to_bitmask().count_ones() as usize;
+            names[sample] = places.expand_merge(others, name).into();
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Fragments by the triangle: those that wait for their mask, or to be blended.
 
-use super::task::{Fragment, Task};
+use super::task::Task;
 use super::{Job, ShadeContext, ShadeOutput, Shading, Work};
 use crate::bin::Place;
 use crate::frame::FrameView;
@@ -19,7 +19,7 @@ pub(crate) fn shade_jobs(
 ) {
     for_each_part(frame, area, shading, (places, jobs, work), |context, shading| {
         let Shading { records, columns, fragments, .. } = shading;
-        let task = Task::of_fragments(records, 0, fragments);
+        let task = Task::of_fragments(records, 0, fragments.all());
         frame.pipeline(context.draw).shade(frame.token, context, (&task, columns), output);
     });
 }
@@ -34,7 +34,7 @@ pub(crate) fn mask_jobs(
 ) {
     for_each_part(frame, area, shading, (places, jobs, work), |context, shading| {
         let Shading { records, columns, fragments, .. } = shading;
-        let task = Task::of_fragments(records, 0, fragments);
+        let task = Task::of_fragments(records, 0, fragments.all());
         frame.pipeline(context.draw).mask(frame.token, context, (&task, columns), kept);
     });
 }
@@ -58,8 +58,9 @@ fn for_each_part(
         shading.seen.extend(part.iter().map(|job| job.place));
         shading.fragments.clear();
         for (slot, job) in part.iter().enumerate() {
-            let fragments = work[job.work.clone()].iter().map(|&work| Fragment { slot: slot as u32, work });
-            shading.fragments.extend(fragments);
+            for &work in &work[job.work.clone()] {
+                shading.fragments.push(slot as u32, work);
+            }
         }
         let context = ShadeContext { frame, area: *area, places, draw };
         shading.records.fill(frame.token, &context, &shading.seen);

@@ -6,6 +6,7 @@ mod edges;
 mod encode;
 mod erased;
 mod fragment_lanes;
+mod fragments;
 mod list;
 mod output;
 mod records;

@@ -2,7 +2,7 @@
 
 use super::Encoding;
 use super::task::Destination;
-use crate::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
+use crate::simd::{F32, LANES, Simd, colors_of, prelude::*};
 
 /// The colours of a tile's pixels or fragments.
 pub(crate) enum ShadeOutput<'a> {
@@ -23,43 +23,28 @@ impl ShadeOutput<'_> {
                     Destination::Group(first, has_edges) => {
                         encoded.store_slice(&mut codes[first..first + LANES]);
                         if has_edges {
-                            colors[first..first + LANES].copy_from_slice(&rows(color));
+                            colors[first..first + LANES].copy_from_slice(&colors_of(simd, color));
                         }
                     }
-                    Destination::Listed(fragments) => {
+                    Destination::Listed(outputs) => {
                         let encoded: [u32; LANES] = encoded.into();
-                        for (fragment, code) in fragments.iter().zip(encoded) {
-                            codes[fragment.work.output as usize] = code;
+                        for (&output, code) in outputs.iter().zip(encoded) {
+                            codes[output as usize] = code;
                         }
                     }
                 }
             }
             Self::Colors(colors) => {
-                let rows = rows(color);
+                let rows = colors_of(simd, color);
                 match to {
                     Destination::Group(first, _) => colors[first..first + LANES].copy_from_slice(&rows),
-                    Destination::Listed(fragments) => {
-                        for (fragment, color) in fragments.iter().zip(rows) {
-                            colors[fragment.work.output as usize] = color;
+                    Destination::Listed(outputs) => {
+                        for (&output, color) in outputs.iter().zip(rows) {
+                            colors[output as usize] = color;
                         }
                     }
                 }
             }
         }
     }
-}
-
-/// Channels in lanes as colours one after the other.
-#[inline(always)]
-fn rows<S: Simd>(color: [F32<S>; 4]) -> [[f32; 4]; LANES] {
-    let channels: [[f32; LANES]; 4] = color.each(Into::into);
-    lanes_of(
-        #[inline(always)]
-        |lane| {
-            channels.each(
-                #[inline(always)]
-                |channel| channel[lane],
-            )
-        },
-    )
 }

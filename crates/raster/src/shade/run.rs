@@ -45,8 +45,8 @@ pub(super) fn mask<S: Simd, P: LanePipeline>(
         #[inline(always)]
         |fragments, vector| {
             let mask = pipeline.masks(simd, fragments).to_bitmask();
-            for (lane, fragment) in vector.fragments().iter().enumerate() {
-                kept[fragment.work.output as usize] = (mask >> lane & 1) as u8;
+            for (lane, &output) in vector.outputs().iter().enumerate() {
+                kept[output as usize] = (mask >> lane & 1) as u8;
             }
         },
     );

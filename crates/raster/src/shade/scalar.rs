@@ -58,7 +58,7 @@ pub(super) fn mask(
 ) {
     at_level!(token, simd => for_each_vector(simd, context, list, #[inline(always)] |fragments, vector| {
         fragments.for_each(|lane, fragment| {
-            kept[vector.fragments()[lane].work.output as usize] = u8::from(pipeline.run_mask(&fragment));
+            kept[vector.outputs()[lane] as usize] = u8::from(pipeline.run_mask(&fragment));
         });
     }));
 }

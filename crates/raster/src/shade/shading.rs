@@ -3,7 +3,8 @@
 use super::Records;
 use super::columns::Columns;
 use super::edges::Edges;
-use super::task::{Fragment, Group};
+use super::fragments::FragmentList;
+use super::task::Group;
 use crate::tile::PIXELS;
 use std::ops::Range;
 
@@ -35,15 +36,15 @@ pub(crate) struct Shading {
     /// Groups of pixels that see one draw.
     pub(super) groups: Vec<Group>,
     /// Pixels that see one triangle, in other groups.
-    pub(super) fragments: Vec<Fragment>,
+    pub(super) fragments: FragmentList,
     /// Fragments that cover a part of their pixel.
-    pub(super) parts: Vec<Fragment>,
+    pub(super) parts: FragmentList,
     pub(super) runs: Vec<Run>,
     pub(super) records: Records,
     pub(super) columns: Columns,
     /// A fragment and one colour for each visible triangle of a flat draw, in linear
     /// light and as bytes.
-    pub(super) flat: Vec<Fragment>,
+    pub(super) flat: FragmentList,
     pub(super) flat_codes: Vec<u32>,
     pub(super) flat_colors: Vec<[f32; 4]>,
     /// Pixels as bytes.
@@ -75,12 +76,12 @@ impl Shading {
             slots: Vec::new(),
             seen: Vec::new(),
             groups: Vec::new(),
-            fragments: Vec::new(),
-            parts: Vec::new(),
+            fragments: FragmentList::default(),
+            parts: FragmentList::default(),
             runs: Vec::new(),
             records: Records::default(),
             columns: Columns::new(),
-            flat: Vec::new(),
+            flat: FragmentList::default(),
             flat_codes: Vec::new(),
             flat_colors: Vec::new(),
             codes: vec![0; PIXELS],

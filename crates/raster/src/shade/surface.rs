@@ -1,7 +1,8 @@
 //! Shades every visible triangle of a tile once at every pixel that sees it.
 
+use super::fragments::FragmentSlice;
 use super::shading::{Run, Shading};
-use super::task::{Fragment, Task};
+use super::task::Task;
 use super::visible::{divide, list};
 use super::{Encoding, ShadeContext, ShadeOutput, Work};
 use crate::frame::FrameView;
@@ -51,7 +52,7 @@ fn shade_run(
         groups: &groups[run.groups.clone()],
         winners,
         slots,
-        fragments: &fragments[run.fragments.clone()],
+        fragments: fragments.part(run.fragments.clone()),
     };
     let mut output = match encoding {
         Some(encoding) => ShadeOutput::Codes(codes, encoding, colors),
@@ -59,7 +60,7 @@ fn shade_run(
     };
     pipeline.shade(context.frame.token, context, (&task, columns), &mut output);
     if !run.parts.is_empty() {
-        let task = Task::of_fragments(records, base, &parts[run.parts.clone()]);
+        let task = Task::of_fragments(records, base, parts.part(run.parts.clone()));
         let mut output = ShadeOutput::Colors(colors);
         pipeline.shade(context.frame.token, context, (&task, columns), &mut output);
     }
@@ -105,14 +106,16 @@ fn shade_flat(
             }
         }
     }
-    for &Fragment { slot, work } in &fragments[run.fragments.clone()] {
+    let FragmentSlice { slots, outputs, .. } = fragments.part(run.fragments.clone());
+    for (&slot, &output) in slots.iter().zip(outputs) {
         match encoding {
-            Some(_) => codes[work.output as usize] = flat_codes[(slot - base) as usize],
-            None => colors[work.output as usize] = flat_colors[(slot - base) as usize],
+            Some(_) => codes[output as usize] = flat_codes[(slot - base) as usize],
+            None => colors[output as usize] = flat_colors[(slot - base) as usize],
         }
     }
-    for &Fragment { slot, work } in &parts[run.parts.clone()] {
-        colors[work.output as usize] = flat_colors[(slot - base) as usize];
+    let FragmentSlice { slots, outputs, .. } = parts.part(run.parts.clone());
+    for (&slot, &output) in slots.iter().zip(outputs) {
+        colors[output as usize] = flat_colors[(slot - base) as usize];
     }
 }
 
@@ -125,14 +128,16 @@ fn shade_triangles(
 ) {
     let Shading { records, columns, flat, flat_codes, flat_colors, .. } = shading;
     flat.clear();
-    flat.extend((0..count).map(|slot| Fragment { slot: slot as u32, work: Work::anywhere(0, false, slot) }));
+    for slot in 0..count {
+        flat.push(slot as u32, Work::anywhere(0, false, slot));
+    }
     let whole = count.next_multiple_of(LANES);
     if flat_colors.len() < whole {
         flat_colors.resize(whole, [0.0; 4]);
         flat_codes.resize(whole, 0);
     }
     let frame = context.frame;
-    let task = Task::of_fragments(records, 0, flat);
+    let task = Task::of_fragments(records, 0, flat.all());
     let mut output = ShadeOutput::Colors(flat_colors);
     frame.pipeline(context.draw).shade(frame.token, context, (&task, columns), &mut output);
     if let Some(encoding) = encoding {

@@ -1,15 +1,9 @@
 //! What is to be shaded of one draw in a tile: whole groups of pixels, and
 //! fragments of a list.
 
+use super::fragments::FragmentSlice;
 use super::{Records, Work};
 use crate::simd::{Each, LANES, Mask, Simd, U32, lane_numbers, lanes_of, prelude::*};
-
-/// A fragment of a list, with the record of its triangle.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Fragment {
-    pub(crate) slot: u32,
-    pub(crate) work: Work,
-}
 
 /// A group of pixels of which some see one draw.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +27,7 @@ pub(crate) struct Task<'t> {
     pub(crate) winners: (&'t [u32], usize),
     /// The records of the tile's triangles.
     pub(crate) slots: &'t [u32],
-    pub(crate) fragments: &'t [Fragment],
+    pub(crate) fragments: FragmentSlice<'t>,
 }
 
 /// Where the colours of a vector go.
@@ -43,7 +37,8 @@ pub(crate) enum Destination<'t> {
     /// needed in linear light. What others get than those asked for will be written
     /// over.
     Group(usize, bool),
-    Listed(&'t [Fragment]),
+    /// To the places listed, one for each lane that is asked for.
+    Listed(&'t [u32]),
 }
 
 /// Eight pixels to be shaded together.
@@ -87,19 +82,19 @@ impl<'t, S: Simd> Vector<'t, S> {
         )
     }
 
-    /// The fragments of a list; none for a group.
+    /// Where the results of a list's fragments go; none for a group.
     #[inline(always)]
-    pub(super) fn fragments(&self) -> &'t [Fragment] {
+    pub(super) fn outputs(&self) -> &'t [u32] {
         match self.destination {
             Destination::Group(..) => &[],
-            Destination::Listed(fragments) => fragments,
+            Destination::Listed(outputs) => outputs,
         }
     }
 }
 
 impl<'t> Task<'t> {
     /// A list of fragments.
-    pub(crate) fn of_fragments(records: &'t Records, base: u32, fragments: &'t [Fragment]) -> Self {
+    pub(crate) fn of_fragments(records: &'t Records, base: u32, fragments: FragmentSlice<'t>) -> Self {
         Self { records, base, groups: &[], winners: (&[], 0), slots: &[], fragments }
     }
 
@@ -129,8 +124,8 @@ impl<'t> Task<'t> {
         let pixel = group.number as usize * LANES;
         let mut spots = (lane_numbers(simd) + pixel as i32).bitcast();
         if group.edges != 0 {
-            spots =
-                Mask::from_bitmask(simd, u64::from(group.edges)).select(Work::covering_first(spots), spots);
+            spots = Mask::from_bitmask(simd, u64::from(group.edges))
+                .select(Work::covering_lanes(spots, 0), spots);
         }
         Vector {
             names,
@@ -143,22 +138,25 @@ impl<'t> Task<'t> {
 
     #[inline(always)]
     fn listed<S: Simd>(&self, simd: S, first: usize) -> Vector<'t, S> {
-        let fragments = &self.fragments[first..self.fragments.len().min(first + LANES)];
-        let lane = |lane: usize| fragments.get(lane).unwrap_or(&fragments[0]);
-        let names = lanes_of(
-            #[inline(always)]
-            |number| lane(number).slot - self.base,
-        );
-        let spots = lanes_of(
-            #[inline(always)]
-            |number| lane(number).work.spot(),
-        );
+        let FragmentSlice { slots, spots, outputs } = self.fragments.part(first..first + LANES);
         Vector {
-            names: U32::simd_from(simd, names),
+            names: U32::simd_from(simd, eight(slots)) - self.base,
             named: Names::Slots,
-            spots: U32::simd_from(simd, spots),
-            active: (1 << fragments.len()) - 1,
-            destination: Destination::Listed(fragments),
+            spots: U32::simd_from(simd, eight(spots)),
+            active: (1 << outputs.len()) - 1,
+            destination: Destination::Listed(outputs),
         }
+    }
+}
+
+/// Up to eight numbers in all lanes; those to spare repeat the first.
+#[inline(always)]
+fn eight(numbers: &[u32]) -> [u32; LANES] {
+    match numbers.first_chunk() {
+        Some(eight) => *eight,
+        None => lanes_of(
+            #[inline(always)]
+            |lane| *numbers.get(lane).unwrap_or(&numbers[0]),
+        ),
     }
 }

@@ -1,8 +1,9 @@
 //! Which triangles of a tile are seen, and at which pixels.
 
 use super::Work;
+use super::fragments::FragmentList;
 use super::shading::{EmptyGroup, Run, Shading};
-use super::task::{Fragment, Group};
+use super::task::Group;
 use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::simd::{LANES, Mask, Simd, U32, prelude::*};
@@ -65,7 +66,7 @@ fn list_samples<S: Simd, const SAMPLES: usize>(
         let seen = !empty & 0xff;
         pixels += seen.count_ones();
         if partly != 0 {
-            edges.push(simd, (group, rows), partly, (parts, marks));
+            edges.push(simd, (group, rows), partly, parts);
         }
         if seen.count_ones() >= FULL {
             let slot = first[seen.trailing_zeros() as usize % LANES];
@@ -88,6 +89,9 @@ fn list_samples<S: Simd, const SAMPLES: usize>(
 #[inline(always)]
 fn number(places: usize, shading: &mut Shading) {
     let Shading { slots, seen, groups, fragments, parts, .. } = shading;
+    for &winner in parts.slots() {
+        slots[winner as usize] = 1;
+    }
     slots.truncate(places);
     seen.resize(places, 0);
     let mut count = 0;
@@ -100,8 +104,8 @@ fn number(places: usize, shading: &mut Shading) {
     for group in groups {
         group.slot = slots[group.slot as usize];
     }
-    for fragment in fragments.iter_mut().chain(parts) {
-        fragment.slot = slots[fragment.slot as usize];
+    for slot in fragments.slots_mut().iter_mut().chain(parts.slots_mut()) {
+        *slot = slots[*slot as usize];
     }
 }
 
@@ -109,7 +113,7 @@ fn number(places: usize, shading: &mut Shading) {
 /// see: those that see one triangle, and edge pixels with what their first samples see,
 /// each kind in its list.
 #[inline(always)]
-fn push_lanes(lists: [&mut Vec<Fragment>; 2], (group, seen): (usize, &[u32; LANES]), lanes: [u64; 2]) {
+fn push_lanes(lists: [&mut FragmentList; 2], (group, seen): (usize, &[u32; LANES]), lanes: [u64; 2]) {
     for ((list, mut lanes), partly) in lists.into_iter().zip(lanes).zip([false, true]) {
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize % LANES;
@@ -117,7 +121,7 @@ fn push_lanes(lists: [&mut Vec<Fragment>; 2], (group, seen): (usize, &[u32; LANE
             let pixel = group * LANES + lane;
             let work =
                 if partly { Work::covering(pixel, 0, pixel) } else { Work::anywhere(pixel, false, pixel) };
-            list.push(Fragment { slot: seen[lane], work });
+            list.push(seen[lane], work);
         }
     }
 }
@@ -142,17 +146,17 @@ pub(super) fn divide(
     if runs.len() > 1 {
         part_groups(buffer, shading);
         shading.groups.sort_unstable_by_key(|group| group.slot);
-        shading.fragments.sort_unstable_by_key(|fragment| fragment.slot);
-        shading.parts.sort_unstable_by_key(|fragment| fragment.slot);
+        shading.fragments.sort();
+        shading.parts.sort();
     }
     let Shading { runs, groups, fragments, parts, .. } = shading;
+    let (fragments, parts) = (fragments.slots(), parts.slots());
     let (mut group, mut fragment, mut part) = (0, 0, 0);
     for run in runs {
         let end = run.slots.end as u32;
         run.groups = group..group + groups[group..].partition_point(|group| group.slot < end);
-        run.fragments =
-            fragment..fragment + fragments[fragment..].partition_point(|fragment| fragment.slot < end);
-        run.parts = part..part + parts[part..].partition_point(|part| part.slot < end);
+        run.fragments = fragment..fragment + fragments[fragment..].partition_point(|&slot| slot < end);
+        run.parts = part..part + parts[part..].partition_point(|&slot| slot < end);
         (group, fragment, part) = (run.groups.end, run.fragments.end, run.parts.end);
     }
 }

@@ -12,6 +12,7 @@
 use super::columns::Columns;
 use super::records::{cold, hot};
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, U32, greater, inlined, lesser, prelude::*};
+use fearless_simd::i16x16;
 
 /// The largest ratio of w within a triangle that is told apart; beyond, a
 /// vertex counts as this much further away. Keeps all quotients finite.
@@ -32,20 +33,33 @@ pub(super) fn perspective<S: Simd>(simd: S, inverse_w: [F32<S>; 3]) -> ([F32<S>;
 
 /// What the points of a lane's triangle have in common, as its record has it.
 pub(crate) struct TriangleLanes<'c, S: Simd> {
-    /// The first of the sorted vertices, from the tile's corner.
-    x: I32<S>,
-    y: I32<S>,
+    small: Small<S>,
     /// Steps of the edge functions opposite vertices 1 and 2, both through
     /// vertex 0.
     right: [I32<S>; 2],
     down: [I32<S>; 2],
-    /// Twice the area.
-    area: I32<S>,
-    /// The same where a triangle is wide or cut: in 32 bits it need not fit.
-    wide: Option<&'c [f64; LANES]>,
+    /// Instead of what is small where a triangle is wide or cut.
+    wide: Option<Wide<'c, S>>,
     /// 1/w of the vertices over a power of two near the largest.
     q: [F32<S>; 3],
     cut: Option<&'c CutColumns>,
+}
+
+/// Triangles whose sides and whose distances from points of the tile fit 16 bits: two
+/// numbers to a lane, x in the low half, y in the high one.
+struct Small<S: Simd> {
+    /// The first of the sorted vertices, from the tile's corner.
+    point: I32<S>,
+    /// Steps of the edge functions opposite vertices 1 and 2.
+    steps: [I32<S>; 2],
+}
+
+/// What of wide triangles need not fit 16 bits, or 32.
+struct Wide<'c, S: Simd> {
+    /// The first of the sorted vertices, from the tile's corner.
+    point: [I32<S>; 2],
+    /// Twice the areas.
+    areas: &'c [f64; LANES],
 }
 
 /// The weights of the corners at the vertices of cut triangles, in lanes:
@@ -81,15 +95,11 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
             #[inline(always)]
             |both: I32<S>| (both << 16) >> 16,
         );
-        let (point, steps) = (column(hot::POINT), [column(hot::STEPS), column(hot::STEPS + 1)]);
-        let right = [low(steps[0]), low(steps[1])];
-        let down = [steps[0] >> 16, steps[1] >> 16];
+        let steps = [column(hot::STEPS), column(hot::STEPS + 1)];
         let small = Self {
-            x: low(point),
-            y: point >> 16,
-            right,
-            down,
-            area: (right[0] * down[1] - right[1] * down[0]).abs(),
+            small: Small { point: column(hot::POINT), steps },
+            right: [low(steps[0]), low(steps[1])],
+            down: [steps[0] >> 16, steps[1] >> 16],
             wide: None,
             q: [0, 1, 2].each(
                 #[inline(always)]
@@ -102,12 +112,11 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
             #[inline(always)]
             |column: usize| I32::simd_from(simd, special.cold[column]),
         );
+        let point = [column(cold::POINT), column(cold::POINT + 1)];
         Self {
-            x: column(cold::POINT),
-            y: column(cold::POINT + 1),
             right: [column(cold::RIGHT), column(cold::RIGHT + 1)],
             down: [column(cold::DOWN), column(cold::DOWN + 1)],
-            wide: Some(&special.areas),
+            wide: Some(Wide { point, areas: &special.areas }),
             cut: special.cut(),
             ..small
         }
@@ -115,8 +124,8 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
 
     /// The weights at points in 1/256 pixel from the tile's corner.
     #[inline(always)]
-    pub(crate) fn at(&self, simd: S, [x, y]: [I32<S>; 2]) -> Weights<S> {
-        let (edges, area) = self.edges(simd, x - self.x, y - self.y);
+    pub(crate) fn at(&self, simd: S, point: [I32<S>; 2]) -> Weights<S> {
+        let (edges, area) = self.edges(simd, point);
         let shares = self.shares(edges);
         let total = shares[0] + shares[1] + shares[2];
         let inverse = F32::splat(simd, 1.0) / total;
@@ -152,20 +161,19 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
 
     /// Which of the points lie in their triangles, by the top-left rule.
     #[inline(always)]
-    pub(crate) fn covers(&self, simd: S, [x, y]: [I32<S>; 2]) -> Mask<S> {
+    pub(crate) fn covers(&self, simd: S, point: [I32<S>; 2]) -> Mask<S> {
         let (b, c) = ([self.right[0], self.down[0]], [self.right[1], self.down[1]]);
         let owned = [[-(b[0] + c[0]), -(b[1] + c[1])], b, c].each(
             #[inline(always)]
             |steps| inclusive(steps),
         );
-        let (dx, dy) = (x - self.x, y - self.y);
         if self.wide.is_some() {
-            let (edges, _) = self.edges(simd, dx, dy);
+            let (edges, _) = self.edges(simd, point);
             return is_inside(edges[0], owned[0])
                 & is_inside(edges[1], owned[1])
                 & is_inside(edges[2], owned[2]);
         }
-        let [a, b, c] = self.small_edges(dx, dy);
+        let ([a, b, c], _) = self.small.edges(point);
         // One less where the edge itself is not inside: then the signs decide.
         let [i, j, k] = owned.each(
             #[inline(always)]
@@ -174,23 +182,14 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
         ((a + i) | (b + j) | (c + k)).simd_ge(I32::splat(simd, 0))
     }
 
-    /// The edge functions of small triangles.
-    #[inline(always)]
-    fn small_edges(&self, dx: I32<S>, dy: I32<S>) -> [I32<S>; 3] {
-        let [b, c] = [0, 1].each(
-            #[inline(always)]
-            |i| self.right[i] * dx + self.down[i] * dy,
-        );
-        [self.area - b - c, b, c]
-    }
-
     /// The edge functions and the area, each rounded once.
     #[inline(always)]
-    fn edges(&self, simd: S, dx: I32<S>, dy: I32<S>) -> ([F32<S>; 3], F32<S>) {
-        let Some(areas) = self.wide else {
-            return (self.small_edges(dx, dy).each(SimdCvt::to_f32), self.area.to_f32());
+    fn edges(&self, simd: S, point: [I32<S>; 2]) -> ([F32<S>; 3], F32<S>) {
+        let Some(Wide { point: vertex, areas }) = self.wide else {
+            let (edges, area) = self.small.edges(point);
+            return (edges.each(SimdCvt::to_f32), area.to_f32());
         };
-        let [dx, dy]: [[i32; LANES]; 2] = [dx.into(), dy.into()];
+        let [dx, dy]: [[i32; LANES]; 2] = [(point[0] - vertex[0]).into(), (point[1] - vertex[1]).into()];
         let mut edges = [[0.0_f32; LANES]; 3];
         let right: [[i32; LANES]; 2] = self.right.each(Into::into);
         let down: [[i32; LANES]; 2] = self.down.each(Into::into);
@@ -239,6 +238,29 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
         let [b, c] = steps;
         self.shares([-(b + c), b, c].each(SimdCvt::to_f32))
     }
+}
+
+impl<S: Simd> Small<S> {
+    /// The edge functions and twice the area.
+    #[inline(always)]
+    fn edges(&self, [x, y]: [I32<S>; 2]) -> ([I32<S>; 3], I32<S>) {
+        let [first, second] = self.steps;
+        let way = pairs(x | (y << 16)) - pairs(self.point);
+        let [b, c] = [first, second].each(
+            #[inline(always)]
+            |steps| pairs(steps).pairwise_dot_product(way),
+        );
+        // (down, -right)
+        let across = (second.bitcast::<U32<S>>() >> 16).bitcast::<I32<S>>() | (-second << 16);
+        let area = pairs(first).pairwise_dot_product(pairs(across)).abs();
+        ([area - b - c, b, c], area)
+    }
+}
+
+/// Each lane as two numbers.
+#[inline(always)]
+fn pairs<S: Simd>(both: I32<S>) -> i16x16<S> {
+    both.bitcast()
 }
 
 impl<S: Simd> Weights<S> {

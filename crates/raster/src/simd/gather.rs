@@ -1,9 +1,9 @@
 //! Rows become columns of eight lanes, and columns rows. There is no gather
 //! without `unsafe`; loads and a transposition are as fast.
 
-use super::{Each, F32, I32, Simd};
+use super::{Each, F32, I32, Simd, U32, is_avx512};
 use fearless_simd::prelude::*;
-use fearless_simd::{f32x4, i32x4};
+use fearless_simd::{f32x4, i32x4, u64x2, u64x4};
 
 /// Eight numbers in memory.
 pub(crate) type Row = [i32; 8];
@@ -43,22 +43,55 @@ fn columns<S: Simd>(simd: S, [a, b, c, d, e, f, g, h]: [i32x4<S>; 8]) -> [I32<S>
     )
 }
 
-/// Stores the columns of eight rows of eight numbers.
+/// The eight colours of channels.
 #[inline(always)]
-pub(crate) fn transpose<S: Simd>(simd: S, rows: [&Row; 8], columns: &mut [Row; 8]) {
-    for (across, down) in [(0, 0), (0, 4), (4, 0), (4, 4)] {
-        let quarter = [0, 1, 2, 3].each(
+pub(crate) fn colors_of<S: Simd>(simd: S, channels: [F32<S>; 4]) -> [[f32; 4]; 8] {
+    let [r, g, b, a] = channels.each(
+        #[inline(always)]
+        |channel| simd.split_i32x8(channel.bitcast()),
+    );
+    let [[a, b, c, d], [e, f, g, h]] = [[r.0, g.0, b.0, a.0], [r.1, g.1, b.1, a.1]].each(
+        #[inline(always)]
+        |half| transposed_four(simd, half),
+    );
+    [a, b, c, d, e, f, g, h].each(
+        #[inline(always)]
+        |color| color.bitcast::<f32x4<S>>().into(),
+    )
+}
+
+/// The lower and the upper halves of eight numbers.
+#[inline(always)]
+pub(crate) fn unzipped<S: Simd>(simd: S, [a, b, c, d, e, f, g, h]: [u64; 8]) -> [U32<S>; 2] {
+    // As bits of floats: for those every level has a shuffle of two sources. (Of halves
+    // AVX-512 would make a number of 512 bits, and all others would wait for that.)
+    if is_avx512(simd) {
+        let low = u64x4::simd_from(simd, [a, b, c, d]).bitcast::<F32<S>>();
+        let high = u64x4::simd_from(simd, [e, f, g, h]).bitcast::<F32<S>>();
+        return [low.unzip_low(high).bitcast(), low.unzip_high(high).bitcast()];
+    }
+    let [low, high] = [[a, b, c, d], [e, f, g, h]].each(
+        #[inline(always)]
+        |[a, b, c, d]| {
+            let first = u64x2::simd_from(simd, [a, b]).bitcast::<f32x4<S>>();
+            let second = u64x2::simd_from(simd, [c, d]).bitcast::<f32x4<S>>();
+            [first.unzip_low(second), first.unzip_high(second)]
+        },
+    );
+    [low[0].combine(high[0]).bitcast(), low[1].combine(high[1]).bitcast()]
+}
+
+/// Stores the columns of eight rows of eight numbers: whole ones, as what is loaded soon
+/// after it was stored in two halves has to wait.
+#[inline(always)]
+pub(crate) fn transpose<S: Simd>(simd: S, rows: [&Row; 8], to: &mut [Row; 8]) {
+    for (half, to) in to.as_chunks_mut::<4>().0.iter_mut().enumerate() {
+        let rows = rows.each(
             #[inline(always)]
-            |row| {
-                let [a, b, c, d] = [0, 1, 2, 3].each(
-                    #[inline(always)]
-                    |i| rows[down + row][across + i],
-                );
-                i32x4::simd_from(simd, [a, b, c, d])
-            },
+            |row| i32x4::simd_from(simd, row.as_chunks().0[half]),
         );
-        for (column, values) in transposed_four(simd, quarter).into_iter().enumerate() {
-            values.store_slice(&mut columns[across + column][down..down + 4]);
+        for (to, column) in to.iter_mut().zip(columns(simd, rows)) {
+            *to = column.into();
         }
     }
 }
@@ -91,6 +124,13 @@ mod tests {
                     let column: [i32; 8] = column.into();
                     assert_eq!(column, rows.map(|row| row[i]), "column {i} at {token:?}");
                 }
+                let floats = rows.map(|row| row.map(|number| number as f32));
+                let back = colors_of(simd, channels(simd, floats.each_ref()));
+                assert_eq!(back, floats, "there and back at {token:?}");
+                let [low, high] = unzipped(simd, rows.map(|[a, b, ..]| a as u64 | (b as u64) << 32));
+                let halves: [[u32; 8]; 2] = [low.into(), high.into()];
+                let expected = [0, 1].map(|half| rows.map(|row| row[half] as u32));
+                assert_eq!(halves, expected, "halves at {token:?}");
                 let mut columns = [[0; 8]; 8];
                 transpose(simd, wide.each_ref(), &mut columns);
                 for (i, column) in columns.into_iter().enumerate() {

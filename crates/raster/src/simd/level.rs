@@ -17,8 +17,8 @@ pub enum SimdLevel {
     Sse2,
     /// x86-64-v3: 256 bits.
     Avx2,
-    /// Ice Lake's AVX-512. As vectors have eight lanes at every level, it runs the
-    /// code of [`Avx2`](Self::Avx2).
+    /// Ice Lake's AVX-512. Vectors have eight lanes at this level, too; what it adds is
+    /// masks, more registers and permutations.
     Avx512,
     /// aarch64's own 128 bits.
     Neon,
@@ -66,7 +66,7 @@ impl SimdLevel {
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => Level::new().as_avx2().map(Token::Avx2),
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => Level::new().as_avx512().and_then(|_| Self::Avx2.token()),
+            Self::Avx512 => Level::new().as_avx512().map(Token::Avx512),
             #[cfg(not(target_arch = "x86_64"))]
             Self::Sse2 | Self::Avx2 | Self::Avx512 => None,
             #[cfg(target_arch = "aarch64")]
@@ -106,6 +106,8 @@ pub(crate) enum Token {
     Sse2(fearless_simd::x86::Sse2),
     #[cfg(target_arch = "x86_64")]
     Avx2(fearless_simd::x86::Avx2),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(fearless_simd::x86::Avx512),
     #[cfg(target_arch = "aarch64")]
     Neon(fearless_simd::aarch64::Neon),
 }
@@ -129,6 +131,11 @@ macro_rules! at_level {
             ),
             #[cfg(target_arch = "x86_64")]
             $crate::simd::Token::Avx2($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $body,
+            ),
+            #[cfg(target_arch = "x86_64")]
+            $crate::simd::Token::Avx512($simd) => $simd.vectorize(
                 #[inline(always)]
                 || $body,
             ),

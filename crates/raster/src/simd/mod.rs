@@ -11,7 +11,7 @@ mod level;
 pub use each::{Each, inlined, lanes_of};
 pub use fearless_simd::Simd;
 pub use fearless_simd::prelude;
-pub(crate) use gather::{Row, channels, transpose, transposed};
+pub(crate) use gather::{Row, channels, colors_of, transpose, transposed, unzipped};
 pub use level::{SimdLevel, SimdLevelError};
 pub(crate) use level::{Token, at_level};
 
@@ -47,7 +47,22 @@ pub fn greater<S: Simd>(a: F32<S>, b: F32<S>) -> F32<S> {
 #[inline(always)]
 fn is_x86<S: Simd>(simd: S) -> bool {
     #[cfg(target_arch = "x86_64")]
-    return matches!(simd.level(), fearless_simd::Level::Sse2(_) | fearless_simd::Level::Avx2(_));
+    return matches!(
+        simd.level(),
+        fearless_simd::Level::Sse2(_) | fearless_simd::Level::Avx2(_) | fearless_simd::Level::Avx512(_)
+    );
+    #[cfg(not(target_arch = "x86_64"))]
+    {
+        let _ = simd;
+        false
+    }
+}
+
+/// Whether a level runs AVX-512; known when it is compiled.
+#[inline(always)]
+fn is_avx512<S: Simd>(simd: S) -> bool {
+    #[cfg(target_arch = "x86_64")]
+    return matches!(simd.level(), fearless_simd::Level::Avx512(_));
     #[cfg(not(target_arch = "x86_64"))]
     {
         let _ = simd;

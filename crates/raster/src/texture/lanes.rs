@@ -12,8 +12,7 @@ use super::detail::FootprintLanes;
 use super::strips::{COLUMNS, Footprint, PITCH, Strips};
 use super::{MipFilter, Sampler, Texture, TextureFormat};
 use crate::simd::prelude::*;
-use crate::simd::{Each, F32, I32, LANES, Simd, U32, greater, lanes_of, lesser, transposed};
-use fearless_simd::{f32x4, u64x2};
+use crate::simd::{Each, F32, I32, LANES, Simd, U32, greater, lanes_of, lesser, transposed, unzipped};
 
 #[inline(always)]
 pub(super) fn sample<S: Simd>(
@@ -201,8 +200,13 @@ struct Levels<S: Simd> {
 impl<S: Simd> Levels<S> {
     #[inline(always)]
     fn new(each: I32<S>) -> Self {
-        let first = each.as_array()[0];
-        Self { each, shared: each.simd_eq(first).all_true().then_some(first as u32) }
+        // Counted up to, not read: a processor that foresees how far goes on before the
+        // levels are known, and most of a look-up waits for nothing else as long.
+        let mut level = 0;
+        while each.simd_gt(level).any_true() {
+            level += 1;
+        }
+        Self { each, shared: each.simd_eq(level).all_true().then_some(level as u32) }
     }
 
     /// The next ones, up to the last.
@@ -262,17 +266,11 @@ fn index<S: Simd>(height: I32<S>, [x, y]: [I32<S>; 2]) -> I32<S> {
 /// The first and the second texels of one row of all footprints.
 #[inline(always)]
 fn neighbours<S: Simd>(simd: S, rows: &[Footprint; LANES], row: usize) -> [U32<S>; 2] {
-    let [a, b, c, d, e, f, g, h] = rows;
-    let low = unzipped(simd, [a[row], b[row]], [c[row], d[row]]);
-    let high = unzipped(simd, [e[row], f[row]], [g[row], h[row]]);
-    [low[0].combine(high[0]).bitcast(), low[1].combine(high[1]).bitcast()]
-}
-
-/// The lower and the upper halves, as bits of floats: for those every level has
-/// a shuffle of two sources.
-#[inline(always)]
-fn unzipped<S: Simd>(simd: S, low: [u64; 2], high: [u64; 2]) -> [f32x4<S>; 2] {
-    let low = u64x2::simd_from(simd, low).bitcast::<f32x4<S>>();
-    let high = u64x2::simd_from(simd, high).bitcast::<f32x4<S>>();
-    [low.unzip_low(high), low.unzip_high(high)]
+    unzipped(
+        simd,
+        rows.each(
+            #[inline(always)]
+            |row_of| row_of[row],
+        ),
+    )
 }

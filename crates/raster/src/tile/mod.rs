@@ -45,13 +45,13 @@ pub(crate) struct Surfaces {
     pub(crate) translucent: Range<usize>,
 }
 
-/// Draws the tile `index` of the frame into its part of the target.
-pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Bands<'_>, index: u32) {
+/// Draws the tile `index` of the frame into its part of the target; unless nothing is in it,
+/// which it tells.
+pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Bands<'_>, index: u32) -> bool {
     let area = frame.area(index);
     let surfaces = collect(frame, scratch, index);
     if scratch.places.is_empty() {
-        resolve::fill_background(frame, &area, bands);
-        return;
+        return false;
     }
     scratch.stats.tiles += 1;
     let mut clock = Clock::new(frame.timed);
@@ -70,6 +70,7 @@ pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
     }
     resolve::resolve(frame, &area, scratch, (bands, early));
     scratch.stats.times.resolve += clock.lap();
+    true
 }
 
 /// Lists the triangles of a tile.

@@ -1,0 +1,102 @@
+//! Fragments by themselves, in columns: eight are a load each of their triangles, their
+//! places and where their results go.
+
+use super::Work;
+use crate::simd::{LANES, Mask, Simd, U32, prelude::*};
+use std::ops::Range;
+
+/// Fragments in a list, each with the record of its triangle.
+#[derive(Default)]
+pub(crate) struct FragmentList {
+    slots: Vec<u32>,
+    spots: Vec<u32>,
+    outputs: Vec<u32>,
+    /// For sorting.
+    rows: Vec<[u32; 3]>,
+}
+
+/// Some neighbours of a list.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct FragmentSlice<'l> {
+    /// The records of their triangles.
+    pub(crate) slots: &'l [u32],
+    /// See [`Work::spot`].
+    pub(crate) spots: &'l [u32],
+    /// Where the results go.
+    pub(crate) outputs: &'l [u32],
+}
+
+impl FragmentList {
+    pub(super) fn clear(&mut self) {
+        self.slots.clear();
+        self.spots.clear();
+        self.outputs.clear();
+    }
+
+    #[inline(always)]
+    pub(super) fn push(&mut self, slot: u32, work: Work) {
+        self.slots.push(slot);
+        self.spots.push(work.spot());
+        self.outputs.push(work.output);
+    }
+
+    /// Appends some of eight fragments, whose results go to places in a row from `output`
+    /// on.
+    #[inline(always)]
+    pub(super) fn push_some<S: Simd>(&mut self, mask: Mask<S>, [slots, spots]: [U32<S>; 2], outputs: U32<S>) {
+        let count = self.slots.len() + mask.to_bitmask().count_ones() as usize;
+        let columns = [slots.compress(mask), spots.compress(mask), outputs];
+        for (list, column) in [&mut self.slots, &mut self.spots, &mut self.outputs].into_iter().zip(columns) {
+            // All eight, as that is one store, and forgotten again.
+            list.extend_from_slice(&<[u32; LANES]>::from(column));
+            list.truncate(count);
+        }
+    }
+
+    /// The triangles' records.
+    pub(super) fn slots(&self) -> &[u32] {
+        &self.slots
+    }
+
+    pub(super) fn slots_mut(&mut self) -> &mut [u32] {
+        &mut self.slots
+    }
+
+    /// Sorts by the triangles' records.
+    pub(super) fn sort(&mut self) {
+        let Self { slots, spots, outputs, rows } = self;
+        rows.clear();
+        rows.extend((0..slots.len()).map(|i| [slots[i], spots[i], outputs[i]]));
+        rows.sort_unstable_by_key(|row| row[0]);
+        for (i, &[slot, spot, output]) in rows.iter().enumerate() {
+            (slots[i], spots[i], outputs[i]) = (slot, spot, output);
+        }
+    }
+
+    /// Some of them.
+    pub(super) fn part(&self, range: Range<usize>) -> FragmentSlice<'_> {
+        self.all().part(range)
+    }
+
+    pub(super) fn all(&self) -> FragmentSlice<'_> {
+        FragmentSlice { slots: &self.slots, spots: &self.spots, outputs: &self.outputs }
+    }
+}
+
+impl<'l> FragmentSlice<'l> {
+    #[inline(always)]
+    pub(super) fn len(self) -> usize {
+        self.slots.len()
+    }
+
+    /// Those in a range that there are.
+    #[inline(always)]
+    pub(super) fn part(self, range: Range<usize>) -> Self {
+        let range = range.start..range.end.min(self.len());
+        Self {
+            slots: &self.slots[range.clone()],
+            spots: &self.spots[range.clone()],
+            outputs: &self.outputs[range],
+        }
+    }
+}
