@@ -60,10 +60,14 @@ impl<S: Simd> Seen<S> {
 /// Rows for the longest record, in whole records' rows.
 const ROWS: usize = (hot::COUNT + 3 * MAX_VARYINGS).next_multiple_of(LANES);
 
+/// Where a row begins, a line of the cache does, or a half: none lies in two.
+#[repr(align(64))]
+struct AlignedRows([Row; ROWS]);
+
 /// A row of eight numbers for each column of a record, the triangles of eight
 /// pixels side by side.
 pub(crate) struct Columns {
-    rows: Box<[Row; ROWS]>,
+    rows: Box<AlignedRows>,
     /// Whether a triangle is wide or cut.
     is_special: bool,
     /// Filled only then.
@@ -94,7 +98,7 @@ impl Columns {
     pub(crate) fn new() -> Self {
         let (cold, cut) = ([[0; LANES]; cold::COUNT], [[[0.0; LANES]; 3]; 3]);
         Self {
-            rows: Box::new([[0; LANES]; ROWS]),
+            rows: Box::new(AlignedRows([[0; LANES]; ROWS])),
             is_special: false,
             special: Special { cold, areas: [0.0; LANES], cut, is_cut: false },
             uniform: None,
@@ -109,13 +113,13 @@ impl Columns {
     /// The columns of the hot row.
     #[inline(always)]
     pub(super) fn hot(&self) -> &[Row; hot::COUNT] {
-        self.rows.first_chunk().expect("there is room for the longest record")
+        self.rows.0.first_chunk().expect("there is room for the longest record")
     }
 
     /// The `count` varyings of each vertex.
     #[inline(always)]
     pub(super) fn varyings(&self, count: usize) -> [&[Row]; 3] {
-        let (first, others) = self.rows[hot::COUNT..].split_at(count);
+        let (first, others) = self.rows.0[hot::COUNT..].split_at(count);
         let (second, others) = others.split_at(count);
         [first, second, &others[..count]]
     }
@@ -176,7 +180,7 @@ impl Columns {
         records: [&[Row]; COUNT],
         masks: [Mask<S>; OTHERS],
     ) {
-        let columns = self.rows.as_chunks_mut::<LANES>().0.iter_mut();
+        let columns = self.rows.0.as_chunks_mut::<LANES>().0.iter_mut();
         for (number, columns) in columns.take(records[0].len()).enumerate() {
             let mut rows = [&records[0][number]; COUNT];
             for (row, record) in rows.iter_mut().zip(records) {
@@ -208,7 +212,7 @@ impl Columns {
             #[inline(always)]
             |slot| records.of(slot),
         );
-        let columns = self.rows.as_chunks_mut::<LANES>().0.iter_mut().take(records.shape().loaded);
+        let columns = self.rows.0.as_chunks_mut::<LANES>().0.iter_mut().take(records.shape().loaded);
         for (number, columns) in columns.enumerate() {
             let rows = sources.each(
                 #[inline(always)]
