@@ -57,7 +57,7 @@ struct Probes<'a, S: Simd> {
 
 impl<S: Simd> Probes<'_, S> {
     #[inline(always)]
-    fn value<T: Texels>(self, footprint: &FootprintLanes<S>) -> Channels<S> {
+    fn value<T: Texels>(&self, footprint: &FootprintLanes<S>) -> Channels<S> {
         if self.sampler.most_probes() > 1.0 {
             self.mean::<T>(footprint)
         } else {
@@ -68,16 +68,18 @@ impl<S: Simd> Probes<'_, S> {
     /// The value at one point, in a function of its own: it is long, and there
     /// are many callers.
     #[inline(always)]
-    fn at<T: Texels>(&self, uv: [F32<S>; 2], detail: F32<S>) -> Channels<S> {
+    fn at<T: Texels>(&self, [u, v]: [F32<S>; 2], detail: F32<S>) -> Channels<S> {
+        // Two vectors, not one array of them: AVX-512 would copy that as one, and wait for
+        // its halves to be stored.
         self.simd.vectorize(
             #[inline(always)]
-            || Lookup::new(self, uv, detail).value::<T>(),
+            || Lookup::new(self, [u, v], detail).value::<T>(),
         )
     }
 
     /// The mean of the values at all probes of each lane's footprint.
     #[inline(always)]
-    fn mean<T: Texels>(self, footprint: &FootprintLanes<S>) -> Channels<S> {
+    fn mean<T: Texels>(&self, footprint: &FootprintLanes<S>) -> Channels<S> {
         let zero = F32::splat(self.simd, 0.0);
         let FootprintLanes { detail, probes, axis } = *footprint;
         let mut sum = [zero; 4];
