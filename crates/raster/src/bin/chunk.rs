@@ -3,7 +3,7 @@
 use super::{Grid, TileRange};
 use crate::line::Stroke;
 use crate::setup::{CutWeights, Kind, SetupTriangle};
-use crate::simd::{Each, LANES, Mask, Simd, U32, prelude::*};
+use crate::simd::{Each, LANES, Mask, Simd, U32, append, prelude::*};
 use crate::{Stats, Surface};
 use std::ops::Range;
 
@@ -83,7 +83,8 @@ pub(crate) struct Chunk {
     /// What the anti-aliased lines and points cover.
     strokes: Vec<Stroke>,
     pub(crate) stats: Stats,
-    /// Tiles, and what each of them lists for it, in the order of the primitives.
+    /// A tile and an entry for each time that a triangle is listed, in the order of the
+    /// primitives.
     tiles: Vec<u32>,
     pushed: Vec<Entry>,
     large: Vec<Large>,
@@ -119,13 +120,10 @@ impl Chunk {
     /// Notes that some of eight primitives may have samples in one tile each.
     #[inline(always)]
     pub(crate) fn push_some<S: Simd>(&mut self, mask: Mask<S>, tiles: U32<S>, places: U32<S>) {
-        let count = self.tiles.len() + mask.to_bitmask().count_ones() as usize;
+        let count = mask.to_bitmask().count_ones() as usize;
         let [tiles, places]: [[u32; LANES]; 2] = [tiles.compress(mask).into(), places.compress(mask).into()];
-        // All eight, as that is one store, and forgotten again.
-        self.tiles.extend_from_slice(&tiles);
-        self.pushed.extend_from_slice(&places.each(Entry::primitive));
-        self.tiles.truncate(count);
-        self.pushed.truncate(count);
+        append(&mut self.tiles, &tiles, count);
+        append(&mut self.pushed, &places.each(Entry::primitive), count);
     }
 
     /// Notes all tiles that a triangle may have samples in.

@@ -2,7 +2,7 @@
 //! places and where their results go.
 
 use super::Work;
-use crate::simd::{LANES, Mask, Simd, U32, prelude::*};
+use crate::simd::{Mask, Simd, U32, append, prelude::*};
 use std::ops::Range;
 
 /// Fragments in a list, each with the record of its triangle.
@@ -44,12 +44,10 @@ impl FragmentList {
     /// on.
     #[inline(always)]
     pub(super) fn push_some<S: Simd>(&mut self, mask: Mask<S>, [slots, spots]: [U32<S>; 2], outputs: U32<S>) {
-        let count = self.slots.len() + mask.to_bitmask().count_ones() as usize;
+        let count = mask.to_bitmask().count_ones() as usize;
         let columns = [slots.compress(mask), spots.compress(mask), outputs];
         for (list, column) in [&mut self.slots, &mut self.spots, &mut self.outputs].into_iter().zip(columns) {
-            // All eight, as that is one store, and forgotten again.
-            list.extend_from_slice(&<[u32; LANES]>::from(column));
-            list.truncate(count);
+            append(list, &column.into(), count);
         }
     }
 

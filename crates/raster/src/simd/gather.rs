@@ -81,6 +81,15 @@ pub(crate) fn unzipped<S: Simd>(simd: S, [a, b, c, d, e, f, g, h]: [u64; 8]) -> 
     [low[0].combine(high[0]).bitcast(), low[1].combine(high[1]).bitcast()]
 }
 
+/// Appends the first `count` of eight to a list: all of them, as that is one store, and
+/// the others are forgotten again.
+#[inline(always)]
+pub(crate) fn append<T: Copy>(list: &mut Vec<T>, eight: &[T; 8], count: usize) {
+    let length = list.len() + count;
+    list.extend_from_slice(eight);
+    list.truncate(length);
+}
+
 /// Stores the columns of eight rows of eight numbers: whole ones, as what is loaded soon
 /// after it was stored in two halves has to wait.
 #[inline(always)]

@@ -11,7 +11,7 @@ mod level;
 pub use each::{Each, inlined, lanes_of};
 pub use fearless_simd::Simd;
 pub use fearless_simd::prelude;
-pub(crate) use gather::{Row, channels, colors_of, transpose, transposed, unzipped};
+pub(crate) use gather::{Row, append, channels, colors_of, transpose, transposed, unzipped};
 pub use level::{SimdLevel, SimdLevelError};
 pub(crate) use level::{Token, at_level};
 

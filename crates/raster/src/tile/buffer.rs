@@ -165,8 +165,8 @@ impl VisibilityBuffer {
         for groups in depths.as_chunks().0 {
             least = lesser(&least, groups);
         }
-        let [first, others @ ..] = least.as_chunks::<LANES>().0 else { unreachable!("it has groups") };
-        let least = others.iter().fold(*first, |least, group| lesser(&least, group));
+        let groups = least.as_chunks::<LANES>().0.iter();
+        let least = groups.fold([f32::INFINITY; LANES], |least, group| lesser(&least, group));
         let farthest = least.into_iter().fold(f32::INFINITY, |a, b| if b < a { b } else { a });
         self.stale |= farthest > self.blocks[block].farthest;
         self.blocks[block] = BlockBounds { farthest, writes: 0, ..self.blocks[block] };

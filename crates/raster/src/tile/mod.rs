@@ -45,8 +45,8 @@ pub(crate) struct Surfaces {
     pub(crate) translucent: Range<usize>,
 }
 
-/// Draws the tile `index` of the frame into its part of the target; unless nothing is in it,
-/// which it tells.
+/// Draws the tile `index` of the frame into its part of the target if anything is in it.
+/// Tells whether.
 pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Bands<'_>, index: u32) -> bool {
     let area = frame.area(index);
     let surfaces = collect(frame, scratch, index);
