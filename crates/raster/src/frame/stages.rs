@@ -10,7 +10,7 @@ use crate::line::LineStyle;
 use crate::pass::{Pass, Recorded};
 use crate::point::PointStyle;
 use crate::pool::Workers;
-use crate::resolve::fill_background;
+use crate::resolve::{MOST, fill_background};
 use crate::setup::Setup;
 use crate::shade::Encoding;
 use crate::simd::{Simd, Token, at_level};
@@ -244,10 +244,20 @@ fn set_up_triangles<S: Simd>(simd: S, setup: &mut Setup<'_>, first: u32, triangl
     }
 }
 
-/// The tiles: every worker takes the next one until there are none.
+/// The tiles: every worker takes the next ones until there are none.
 fn draw_tiles(view: &FrameView<'_>, bands: &Bands<'_>, how: How<'_>, scratches: &mut [Scratch]) {
     let tiles = view.tiles();
     let next = AtomicU32::new(0);
+    // Neighbours, which are written together; towards the end fewer, so that nobody waits long.
+    let shares = 4 * how.workers.count();
+    let end = |start: u32| {
+        let left = tiles.len().saturating_sub(start as usize);
+        start + (left / shares).clamp(1, MOST) as u32
+    };
+    let take = || {
+        let start = next.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |start| Some(end(start)));
+        start.map_or(0..0, |start| start..end(start))
+    };
     let free = Mutex::new(scratches.iter_mut());
     how.workers.run(tiles.len() > 1, |_| {
         let Some(scratch) = free.lock().unwrap_or_else(PoisonError::into_inner).next() else {
@@ -255,19 +265,24 @@ fn draw_tiles(view: &FrameView<'_>, bands: &Bands<'_>, how: How<'_>, scratches: 
         };
         // Neighbours that nothing is in: their rows are filled as one.
         let mut empty = 0..0;
-        while let Some([column, row]) = tiles.get(next.fetch_add(1, Ordering::Relaxed))
+        let mut own = take();
+        while let Some([column, row]) = tiles.get(own.start)
             && !how.is_cancelled()
         {
             let tile = row * view.grid.columns + column;
-            if draw_tile(view, scratch, bands, tile) {
-                continue;
+            if !draw_tile(view, scratch, bands, tile) {
+                if tile != empty.end || column == tiles.columns.start {
+                    fill_background(view, empty, bands);
+                    empty = tile..tile;
+                }
+                empty.end += 1;
             }
-            if tile != empty.end || column == tiles.columns.start {
-                fill_background(view, empty, bands);
-                empty = tile..tile;
+            own.start += 1;
+            if own.is_empty() {
+                own = take();
             }
-            empty.end += 1;
         }
         fill_background(view, empty, bands);
+        scratch.strip.write(view, bands);
     });
 }

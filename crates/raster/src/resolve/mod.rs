@@ -4,18 +4,21 @@
 mod background;
 mod edges;
 mod mean;
+mod strip;
 
 pub(crate) use background::fill_background;
 pub(crate) use mean::{mean, saturated};
+pub(crate) use strip::{MOST, Strip};
 
 use crate::frame::FrameView;
 use crate::shade::{Encoding, Shading};
-use crate::simd::{Each, LANES, at_level};
+use crate::simd::at_level;
 use crate::target::{Band, Bands};
 use crate::tile::{NOBODY, Scratch, TileArea};
 use trigon_math::Vec4;
 
-/// Writes all outputs of a tile; `early` if its pixels are bytes already.
+/// Writes all outputs of a tile, bytes when tiles beside it are finished, too; `early` if
+/// its pixels are bytes already.
 pub(crate) fn resolve(
     frame: &FrameView<'_>,
     area: &TileArea,
@@ -25,61 +28,20 @@ pub(crate) fn resolve(
     if let Some(encoding) = early {
         background::lay_codes(frame, area, &mut scratch.shading, encoding);
         edges::average_codes(frame, area, &mut scratch.shading, encoding);
-        copy_codes(frame, area, scratch, bands);
+        scratch.strip.push(frame, area, &mut scratch.shading.codes, bands);
     } else if frame.wants.color {
         finish_colors(frame, area, scratch);
         if let Some(encoding) = frame.wants.bytes {
             let span = scratch.buffer.span();
             let Shading { colors, codes, .. } = &mut scratch.shading;
             at_level!(frame.token, simd => encoding.encode_all(simd, &colors[..span], codes));
-            copy_codes(frame, area, scratch, bands);
+            scratch.strip.push(frame, area, &mut scratch.shading.codes, bands);
         } else {
             store_colors(frame, area, scratch, bands);
         }
     }
     if frame.wants.depth || frame.wants.ids {
         store_visibility(frame, area, scratch, bands);
-    }
-}
-
-/// Copies bytes, a row of a block at a time.
-fn copy_codes(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: &Bands<'_>) {
-    let [left, top] = area.origin.map(|v| v as u32);
-    let (mut band, first) = bands.lock([left, top]);
-    let band = &mut *band;
-    let picture = if band.unorm8.is_empty() { &mut *band.srgb8 } else { &mut *band.unorm8 };
-    let [columns, rows] = frame.drawn_part(area);
-    let codes = &scratch.shading.codes;
-    for y in rows {
-        let start = first + y * bands.width();
-        let row = &mut picture[start + columns.start..start + columns.end];
-        // Up to a whole block first.
-        let head = row.len().min(columns.start.next_multiple_of(8) - columns.start);
-        let (head, row) = row.split_at_mut(head);
-        copy_some(head, codes, [columns.start, y]);
-        let whole = columns.start + head.len();
-        let (eights, tail) = row.as_chunks_mut::<8>();
-        let copied = whole + 8 * eights.len();
-        let blocks = &codes.as_chunks::<BLOCK>().0[TileArea::index_of([whole, y]) / BLOCK..];
-        // The same in each block: what is known of it is not asked for each.
-        let left = TileArea::index_of([0, y % 8]);
-        for (pixels, block) in eights.iter_mut().zip(blocks) {
-            for (pixels, at) in pixels.as_chunks_mut().0.iter_mut().zip([left, left + LANES]) {
-                let codes = block[at..].first_chunk::<4>().expect("groups are whole");
-                *pixels = codes.each(u32::to_le_bytes);
-            }
-        }
-        copy_some(tail, codes, [copied, y]);
-    }
-}
-
-/// Pixels of a block.
-const BLOCK: usize = 64;
-
-/// Copies fewer pixels than are in a row of a block.
-fn copy_some(pixels: &mut [[u8; 4]], codes: &[u32], [x, y]: [usize; 2]) {
-    for (pixel, x) in pixels.iter_mut().zip(x..) {
-        *pixel = codes[TileArea::index_of([x, y])].to_le_bytes();
     }
 }
 

@@ -6,6 +6,7 @@ use super::masked::Questions;
 use crate::Stats;
 use crate::bin::Place;
 use crate::blend::Layers;
+use crate::resolve::Strip;
 use crate::shade::Shading;
 use trigon_math::Vec4;
 
@@ -22,6 +23,8 @@ pub(crate) struct Scratch {
     /// Whether all pixels of the tile have their colour, the background's
     /// included.
     pub(crate) blended: bool,
+    /// Tiles that are finished, but not written yet.
+    pub(crate) strip: Strip,
     pub(crate) stats: Stats,
 }
 
@@ -38,6 +41,7 @@ impl Scratch {
             layers: Layers::default(),
             questions: Questions::default(),
             blended: false,
+            strip: Strip::default(),
             stats: Stats::default(),
         }
     }

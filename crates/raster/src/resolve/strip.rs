@@ -1,0 +1,95 @@
+//! Finished tiles side by side go to the target as one: a processor writes long rows
+//! of memory sooner than short ones, as it fetches ahead.
+
+use crate::frame::FrameView;
+use crate::simd::{Each, LANES};
+use crate::target::Bands;
+use crate::tile::{PIXELS, TileArea};
+use std::mem::swap;
+
+/// The most tiles that wait for each other: more would not fit into a processor's cache.
+pub(crate) const MOST: usize = 8;
+
+/// Neighbours of one row of tiles, from left to right, and their pixels as bytes.
+#[derive(Default)]
+pub(crate) struct Strip {
+    areas: Vec<TileArea>,
+    /// At least as many; the others are kept for later tiles.
+    codes: Vec<Vec<u32>>,
+}
+
+impl Strip {
+    /// Takes a tile's pixels, and leaves others in their place. What waits is written
+    /// first if the tile does not continue it.
+    pub(super) fn push(
+        &mut self,
+        frame: &FrameView<'_>,
+        area: &TileArea,
+        codes: &mut Vec<u32>,
+        bands: &Bands<'_>,
+    ) {
+        let continues = self.areas.last().is_none_or(|last| {
+            let [x, y] = last.origin;
+            area.origin == [x + last.size[0] as i32, y]
+        });
+        if !continues || self.areas.len() == MOST {
+            self.write(frame, bands);
+        }
+        if self.codes.len() == self.areas.len() {
+            self.codes.push(vec![0; PIXELS]);
+        }
+        swap(&mut self.codes[self.areas.len()], codes);
+        self.areas.push(*area);
+    }
+
+    /// Copies what waits to the target.
+    pub(crate) fn write(&mut self, frame: &FrameView<'_>, bands: &Bands<'_>) {
+        let Some(first) = self.areas.first() else { return };
+        let (mut band, corner) = bands.lock(first.origin.map(|v| v as u32));
+        let band = &mut *band;
+        let picture = if band.unorm8.is_empty() { &mut *band.srgb8 } else { &mut *band.unorm8 };
+        let [_, rows] = frame.drawn_part(first);
+        for y in rows {
+            let mut start = corner + y * bands.width();
+            for (area, codes) in self.areas.iter().zip(&self.codes) {
+                let [columns, _] = frame.drawn_part(area);
+                let row = &mut picture[start + columns.start..start + columns.end];
+                copy_row(row, codes, [columns.start, y]);
+                start += area.size[0];
+            }
+        }
+        self.areas.clear();
+    }
+}
+
+/// Copies bytes to a row from a column on, a row of a block at a time.
+#[inline]
+fn copy_row(row: &mut [[u8; 4]], codes: &[u32], [column, y]: [usize; 2]) {
+    // Up to a whole block first.
+    let head = row.len().min(column.next_multiple_of(8) - column);
+    let (head, row) = row.split_at_mut(head);
+    copy_some(head, codes, [column, y]);
+    let whole = column + head.len();
+    let (eights, tail) = row.as_chunks_mut::<8>();
+    let copied = whole + 8 * eights.len();
+    let blocks = &codes.as_chunks::<BLOCK>().0[TileArea::index_of([whole, y]) / BLOCK..];
+    // The same in each block: what is known of it is not asked for each.
+    let left = TileArea::index_of([0, y % 8]);
+    for (pixels, block) in eights.iter_mut().zip(blocks) {
+        for (pixels, at) in pixels.as_chunks_mut().0.iter_mut().zip([left, left + LANES]) {
+            let codes = block[at..].first_chunk::<4>().expect("groups are whole");
+            *pixels = codes.each(u32::to_le_bytes);
+        }
+    }
+    copy_some(tail, codes, [copied, y]);
+}
+
+/// Pixels of a block.
+const BLOCK: usize = 64;
+
+/// Copies fewer pixels than are in a row of a block.
+fn copy_some(pixels: &mut [[u8; 4]], codes: &[u32], [x, y]: [usize; 2]) {
+    for (pixel, x) in pixels.iter_mut().zip(x..) {
+        *pixel = codes[TileArea::index_of([x, y])].to_le_bytes();
+    }
+}
