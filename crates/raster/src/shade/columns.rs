@@ -2,7 +2,7 @@
 
 use super::records::{Records, cold, hot};
 use super::task::Vector;
-use super::weights::CutColumns;
+use super::weights::{CutColumns, Placed};
 use super::{MAX_VARYINGS, ShadeContext};
 use crate::setup::Corners;
 use crate::simd::{Each, I32, LANES, Mask, Row, Simd, U32, inlined, prelude::*, transpose};
@@ -74,6 +74,8 @@ pub(crate) struct Columns {
     special: Special,
     /// The one triangle that all lanes hold.
     uniform: Option<u32>,
+    /// Where the pixels lie in their triangles.
+    pub(super) placed: Box<Placed>,
 }
 
 /// What only vectors with a wide or cut triangle need.
@@ -102,6 +104,7 @@ impl Columns {
             is_special: false,
             special: Special { cold, areas: [0.0; LANES], cut, is_cut: false },
             uniform: None,
+            placed: Box::default(),
         }
     }
 

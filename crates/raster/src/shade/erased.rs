@@ -46,7 +46,7 @@ pub(crate) trait AnyPipeline: Sync {
         &self,
         token: Token,
         context: &ShadeContext<'_>,
-        list: (&Task<'_>, &mut Columns),
+        list: (&Task<'_>, &mut [Columns; 2]),
         output: &mut ShadeOutput<'_>,
     );
 
@@ -56,7 +56,7 @@ pub(crate) trait AnyPipeline: Sync {
         &self,
         token: Token,
         context: &ShadeContext<'_>,
-        list: (&Task<'_>, &mut Columns),
+        list: (&Task<'_>, &mut [Columns; 2]),
         kept: &mut [u8],
     );
 }
@@ -115,7 +115,7 @@ impl<P: LanePipeline> AnyPipeline for P {
         &self,
         token: Token,
         context: &ShadeContext<'_>,
-        list: (&Task<'_>, &mut Columns),
+        list: (&Task<'_>, &mut [Columns; 2]),
         output: &mut ShadeOutput<'_>,
     ) {
         if P::SCALAR {
@@ -130,7 +130,7 @@ impl<P: LanePipeline> AnyPipeline for P {
         &self,
         token: Token,
         context: &ShadeContext<'_>,
-        list: (&Task<'_>, &mut Columns),
+        list: (&Task<'_>, &mut [Columns; 2]),
         kept: &mut [u8],
     ) {
         if P::SCALAR {

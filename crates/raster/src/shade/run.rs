@@ -14,7 +14,7 @@ pub(super) fn shade<S: Simd, P: LanePipeline>(
     simd: S,
     pipeline: &P,
     context: &ShadeContext<'_>,
-    (task, columns): (&Task<'_>, &mut Columns),
+    (task, columns): (&Task<'_>, &mut [Columns; 2]),
     output: &mut ShadeOutput<'_>,
 ) {
     for_each_vector(
@@ -35,7 +35,7 @@ pub(super) fn mask<S: Simd, P: LanePipeline>(
     simd: S,
     pipeline: &P,
     context: &ShadeContext<'_>,
-    (task, columns): (&Task<'_>, &mut Columns),
+    (task, columns): (&Task<'_>, &mut [Columns; 2]),
     kept: &mut [u8],
 ) {
     for_each_vector(
@@ -57,22 +57,41 @@ pub(super) fn mask<S: Simd, P: LanePipeline>(
 pub(super) fn for_each_vector<S: Simd>(
     simd: S,
     context: &ShadeContext<'_>,
-    (task, columns): (&Task<'_>, &mut Columns),
+    (task, columns): (&Task<'_>, &mut [Columns; 2]),
     mut visit: impl FnMut(&FragmentLanes<'_, S>, &Vector<'_, S>),
 ) {
-    columns.reset();
-    for number in 0..task.vectors() {
-        // Apart, so that it is compiled once for all pipelines.
-        let vector = simd.vectorize(
-            #[inline(always)]
-            || {
-                let vector = task.vector(simd, number);
-                columns.load(simd, context, task.records, &vector);
-                vector
-            },
-        );
-        visit(&fragments(simd, context, (task.records, columns), &vector), &vector);
+    let [mut next, mut now] = columns.each_mut();
+    next.reset();
+    now.reset();
+    let count = task.vectors();
+    for number in 0..count + 1 {
+        if number < count {
+            // Apart, so that it is compiled once for all pipelines.
+            simd.vectorize(
+                #[inline(always)]
+                || prepare(simd, context, (task, &mut *next), number),
+            );
+        }
+        if number > 0 {
+            let vector = task.vector(simd, number - 1);
+            visit(&fragments(simd, context, (task.records, now), &vector), &vector);
+        }
+        std::mem::swap(&mut next, &mut now);
     }
+}
+
+/// Loads a vector's triangles, and finds where its pixels lie in them.
+#[inline(always)]
+fn prepare<S: Simd>(
+    simd: S,
+    context: &ShadeContext<'_>,
+    (task, columns): (&Task<'_>, &mut Columns),
+    number: usize,
+) {
+    let vector = task.vector(simd, number);
+    columns.load(simd, context, task.records, &vector);
+    let point = points(simd, context, columns, vector.spots);
+    *columns.placed = TriangleLanes::load(simd, columns).place(simd, point);
 }
 
 /// The fragments of a vector.
@@ -83,13 +102,11 @@ fn fragments<'v, S: Simd>(
     (records, columns): (&'v Records, &'v Columns),
     vector: &'v Vector<'_, S>,
 ) -> FragmentLanes<'v, S> {
-    let point = points(simd, context, columns, vector.spots);
-    let triangles = TriangleLanes::load(simd, columns);
     FragmentLanes {
         simd,
         varyings: columns.varyings(records.shape().varyings),
-        place: triangles.at(simd, point),
-        point,
+        place: TriangleLanes::load(simd, columns).at(simd, &columns.placed),
+        point: columns.placed.point(simd),
         vector,
         records,
         context,

@@ -13,7 +13,7 @@ pub(super) fn shade(
     token: Token,
     pipeline: &dyn ScalarPipeline,
     context: &ShadeContext<'_>,
-    list: (&Task<'_>, &mut Columns),
+    list: (&Task<'_>, &mut [Columns; 2]),
     output: &mut ShadeOutput<'_>,
 ) {
     at_level!(token, simd => shade_lanes(simd, pipeline, context, list, output));
@@ -24,7 +24,7 @@ fn shade_lanes<S: Simd>(
     simd: S,
     pipeline: &dyn ScalarPipeline,
     context: &ShadeContext<'_>,
-    list: (&Task<'_>, &mut Columns),
+    list: (&Task<'_>, &mut [Columns; 2]),
     output: &mut ShadeOutput<'_>,
 ) {
     for_each_vector(
@@ -53,7 +53,7 @@ pub(super) fn mask(
     token: Token,
     pipeline: &dyn ScalarPipeline,
     context: &ShadeContext<'_>,
-    list: (&Task<'_>, &mut Columns),
+    list: (&Task<'_>, &mut [Columns; 2]),
     kept: &mut [u8],
 ) {
     at_level!(token, simd => for_each_vector(simd, context, list, #[inline(always)] |fragments, vector| {

@@ -41,7 +41,7 @@ pub(crate) struct Shading {
     pub(super) parts: FragmentList,
     pub(super) runs: Vec<Run>,
     pub(super) records: Records,
-    pub(super) columns: Columns,
+    pub(super) columns: [Columns; 2],
     /// A fragment and one colour for each visible triangle of a flat draw, in linear
     /// light and as bytes.
     pub(super) flat: FragmentList,
@@ -80,7 +80,7 @@ impl Shading {
             parts: FragmentList::default(),
             runs: Vec::new(),
             records: Records::default(),
-            columns: Columns::new(),
+            columns: [Columns::new(), Columns::new()],
             flat: FragmentList::default(),
             flat_codes: Vec::new(),
             flat_colors: Vec::new(),

@@ -66,6 +66,27 @@ struct Wide<'c, S: Simd> {
 /// `[vertex][corner]`.
 pub(super) type CutColumns = [[[f32; LANES]; 3]; 3];
 
+/// Eight points, and what takes longest to find there: found for the next eight pixels
+/// before these are shaded, so that nobody waits for it.
+#[derive(Clone, Default)]
+#[repr(align(64))]
+pub(super) struct Placed {
+    /// In 1/256 pixel from the tile's corner.
+    point: [Row; 2],
+    /// Perspective-correct weights of the corners, and one over the sum of the corners'
+    /// shares: bits of f32.
+    weights: [Row; 3],
+    inverse: Row,
+}
+
+impl Placed {
+    #[inline(always)]
+    pub(super) fn point<S: Simd>(&self, simd: S) -> [I32<S>; 2] {
+        let [x, y] = self.point;
+        [I32::simd_from(simd, x), I32::simd_from(simd, y)]
+    }
+}
+
 /// Where eight points lie in their triangles.
 pub(crate) struct Weights<S: Simd> {
     /// Perspective-correct weights of the corners.
@@ -122,17 +143,37 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
         }
     }
 
-    /// The weights at points in 1/256 pixel from the tile's corner.
+    /// What is worth finding ahead at points in 1/256 pixel from the tile's corner.
     #[inline(always)]
-    pub(crate) fn at(&self, simd: S, point: [I32<S>; 2]) -> Weights<S> {
+    pub(super) fn place(&self, simd: S, point: [I32<S>; 2]) -> Placed {
+        let (edges, _) = self.edges(simd, point);
+        let shares = self.shares(edges);
+        let inverse = F32::splat(simd, 1.0) / (shares[0] + shares[1] + shares[2]);
+        let row = inlined(
+            #[inline(always)]
+            |value: F32<S>| value.bitcast::<I32<S>>().into(),
+        );
+        let [x, y] = point;
+        let [a, b, c] = shares;
+        Placed {
+            point: [x.into(), y.into()],
+            weights: [row(a * inverse), row(b * inverse), row(c * inverse)],
+            inverse: row(inverse),
+        }
+    }
+
+    /// The weights at points, and all else that may be asked of them.
+    #[inline(always)]
+    pub(super) fn at(&self, simd: S, placed: &Placed) -> Weights<S> {
+        let point = placed.point(simd);
+        let value = inlined(
+            #[inline(always)]
+            |row: &Row| I32::simd_from(simd, *row).bitcast::<F32<S>>(),
+        );
+        let [a, b, c] = &placed.weights;
+        let (weights, inverse) = ([value(a), value(b), value(c)], value(&placed.inverse));
         let (edges, area) = self.edges(simd, point);
         let shares = self.shares(edges);
-        let total = shares[0] + shares[1] + shares[2];
-        let inverse = F32::splat(simd, 1.0) / total;
-        let weights = shares.each(
-            #[inline(always)]
-            |share| share * inverse,
-        );
         let [share_x, share_y] = [self.right, self.down].each(
             #[inline(always)]
             |step| self.share_steps(step),
@@ -148,7 +189,7 @@ impl<'c, S: Simd> TriangleLanes<'c, S> {
             slopes: [[right[0], down[0]], [right[1], down[1]]],
             edges,
             area,
-            total,
+            total: shares[0] + shares[1] + shares[2],
             distances: [0, 1, 2].each(
                 #[inline(always)]
                 |k| {
