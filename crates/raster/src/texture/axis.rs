@@ -58,11 +58,13 @@ fn fraction(x: f32) -> f32 {
 #[inline(always)]
 fn fraction_lanes<S: Simd>(x: F32<S>) -> F32<S> {
     let zero = F32::splat(x.token(), 0.0);
-    let x = x.abs().simd_lt(WHOLE).select(x, zero);
+    // What large numbers and those that are none give is left out at the end, and all that
+    // can be is found side by side: a look-up waits for this.
     let rest = x - truncated(x);
-    let fraction = rest.simd_lt(0.0).select(rest + 1.0, rest);
-    // Neither is a NaN or a zero of unknown sign.
-    fraction.min(BELOW_ONE)
+    // Neither is a NaN or a zero of unknown sign, where it counts.
+    let above = (rest + 1.0).min(BELOW_ONE);
+    let fraction = rest.simd_lt(0.0).select(above, rest);
+    x.abs().simd_lt(WHOLE).select(fraction, zero)
 }
 
 #[inline(always)]

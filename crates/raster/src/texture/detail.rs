@@ -6,15 +6,15 @@ use crate::simd::prelude::*;
 use crate::simd::{Each, F32, I32, Simd, greater, lesser};
 use trigon_math::Vec2;
 
-/// The detail of a gradient that is not finite or too large to square: beyond
+/// The square for a gradient that is not finite or too large to square: beyond
 /// the last level of any texture.
-const COARSEST: f32 = 64.0;
+const COARSEST: f32 = (1_u64 << 60) as f32;
 
 /// What a sample covers.
 pub(super) struct Footprint {
-    /// The mip level, not yet held to those that there are: negative where a
-    /// texel is larger than a sample step; at most 64.
-    pub(super) detail: f32,
+    /// The square of the side that one look-up covers, in texels of the base level:
+    /// below 1 where a texel is larger than a sample step; finite.
+    pub(super) square: f32,
     /// How many probes, an integer from 1.
     pub(super) probes: f32,
     /// The longer side: the probes' direction. Finite.
@@ -25,14 +25,13 @@ impl Footprint {
     /// The footprint spanned by `ddx` and `ddy`, with at most the sampler's number
     /// of probes; a point for a sampler that does not care.
     ///
-    /// With a single probe, the detail is the binary logarithm of the longer
-    /// side in texels of the base level. With more, it is that of the longer
-    /// side over the number of probes, which is the ratio of the sides, rounded
-    /// up: the formula of EXT_texture_filter_anisotropic (Khronos, 1999).
+    /// With a single probe, the look-up covers the longer side. With more, it covers
+    /// the longer side over the number of probes, which is the ratio of the sides,
+    /// rounded up: the formula of EXT_texture_filter_anisotropic (Khronos, 1999).
     #[inline]
     pub(super) fn new(texture: &Texture, ddx: Vec2, ddy: Vec2, sampler: &Sampler) -> Self {
         if !sampler.needs_detail() {
-            return Self { detail: 0.0, probes: 1.0, axis: Vec2::ZERO };
+            return Self { square: 0.0, probes: 1.0, axis: Vec2::ZERO };
         }
         let most_probes = sampler.most_probes();
         let size = Vec2::new(texture.width() as f32, texture.height() as f32);
@@ -40,11 +39,11 @@ impl Footprint {
         let (x, y) = (x.x * x.x + x.y * x.y, y.x * y.x + y.y * y.y);
         // Also when it is not a number.
         if !(x + y).is_finite() {
-            return Self { detail: COARSEST, probes: 1.0, axis: Vec2::ZERO };
+            return Self { square: COARSEST, probes: 1.0, axis: Vec2::ZERO };
         }
         let (longer, shorter, axis) = if y > x { (y, x, ddy) } else { (x, y, ddx) };
         if most_probes == 1.0 {
-            return Self { detail: log2_of_root(longer), probes: 1.0, axis };
+            return Self { square: longer, probes: 1.0, axis };
         }
         let ratio = (longer / shorter).sqrt();
         // A point has no ratio: then the comparison fails.
@@ -52,7 +51,7 @@ impl Footprint {
         let ratio = if ratio < most_probes { ratio } else { most_probes };
         let whole = ratio as i32 as f32;
         let probes = if whole < ratio { whole + 1.0 } else { whole };
-        Self { detail: log2_of_root(longer / (probes * probes)), probes, axis }
+        Self { square: longer / (probes * probes), probes, axis }
     }
 
     /// Where probe `index` of 1 up to `probes` lies, in parts of the longer side
@@ -65,7 +64,7 @@ impl Footprint {
 
 /// [`Footprint`], for lanes.
 pub(super) struct FootprintLanes<S: Simd> {
-    pub(super) detail: F32<S>,
+    pub(super) square: F32<S>,
     pub(super) probes: F32<S>,
     pub(super) axis: [F32<S>; 2],
 }
@@ -81,7 +80,7 @@ impl<S: Simd> FootprintLanes<S> {
     ) -> Self {
         let (zero, one) = (F32::splat(simd, 0.0), F32::splat(simd, 1.0));
         if !sampler.needs_detail() {
-            return Self { detail: zero, probes: one, axis: [zero; 2] };
+            return Self { square: zero, probes: one, axis: [zero; 2] };
         }
         let most_probes = sampler.most_probes();
         let size = [texture.width(), texture.height()].each(
@@ -94,17 +93,16 @@ impl<S: Simd> FootprintLanes<S> {
         let longer = steep.select(y, x);
         let coarsest = F32::splat(simd, COARSEST);
         if most_probes == 1.0 {
-            let detail = finite.select(log2_of_root_lanes(longer), coarsest);
-            return Self { detail, probes: one, axis: [zero; 2] };
+            return Self { square: finite.select(longer, coarsest), probes: one, axis: [zero; 2] };
         }
         let ratio = (longer / steep.select(x, y)).sqrt();
         let ratio = lesser(greater(ratio, one), F32::splat(simd, most_probes));
         let whole = ratio.to_int::<I32<S>>().to_float::<F32<S>>();
         let probes = finite.select(whole.simd_lt(ratio).select(whole + 1.0, whole), one);
-        let detail = finite.select(log2_of_root_lanes(longer / (probes * probes)), coarsest);
+        let square = finite.select(longer / (probes * probes), coarsest);
         let u = finite.select(steep.select(ddy[0], ddx[0]), zero);
         let v = finite.select(steep.select(ddy[1], ddx[1]), zero);
-        Self { detail, probes, axis: [u, v] }
+        Self { square, probes, axis: [u, v] }
     }
 
     #[inline(always)]
@@ -120,45 +118,74 @@ fn squared_lanes<S: Simd>([width, height]: [F32<S>; 2], [u, v]: [F32<S>; 2]) -> 
     u * u + v * v
 }
 
-/// The binary logarithm of the root of a finite `x` >= 0, within 0.000025; below -63 for
-/// 0 and for numbers too small to matter.
+/// The lowest bit of an exponent: not set if the exponent is odd without its bias.
+const ODD: u32 = 1 << 23;
+
+/// The binary logarithm of the root of a finite `square` >= 0, as a whole number and a
+/// rest from 0 to 1 that is exact within 0.000025: the mip level of a look-up and the share
+/// of the next one. Below -50 for 0 and for numbers too small to matter.
 ///
-/// The exponent and a polynomial in the mantissa: only additions and
-/// multiplications, so the same on every machine. It interpolates
-/// log2(1 + t) at both ends; the inner coefficients are a least-squares fit. Its terms
-/// are added up by twos (G. Estrin, 1960), as few steps as possible one after the other:
-/// all that follows waits for the level.
-fn log2_of_root(x: f32) -> f32 {
-    let bits = x.to_bits();
-    let exponent = (bits >> 23) as f32 - 127.0;
-    let t = f32::from_bits(bits & 0x007f_ffff | 0x3f80_0000) - 1.0;
+/// The whole number is half of the exponent, so that the level is known long before the
+/// share is; all that follows waits for it. The rest is a polynomial in the mantissa: only
+/// additions and multiplications, so the same on every machine. It interpolates log2(1 + t)
+/// at both ends; the inner coefficients are a least-squares fit, and their terms are added
+/// up by twos (G. Estrin, 1960).
+pub(super) fn log2_of_root(square: f32) -> (i32, f32) {
+    let bits = square.to_bits();
+    // Half of the exponent, rounded down: its bias is odd.
+    let whole = ((bits + ODD) >> 24) as i32 - 64;
+    let mantissa = f32::from_bits(bits & 0x007f_ffff | 0x3f80_0000);
+    let t = mantissa - 1.0;
+    let straight = if bits & ODD == 0 { mantissa } else { t };
     let inner = (0.220_87 - t * 0.133_015) + t * t * (0.073_155 - t * 0.022);
-    (exponent + t) * 0.5 + t * (1.0 - t) * inner
+    (whole, straight * 0.5 + t * (1.0 - t) * inner)
 }
 
+/// [`log2_of_root`], for lanes.
 #[inline(always)]
-fn log2_of_root_lanes<S: Simd>(x: F32<S>) -> F32<S> {
-    let bits = x.to_bits().bitcast::<I32<S>>();
-    let exponent = (bits >> 23).to_float::<F32<S>>() - 127.0;
-    let t = (bits & 0x007f_ffff | 0x3f80_0000).bitcast::<F32<S>>() - 1.0;
+pub(super) fn log2_of_root_lanes<S: Simd>(square: F32<S>) -> (I32<S>, F32<S>) {
+    let bits = square.to_bits().bitcast::<I32<S>>();
+    let whole = ((bits + ODD as i32) >> 24) - 64;
+    let mantissa = (bits & 0x007f_ffff | 0x3f80_0000).bitcast::<F32<S>>();
+    let t = mantissa - 1.0;
+    let odd = (bits & ODD as i32).simd_eq(I32::splat(square.token(), 0));
+    let straight = odd.select(mantissa, t);
     let inner = (0.220_87 - t * 0.133_015) + t * t * (0.073_155 - t * 0.022);
-    (exponent + t) * 0.5 + t * (1.0 - t) * inner
+    (whole, straight * 0.5 + t * (1.0 - t) * inner)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{MipFilter, TextureFormat};
+    use proptest::prelude::*;
+
+    fn level(square: f32) -> f64 {
+        let (whole, rest) = log2_of_root(square);
+        f64::from(whole) + f64::from(rest)
+    }
 
     #[test]
     fn logarithm_is_close_enough() {
         for i in 1..20_000 {
             let x = i as f32 * 0.01;
             let exact = trigon_math::elementary::ln(f64::from(x)) / std::f64::consts::LN_2 / 2.0;
-            let error = f64::from(log2_of_root(x)) - exact;
+            let error = level(x) - exact;
             assert!(error.abs() < 2.5e-5, "the root of {x} is off by {error}");
         }
-        assert!(log2_of_root(0.0) < -50.0, "0 selects the base level");
+        assert!(level(0.0) < -50.0, "0 selects the base level");
+    }
+
+    proptest! {
+        /// From one level to the next nothing jumps, and the share stays one.
+        #[test]
+        fn a_level_follows_the_one_before(exponent in -40..40_i32, below in 1_u32..200) {
+            let whole = 4.0_f32.powi(exponent);
+            let (level, rest) = log2_of_root(f32::from_bits(whole.to_bits() - below));
+            prop_assert_eq!(log2_of_root(whole), (exponent, 0.0));
+            prop_assert_eq!(level, exponent - 1);
+            prop_assert!((0.9999..=1.0).contains(&rest), "{}", rest);
+        }
     }
 
     fn grey(side: u32) -> Texture {
@@ -176,8 +203,7 @@ mod tests {
         for k in 0..6 {
             let step = (1 << k) as f32 / 64.0;
             let footprint = Footprint::new(&texture, Vec2::new(step, 0.0), Vec2::ZERO, &at_most(1));
-            let detail = footprint.detail;
-            assert!((detail - k as f32).abs() < 1e-3, "a step of {} texels: {detail}", 1 << k);
+            assert_eq!(level(footprint.square), f64::from(k), "a step of {} texels", 1 << k);
         }
     }
 
@@ -203,8 +229,8 @@ mod tests {
             );
             assert_eq!(footprint.probes, probes, "{x} by {y} texels, at most {most}");
             let expected = trigon_math::elementary::ln(step) / std::f64::consts::LN_2;
-            let error = f64::from(footprint.detail) - expected;
-            assert!(error.abs() < 1e-3, "level {} for {x} by {y} texels", footprint.detail);
+            let level = level(footprint.square);
+            assert!((level - expected).abs() < 1e-3, "level {level} for {x} by {y} texels");
         }
     }
 
@@ -213,10 +239,11 @@ mod tests {
         let texture = grey(64);
         for bad in [f32::NAN, f32::INFINITY, 1e30] {
             let footprint = Footprint::new(&texture, Vec2::new(bad, 0.0), Vec2::X, &at_most(16));
-            assert_eq!((footprint.detail, footprint.probes), (64.0, 1.0), "gradient {bad}");
+            assert_eq!((footprint.square, footprint.probes), (COARSEST, 1.0), "gradient {bad}");
+            assert!(level(footprint.square) > 15.0, "beyond the last level of any texture");
         }
         let point = Footprint::new(&texture, Vec2::ZERO, Vec2::ZERO, &at_most(16));
         assert_eq!(point.probes, 1.0, "a point is as long as it is wide");
-        assert!(point.detail < 0.0, "and magnified");
+        assert!(point.square < 1.0, "and magnified");
     }
 }

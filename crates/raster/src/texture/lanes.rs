@@ -8,11 +8,11 @@
 
 use super::axis::{Filters, reduced_lanes, texel_lanes};
 use super::channels::{ALPHA, Channels, Color, Data, Texels, mix};
-use super::detail::FootprintLanes;
+use super::detail::{FootprintLanes, log2_of_root_lanes};
 use super::strips::{COLUMNS, Footprint, PITCH, Strips};
 use super::{MipFilter, Sampler, Texture, TextureFormat};
 use crate::simd::prelude::*;
-use crate::simd::{Each, F32, I32, LANES, Simd, U32, greater, lanes_of, lesser, transposed, unzipped};
+use crate::simd::{Each, F32, I32, LANES, Simd, U32, lanes_of, transposed, unzipped};
 
 #[inline(always)]
 pub(super) fn sample<S: Simd>(
@@ -61,19 +61,19 @@ impl<S: Simd> Probes<'_, S> {
         if self.sampler.most_probes() > 1.0 {
             self.mean::<T>(footprint)
         } else {
-            self.at::<T>(self.uv, footprint.detail)
+            self.at::<T>(self.uv, footprint.square)
         }
     }
 
     /// The value at one point, in a function of its own: it is long, and there
     /// are many callers.
     #[inline(always)]
-    fn at<T: Texels>(&self, [u, v]: [F32<S>; 2], detail: F32<S>) -> Channels<S> {
+    fn at<T: Texels>(&self, [u, v]: [F32<S>; 2], square: F32<S>) -> Channels<S> {
         // Two vectors, not one array of them: AVX-512 would copy that as one, and wait for
         // its halves to be stored.
         self.simd.vectorize(
             #[inline(always)]
-            || Lookup::new(self, [u, v], detail).value::<T>(),
+            || Lookup::new(self, [u, v], square).value::<T>(),
         )
     }
 
@@ -81,7 +81,7 @@ impl<S: Simd> Probes<'_, S> {
     #[inline(always)]
     fn mean<T: Texels>(&self, footprint: &FootprintLanes<S>) -> Channels<S> {
         let zero = F32::splat(self.simd, 0.0);
-        let FootprintLanes { detail, probes, axis } = *footprint;
+        let FootprintLanes { square, probes, axis } = *footprint;
         let mut sum = [zero; 4];
         let mut index = 1.0;
         loop {
@@ -91,7 +91,7 @@ impl<S: Simd> Probes<'_, S> {
             }
             let offset = wanted.select(footprint.offset(index), zero);
             let uv = [self.uv[0] + axis[0] * offset, self.uv[1] + axis[1] * offset];
-            let value = self.at::<T>(reduced(uv, self.sampler), detail);
+            let value = self.at::<T>(reduced(uv, self.sampler), square);
             for (sum, value) in sum.iter_mut().zip(value) {
                 *sum = wanted.select(*sum + value, *sum);
             }
@@ -114,22 +114,20 @@ struct Lookup<'a, S: Simd> {
 
 impl<'a, S: Simd> Lookup<'a, S> {
     #[inline(always)]
-    fn new(of: &Probes<'a, S>, uv: [F32<S>; 2], detail: F32<S>) -> Self {
+    fn new(of: &Probes<'a, S>, uv: [F32<S>; 2], square: F32<S>) -> Self {
         let Probes { simd, texture, sampler, .. } = *of;
-        let zero = F32::splat(simd, 0.0);
-        let minified = detail.simd_gt(0.0);
-        let last = I32::splat(simd, texture.strips.last_level as i32).to_float();
-        let held = greater(lesser(detail, last), zero);
-        let level = match sampler.mip {
-            MipFilter::None => zero,
-            MipFilter::Nearest => minified.select(held + 0.5, zero),
-            MipFilter::Linear | MipFilter::Anisotropic(_) => held,
+        let (zero, nought) = (F32::splat(simd, 0.0), I32::splat(simd, 0));
+        let minified = square.simd_gt(1.0);
+        let (whole, rest) = log2_of_root_lanes(square);
+        let last = I32::splat(simd, texture.strips.last_level as i32);
+        let level = whole.min(last).max(nought);
+        let rest = (whole.simd_eq(level) & level.simd_lt(last)).select(rest, zero);
+        let (finer, share) = match sampler.mip {
+            MipFilter::None => (nought, zero),
+            MipFilter::Nearest => (level + rest.simd_ge(0.5).select(I32::splat(simd, 1), nought), zero),
+            MipFilter::Linear | MipFilter::Anisotropic(_) => (level, rest),
         };
-        let finer = Levels::new(level.to_int());
-        let share = match sampler.mip {
-            MipFilter::None | MipFilter::Nearest => zero,
-            MipFilter::Linear | MipFilter::Anisotropic(_) => level - finer.each.to_float::<F32<S>>(),
-        };
+        let finer = Levels::new(finer);
         let filters = match (sampler.minification, sampler.magnification) {
             (minification, magnification) if minification == magnification => Filters::Uniform(minification),
             (super::Filter::Linear, _) => Filters::Linear(minified),
@@ -173,10 +171,10 @@ impl<'a, S: Simd> Lookup<'a, S> {
     /// Where in its level each lane's look-up goes.
     #[inline(always)]
     fn place(&self, levels: &Levels<S>) -> Place<S> {
-        let [start, width, height] = levels.of(self.simd, &self.texture.strips);
+        let [start, width, height, strip] = levels.of(self.simd, &self.texture.strips);
         let (x, s) = texel_lanes(self.uv[0], width, self.sampler.wrap_u, self.filters);
         let (y, t) = texel_lanes(self.uv[1], height, self.sampler.wrap_v, self.filters);
-        Place { index: start + index(height, [x, y]), s, t }
+        Place { index: index([start, strip], [x, y]), s, t }
     }
 
     /// Top left and right, bottom left and right.
@@ -218,20 +216,21 @@ impl<S: Simd> Levels<S> {
         Self { each, shared: self.shared.map(|level| (level + 1).min(last)) }
     }
 
-    /// Where they start, their widths and their heights.
+    /// What there is to know of each.
     #[inline(always)]
-    fn of(&self, simd: S, strips: &Strips) -> [I32<S>; 3] {
+    fn of(&self, simd: S, strips: &Strips) -> [I32<S>; 4] {
         if let Some(level) = self.shared {
-            let [start, width, height, _] = *strips.level(level);
-            return [I32::splat(simd, start), I32::splat(simd, width), I32::splat(simd, height)];
+            return strips.level(level).each(
+                #[inline(always)]
+                |number| I32::splat(simd, number),
+            );
         }
         let each: [i32; LANES] = self.each.into();
         let levels = lanes_of(
             #[inline(always)]
             |lane| strips.level(each[lane] as u32),
         );
-        let [start, width, height, _] = transposed(simd, levels);
-        [start, width, height]
+        transposed(simd, levels)
     }
 }
 
@@ -256,13 +255,14 @@ impl<S: Simd> Place<S> {
     }
 }
 
-/// [`Strips::index`](super::strips::Strips::index), for lanes.
+/// [`Strips::index`](super::strips::Strips::index), for lanes, in levels that start there
+/// and whose strips take so many texels without their border.
 #[inline(always)]
-fn index<S: Simd>(height: I32<S>, [x, y]: [I32<S>; 2]) -> I32<S> {
+fn index<S: Simd>([start, texels]: [I32<S>; 2], [x, y]: [I32<S>; 2]) -> I32<S> {
     let strip = x >> COLUMNS.trailing_zeros();
     // The border makes a strip one row longer; eight columns less for each strip are
     // one more than that takes.
-    (strip * height + y) * PITCH as i32 + (x + strip)
+    strip * texels + (start + (x + strip) + y * PITCH as i32)
 }
 
 /// The first and the second texels of one row of all footprints.

@@ -5,7 +5,7 @@
 //! for lanes repeats bit for bit.
 
 use super::axis::{reduced, texel};
-use super::detail::Footprint;
+use super::detail::{Footprint, log2_of_root};
 use super::strips::Strips;
 use super::{Filter, MipFilter, Sampler, Texture, decode, full_scale};
 use trigon_math::{Vec2, Vec4};
@@ -13,7 +13,7 @@ use trigon_math::{Vec2, Vec4};
 pub(super) fn sample(texture: &Texture, uv: Vec2, ddx: Vec2, ddy: Vec2, sampler: &Sampler) -> Vec4 {
     let uv = Vec2::new(reduced(uv.x, sampler.wrap_u), reduced(uv.y, sampler.wrap_v));
     let footprint = Footprint::new(texture, ddx, ddy, sampler);
-    let lookup = |uv: Vec2| Lookup::new(texture, uv, footprint.detail, sampler).value();
+    let lookup = |uv: Vec2| Lookup::new(texture, uv, footprint.square, sampler).value();
     let value = if footprint.probes == 1.0 {
         lookup(uv)
     } else {
@@ -50,19 +50,21 @@ struct Lookup<'a> {
 
 impl<'a> Lookup<'a> {
     #[inline]
-    fn new(texture: &'a Texture, uv: Vec2, detail: f32, sampler: &'a Sampler) -> Self {
-        let minified = detail > 0.0;
-        let last = texture.strips.last_level as f32;
-        let held = if detail < last { detail } else { last };
-        let level = match sampler.mip {
-            MipFilter::None => 0.0,
-            _ if !minified => 0.0,
-            MipFilter::Nearest => (held + 0.5) as u32 as f32,
-            MipFilter::Linear | MipFilter::Anisotropic(_) => held,
+    fn new(texture: &'a Texture, uv: Vec2, square: f32, sampler: &'a Sampler) -> Self {
+        let last = texture.strips.last_level;
+        let (whole, rest) = log2_of_root(square);
+        let (level, rest) = match u32::try_from(whole) {
+            Ok(level) if level < last => (level, rest),
+            Ok(_) => (last, 0.0),
+            Err(_) => (0, 0.0),
         };
-        let filter = if minified { sampler.minification } else { sampler.magnification };
-        let finer = level as u32;
-        Self { texture, sampler, uv, filter, finer, share: level - finer as f32 }
+        let (finer, share) = match sampler.mip {
+            MipFilter::None => (0, 0.0),
+            MipFilter::Nearest => (level + u32::from(rest >= 0.5), 0.0),
+            MipFilter::Linear | MipFilter::Anisotropic(_) => (level, rest),
+        };
+        let filter = if square > 1.0 { sampler.minification } else { sampler.magnification };
+        Self { texture, sampler, uv, filter, finer, share }
     }
 
     #[inline]

@@ -25,8 +25,8 @@ const SPAN: usize = PITCH as usize + 2;
 /// below it needs no check.
 const MAX_LEVELS: usize = 16;
 
-/// Where a level starts, counted from the base level, its width and its height; the
-/// fourth is to spare, so that those of eight levels turn into columns.
+/// Where a level starts, counted from the base level, its width, its height, and the texels
+/// of as many rows of a strip.
 pub(super) type Level = [i32; 4];
 
 /// All levels of a texture.
@@ -64,7 +64,7 @@ impl Strips {
 
     fn push(&mut self, rows: &Rows) {
         self.levels[self.last_level as usize] =
-            [self.texels.len() as i32, rows.width as i32, rows.height as i32, 0];
+            [self.texels.len() as u32, rows.width, rows.height, rows.height * PITCH].map(u32::cast_signed);
         for left in (0..rows.width).step_by(COLUMNS as usize) {
             for y in 0..=rows.height {
                 self.texels.extend(run(rows.row(y % rows.height), left));

@@ -2,7 +2,7 @@
 //! the depths over blocks and over the whole tile.
 
 use super::area::{BLOCKS, GROUPS, TileArea};
-use crate::simd::LANES;
+use crate::simd::{F32, LANES, Simd, lesser, prelude::*};
 
 /// No triangle: the background.
 pub(crate) const NOBODY: u32 = u32::MAX;
@@ -80,19 +80,25 @@ impl VisibilityBuffer {
     }
 
     /// Makes the arrays hold what they stand for; beside the tile's blocks nobody wins.
+    #[inline(always)]
     pub(crate) fn settle(&mut self) {
-        if let Some((depth, winner)) = self.fill {
-            self.fill = None;
-            let length = self.span * self.samples;
-            self.depth[..length].fill(depth);
-            let block = GROUPS * LANES * self.samples;
-            for row in self.winner[..length].chunks_mut(BLOCKS * block) {
-                let (within, beside) = row.split_at_mut(self.columns * block);
-                within.fill(winner);
-                beside.fill(NOBODY);
-            }
-            self.blocks.fill(BlockBounds { farthest: depth, nearest: depth, writes: 0 });
+        // Asked for each triangle.
+        if let Some(fill) = self.fill.take() {
+            self.settle_fill(fill);
         }
+    }
+
+    #[inline(never)]
+    fn settle_fill(&mut self, (depth, winner): (f32, u32)) {
+        let length = self.span * self.samples;
+        self.depth[..length].fill(depth);
+        let block = GROUPS * LANES * self.samples;
+        for row in self.winner[..length].chunks_mut(BLOCKS * block) {
+            let (within, beside) = row.split_at_mut(self.columns * block);
+            within.fill(winner);
+            beside.fill(NOBODY);
+        }
+        self.blocks.fill(BlockBounds { farthest: depth, nearest: depth, writes: 0 });
     }
 
     /// Lets nobody win outside of the picture.
@@ -149,25 +155,26 @@ impl VisibilityBuffer {
 
     /// The farthest depth of a block, found anew if that may help.
     #[inline(always)]
-    pub(crate) fn farthest_in(&mut self, block: usize) -> f32 {
+    pub(crate) fn farthest_in<S: Simd>(&mut self, simd: S, block: usize) -> f32 {
         if self.blocks[block].writes > 0 {
-            self.refresh(block);
+            self.refresh(simd, block);
         }
         self.blocks[block].farthest
     }
 
     #[inline(always)]
-    fn refresh(&mut self, block: usize) {
-        let length = GROUPS * LANES * self.samples;
-        let depths = &self.depth[block * length..(block + 1) * length];
+    fn refresh<S: Simd>(&mut self, simd: S, block: usize) {
+        let length = GROUPS * self.samples;
+        let depths = &self.depth.as_chunks::<LANES>().0[block * length..(block + 1) * length];
         // Several at once: hardly a comparison waits for the one before.
-        let mut least = [f32::INFINITY; GROUPS / 2 * LANES];
-        for groups in depths.as_chunks().0 {
-            least = lesser(&least, groups);
+        let mut least = [F32::splat(simd, f32::INFINITY); GROUPS / 2];
+        for groups in depths.as_chunks::<{ GROUPS / 2 }>().0 {
+            for (least, group) in least.iter_mut().zip(groups) {
+                *least = lesser(F32::simd_from(simd, *group), *least);
+            }
         }
-        let groups = least.as_chunks::<LANES>().0.iter();
-        let least = groups.fold([f32::INFINITY; LANES], |least, group| lesser(&least, group));
-        let farthest = least.into_iter().fold(f32::INFINITY, |a, b| if b < a { b } else { a });
+        let [a, b, c, d] = least;
+        let farthest = least_of(lesser(lesser(a, b), lesser(c, d)).into());
         self.stale |= farthest > self.blocks[block].farthest;
         self.blocks[block] = BlockBounds { farthest, writes: 0, ..self.blocks[block] };
     }
@@ -189,12 +196,10 @@ impl VisibilityBuffer {
     }
 }
 
-/// The lesser of each two.
+/// The least of eight: three comparisons one after the other.
 #[inline(always)]
-fn lesser<const COUNT: usize>(a: &[f32; COUNT], b: &[f32; COUNT]) -> [f32; COUNT] {
-    let mut least = *a;
-    for (least, &b) in least.iter_mut().zip(b) {
-        *least = if b < *least { b } else { *least };
-    }
-    least
+fn least_of([a, b, c, d, e, f, g, h]: [f32; LANES]) -> f32 {
+    let lesser = |a: f32, b: f32| if a < b { a } else { b };
+    let [a, b, c, d] = [lesser(a, e), lesser(b, f), lesser(c, g), lesser(d, h)];
+    lesser(lesser(a, c), lesser(b, d))
 }

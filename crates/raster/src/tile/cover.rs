@@ -116,7 +116,7 @@ impl Cover<'_> {
                 } else {
                     let [outside, within] = covering.block_sides([left, top]);
                     if outside
-                        || (self.hierarchical && self.block_hides(covering, buffer, block, [left, top]))
+                        || (self.hierarchical && self.block_hides(simd, covering, buffer, block, [left, top]))
                     {
                         counts.blocks_rejected += 1;
                         continue;
@@ -151,14 +151,15 @@ impl Cover<'_> {
 
     /// Whether what is in a block hides all of the triangle.
     #[inline(always)]
-    fn block_hides(
+    fn block_hides<S: Simd>(
         &self,
+        simd: S,
         covering: &Covering,
         buffer: &mut VisibilityBuffer,
         block: usize,
         corner: [i32; 2],
     ) -> bool {
-        let farthest = buffer.farthest_in(block);
+        let farthest = buffer.farthest_in(simd, block);
         if self.hides(farthest, covering.depth.high) {
             return true;
         }

@@ -86,7 +86,7 @@ impl Cover<'_> {
         counts: &mut Counts,
     ) {
         buffer.settle();
-        if self.hierarchical && self.hides_tiny(eight, lane, buffer) {
+        if self.hierarchical && self.hides_tiny(simd, (eight, lane), buffer) {
             counts.tiles_rejected += 1;
             return;
         }
@@ -143,7 +143,12 @@ impl Cover<'_> {
     /// Whether all blocks that the triangle reaches over hide it. Of those of others
     /// the bounds are widened, as if it were seen in each.
     #[inline(always)]
-    fn hides_tiny(&self, eight: &Eight, lane: usize, buffer: &mut VisibilityBuffer) -> bool {
+    fn hides_tiny<S: Simd>(
+        &self,
+        simd: S,
+        (eight, lane): (&Eight, usize),
+        buffer: &mut VisibilityBuffer,
+    ) -> bool {
         let high = eight.high[lane];
         // The least of what hides it.
         let limit = if self.in_order { high } else { high.next_up() };
@@ -159,7 +164,7 @@ impl Cover<'_> {
             let bounds = buffer.blocks[block];
             // What lies before all of a block cannot be hidden by it.
             let farthest = if (bounds.writes >= WRITES) & (high < bounds.nearest) {
-                buffer.farthest_in(block)
+                buffer.farthest_in(simd, block)
             } else {
                 bounds.farthest
             };
@@ -196,12 +201,13 @@ fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
     let [right, down] = tiny.slopes;
     let mut ties = Mask::splat(simd, false);
     for row in tiny.rows[0]..tiny.rows[1] + 1 {
-        let (upper, lower) = (tiny.value + down * dy, tiny.value + down * (dy + 256.0));
+        let plane = (tiny.value + down * dy).combine(tiny.value + down * (dy + 256.0));
         let [mut a, mut b, mut c] = edges;
         let mut dx = first;
         for column in 0..width {
             let across = right * dx;
-            let depth = simd.narrow_f64x4(upper + across, lower + across);
+            let (upper, lower) = (plane + across.combine(across)).split();
+            let depth = simd.narrow_f64x4(upper, lower);
             let depth = lesser(greater(depth, tiny.low), tiny.high);
             // What is not covered lies behind everything.
             let covered = (a | b | c).simd_ge(I32::splat(simd, 0));
