@@ -96,10 +96,12 @@ impl<'s> Composer<'s> {
             if !self.may_show(asset, shape) {
                 continue;
             }
-            let (index, place) = (
-                id.index() as u32,
-                self.eye.place(&shape.place, &shape.geometry.bounds().union(asset.bounds())),
-            );
+            // A posed mesh is where its joints put it, however large it is at rest.
+            let bounds = match shape.is_posed {
+                true => shape.geometry.bounds(),
+                false => shape.geometry.bounds().union(asset.bounds()),
+            };
+            let (index, place) = (id.index() as u32, self.eye.place(&shape.place, &bounds));
             self.object(
                 &Object { index, node, asset, geometry: &shape.geometry, place },
                 (&mut draws, counts),
