@@ -6,9 +6,15 @@ use crate::pass::Recorded;
 use crate::vertex::{Slots, UsedVertices};
 use std::ops::Range;
 
-/// How many primitives a chunk holds: enough to be worth a worker's while, few
-/// enough to stay in its cache.
-const CHUNK: u32 = 8192;
+/// The fewest primitives of a chunk: enough to be worth a worker's while.
+const LEAST: u32 = 8192;
+
+/// The most primitives of a chunk: few enough to stay in a worker's cache.
+const MOST: u32 = 65_536;
+
+/// Chunks for each worker, so that none waits long for another. Every tile asks all
+/// chunks what they hold: the fewer, the better.
+const SHARES: u32 = 16;
 
 /// One draw of the pass in the frame.
 pub(crate) struct DrawPlan {
@@ -43,9 +49,14 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// Plans a frame, and cuts it into chunks: the first so many, in the order of
-    /// their ordinals.
-    pub(crate) fn make(&mut self, recorded: &[Recorded<'_>], chunks: &mut Vec<Chunk>) -> usize {
+    /// Plans a frame for so many workers, and cuts it into chunks: the first so many, in
+    /// the order of their ordinals.
+    pub(crate) fn make(
+        &mut self,
+        recorded: &[Recorded<'_>],
+        chunks: &mut Vec<Chunk>,
+        workers: usize,
+    ) -> usize {
         self.draws.clear();
         self.listed.clear();
         (self.vertices, self.places, self.varyings) = (0, 0, 0);
@@ -72,7 +83,8 @@ impl Plan {
             self.varyings += plan.used.len() * pipeline.stride();
         }
         self.ordinals_are_keys = self.are_keys(recorded);
-        self.cut(recorded, chunks)
+        let size = (ordinal / (SHARES * workers as u32)).clamp(LEAST, MOST);
+        self.cut(recorded, chunks, size)
     }
 
     /// Whether equal depths can be decided by the ordinal among opaque draws.
@@ -95,7 +107,8 @@ impl Plan {
         true
     }
 
-    fn cut(&self, recorded: &[Recorded<'_>], chunks: &mut Vec<Chunk>) -> usize {
+    /// Cuts it into chunks of so many primitives.
+    fn cut(&self, recorded: &[Recorded<'_>], chunks: &mut Vec<Chunk>, size: u32) -> usize {
         let mut count = 0;
         let mut add = |ordinals: Range<u32>, surface: Surface| {
             if count == chunks.len() {
@@ -109,7 +122,7 @@ impl Plan {
             let end = draws[draws.len() - 1].ordinals.end;
             let mut start = draws[0].ordinals.start;
             while start < end {
-                let next = end.min(start.saturating_add(CHUNK));
+                let next = end.min(start.saturating_add(size));
                 add(start..next, surface(&draws[0]));
                 start = next;
             }

@@ -82,7 +82,7 @@ pub(crate) fn prepare<'f>(
     let tile_pixels = (how.tile_size / axis).max(1);
     let grid = Grid::new(viewport, target.pattern(), tile_pixels * axis);
     let Arena { plan, places, varyings, chunks, .. } = arena;
-    let used = plan.make(&pass.draws, chunks);
+    let used = plan.make(&pass.draws, chunks, how.workers.count());
     let chunks = &mut chunks[..used];
     places.resize(plan.places, ScreenVertex::MISSING);
     varyings.resize(plan.varyings, 0.0);
