@@ -2,7 +2,8 @@
 
 use super::records::{Records, cold, hot};
 use super::task::Vector;
-use super::weights::{CutColumns, Placed};
+use super::triangle_lanes::CutColumns;
+use super::weights::Placed;
 use super::{MAX_VARYINGS, ShadeContext};
 use crate::setup::Corners;
 use crate::simd::{Each, I32, LANES, Mask, Row, Simd, U32, inlined, prelude::*, transpose};

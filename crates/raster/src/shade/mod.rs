@@ -13,9 +13,11 @@ mod records;
 mod run;
 mod scalar;
 mod shading;
+mod small;
 mod sorted;
 mod surface;
 mod task;
+mod triangle_lanes;
 mod visible;
 mod weights;
 

@@ -3,7 +3,7 @@
 
 use super::columns::Columns;
 use super::task::{Task, Vector};
-use super::weights::TriangleLanes;
+use super::triangle_lanes::TriangleLanes;
 use super::{FragmentLanes, Records, ShadeContext, ShadeOutput, Spots, Work};
 use crate::LanePipeline;
 use crate::simd::{Each, F32, I32, Simd, U32, prelude::*};
