@@ -255,8 +255,9 @@ fn draw_tiles(view: &FrameView<'_>, bands: &Bands<'_>, how: How<'_>, scratches: 
         start + (left / shares).clamp(1, MOST) as u32
     };
     let take = || {
-        let start = next.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |start| Some(end(start)));
-        start.map_or(0..0, |start| start..end(start))
+        let (Ok(start) | Err(start)) =
+            next.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |start| Some(end(start)));
+        start..end(start)
     };
     let free = Mutex::new(scratches.iter_mut());
     how.workers.run(tiles.len() > 1, |_| {
