@@ -10,7 +10,7 @@ use crate::line::LineStyle;
 use crate::pass::{Pass, Recorded};
 use crate::point::PointStyle;
 use crate::pool::Workers;
-use crate::resolve::{MOST, fill_background};
+use crate::resolve::Strip;
 use crate::setup::Setup;
 use crate::shade::Encoding;
 use crate::simd::{Simd, Token, at_level};
@@ -252,7 +252,7 @@ fn draw_tiles(view: &FrameView<'_>, bands: &Bands<'_>, how: How<'_>, scratches: 
     let shares = 4 * how.workers.count();
     let end = |start: u32| {
         let left = tiles.len().saturating_sub(start as usize);
-        start + (left / shares).clamp(1, MOST) as u32
+        start + (left / shares).clamp(1, Strip::MOST) as u32
     };
     let take = || {
         let (Ok(start) | Err(start)) =
@@ -264,26 +264,16 @@ fn draw_tiles(view: &FrameView<'_>, bands: &Bands<'_>, how: How<'_>, scratches: 
         let Some(scratch) = free.lock().unwrap_or_else(PoisonError::into_inner).next() else {
             return;
         };
-        // Neighbours that nothing is in: their rows are filled as one.
-        let mut empty = 0..0;
         let mut own = take();
         while let Some([column, row]) = tiles.get(own.start)
             && !how.is_cancelled()
         {
-            let tile = row * view.grid.columns + column;
-            if !draw_tile(view, scratch, bands, tile) {
-                if tile != empty.end || column == tiles.columns.start {
-                    fill_background(view, empty, bands);
-                    empty = tile..tile;
-                }
-                empty.end += 1;
-            }
+            draw_tile(view, scratch, bands, row * view.grid.columns + column);
             own.start += 1;
             if own.is_empty() {
                 own = take();
             }
         }
-        fill_background(view, empty, bands);
         scratch.strip.write(view, bands);
     });
 }

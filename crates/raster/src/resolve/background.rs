@@ -27,10 +27,8 @@ impl FrameView<'_> {
     }
 }
 
-/// Draws neighbouring tiles of one row that nothing is in.
-pub(crate) fn fill_background(frame: &FrameView<'_>, tiles: Range<u32>, bands: &Bands<'_>) {
-    let Some(last) = tiles.clone().last() else { return };
-    let [first, last] = [tiles.start, last].map(|tile| frame.area(tile));
+/// Draws neighbouring tiles of one row that nothing is in, from the first to the last.
+pub(super) fn fill_background(frame: &FrameView<'_>, [first, last]: [TileArea; 2], bands: &Bands<'_>) {
     let corner = first.origin.map(|v| v as u32 / frame.supersampling);
     let [columns, rows] = frame.drawn_part(&first);
     let way = (last.origin[0] - first.origin[0]) as usize / frame.supersampling as usize;

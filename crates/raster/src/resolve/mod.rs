@@ -6,15 +6,15 @@ mod edges;
 mod mean;
 mod strip;
 
-pub(crate) use background::fill_background;
 pub(crate) use mean::{mean, saturated};
-pub(crate) use strip::{MOST, Strip};
+pub(crate) use strip::Strip;
 
 use crate::frame::FrameView;
 use crate::shade::{Encoding, Shading};
 use crate::simd::at_level;
 use crate::target::{Band, Bands};
 use crate::tile::{NOBODY, Scratch, TileArea};
+use background::fill_background;
 use trigon_math::Vec4;
 
 /// Writes all outputs of a tile, bytes when tiles beside it are finished, too; `early` if

@@ -1,24 +1,40 @@
-//! Finished tiles side by side go to the target as one: a processor writes long rows
-//! of memory sooner than short ones, as it fetches ahead.
+//! Tiles side by side go to the target as one, finished ones and such that nothing is in: a
+//! processor writes long rows of memory sooner than short ones, as it fetches ahead.
 
+use super::fill_background;
 use crate::frame::FrameView;
 use crate::simd::{Each, LANES};
 use crate::target::Bands;
 use crate::tile::{PIXELS, TileArea};
 use std::mem::swap;
 
-/// The most tiles that wait for each other: more would not fit into a processor's cache.
-pub(crate) const MOST: usize = 8;
-
-/// Neighbours of one row of tiles, from left to right, and their pixels as bytes.
+/// Neighbours of one row of tiles, from left to right, that wait to be written.
 #[derive(Default)]
 pub(crate) struct Strip {
+    /// Those that are finished.
     areas: Vec<TileArea>,
-    /// At least as many; the others are kept for later tiles.
+    /// Their pixels as bytes. At least as many; the others are kept for later tiles.
     codes: Vec<Vec<u32>>,
+    /// The first and the last of those that nothing is in.
+    empty: Option<[TileArea; 2]>,
 }
 
 impl Strip {
+    /// The most finished tiles that wait: more would not fit into a processor's cache.
+    pub(crate) const MOST: usize = 8;
+
+    /// Takes a tile that nothing is in. What waits of such tiles is written first if this one
+    /// does not continue it.
+    pub(crate) fn push_empty(&mut self, frame: &FrameView<'_>, area: &TileArea, bands: &Bands<'_>) {
+        match &mut self.empty {
+            Some([_, last]) if continues(last, area) => *last = *area,
+            _ => {
+                self.write_empty(frame, bands);
+                self.empty = Some([*area; 2]);
+            }
+        }
+    }
+
     /// Takes a tile's pixels, and leaves others in their place. What waits is written
     /// first if the tile does not continue it.
     pub(super) fn push(
@@ -28,12 +44,9 @@ impl Strip {
         codes: &mut Vec<u32>,
         bands: &Bands<'_>,
     ) {
-        let continues = self.areas.last().is_none_or(|last| {
-            let [x, y] = last.origin;
-            area.origin == [x + last.size[0] as i32, y]
-        });
-        if !continues || self.areas.len() == MOST {
-            self.write(frame, bands);
+        let continued = self.areas.last().is_none_or(|last| continues(last, area));
+        if !continued || self.areas.len() == Self::MOST {
+            self.write_finished(frame, bands);
         }
         if self.codes.len() == self.areas.len() {
             self.codes.push(vec![0; PIXELS]);
@@ -42,8 +55,19 @@ impl Strip {
         self.areas.push(*area);
     }
 
-    /// Copies what waits to the target.
+    /// Writes all that waits.
     pub(crate) fn write(&mut self, frame: &FrameView<'_>, bands: &Bands<'_>) {
+        self.write_empty(frame, bands);
+        self.write_finished(frame, bands);
+    }
+
+    fn write_empty(&mut self, frame: &FrameView<'_>, bands: &Bands<'_>) {
+        if let Some(ends) = self.empty.take() {
+            fill_background(frame, ends, bands);
+        }
+    }
+
+    fn write_finished(&mut self, frame: &FrameView<'_>, bands: &Bands<'_>) {
         let Some(first) = self.areas.first() else { return };
         let (mut band, corner) = bands.lock(first.origin.map(|v| v as u32));
         let band = &mut *band;
@@ -60,6 +84,12 @@ impl Strip {
         }
         self.areas.clear();
     }
+}
+
+/// Whether a tile is the next one of its row.
+fn continues(last: &TileArea, next: &TileArea) -> bool {
+    let [x, y] = last.origin;
+    next.origin == [x + last.size[0] as i32, y]
 }
 
 /// Copies bytes to a row from a column on, a row of a block at a time.

@@ -76,7 +76,7 @@ pub(crate) struct Columns {
     /// The one triangle that all lanes hold.
     uniform: Option<u32>,
     /// Where the pixels lie in their triangles.
-    pub(super) placed: Box<Placed>,
+    pub(super) placed: Placed,
 }
 
 /// What only vectors with a wide or cut triangle need.
@@ -105,7 +105,7 @@ impl Columns {
             is_special: false,
             special: Special { cold, areas: [0.0; LANES], cut, is_cut: false },
             uniform: None,
-            placed: Box::default(),
+            placed: Placed::default(),
         }
     }
 

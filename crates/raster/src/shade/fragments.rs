@@ -40,8 +40,8 @@ impl FragmentList {
         self.outputs.push(work.output);
     }
 
-    /// Appends some of eight fragments, whose results go to places in a row from `output`
-    /// on.
+    /// Appends some of eight fragments; their results go to the first of `outputs`, one
+    /// after the other.
     #[inline(always)]
     pub(super) fn push_some<S: Simd>(&mut self, mask: Mask<S>, [slots, spots]: [U32<S>; 2], outputs: U32<S>) {
         let count = mask.to_bitmask().count_ones() as usize;

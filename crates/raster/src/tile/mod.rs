@@ -45,13 +45,12 @@ pub(crate) struct Surfaces {
     pub(crate) translucent: Range<usize>,
 }
 
-/// Draws the tile `index` of the frame into its part of the target if anything is in it.
-/// Tells whether.
-pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Bands<'_>, index: u32) -> bool {
+/// Draws the tile `index` of the frame. Its pixels may wait in `scratch` for those beside them.
+pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Bands<'_>, index: u32) {
     let area = frame.area(index);
     let surfaces = collect(frame, scratch, index);
     if scratch.places.is_empty() {
-        return false;
+        return scratch.strip.push_empty(frame, &area, bands);
     }
     scratch.stats.tiles += 1;
     let mut clock = Clock::new(frame.timed);
@@ -70,7 +69,6 @@ pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
     }
     resolve::resolve(frame, &area, scratch, (bands, early));
     scratch.stats.times.resolve += clock.lap();
-    true
 }
 
 /// Lists the triangles of a tile.

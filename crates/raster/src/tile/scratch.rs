@@ -23,7 +23,7 @@ pub(crate) struct Scratch {
     /// Whether all pixels of the tile have their colour, the background's
     /// included.
     pub(crate) blended: bool,
-    /// Tiles that are finished, but not written yet.
+    /// Tiles that are not written yet.
     pub(crate) strip: Strip,
     pub(crate) stats: Stats,
 }
