@@ -7,8 +7,8 @@
 //!   [`frames`] for whole pictures.
 //! - Exact answers to hold them against: [`oracle`].
 //! - What all that costs: [`report`].
-//! - [`workloads`] that other renderers draw too, and the harness that times them;
-//!   [`limits`] of the processor under the renderer's rules.
+//! - [`workloads`] that other renderers draw too, and the harness that times them. The
+//!   bench `limits` measures what the processor allows under the renderer's rules.
 //!
 //! Everything is closed form, or chance from a fixed seed: the same pictures are made
 //! anywhere. The library never prints, and the renderer never needs it.
@@ -39,7 +39,6 @@ pub mod depth;
 pub mod fill;
 pub mod frames;
 pub mod interpolation;
-pub mod limits;
 pub mod line;
 pub mod oracle;
 pub mod report;

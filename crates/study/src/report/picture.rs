@@ -2,7 +2,9 @@
 
 use crate::field::Field;
 use image::RgbImage;
-use std::io;
+use image::codecs::png::PngEncoder;
+use std::fs::File;
+use std::io::{self, BufWriter};
 use std::path::Path;
 
 /// Some pictures of the same size next to each other.
@@ -23,7 +25,9 @@ impl Picture {
     }
 
     pub(super) fn write(&self, path: &Path) -> io::Result<()> {
-        self.composed().save(path).map_err(io::Error::other)
+        // Not `save`, which chooses by the file's name and so compiles every encoder.
+        let file = BufWriter::new(File::create(path)?);
+        self.composed().write_with_encoder(PngEncoder::new(file)).map_err(io::Error::other)
     }
 
     /// Small pixels are shown large: panels are enlarged to about 256 pixels.

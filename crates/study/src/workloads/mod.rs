@@ -17,8 +17,8 @@ mod timings;
 pub use canvas::Canvas;
 pub use geometry::{Grid, Mesh};
 pub use scene::{Scene, Shading};
-pub(crate) use shading::{blinn_phong, lambert_lanes};
-pub(crate) use texture::knot_surface;
+pub use shading::{blinn_phong, lambert_lanes};
+pub use texture::knot_surface;
 pub use timings::Timings;
 
 use trigon_math::Vec3;

@@ -21,9 +21,9 @@ pub(super) fn lambert(normal: Vec3, ambient: f32) -> f32 {
     ambient + (1.0 - ambient) * normal.dot(LIGHT).max(0.0)
 }
 
-/// The same for unit normals in lanes, with the light of lit surfaces.
+/// Lambert's law for eight unit normals, with the light of lit surfaces: between 0.1 and 1.
 #[inline(always)]
-pub(crate) fn lambert_lanes<S: Simd>(simd: S, normal: [F32<S>; 3]) -> F32<S> {
+pub fn lambert_lanes<S: Simd>(simd: S, normal: [F32<S>; 3]) -> F32<S> {
     diffuse(dot(normal, splat(simd, LIGHT)))
 }
 
@@ -31,12 +31,7 @@ pub(crate) fn lambert_lanes<S: Simd>(simd: S, normal: [F32<S>; 3]) -> F32<S> {
 /// SIGGRAPH 1977: the highlight by the angle between the normal and the middle
 /// of light and eye. The normal may have any length.
 #[inline(always)]
-pub(crate) fn blinn_phong<S: Simd>(
-    simd: S,
-    position: [F32<S>; 3],
-    normal: [F32<S>; 3],
-    eye: Vec3,
-) -> [F32<S>; 3] {
+pub fn blinn_phong<S: Simd>(simd: S, position: [F32<S>; 3], normal: [F32<S>; 3], eye: Vec3) -> [F32<S>; 3] {
     let light = splat(simd, LIGHT);
     let to_eye = difference(splat(simd, eye), position);
     let half = sum(light, scaled(to_eye, inverse_length(to_eye)));

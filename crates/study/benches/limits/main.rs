@@ -1,10 +1,14 @@
 //! What this processor allows at most: one line for each loop.
 //!
-//! `cargo run --release -p trigon-study --example limits`
+//! `cargo bench -p trigon-study --bench limits`
 
 #![expect(clippy::print_stdout, reason = "a table is what this is for")]
 
-use trigon_study::limits::Limit;
+mod kernels;
+mod limit;
+mod shaded;
+
+use limit::Limit;
 
 const REPETITIONS: usize = 33;
 

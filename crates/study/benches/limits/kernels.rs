@@ -1,6 +1,6 @@
 //! Memory, arithmetic and depth tests.
 
-use super::Kernel;
+use crate::limit::Kernel;
 use fearless_simd::{Level, Simd, dispatch};
 use std::hint::black_box;
 use trigon_raster::simd::prelude::*;
@@ -9,13 +9,13 @@ use trigon_raster::simd::{Each, F32, LANES, U32, greater};
 /// Numbers of 32 bits in 8 MB.
 const PICTURE: usize = 2 << 20;
 /// Pixels of a tile.
-pub(super) const TILE: usize = 64 * 64;
+pub(crate) const TILE: usize = 64 * 64;
 /// Tiles of 1920 by 1080 pixels.
-pub(super) const TILES: usize = 510;
+pub(crate) const TILES: usize = 510;
 /// Layers of W1a and W1b.
 const LAYERS: usize = 64;
 
-pub(super) fn store() -> Kernel {
+pub(crate) fn store() -> Kernel {
     let mut memory = vec![1_u32; PICTURE];
     let run = move || {
         memory.fill(black_box(7));
@@ -24,7 +24,7 @@ pub(super) fn store() -> Kernel {
     Kernel { work: 4.0 * PICTURE as f64 / 1e9, run: Box::new(run) }
 }
 
-pub(super) fn load() -> Kernel {
+pub(crate) fn load() -> Kernel {
     let memory = vec![1_u32; PICTURE];
     let run = move || {
         let sum = dispatch!(Level::new(), simd => all_bits(simd, black_box(&memory)));
@@ -45,7 +45,7 @@ fn all_bits<S: Simd>(simd: S, memory: &[u32]) -> u32 {
     <[u32; LANES]>::from(a ^ b ^ c ^ d).into_iter().fold(0, |all, lane| all ^ lane)
 }
 
-pub(super) fn arithmetic() -> Kernel {
+pub(crate) fn arithmetic() -> Kernel {
     const STEPS: usize = 1 << 20;
     const CHAINS: usize = 12;
     let run = move || {
@@ -72,7 +72,7 @@ fn chains<S: Simd, const CHAINS: usize>(simd: S, steps: usize) -> f32 {
 }
 
 /// Layers over every tile of a picture, each before those that were there, or behind.
-pub(super) fn fill(passes: bool) -> Kernel {
+pub(crate) fn fill(passes: bool) -> Kernel {
     let (mut depths, mut codes) = (vec![0.0_f32; TILE], vec![0_u32; TILE]);
     let run = move || {
         for _ in 0..TILES {

@@ -1,14 +1,14 @@
 //! Shading and vertices.
 
-use super::Kernel;
-use super::kernels::{TILE, TILES};
-use crate::workloads::{blinn_phong as light, knot_surface, lambert_lanes};
+use crate::kernels::{TILE, TILES};
+use crate::limit::Kernel;
 use fearless_simd::{Level, Simd, dispatch};
 use std::hint::black_box;
 use trigon_math::Vec3;
 use trigon_raster::simd::prelude::*;
 use trigon_raster::simd::{Each, F32, I32, LANES, greater, inlined, lane_numbers, lesser};
 use trigon_raster::{Sampler, Texture};
+use trigon_study::workloads::{blinn_phong as light, knot_surface, lambert_lanes};
 
 /// Pixels of a tile's side.
 const SIDE: usize = 64;
@@ -25,7 +25,7 @@ fn tiles(mut shade: impl FnMut(&mut [u32]) + 'static) -> Kernel {
     Kernel { work: (TILES * TILE) as f64 / 1e6, run: Box::new(run) }
 }
 
-pub(super) fn blinn_phong() -> Kernel {
+pub(crate) fn blinn_phong() -> Kernel {
     // 1/w, position and normal, all over w: steps to the right and down, and the value
     // in the corner.
     let planes: [[f32; 3]; 7] = [
@@ -55,7 +55,7 @@ fn phong_tile<S: Simd>(simd: S, planes: &[[f32; 3]; 7], codes: &mut [u32]) {
     }
 }
 
-pub(super) fn trilinear() -> Kernel {
+pub(crate) fn trilinear() -> Kernel {
     let texture = knot_surface();
     tiles(move |codes| dispatch!(Level::new(), simd => texture_tile(simd, black_box(&texture), codes)))
 }
@@ -94,7 +94,7 @@ fn encoded<S: Simd>(simd: S, color: [F32<S>; 3]) -> [u32; LANES] {
     codes.each(i32::cast_unsigned)
 }
 
-pub(super) fn vertices() -> Kernel {
+pub(crate) fn vertices() -> Kernel {
     const COUNT: usize = 500_000;
     let columns: Vec<Vec<f32>> =
         (0..6).map(|k| (0..COUNT).map(|i| ((i + k) as f32).fract() + 0.5).collect()).collect();
