@@ -324,6 +324,7 @@ pub(crate) enum View {
 #[derive(Clone, Debug, Subcommand)]
 pub(crate) enum Command {
     /// Measure what accuracy costs in time on this machine, and write a report (not in F3D)
+    #[cfg_attr(not(feature = "study"), command(hide = true))]
     Study(StudyArgs),
 }
 
