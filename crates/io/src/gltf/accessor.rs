@@ -5,9 +5,9 @@
 //! Normalized integers follow the glTF 2.0 specification, section 3.6.2.2:
 //! c / 255, max(c / 127, −1), and so on.
 
-use gltf_json::Root;
-use gltf_json::accessor::{ComponentType, Type};
-use gltf_json::validation::Checked;
+use gltf::json::Root;
+use gltf::json::accessor::{ComponentType, Type};
+use gltf::json::validation::Checked;
 
 use super::buffers::{Buffers, Bytes, Unplaced, Unread};
 use crate::error::{LoadErrorKind, Place};

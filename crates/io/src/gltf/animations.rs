@@ -1,7 +1,7 @@
 //! Animations: samplers become curves, channels say what they move.
 
-use gltf_json::accessor::Type;
-use gltf_json::animation::{
+use gltf::json::accessor::Type;
+use gltf::json::animation::{
     Channel as JsonChannel, Interpolation as JsonInterpolation, Property as JsonProperty,
 };
 use trigon_scene::{Animation, Channel, Curve, Interpolation, Property};

@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use gltf_json::Root;
+use gltf::json::Root;
 
 use super::compressed::compressed_view;
 use super::meshopt;

@@ -1,7 +1,7 @@
 //! Cameras of the file; one that cannot see is left out.
 
-use gltf_json::camera::Type;
-use gltf_json::{Node, Root};
+use gltf::json::camera::Type;
+use gltf::json::{Node, Root};
 use trigon_camera::Projection;
 
 use super::accessor::valid;

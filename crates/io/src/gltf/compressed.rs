@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use gltf_json::Root;
+use gltf::json::Root;
 use serde::Deserialize;
 use serde_json::Value;
 

@@ -1,9 +1,9 @@
-//! The JSON of a glTF file: parsed by gltf-json, without its validation
+//! The JSON of a glTF file: parsed by gltf::json, without its validation
 //! (which panics on some files), with node transforms read again as f64.
 
 use std::path::Path;
 
-use gltf_json::Root;
+use gltf::json::Root;
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -12,7 +12,7 @@ use crate::error::{LoadError, LoadErrorKind, Place};
 /// A parsed document.
 pub(crate) struct Document {
     pub(crate) root: Root,
-    /// The transforms of the nodes: gltf-json rounds them to f32.
+    /// The transforms of the nodes: gltf::json rounds them to f32.
     pub(crate) transforms: Vec<RawTransform>,
     /// The names of each mesh's morph targets, where the file has any: by
     /// convention in the mesh's `extras`.
@@ -110,7 +110,7 @@ fn check_version(path: &Path, preview: &Preview) -> Result<(), LoadError> {
     Ok(())
 }
 
-/// Parses once more without `extras` (which may be anything, where gltf-json
+/// Parses once more without `extras` (which may be anything, where gltf::json
 /// wants objects), with the lists that may be absent, and without animation
 /// channels that move no node; of these it returns the number.
 fn parse_mended(json: &[u8]) -> Option<(Root, usize)> {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use gltf_json::Root;
+use gltf::json::Root;
 
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::warning::Warnings;

@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use gltf_json::Root;
+use gltf::json::Root;
 
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::options::{LoadOptions, SceneChoice};
@@ -60,7 +60,7 @@ pub(crate) fn find_hierarchy(
 }
 
 fn links(root: &Root) -> impl Iterator<Item = (usize, usize)> {
-    let children = |node: &gltf_json::Node| node.children.clone().unwrap_or_default();
+    let children = |node: &gltf::json::Node| node.children.clone().unwrap_or_default();
     root.nodes
         .iter()
         .enumerate()
@@ -81,7 +81,7 @@ fn find_depths(root: &Root, parents: &[Option<usize>]) -> Vec<Option<usize>> {
 
 /// The name of each scene.
 pub(crate) fn scene_names(root: &Root) -> Vec<String> {
-    let name = |(index, scene): (usize, &gltf_json::Scene)| {
+    let name = |(index, scene): (usize, &gltf::json::Scene)| {
         scene.name.clone().unwrap_or_else(|| format!("scene {index}"))
     };
     root.scenes.iter().enumerate().map(name).collect()

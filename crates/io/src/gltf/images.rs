@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
-use gltf_json::Root;
-use gltf_json::texture::{MagFilter, MinFilter, WrappingMode};
+use gltf::json::Root;
+use gltf::json::texture::{MagFilter, MinFilter, WrappingMode};
 use serde_json::Value;
 use trigon_raster::{Filter, MipFilter, Sampler, TextureFormat, Wrap};
 use trigon_scene::TextureId;

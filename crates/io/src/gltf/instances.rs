@@ -2,8 +2,8 @@
 //!
 //! The copies become nodes that hang on the file's node and share its mesh.
 
-use gltf_json::Root;
-use gltf_json::accessor::Type;
+use gltf::json::Root;
+use gltf::json::accessor::Type;
 use serde_json::Value;
 use trigon_math::{DQuat, DVec3};
 use trigon_scene::Transform;

@@ -1,7 +1,7 @@
 //! KHR_lights_punctual.
 
-use gltf_json::extensions::scene::khr_lights_punctual::{Light as JsonLight, Spot, Type};
-use gltf_json::{Node, Root};
+use gltf::json::extensions::scene::khr_lights_punctual::{Light as JsonLight, Spot, Type};
+use gltf::json::{Node, Root};
 use trigon_math::Vec3;
 use trigon_scene::{Light, LightKind};
 

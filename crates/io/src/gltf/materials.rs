@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use gltf_json::Root;
-use gltf_json::extensions::material::Material as Extensions;
-use gltf_json::material::AlphaMode as JsonAlphaMode;
+use gltf::json::Root;
+use gltf::json::extensions::material::Material as Extensions;
+use gltf::json::material::AlphaMode as JsonAlphaMode;
 use trigon_math::{Vec3, Vec4};
 use trigon_scene::{
     AlphaMode, Material, MaterialId, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding,

@@ -123,7 +123,7 @@ fn build_meshes(
 /// memory here, but the picture needs every one.
 fn check_placed(
     import: &Import<'_>,
-    root: &gltf_json::Root,
+    root: &gltf::json::Root,
     hierarchy: &Hierarchy,
     meshes: &[Option<BuiltMesh>],
 ) -> Result<(), LoadError> {
@@ -152,7 +152,7 @@ fn check_placed(
 }
 
 /// Why there is nothing to draw: the first warning is usually the reason.
-fn nothing(import: &Import<'_>, root: &gltf_json::Root, used: usize) -> LoadError {
+fn nothing(import: &Import<'_>, root: &gltf::json::Root, used: usize) -> LoadError {
     let reason = match (root.meshes.len(), used, import.warnings.first()) {
         (0, ..) => "the file has no meshes".to_owned(),
         (count, 0, _) => format!("no node of its scene places one of its {count} meshes"),

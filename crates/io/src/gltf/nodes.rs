@@ -65,7 +65,7 @@ pub(crate) fn add_nodes<'d>(
         ids[index] = Some(import.scene.add(node));
     }
     hang_up(import, document, hierarchy, &ids);
-    let targets_of = |node: &gltf_json::Node| node.mesh.map_or(0, |mesh| target_counts[mesh.value()]);
+    let targets_of = |node: &gltf::json::Node| node.mesh.map_or(0, |mesh| target_counts[mesh.value()]);
     let target_counts = document.root.nodes.iter().map(targets_of).collect();
     Placed { document, ids, target_counts }
 }

@@ -1,7 +1,7 @@
 //! A primitive's elements: indices, or none, and a mode become triangles,
 //! edges and points.
 
-use gltf_json::mesh::Mode;
+use gltf::json::mesh::Mode;
 
 /// What a primitive draws, as indices into its own attributes.
 #[derive(Debug, Default, PartialEq, Eq)]

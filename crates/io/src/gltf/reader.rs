@@ -1,7 +1,7 @@
 //! Reading accessors once the meshes are built: for instances, skins and
 //! animations.
 
-use gltf_json::Root;
+use gltf::json::Root;
 
 use super::accessor::Accessors;
 use super::buffers::{Buffers, Unplaced};

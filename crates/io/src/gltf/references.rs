@@ -3,13 +3,13 @@
 
 use std::path::Path;
 
-use gltf_json::validation::USize64;
-use gltf_json::{Root, buffer};
+use gltf::json::validation::USize64;
+use gltf::json::{Root, buffer};
 
 use super::slots::slot_textures;
 use crate::error::{LoadError, Place};
 
-/// The texture index that gltf-json uses for "none".
+/// The texture index that gltf::json uses for "none".
 const NO_SOURCE: usize = u32::MAX as usize;
 
 pub(crate) fn check_references(path: &Path, root: &Root) -> Result<(), LoadError> {
@@ -148,6 +148,6 @@ fn check_appearance(root: &Root) -> Result<(), Fault> {
 }
 
 /// The image of a texture, when it names one itself.
-pub(crate) fn source_of(texture: &gltf_json::Texture) -> Option<usize> {
+pub(crate) fn source_of(texture: &gltf::json::Texture) -> Option<usize> {
     Some(texture.source.value()).filter(|&source| source != NO_SOURCE)
 }

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use gltf_json::accessor::Type;
+use gltf::json::accessor::Type;
 use trigon_math::{DAffine3, DMat4, DVec4};
 use trigon_mesh::SkinWeights;
 use trigon_scene::{Node, NodeId, Skin, SkinId};

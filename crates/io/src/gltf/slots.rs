@@ -1,8 +1,8 @@
 //! The textures of a material of the document: which there are, what each is
 //! for, and where in a mesh their coordinates are.
 
-use gltf_json::extensions::texture::TextureTransform;
-use gltf_json::{Material, texture};
+use gltf::json::extensions::texture::TextureTransform;
+use gltf::json::{Material, texture};
 use serde_json::{Map, Value};
 use trigon_math::glam::{Affine2, Mat2};
 use trigon_math::{Vec2, elementary};
@@ -85,7 +85,7 @@ fn in_slot(slot: Slot, texture: usize, tex_coord: u32, transform: Option<&Textur
     SlotTexture { slot, texture, uv_set, transform: transform.map_or(Affine2::IDENTITY, to_affine) }
 }
 
-/// gltf-json knows the extension in some places only.
+/// gltf::json knows the extension in some places only.
 fn loose_transform(others: &Map<String, Value>) -> Option<TextureTransform> {
     serde_json::from_value(others.get("KHR_texture_transform")?.clone()).ok()
 }

@@ -14,7 +14,7 @@ mod movement;
 mod part;
 mod tangents;
 
-use gltf_json::Root;
+use gltf::json::Root;
 use trigon_mesh::Mesh;
 
 use super::accessor::Accessors;

@@ -1,7 +1,7 @@
 //! How the vertices of a primitive move: joints with weights, and morph targets.
 
-use gltf_json::accessor::Type;
-use gltf_json::mesh::Semantic;
+use gltf::json::accessor::Type;
+use gltf::json::mesh::Semantic;
 use trigon_math::Vec3;
 
 use super::part::Optional;
@@ -100,7 +100,7 @@ pub(super) fn read_targets(
             Some(index) => from.read_accessor::<3>(index, name, &[Type::Vec3]),
             None => Ok(None),
         };
-        let index = |accessor: Option<gltf_json::Index<gltf_json::Accessor>>| accessor.map(|a| a.value());
+        let index = |accessor: Option<gltf::json::Index<gltf::json::Accessor>>| accessor.map(|a| a.value());
         targets.push(PartTarget {
             positions: read(index(target.positions), "POSITION of a morph target")?,
             normals: read(index(target.normals), "NORMAL of a morph target")?,

@@ -1,8 +1,8 @@
 //! One primitive of a mesh, decoded.
 
-use gltf_json::accessor::Type;
-use gltf_json::mesh::{Mode, Primitive, Semantic};
-use gltf_json::validation::Checked;
+use gltf::json::accessor::Type;
+use gltf::json::mesh::{Mode, Primitive, Semantic};
+use gltf::json::validation::Checked;
 use trigon_math::Vec3;
 
 use super::Needs;
