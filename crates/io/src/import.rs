@@ -5,6 +5,7 @@ use std::path::Path;
 use trigon_scene::Scene;
 
 use crate::folder::Folder;
+use crate::gltf::SourceDraft;
 use crate::options::LoadOptions;
 use crate::warning::Warnings;
 
@@ -18,4 +19,6 @@ pub(crate) struct Import<'a> {
     pub(crate) scene: Scene,
     /// Of all scenes in the file.
     pub(crate) scene_names: Vec<String>,
+    /// The file itself, where it is to be kept.
+    pub(crate) source: Option<SourceDraft>,
 }

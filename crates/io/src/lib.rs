@@ -58,6 +58,7 @@ mod uri;
 mod warning;
 mod write;
 
+pub use self::gltf::GltfSource;
 pub use capture::{Capture, Mismatch, PixelMismatch};
 pub use environment::load_environment;
 pub use error::{LoadError, LoadErrorKind, Place};

@@ -9,6 +9,7 @@ use trigon_scene::Scene;
 use crate::error::{LoadError, LoadErrorKind};
 use crate::folder::Folder;
 use crate::format::{Format, detect_format, supported};
+use crate::gltf::{GltfSource, SourceDraft};
 use crate::import::Import;
 use crate::options::{LoadOptions, Stage};
 use crate::refusal::Refusal;
@@ -28,6 +29,9 @@ pub struct Loaded {
     pub files: Vec<PathBuf>,
     /// The format that was found.
     pub format: Format,
+    /// The file itself, to be written back; only of glTF and GLB, and only when
+    /// [`LoadOptions::keep_source`] asks for it.
+    pub source: Option<GltfSource>,
 }
 
 /// Loads a model file and what it refers to, nothing outside its folder.
@@ -102,6 +106,7 @@ fn import(
         warnings: Warnings::about(path),
         scene: Scene::new(),
         scene_names: Vec::new(),
+        source: options.keep_source.then(SourceDraft::default),
     };
     match format {
         Format::Obj => crate::obj::import_obj(&mut import, bytes)?,
@@ -109,6 +114,8 @@ fn import(
         Format::Glb => crate::gltf::import_glb(&mut import, &bytes)?,
     }
     options.report(path, Stage::Textures, 1.0)?;
-    let Import { folder, warnings, scene, scene_names, .. } = import;
-    Ok(Loaded { scene, scene_names, warnings: warnings.into_list(), files: folder.into_files(), format })
+    let Import { folder, warnings, scene, scene_names, source, .. } = import;
+    let (warnings, files) = (warnings.into_list(), folder.into_files());
+    let source = source.and_then(SourceDraft::finish);
+    Ok(Loaded { scene, scene_names, warnings, files, format, source })
 }

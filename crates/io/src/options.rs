@@ -52,6 +52,11 @@ pub struct LoadOptions<'a> {
     /// How many threads may work on it: as many as the machine runs at once, unless
     /// given.
     pub threads: Option<NonZeroUsize>,
+    /// Keep the JSON, buffers and pictures of a glTF file and say which object of it each
+    /// part of the scene was, in [`Loaded::source`](crate::Loaded::source). Costs their
+    /// memory, and reads buffers and pictures that nothing uses, too. Off by default;
+    /// other formats take no notice.
+    pub keep_source: bool,
     /// Follows the progress, and may cancel.
     pub progress: Option<ProgressHook<'a>>,
 }
@@ -59,11 +64,12 @@ pub struct LoadOptions<'a> {
 impl fmt::Debug for LoadOptions<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let progress = self.progress.map(|_| "a callback");
-        let Self { limits, scene, threads, .. } = self;
+        let Self { limits, scene, threads, keep_source, .. } = self;
         f.debug_struct("LoadOptions")
             .field("limits", limits)
             .field("scene", scene)
             .field("threads", threads)
+            .field("keep_source", keep_source)
             .field("progress", &progress)
             .finish()
     }

@@ -23,6 +23,11 @@ pub(crate) fn add_animations(
     for index in 0..reader.root.animations.len() {
         let animation =
             reader.read(import, |accessors, warnings| read_animation(accessors, placed, index, warnings))?;
+        if animation.is_some()
+            && let Some(source) = &mut import.source
+        {
+            source.note_animation(index);
+        }
         import.scene.animations.extend(animation);
     }
     if placed.document.foreign_channels > 0 {

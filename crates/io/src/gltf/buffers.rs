@@ -82,7 +82,13 @@ impl<'a> Buffers<'a> {
         Ok(Some(bytes))
     }
 
-    fn buffer(&mut self, root: &Root, index: usize, folder: &mut Folder) -> Result<Arc<[u8]>, Unplaced> {
+    /// The bytes of a buffer, at a checked index. At least as many as it claims.
+    pub(crate) fn buffer(
+        &mut self,
+        root: &Root,
+        index: usize,
+        folder: &mut Folder,
+    ) -> Result<Arc<[u8]>, Unplaced> {
         if let Some(bytes) = &self.read[index] {
             return Ok(bytes.clone());
         }

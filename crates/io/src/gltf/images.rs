@@ -13,8 +13,8 @@ use super::accessor::valid;
 use super::buffers::{Buffers, Unread, read_reference};
 use super::references::source_of;
 use super::slots::SlotTexture;
-use crate::error::{LoadError, Place};
-use crate::folder::Lookup;
+use crate::error::{LoadError, LoadErrorKind, Place};
+use crate::folder::{Folder, Lookup};
 use crate::import::Import;
 use crate::layers::Role;
 use crate::textures::{PictureBytes, Purpose, Request, add_textures};
@@ -56,6 +56,9 @@ impl Images {
             indices.extend(index.map(|index| ((image, is_data), index)));
         }
         let ids = add_textures(import, &requests)?;
+        if let Some(source) = &mut import.source {
+            source.note_images(&requests, &ids, indices.iter().map(|(&(image, _), &index)| (image, index)));
+        }
         let ids = indices.into_iter().filter_map(|(key, index)| Some((key, ids[index]?))).collect();
         Ok(Self { ids })
     }
@@ -114,24 +117,7 @@ fn read_image(
     image: usize,
 ) -> Option<PictureBytes> {
     let place = Place::Item("image", image);
-    let from = &root.images[image];
-    let result = match (&from.uri, from.buffer_view) {
-        (Some(uri), _) => read_reference(uri, &mut import.folder, Lookup::Forgiving)
-            .map(|(bytes, respelled)| (PictureBytes::Own(bytes), respelled)),
-        (None, Some(view)) => match buffers.view(root, view.value(), &mut import.folder) {
-            Ok((buffer, range)) => Ok((PictureBytes::Shared(buffer, range), None)),
-            Err(unplaced) => Err(unplaced.1),
-        },
-        (None, None) => {
-            import.warnings.push(
-                place,
-                "it has neither a URI nor a bufferView and is not drawn",
-                "export the model again",
-            );
-            return None;
-        }
-    };
-    match result {
+    match fetch_image(root, buffers, &mut import.folder, image) {
         Ok((bytes, respelled)) => {
             if let Some(path) = respelled {
                 let what = format!(
@@ -146,6 +132,30 @@ fn read_image(
         Err(Unread { what, remedy, .. }) => {
             import.warnings.push(place, format!("the picture is not drawn: {what}"), remedy);
             None
+        }
+    }
+}
+
+/// The bytes of an image; the second value tells of another spelling that was used for a file.
+pub(crate) fn fetch_image(
+    root: &Root,
+    buffers: &mut Buffers<'_>,
+    folder: &mut Folder,
+    image: usize,
+) -> Result<(PictureBytes, Option<String>), Unread> {
+    let from = &root.images[image];
+    match (&from.uri, from.buffer_view) {
+        (Some(uri), _) => {
+            let (bytes, respelled) = read_reference(uri, folder, Lookup::Forgiving)?;
+            Ok((PictureBytes::Own(bytes), respelled))
+        }
+        (None, Some(view)) => {
+            let (buffer, range) = buffers.view(root, view.value(), folder).map_err(|unplaced| unplaced.1)?;
+            Ok((PictureBytes::Shared(buffer, range), None))
+        }
+        (None, None) => {
+            let what = "it has neither a URI nor a bufferView".to_owned();
+            Err(Unread { kind: LoadErrorKind::Malformed, what, remedy: "export the model again" })
         }
     }
 }

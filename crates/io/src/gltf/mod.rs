@@ -3,7 +3,7 @@
 //! `container` (the GLB) → `document` (JSON) → `extensions`, `references`,
 //! `hierarchy` (all checks) → `mesh` with `accessor`, `buffers` and `meshopt` →
 //! `materials` with `slots` and `images` → `nodes` with `instances` → `skins`
-//! and `animations`. Nothing is followed that was not checked, and nothing is
+//! and `animations`; `source` keeps the file itself for those who ask. Nothing is followed that was not checked, and nothing is
 //! recursive.
 
 mod accessor;
@@ -27,6 +27,7 @@ mod reader;
 mod references;
 mod skins;
 mod slots;
+mod source;
 
 use std::collections::BTreeSet;
 
@@ -38,6 +39,9 @@ use document::Document;
 use hierarchy::Hierarchy;
 use mesh::{BuiltMesh, Needs};
 use reader::Reader;
+
+pub use source::GltfSource;
+pub(crate) use source::SourceDraft;
 
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::import::Import;
@@ -63,16 +67,20 @@ fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<&[u8]>) -> 
     import.scene_names = hierarchy::scene_names(root);
     let mut buffers = Buffers::new(root, binary);
     let mut spent = 0;
-    let meshes = build_meshes(import, &document, &hierarchy, &mut buffers, &mut spent)?;
+    let mut meshes = build_meshes(import, &document, &hierarchy, &mut buffers, &mut spent)?;
     let used: BTreeSet<Option<usize>> =
         meshes.iter().flatten().flat_map(|mesh| mesh.materials.iter().copied()).collect();
     let used: Vec<Option<usize>> = used.into_iter().collect();
     let materials = materials::add_materials(import, root, &mut buffers, &used)?;
+    let primitives = source::take_primitives(import, &mut meshes);
     let placed = nodes::add_nodes(import, &document, &hierarchy, meshes, &materials);
+    source::keep_placed(import, &placed, primitives, &materials);
     let mut reader = Reader { root, buffers, spent };
     nodes::add_instances(import, &mut reader, &placed)?;
     skins::add_skins(import, &mut reader, &placed)?;
-    animations::add_animations(import, &mut reader, &placed)
+    animations::add_animations(import, &mut reader, &placed)?;
+    source::keep_file(import, json, &placed, &mut reader.buffers);
+    Ok(())
 }
 
 /// The meshes that the nodes use, by their index in the document.

@@ -10,6 +10,7 @@ mod material;
 mod movement;
 mod obj;
 mod oracle;
+mod source;
 mod texture;
 
 use trigon_io::{LoadOptions, Loaded, load_from_slice};

@@ -133,7 +133,7 @@ impl Draft {
         }
         (self.attributes.skin, self.attributes.morph_targets) = self.movements.finish();
         mesh.set_attributes(self.attributes).expect("one value per accepted vertex, corner and face");
-        BuiltMesh { mesh, materials: self.materials }
+        BuiltMesh { mesh, materials: self.materials, primitives: Vec::new() }
     }
 }
 

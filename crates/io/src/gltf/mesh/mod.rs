@@ -14,12 +14,15 @@ mod movement;
 mod part;
 mod tangents;
 
+use std::ops::Range;
+
 use gltf::json::Root;
 use trigon_mesh::Mesh;
 
 use super::accessor::Accessors;
 use super::buffers::Unplaced;
 use super::slots::{Slot, SlotTexture};
+use super::source::PrimitiveFaces;
 use crate::error::Place;
 use crate::warning::Warnings;
 use draft::Draft;
@@ -30,6 +33,8 @@ pub(crate) struct BuiltMesh {
     pub(crate) mesh: Mesh,
     /// The material of each slot: an index of the document, or the default.
     pub(crate) materials: Vec<Option<usize>>,
+    /// Which faces each primitive became.
+    pub(crate) primitives: Vec<PrimitiveFaces>,
 }
 
 /// What a material wants of the meshes that it covers.
@@ -59,11 +64,12 @@ pub(crate) fn build_mesh(
     needs: &dyn Fn(Option<usize>) -> Needs,
     warnings: &mut Warnings,
 ) -> Result<BuiltMesh, Unplaced> {
-    let mut parts = Vec::new();
+    let (mut parts, mut numbers) = (Vec::new(), Vec::new());
     for (number, primitive) in accessors.root.meshes[index].primitives.iter().enumerate() {
         let place = Place::Named(format!("mesh {index}, primitive {number}"));
         if let Some(part) = read_primitive(accessors, primitive, place, needs, warnings)? {
             parts.push(part);
+            numbers.push(number);
         }
     }
     let mut draft = Draft::new(&parts, target_names);
@@ -86,6 +92,9 @@ pub(crate) fn build_mesh(
     let corners = std::mem::take(&mut draft.corners);
     let mut built = draft.finish();
     tangents::complete(&mut built.mesh, &parts, &corners);
+    let faces =
+        |(primitive, corners): (usize, &Range<usize>)| PrimitiveFaces { primitive, end: corners.end / 3 };
+    built.primitives = numbers.into_iter().zip(&corners).map(faces).collect();
     Ok(built)
 }
 

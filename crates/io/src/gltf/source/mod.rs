@@ -1,0 +1,170 @@
+//! The glTF file that a scene came from, for programs that write it back: its JSON, its
+//! buffers and pictures, and which object of the file each part of the scene was.
+//!
+//! A scene holds what is drawn. The file holds more: `extras`, extensions that trigon does not
+//! read, objects that nothing uses, numbers with more digits than an f64 has. An editor takes
+//! all of these from here, as text and bytes, so that none is rounded, sorted or lost.
+//!
+//! `draft` gathers it during a load, `origins` maps ids to indices, `text` finds parts of the
+//! JSON. Without [`LoadOptions::keep_source`](crate::LoadOptions::keep_source) none of it runs.
+
+mod draft;
+mod origins;
+mod text;
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use trigon_scene::{MaterialId, MeshId, NodeId, SkinId, TextureId};
+
+pub(crate) use draft::{SourceDraft, keep_file, keep_placed, take_primitives};
+use origins::Origins;
+pub(crate) use origins::PrimitiveFaces;
+use text::JsonText;
+
+/// A glTF or GLB file as it was read, beside the scene that was made of it.
+///
+/// ```
+/// use trigon_io::{LoadOptions, load_from_slice};
+///
+/// let gltf = br#"{
+///     "asset": {"version": "2.0"},
+///     "buffers": [{"byteLength": 36, "uri": "data:,%00%00%00%00%00%00%00%00%00%00%00%00%00%00%80%3f%00%00%00%00%00%00%00%00%00%00%00%00%00%00%80%3f%00%00%00%00"}],
+///     "bufferViews": [{"buffer": 0, "byteLength": 36}],
+///     "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3}],
+///     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+///     "nodes": [{}, {"mesh": 0, "extras": {"part": 12345678901234567890123}}]
+/// }"#;
+/// let options = LoadOptions { keep_source: true, ..LoadOptions::default() };
+/// let loaded = load_from_slice("part.gltf", gltf, &options)?;
+/// let source = loaded.source.expect("it was asked for");
+///
+/// let (id, _) = loaded.scene.nodes().iter().find(|(_, node)| node.mesh.is_some()).expect("a node");
+/// let node = source.node(id).expect("the file has it");
+/// assert_eq!(node, 1);
+/// assert_eq!(source.at(&format!("/nodes/{node}/extras")), Some(r#"{"part": 12345678901234567890123}"#));
+/// assert_eq!(source.buffer(0).map(<[u8]>::len), Some(36));
+/// # Ok::<(), trigon_io::LoadError>(())
+/// ```
+///
+/// Ids are those of the scene as it was loaded. They stay valid while the scene is edited;
+/// what is added to it later has no index here. Chunks of a GLB that are neither JSON nor
+/// binary are not kept.
+pub struct GltfSource {
+    text: JsonText,
+    buffers: Vec<Option<Arc<[u8]>>>,
+    images: Vec<Option<SharedBytes>>,
+    origins: Origins,
+}
+
+/// A part of bytes that others may share.
+#[derive(Clone)]
+struct SharedBytes {
+    bytes: Arc<[u8]>,
+    range: Range<usize>,
+}
+
+impl SharedBytes {
+    fn get(&self) -> &[u8] {
+        &self.bytes[self.range.clone()]
+    }
+}
+
+impl GltfSource {
+    /// The JSON, byte by byte as in the file, without a byte order mark before it and
+    /// without the zeros that some exporters put behind it in a GLB.
+    pub fn json(&self) -> &str {
+        self.text.whole()
+    }
+
+    /// The part of the JSON that a pointer leads to (RFC 6901, such as
+    /// `/materials/2/normalTexture/extras`), as it is written in the file; `None` when there
+    /// is no such part. Of members with the same name the last counts.
+    ///
+    /// It reads through the object that the first two steps lead to, such as one node; for
+    /// pointers that begin with anything but a list of the format, through the whole file.
+    pub fn at(&self, pointer: &str) -> Option<&str> {
+        self.text.at(pointer)
+    }
+
+    /// The bytes of a buffer of the file, at least as many as its `byteLength`; `None` when
+    /// there is no such buffer, or it could not be read, or it is an empty stand-in for a
+    /// compressed one.
+    pub fn buffer(&self, buffer: usize) -> Option<&[u8]> {
+        self.buffers.get(buffer)?.as_deref()
+    }
+
+    /// The encoded bytes (PNG, JPEG, KTX2 …) of an image of the file, whether they lie in a
+    /// buffer, a file or a `data:` URI; `None` when there is no such image, or it could not
+    /// be read.
+    pub fn image(&self, image: usize) -> Option<&[u8]> {
+        Some(self.images.get(image)?.as_ref()?.get())
+    }
+
+    /// The index in `nodes` of a node; none for the copies that EXT_mesh_gpu_instancing
+    /// makes, which hang on the file's node.
+    pub fn node(&self, id: NodeId) -> Option<usize> {
+        self.origins.nodes.get(&id).copied()
+    }
+
+    /// The index in `meshes` of a mesh.
+    pub fn mesh(&self, id: MeshId) -> Option<usize> {
+        Some(self.origins.meshes.get(&id)?.index)
+    }
+
+    /// The index in the `primitives` of its mesh of the primitive that a face came from.
+    /// `face` counts the faces of the mesh as it was loaded.
+    pub fn primitive(&self, id: MeshId, face: usize) -> Option<usize> {
+        self.origins.meshes.get(&id)?.primitive(face)
+    }
+
+    /// The index in `materials` of a material; none for the default one. Its textures are
+    /// found through the material: `/materials/2/normalTexture/index`.
+    pub fn material(&self, id: MaterialId) -> Option<usize> {
+        self.origins.materials.get(&id).copied()
+    }
+
+    /// The indices in `images` of what became a texture, in increasing order: images with
+    /// the same picture are one texture, and an image that is used both for colours and for
+    /// data is two.
+    pub fn images(&self, id: TextureId) -> impl Iterator<Item = usize> {
+        self.origins.textures.get(&id).into_iter().flatten().copied()
+    }
+
+    /// The index in `skins` of a skin.
+    pub fn skin(&self, id: SkinId) -> Option<usize> {
+        self.origins.skins.get(&id).copied()
+    }
+
+    /// The index in `animations` of an animation of the scene, by its place in
+    /// [`Scene::animations`](trigon_scene::Scene::animations): those that move nothing in
+    /// the scene are left out there.
+    pub fn animation(&self, animation: usize) -> Option<usize> {
+        self.origins.animations.get(animation).copied()
+    }
+
+    /// The index in `cameras` of a node's camera.
+    pub fn camera(&self, id: NodeId) -> Option<usize> {
+        self.origins.cameras.get(&id).copied()
+    }
+
+    /// The index in the `lights` of KHR_lights_punctual of a node's light.
+    pub fn light(&self, id: NodeId) -> Option<usize> {
+        self.origins.lights.get(&id).copied()
+    }
+}
+
+/// How much there is, not all of it: megabytes help nobody.
+impl fmt::Debug for GltfSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kept = |list: usize, bytes: usize| format!("{list} with {bytes} bytes");
+        let buffers = self.buffers.iter().flatten().map(|bytes| bytes.len()).sum();
+        let images = self.images.iter().flatten().map(|image| image.range.len()).sum();
+        f.debug_struct("GltfSource")
+            .field("json", &format!("{} bytes", self.json().len()))
+            .field("buffers", &kept(self.buffers.len(), buffers))
+            .field("images", &kept(self.images.len(), images))
+            .finish_non_exhaustive()
+    }
+}
