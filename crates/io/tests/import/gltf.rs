@@ -72,19 +72,11 @@ impl Doc {
         let others = self.json["buffers"].as_array().into_iter().flatten().skip(1).cloned();
         let own = json!({"byteLength": self.bytes.len()});
         document["buffers"] = std::iter::once(own).chain(others).collect();
-        let mut text = serde_json::to_vec(&document).expect("JSON");
-        text.resize(text.len().next_multiple_of(4), b' ');
-        let mut binary = self.bytes.clone();
-        binary.resize(binary.len().next_multiple_of(4), 0);
-        let total = 12 + 8 + text.len() + 8 + binary.len();
-        let words = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
-        let parts = [
-            words(&[0x4654_6c67, 2, total as u32, text.len() as u32, 0x4e4f_534a]),
-            text,
-            words(&[binary.len() as u32, 0x004e_4942]),
-            binary,
-        ];
-        parts.concat()
+        let header = ::gltf::binary::Header { magic: *b"glTF", version: 2, length: 0 };
+        let json = serde_json::to_vec(&document).expect("JSON").into();
+        let glb = ::gltf::Glb { header, json, bin: Some((&self.bytes).into()) };
+        // It fills in the lengths, and pads the chunks.
+        glb.to_vec().expect("memory takes it")
     }
 
     pub(crate) fn load(&self) -> Loaded {

@@ -4,6 +4,8 @@ mod capture;
 mod captures;
 mod features;
 mod gltf;
+mod gltf_crate;
+mod gltf_oracle;
 mod hooks;
 mod hostile;
 mod material;
