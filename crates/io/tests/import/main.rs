@@ -14,6 +14,7 @@ mod obj;
 mod oracle;
 mod source;
 mod texture;
+mod tobj_crate;
 
 use trigon_io::{LoadOptions, Loaded, load_from_slice};
 use trigon_mesh::Mesh;
