@@ -5,6 +5,8 @@
 //! Normalized integers follow the glTF 2.0 specification, section 3.6.2.2:
 //! c / 255, max(c / 127, −1), and so on.
 
+use std::collections::BTreeSet;
+
 use gltf::json::Root;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::validation::Checked;
@@ -12,6 +14,7 @@ use gltf::json::validation::Checked;
 use super::buffers::{Buffers, Bytes, Unplaced, Unread};
 use crate::error::{LoadErrorKind, Place};
 use crate::folder::Folder;
+use crate::warning::Warnings;
 
 /// The most elements of an accessor that has no bytes: such elements are zero,
 /// and nothing else bounds them.
@@ -36,6 +39,20 @@ pub(crate) struct Accessors<'a, 'b> {
     pub(crate) most_corners: usize,
     /// How many they have made.
     pub(crate) spent: &'a mut usize,
+    /// What was odd about accessors that were read all the same.
+    pub(crate) doubts: Doubts,
+}
+
+/// Oddities of accessors, by their index; each once, however often it is read.
+#[derive(Default)]
+pub(crate) struct Doubts(BTreeSet<(usize, &'static str)>);
+
+impl Doubts {
+    pub(crate) fn tell(self, warnings: &mut Warnings) {
+        for (index, what) in self.0 {
+            warnings.push(Place::Item("accessor", index), what, "export the model again");
+        }
+    }
 }
 
 /// Where the elements of an accessor lie in the bytes of a view.
@@ -104,8 +121,26 @@ impl Accessors<'_, '_> {
         Ok(elements)
     }
 
+    /// Notes a stride in a view that may have none: glTF allows one for
+    /// attributes only, and other programs read past it.
+    pub(crate) fn doubt_stride(&mut self, index: usize) {
+        let accessor = &self.root.accessors[index];
+        let (Some(view), Some(type_), Some(component)) =
+            (accessor.buffer_view, valid(&accessor.type_), valid(&accessor.component_type))
+        else {
+            return;
+        };
+        let size = component.0.size() * components_of(type_);
+        let stride = self.root.buffer_views[view.value()].byte_stride;
+        if stride.is_some_and(|stride| stride.0 != size) {
+            let what = "its bufferView has a byteStride, which is allowed for vertex attributes only; the stride is followed";
+            self.doubts.0.insert((index, what));
+        }
+    }
+
     /// Decodes an accessor of indices.
     pub(crate) fn indices(&mut self, index: usize) -> Result<Vec<u32>, Unplaced> {
+        self.doubt_stride(index);
         let (layout, bytes) = self.open(index, &[Type::Scalar])?;
         if !matches!(layout.component, ComponentType::U8 | ComponentType::U16 | ComponentType::U32) {
             return Err(malformed(index, "indices must be unsigned integers".to_owned()));
@@ -128,7 +163,8 @@ impl Accessors<'_, '_> {
     fn open(&mut self, index: usize, allowed: &[Type]) -> Result<(Layout, Option<Bytes>), Unplaced> {
         let accessor = &self.root.accessors[index];
         let type_ = valid(&accessor.type_).filter(|type_| allowed.contains(type_));
-        let type_ = type_.ok_or_else(|| malformed(index, format!("its type is not one of {allowed:?}")))?;
+        let type_ =
+            type_.ok_or_else(|| malformed(index, format!("its type must be {}", type_names(allowed))))?;
         let component = valid(&accessor.component_type)
             .ok_or_else(|| malformed(index, "its componentType is unknown".to_owned()))?
             .0;
@@ -144,6 +180,10 @@ impl Accessors<'_, '_> {
             normalized: accessor.normalized,
         };
         let Some(view) = accessor.buffer_view.map(|view| view.value()) else {
+            if accessor.byte_offset.is_some_and(|offset| offset.0 > 0) {
+                let what = "it has a byteOffset and no bufferView; all of its numbers are 0";
+                self.doubts.0.insert((index, what));
+            }
             if count > MOST_ZEROS {
                 let what =
                     format!("{count} elements and no bufferView; at most {MOST_ZEROS} may be all zero");
@@ -225,7 +265,20 @@ impl Accessors<'_, '_> {
                 format!("its sparse index {target} is not below its count {}", layout.count),
             ));
         }
+        if targets.windows(2).any(|pair| pair[0] >= pair[1]) {
+            let what = "its sparse indices do not increase; of values for the same element, the last counts";
+            self.doubts.0.insert((index, what));
+        }
         let size = layout.component.size() * layout.components;
+        for (view, size) in
+            [(sparse.indices.buffer_view, component.size()), (sparse.values.buffer_view, size)]
+        {
+            let stride = self.root.buffer_views[view.value()].byte_stride;
+            if stride.is_some_and(|stride| stride.0 != size) {
+                let what = "a bufferView of its sparse data has a byteStride, which is not allowed there; the stride is ignored";
+                self.doubts.0.insert((index, what));
+            }
+        }
         let values =
             self.range(index, sparse.values.buffer_view.value(), sparse.values.byte_offset.0, count, size)?;
         Ok(Some((targets, sparse.values.byte_offset.0 as usize, values)))
@@ -266,6 +319,20 @@ pub(super) fn valid<T: Copy>(checked: &Checked<T>) -> Option<T> {
         Checked::Valid(value) => Some(*value),
         Checked::Invalid => None,
     }
+}
+
+/// Types as glTF names them.
+fn type_names(types: &[Type]) -> String {
+    let name = |type_: &Type| match type_ {
+        Type::Scalar => "SCALAR",
+        Type::Vec2 => "VEC2",
+        Type::Vec3 => "VEC3",
+        Type::Vec4 => "VEC4",
+        Type::Mat2 => "MAT2",
+        Type::Mat3 => "MAT3",
+        Type::Mat4 => "MAT4",
+    };
+    types.iter().map(name).collect::<Vec<_>>().join(" or ")
 }
 
 fn components_of(type_: Type) -> usize {

@@ -1,6 +1,5 @@
 //! Animations: samplers become curves, channels say what they move.
 
-use gltf::json::accessor::Type;
 use gltf::json::animation::{
     Channel as JsonChannel, Interpolation as JsonInterpolation, Property as JsonProperty,
 };
@@ -8,11 +7,15 @@ use trigon_scene::{Animation, Channel, Curve, Interpolation, Property};
 
 use super::accessor::{Accessors, valid};
 use super::buffers::Unplaced;
-use super::nodes::Placed;
+use super::formats::{MORPH_WEIGHTS, ROTATIONS, TIMES, VECTORS};
+use super::nodes::{Placed, ROTATION_TOLERANCE};
 use super::reader::Reader;
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::import::Import;
 use crate::warning::{Warnings, counted};
+
+/// What helps against most of it.
+const REMEDY: &str = "export the animation again";
 
 /// Adds the animations that move something in the scene.
 pub(crate) fn add_animations(
@@ -54,7 +57,7 @@ fn read_animation(
         let Some(node) = placed.ids[target] else { continue };
         let place = Place::Named(format!("animation {index}, channel {number}"));
         let width_of_weights = placed.target_counts[target];
-        let why = match read_channel(accessors, index, channel, width_of_weights, &place) {
+        let why = match read_channel(accessors, index, channel, width_of_weights, &place, warnings) {
             Ok(Ok((property, curve))) => {
                 channels.push(Channel { node, property, curve });
                 continue;
@@ -66,7 +69,7 @@ fn read_animation(
             // The model can be shown without it.
             Err(Unplaced(place, unread)) => format!("{}{place}", unread.what),
         };
-        warnings.push(place, format!("it is not played: {why}"), "export the animation again");
+        warnings.push(place, format!("it is not played: {why}"), REMEDY);
     }
     let name = from.name.clone().unwrap_or_else(|| format!("animation {index}"));
     Ok((!channels.is_empty()).then_some(Animation { name, channels }))
@@ -80,6 +83,7 @@ fn read_channel(
     channel: &JsonChannel,
     width_of_weights: usize,
     place: &Place,
+    warnings: &mut Warnings,
 ) -> Result<Played, Unplaced> {
     let sampler = &accessors.root.animations[animation].samplers[channel.sampler.value()];
     let interpolation = match valid(&sampler.interpolation) {
@@ -100,17 +104,55 @@ fn read_channel(
     }
     let (input, output) = (sampler.input.value(), sampler.output.value());
     accessors.spend(accessors.count(input).saturating_add(accessors.count(output)) as usize, place)?;
-    let times = accessors.vectors::<1>(input, &[Type::Scalar])?.into_flattened();
+    let usage = match property {
+        Property::Translation | Property::Scale => VECTORS,
+        Property::Rotation => ROTATIONS,
+        Property::MorphWeights => MORPH_WEIGHTS,
+    };
+    let times = accessors.vectors::<1>(input, TIMES.types)?.into_flattened();
     let values = match property {
         Property::Translation | Property::Scale => {
-            accessors.vectors::<3>(output, &[Type::Vec3])?.into_flattened()
+            accessors.vectors::<3>(output, usage.types)?.into_flattened()
         }
-        Property::Rotation => accessors.vectors::<4>(output, &[Type::Vec4])?.into_flattened(),
-        Property::MorphWeights => accessors.vectors::<1>(output, &[Type::Scalar])?.into_flattened(),
+        Property::Rotation => accessors.vectors::<4>(output, usage.types)?.into_flattened(),
+        Property::MorphWeights => accessors.vectors::<1>(output, usage.types)?.into_flattened(),
     };
     let (keys, numbers) = (times.len(), values.len());
-    let curve = Curve::new(interpolation, width, times, values);
-    Ok(curve.map(|curve| (property, curve)).ok_or_else(|| {
-        format!("{keys} times that must increase and {numbers} numbers make no {interpolation:?} curve of {width} each")
-    }))
+    let broken = values.iter().filter(|value| !value.is_finite()).count();
+    let increase =
+        times.windows(2).all(|pair| pair[0] < pair[1]) && times.iter().all(|time| time.is_finite());
+    let Some(curve) = Curve::new(interpolation, width, times, values) else {
+        if !increase {
+            return Ok(Err("its times do not increase, or are not finite".to_owned()));
+        }
+        let each = if interpolation == Interpolation::CubicSpline { 3 * width } else { width };
+        return Ok(Err(format!(
+            "{keys} keyframes need {each} numbers each, and there are {numbers} numbers"
+        )));
+    };
+    for (accessor, usage) in [(input, TIMES), (output, usage)] {
+        accessors.doubt_stride(accessor);
+        if let Some(what) = usage.fault(accessors.root, accessor) {
+            warnings.push(place.clone(), what, REMEDY);
+        }
+    }
+    let what = "a value of its curve is not finite and counts as 0";
+    warnings.push_counted(broken, place.clone(), what, REMEDY);
+    if property == Property::Rotation {
+        let what = "a rotation of its curve is not a unit quaternion; it is normalised";
+        warnings.push_counted(bent_rotations(&curve), place.clone(), what, REMEDY);
+    }
+    Ok(Ok((property, curve)))
+}
+
+/// How many of the keyframes' quaternions are not of unit length.
+fn bent_rotations(curve: &Curve) -> usize {
+    let is_bent = |turn: &[f32; 4]| {
+        let square: f64 = turn.iter().map(|&value| f64::from(value) * f64::from(value)).sum();
+        (square.sqrt() - 1.0).abs() > ROTATION_TOLERANCE
+    };
+    // Of the three vectors of a spline's keyframe, the outer two are tangents.
+    let (first, each) = if curve.interpolation() == Interpolation::CubicSpline { (1, 3) } else { (0, 1) };
+    let (turns, _) = curve.values().as_chunks::<4>();
+    turns.iter().skip(first).step_by(each).filter(|turn| is_bent(turn)).count()
 }

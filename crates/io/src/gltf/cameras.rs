@@ -17,6 +17,9 @@ pub(crate) fn convert_camera(root: &Root, node: &Node, warnings: &mut Warnings) 
             Projection::perspective(from.yfov.into(), from.znear.into(), from.zfar.map(f64::from))
                 .map_err(|error| error.to_string())
         }
+        (Some(Type::Orthographic), _, Some(from)) if from.xmag <= 0.0 => {
+            Err("its xmag must be more than 0".to_owned())
+        }
         // The magnifications are half extents.
         (Some(Type::Orthographic), _, Some(from)) => {
             Projection::orthographic(2.0 * f64::from(from.ymag), from.znear.into(), from.zfar.into())

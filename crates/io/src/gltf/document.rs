@@ -1,12 +1,15 @@
 //! The JSON of a glTF file: parsed by gltf::json, without its validation
 //! (which panics on some files), with node transforms read again as f64.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use gltf::json::Root;
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::attribute_names::{ForeignAttribute, RawPrimitive, foreign_attributes};
+use super::extension_names::extension_names;
 use crate::error::{LoadError, LoadErrorKind, Place};
 
 /// A parsed document.
@@ -19,6 +22,10 @@ pub(crate) struct Document {
     pub(crate) target_names: Vec<Vec<String>>,
     /// How many animation channels move something other than a node.
     pub(crate) foreign_channels: usize,
+    /// The attributes that are not read, in the order of the file.
+    pub(crate) foreign_attributes: Vec<ForeignAttribute>,
+    /// The extensions that any object of the document has.
+    pub(crate) extensions: BTreeSet<String>,
 }
 
 /// A node's transform as the file has it.
@@ -43,6 +50,7 @@ struct RawDocument {
 struct RawMesh {
     /// Anything at all.
     extras: Value,
+    primitives: Vec<RawPrimitive>,
 }
 
 impl RawMesh {
@@ -85,7 +93,11 @@ pub(crate) fn parse_document(path: &Path, json: &[u8]) -> Result<Document, LoadE
     };
     let raw: RawDocument = serde_json::from_slice(json).map_err(|error| json_error(path, &error))?;
     let target_names = raw.meshes.iter().map(RawMesh::target_names).collect();
-    Ok(Document { root, transforms: raw.nodes, target_names, foreign_channels })
+    let primitives = raw.meshes.into_iter().map(|mesh| mesh.primitives).collect();
+    let foreign_attributes = foreign_attributes(primitives);
+    let extensions = extension_names(json).map_err(|error| json_error(path, &error))?;
+    let transforms = raw.nodes;
+    Ok(Document { root, transforms, target_names, foreign_channels, foreign_attributes, extensions })
 }
 
 fn json_error(path: &Path, error: &serde_json::Error) -> LoadError {

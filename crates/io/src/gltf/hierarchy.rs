@@ -18,6 +18,8 @@ pub(crate) struct Hierarchy {
     pub(crate) parents: Vec<Option<usize>>,
     /// The reached nodes, parents before children.
     pub(crate) order: Vec<usize>,
+    /// The nodes that the scene lists although they hang on others.
+    pub(crate) listed_children: Vec<usize>,
 }
 
 pub(crate) fn find_hierarchy(
@@ -52,11 +54,13 @@ pub(crate) fn find_hierarchy(
         ));
     }
     let scene = chosen_scene(path, root, options.scene.as_ref())?;
-    let (included, order) = reach(root, scene_roots(root, scene, &parents));
+    let roots = scene_roots(root, scene, &parents);
+    let listed_children = roots.iter().copied().filter(|&node| parents[node].is_some()).collect();
+    let (included, order) = reach(root, roots);
     for parent in &mut parents {
         *parent = parent.filter(|&parent| included[parent]);
     }
-    Ok(Hierarchy { included, parents, order })
+    Ok(Hierarchy { included, parents, order, listed_children })
 }
 
 fn links(root: &Root) -> impl Iterator<Item = (usize, usize)> {

@@ -11,6 +11,10 @@ use trigon_scene::Transform;
 use super::accessor::Accessors;
 use super::buffers::{Unplaced, Unread};
 use crate::error::{LoadErrorKind, Place};
+use crate::warning::Warnings;
+
+/// What an instance may have of its own.
+const ATTRIBUTES: [&str; 3] = ["TRANSLATION", "ROTATION", "SCALE"];
 
 /// Whether a node draws its mesh many times.
 pub(crate) fn has_instances(root: &Root, node: usize) -> bool {
@@ -25,7 +29,7 @@ fn attributes(root: &Root, node: usize) -> Option<&Value> {
 /// How many times a node draws its mesh: as its accessors claim.
 pub(crate) fn instance_count(root: &Root, node: usize) -> usize {
     let Some(attributes) = attributes(root, node) else { return 1 };
-    let accessors = ["TRANSLATION", "ROTATION", "SCALE"].map(|name| accessor(root, attributes, name));
+    let accessors = ATTRIBUTES.map(|name| accessor(root, attributes, name));
     accessors
         .into_iter()
         .flatten()
@@ -44,9 +48,16 @@ fn accessor(root: &Root, attributes: &Value, name: &str) -> Option<usize> {
 pub(crate) fn read_instances(
     accessors: &mut Accessors<'_, '_>,
     node: usize,
+    warnings: &mut Warnings,
 ) -> Result<Vec<Transform>, Unplaced> {
     let root = accessors.root;
     let Some(attributes) = attributes(root, node) else { return Ok(Vec::new()) };
+    for name in ATTRIBUTES {
+        if attributes.get(name).is_some() && accessor(root, attributes, name).is_none() {
+            let what = format!("the {name} of its instances refers to no accessor and is ignored");
+            warnings.push(Place::Item("node", node), what, "export the model again");
+        }
+    }
     accessors.spend(instance_count(root, node), &Place::Item("node", node))?;
     let find = |name| accessor(root, attributes, name);
     let translations = find("TRANSLATION").map(|index| accessors.vectors::<3>(index, &[Type::Vec3]));
@@ -68,6 +79,11 @@ pub(crate) fn read_instances(
             Unread { kind: LoadErrorKind::Malformed, what, remedy },
         ));
     }
+    let vectors = translations.iter().chain(&scales).flatten().flatten();
+    let numbers = vectors.chain(rotations.iter().flatten().flatten());
+    let broken = numbers.filter(|number| !number.is_finite()).count();
+    let what = "an instance has a value that is not finite; that translation, rotation or scale is ignored";
+    warnings.push_counted(broken, Place::Item("node", node), what, "export the model again");
     let vector = |list: &Option<Vec<[f32; 3]>>, index: usize, otherwise: DVec3| {
         let value = list.as_ref().map_or(otherwise, |list| DVec3::from(list[index].map(f64::from)));
         if value.is_finite() { value } else { otherwise }

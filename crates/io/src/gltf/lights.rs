@@ -31,7 +31,8 @@ pub(crate) fn convert_light(root: &Root, node: &Node, warnings: &mut Warnings) -
     let index = light_index(node)?;
     let light = &lights(root)[index];
     let place = || Place::Item("light", index);
-    let intensity = light.intensity * TO_INTENSITY;
+    warn_of_range(light, &place, warnings);
+    let intensity = amount(light.intensity) * TO_INTENSITY;
     let plain = match valid(&light.type_) {
         Some(Type::Directional) => Light::directional(intensity),
         Some(Type::Point) => Light::point(intensity),
@@ -45,7 +46,26 @@ pub(crate) fn convert_light(root: &Root, node: &Node, warnings: &mut Warnings) -
         }
     };
     let range = light.range.filter(|&range| range > 0.0 && range.is_finite());
-    Some(plain.with_color(Vec3::from(light.color)).with_range(range.unwrap_or(f32::INFINITY)))
+    let color = Vec3::from(light.color.map(amount));
+    Some(plain.with_color(color).with_range(range.unwrap_or(f32::INFINITY)))
+}
+
+/// A finite number from 0.
+fn amount(value: f32) -> f32 {
+    if value.is_finite() && value > 0.0 { value } else { 0.0 }
+}
+
+/// Says when a light takes light away, or reaches nowhere.
+fn warn_of_range(light: &JsonLight, place: &impl Fn() -> Place, warnings: &mut Warnings) {
+    let colors = light.color.iter().copied();
+    if colors.chain([light.intensity]).any(|value| amount(value) != value) {
+        let what = "its intensity or colour is negative or too large; it counts as 0";
+        warnings.push(place(), what, "export the model again");
+    }
+    if light.range.is_some_and(|range| amount(range) == 0.0) {
+        let what = "its range is not above 0; it counts as unlimited";
+        warnings.push(place(), what, "export the model again");
+    }
 }
 
 /// Inner and outer angle of a spot light in radians, mended where they

@@ -1,19 +1,23 @@
 //! glTF 2.0 and GLB.
 //!
 //! `container` (the GLB) → `document` (JSON) → `extensions`, `references`,
-//! `hierarchy` (all checks) → `mesh` with `accessor`, `buffers` and `meshopt` →
+//! `hierarchy` (all checks), `contradictions` → `mesh` with `accessor`, `buffers` and `meshopt` →
 //! `materials` with `slots` and `images` → `nodes` with `instances` → `skins`
 //! and `animations`; `source` keeps the file itself for those who ask. Nothing is followed that was not checked, and nothing is
 //! recursive.
 
 mod accessor;
 mod animations;
+mod attribute_names;
 mod buffers;
 mod cameras;
 mod compressed;
 mod container;
+mod contradictions;
 mod document;
+mod extension_names;
 mod extensions;
+mod formats;
 mod hierarchy;
 mod images;
 mod instances;
@@ -33,7 +37,7 @@ use std::collections::BTreeSet;
 
 use trigon_mesh::Mesh;
 
-use accessor::Accessors;
+use accessor::{Accessors, Doubts};
 use buffers::Buffers;
 use document::Document;
 use hierarchy::Hierarchy;
@@ -61,9 +65,10 @@ pub(crate) fn import_gltf(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), L
 fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<&[u8]>) -> Result<(), LoadError> {
     let document = document::parse_document(import.path, json)?;
     let root = &document.root;
-    extensions::check_extensions(import.path, root, &mut import.warnings)?;
+    extensions::check_extensions(import.path, root, &document.extensions, &mut import.warnings)?;
     references::check_references(import.path, root)?;
     let hierarchy = hierarchy::find_hierarchy(import.path, root, import.options)?;
+    contradictions::warn_of_contradictions(&document, &hierarchy, &mut import.warnings);
     import.scene_names = hierarchy::scene_names(root);
     let mut buffers = Buffers::new(root, binary);
     let mut spent = 0;
@@ -107,11 +112,13 @@ fn build_meshes(
             most,
             most_corners: limits.corners,
             spent,
+            doubts: Doubts::default(),
         };
         let needs = |material| Needs::of(&materials::slot_textures_of(root, material));
         let names = document.target_names.get(index).map_or(&[][..], Vec::as_slice);
         let built = mesh::build_mesh(&mut accessors, index, names, &needs, &mut import.warnings)
             .map_err(|unplaced| unplaced.into_error(import.path))?;
+        accessors.doubts.tell(&mut import.warnings);
         let mesh = &built.mesh;
         if mesh.vertex_count() > limits.vertices {
             let what = format!("it has more than {} vertices", limits.vertices);

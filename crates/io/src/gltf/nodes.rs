@@ -11,7 +11,7 @@ use super::document::{Document, RawTransform};
 use super::hierarchy::Hierarchy;
 use super::instances::{has_instances, read_instances};
 use super::lights::convert_light;
-use super::mesh::{BuiltMesh, default_weights};
+use super::mesh::{BuiltMesh, default_weights, sound_weights};
 use super::reader::Reader;
 use crate::error::{LoadError, Place};
 use crate::import::Import;
@@ -81,7 +81,8 @@ pub(crate) fn add_instances(
     let is_instanced =
         |&(index, _): &(usize, NodeId)| root.nodes[index].mesh.is_some() && has_instances(root, index);
     for (index, id) in placed.nodes().filter(is_instanced) {
-        let transforms = reader.read(import, |accessors, _| read_instances(accessors, index))?;
+        let transforms =
+            reader.read(import, |accessors, warnings| read_instances(accessors, index, warnings))?;
         let Some(node) = import.scene.node_mut(id) else { continue };
         let (mesh, materials) = (node.mesh.take(), std::mem::take(&mut node.materials));
         let (name, weights) = (node.name.clone(), node.morph_weights.clone());
@@ -122,8 +123,7 @@ fn convert_node(
         (node.mesh, node.materials) = (Some(mesh), materials);
     }
     if let Some(mesh) = from.mesh {
-        let own =
-            from.weights.as_ref().map(|weights| weights.iter().copied().filter(|w| w.is_finite()).collect());
+        let own = from.weights.as_deref().map(sound_weights);
         node.morph_weights = own.unwrap_or_else(|| default_weights(&document.root, mesh.value()));
     }
     node.light = convert_light(&document.root, from, &mut import.warnings);
@@ -131,8 +131,19 @@ fn convert_node(
     node
 }
 
+/// How much the length of a quaternion may be from 1 before it is worth a
+/// warning: one of four bytes is off by as much.
+pub(crate) const ROTATION_TOLERANCE: f64 = 0.00769;
+
 fn convert_transform(raw: &RawTransform, index: usize, warnings: &mut Warnings) -> Transform {
     if let Some(matrix) = &raw.matrix {
+        if raw.translation.is_some() || raw.rotation.is_some() || raw.scale.is_some() {
+            warnings.push(
+                Place::Item("node", index),
+                "it has both a matrix and a translation, rotation or scale; only the matrix is used",
+                "remove one of them, or export the model again",
+            );
+        }
         let matrix = DMat4::from_cols_array(matrix);
         if matrix.row(3).to_array() != [0.0, 0.0, 0.0, 1.0] {
             warnings.push(
@@ -148,6 +159,12 @@ fn convert_transform(raw: &RawTransform, index: usize, warnings: &mut Warnings) 
         warnings.push(
             Place::Item("node", index),
             "its rotation has no length and counts as none",
+            "export the model again",
+        );
+    } else if (rotation.length() - 1.0).abs() > ROTATION_TOLERANCE {
+        warnings.push(
+            Place::Item("node", index),
+            "its rotation is not a unit quaternion; it is normalised",
             "export the model again",
         );
     }

@@ -13,6 +13,12 @@ pub(crate) struct Elements {
     pub(crate) left_over: usize,
 }
 
+impl Elements {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.triangles.is_empty() && self.edges.is_empty() && self.points.is_empty()
+    }
+}
+
 /// How many corners, ends and points a mode makes of some indices, or more.
 pub(crate) fn corner_count(mode: Mode, indices: usize) -> usize {
     let each = match mode {

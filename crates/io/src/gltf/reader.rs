@@ -3,7 +3,7 @@
 
 use gltf::json::Root;
 
-use super::accessor::Accessors;
+use super::accessor::{Accessors, Doubts};
 use super::buffers::{Buffers, Unplaced};
 use crate::error::LoadError;
 use crate::import::Import;
@@ -32,7 +32,10 @@ impl Reader<'_, '_> {
             most: limits.vertices.max(limits.corners),
             most_corners: limits.corners,
             spent: &mut self.spent,
+            doubts: Doubts::default(),
         };
-        read(&mut accessors, &mut import.warnings).map_err(|unplaced| unplaced.into_error(import.path))
+        let read = read(&mut accessors, &mut import.warnings);
+        accessors.doubts.tell(&mut import.warnings);
+        read.map_err(|unplaced| unplaced.into_error(import.path))
     }
 }

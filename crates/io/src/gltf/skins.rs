@@ -2,13 +2,13 @@
 
 use std::collections::HashSet;
 
-use gltf::json::accessor::Type;
 use trigon_math::{DAffine3, DMat4, DVec4};
 use trigon_mesh::SkinWeights;
 use trigon_scene::{Node, NodeId, Skin, SkinId};
 
 use super::accessor::Accessors;
 use super::buffers::Unplaced;
+use super::formats::BIND_MATRIX;
 use super::nodes::Placed;
 use super::reader::Reader;
 use crate::error::{LoadError, Place};
@@ -26,7 +26,11 @@ fn read_bind_matrices(
     let Some(accessor) = skin.inverse_bind_matrices else { return Ok(Vec::new()) };
     let place = || Place::Item("skin", index);
     accessors.spend(usize::try_from(accessors.count(accessor.value())).unwrap_or(usize::MAX), &place())?;
-    let read = accessors.vectors::<16>(accessor.value(), &[Type::Mat4])?;
+    accessors.doubt_stride(accessor.value());
+    if let Some(what) = BIND_MATRIX.fault(accessors.root, accessor.value()) {
+        warnings.push(place(), what, "export the model again");
+    }
+    let read = accessors.vectors::<16>(accessor.value(), BIND_MATRIX.types)?;
     if read.len() < skin.joints.len() {
         let what =
             format!("{} for {}", counted(read.len(), "bind matrix"), counted(skin.joints.len(), "joint"));

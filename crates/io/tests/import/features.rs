@@ -216,6 +216,7 @@ fn sparse_and_quantized_positions() {
     let view = doc.json["accessors"][places]["bufferView"].as_u64().expect("a view") as usize;
     doc.json["bufferViews"][view]["byteStride"] = json!(4);
     doc.json["accessors"][places]["normalized"] = json!(true);
+    doc.json["extensionsUsed"] = json!(["KHR_mesh_quantization"]);
     doc.json["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
     doc.primitive()["attributes"]["POSITION"] = json!(places);
     check("bytes", &doc, &in_place("WWWW", "WWWW"));

@@ -381,6 +381,66 @@ fn extensions_that_are_required_are_named() {
 }
 
 #[test]
+fn a_required_extension_is_named_though_no_material_uses_it() {
+    for name in ["KHR_texture_basisu", "KHR_xmp_json_ld"] {
+        let mut doc = Doc::square();
+        doc.json["extensionsUsed"] = json!([name]);
+        doc.json["extensionsRequired"] = json!([name]);
+        let all = warnings(&doc.load());
+        assert!(all.len() == 1 && all[0].contains("requires") && all[0].contains(name), "{all:#?}");
+    }
+}
+
+#[test]
+fn an_extension_that_is_not_declared_is_named() {
+    let mut doc = Doc::square();
+    doc.json["nodes"][0]["extras"] = json!({"extensions": {"EXT_in_extras": {}}});
+    doc.json["nodes"][0]["extensions"] = json!({"EXT_undeclared": {}});
+    let all = warnings(&doc.load());
+    assert!(all.len() == 1 && all[0].contains("EXT_undeclared is not drawn"), "{all:#?}");
+}
+
+#[test]
+fn of_a_matrix_and_a_translation_the_matrix_is_used_and_said() {
+    let mut doc = Doc::square();
+    doc.json["nodes"][0]["matrix"] = json!([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1]);
+    doc.json["nodes"][0]["translation"] = json!([7, 0, 0]);
+    let loaded = doc.load();
+    warns_once(&loaded, "node 0: it has both a matrix and a translation");
+    assert_eq!(loaded.scene.bounds().min, DVec3::new(5.0, 0.0, 0.0), "where the matrix puts it");
+}
+
+#[test]
+fn the_same_fault_of_many_nodes_is_one_warning() {
+    let mut doc = Doc::square();
+    doc.json["nodes"] = vec![json!({"mesh": 0, "rotation": [0, 0, 0, 0.5]}); 10_000].into();
+    let all = warnings(&doc.load());
+    assert!(all.len() == 1 && all[0].contains("… and 9999 more"), "{all:#?}");
+}
+
+#[test]
+fn instances_that_refer_to_nothing_are_said() {
+    let mut doc = Doc::square();
+    let scales = doc.floats("VEC3", &[1., 1., 1., f32::NAN, 1., 1.]);
+    let attributes = json!({"TRANSLATION": 99, "SCALE": scales});
+    doc.json["nodes"][0]["extensions"] = json!({"EXT_mesh_gpu_instancing": {"attributes": attributes}});
+    let loaded = doc.load();
+    warns_once(&loaded, "the TRANSLATION of its instances");
+    warns_once(&loaded, "an instance has a value that is not finite");
+}
+
+#[test]
+fn a_weight_that_is_not_finite_leaves_the_others_where_they_are() {
+    let mut doc = Doc::square();
+    let target = doc.floats("VEC3", &[0.; 12]);
+    doc.primitive()["targets"] = json!([{"POSITION": target}, {"POSITION": target}]);
+    doc.json["nodes"][0]["weights"] = json!([1e300, 0.5]);
+    let loaded = doc.load();
+    let (_, node) = loaded.scene.nodes().iter().next().expect("a node");
+    assert_eq!(node.morph_weights, [0.0, 0.5], "the second target keeps its weight");
+}
+
+#[test]
 fn data_uris_are_buffers_and_other_uris_are_not_followed() {
     let mut doc = Doc::square();
     let with_uri = |doc: &mut Doc, uri: &str| {

@@ -19,6 +19,8 @@ fn everything() -> Doc {
     let sparse = json!({"componentType": 5126, "type": "VEC3", "count": 4, "sparse": {"count": 1,
         "indices": {"bufferView": indices, "componentType": 5121}, "values": {"bufferView": values}}});
     let target = push(&mut doc.json["accessors"], sparse);
+    let normals = doc.floats("VEC3", &[0., 0., 1.].repeat(4));
+    doc.primitive()["attributes"]["NORMAL"] = json!(normals);
     doc.primitive()["targets"] = json!([{"POSITION": target, "NORMAL": target}]);
     let mut stream = vec![0xe1, 0xf0, 0x00];
     stream.extend([0; 16]);

@@ -127,6 +127,7 @@ fn morph_targets_add_up_sparse_and_quantized() {
         "sparse": {"count": 1, "indices": {"bufferView": indices, "componentType": 5121},
             "values": {"bufferView": values}}});
     let second = push(&mut doc.json["accessors"], sparse);
+    doc.json["extensionsUsed"] = json!(["KHR_mesh_quantization"]);
     doc.primitive()["attributes"]["NORMAL"] = json!(normals);
     doc.primitive()["targets"] = json!([{"POSITION": first, "NORMAL": normal_deltas}, {"POSITION": second}]);
     doc.json["meshes"][0]["weights"] = json!([0.5, 1]);

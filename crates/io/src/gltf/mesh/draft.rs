@@ -79,14 +79,22 @@ impl Draft {
 
     fn add_loose(&mut self, part: &Part, vertices: &[Option<u32>]) {
         for edge in &part.elements.edges {
-            if let [Some(from), Some(to)] = edge.map(|end| vertices[end as usize])
-                && from != to
-            {
-                self.builder.push_loose_edge(from, to).expect("both vertices exist and differ");
+            match edge.map(|end| vertices[end as usize]) {
+                // A line without length shows nothing.
+                [Some(from), Some(to)] if from == to => {}
+                [Some(from), Some(to)] => {
+                    self.builder.push_loose_edge(from, to).expect("both vertices exist and differ");
+                }
+                _ => self.non_finite += 1,
             }
         }
-        for vertex in part.elements.points.iter().filter_map(|&point| vertices[point as usize]) {
-            self.builder.push_loose_point(vertex).expect("the vertex exists");
+        for &point in &part.elements.points {
+            match vertices[point as usize] {
+                Some(vertex) => {
+                    self.builder.push_loose_point(vertex).expect("the vertex exists");
+                }
+                None => self.non_finite += 1,
+            }
         }
     }
 

@@ -12,6 +12,7 @@
 mod draft;
 mod movement;
 mod part;
+mod soundness;
 mod tangents;
 
 use std::ops::Range;
@@ -80,7 +81,7 @@ pub(crate) fn build_mesh(
     warnings.push_counted(
         draft.non_finite,
         place(),
-        "a triangle has a vertex that is not finite and is left out",
+        "a triangle, line or point has a vertex that is not finite and is left out",
         "export the model again",
     );
     warnings.push_counted(
@@ -100,6 +101,10 @@ pub(crate) fn build_mesh(
 
 /// The weights of a mesh's morph targets where a node has none of its own.
 pub(crate) fn default_weights(root: &Root, mesh: usize) -> Vec<f32> {
-    let weights = root.meshes[mesh].weights.clone().unwrap_or_default();
-    weights.into_iter().map(|weight| if weight.is_finite() { weight } else { 0.0 }).collect()
+    sound_weights(root.meshes[mesh].weights.as_deref().unwrap_or_default())
+}
+
+/// The weights, 0 for those that are not finite.
+pub(crate) fn sound_weights(weights: &[f32]) -> Vec<f32> {
+    weights.iter().map(|&weight| if weight.is_finite() { weight } else { 0.0 }).collect()
 }

@@ -1,11 +1,12 @@
 //! How the vertices of a primitive move: joints with weights, and morph targets.
 
-use gltf::json::accessor::Type;
 use gltf::json::mesh::Semantic;
+use gltf::json::validation::Checked;
 use trigon_math::Vec3;
 
 use super::part::Optional;
 use crate::gltf::buffers::Unplaced;
+use crate::gltf::formats::{JOINTS, TARGET_NORMAL, TARGET_POSITION, TARGET_TANGENT, Usage, WEIGHTS};
 
 /// Joints in a set of attributes: JOINTS_0 has four, JOINTS_1 four more.
 const PER_SET: usize = 4;
@@ -46,12 +47,19 @@ pub(super) fn delta(list: Option<&Vec<[f32; 3]>>, vertex: usize) -> Vec3 {
 /// Reads joints and weights; none unless there is a set of both.
 pub(super) fn read_skin(from: &mut Optional<'_, '_, '_>) -> Result<Option<PartSkin>, Unplaced> {
     let mut sets = Vec::new();
-    for set in 0..MOST_SETS {
-        let joints = from.read::<4>(Semantic::Joints(set), "JOINTS", &[Type::Vec4])?;
-        let weights = from.read::<4>(Semantic::Weights(set), "WEIGHTS", &[Type::Vec4])?;
+    for set in 0..=MOST_SETS {
+        if set == MOST_SETS {
+            warn_of_later_sets(from, set);
+            break;
+        }
+        let joints = from.read::<4>(Semantic::Joints(set), &JOINTS)?;
+        let weights = from.read::<4>(Semantic::Weights(set), &WEIGHTS)?;
         match (joints, weights) {
             (Some(joints), Some(weights)) => sets.push((joints, weights)),
-            (None, None) => break,
+            (None, None) => {
+                warn_of_later_sets(from, set);
+                break;
+            }
             _ => {
                 from.warn(format!("JOINTS_{set} and WEIGHTS_{set} are not both there and are ignored"));
                 break;
@@ -83,6 +91,16 @@ pub(super) fn read_skin(from: &mut Optional<'_, '_, '_>) -> Result<Option<PartSk
     Ok(Some(PartSkin { per_vertex: sets.len() * PER_SET, joints, weights }))
 }
 
+/// Says when there are more sets than those that were read.
+fn warn_of_later_sets(from: &mut Optional<'_, '_, '_>, read: u32) {
+    let is_later = |key: &Checked<Semantic>| matches!(key, Checked::Valid(Semantic::Joints(set) | Semantic::Weights(set)) if *set >= read);
+    if from.primitive.attributes.keys().any(is_later) {
+        from.warn(format!(
+            "its JOINTS and WEIGHTS from set {read} on are ignored: set numbers must have no gap, and {MOST_SETS} sets are supported"
+        ));
+    }
+}
+
 fn are_sound(weights: &[f32]) -> bool {
     let sum: f32 = weights.iter().sum();
     weights.iter().all(|&weight| weight >= 0.0) && (sum - 1.0).abs() <= TOLERANCE
@@ -94,17 +112,21 @@ pub(super) fn read_targets(
     with_tangents: bool,
 ) -> Result<Vec<PartTarget>, Unplaced> {
     let mut targets = Vec::new();
+    let (has_normals, has_tangents) = (from.has(Semantic::Normals), from.has(Semantic::Tangents));
     for target in from.primitive.targets.iter().flatten() {
         from.accessors.spend(from.vertices, from.place)?;
-        let mut read = |index: Option<usize>, name: &str| match index {
-            Some(index) => from.read_accessor::<3>(index, name, &[Type::Vec3]),
+        if target.normals.is_some() && !has_normals || target.tangents.is_some() && !has_tangents {
+            from.warn("a morph target has a NORMAL or TANGENT that the primitive lacks; it is ignored");
+        }
+        let mut read = |index: Option<usize>, usage: &Usage| match index {
+            Some(index) => from.read_accessor::<3>(index, usage),
             None => Ok(None),
         };
         let index = |accessor: Option<gltf::json::Index<gltf::json::Accessor>>| accessor.map(|a| a.value());
         targets.push(PartTarget {
-            positions: read(index(target.positions), "POSITION of a morph target")?,
-            normals: read(index(target.normals), "NORMAL of a morph target")?,
-            tangents: read(index(target.tangents).filter(|_| with_tangents), "TANGENT of a morph target")?,
+            positions: read(index(target.positions), &TARGET_POSITION)?,
+            normals: read(index(target.normals).filter(|_| has_normals), &TARGET_NORMAL)?,
+            tangents: read(index(target.tangents).filter(|_| with_tangents), &TARGET_TANGENT)?,
         });
     }
     Ok(targets)

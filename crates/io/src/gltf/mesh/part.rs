@@ -1,15 +1,15 @@
 //! One primitive of a mesh, decoded.
 
-use gltf::json::accessor::Type;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
 use trigon_math::Vec3;
 
-use super::Needs;
 use super::movement::{PartSkin, PartTarget, read_skin, read_targets};
+use super::{Needs, soundness};
 use crate::error::{LoadErrorKind, Place};
 use crate::gltf::accessor::{Accessors, valid};
 use crate::gltf::buffers::{Unplaced, Unread};
+use crate::gltf::formats::{self, Usage};
 use crate::gltf::primitive::{Elements, corner_count, elements};
 use crate::warning::{Warnings, counted};
 
@@ -50,21 +50,29 @@ pub(super) fn read_primitive(
         return Ok(None);
     };
     check_bounds(accessors, position_index)?;
-    let positions = accessors.vectors::<3>(position_index, &[Type::Vec3])?;
+    if let Some(what) = formats::POSITION.fault(accessors.root, position_index) {
+        warnings.push(place.clone(), what, "export the model again");
+    }
+    let positions = accessors.vectors::<3>(position_index, formats::POSITION.types)?;
     let elements = read_elements(accessors, primitive, mode, positions.len(), &place, warnings)?;
     let material = primitive.material.map(|material| material.value());
     let needs = needs(material);
     let mut optional = Optional { accessors, primitive, vertices: positions.len(), place: &place, warnings };
-    let normals = optional.read::<3>(Semantic::Normals, "NORMAL", &[Type::Vec3])?;
+    let normals = optional.read::<3>(Semantic::Normals, &formats::NORMAL)?;
     let tangents = match (&normals, needs.tangents_of) {
         // Without normals the file's tangents are to be ignored.
-        (Some(_), Some(_)) => optional.read::<4>(Semantic::Tangents, "TANGENT", &[Type::Vec4])?,
+        (Some(_), Some(_)) => optional.read::<4>(Semantic::Tangents, &formats::TANGENT)?,
         _ => None,
     };
-    let colors = optional.read::<4>(Semantic::Colors(0), "COLOR_0", &[Type::Vec3, Type::Vec4])?;
+    let colors = optional.read::<4>(Semantic::Colors(0), &formats::COLOR)?;
     let uv_sets = optional.uv_sets(&needs.uv_sets)?;
     let skin = read_skin(&mut optional)?;
     let targets = read_targets(&mut optional, tangents.is_some())?;
+    soundness::warn_of_normals(&mut optional, normals.as_deref());
+    soundness::warn_of_tangents(&mut optional, tangents.as_deref());
+    soundness::warn_of_colors(&mut optional, colors.as_deref());
+    soundness::warn_of_uv_sets(&mut optional, &uv_sets);
+    soundness::warn_of_targets(&mut optional, &targets);
     Ok(Some(Part {
         positions: positions.into_iter().map(Vec3::from).collect(),
         normals,
@@ -127,6 +135,10 @@ fn read_elements(
         let count = counted(elements.left_over, "index");
         let what = format!("{count} at the end left over, too few for a whole element");
         warnings.push(place.clone(), what, "export the model again");
+    } else if elements.is_empty() {
+        let count = counted(indices.len(), "index");
+        let what = format!("{count} are too few for its mode; it is not drawn");
+        warnings.push(place.clone(), what, "export the model again");
     }
     Ok(elements)
 }
@@ -144,30 +156,40 @@ impl Optional<'_, '_, '_> {
     pub(super) fn read<const N: usize>(
         &mut self,
         semantic: Semantic,
-        name: &str,
-        allowed: &[Type],
+        usage: &Usage,
     ) -> Result<Option<Vec<[f32; N]>>, Unplaced> {
-        find(self.primitive, semantic).map_or(Ok(None), |index| self.read_accessor(index, name, allowed))
+        find(self.primitive, semantic).map_or(Ok(None), |index| self.read_accessor(index, usage))
+    }
+
+    pub(super) fn has(&self, semantic: Semantic) -> bool {
+        find(self.primitive, semantic).is_some()
     }
 
     /// None, and a warning, when there is not one value a vertex.
     pub(super) fn read_accessor<const N: usize>(
         &mut self,
         index: usize,
-        name: &str,
-        allowed: &[Type],
+        usage: &Usage,
     ) -> Result<Option<Vec<[f32; N]>>, Unplaced> {
-        let count = self.accessors.count(index);
+        let (name, count) = (usage.name, self.accessors.count(index));
         if count != self.vertices as u64 {
             let what = format!("{name} has {count} values for {} vertices and is ignored", self.vertices);
             self.warn(what);
             return Ok(None);
         }
-        self.accessors.vectors(index, allowed).map(Some)
+        if let Some(what) = usage.fault(self.accessors.root, index) {
+            self.warn(what);
+        }
+        self.accessors.vectors(index, usage.types).map(Some)
     }
 
     pub(super) fn warn(&mut self, what: impl Into<String>) {
         self.warnings.push(self.place.clone(), what, "export the model again");
+    }
+
+    /// A warning of which `count` vertices are a case.
+    pub(super) fn warn_counted(&mut self, count: usize, what: &str) {
+        self.warnings.push_counted(count, self.place.clone(), what, "export the model again");
     }
 
     /// The UV sets; those that a material wants and the primitive lacks are
@@ -177,7 +199,7 @@ impl Optional<'_, '_, '_> {
         let last = wanted.iter().copied().filter(|&set| set < MOST_UV_SETS).max();
         let mut sets = Vec::new();
         for set in 0..UV_SETS.max(last.map_or(0, |last| last + 1)) {
-            sets.push(self.read::<2>(Semantic::TexCoords(set), "TEXCOORD", &[Type::Vec2])?);
+            sets.push(self.read::<2>(Semantic::TexCoords(set), &formats::TEXCOORD)?);
         }
         for &set in wanted {
             if sets.get(set as usize).is_some_and(Option::is_some) {
