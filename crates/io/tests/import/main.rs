@@ -15,6 +15,7 @@ mod oracle;
 mod source;
 mod texture;
 mod tobj_crate;
+mod validator;
 
 use trigon_io::{LoadOptions, Loaded, load_from_slice};
 use trigon_mesh::Mesh;
