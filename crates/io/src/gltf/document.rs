@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::attribute_names::{ForeignAttribute, RawPrimitive, foreign_attributes};
-use super::extension_names::extension_names;
+use super::preview::Preview;
 use crate::error::{LoadError, LoadErrorKind, Place};
 
 /// A parsed document.
@@ -60,20 +60,6 @@ impl RawMesh {
     }
 }
 
-/// What can be said of a file before all of it is understood.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct Preview {
-    asset: Option<RawAsset>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-struct RawAsset {
-    version: Option<String>,
-    min_version: Option<String>,
-}
-
 /// Parses the JSON and checks that it is glTF 2.
 pub(crate) fn parse_document(path: &Path, json: &[u8]) -> Result<Document, LoadError> {
     let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
@@ -95,8 +81,7 @@ pub(crate) fn parse_document(path: &Path, json: &[u8]) -> Result<Document, LoadE
     let target_names = raw.meshes.iter().map(RawMesh::target_names).collect();
     let primitives = raw.meshes.into_iter().map(|mesh| mesh.primitives).collect();
     let foreign_attributes = foreign_attributes(primitives);
-    let extensions = extension_names(json).map_err(|error| json_error(path, &error))?;
-    let transforms = raw.nodes;
+    let (transforms, extensions) = (raw.nodes, preview.extensions);
     Ok(Document { root, transforms, target_names, foreign_channels, foreign_attributes, extensions })
 }
 

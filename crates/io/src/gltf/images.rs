@@ -93,7 +93,7 @@ fn wanted_images(
 
 /// The image that a texture shows: the plain one, else one in a format that an
 /// extension adds. The picture itself then says what it is.
-fn image_of(root: &Root, texture: usize) -> Option<usize> {
+pub(crate) fn image_of(root: &Root, texture: usize) -> Option<usize> {
     let texture = &root.textures[texture];
     if let Some(source) = source_of(texture) {
         return Some(source);

@@ -1,6 +1,6 @@
 //! glTF 2.0 and GLB.
 //!
-//! `container` (the GLB) → `document` (JSON) → `extensions`, `references`,
+//! `container` (the GLB) → `preview`, `document` (JSON) → `extensions`, `references`,
 //! `hierarchy` (all checks), `contradictions` → `mesh` with `accessor`, `buffers` and `meshopt` →
 //! `materials` with `slots` and `images` → `nodes` with `instances` → `skins`
 //! and `animations`; `source` keeps the file itself for those who ask. Nothing is followed that was not checked, and nothing is
@@ -15,7 +15,6 @@ mod compressed;
 mod container;
 mod contradictions;
 mod document;
-mod extension_names;
 mod extensions;
 mod formats;
 mod hierarchy;
@@ -26,6 +25,7 @@ mod materials;
 mod mesh;
 mod meshopt;
 mod nodes;
+mod preview;
 mod primitive;
 mod reader;
 mod references;

@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 
 use super::REMEDY;
 use crate::error::Place;
-use crate::gltf::references::source_of;
+use crate::gltf::images::image_of;
 use crate::gltf::slots::slot_textures;
 use crate::warning::Warnings;
 
@@ -138,8 +138,7 @@ fn warn_of_samplers(root: &Root, textures: &BTreeSet<usize>, warnings: &mut Warn
 }
 
 fn warn_of_images(root: &Root, textures: &BTreeSet<usize>, warnings: &mut Warnings) {
-    let images: BTreeSet<usize> =
-        textures.iter().filter_map(|&texture| source_of(&root.textures[texture])).collect();
+    let images: BTreeSet<usize> = textures.iter().filter_map(|&texture| image_of(root, texture)).collect();
     for index in images {
         let image = &root.images[index];
         if image.uri.is_some() && image.buffer_view.is_some() {
