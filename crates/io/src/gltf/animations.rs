@@ -7,7 +7,7 @@ use trigon_scene::{Animation, Channel, Curve, Interpolation, Property};
 
 use super::accessor::{Accessors, valid};
 use super::buffers::Unplaced;
-use super::formats::{MORPH_WEIGHTS, ROTATIONS, TIMES, VECTORS};
+use super::formats::{MORPH_WEIGHTS, ROTATIONS, TIMES, Usage, VECTORS};
 use super::nodes::{Placed, ROTATION_TOLERANCE};
 use super::reader::Reader;
 use crate::error::{LoadError, LoadErrorKind, Place};
@@ -86,29 +86,23 @@ fn read_channel(
     warnings: &mut Warnings,
 ) -> Result<Played, Unplaced> {
     let sampler = &accessors.root.animations[animation].samplers[channel.sampler.value()];
-    let interpolation = match valid(&sampler.interpolation) {
-        Some(JsonInterpolation::Linear) => Interpolation::Linear,
-        Some(JsonInterpolation::Step) => Interpolation::Step,
-        Some(JsonInterpolation::CubicSpline) => Interpolation::CubicSpline,
-        None => return Ok(Err("its interpolation is unknown".to_owned())),
+    let Some(interpolation) = valid(&sampler.interpolation).map(interpolation) else {
+        return Ok(Err("its interpolation is unknown".to_owned()));
     };
-    let (property, width) = match valid(&channel.target.path) {
-        Some(JsonProperty::Translation) => (Property::Translation, 3),
-        Some(JsonProperty::Rotation) => (Property::Rotation, 4),
-        Some(JsonProperty::Scale) => (Property::Scale, 3),
-        Some(JsonProperty::MorphTargetWeights) => (Property::MorphWeights, width_of_weights),
-        None => return Ok(Err("its path is unknown".to_owned())),
+    let Some(path) = valid(&channel.target.path) else {
+        return Ok(Err("its path is unknown".to_owned()));
+    };
+    let (property, width, usage) = match path {
+        JsonProperty::Translation => (Property::Translation, 3, VECTORS),
+        JsonProperty::Rotation => (Property::Rotation, 4, ROTATIONS),
+        JsonProperty::Scale => (Property::Scale, 3, VECTORS),
+        JsonProperty::MorphTargetWeights => (Property::MorphWeights, width_of_weights, MORPH_WEIGHTS),
     };
     if width == 0 {
         return Ok(Err("the node's mesh has no morph targets".to_owned()));
     }
     let (input, output) = (sampler.input.value(), sampler.output.value());
     accessors.spend(accessors.count(input).saturating_add(accessors.count(output)) as usize, place)?;
-    let usage = match property {
-        Property::Translation | Property::Scale => VECTORS,
-        Property::Rotation => ROTATIONS,
-        Property::MorphWeights => MORPH_WEIGHTS,
-    };
     let times = accessors.vectors::<1>(input, TIMES.types)?.into_flattened();
     let values = match property {
         Property::Translation | Property::Scale => {
@@ -117,32 +111,68 @@ fn read_channel(
         Property::Rotation => accessors.vectors::<4>(output, usage.types)?.into_flattened(),
         Property::MorphWeights => accessors.vectors::<1>(output, usage.types)?.into_flattened(),
     };
-    let (keys, numbers) = (times.len(), values.len());
     let broken = values.iter().filter(|value| !value.is_finite()).count();
+    let curve = match new_curve(interpolation, width, times, values) {
+        Ok(curve) => curve,
+        Err(why) => return Ok(Err(why)),
+    };
+    warn_of_formats(accessors, [(input, TIMES), (output, usage)], place, warnings);
+    warn_of_values(property, &curve, broken, place, warnings);
+    Ok(Ok((property, curve)))
+}
+
+fn interpolation(from: JsonInterpolation) -> Interpolation {
+    match from {
+        JsonInterpolation::Linear => Interpolation::Linear,
+        JsonInterpolation::Step => Interpolation::Step,
+        JsonInterpolation::CubicSpline => Interpolation::CubicSpline,
+    }
+}
+
+/// The curve, or why there is none.
+fn new_curve(
+    interpolation: Interpolation,
+    width: usize,
+    times: Vec<f32>,
+    values: Vec<f32>,
+) -> Result<Curve, String> {
+    let (keys, numbers) = (times.len(), values.len());
     let increase =
         times.windows(2).all(|pair| pair[0] < pair[1]) && times.iter().all(|time| time.is_finite());
-    let Some(curve) = Curve::new(interpolation, width, times, values) else {
+    Curve::new(interpolation, width, times, values).ok_or_else(|| {
         if !increase {
-            return Ok(Err("its times do not increase, or are not finite".to_owned()));
+            return "its times must increase and be finite".to_owned();
         }
         let each = if interpolation == Interpolation::CubicSpline { 3 * width } else { width };
-        return Ok(Err(format!(
-            "{keys} keyframes need {each} numbers each, and there are {numbers} numbers"
-        )));
-    };
-    for (accessor, usage) in [(input, TIMES), (output, usage)] {
+        let (keys, each) = (counted(keys, "keyframe"), counted(each, "number"));
+        format!("it has {keys}, each of which needs {each}, and {} in all", counted(numbers, "number"))
+    })
+}
+
+/// Says when an accessor holds what glTF does not allow there.
+fn warn_of_formats(
+    accessors: &mut Accessors<'_, '_>,
+    used: [(usize, Usage); 2],
+    place: &Place,
+    warnings: &mut Warnings,
+) {
+    for (accessor, usage) in used {
         accessors.doubt_stride(accessor);
         if let Some(what) = usage.fault(accessors.root, accessor) {
             warnings.push(place.clone(), what, REMEDY);
         }
     }
+}
+
+/// Says how many values of a curve are not what they must be. Those that were
+/// not finite are 0 in the curve, so their number comes from before.
+fn warn_of_values(property: Property, curve: &Curve, broken: usize, place: &Place, warnings: &mut Warnings) {
     let what = "a value of its curve is not finite and counts as 0";
     warnings.push_counted(broken, place.clone(), what, REMEDY);
     if property == Property::Rotation {
         let what = "a rotation of its curve is not a unit quaternion; it is normalised";
-        warnings.push_counted(bent_rotations(&curve), place.clone(), what, REMEDY);
+        warnings.push_counted(bent_rotations(curve), place.clone(), what, REMEDY);
     }
-    Ok(Ok((property, curve)))
 }
 
 /// How many of the keyframes' quaternions are not of unit length.
