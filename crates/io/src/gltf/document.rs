@@ -133,8 +133,7 @@ fn parse_mended(json: &[u8]) -> Option<(Root, usize)> {
         channels.retain(|channel| channel.pointer("/target/node").is_some());
         foreign += before - channels.len();
     }
-    let mended = serde_json::to_vec(&value).ok()?;
-    Some((serde_json::from_slice(&mended).ok()?, foreign))
+    Some((serde_json::from_value(value).ok()?, foreign))
 }
 
 #[cfg(test)]
