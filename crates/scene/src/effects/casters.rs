@@ -27,8 +27,8 @@ pub(crate) struct Caster {
     /// For each run of the geometry its material, or `None` where light passes.
     pub(crate) materials: Vec<Option<Material>>,
     /// What the materials' textures of colour and of transmission are at this moment:
-    /// a picture can be exchanged under its id.
-    textures: Vec<Arc<Texture>>,
+    /// a picture can be exchanged under its id, or be gone.
+    textures: Vec<[Option<Arc<Texture>>; 2]>,
     bounds: Bounds3,
 }
 
@@ -38,14 +38,20 @@ impl PartialEq for Caster {
         Arc::ptr_eq(&self.geometry, &other.geometry)
             && self.place == other.place
             && self.materials == other.materials
-            && self.textures.len() == other.textures.len()
-            && self.textures.iter().zip(&other.textures).all(|(one, other)| Arc::ptr_eq(one, other))
+            && self.texture_addresses().eq(other.texture_addresses())
     }
 }
 
 impl PartialEq for Casters {
     fn eq(&self, other: &Self) -> bool {
         self.list == other.list
+    }
+}
+
+impl Caster {
+    /// What tells textures apart: both casters keep theirs alive, so no two share one.
+    fn texture_addresses(&self) -> impl Iterator<Item = Option<*const Texture>> {
+        self.textures.iter().flatten().map(|texture| texture.as_ref().map(Arc::as_ptr))
     }
 }
 
@@ -62,8 +68,7 @@ impl Casters {
             let bounds = geometry.bounds().transformed(&place.world);
             casters.bounds = casters.bounds.union(bounds);
             let (geometry, place) = (Arc::clone(geometry), *place);
-            let textures =
-                materials.iter().flatten().flat_map(|material| textures(scene, material)).collect();
+            let textures = materials.iter().flatten().map(|material| textures(scene, material)).collect();
             casters.list.push(Caster { geometry, place, materials, textures, bounds });
         }
         casters
@@ -75,11 +80,13 @@ impl Casters {
     }
 }
 
-/// The textures of a material that shadows and rays of sight look up.
-fn textures<'a>(scene: &'a Scene, material: &Material) -> impl Iterator<Item = Arc<Texture>> + use<'a> {
-    let bindings = [material.base_color_texture, material.transmission_texture];
-    let assets = bindings.into_iter().flatten().filter_map(|binding| scene.textures.get(binding.texture));
-    assets.map(|asset| Arc::clone(&asset.texture))
+/// The textures of a material that shadows and rays of sight look up: each in its own
+/// place, so that none can be taken for another when that is gone.
+fn textures(scene: &Scene, material: &Material) -> [Option<Arc<Texture>>; 2] {
+    [material.base_color_texture, material.transmission_texture].map(|binding| {
+        let asset = scene.textures.get(binding?.texture)?;
+        Some(Arc::clone(&asset.texture))
+    })
 }
 
 /// The material of a slot if it keeps light away.

@@ -45,7 +45,10 @@ impl Engine {
         let apart = settings.outputs.need_own_pass(plan.is_on(Effect::Transparency));
         self.stats = Stats::default();
         if settings.outputs.of_light() {
-            self.draw_colors(&stage, camera, (&plan, frame, apart), (&mut rasterizer, &mut counts))?;
+            let drawn =
+                self.draw_colors(&stage, camera, (&plan, frame, apart), (&mut rasterizer, &mut counts));
+            // It may have been cancelled, too: its shadow maps may not be whole.
+            drawn.inspect_err(|_| self.kept.forget_unfinished())?;
         }
         if apart {
             self.draw_seen(&stage, camera, frame, &mut rasterizer)?;

@@ -14,6 +14,10 @@ use trigon_raster::EdgeFlags;
 
 use super::columns::Columns;
 
+/// The UV sets for which tangents are made: as many as the glTF reader takes. Each set
+/// with a normal map takes as much memory as the mesh, and a file may have thousands.
+const MOST_TANGENT_SETS: usize = 8;
+
 /// A mesh as it is drawn.
 #[derive(Debug)]
 pub(crate) struct Geometry {
@@ -30,8 +34,9 @@ pub(crate) struct Geometry {
     edge_flags: OnceLock<Vec<EdgeFlags>>,
     /// The mesh at rest, if a pose can change it.
     rest: Option<Box<RenderMesh>>,
-    /// The same with tangents, made when a normal map asks for them.
-    tangential: OnceLock<Box<Geometry>>,
+    /// For each of the first UV sets the same with its tangents, made when a normal map
+    /// on that set asks for them.
+    tangential: Vec<OnceLock<Box<Geometry>>>,
     /// How a posed mesh without tangents came about, to make them.
     pose: Option<Pose>,
 }
@@ -62,8 +67,10 @@ impl Geometry {
         }
         let runs = runs(&mesh.triangle_materials);
         let (triangles, faces) = (take(&mut mesh.triangles), take(&mut mesh.triangle_faces));
+        let columns = Columns::new(&mesh);
         Self {
-            columns: Columns::new(&mesh),
+            tangential: places_for(&columns),
+            columns,
             runs,
             triangles,
             faces,
@@ -71,7 +78,6 @@ impl Geometry {
             rest: mesh.is_deformable().then(|| Box::new(mesh)),
             bounds: OnceLock::new(),
             edge_flags: OnceLock::new(),
-            tangential: OnceLock::new(),
             pose: None,
         }
     }
@@ -97,7 +103,7 @@ impl Geometry {
             bounds: OnceLock::new(),
             edge_flags: self.edge_flags.clone(),
             rest: None,
-            tangential: OnceLock::new(),
+            tangential: places_for(&self.columns),
             pose: None,
         })
     }
@@ -117,14 +123,14 @@ impl Geometry {
     }
 
     /// The mesh as a normal map on a UV set needs it: with the tangents that it
-    /// has, or else with tangents made at the first use, of the mesh at rest: a pose
-    /// moves them along. Of several UV sets the first that asks is served; the others
-    /// get its tangents.
+    /// has, or else with tangents of that set made at the first use, of the mesh at
+    /// rest: a pose moves them along. The mesh as it is where there is no such set: no
+    /// normal map is drawn on it.
     pub(crate) fn with_tangents(&self, source: &Mesh, uv_set: usize) -> &Self {
-        if self.columns.tangents.is_some() {
+        let Some(tangential) = self.tangential.get(uv_set).filter(|_| self.columns.tangents.is_none()) else {
             return self;
-        }
-        self.tangential.get_or_init(|| {
+        };
+        tangential.get_or_init(|| {
             if let Some(Pose { rest, weights, palette }) = &self.pose {
                 let posed = rest.with_tangents(source, uv_set).deformed(weights, palette);
                 return Box::new(posed.expect("tangents take no pose away"));
@@ -148,6 +154,11 @@ impl Geometry {
             flags
         })
     }
+}
+
+/// An empty place for each UV set that can have tangents.
+fn places_for(columns: &Columns) -> Vec<OnceLock<Box<Geometry>>> {
+    columns.uv_sets.iter().take(MOST_TANGENT_SETS).map(|_| OnceLock::new()).collect()
 }
 
 /// The order that groups triangles by slot and keeps their order within one;

@@ -2,6 +2,7 @@
 
 mod ambient;
 mod backdrop;
+mod kept;
 mod outline;
 mod planning;
 mod poses;
