@@ -1,9 +1,11 @@
 //! An interface of 1920 by 1080 pixels in which one label changes: what the painter
-//! takes for it, and what all of a frame takes, egui's own part included.
+//! takes for it, and what all of a frame takes, egui's own part included; and what that
+//! takes while a picture is drawn beside it, on as many threads as there are cores.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use egui::{ClippedPrimitive, Context};
 use std::hint::black_box;
+use trigon_scene::{Cancel, RenderSettings, Renderer, showcase};
 use trigon_window::{ChannelOrder, EguiPainter, MAX_TEXTURE_SIDE};
 
 const SIZE: [u32; 2] = [1920, 1080];
@@ -73,6 +75,15 @@ fn one_label(criterion: &mut Criterion) {
             paint(&mut painter, primitives)
         });
     });
+    beside_a_picture(|| {
+        group.bench_function("frame beside a picture", |b| {
+            b.iter(|| {
+                count += 1;
+                let primitives = pass(&context, &mut painter, 11 + count as u32 % 2);
+                paint(&mut painter, primitives)
+            });
+        });
+    });
     group.bench_function("all anew", |b| {
         b.iter(|| {
             painter.invalidate();
@@ -80,6 +91,22 @@ fn one_label(criterion: &mut Criterion) {
         });
     });
     group.finish();
+}
+
+/// Runs something while a picture is drawn on another thread.
+fn beside_a_picture(run: impl FnOnce()) {
+    let (scene, cancel) = (showcase(), Cancel::default());
+    let settings = RenderSettings { samples: 16, ..RenderSettings::new(SIZE[0], SIZE[1]) };
+    let camera = scene.overview(settings.aspect());
+    std::thread::scope(|scope| {
+        // Again and again: how long one takes does not matter.
+        scope.spawn(|| {
+            let mut renderer = Renderer::new(settings);
+            while renderer.render_cancellable(&scene, &camera, &cancel).is_ok() {}
+        });
+        run();
+        cancel.cancel();
+    });
 }
 
 criterion_group!(benches, one_label);

@@ -72,14 +72,16 @@ impl<'a> Shell<'a> {
             }
         };
         stage.waker().connect(ring(Ring::Application));
-        let mut session = Session::new(stage, handler, Worker::of_thread(ring(Ring::Picture)));
+        let started = Instant::now();
+        let worker = Worker::of_threads(ring(Ring::Picture), move || started.elapsed());
+        let mut session = Session::new(stage, handler, worker);
         session.interface().connect(ring(Ring::Interface));
         Self {
             session,
             #[cfg(feature = "accesskit")]
             proxy: proxy.clone(),
             open: None,
-            started: Instant::now(),
+            started,
             error: None,
             played: Interaction::default(),
         }

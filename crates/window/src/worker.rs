@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use trigon_camera::Camera;
 use trigon_scene::{Cancel, Frame, RenderError, RenderSettings, Renderer, Scene};
@@ -93,7 +93,14 @@ enum Hands {
     Thread { jobs: Sender<Numbered>, finished: Receiver<(u64, Finished)> },
     /// The thread that asks. It takes no time, as far as others can tell: so what is
     /// drawn, and how well, does not depend on the machine.
-    Caller { renderer: Box<Renderer>, finished: Option<Box<Finished>> },
+    Caller { drawing: Box<Drawing>, finished: Option<Box<Finished>> },
+}
+
+/// What does jobs.
+struct Drawing {
+    renderer: Renderer,
+    /// Tells the time since any fixed moment.
+    clock: Box<dyn Fn() -> Duration + Send>,
 }
 
 impl Worker {
@@ -103,10 +110,25 @@ impl Worker {
     }
 
     /// A worker with threads of its own, which call `ring` whenever a job is finished.
-    /// Where there are no threads to be had, the caller's.
-    pub(crate) fn of_thread(ring: impl Fn() + Clone + Send + 'static) -> Self {
-        match Hands::of_thread(ring.clone()) {
-            Some(first) => Self::new(first, Hands::of_thread(ring)),
+    /// What jobs take is told by `clock`: the time since any fixed moment. Where there
+    /// are no threads to be had, the caller's.
+    pub(crate) fn of_threads(
+        ring: impl Fn() + Clone + Send + 'static,
+        clock: impl Fn() -> Duration + Clone + Send + 'static,
+    ) -> Self {
+        Self::of_runs(ring, || {
+            let mut drawing = Drawing::new(clock.clone());
+            move |job, cancel: &Cancel| drawing.run(job, cancel)
+        })
+    }
+
+    /// With one of `runs` on each thread, which does its jobs.
+    fn of_runs<R>(ring: impl Fn() + Clone + Send + 'static, runs: impl Fn() -> R) -> Self
+    where
+        R: FnMut(Job, &Cancel) -> Finished + Send + 'static,
+    {
+        match Hands::of_thread(runs(), ring.clone()) {
+            Some(first) => Self::new(first, Hands::of_thread(runs(), ring)),
             None => Self::of_caller(),
         }
     }
@@ -178,17 +200,19 @@ impl Purpose {
 
 impl Hands {
     fn of_caller() -> Self {
-        Self::Caller { renderer: Box::new(Renderer::builder().build()), finished: None }
+        Self::Caller { drawing: Box::new(Drawing::new(|| Duration::ZERO)), finished: None }
     }
 
     /// `None` where there are no threads to be had.
-    fn of_thread(ring: impl Fn() + Send + 'static) -> Option<Self> {
+    fn of_thread(
+        mut run: impl FnMut(Job, &Cancel) -> Finished + Send + 'static,
+        ring: impl Fn() + Send + 'static,
+    ) -> Option<Self> {
         let (jobs, to_do) = channel::<Numbered>();
         let (done, finished) = channel();
         let work = move || {
-            let mut renderer = Renderer::builder().build();
             while let Ok((number, job, cancel)) = to_do.recv() {
-                if done.send((number, job.run(&mut renderer, &cancel))).is_err() {
+                if done.send((number, run(job, &cancel))).is_err() {
                     return;
                 }
                 ring();
@@ -202,10 +226,7 @@ impl Hands {
         match self {
             // The thread lives for as long as this does.
             Self::Thread { jobs, .. } => drop(jobs.send((number, job, cancel))),
-            Self::Caller { renderer, finished } => {
-                let done = job.run(renderer, &cancel);
-                *finished = Some(Box::new(Finished { took: Duration::ZERO, ..done }));
-            }
+            Self::Caller { drawing, finished } => *finished = Some(Box::new(drawing.run(job, &cancel))),
         }
     }
 
@@ -220,14 +241,18 @@ impl Hands {
     }
 }
 
-impl Job {
-    fn run(self, renderer: &mut Renderer, cancel: &Cancel) -> Finished {
-        let begun = Instant::now();
-        let product = match self.task {
+impl Drawing {
+    fn new(clock: impl Fn() -> Duration + Send + 'static) -> Self {
+        Self { renderer: Renderer::builder().build(), clock: Box::new(clock) }
+    }
+
+    fn run(&mut self, Job { purpose, camera, task }: Job, cancel: &Cancel) -> Finished {
+        let begun = (self.clock)();
+        let product = match task {
             Task::Draw { scene, settings, drawer } => {
                 let drawn = match drawer {
-                    None => render((&scene, &self.camera), *settings, renderer, cancel),
-                    Some(drawer) => draw_otherwise(&*drawer, (&scene, &self.camera), &settings, cancel),
+                    None => render((&scene, &camera), *settings, &mut self.renderer, cancel),
+                    Some(drawer) => draw_otherwise(&*drawer, (&scene, &camera), &settings, cancel),
                 };
                 drawn.map(Product::Picture)
             }
@@ -235,7 +260,7 @@ impl Job {
                 compare(&found, &right, cancel).map(Product::Comparison).ok_or(Unfinished::Cancelled)
             }
         };
-        Finished { purpose: self.purpose, camera: self.camera, took: begun.elapsed(), product }
+        Finished { purpose, camera, took: (self.clock)().saturating_sub(begun), product }
     }
 }
 
@@ -277,117 +302,7 @@ fn draw_otherwise(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{
-        Cancel, Drawer, Finished, Frame, Job, Product, Purpose, Quality, RenderSettings, Scene, Task,
-        Unfinished, Worker,
-    };
-    use std::sync::Arc;
-    use std::sync::mpsc::channel;
-    use std::time::Duration;
-    use trigon_camera::Camera;
-    use trigon_scene::{render, showcase};
+pub(crate) mod gate;
 
-    fn job(side: u32, samples: u32) -> Job {
-        let scene = showcase();
-        let camera = scene.overview(1.0);
-        let settings = RenderSettings { samples_per_axis: samples, ..RenderSettings::new(side, side) };
-        let task = Task::Draw { scene: Arc::new(scene), settings: Box::new(settings), drawer: None };
-        Job { purpose: Purpose::Picture, camera, task }
-    }
-
-    /// The picture of a job that was finished.
-    fn picture(worker: &mut Worker) -> Option<Frame> {
-        match worker.collect()?.product {
-            Ok(Product::Picture(frame)) => Some(frame),
-            _ => None,
-        }
-    }
-
-    #[test]
-    fn a_thread_draws_what_the_caller_would() {
-        let scene = showcase();
-        let settings = RenderSettings { samples_per_axis: 2, ..RenderSettings::new(40, 40) };
-        let expected = render(&scene, &scene.overview(1.0), &settings).expect("drawn");
-        let (ring, rung) = channel();
-        let mut worker = Worker::of_thread(move || {
-            let _ = ring.send(());
-        });
-        worker.begin(job(40, 2));
-        rung.recv_timeout(Duration::from_secs(60)).expect("it rings when it is done");
-        assert!(picture(&mut worker).as_ref() == Some(&expected), "the same bytes");
-        assert!(!worker.is_busy(), "ready for the next one");
-        let mut caller = Worker::of_caller();
-        caller.begin(job(40, 2));
-        assert!(picture(&mut caller) == Some(expected), "the same bytes here");
-    }
-
-    #[test]
-    fn a_cancelled_job_makes_room_for_the_next() {
-        let (ring, rung) = channel();
-        let mut worker = Worker::of_thread(move || {
-            let _ = ring.send(());
-        });
-        // Hundreds of tiles with sixteen samples a pixel: minutes.
-        worker.begin(job(8192, 4));
-        worker.cancel();
-        rung.recv_timeout(Duration::from_secs(60)).expect("it ends");
-        let finished = worker.collect().expect("it has ended");
-        assert_eq!(finished.product.err(), Some(Unfinished::Cancelled), "without a picture");
-        worker.begin(job(8, 1));
-        rung.recv_timeout(Duration::from_secs(60)).expect("it goes on");
-        assert!(picture(&mut worker).is_some(), "with the next one");
-    }
-
-    #[test]
-    fn nobody_waits_for_the_last_tiles_of_what_was_only_better() {
-        let (ring, rung) = channel();
-        let mut worker = Worker::of_thread(move || {
-            let _ = ring.send(());
-        });
-        worker.begin(Job { purpose: Purpose::Window(Quality::Full(2)), ..job(8192, 4) });
-        worker.cancel();
-        assert!(!worker.is_busy(), "there is room at once");
-        let given_up = worker.collect().expect("told at once, too");
-        assert_eq!(given_up.product.err(), Some(Unfinished::Cancelled), "without a picture");
-        worker.begin(Job { purpose: Purpose::Window(Quality::Full(1)), ..job(8, 1) });
-        let found = std::iter::from_fn(|| {
-            rung.recv_timeout(Duration::from_secs(60)).expect("it goes on");
-            Some(picture(&mut worker))
-        });
-        let found = found.flatten().next().expect("in the end");
-        assert_eq!(found.width, 8, "with the next one, and not with what was given up");
-    }
-
-    /// Draws a picture of some size, or refuses.
-    struct Other(Result<u32, String>);
-
-    impl Drawer for Other {
-        fn draw(&self, _: &Scene, _: &Camera, _: &RenderSettings, _: &Cancel) -> Result<Frame, String> {
-            let side = self.0.clone()?;
-            let color = vec![7; 4 * side as usize * side as usize];
-            Ok(Frame { width: side, height: side, color, ..Frame::default() })
-        }
-    }
-
-    #[test]
-    fn other_drawers_are_heard_and_not_trusted() {
-        let product = |drawer: Other| {
-            let mut job = job(8, 1);
-            if let Task::Draw { drawer: used, .. } = &mut job.task {
-                *used = Some(Arc::new(drawer));
-            }
-            let mut worker = Worker::of_caller();
-            worker.begin(job);
-            worker.collect().map(|Finished { product, .. }| product)
-        };
-        let drawn = product(Other(Ok(8)));
-        assert!(matches!(drawn, Some(Ok(Product::Picture(frame))) if frame.color[0] == 7), "its picture");
-        let reason = |product| match product {
-            Some(Err(Unfinished::Impossible(reason))) => reason,
-            _ => String::new(),
-        };
-        assert_eq!(reason(product(Other(Err("not convex".into())))), "not convex", "its reason");
-        assert!(reason(product(Other(Ok(3)))).contains("3x3"), "a picture of the wrong size is none");
-    }
-}
+#[cfg(test)]
+mod tests;

@@ -5,9 +5,12 @@ mod ownership;
 mod refinement;
 mod replay;
 
+use std::sync::mpsc::Receiver;
+
 use super::*;
 use crate::input::{Key, KeyCode, KeyPress, PointerButton, Press};
 use crate::keymap::{Action, Keymap};
+use crate::worker::gate::Gate;
 use proptest::prelude::*;
 use trigon_camera::AxisView;
 use trigon_mesh::primitives;
@@ -69,11 +72,17 @@ impl Handler for Recorder {
     }
 }
 
-/// A session that has begun.
-fn started(handler: &mut Recorder) -> Session<'_> {
-    let mut session = Session::new(stage(), handler, Worker::of_caller());
+/// A session of a window that has just opened.
+fn session_of<'h>(stage: Stage, handler: &'h mut Recorder, worker: Worker) -> Session<'h> {
+    let mut session = Session::new(stage, handler, worker);
     session.event(InputEvent::Resized { width: SIZE.width, height: SIZE.height }, ms(0));
     session.start(ms(0));
+    session
+}
+
+/// A session that has begun.
+fn started(handler: &mut Recorder) -> Session<'_> {
+    let session = session_of(stage(), handler, Worker::of_caller());
     assert_eq!(session.next(ms(0)), Wake::Now, "there is a picture to draw");
     session
 }
@@ -103,6 +112,37 @@ fn run(session: &mut Session<'_>, start: Duration) -> Vec<Duration> {
         }
     }
     panic!("it never comes to rest");
+}
+
+/// Lives with a worker on other threads until something is so, or it rests; returns that
+/// moment. Time stands still while a picture is drawn, and goes on to whatever is next.
+/// A picture that is finished as soon as it is begun is taken over without `rung`, which
+/// then tells of it later: whoever waits looks whether what he waits for is there.
+fn live_until(
+    session: &mut Session<'_>,
+    rung: &Receiver<()>,
+    start: Duration,
+    is_so: impl Fn(&Session<'_>) -> bool,
+) -> Duration {
+    let mut now = start;
+    while !is_so(session) {
+        if session.worker.is_busy() {
+            rung.recv().expect("whatever is begun ends");
+            session.collect(now);
+            continue;
+        }
+        match session.next(now) {
+            Wake::Now => drop(draw(session, now)),
+            Wake::At(later) => now = later,
+            Wake::Never => break,
+        }
+    }
+    now
+}
+
+/// Lives with a worker on other threads until it rests.
+fn rest_beside(session: &mut Session<'_>, rung: &Receiver<()>, start: Duration) -> Duration {
+    live_until(session, rung, start, |_| false)
 }
 
 fn key_down(code: u64, key: Key) -> InputEvent {

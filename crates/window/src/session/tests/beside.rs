@@ -1,118 +1,75 @@
 //! Pictures that are drawn beside the window's thread.
 
-use std::sync::mpsc::{Receiver, channel};
-use std::time::Instant;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::mpsc::channel;
 
 use super::*;
+use crate::pacing::Quality;
+use crate::worker::Purpose;
 use trigon_scene::render;
 
-/// A session with a drawing thread, and what rings when a picture is finished.
-fn threaded(stage: Stage, handler: &mut Recorder, size: Viewport) -> (Session<'_>, Receiver<()>) {
-    let (ring, rung) = channel();
-    let mut session = Session::new(
-        stage,
-        handler,
-        Worker::of_thread(move || {
-            let _ = ring.send(());
-        }),
-    );
-    session.event(InputEvent::Resized { width: size.width, height: size.height }, ms(0));
-    session.start(ms(0));
-    (session, rung)
-}
-
-/// Lives until it rests.
-fn rest(session: &mut Session<'_>, rung: &Receiver<()>, begun: Instant) {
-    loop {
-        match session.next(begun.elapsed()) {
-            Wake::Now => drop(draw(session, begun.elapsed())),
-            Wake::At(_) => std::thread::sleep(ms(1)),
-            Wake::Never if session.worker.is_busy() => {
-                rung.recv_timeout(Duration::from_secs(120)).expect("a picture ends");
-                session.collect(begun.elapsed());
-            }
-            Wake::Never => return,
-        }
-    }
+/// What a picture file would hold.
+fn file(stage: &Stage) -> Frame {
+    let settings = RenderSettings { width: SIZE.width, height: SIZE.height, ..stage.settings.clone() };
+    render(&stage.scene, &stage.camera(), &settings).expect("drawn")
 }
 
 #[test]
 fn at_rest_the_window_holds_what_a_picture_file_would() {
-    let begun = Instant::now();
-    let mut handler = Recorder::default();
-    let (mut session, rung) = threaded(stage(), &mut handler, SIZE);
-    rest(&mut session, &rung, begun);
-    drag(&mut session, PointerButton::Left, DVec2::new(20.0, 5.0), begun.elapsed());
-    rest(&mut session, &rung, begun);
-    let stage = session.stage();
-    let settings = RenderSettings { width: SIZE.width, height: SIZE.height, ..stage.settings.clone() };
-    let expected = render(&stage.scene, &stage.camera(), &settings).expect("drawn");
-    assert!(session.shown.as_deref() == Some(&expected), "the same bytes");
-    assert_eq!(session.next(begun.elapsed() + Duration::from_secs(3600)), Wake::Never, "and it stays so");
-}
-
-/// A picture of 256 samples a pixel: more than five seconds on any machine of today.
-fn slow_stage() -> Stage {
-    let mut stage = Stage::new("slow");
-    *stage.scene = trigon_scene::showcase();
-    stage.settings.samples_per_axis = 4;
-    stage.settings.samples = 16;
-    stage
-}
-
-/// The 95th of 100 presses must show within 100 ms, while a picture is drawn that
-/// takes longer than all of them. On a machine that others keep busy they take longer
-/// without any picture, too; beside a picture then not much longer than that.
-#[test]
-fn a_key_shows_at_once_while_a_picture_takes_seconds() {
-    const LARGE: Viewport = Viewport { width: 1920, height: 1080 };
-    let begun = Instant::now();
-    let mut handler = Recorder::default();
-    let (mut session, rung) = threaded(stage(), &mut handler, LARGE);
-    rest(&mut session, &rung, begun);
-    let alone = presses(&mut session, begun);
-    let mut handler = Recorder::default();
-    let (mut session, rung) = threaded(slow_stage(), &mut handler, LARGE);
-    // The draft comes first; then the full picture is begun.
-    draw(&mut session, begun.elapsed());
-    rung.recv_timeout(Duration::from_secs(120)).expect("the draft ends");
-    session.collect(begun.elapsed());
-    while session.next(begun.elapsed()) != Wake::Never {
-        draw(&mut session, begun.elapsed());
-        std::thread::sleep(ms(1));
+    // What pictures take by the worker's clock: drafts are small where they take long.
+    for took in [ms(0), ms(500)] {
+        let ((ring, rung), moments) = (channel(), Arc::new(AtomicU32::new(0)));
+        let clock = move || took * moments.fetch_add(1, Ordering::Relaxed);
+        let mut handler = Recorder::default();
+        let ring = move || {
+            // Fails when the test is over.
+            let _ = ring.send(());
+        };
+        let worker = Worker::of_threads(ring, clock);
+        let mut session = session_of(stage(), &mut handler, worker);
+        let now = rest_beside(&mut session, &rung, ms(0)) + ms(1000);
+        drag(&mut session, PointerButton::Left, DVec2::new(20.0, 5.0), now);
+        let now = rest_beside(&mut session, &rung, now);
+        assert_eq!(session.stage().report().render, took, "as the clock says");
+        assert!(session.shown.as_deref() == Some(&file(session.stage())), "the same bytes");
+        assert_eq!(session.next(now + Duration::from_secs(3600)), Wake::Never, "and it stays so");
     }
-    assert!(session.worker.is_busy(), "a picture is under way");
-    let beside = presses(&mut session, begun);
-    assert!(rung.try_recv().is_err(), "and still is");
-    let most = (4 * alone).max(ms(100));
-    assert!(beside < most, "{beside:?} beside a picture, {alone:?} without one");
-    let cancelled = Instant::now();
-    session.event(key_down(5, Key::Character('7')), begun.elapsed());
-    session.settle(begun.elapsed());
-    rung.recv_timeout(Duration::from_secs(120)).expect("it ends");
-    session.collect(begun.elapsed());
-    println!("{beside:?} beside, {alone:?} alone, ended after {:?}", cancelled.elapsed());
 }
 
-/// The 95th of 100 presses.
-fn presses(session: &mut Session<'_>, begun: Instant) -> Duration {
-    let mut times: Vec<Duration> = (0..100).map(|press| time_of_press(session, press, begun)).collect();
-    times.sort();
-    times[94]
-}
-
-/// Shows or hides the list of keys, as the window's loop would; returns how long it
-/// took until other pixels were in the window.
-fn time_of_press(session: &mut Session<'_>, press: u64, begun: Instant) -> Duration {
-    let pressed = Instant::now();
-    session.event(key_down(press, Key::Character('h')), begun.elapsed());
-    session.event(InputEvent::KeyUp(KeyCode(press)), begun.elapsed());
-    session.settle(begun.elapsed());
-    while pressed.elapsed() < Duration::from_secs(10) {
-        if session.next(begun.elapsed()) == Wake::Now && draw(session, begun.elapsed()).is_some() {
-            return pressed.elapsed();
+/// Shows or hides the list of keys; whether other pixels are then in the window, drawn
+/// whenever the session asks for it.
+fn shows_a_key(session: &mut Session<'_>, press: u64, now: Duration) -> bool {
+    session.event(key_down(press, Key::Character('h')), now);
+    session.event(InputEvent::KeyUp(KeyCode(press)), now);
+    session.settle(now);
+    let before = session.canvas().pixels().to_vec();
+    let frames = (0..10).map(|frame| now + ms(17) * frame);
+    for now in frames {
+        if session.next(now) == Wake::Now {
+            draw(session, now);
         }
-        std::thread::sleep(Duration::from_micros(200));
     }
-    panic!("press {press} never shows");
+    session.canvas().pixels() != before
+}
+
+/// However long a picture takes: the one as the settings say is not finished before the
+/// test opens the gate.
+#[test]
+fn keys_show_while_a_picture_is_drawn() {
+    let gate = Gate::default();
+    let (worker, rung) = gate.worker(|purpose| purpose == Purpose::Window(Quality::Full(0)));
+    let mut handler = Recorder::default();
+    let mut session = session_of(stage(), &mut handler, worker);
+    let is_drawn_in_full = |session: &Session<'_>| session.worker.is_busy() && session.shown.is_some();
+    live_until(&mut session, &rung, ms(0), is_drawn_in_full);
+    for press in 0..6 {
+        assert!(shows_a_key(&mut session, press, ms(1000 * (press + 1))), "press {press}");
+        assert!(is_drawn_in_full(&session), "the picture is still under way after press {press}");
+    }
+    session.event(key_down(7, Key::Character('7')), ms(8000));
+    session.settle(ms(8000));
+    assert!(session.worker.is_busy(), "another view waits until it has been given up");
+    gate.open();
+    rest_beside(&mut session, &rung, ms(8000));
+    assert!(session.shown.as_deref() == Some(&file(session.stage())), "and is drawn then");
 }

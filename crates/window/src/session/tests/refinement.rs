@@ -1,12 +1,12 @@
 //! Better and better pictures at rest, and how far they are from the best.
 
 use std::sync::Mutex;
-use std::sync::mpsc::channel;
-use std::time::Instant;
 
 use super::*;
 use crate::drawer::Drawer;
+use crate::pacing::{Progress, Quality};
 use crate::refinement::{Comparison, Refinement};
+use crate::worker::Purpose;
 use trigon_camera::Camera;
 use trigon_scene::quality::Preset;
 use trigon_scene::{Cancel, Scene, render};
@@ -20,10 +20,7 @@ fn coarse_stage(refinement: Refinement) -> Stage {
 }
 
 fn opened(stage: Stage, handler: &mut Recorder) -> Session<'_> {
-    let mut session = Session::new(stage, handler, Worker::of_caller());
-    session.event(InputEvent::Resized { width: SIZE.width, height: SIZE.height }, ms(0));
-    session.start(ms(0));
-    session
+    session_of(stage, handler, Worker::of_caller())
 }
 
 /// What a picture file would hold.
@@ -114,36 +111,32 @@ fn the_difference_is_shown_with_its_figures_and_a_legend() {
 /// A movement, or a picture that somebody waits for, comes before a better one.
 #[test]
 fn refining_keeps_nobody_waiting() {
-    const LARGE: Viewport = Viewport { width: 800, height: 500 };
     let mut handler = Recorder::default();
-    let (ring, rung) = channel();
-    let worker = Worker::of_thread(move || {
-        let _ = ring.send(());
-    });
-    let mut session = Session::new(coarse_stage(Refinement::Reference), &mut handler, worker);
-    session.event(InputEvent::Resized { width: LARGE.width, height: LARGE.height }, ms(0));
-    session.start(ms(0));
-    let begun = Instant::now();
-    // Until the reference is under way: 256 samples a pixel take more than a second.
-    while session.stage.progress().is_none_or(|progress| progress.step < progress.of)
-        || !session.worker.is_busy()
-    {
-        draw(&mut session, begun.elapsed());
-        if session.worker.is_busy() && rung.recv_timeout(ms(5)).is_ok() {
-            session.collect(begun.elapsed());
-        }
-    }
-    session.event(key_down(3, Key::Character('g')), begun.elapsed());
+    let gate = Gate::default();
+    // The fourth and last step is the reference.
+    let (worker, rung) = gate.worker(|purpose| purpose == Purpose::Window(Quality::Full(3)));
+    let mut session = session_of(coarse_stage(Refinement::Reference), &mut handler, worker);
+    let last = Some(Progress { step: 4, of: 4 });
+    let is_at_reference = |session: &Session<'_>| {
+        session.worker.is_busy() && session.pacing.is_refining() && session.stage.progress() == last
+    };
+    let now = live_until(&mut session, &rung, ms(0), is_at_reference);
+    assert!(is_at_reference(&session), "the reference is under way");
+    session.event(key_down(3, Key::Character('g')), now);
     while !session.is_over() {
-        rung.recv_timeout(Duration::from_secs(60)).expect("the picture is drawn");
-        session.collect(begun.elapsed());
+        rung.recv().expect("whoever asked for the picture has it in the end");
+        session.collect(now);
     }
-    draw(&mut session, begun.elapsed() + ms(20));
-    assert!(session.worker.is_busy() && session.pacing.is_refining(), "and refining goes on");
-    session.event(key_down(4, Key::Character('7')), begun.elapsed());
-    session.settle(begun.elapsed());
+    draw(&mut session, now + ms(20));
+    assert!(is_at_reference(&session), "and refining goes on");
+    session.event(key_down(4, Key::Character('7')), now + ms(30));
+    session.settle(now + ms(30));
     assert!(!session.worker.is_busy(), "it is given up at once");
     assert_eq!(session.stage.progress(), None, "another view has to be drawn first");
+    gate.open();
+    rest_beside(&mut session, &rung, now + ms(30));
+    let expected = file(&session.stage, Some(Preset::Reference));
+    assert!(session.shown.as_deref() == Some(&expected), "and is refined in its turn");
 }
 
 /// Paints everything in one colour, or refuses, and counts.

@@ -1,0 +1,159 @@
+//! Jobs on other threads: what they end with, and who waits for them.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::mpsc::{Sender, channel};
+use std::time::Duration;
+
+use super::gate::Gate;
+use super::{
+    Cancel, Drawer, Finished, Frame, Job, Product, Purpose, Quality, RenderSettings, Scene, Task, Unfinished,
+    Worker,
+};
+use trigon_camera::Camera;
+use trigon_scene::{render, showcase};
+
+/// A picture of the showcase.
+fn job(side: u32, samples: u32) -> Job {
+    let scene = showcase();
+    let camera = scene.overview(1.0);
+    let settings = RenderSettings { samples_per_axis: samples, ..RenderSettings::new(side, side) };
+    let task = Task::Draw { scene: Arc::new(scene), settings: Box::new(settings), drawer: None };
+    Job { purpose: Purpose::Picture, camera, task }
+}
+
+/// A picture of 8 by 8 pixels that somebody else draws.
+fn drawn_by(drawer: impl Drawer + 'static) -> Job {
+    let mut job = job(8, 1);
+    if let Task::Draw { drawer: used, .. } = &mut job.task {
+        *used = Some(Arc::new(drawer));
+    }
+    job
+}
+
+/// The picture of a job that was finished.
+fn picture(worker: &mut Worker) -> Option<Frame> {
+    match worker.collect()?.product {
+        Ok(Product::Picture(frame)) => Some(frame),
+        _ => None,
+    }
+}
+
+#[test]
+fn a_thread_draws_what_the_caller_would() {
+    let scene = showcase();
+    let settings = RenderSettings { samples_per_axis: 2, ..RenderSettings::new(40, 40) };
+    let expected = render(&scene, &scene.overview(1.0), &settings).expect("drawn");
+    let (mut worker, rung) = Gate::default().worker(|_| false);
+    worker.begin(job(40, 2));
+    rung.recv().expect("it rings when it is done");
+    assert!(picture(&mut worker).as_ref() == Some(&expected), "the same bytes");
+    assert!(!worker.is_busy(), "ready for the next one");
+    let mut caller = Worker::of_caller();
+    caller.begin(job(40, 2));
+    assert!(picture(&mut caller) == Some(expected), "the same bytes here");
+}
+
+#[test]
+fn what_a_job_takes_is_told_by_the_clock_that_was_given() {
+    let ((ring, rung), moments) = (channel(), Arc::new(AtomicU32::new(7)));
+    let clock = move || Duration::from_secs(1) * moments.fetch_add(5, Ordering::Relaxed);
+    let ring = move || ring.send(()).expect("the test waits for it");
+    let mut worker = Worker::of_threads(ring, clock);
+    worker.begin(job(8, 1));
+    rung.recv().expect("it rings when it is done");
+    let took = worker.collect().map(|Finished { took, .. }| took);
+    assert_eq!(took, Some(Duration::from_secs(5)), "between its beginning and its end");
+}
+
+#[test]
+fn a_cancelled_job_makes_room_for_the_next() {
+    let gate = Gate::default();
+    let (mut worker, rung) = gate.worker(|_| true);
+    worker.begin(job(8, 1));
+    worker.cancel();
+    assert!(worker.collect().is_none() && worker.is_busy(), "it is cancelled, but has not ended");
+    gate.open();
+    rung.recv().expect("it ends");
+    let finished = worker.collect().expect("it has ended");
+    assert_eq!(finished.product.err(), Some(Unfinished::Cancelled), "without a picture");
+    worker.begin(job(8, 1));
+    rung.recv().expect("it goes on");
+    assert!(picture(&mut worker).is_some(), "with the next one");
+}
+
+/// Tells that it has begun, and draws once the gate is open.
+struct Slow(Sender<()>, Gate);
+
+impl Drawer for Slow {
+    fn draw(&self, _: &Scene, _: &Camera, _: &RenderSettings, _: &Cancel) -> Result<Frame, String> {
+        self.0.send(()).expect("the test waits for it");
+        self.1.pass();
+        Ok(Frame { width: 8, height: 8, color: vec![7; 4 * 8 * 8], ..Frame::default() })
+    }
+}
+
+#[test]
+fn what_is_cancelled_while_it_is_drawn_is_no_picture() {
+    let (gate, (begun, has_begun)) = (Gate::default(), channel());
+    let (mut worker, rung) = gate.worker(|_| false);
+    worker.begin(drawn_by(Slow(begun, gate.clone())));
+    has_begun.recv().expect("it is being drawn");
+    assert!(worker.collect().is_none() && worker.is_busy(), "and not finished");
+    worker.cancel();
+    gate.open();
+    rung.recv().expect("it ends");
+    let finished = worker.collect().expect("it has ended");
+    assert_eq!(finished.product.err(), Some(Unfinished::Cancelled), "whatever was drawn");
+}
+
+#[test]
+fn nobody_waits_for_the_last_tiles_of_what_was_only_better() {
+    let gate = Gate::default();
+    let (mut worker, rung) = gate.worker(|purpose| purpose == Purpose::Window(Quality::Full(2)));
+    worker.begin(Job { purpose: Purpose::Window(Quality::Full(2)), ..job(16, 1) });
+    worker.cancel();
+    assert!(!worker.is_busy(), "there is room at once");
+    let given_up = worker.collect().expect("told at once, too");
+    assert_eq!(given_up.product.err(), Some(Unfinished::Cancelled), "without a picture");
+    worker.begin(job(12, 1));
+    rung.recv().expect("pictures that somebody waits for are drawn meanwhile");
+    assert_eq!(picture(&mut worker).map(|frame| frame.width), Some(12), "beside it");
+    worker.begin(Job { purpose: Purpose::Window(Quality::Full(1)), ..job(8, 1) });
+    assert!(worker.collect().is_none() && worker.is_busy(), "what is only better waits for it");
+    gate.open();
+    let found = std::iter::from_fn(|| {
+        rung.recv().expect("it goes on");
+        Some(picture(&mut worker))
+    });
+    let found = found.flatten().next().expect("in the end");
+    assert_eq!(found.width, 8, "with the next one, and not with what was given up");
+}
+
+/// Draws a picture of some size, or refuses.
+struct Other(Result<u32, String>);
+
+impl Drawer for Other {
+    fn draw(&self, _: &Scene, _: &Camera, _: &RenderSettings, _: &Cancel) -> Result<Frame, String> {
+        let side = self.0.clone()?;
+        let color = vec![7; 4 * side as usize * side as usize];
+        Ok(Frame { width: side, height: side, color, ..Frame::default() })
+    }
+}
+
+#[test]
+fn other_drawers_are_heard_and_not_trusted() {
+    let product = |drawer: Other| {
+        let mut worker = Worker::of_caller();
+        worker.begin(drawn_by(drawer));
+        worker.collect().map(|Finished { product, .. }| product)
+    };
+    let drawn = product(Other(Ok(8)));
+    assert!(matches!(drawn, Some(Ok(Product::Picture(frame))) if frame.color[0] == 7), "its picture");
+    let reason = |product| match product {
+        Some(Err(Unfinished::Impossible(reason))) => reason,
+        _ => String::new(),
+    };
+    assert_eq!(reason(product(Other(Err("not convex".into())))), "not convex", "its reason");
+    assert!(reason(product(Other(Ok(3)))).contains("3x3"), "a picture of the wrong size is none");
+}
