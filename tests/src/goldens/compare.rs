@@ -37,8 +37,8 @@ pub(crate) fn assert_golden(name: &str, frame: &Frame) {
 }
 
 fn report_folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join("trigon-goldens").join(name);
-    fs::create_dir_all(&folder).expect("the temporary folder is writable");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("goldens").join(name);
+    fs::create_dir_all(&folder).expect("cargo's folder is writable");
     folder
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 
-use trigon_window::{Waker, egui};
+use trigon_window::egui;
 
 use super::recent::Recent;
 
@@ -43,13 +43,17 @@ impl OpenWindow {
         self.note = "";
     }
 
-    /// Asks for files by a dialog; `waker` is woken when it is closed.
-    pub(super) fn browse(&mut self, dialog: impl FileDialog + Send + 'static, waker: Waker) {
+    /// Asks for files by a dialog; `wake` is called when it is closed.
+    pub(super) fn browse(
+        &mut self,
+        dialog: impl FileDialog + Send + 'static,
+        wake: impl FnOnce() + Send + 'static,
+    ) {
         let (sender, receiver) = channel();
         let asked = thread::Builder::new().name("trigon-dialog".into()).spawn(move || {
             // Nobody waits for it any more when this fails.
             let _ = sender.send(dialog.pick());
-            waker.wake();
+            wake();
         });
         self.dialog = asked.is_ok().then_some(receiver);
     }
@@ -113,27 +117,41 @@ impl OpenWindow {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::time::Duration;
+    use std::sync::mpsc::Sender;
 
-    /// A dialog whose user has decided beforehand.
-    struct Decided(Option<Vec<PathBuf>>);
+    /// A dialog whose user decides when the test does.
+    struct Decided(Receiver<Option<Vec<PathBuf>>>);
 
     impl FileDialog for Decided {
         fn pick(&self) -> Option<Vec<PathBuf>> {
-            self.0.clone()
+            self.0.recv().expect("the test decides")
         }
     }
 
-    fn ended(decision: Option<Vec<PathBuf>>) -> (OpenWindow, Vec<PathBuf>) {
+    /// A window with a dialog that waits for a decision, and what is told when it closes.
+    fn asking() -> (OpenWindow, Sender<Option<Vec<PathBuf>>>, Receiver<()>) {
+        let ((decide, decision), (wake, woken)) = (channel(), channel());
         let mut window = OpenWindow { shown: true, ..OpenWindow::default() };
-        window.browse(Decided(decision), Waker::default());
-        loop {
-            let files = window.picked();
-            if window.dialog.is_none() {
-                return (window, files);
-            }
-            thread::sleep(Duration::from_millis(1));
-        }
+        window.browse(Decided(decision), move || wake.send(()).expect("the test waits"));
+        (window, decide, woken)
+    }
+
+    fn ended(decision: Option<Vec<PathBuf>>) -> (OpenWindow, Vec<PathBuf>) {
+        let (mut window, decide, woken) = asking();
+        decide.send(decision).expect("the dialog waits");
+        woken.recv().expect("it closes");
+        let files = window.picked();
+        (window, files)
+    }
+
+    #[test]
+    fn nothing_is_picked_while_a_dialog_is_open() {
+        let (mut window, decide, woken) = asking();
+        assert!(window.picked().is_empty() && window.dialog.is_some(), "its user has not decided");
+        decide.send(Some(vec!["a.obj".into()])).expect("the dialog waits");
+        woken.recv().expect("it closes");
+        assert_eq!(window.picked(), [PathBuf::from("a.obj")], "and now has");
+        assert!(window.picked().is_empty() && window.dialog.is_none(), "once");
     }
 
     #[test]

@@ -330,7 +330,9 @@ impl Handler for Viewer {
         #[cfg(not(feature = "study"))]
         self.quality.show(ui.ctx(), stage, |_, _| {});
         let waker = stage.waker();
-        let files = self.open.show(ui.ctx(), &self.recent, |open| open.browse(SystemDialog, waker));
+        let files = self.open.show(ui.ctx(), &self.recent, |open| {
+            open.browse(SystemDialog, move || waker.wake());
+        });
         self.add(stage, files);
     }
 

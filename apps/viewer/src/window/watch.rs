@@ -36,7 +36,7 @@ impl Watch {
         let watcher = notify::recommended_watcher(move |event| tell(event, &watched, &sender))?;
         let flag = Arc::clone(&changed);
         thread::Builder::new().name("trigon-watch".into()).spawn(move || {
-            wait(&receiver, || {
+            wait(&receiver, is_followed, || {
                 flag.store(true, Ordering::Relaxed);
                 wake();
             });
@@ -70,22 +70,31 @@ impl Watch {
     }
 }
 
-/// Passes on what concerns the files. That a file was read concerns nobody.
+/// Passes on what concerns the files.
 fn tell(event: notify::Result<Event>, files: &Mutex<HashSet<PathBuf>>, sender: &Sender<()>) {
     let Ok(event) = event else { return };
-    let files = files.lock().unwrap_or_else(PoisonError::into_inner);
-    if !event.kind.is_access() && event.paths.iter().any(|path| files.contains(path)) {
+    if concerns(&event, &files.lock().unwrap_or_else(PoisonError::into_inner)) {
         // Fails when the viewer ends.
         let _ = sender.send(());
     }
 }
 
-/// Calls `rest` whenever something has happened and then nothing for a while.
-fn wait(happened: &Receiver<()>, rest: impl Fn()) {
+/// Whether one of the files has changed. That it was read concerns nobody.
+fn concerns(event: &Event, files: &HashSet<PathBuf>) -> bool {
+    !event.kind.is_access() && event.paths.iter().any(|path| files.contains(path))
+}
+
+/// Calls `rest` whenever something has happened and, as `more` says, nothing follows it.
+fn wait(happened: &Receiver<()>, more: impl Fn(&Receiver<()>) -> bool, rest: impl Fn()) {
     while happened.recv().is_ok() {
-        while happened.recv_timeout(QUIET).is_ok() {}
+        while more(happened) {}
         rest();
     }
+}
+
+/// Whether something more happens before files count as being at rest.
+fn is_followed(happened: &Receiver<()>) -> bool {
+    happened.recv_timeout(QUIET).is_ok()
 }
 
 /// As the system tells of it: without links in its folder's path.
@@ -100,39 +109,103 @@ fn real(file: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use notify::EventKind;
+    use notify::event::{AccessKind, CreateKind, ModifyKind, RemoveKind};
     use std::fs;
-
-    /// Longer than any machine takes to tell of a change.
-    const PATIENCE: Duration = Duration::from_secs(30);
+    use std::sync::atomic::AtomicU32;
 
     #[test]
-    fn files_are_watched_through_writing_renaming_and_making_anew() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let [file, part, other] = ["a.obj", "a.mtl", "b.obj"].map(|name| folder.path().join(name));
-        [&file, &part, &other].iter().for_each(|path| fs::write(path, "1").expect("written"));
-        let (wake, woken) = channel();
-        let mut watch = Watch::new(move || {
-            let _ = wake.send(());
-        })
-        .expect("the system can watch");
-        watch.follow(&[file.clone(), part.clone()]).expect("the folder can be watched");
-        let told = |what: &str| {
-            woken.recv_timeout(PATIENCE).unwrap_or_else(|_| panic!("not told of {what}"));
-            assert!(watch.take_changed() && !watch.take_changed(), "once, of {what}");
+    fn only_changes_of_the_files_themselves_concern_anybody() {
+        let files = HashSet::from(["a.obj", "a.mtl"].map(PathBuf::from));
+        let any = [EventKind::Any, EventKind::Access(AccessKind::Any)];
+        let changes = [
+            EventKind::Create(CreateKind::Any),
+            EventKind::Modify(ModifyKind::Any),
+            EventKind::Remove(RemoveKind::Any),
+        ];
+        for (kind, path, expected) in [
+            (any[0], "a.obj", true),
+            (changes[0], "a.mtl", true),
+            (changes[1], "a.obj", true),
+            (changes[2], "a.obj", true),
+            (any[1], "a.obj", false),
+            (changes[1], "b.obj", false),
+        ] {
+            let event = Event::new(kind).add_path(path.into());
+            assert_eq!(concerns(&event, &files), expected, "{event:?}");
+        }
+        let moved = Event::new(changes[1]).add_path("draft".into()).add_path("a.obj".into());
+        assert!(concerns(&moved, &files), "another file became one of them");
+    }
+
+    #[test]
+    fn changes_that_follow_each_other_are_told_once() {
+        let ((sender, happened), rests) = (channel(), AtomicU32::new(0));
+        // Twice two changes; then the sender is gone.
+        let following = Mutex::new(vec![false, true, false, true].into_iter());
+        (0..4).for_each(|_| sender.send(()).expect("somebody listens"));
+        drop(sender);
+        let more = |happened: &Receiver<()>| {
+            let follows = following.lock().expect("nobody panics").next_back().expect("asked four times");
+            follows && happened.try_recv().is_ok()
         };
-        fs::write(&part, "2").expect("written");
-        told("writing");
-        let draft = folder.path().join("draft");
-        fs::write(&draft, "3").expect("written");
-        fs::rename(&draft, &file).expect("renamed");
-        told("renaming over");
-        fs::remove_file(&file).expect("removed");
-        told("removing");
-        fs::write(&file, "4").expect("written");
-        told("making anew");
-        fs::write(&other, "5").expect("written");
-        assert!(woken.recv_timeout(4 * QUIET).is_err(), "another file is nobody's concern");
-        let reading = fs::read(&file).expect("read");
-        assert!(woken.recv_timeout(4 * QUIET).is_err(), "nor is reading {} bytes", reading.len());
+        wait(&happened, more, || {
+            rests.fetch_add(1, Ordering::Relaxed);
+        });
+        assert_eq!(rests.into_inner(), 2, "each time that nothing followed");
+    }
+
+    /// What the system tells of a folder, up to the sign that the test makes in it.
+    fn told(events: &Receiver<notify::Result<Event>>, sign: &Path) -> Vec<Event> {
+        fs::write(sign, "").expect("written");
+        let events = events.iter().map(|event| event.expect("the system can watch"));
+        let before = events.take_while(|event| !event.paths.iter().any(|path| path == sign)).collect();
+        fs::remove_file(sign).expect("it was there");
+        before
+    }
+
+    /// The system tells of changes in their order, so that a sign ends those before it.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn the_system_tells_of_writing_renaming_and_making_anew() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let folder = real(folder.path());
+        let [file, other, draft] = ["a.obj", "b.obj", "draft"].map(|name| folder.join(name));
+        [&file, &other].iter().for_each(|path| fs::write(path, "1").expect("written"));
+        let (sender, events) = channel();
+        let mut watcher = notify::recommended_watcher(sender).expect("the system can watch");
+        watcher.watch(&folder, RecursiveMode::NonRecursive).expect("the folder can be watched");
+        let files = HashSet::from([file.clone()]);
+        let mut signs = 0;
+        let mut check = |what: &str, expected: bool, act: &dyn Fn() -> std::io::Result<()>| {
+            act().unwrap_or_else(|error| panic!("{what}: {error}"));
+            signs += 1;
+            let told = told(&events, &folder.join(format!("sign {signs}")));
+            assert_eq!(told.iter().any(|event| concerns(event, &files)), expected, "{what}: {told:?}");
+        };
+        check("writing", true, &|| fs::write(&file, "2"));
+        check("renaming over", true, &|| fs::write(&draft, "3").and_then(|()| fs::rename(&draft, &file)));
+        check("removing", true, &|| fs::remove_file(&file));
+        check("making anew", true, &|| fs::write(&file, "4"));
+        check("writing another file", false, &|| fs::write(&other, "5"));
+        check("reading", false, &|| fs::read(&file).map(drop));
+    }
+
+    #[test]
+    fn files_that_are_followed_wake_the_window() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let files = ["a.obj", "a.mtl"].map(|name| folder.path().join(name));
+        files.iter().for_each(|path| fs::write(path, "1").expect("written"));
+        let (wake, woken) = channel();
+        let wake = move || {
+            // Fails when the test is over.
+            let _ = wake.send(());
+        };
+        let mut watch = Watch::new(wake).expect("the system can watch");
+        watch.follow(&files).expect("the folder can be watched");
+        assert!(!watch.take_changed(), "nothing has happened");
+        fs::write(&files[1], "2").expect("written");
+        woken.recv().expect("it wakes when the file is at rest");
+        assert!(watch.take_changed(), "and says why");
     }
 }

@@ -20,8 +20,9 @@ fn everything_that_the_report_names_is_written() {
     let chapters = [CHAPTERS[2], CHAPTERS[5]];
     let report = Report::of(&chapters, Effort::Quick, |progress| told.push(progress.chapter));
     assert_eq!(told, ["line", "depth"], "progress is told of each chapter");
-    let folder = std::env::temp_dir().join(format!("trigon-study-report-{}", std::process::id()));
-    report.write(&folder).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    report.write(folder).unwrap();
     let text = fs::read_to_string(folder.join("report.md")).unwrap();
     let links = text.split("](images/").skip(1);
     let images: Vec<&str> = links.filter_map(|rest| rest.split(')').next()).collect();
@@ -37,5 +38,4 @@ fn everything_that_the_report_names_is_written() {
     let csv = fs::read_to_string(folder.join("results.csv")).unwrap();
     let fields = csv.lines().filter(|line| line.starts_with("depth,at 10 m,16 bit,bytes,2,2,2"));
     assert_eq!(fields.count(), 1, "a line for each number");
-    fs::remove_dir_all(folder).unwrap();
 }

@@ -15,13 +15,17 @@ impl Timings {
     /// A frame of more than 1.5 s is warmed up twice and repeated five times at
     /// most. These are the rules by which the other renderers were timed.
     pub fn of_frames<R>(repetitions: usize, mut frame: impl FnMut() -> R) -> Self {
-        const LONG: f64 = 1500.0;
-        const ENOUGH_OF_LONG: usize = 5;
-        let mut time = || {
+        Self::of_times(repetitions, || {
             let start = Instant::now();
             frame();
             start.elapsed().as_secs_f64() * 1e3
-        };
+        })
+    }
+
+    /// The same where `time` draws a frame and tells how long it took.
+    fn of_times(repetitions: usize, mut time: impl FnMut() -> f64) -> Self {
+        const LONG: f64 = 1500.0;
+        const ENOUGH_OF_LONG: usize = 5;
         time();
         let mut repetitions = repetitions.max(1);
         if time() > LONG {
@@ -70,11 +74,35 @@ mod tests {
         assert_eq!(timings(&[1.0, 2.0, 4.0, 9.0]).median(), 3.0, "of an even number");
     }
 
-    #[test]
-    fn three_frames_warm_up() {
+    /// How many frames are drawn, and how many count, if each takes so long.
+    fn counts(repetitions: usize, milliseconds: f64) -> (usize, usize) {
         let mut frames = 0;
-        let timings = Timings::of_frames(4, || frames += 1);
-        assert_eq!((frames, timings.milliseconds().len()), (7, 4), "frames drawn and timed");
-        assert!(timings.min() <= timings.max(), "sorted");
+        let timings = Timings::of_times(repetitions, || {
+            frames += 1;
+            milliseconds
+        });
+        (frames, timings.milliseconds().len())
+    }
+
+    #[test]
+    fn three_frames_warm_up_and_two_where_they_take_long() {
+        assert_eq!(counts(4, 20.0), (7, 4), "all are asked for");
+        assert_eq!(counts(9, 20.0), (12, 9), "all are asked for");
+        assert_eq!(counts(9, 2000.0), (7, 5), "as many as anybody waits for");
+        assert_eq!(counts(0, 2000.0), (3, 1), "one is measured in any case");
+    }
+
+    #[test]
+    fn times_are_sorted() {
+        let mut times = [9.0, 9.0, 9.0, 3.0, 1.0, 2.0].into_iter();
+        let timings = Timings::of_times(3, || times.next().expect("six are asked for"));
+        assert_eq!(timings.milliseconds(), [1.0, 2.0, 3.0], "without those that warm up");
+    }
+
+    #[test]
+    fn a_frame_is_drawn_each_time() {
+        let mut frames = 0;
+        let timings = Timings::of_frames(1, || frames += 1);
+        assert!(frames > timings.milliseconds().len(), "{frames} frames, the first not counted");
     }
 }
