@@ -11,20 +11,26 @@ use super::{
     Worker,
 };
 use trigon_camera::Camera;
-use trigon_scene::{render, showcase};
+use trigon_mesh::primitives;
+use trigon_scene::{Material, render, showcase};
 
-/// A picture of the showcase.
-fn job(side: u32, samples: u32) -> Job {
-    let scene = showcase();
+/// A picture of a scene.
+fn job_of(scene: Scene, settings: RenderSettings) -> Job {
     let camera = scene.overview(1.0);
-    let settings = RenderSettings { samples_per_axis: samples, ..RenderSettings::new(side, side) };
     let task = Task::Draw { scene: Arc::new(scene), settings: Box::new(settings), drawer: None };
     Job { purpose: Purpose::Picture, camera, task }
 }
 
+/// A square picture of a cube.
+fn job(side: u32) -> Job {
+    let mut scene = Scene::new();
+    scene.add_object("cube", primitives::cube(1.0), Material::default());
+    job_of(scene, RenderSettings::new(side, side))
+}
+
 /// A picture of 8 by 8 pixels that somebody else draws.
 fn drawn_by(drawer: impl Drawer + 'static) -> Job {
-    let mut job = job(8, 1);
+    let mut job = job(8);
     if let Task::Draw { drawer: used, .. } = &mut job.task {
         *used = Some(Arc::new(drawer));
     }
@@ -45,12 +51,12 @@ fn a_thread_draws_what_the_caller_would() {
     let settings = RenderSettings { samples_per_axis: 2, ..RenderSettings::new(40, 40) };
     let expected = render(&scene, &scene.overview(1.0), &settings).expect("drawn");
     let (mut worker, rung) = Gate::default().worker(|_| false);
-    worker.begin(job(40, 2));
+    worker.begin(job_of(scene.clone(), settings.clone()));
     rung.recv().expect("it rings when it is done");
     assert!(picture(&mut worker).as_ref() == Some(&expected), "the same bytes");
     assert!(!worker.is_busy(), "ready for the next one");
     let mut caller = Worker::of_caller();
-    caller.begin(job(40, 2));
+    caller.begin(job_of(scene, settings));
     assert!(picture(&mut caller) == Some(expected), "the same bytes here");
 }
 
@@ -60,7 +66,7 @@ fn what_a_job_takes_is_told_by_the_clock_that_was_given() {
     let clock = move || Duration::from_secs(1) * moments.fetch_add(5, Ordering::Relaxed);
     let ring = move || ring.send(()).expect("the test waits for it");
     let mut worker = Worker::of_threads(ring, clock);
-    worker.begin(job(8, 1));
+    worker.begin(job(8));
     rung.recv().expect("it rings when it is done");
     let took = worker.collect().map(|Finished { took, .. }| took);
     assert_eq!(took, Some(Duration::from_secs(5)), "between its beginning and its end");
@@ -70,14 +76,14 @@ fn what_a_job_takes_is_told_by_the_clock_that_was_given() {
 fn a_cancelled_job_makes_room_for_the_next() {
     let gate = Gate::default();
     let (mut worker, rung) = gate.worker(|_| true);
-    worker.begin(job(8, 1));
+    worker.begin(job(8));
     worker.cancel();
     assert!(worker.collect().is_none() && worker.is_busy(), "it is cancelled, but has not ended");
     gate.open();
     rung.recv().expect("it ends");
     let finished = worker.collect().expect("it has ended");
     assert_eq!(finished.product.err(), Some(Unfinished::Cancelled), "without a picture");
-    worker.begin(job(8, 1));
+    worker.begin(job(8));
     rung.recv().expect("it goes on");
     assert!(picture(&mut worker).is_some(), "with the next one");
 }
@@ -111,15 +117,15 @@ fn what_is_cancelled_while_it_is_drawn_is_no_picture() {
 fn nobody_waits_for_the_last_tiles_of_what_was_only_better() {
     let gate = Gate::default();
     let (mut worker, rung) = gate.worker(|purpose| purpose == Purpose::Window(Quality::Full(2)));
-    worker.begin(Job { purpose: Purpose::Window(Quality::Full(2)), ..job(16, 1) });
+    worker.begin(Job { purpose: Purpose::Window(Quality::Full(2)), ..job(16) });
     worker.cancel();
     assert!(!worker.is_busy(), "there is room at once");
     let given_up = worker.collect().expect("told at once, too");
     assert_eq!(given_up.product.err(), Some(Unfinished::Cancelled), "without a picture");
-    worker.begin(job(12, 1));
+    worker.begin(job(12));
     rung.recv().expect("pictures that somebody waits for are drawn meanwhile");
     assert_eq!(picture(&mut worker).map(|frame| frame.width), Some(12), "beside it");
-    worker.begin(Job { purpose: Purpose::Window(Quality::Full(1)), ..job(8, 1) });
+    worker.begin(Job { purpose: Purpose::Window(Quality::Full(1)), ..job(8) });
     assert!(worker.collect().is_none() && worker.is_busy(), "what is only better waits for it");
     gate.open();
     let found = std::iter::from_fn(|| {
