@@ -1,5 +1,6 @@
 //! What can be said of a document before all of it is understood: its version,
-//! and the extensions that its objects have. One pass that keeps nothing else.
+//! the extensions that its objects have, and whether its indices fit 32 bits: gltf::json
+//! cuts those that do not, and another object would be meant. One pass that keeps nothing else.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -37,7 +38,7 @@ impl<'de> Deserialize<'de> for Preview {
                 while let Some(key) = map.next_key_seed(KeyKind { keeps_names: false })? {
                     match key {
                         Key::Asset => preview.asset = map.next_value()?,
-                        key => search_value(&key, &mut preview.extensions, &mut map)?,
+                        key => search_value(&key, Inside::Anything, &mut preview.extensions, &mut map)?,
                     }
                 }
                 Ok(preview)
@@ -52,9 +53,47 @@ enum Key {
     Asset,
     Extensions,
     Extras,
+    /// Of an index or a code, or of a list of them.
+    Indices,
+    /// Of an object, or a list of objects, whose values are indices.
+    NamedIndices,
     /// Anything else; with its name in an object of extensions.
     Other(Option<String>),
 }
+
+/// The keys of indices and codes in glTF 2.0, section 5, and in the extensions that are drawn.
+const INDICES: [&str; 30] = [
+    "buffer",
+    "bufferView",
+    "camera",
+    "children",
+    "componentType",
+    "index",
+    "indices",
+    "input",
+    "inverseBindMatrices",
+    "joints",
+    "light",
+    "magFilter",
+    "mapping",
+    "mappings",
+    "material",
+    "mesh",
+    "minFilter",
+    "mode",
+    "node",
+    "nodes",
+    "output",
+    "sampler",
+    "scene",
+    "skeleton",
+    "skin",
+    "source",
+    "target",
+    "variants",
+    "wrapS",
+    "wrapT",
+];
 
 /// Reads a key without keeping it, or as the name of an extension.
 struct KeyKind {
@@ -82,29 +121,46 @@ impl Visitor<'_> for KeyKind {
             "asset" => Key::Asset,
             "extensions" => Key::Extensions,
             "extras" => Key::Extras,
+            "attributes" | "targets" => Key::NamedIndices,
+            key if INDICES.contains(&key) => Key::Indices,
             _ => Key::Other(None),
         })
     }
 }
 
-/// Looks for extensions in the value of a key.
+/// Looks through the value of a key that is found in `object`.
 fn search_value<'de, A: MapAccess<'de>>(
     key: &Key,
+    object: Inside,
     names: &mut BTreeSet<String>,
     map: &mut A,
 ) -> Result<(), A::Error> {
-    match key {
-        Key::Extras => map.next_value::<IgnoredAny>().map(|_| ()),
-        Key::Extensions => map.next_value_seed(Search { names, is_extensions: true }),
-        Key::Asset | Key::Other(_) => map.next_value_seed(Search { names, is_extensions: false }),
-    }
+    let inside = match key {
+        Key::Extras => return map.next_value::<IgnoredAny>().map(|_| ()),
+        Key::Extensions => Inside::Extensions,
+        Key::Indices => Inside::Indices,
+        Key::NamedIndices => Inside::NamedIndices,
+        // What an attribute is called does not matter.
+        Key::Asset | Key::Other(_) if object == Inside::NamedIndices => Inside::Indices,
+        Key::Asset | Key::Other(_) => Inside::Anything,
+    };
+    map.next_value_seed(Search { names, inside })
+}
+
+/// What a value is known to be by its key. The elements of a list are what the list is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Inside {
+    Anything,
+    /// An object whose keys are names of extensions.
+    Extensions,
+    Indices,
+    NamedIndices,
 }
 
 /// Looks through one value. Its depth is bounded by the parser's own limit.
 struct Search<'n> {
     names: &'n mut BTreeSet<String>,
-    /// Whether the keys of the value are names of extensions.
-    is_extensions: bool,
+    inside: Inside,
 }
 
 impl<'de> DeserializeSeed<'de> for Search<'_> {
@@ -123,17 +179,25 @@ impl<'de> Visitor<'de> for Search<'_> {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
-        while let Some(mut key) = map.next_key_seed(KeyKind { keeps_names: self.is_extensions })? {
+        let keeps_names = self.inside == Inside::Extensions;
+        while let Some(mut key) = map.next_key_seed(KeyKind { keeps_names })? {
             if let Key::Other(Some(name)) = &mut key {
                 self.names.insert(std::mem::take(name));
             }
-            search_value(&key, self.names, &mut map)?;
+            search_value(&key, self.inside, self.names, &mut map)?;
         }
         Ok(())
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<(), A::Error> {
-        while list.next_element_seed(Search { names: self.names, is_extensions: false })?.is_some() {}
+        while list.next_element_seed(Search { names: self.names, inside: self.inside })?.is_some() {}
+        Ok(())
+    }
+
+    fn visit_u64<E: Error>(self, number: u64) -> Result<(), E> {
+        if self.inside == Inside::Indices && number > u64::from(u32::MAX) {
+            return Err(E::custom(format_args!("{number} is no index: it needs more than 32 bits")));
+        }
         Ok(())
     }
 
@@ -142,10 +206,6 @@ impl<'de> Visitor<'de> for Search<'_> {
     }
 
     fn visit_i64<E>(self, _: i64) -> Result<(), E> {
-        Ok(())
-    }
-
-    fn visit_u64<E>(self, _: u64) -> Result<(), E> {
         Ok(())
     }
 
@@ -174,6 +234,31 @@ mod tests {
         let preview: Preview = serde_json::from_str(json).expect("JSON");
         assert_eq!(preview.extensions.iter().collect::<Vec<_>>(), ["A", "B", "C"], "once each");
         assert_eq!(preview.asset.and_then(|asset| asset.version).as_deref(), Some("2.0"), "and the version");
+    }
+
+    #[test]
+    fn indices_of_more_than_32_bits_are_refused_wherever_they_are() {
+        let objects = [
+            r#"{"scene": N}"#,
+            r#"{"nodes": [{"children": [0, N]}]}"#,
+            r#"{"accessors": [{"componentType": N}]}"#,
+            r#"{"meshes": [{"primitives": [{"attributes": {"_ANY": N}}]}]}"#,
+            r#"{"meshes": [{"primitives": [{"targets": [{}, {"POSITION": N}]}]}]}"#,
+            r#"{"animations": [{"channels": [{"target": {"node": N}}]}]}"#,
+            r#"{"nodes": [{"extensions": {"KHR_lights_punctual": {"light": N}}}]}"#,
+        ];
+        for object in objects {
+            let read =
+                |number: &str| serde_json::from_str::<Preview>(&object.replace('N', number)).map(|_| ());
+            assert!(read("4294967295").is_ok(), "{object}: that fits");
+            let error = read("4294967296").expect_err(object);
+            assert!(error.to_string().starts_with("4294967296 is no index"), "{object}: {error}");
+        }
+        for other in [r#"{"nodes": [{"translation": [N, 0, 0]}]}"#, r#"{"nodes": [{"extras": {"mesh": N}}]}"#]
+        {
+            let text = other.replace('N', "4294967296");
+            assert!(serde_json::from_str::<Preview>(&text).is_ok(), "{other}: no index");
+        }
     }
 
     #[test]

@@ -126,7 +126,10 @@ fn extras_and_unknown_extensions_are_reachable_at_every_level() {
     let (text, pointers) = odd_everywhere();
     let (loaded, source) = kept("a.gltf", text.as_bytes());
     let warnings = warnings(&loaded);
-    assert!(warnings.len() == 1 && warnings[0].contains("the extension VENDOR_x is not drawn"), "{warnings:?}");
+    assert!(
+        warnings.len() == 1 && warnings[0].contains("the extension VENDOR_x is not drawn"),
+        "{warnings:?}"
+    );
     assert_eq!(source.json(), text, "the whole file");
     assert!(pointers.len() > 80, "many places: {}", pointers.len());
     for pointer in pointers {
