@@ -19,15 +19,17 @@ pub(crate) enum Role {
     Directions,
 }
 
+/// A picture that was to show directions shows heights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct HeightMap;
+
 /// Lays pictures over each other, the first below. Smaller ones are stretched
 /// to the largest; where nothing is said the texture is white.
-pub(crate) fn merge(mut layers: Vec<(Role, Picture)>) -> Result<Picture, String> {
+pub(crate) fn merge(mut layers: Vec<(Role, Picture)>) -> Result<Picture, HeightMap> {
     match layers.as_slice() {
         [(Role::Whole, _)] => return Ok(layers.remove(0).1),
         [(Role::Directions, picture)] if shows_directions(picture) => return Ok(layers.remove(0).1),
-        [(Role::Directions, _)] => {
-            return Err("it is a height map, which is not drawn; only normal maps are".to_owned());
-        }
+        [(Role::Directions, _)] => return Err(HeightMap),
         _ => {}
     }
     let largest =
@@ -97,7 +99,7 @@ mod tests {
         assert_eq!(merge(vec![(Role::Directions, up.clone())]), Ok(up), "a normal map");
         for grey in [0, 128, 255] {
             let heights = picture(1, &[[grey, grey, grey, 255]]);
-            assert!(merge(vec![(Role::Directions, heights)]).is_err(), "heights at {grey}");
+            assert_eq!(merge(vec![(Role::Directions, heights)]), Err(HeightMap), "heights at {grey}");
         }
     }
 }

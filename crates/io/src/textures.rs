@@ -12,7 +12,7 @@ use trigon_scene::TextureId;
 
 use crate::error::{LoadError, Place};
 use crate::import::Import;
-use crate::layers::{Role, merge};
+use crate::layers::{HeightMap, Role, merge};
 use crate::limits::Limits;
 use crate::options::Stage;
 use crate::picture::{Picture, decode_picture, picture_size, placeholder};
@@ -79,7 +79,7 @@ pub(crate) fn add_textures(
             Stage::Textures,
             done.fetch_add(1, Ordering::Relaxed) as f32 / requests.len() as f32,
         )?;
-        let picture = fits.and_then(|()| decode(request, &options.limits).map_err(broken));
+        let picture = fits.and_then(|()| decode(request, &options.limits));
         Ok(picture.and_then(|picture| to_texture(picture, request.purpose).map_err(broken)))
     };
     let decoded: Vec<Result<Texture, Fault>> =
@@ -109,9 +109,13 @@ pub(crate) fn add_textures(
     Ok(ids)
 }
 
-fn decode(request: &Request, limits: &Limits) -> Result<Picture, String> {
+fn decode(request: &Request, limits: &Limits) -> Result<Picture, Fault> {
     let layer = |(role, bytes): &(Role, PictureBytes)| Ok((*role, decode_picture(bytes.get(), limits)?));
-    merge(request.layers.iter().map(layer).collect::<Result<_, String>>()?)
+    let layers = request.layers.iter().map(layer).collect::<Result<_, String>>().map_err(broken)?;
+    merge(layers).map_err(|HeightMap| {
+        let why = "it is a height map, which is not drawn; only normal maps are";
+        (why.to_owned(), "bake it into a normal map, and name that with norm")
+    })
 }
 
 /// Why a picture is not shown, and what to do about it.

@@ -1,6 +1,7 @@
 //! From parsed lists to nodes: one for each object or group of the file.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use trigon_math::{DVec3, Vec2, Vec3, Vec4, color::srgb_to_linear};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder};
@@ -8,6 +9,7 @@ use trigon_mesh::{Attributes, Mesh, MeshBuilder};
 use super::content::Content;
 use super::index::NONE;
 use super::parse::Parsed;
+use super::passed::Passed;
 use super::smoothing::group_normals;
 use crate::error::{LoadError, Place};
 use crate::rebase::offset_for;
@@ -19,6 +21,8 @@ pub(crate) struct Part {
     pub(crate) mesh: Mesh,
     /// The materials of its slots: indices of the record's names.
     pub(crate) materials: Vec<Option<u32>>,
+    /// Of each slot, whether it has a face without texture coordinates.
+    pub(crate) bare: Vec<bool>,
 }
 
 /// Some consecutive elements with the same state.
@@ -56,25 +60,13 @@ pub(crate) fn build_parts(
     let names = parsed.record.parts.list();
     let cut = |(name, spans): (&String, &Vec<Span>)| cutter.part(name, spans, &mut local, &mut passed);
     let parts = names.iter().zip(&spans).map(cut).collect::<Result<_, _>>()?;
-    let place = parsed.non_finite_line.map_or(Place::Whole, Place::Line);
-    warnings.push_counted(
-        passed.non_finite,
-        place,
-        "a face has a vertex that is not finite and is left out",
-        "export the model again",
-    );
+    passed.warn(parsed, warnings);
     let is_odd = |&(color, &used): &(&Vec3, &bool)| used && color.is_nan();
     warnings.push_counted(
         content.colors.iter().zip(&used).filter(is_odd).count(),
         Place::Whole,
         "a vertex has a colour that is not finite; it is white there",
         "export the model again",
-    );
-    warnings.push_counted(
-        passed.flat,
-        Place::Whole,
-        "a face has fewer than 3 different vertices and is left out",
-        "clean the model up",
     );
     Ok((parts, cutter.offset))
 }
@@ -90,14 +82,6 @@ fn used_vertices(content: &Content) -> Vec<bool> {
 
 /// Marks a vertex that the current part has not used.
 const NOT_YET: u32 = u32::MAX;
-
-/// How many elements there were, and how many of them were left out.
-#[derive(Default)]
-struct Passed {
-    elements: usize,
-    non_finite: usize,
-    flat: usize,
-}
 
 /// The elements of each part, with where their corners start.
 fn spans_by_part(parsed: &Parsed) -> Vec<Vec<Span>> {
@@ -132,7 +116,11 @@ struct Draft {
     face_slots: Vec<u32>,
     face_groups: Vec<u32>,
     materials: Vec<Option<u32>>,
+    /// Of each slot, whether it has a face without texture coordinates.
+    bare: Vec<bool>,
     slots: HashMap<Option<u32>, u32>,
+    /// Edges that the file has as lines, the lower vertex first.
+    lines: Vec<[u32; 2]>,
     /// Vertices of the file that the part uses.
     used: Vec<u32>,
     face: Vec<u32>,
@@ -147,27 +135,16 @@ impl Cutter<'_> {
         passed: &mut Passed,
     ) -> Result<Part, LoadError> {
         let faces = spans.iter().map(|span| span.elements.1 - span.elements.0).sum();
-        let builder = MeshBuilder::with_capacity(faces / 2, faces, 3 * faces);
-        let (sources, face_slots) = (Vec::with_capacity(3 * faces), Vec::with_capacity(faces));
-        let face_groups = Vec::with_capacity(faces);
-        let mut draft = Draft {
-            builder,
-            sources,
-            face_slots,
-            face_groups,
-            materials: Vec::new(),
-            slots: HashMap::new(),
-            used: Vec::new(),
-            face: Vec::new(),
-        };
+        let mut draft = Draft::with_capacity(faces);
         for span in spans {
             self.span(span, &mut draft, local, passed)?;
         }
         for &vertex in &draft.used {
             local[vertex as usize] = NOT_YET;
         }
-        let Draft { builder, sources, face_slots, face_groups, mut materials, .. } = draft;
+        let Draft { builder, sources, face_slots, face_groups, mut materials, mut bare, lines, .. } = draft;
         let mut mesh = builder.build();
+        passed.note_covered(lines, &mesh);
         self.go_on(passed)?;
         let mut attributes = self.attributes(&sources, face_slots, &face_groups, materials.len());
         self.go_on(passed)?;
@@ -179,8 +156,9 @@ impl Cutter<'_> {
         mesh.set_attributes(attributes).expect("one value per accepted corner and face");
         if materials.is_empty() {
             materials.push(None);
+            bare.push(false);
         }
-        Ok(Part { name: name.to_owned(), mesh, materials })
+        Ok(Part { name: name.to_owned(), mesh, materials, bare })
     }
 
     fn go_on(&self, passed: &Passed) -> Result<(), LoadError> {
@@ -212,9 +190,22 @@ impl Cutter<'_> {
                 passed.non_finite += 1;
                 continue;
             }
+            if arity < 3 {
+                passed.note_wire(slot, span.material, self.has_color(corners.clone()));
+            } else {
+                let coordinate = self.content.coordinate_indices.get(corners.start);
+                draft.bare[slot as usize] |= coordinate.is_none_or(|&index| index == NONE);
+            }
             draft.push(corners.start, slot, span.smoothing, passed);
         }
         Ok(())
+    }
+
+    /// Whether a vertex of these corners has a colour other than white.
+    fn has_color(&self, corners: Range<usize>) -> bool {
+        let Content { colors, position_indices, .. } = self.content;
+        let is_colored = |&vertex: &u32| colors[vertex as usize].to_array().iter().any(|&value| value < 1.0);
+        !colors.is_empty() && position_indices[corners].iter().any(is_colored)
     }
 
     /// The part's own index of a vertex; `None` when it has no finite place.
@@ -300,10 +291,27 @@ fn has_several_groups(face_groups: &[u32]) -> bool {
 }
 
 impl Draft {
+    /// An empty one with room for so many faces.
+    fn with_capacity(faces: usize) -> Self {
+        Self {
+            builder: MeshBuilder::with_capacity(faces / 2, faces, 3 * faces),
+            sources: Vec::with_capacity(3 * faces),
+            face_slots: Vec::with_capacity(faces),
+            face_groups: Vec::with_capacity(faces),
+            materials: Vec::new(),
+            bare: Vec::new(),
+            slots: HashMap::new(),
+            lines: Vec::new(),
+            used: Vec::new(),
+            face: Vec::new(),
+        }
+    }
+
     /// The slot of a material, a new one for a new material.
     fn slot(&mut self, material: Option<u32>) -> u32 {
         *self.slots.entry(material).or_insert_with(|| {
             self.materials.push(material);
+            self.bare.push(false);
             self.materials.len() as u32 - 1
         })
     }
@@ -313,7 +321,10 @@ impl Draft {
         let added = match *self.face.as_slice() {
             [point] => self.builder.push_loose_point(point),
             [from, to] if from == to => self.builder.push_loose_point(from),
-            [from, to] => self.builder.push_loose_edge(from, to),
+            [from, to] => {
+                self.lines.push([from.min(to), from.max(to)]);
+                self.builder.push_loose_edge(from, to)
+            }
             _ => self.builder.push_face(&self.face).map(|_| {
                 self.sources.extend((corner..corner + self.face.len()).map(|corner| corner as u32));
                 self.face_slots.push(slot);

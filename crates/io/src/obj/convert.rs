@@ -8,28 +8,30 @@ use trigon_math::{Vec3, Vec4};
 use trigon_scene::{AlphaMode, Material, MetallicRoughness, Shading};
 
 use super::mtl::{Fields, MapKind, MtlMaterial};
+use super::mtl_values::Stated;
+use super::undrawn::warn_undrawn;
 use crate::error::Place;
 use crate::warning::Warnings;
 
 /// Converts what a library says of a material. The textures come later.
 pub(super) fn convert(file: &Path, from: Fields, warnings: &mut Warnings) -> MtlMaterial {
     let textured = from.has(MapKind::BaseColor);
-    let diffuse = from.diffuse.map(to_linear);
+    let diffuse = value(from.diffuse).map(to_linear);
     // Many exporters write black beside a texture that they do not mean to darken.
     let base = match diffuse {
         Some(color) if !textured || color != Vec3::ZERO => color,
         _ if textured => Vec3::ONE,
         _ => Material::default().base_color.truncate(),
     };
-    let alpha =
-        from.dissolve.map_or_else(|| alpha_from(file, &from, warnings), |alpha| alpha.clamp(0.0, 1.0));
-    let specular = white_beside_map(from.specular, from.has(MapKind::Specular));
+    let alpha = value(from.dissolve).unwrap_or_else(|| alpha_from(file, &from, warnings));
+    warn_undrawn(file, &from, alpha, warnings);
+    let specular = white_beside_map(value(from.specular), from.has(MapKind::Specular));
     let material = Material {
         name: from.name.clone(),
         base_color: Vec4::from((base, alpha)),
-        shading: metallic_roughness(&from)
-            .unwrap_or_else(|| shading(from.illumination_model, specular.map(to_linear), from.shininess)),
-        emissive: white_beside_map(from.emissive, from.has(MapKind::Emissive)).map_or(Vec3::ZERO, to_linear),
+        shading: metallic_roughness(&from).unwrap_or_else(|| shading(&from, specular.map(to_linear))),
+        emissive: white_beside_map(value(from.emissive), from.has(MapKind::Emissive))
+            .map_or(Vec3::ZERO, to_linear),
         alpha_mode: match alpha < 1.0 {
             true => AlphaMode::Blend,
             // What map_d is used for: leaves and fences.
@@ -37,12 +39,16 @@ pub(super) fn convert(file: &Path, from: Fields, warnings: &mut Warnings) -> Mtl
             false => AlphaMode::Opaque,
         },
         // Below 1 there is no such matter; many exporters write 0 or 1 for "no matter".
-        ior: from.refraction.filter(|&ior| ior > 1.0).unwrap_or(Material::default().ior),
+        ior: value(from.refraction).filter(|&ior| ior > 1.0).unwrap_or(Material::default().ior),
         // OBJ does not say which side counts, and many a file has it mixed up.
         double_sided: true,
         ..Material::default()
     };
-    MtlMaterial { material, maps: from.maps, file: file.to_owned() }
+    MtlMaterial { material, maps: from.maps, file: file.to_owned(), line: from.line }
+}
+
+fn value<T>(stated: Option<Stated<T>>) -> Option<T> {
+    stated.map(|stated| stated.value)
 }
 
 /// A colour beside its texture: exporters leave it out, or write black, where
@@ -54,20 +60,19 @@ fn white_beside_map(color: Option<[f32; 3]>, has_map: bool) -> Option<[f32; 3]> 
 /// The model of "physically-based" MTL, where a material has any of its fields
 /// (`Pr`, `Pm`, `map_Pr`, `map_Pm`; after the extension by Exocortex).
 fn metallic_roughness(from: &Fields) -> Option<Shading> {
-    let maps = [MapKind::Roughness, MapKind::Metallic].map(|kind| from.has(kind));
-    if from.roughness.is_none() && from.metallic.is_none() && maps == [false, false] {
+    if !from.is_physically_based() {
         return None;
     }
     let default = MetallicRoughness::default();
     // Without a number of its own, a texture is to be seen as it is.
     let factor = |value: Option<f32>, has_map: bool, otherwise: f32| match value {
-        Some(value) if value != 0.0 || !has_map => value.clamp(0.0, 1.0),
+        Some(value) if value != 0.0 || !has_map => value,
         _ if has_map => 1.0,
         _ => otherwise,
     };
     Some(Shading::MetallicRoughness(MetallicRoughness {
-        roughness: factor(from.roughness, maps[0], default.roughness),
-        metallic: factor(from.metallic, maps[1], default.metallic),
+        roughness: factor(value(from.roughness), from.has(MapKind::Roughness), default.roughness),
+        metallic: factor(value(from.metallic), from.has(MapKind::Metallic), default.metallic),
         ..default
     }))
 }
@@ -76,7 +81,7 @@ fn metallic_roughness(from: &Fields) -> Option<Shading> {
 /// that cannot be seen.
 fn alpha_from(file: &Path, from: &Fields, warnings: &mut Warnings) -> f32 {
     match from.transparency {
-        Some((line, value)) if value >= 1.0 => {
+        Some(Stated { line, value: 1.0.. }) => {
             warnings.push_about(
                 file,
                 Place::Line(line),
@@ -85,23 +90,24 @@ fn alpha_from(file: &Path, from: &Fields, warnings: &mut Warnings) -> f32 {
             );
             1.0
         }
-        Some((_, value)) => 1.0 - value.max(0.0),
+        Some(Stated { value, .. }) => 1.0 - value,
         None => 1.0,
     }
 }
 
-/// Illumination models 0 and 1 have no highlight.
-fn shading(model: Option<u8>, specular: Option<Vec3>, shininess: Option<f32>) -> Shading {
-    // The format's own range of Ns.
-    const MOST: f32 = 1000.0;
+/// Illumination model 0 has the colour alone, whatever the light, and 1 no highlight.
+fn shading(from: &Fields, specular: Option<Vec3>) -> Shading {
+    const SHININESS: f32 = 30.0;
+    let model = value(from.illumination_model);
     match specular {
-        Some(specular) if specular != Vec3::ZERO && !matches!(model, Some(0 | 1)) => {
-            Shading::blinn_phong(specular, shininess.unwrap_or(30.0).clamp(0.0, MOST))
+        _ if model == Some(0) => Shading::Unlit,
+        Some(specular) if specular != Vec3::ZERO && model != Some(1) => {
+            Shading::blinn_phong(specular, value(from.shininess).unwrap_or(SHININESS))
         }
         _ => Shading::Lambert,
     }
 }
 
 fn to_linear(color: [f32; 3]) -> Vec3 {
-    Vec3::from(color.map(|value| srgb_to_linear(value.clamp(0.0, 1.0))))
+    Vec3::from(color.map(srgb_to_linear))
 }

@@ -65,6 +65,54 @@ pub(crate) fn parse_corner(text: &[u8], seen: Counts, total: Counts) -> Result<(
     Ok((corner, at))
 }
 
+/// What the corners of an element have.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Corners {
+    pub(crate) count: usize,
+    /// How many have a texture coordinate.
+    pub(crate) coordinates: usize,
+    /// How many have a normal.
+    pub(crate) normals: usize,
+    /// How many have an index of either that led nowhere.
+    pub(crate) dropped: usize,
+}
+
+/// Reads the corners of an element, up to a comment, in place of those in `corners`.
+pub(crate) fn read_corners(
+    text: &[u8],
+    seen: Counts,
+    total: Counts,
+    corners: &mut Vec<Corner>,
+) -> Result<Corners, String> {
+    corners.clear();
+    let mut found = Corners::default();
+    let mut at = 0;
+    loop {
+        while text.get(at).is_some_and(u8::is_ascii_whitespace) {
+            at += 1;
+        }
+        if matches!(text.get(at), None | Some(b'#')) {
+            break;
+        }
+        let (corner, length) = parse_corner(&text[at..], seen, total)?;
+        found.coordinates += usize::from(corner.coordinate != NONE);
+        found.normals += usize::from(corner.normal != NONE);
+        found.dropped += usize::from(corner.dropped);
+        corners.push(corner);
+        at += length;
+    }
+    found.count = corners.len();
+    Ok(found)
+}
+
+/// Whether the corners of a face, of which there is at least one, have fewer than 3
+/// different vertices.
+pub(crate) fn is_flat(corners: &[Corner]) -> bool {
+    let first = corners[0].position;
+    let mut others = corners.iter().map(|corner| corner.position).filter(|&position| position != first);
+    others.next().is_none_or(|second| others.all(|position| position == second))
+}
+
 /// An index as it is written.
 #[derive(Clone, Copy)]
 enum Index {

@@ -1,24 +1,35 @@
 //! Finding what an OBJ refers to: its libraries and the materials it uses.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::Path;
 
 use trigon_scene::{Material, MaterialId};
 
 use super::mtl::{MapKind, MtlMaterial, parse_mtl};
+use super::oddities::Oddity;
 use super::record::Record;
 use super::textures::Textures;
 use crate::error::{LoadError, Place};
 use crate::folder::{Found, Lookup};
 use crate::import::Import;
 use crate::refusal::Refusal;
+use crate::warning::Warnings;
+
+/// A material that was added to the scene.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Added {
+    pub(crate) id: MaterialId,
+    /// Whether it has a texture, which needs texture coordinates.
+    pub(crate) is_textured: bool,
+}
 
 /// Adds the materials that faces use. The result has one entry per name of the
 /// record; `None` where no library knows it.
 pub(crate) fn add_materials(
     import: &mut Import<'_>,
     record: &Record,
-) -> Result<Vec<Option<MaterialId>>, LoadError> {
+) -> Result<Vec<Option<Added>>, LoadError> {
     let (libraries, any_missing) = read_libraries(import, record);
     let mut used = vec![false; record.materials.list().len()];
     for run in &record.runs {
@@ -46,12 +57,11 @@ pub(crate) fn add_materials(
     let mut ids = vec![None; used.len()];
     for (index, from) in wanted {
         let mut material = from.material.clone();
-        textures.dress(&mut material, from);
-        let wants_color = from.maps.iter().any(|map| map.kind == MapKind::BaseColor);
-        if wants_color && material.base_color_texture.is_none() {
+        let is_textured = textures.dress(&mut material, from);
+        if from.map(MapKind::BaseColor).is_some() && material.base_color_texture.is_none() {
             soften_without_texture(&mut material);
         }
-        ids[index] = Some(import.scene.add_material(material));
+        ids[index] = Some(Added { id: import.scene.add_material(material), is_textured });
     }
     Ok(ids)
 }
@@ -63,12 +73,12 @@ fn soften_without_texture(material: &mut Material) {
     }
 }
 
-/// All materials by name, and whether a library could not be read.
+/// All materials by name, and whether a library was not read.
 fn read_libraries(import: &mut Import<'_>, record: &Record) -> (HashMap<String, MtlMaterial>, bool) {
     let mut materials = HashMap::new();
-    let mut any_missing = false;
+    let mut any_missing = record.oddities.has(Oddity::Libraries);
     for (line, names) in &record.libraries {
-        for (name, result) in find_libraries(import, names) {
+        for (name, result) in find_libraries(import, *line, names) {
             let found = match result {
                 Ok(found) => found,
                 Err(refusal) => {
@@ -85,26 +95,52 @@ fn read_libraries(import: &mut Import<'_>, record: &Record) -> (HashMap<String, 
             let (what, place) = (format!("material library \"{name}\""), Place::Line(*line));
             note_respelled(import, &what, &found, import.path, place);
             for material in parse_mtl(&found.path, &found.bytes, &mut import.warnings) {
-                materials.insert(material.material.name.clone(), material);
+                add_definition(&mut materials, material, &mut import.warnings);
             }
         }
     }
     (materials, any_missing)
 }
 
+/// In a library the last definition of a name counts; of several libraries the first
+/// that has it ("the first file listed is searched first").
+fn add_definition(materials: &mut HashMap<String, MtlMaterial>, new: MtlMaterial, warnings: &mut Warnings) {
+    let place = Place::Line(new.line);
+    match materials.entry(new.material.name.clone()) {
+        Entry::Vacant(entry) => {
+            entry.insert(new);
+        }
+        Entry::Occupied(entry) if entry.get().looks_like(&new) => {}
+        Entry::Occupied(mut entry) if entry.get().file == new.file => {
+            let what = "a material is defined a second time, and this definition counts";
+            warnings.push_about(&new.file, place, what, "remove one, or give it another name");
+            entry.insert(new);
+        }
+        Entry::Occupied(_) => {
+            let what = "a material is defined in an earlier library, too, and that definition counts";
+            warnings.push_about(&new.file, place, what, "remove one, or give it another name");
+        }
+    }
+}
+
 /// A `mtllib` line names one file whose name may have spaces, or several
 /// files. Both are tried, the whole line first.
-fn find_libraries(import: &mut Import<'_>, names: &str) -> Vec<(String, Result<Found, Refusal>)> {
+fn find_libraries(import: &mut Import<'_>, line: u64, names: &str) -> Vec<(String, Result<Found, Refusal>)> {
     let here = Path::new("");
     let whole = import.folder.read(here, names, Lookup::Forgiving);
     // `\ ` is how some write a space in a name.
     const MOST_NAMES: usize = 64;
     const ESCAPED: char = '\u{1}';
     let escaped = names.replace("\\ ", &ESCAPED.to_string());
-    let each: Vec<String> =
-        escaped.split_whitespace().take(MOST_NAMES).map(|name| name.replace(ESCAPED, " ")).collect();
+    let mut each: Vec<String> =
+        escaped.split_whitespace().take(MOST_NAMES + 1).map(|name| name.replace(ESCAPED, " ")).collect();
     if whole.is_ok() || each.len() < 2 {
         return vec![(names.to_owned(), whole)];
+    }
+    if each.len() > MOST_NAMES {
+        each.truncate(MOST_NAMES);
+        let what = format!("mtllib names more than {MOST_NAMES} libraries, and the others are not read");
+        import.warnings.push(Place::Line(line), what, "put their materials into one file");
     }
     let mut read = |name: String| {
         let result = import.folder.read(here, &name, Lookup::Forgiving);

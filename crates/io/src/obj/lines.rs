@@ -70,13 +70,15 @@ impl<'a> Iterator for Lines<'a> {
     }
 }
 
-/// The line without its backslash, when it ends in one.
+/// The line without its backslash, when it ends in one. A comment does not go on:
+/// `# C:\models\` must not take the vertex on the next line with it.
 fn continues(line: &[u8]) -> Option<&[u8]> {
-    match line.last() {
+    let before = match line.last() {
         Some(b'\\') => Some(&line[..line.len() - 1]),
         Some(b' ' | b'\t') => line.trim_ascii_end().strip_suffix(b"\\"),
         _ => None,
-    }
+    };
+    before.filter(|text| text.trim_ascii_start().first() != Some(&b'#'))
 }
 
 /// The first word of a line and what follows it; `None` for blank lines and
@@ -154,6 +156,17 @@ mod tests {
             "joined"
         );
         assert_eq!(lines("f\\"), [(1, "f".to_owned())], "a backslash at the end of the file");
+    }
+
+    #[test]
+    fn a_comment_that_ends_in_a_backslash_takes_no_line_with_it() {
+        let expected = [(1, " # C:\\models\\".to_owned()), (2, "v".to_owned())];
+        assert_eq!(lines(" # C:\\models\\\nv"), expected, "a path in a comment");
+        assert_eq!(
+            lines("f 1 \\\n# \\\nv"),
+            [(1, "f 1  # \\".to_owned()), (3, "v".to_owned())],
+            "in a line that went on"
+        );
     }
 
     #[test]

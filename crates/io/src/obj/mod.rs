@@ -22,20 +22,29 @@ mod library;
 mod lines;
 mod map_options;
 mod mtl;
+mod mtl_maps;
+mod mtl_reader;
+mod mtl_values;
 mod numbers;
 mod oddities;
 mod parse;
+mod passed;
 mod record;
 mod section;
 mod smoothing;
 mod textures;
+mod undrawn;
+mod unread;
 
 use std::borrow::Cow;
 
 use trigon_mesh::Mesh;
 use trigon_scene::{Material, MaterialId, Node, Transform};
 
-use crate::error::LoadError;
+use self::build::Part;
+use self::library::Added;
+use self::record::Record;
+use crate::error::{LoadError, Place};
 use crate::import::Import;
 use crate::options::Stage;
 
@@ -69,8 +78,14 @@ pub(crate) fn import_obj(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Resul
         if part.name.is_empty() {
             part.name.clone_from(&stem);
         }
-        let ids = part.materials.iter().map(|material| material.and_then(|index| materials[index as usize]));
-        let materials: Vec<MaterialId> = ids.map(|id| id.unwrap_or_else(|| plain.id(import))).collect();
+        let added: Vec<Option<Added>> = part
+            .materials
+            .iter()
+            .map(|material| material.and_then(|index| materials[index as usize]))
+            .collect();
+        warn_of_bare_faces(import, &record, &part, &added);
+        let materials: Vec<MaterialId> =
+            added.iter().map(|added| added.map_or_else(|| plain.id(import), |added| added.id)).collect();
         add_tangents(import, &mut part.mesh, &materials);
         let mesh = import.scene.add_mesh(part.name.clone(), part.mesh);
         let mut node = Node::default().with_name(part.name).with_transform(transform);
@@ -78,6 +93,19 @@ pub(crate) fn import_obj(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Resul
         import.scene.add(node);
     }
     Ok(())
+}
+
+/// A texture is placed by texture coordinates, and some faces have none.
+fn warn_of_bare_faces(import: &mut Import<'_>, record: &Record, part: &Part, added: &[Option<Added>]) {
+    for ((added, &is_bare), material) in added.iter().zip(&part.bare).zip(&part.materials) {
+        if let (true, Some(index), Some(Added { is_textured: true, .. })) = (is_bare, material, added) {
+            import.warnings.push(
+                Place::Line(record.material_lines[*index as usize]),
+                "a material with textures is on faces without texture coordinates, which cannot show them",
+                "export the texture coordinates (vt), too",
+            );
+        }
+    }
 }
 
 /// Normal maps refer to tangents, which OBJ does not have.

@@ -6,8 +6,10 @@ use std::path::{Path, PathBuf};
 use trigon_scene::Material;
 
 use super::convert::convert;
-use super::lines::{Lines, decode_name, plain_bytes, split_keyword, words};
-use super::map_options::{MapStatement, parse_map};
+use super::lines::{Lines, decode_name, plain_bytes, split_keyword};
+use super::map_options::MapStatement;
+use super::mtl_reader::Reader;
+use super::mtl_values::Stated;
 use crate::error::Place;
 use crate::warning::Warnings;
 
@@ -26,8 +28,9 @@ pub(crate) enum MapKind {
 }
 
 impl MapKind {
-    fn of(keyword: &str) -> Option<Self> {
-        match keyword.to_ascii_lowercase().as_str() {
+    /// By the keyword in lower case.
+    pub(super) fn of(keyword: &str) -> Option<Self> {
+        match keyword {
             "map_kd" => Some(Self::BaseColor),
             "map_d" => Some(Self::Opacity),
             "map_ks" => Some(Self::Specular),
@@ -38,6 +41,11 @@ impl MapKind {
             "bump" | "map_bump" => Some(Self::Bump),
             _ => None,
         }
+    }
+
+    /// Whether the picture holds colours rather than numbers.
+    pub(super) fn holds_colors(self) -> bool {
+        matches!(self, Self::BaseColor | Self::Specular | Self::Emissive)
     }
 }
 
@@ -57,38 +65,75 @@ pub(crate) struct MtlMaterial {
     pub(crate) maps: Vec<Map>,
     /// The library.
     pub(crate) file: PathBuf,
+    /// Where it begins there.
+    pub(crate) line: u64,
 }
 
-/// What the statements of a material say; colours and all other numbers are finite.
+impl MtlMaterial {
+    /// Whether another definition looks the same.
+    pub(super) fn looks_like(&self, other: &Self) -> bool {
+        let maps = |material: &Self| {
+            material.maps.iter().map(|map| (map.kind, map.statement.clone())).collect::<Vec<_>>()
+        };
+        self.material == other.material && maps(self) == maps(other)
+    }
+
+    pub(super) fn map(&self, kind: MapKind) -> Option<&Map> {
+        self.maps.iter().find(|map| map.kind == kind)
+    }
+}
+
+/// What the statements of a material say; colours and all other numbers are finite
+/// and, but for `Ka`, `Tf` and `Ni`, within the range that the format gives them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Fields {
     pub(super) name: String,
+    /// Where it begins.
+    pub(super) line: u64,
+    /// `Ka`.
+    pub(super) ambient: Option<Stated<[f32; 3]>>,
     /// `Kd`.
-    pub(super) diffuse: Option<[f32; 3]>,
+    pub(super) diffuse: Option<Stated<[f32; 3]>>,
     /// `Ks`.
-    pub(super) specular: Option<[f32; 3]>,
+    pub(super) specular: Option<Stated<[f32; 3]>>,
     /// `Ke`.
-    pub(super) emissive: Option<[f32; 3]>,
+    pub(super) emissive: Option<Stated<[f32; 3]>>,
+    /// `Tf`, or `Kt`.
+    pub(super) filter: Option<Stated<[f32; 3]>>,
     /// `Ns`.
-    pub(super) shininess: Option<f32>,
+    pub(super) shininess: Option<Stated<f32>>,
     /// `d`.
-    pub(super) dissolve: Option<f32>,
-    /// `Tr`, and its line.
-    pub(super) transparency: Option<(u64, f32)>,
+    pub(super) dissolve: Option<Stated<f32>>,
+    /// `Tr`.
+    pub(super) transparency: Option<Stated<f32>>,
     /// `illum`.
-    pub(super) illumination_model: Option<u8>,
+    pub(super) illumination_model: Option<Stated<u8>>,
     /// `Pr`.
-    pub(super) roughness: Option<f32>,
+    pub(super) roughness: Option<Stated<f32>>,
     /// `Pm`.
-    pub(super) metallic: Option<f32>,
+    pub(super) metallic: Option<Stated<f32>>,
     /// `Ni`.
-    pub(super) refraction: Option<f32>,
+    pub(super) refraction: Option<Stated<f32>>,
+    /// The picture of `map_Ka`.
+    pub(super) ambient_map: Option<Stated<String>>,
     pub(super) maps: Vec<Map>,
 }
 
 impl Fields {
+    pub(super) fn map(&self, kind: MapKind) -> Option<&Map> {
+        self.maps.iter().find(|map| map.kind == kind)
+    }
+
     pub(super) fn has(&self, kind: MapKind) -> bool {
-        self.maps.iter().any(|map| map.kind == kind)
+        self.map(kind).is_some()
+    }
+
+    /// Whether it has any field of "physically-based" MTL that is drawn.
+    pub(super) fn is_physically_based(&self) -> bool {
+        self.roughness.is_some()
+            || self.metallic.is_some()
+            || self.has(MapKind::Roughness)
+            || self.has(MapKind::Metallic)
     }
 }
 
@@ -101,142 +146,14 @@ pub(crate) fn parse_mtl(file: &Path, bytes: &[u8], warnings: &mut Warnings) -> V
             return Vec::new();
         }
     };
-    let mut reader = Reader { file, warnings, materials: Vec::new(), skipping: true };
+    let mut reader = Reader::new(file, warnings);
     for (number, line) in Lines::new(&text) {
         if let Some((keyword, rest)) = split_keyword(&line) {
             reader.statement(number, &decode_name(keyword), rest);
         }
     }
-    let Reader { materials, .. } = reader;
+    let materials = reader.into_materials();
     materials.into_iter().map(|fields| convert(file, fields, warnings)).collect()
-}
-
-struct Reader<'a> {
-    file: &'a Path,
-    warnings: &'a mut Warnings,
-    materials: Vec<Fields>,
-    /// Whether the statements belong to no material.
-    skipping: bool,
-}
-
-impl Reader<'_> {
-    fn statement(&mut self, line: u64, keyword: &str, rest: &[u8]) {
-        if keyword == "newmtl" {
-            return self.start_material(line, rest);
-        }
-        if self.skipping {
-            return;
-        }
-        match keyword {
-            "Kd" | "Ks" | "Ke" => self.color(line, keyword, rest),
-            "Ns" | "d" | "Pr" | "Pm" | "Ni" => self.number(line, keyword, rest),
-            "Tr" => {
-                let value = numbers(rest).first().copied();
-                self.fields().transparency = value.map(|value| (line, value));
-            }
-            "illum" => match words(rest).next().map(decode_name).and_then(|word| word.parse().ok()) {
-                Some(model) => self.fields().illumination_model = Some(model),
-                None => self.warn(line, "illum has no number"),
-            },
-            _ => match MapKind::of(keyword) {
-                Some(kind) => self.map(line, keyword, kind, rest),
-                None => self.other_map(line, keyword, rest),
-            },
-        }
-    }
-
-    fn start_material(&mut self, line: u64, rest: &[u8]) {
-        let name = decode_name(rest);
-        self.skipping = name.is_empty();
-        if self.skipping {
-            return self.warn(line, "a material has no name and is left out");
-        }
-        self.materials.push(Fields { name, ..Fields::default() });
-    }
-
-    /// One grey value or three channels.
-    fn color(&mut self, line: u64, keyword: &str, rest: &[u8]) {
-        let color = match *numbers(rest).as_slice() {
-            [red, green, blue, ..] => [red, green, blue],
-            [grey] => [grey; 3],
-            _ => return self.warn(line, &format!("{keyword} has no three numbers and is ignored")),
-        };
-        let fields = self.fields();
-        match keyword {
-            "Kd" => fields.diffuse = Some(color),
-            "Ks" => fields.specular = Some(color),
-            _ => fields.emissive = Some(color),
-        }
-    }
-
-    /// The first number; words before it, as in `d -halo 0.5`, mean what trigon
-    /// does not draw.
-    fn number(&mut self, line: u64, keyword: &str, rest: &[u8]) {
-        let Some(value) = words(rest).filter_map(number).next() else {
-            return self.warn(line, &format!("{keyword} has no number and is ignored"));
-        };
-        let fields = self.fields();
-        let field = match keyword {
-            "Ns" => &mut fields.shininess,
-            "d" => &mut fields.dissolve,
-            "Pr" => &mut fields.roughness,
-            "Pm" => &mut fields.metallic,
-            _ => &mut fields.refraction,
-        };
-        *field = Some(value);
-    }
-
-    /// Of several for the same purpose the last counts.
-    fn map(&mut self, line: u64, keyword: &str, kind: MapKind, rest: &[u8]) {
-        let statement = parse_map(&decode_name(rest));
-        if statement.file.is_empty() {
-            return self.warn(line, &format!("{keyword} names no file and is ignored"));
-        }
-        if !statement.ignored.is_empty() {
-            let (options, file) = (statement.ignored.join(", "), &statement.file);
-            self.warn(line, &format!("the options {options} of texture \"{file}\" are not followed"));
-        }
-        let maps = &mut self.fields().maps;
-        maps.retain(|map| map.kind != kind);
-        maps.push(Map { kind, line, statement });
-    }
-
-    /// Textures that are not drawn are named; other statements are not.
-    fn other_map(&mut self, line: u64, keyword: &str, rest: &[u8]) {
-        let lower = keyword.to_ascii_lowercase();
-        if lower.starts_with("map_") || matches!(lower.as_str(), "disp" | "decal" | "refl") {
-            let file = parse_map(&decode_name(rest)).file;
-            let what = format!("{keyword} \"{file}\" is not drawn");
-            self.warnings.push_about(
-                self.file,
-                Place::Line(line),
-                what,
-                "bake the effect into map_Kd if it matters",
-            );
-        }
-    }
-
-    fn fields(&mut self) -> &mut Fields {
-        self.materials.last_mut().expect("a statement is only read after newmtl")
-    }
-
-    fn warn(&mut self, line: u64, what: &str) {
-        self.warnings.push_about(
-            self.file,
-            Place::Line(line),
-            what,
-            "mend the line, or export the material again",
-        );
-    }
-}
-
-/// The finite numbers at the start of a statement.
-fn numbers(rest: &[u8]) -> Vec<f32> {
-    words(rest).map_while(number).collect()
-}
-
-fn number(word: &[u8]) -> Option<f32> {
-    std::str::from_utf8(word).ok()?.parse().ok().filter(|value: &f32| value.is_finite())
 }
 
 #[cfg(test)]
@@ -306,7 +223,8 @@ mod tests {
     fn every_map_that_is_drawn_arrives_and_others_are_named() {
         let text = "newmtl a\nmap_Ks s\nmap_Ke e\nmap_d d\nmap_Bump -bm 1 b\nnorm n\nNi 1.3\nmap_Kd old\nmap_Kd new\n";
         let (materials, warnings) = parse(text);
-        assert_eq!(warnings, [""; 0], "nothing to warn of");
+        let [twice, both] = &warnings[..] else { panic!("{warnings:?}") };
+        assert!(twice.contains("map_Kd is given twice") && both.contains("beside norm"), "{warnings:?}");
         let files: Vec<&str> = materials[0].maps.iter().map(|map| map.statement.file.as_str()).collect();
         assert_eq!(files, ["s", "e", "d", "b", "n", "new"], "the last of each kind");
         let material = &materials[0].material;

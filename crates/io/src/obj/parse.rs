@@ -13,7 +13,7 @@ use super::chunks::{Census, Chunk, census, cut, number};
 use super::content::Content;
 use super::index::{Counts, NONE};
 use super::lines::plain_bytes;
-use super::oddities::{Oddities, Tally};
+use super::oddities::{Oddities, Oddity, Tally};
 use super::record::Record;
 use super::section::{Section, read_section};
 use crate::error::{LoadError, LoadErrorKind, Place};
@@ -31,6 +31,10 @@ pub(crate) struct Parsed {
     pub(crate) record: Record,
     /// The first line with a position that is not finite.
     pub(crate) non_finite_line: Option<u64>,
+    /// The first face with fewer than 3 different vertices.
+    pub(crate) flat_line: Option<u64>,
+    /// The first line or point statement.
+    pub(crate) wire_line: Option<u64>,
     oddities: Oddities,
     colorless: Tally,
     corners: usize,
@@ -63,11 +67,12 @@ pub(super) fn parse_in_pieces(
     if total.positions.max(total.coordinates).max(total.normals) > limit {
         return Err(LoadError::limit(path, format!("it has more than {limit} vertices")));
     }
-    let parsed = read_all(path, &chunks, total, options)?;
+    let mut parsed = read_all(path, &chunks, total, options)?;
     if parsed.content.arities.is_empty() {
-        return Err(nothing(path, total.positions));
+        return Err(nothing(path, total.positions, &parsed.oddities));
     }
     let colorless = if parsed.content.colors.is_empty() { Tally::default() } else { parsed.colorless };
+    parsed.oddities.add(&parsed.record.oddities);
     parsed.oddities.warn(colorless, warnings);
     Ok(parsed)
 }
@@ -148,17 +153,27 @@ impl Parsed {
         self.oddities.add(&section.oddities);
         self.colorless.add_all(section.colorless);
         self.non_finite_line = self.non_finite_line.or(section.non_finite_line);
+        self.flat_line = self.flat_line.or(section.flat_line);
+        self.wire_line = self.wire_line.or(section.wire_line);
         Ok(())
     }
 }
 
-fn nothing(path: &Path, vertices: usize) -> LoadError {
-    let what = if vertices == 0 {
-        "there is nothing to draw: the file is empty or has no vertices".to_owned()
+fn nothing(path: &Path, vertices: usize, oddities: &Oddities) -> LoadError {
+    let remedy = "export the model with faces";
+    let (what, remedy) = if let Some((what, remedy)) = oddities.unknown.first() {
+        (format!("there is nothing to draw, and {what}"), remedy)
+    } else if oddities.has(Oddity::Surface) {
+        let what = "there is nothing to draw but curves and surfaces, which are not drawn";
+        (what.to_owned(), "convert them to polygons")
+    } else if vertices == 0 {
+        ("there is nothing to draw: the file is empty or has no vertices".to_owned(), remedy)
     } else {
-        format!("there is nothing to draw: {vertices} vertices, but no face with at least 3 of them")
+        let what =
+            format!("there is nothing to draw: {vertices} vertices, but no face with at least 3 of them");
+        (what, remedy)
     };
-    LoadError::new(LoadErrorKind::Empty, path, what, "export the model with faces")
+    LoadError::new(LoadErrorKind::Empty, path, what, remedy)
 }
 
 #[cfg(test)]
@@ -214,7 +229,7 @@ mod tests {
         #[test]
         fn neither_pieces_nor_threads_matter(
             lines in prop::collection::vec(
-                "(v|v|vt|vn|f|f|l|p|o|g|s|usemtl|mtllib|curv|#)( -?[1-9](/[1-9]?){0,2}| [a-c.]| \\\\\n){2,7}", 0..12),
+                "(v|v|vt|vn|f|f|l|p|o|g|s|usemtl|mtllib|curv|lod|#|[A-Z])( -?[1-9](/[1-9]?){0,2}| [a-c.]| \\\\\n){2,7}", 0..12),
             ending in prop::sample::select(vec!["\n", "\r\n", "\r"]),
             size in 1usize..60,
             threads in 1usize..4,

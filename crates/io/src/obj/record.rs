@@ -3,7 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use super::lines::{Lines, decode_name, split_keyword};
+use super::lines::{Lines, decode_name, split_keyword, words};
+use super::oddities::{Oddities, Oddity};
 use super::section::Statement;
 
 /// A run of consecutive elements (faces, edges, points) with the same state.
@@ -61,6 +62,8 @@ pub(crate) struct Record {
     pub(crate) runs: Vec<Run>,
     /// How many elements there are.
     pub(crate) elements: usize,
+    /// Of the statements that are followed here.
+    pub(crate) oddities: Oddities,
     object: String,
     group: String,
     part: Option<u32>,
@@ -88,7 +91,7 @@ impl Record {
         match keyword {
             b"o" => self.set_object(rest),
             b"g" => self.set_group(rest),
-            b"s" => self.set_smoothing(rest),
+            b"s" => self.set_smoothing(line, rest),
             b"usemtl" => self.set_material(line, rest),
             _ => self.add_library(line, rest),
         }
@@ -119,17 +122,27 @@ impl Record {
         self.material = Some(index);
     }
 
-    fn set_smoothing(&mut self, rest: &[u8]) {
-        let word = decode_name(rest);
-        // "off" and anything that is no number is flat; "on" is group 1.
-        self.smoothing = if word == "on" { 1 } else { word.parse().unwrap_or(0) };
+    fn set_smoothing(&mut self, line: u64, rest: &[u8]) {
+        let word = words(rest).next().map(decode_name).unwrap_or_default();
+        self.smoothing = match word.as_str() {
+            "on" => 1,
+            "off" => 0,
+            number => number.parse().unwrap_or_else(|_| {
+                self.oddities.note(Oddity::Smoothing, line);
+                0
+            }),
+        };
     }
 
     fn add_library(&mut self, line: u64, rest: &[u8]) {
         let name = decode_name(rest);
-        if self.libraries.len() < MOST_LIBRARIES && !self.libraries.iter().any(|(_, known)| *known == name) {
-            self.libraries.push((line, name));
+        if self.libraries.iter().any(|(_, known)| *known == name) {
+            return;
         }
+        if self.libraries.len() == MOST_LIBRARIES {
+            return self.oddities.note(Oddity::Libraries, line);
+        }
+        self.libraries.push((line, name));
     }
 
     /// Notes that so many elements follow, in the state as it is now.

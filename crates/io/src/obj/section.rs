@@ -6,10 +6,11 @@ use trigon_math::{DVec3, Vec2, Vec3};
 
 use super::chunks::Chunk;
 use super::content::{Content, WHITE};
-use super::index::{Corner, Counts, parse_corner};
+use super::index::{Corner, Corners, Counts, is_flat, read_corners};
 use super::lines::{Lines, split_keyword};
 use super::numbers::{Numbers, read_numbers};
-use super::oddities::{Oddities, Tally};
+use super::oddities::{Oddities, Oddity, Tally};
+use super::unread::{Unread, judge};
 
 /// A statement that says something about the elements that follow it.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +32,10 @@ pub(crate) struct Section {
     pub(crate) colorless: Tally,
     /// The first line with a position that is not finite.
     pub(crate) non_finite_line: Option<u64>,
+    /// The first face with fewer than 3 different vertices.
+    pub(crate) flat_line: Option<u64>,
+    /// The first line or point statement.
+    pub(crate) wire_line: Option<u64>,
     /// Of all elements, those that were left out, too.
     pub(crate) corners: usize,
     /// Why reading stopped before the end.
@@ -91,8 +96,8 @@ impl Reader {
         let Some((keyword, rest)) = split_keyword(text) else { return Ok(()) };
         match keyword {
             b"v" => self.position(line, rest),
-            b"vt" => self.coordinate(rest),
-            b"vn" => self.normal(rest),
+            b"vt" => self.coordinate(line, rest),
+            b"vn" => self.normal(line, rest),
             b"f" | b"fo" => self.face(line, rest),
             b"l" => self.polyline(line, rest),
             b"p" => self.points(line, rest),
@@ -101,12 +106,19 @@ impl Reader {
                 self.section.statements.push(Statement { elements_before, at: at as u32, line });
                 Ok(())
             }
-            b"curv" | b"curv2" | b"surf" => {
-                self.section.oddities.unknown.add(line);
+            _ => {
+                match judge(keyword, rest) {
+                    Unread::Harmless => {}
+                    Unread::Noted(oddity) => self.note(oddity, line),
+                    Unread::Unknown => self.section.oddities.unknown.note(keyword, line),
+                }
                 Ok(())
             }
-            _ => Ok(()),
         }
+    }
+
+    fn note(&mut self, oddity: Oddity, line: u64) {
+        self.section.oddities.note(oddity, line);
     }
 
     /// x, y, z; then nothing, or a weight, or a colour.
@@ -125,7 +137,7 @@ impl Reader {
             position /= values[3];
         }
         if surplus || count == 5 {
-            self.section.oddities.surplus.add(line);
+            self.note(Oddity::SurplusInVertex, line);
         }
         if !position.is_finite() {
             self.section.non_finite_line.get_or_insert(line);
@@ -136,6 +148,10 @@ impl Reader {
     }
 
     fn color(&mut self, line: u64, color: Option<[f64; 3]>) {
+        let is_outside = |&value: &f64| value.is_finite() && !(0.0..=1.0).contains(&value);
+        if color.is_some_and(|color| color.iter().any(is_outside)) {
+            self.note(Oddity::ColorOutOfRange, line);
+        }
         let Content { positions, colors, .. } = &mut self.section.content;
         let channel = |value: f64| if value.is_finite() { value.clamp(0.0, 1.0) as f32 } else { f32::NAN };
         match color {
@@ -147,76 +163,99 @@ impl Reader {
         }
     }
 
-    /// u and v; v may be missing, and a third number does not matter.
-    fn coordinate(&mut self, rest: &[u8]) -> Result<(), Fault> {
+    /// u and v; v may be missing, and a third number is for pictures of three dimensions.
+    fn coordinate(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
         self.seen.coordinates += 1;
-        let Numbers { values: [u, v, _], count, .. } = numbers::<3>(rest)?;
+        let Numbers { values: [u, v, _], count, surplus } = numbers::<3>(rest)?;
         if count == 0 {
             return Err(Fault::new("a vt line has 0 numbers and needs 2", EXPORT_AGAIN));
         }
         // OBJ counts from the lower left of the picture.
-        self.section.content.coordinates.push(Vec2::new(u as f32, (1.0 - v) as f32));
+        let coordinate = Vec2::new(u as f32, (1.0 - v) as f32);
+        if surplus {
+            self.note(Oddity::SurplusInAttribute, line);
+        }
+        if !coordinate.is_finite() {
+            self.note(Oddity::OddCoordinate, line);
+        }
+        self.section.content.coordinates.push(coordinate);
         Ok(())
     }
 
-    fn normal(&mut self, rest: &[u8]) -> Result<(), Fault> {
+    fn normal(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
         self.seen.normals += 1;
-        let Numbers { values, count, .. } = numbers::<3>(rest)?;
+        let Numbers { values, count, surplus } = numbers::<3>(rest)?;
         if count < 3 {
             let what = format!("a vn line has {count} numbers and needs 3");
             return Err(Fault::new(what, EXPORT_AGAIN));
         }
-        self.section.content.normals.push(DVec3::from(values).as_vec3());
+        let normal = DVec3::from(values).as_vec3();
+        if surplus {
+            self.note(Oddity::SurplusInAttribute, line);
+        }
+        if !normal.is_finite() || normal == Vec3::ZERO {
+            self.note(Oddity::NoDirection, line);
+        }
+        self.section.content.normals.push(normal);
         Ok(())
     }
 
     fn face(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
-        self.read_corners(line, rest)?;
-        if self.corners.len() < 3 {
-            self.section.oddities.short_faces.add(line);
+        let Corners { count, coordinates, normals, dropped } = self.read_corners(line, rest)?;
+        if count < 3 {
+            self.note(Oddity::ShortFace, line);
             return Ok(());
         }
-        self.push_element(0, self.corners.len());
+        if dropped == 0 && coordinates != 0 && coordinates < count {
+            self.note(Oddity::MixedCoordinates, line);
+        }
+        if dropped == 0 && normals != 0 && normals < count {
+            self.note(Oddity::MixedNormals, line);
+        }
+        if self.section.flat_line.is_none() && is_flat(&self.corners) {
+            self.section.flat_line = Some(line);
+        }
+        self.push_element(0, count);
         Ok(())
     }
 
     fn polyline(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
-        self.read_corners(line, rest)?;
-        for end in 1..self.corners.len() {
+        let count = self.read_wire(line, rest, 2)?;
+        for end in 1..count {
             self.push_element(end - 1, 2);
         }
         Ok(())
     }
 
     fn points(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
-        self.read_corners(line, rest)?;
-        for point in 0..self.corners.len() {
+        for point in 0..self.read_wire(line, rest, 1)? {
             self.push_element(point, 1);
         }
         Ok(())
     }
 
-    /// Reads the corners of an element, up to a comment.
-    fn read_corners(&mut self, line: u64, rest: &[u8]) -> Result<(), Fault> {
-        self.corners.clear();
-        let mut at = 0;
-        loop {
-            while rest.get(at).is_some_and(u8::is_ascii_whitespace) {
-                at += 1;
-            }
-            if matches!(rest.get(at), None | Some(b'#')) {
-                break;
-            }
-            let (corner, length) = parse_corner(&rest[at..], self.seen, self.total)
-                .map_err(|what| Fault::new(what, "export the model again, or mend the line"))?;
-            if corner.dropped {
-                self.section.oddities.dropped_indices.add(line);
-            }
-            self.corners.push(corner);
-            at += length;
+    /// Reads the corners of lines or points, and says how many there are.
+    fn read_wire(&mut self, line: u64, rest: &[u8], fewest: usize) -> Result<usize, Fault> {
+        let Corners { count, coordinates, .. } = self.read_corners(line, rest)?;
+        if count < fewest {
+            self.note(Oddity::ShortLine, line);
         }
-        self.section.corners += self.corners.len();
-        Ok(())
+        if coordinates > 0 {
+            self.note(Oddity::WireCoordinate, line);
+        }
+        self.section.wire_line.get_or_insert(line);
+        Ok(count)
+    }
+
+    /// Reads the corners of an element.
+    fn read_corners(&mut self, line: u64, rest: &[u8]) -> Result<Corners, Fault> {
+        let found = read_corners(rest, self.seen, self.total, &mut self.corners)
+            .map_err(|what| Fault::new(what, "export the model again, or mend the line"))?;
+        for _ in 0..found.dropped {
+            self.note(Oddity::IndexDropped, line);
+        }
+        self.section.corners += found.count;
+        Ok(found)
     }
 
     /// An element of some of the corners that were read.

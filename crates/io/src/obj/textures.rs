@@ -44,8 +44,7 @@ impl Slot {
 
     /// The statements that make it, and what each one gives.
     fn layers(self, material: &MtlMaterial) -> Vec<(Role, &Map)> {
-        let map = |kind: MapKind| material.maps.iter().find(|map| map.kind == kind);
-        let with = |role: Role, kind: MapKind| map(kind).map(|map| (role, map));
+        let with = |role: Role, kind: MapKind| material.map(kind).map(|map| (role, map));
         let has_highlight = matches!(material.material.shading, Shading::BlinnPhong { .. });
         match self {
             Self::BaseColor => {
@@ -107,11 +106,12 @@ impl Textures {
         Ok(Self { ids })
     }
 
-    /// Binds a material's textures to it.
-    pub(super) fn dress(&self, material: &mut Material, from: &MtlMaterial) {
+    /// Binds a material's textures to it, and says whether there are any.
+    pub(super) fn dress(&self, material: &mut Material, from: &MtlMaterial) -> bool {
         material.base_color_texture = self.bind(from, Slot::BaseColor);
         material.emissive_texture = self.bind(from, Slot::Emissive);
-        material.normal_map = self.bind(from, Slot::Normal).map(|binding| NormalMap { binding, scale: 1.0 });
+        let scale = Slot::Normal.layers(from).first().map_or(1.0, |(_, map)| map.statement.bump);
+        material.normal_map = self.bind(from, Slot::Normal).map(|binding| NormalMap { binding, scale });
         match &mut material.shading {
             Shading::BlinnPhong { specular_texture, .. } => {
                 *specular_texture = self.bind(from, Slot::Specular);
@@ -119,6 +119,7 @@ impl Textures {
             Shading::MetallicRoughness(model) => model.texture = self.bind(from, Slot::MetallicRoughness),
             Shading::Unlit | Shading::Lambert => {}
         }
+        SLOTS.iter().any(|&slot| self.bind(from, slot).is_some())
     }
 
     /// Placed as the first of the statements says.

@@ -219,12 +219,21 @@ fn a_long_line_takes_linear_time() {
 }
 
 #[test]
+fn a_line_that_names_too_many_libraries_says_so() {
+    let names: String = (0..65).map(|index| format!(" {index}.mtl")).collect();
+    let loaded = obj(&format!("{SQUARE}f 1 2 3\nmtllib{names}\n"));
+    warns_once(&loaded, "a.obj, line 6: mtllib names more than 64 libraries");
+    assert_eq!(loaded.warnings.len(), 65, "and the 64 are not there: {:#?}", loaded.warnings);
+}
+
+#[test]
 fn many_groups_materials_and_libraries_take_linear_time() {
     let lines: String =
         (0..100_000).map(|index| format!("mtllib {index}\nusemtl {index}\nf 1 2 3\n")).collect();
     let loaded = obj(&format!("{SQUARE}{lines}"));
     let (_, node) = loaded.scene.nodes().iter().next().expect("a node");
     assert_eq!(node.materials.len(), 100_000, "a slot for each");
+    warns_once(&loaded, "a.obj, line 773: more than 256 libraries");
     let groups: String = (0..20_000).map(|index| format!("g {index}\nf 1 2 3\n")).collect();
     assert_eq!(obj(&format!("{SQUARE}{groups}")).scene.nodes().len(), 20_000, "a node for each");
 }

@@ -135,11 +135,11 @@ fn a_set_that_is_missing_is_replaced() {
 /// Each picture is within the limits, all together are not.
 #[test]
 fn pictures_are_limited_together() {
-    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\n";
     let dir = tempfile::tempdir().expect("a folder");
     let (mut obj, mut mtl) = (format!("mtllib a.mtl\n{square}"), String::new());
     for index in 0..3 {
-        obj += &format!("usemtl m{index}\nf 1 2 3\n");
+        obj += &format!("usemtl m{index}\nf 1/1 2/1 3/1\n");
         mtl += &format!("newmtl m{index}\nmap_Kd {index}.png\n");
         std::fs::write(dir.path().join(format!("{index}.png")), png()).expect("a picture");
     }
@@ -197,7 +197,8 @@ fn texel(loaded: &Loaded, binding: Option<TextureBinding>) -> Vec4 {
 fn maps_of_mtl_become_textures_of_the_material() {
     let found =
         obj_with("Ks 1 1 1\nmap_Kd t.png\nmap_Ks t.png\nmap_Ke g.png\nmap_d g.png\nnorm n.png\nbump g.png\n");
-    assert_eq!(warnings(&found), [""; 0], "norm is there, so bump is not asked");
+    warns_once(&found, "bump \"g.png\" is not drawn beside norm");
+    assert_eq!(found.warnings.len(), 1, "nothing else to warn of: {:#?}", warnings(&found));
     let material = found.scene.materials.iter().next().expect("a material").1;
     assert_eq!(
         texel(&found, material.base_color_texture),

@@ -1,0 +1,79 @@
+//! What is left out or changed while the mesh is built: counted element by element,
+//! and said once each at the end.
+
+use trigon_mesh::Mesh;
+
+use super::parse::Parsed;
+use crate::error::Place;
+use crate::warning::Warnings;
+
+/// How many elements there were, and what was odd about some of them.
+#[derive(Default)]
+pub(super) struct Passed {
+    pub(super) elements: usize,
+    pub(super) non_finite: usize,
+    pub(super) flat: usize,
+    /// Edges and points in another material than the first of their part.
+    plain: usize,
+    /// The material of the first of those.
+    plain_material: Option<u32>,
+    /// Edges and points whose vertices have colours.
+    colored: usize,
+    /// Lines on edges of faces.
+    covered: usize,
+}
+
+impl Passed {
+    /// Notes an edge or a point: it is drawn in the first material of its part,
+    /// without colours of vertices.
+    pub(super) fn note_wire(&mut self, slot: u32, material: Option<u32>, is_colored: bool) {
+        if slot != 0 {
+            self.plain += 1;
+            self.plain_material = self.plain_material.or(material);
+        }
+        self.colored += usize::from(is_colored);
+    }
+
+    /// Notes which lines of a mesh are edges of its faces, too: those are not loose.
+    pub(super) fn note_covered(&mut self, mut lines: Vec<[u32; 2]>, mesh: &Mesh) {
+        lines.sort_unstable();
+        lines.dedup();
+        self.covered += lines.len() - mesh.loose_edges().len();
+    }
+
+    pub(super) fn warn(&self, parsed: &Parsed, warnings: &mut Warnings) {
+        let mut warn = |count: usize, line: Option<u64>, what: &str, remedy: &str| {
+            warnings.push_counted(count, line.map_or(Place::Whole, Place::Line), what, remedy);
+        };
+        warn(
+            self.non_finite,
+            parsed.non_finite_line,
+            "a face, a line or a point has a vertex that is not finite and is left out",
+            "export the model again",
+        );
+        warn(
+            self.flat,
+            parsed.flat_line,
+            "a face has fewer than 3 different vertices and is left out",
+            "clean the model up",
+        );
+        warn(
+            self.plain,
+            self.plain_material.map(|material| parsed.record.material_lines[material as usize]),
+            "a line or a point has another material than what its group starts with, whose colour it gets",
+            "start a group for each material, with g",
+        );
+        warn(
+            self.colored,
+            parsed.wire_line,
+            "lines and points are drawn without the colours of their vertices",
+            "give them a material of that colour",
+        );
+        warn(
+            self.covered,
+            parsed.wire_line,
+            "a line on the edge of a face of its group is not drawn",
+            "start a group for the lines, with g",
+        );
+    }
+}
