@@ -13,6 +13,7 @@ mod movement;
 mod obj;
 mod oracle;
 mod source;
+mod statements;
 mod texture;
 mod tobj_crate;
 mod validator;

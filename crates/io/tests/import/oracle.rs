@@ -10,7 +10,7 @@ use trigon_math::{DVec3, Vec3};
 
 /// The numbers of a corner, to the bit: position, texture coordinate, normal,
 /// colour. No normal and one that is zero are the same.
-type Corner = [Vec<u32>; 4];
+pub(crate) type Corner = [Vec<u32>; 4];
 
 fn bits<const N: usize>(values: [f32; N]) -> Vec<u32> {
     // The two zeros are one: v is turned by subtracting it from 1.
@@ -18,7 +18,7 @@ fn bits<const N: usize>(values: [f32; N]) -> Vec<u32> {
 }
 
 /// All faces of a scene, sorted: nodes order them by group.
-fn faces_of_scene(loaded: &Loaded) -> Vec<Vec<Corner>> {
+pub(crate) fn faces_of_scene(loaded: &Loaded) -> Vec<Vec<Corner>> {
     let mut faces = Vec::new();
     for (_, node) in loaded.scene.nodes().iter() {
         let Some(asset) = node.mesh.and_then(|mesh| loaded.scene.meshes().get(mesh)) else { continue };
@@ -44,7 +44,7 @@ fn faces_of_scene(loaded: &Loaded) -> Vec<Vec<Corner>> {
 
 /// All faces that tobj finds, but for those that we leave out with a warning: with a
 /// vertex that is not finite, or without three different ones.
-fn faces_of_tobj(text: &[u8]) -> Result<Vec<Vec<Corner>>, tobj::LoadError> {
+pub(crate) fn faces_of_tobj(text: &[u8]) -> Result<Vec<Vec<Corner>>, tobj::LoadError> {
     let options = tobj::LoadOptions::default();
     let (models, _) = tobj::load_obj_buf(&mut &*text, &options, |_| Ok(Default::default()))?;
     let mut faces = Vec::new();
