@@ -107,7 +107,16 @@ pub(crate) fn read_corners(
 
 /// Whether the corners of a face, of which there is at least one, have fewer than 3
 /// different vertices.
+#[inline]
 pub(crate) fn is_flat(corners: &[Corner]) -> bool {
+    // The first three differ in nearly all faces: this is asked of each.
+    if let [a, b, c, ..] = *corners
+        && a.position != b.position
+        && b.position != c.position
+        && c.position != a.position
+    {
+        return false;
+    }
     let first = corners[0].position;
     let mut others = corners.iter().map(|corner| corner.position).filter(|&position| position != first);
     others.next().is_none_or(|second| others.all(|position| position == second))
