@@ -148,19 +148,15 @@ impl Reader {
     }
 
     fn color(&mut self, line: u64, color: Option<[f64; 3]>) {
+        let Some(color) = color else { return self.section.colorless.add(line) };
         let is_outside = |&value: &f64| value.is_finite() && !(0.0..=1.0).contains(&value);
-        if color.is_some_and(|color| color.iter().any(is_outside)) {
+        if color.iter().any(is_outside) {
             self.note(Oddity::ColorOutOfRange, line);
         }
         let Content { positions, colors, .. } = &mut self.section.content;
         let channel = |value: f64| if value.is_finite() { value.clamp(0.0, 1.0) as f32 } else { f32::NAN };
-        match color {
-            Some(color) => {
-                colors.resize(positions.len(), WHITE);
-                colors.push(Vec3::from(color.map(channel)));
-            }
-            None => self.section.colorless.add(line),
-        }
+        colors.resize(positions.len(), WHITE);
+        colors.push(Vec3::from(color.map(channel)));
     }
 
     /// u and v; v may be missing, and a third number is for pictures of three dimensions.
