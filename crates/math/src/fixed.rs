@@ -27,12 +27,14 @@ impl Fixed {
     /// `None` for NaN and beyond ±[`Fixed::LIMIT`]: the caller drops such
     /// geometry before any cast could wrap or saturate.
     #[must_use]
+    #[inline]
     pub fn from_f32(pixels: f32) -> Option<Self> {
         Self::from_f64(f64::from(pixels))
     }
 
     /// As [`Fixed::from_f32`], for a coordinate that is known more precisely.
     #[must_use]
+    #[inline]
     pub fn from_f64(pixels: f64) -> Option<Self> {
         // The product with a power of two is exact.
         let raw = (pixels * f64::from(Self::ONE.0)).round_ties_even();
@@ -45,6 +47,7 @@ impl Fixed {
     /// # Panics
     /// If it is beyond ±[`Fixed::LIMIT`] pixels.
     #[must_use]
+    #[inline]
     pub const fn from_raw(raw: i32) -> Self {
         assert!(
             -Self::LIMIT_RAW <= raw && raw <= Self::LIMIT_RAW,
@@ -55,12 +58,14 @@ impl Fixed {
 
     /// The coordinate in units of 1/256 pixel.
     #[must_use]
+    #[inline]
     pub const fn raw(self) -> i32 {
         self.0
     }
 
     /// The coordinate in pixels, exactly.
     #[must_use]
+    #[inline]
     pub fn to_f64(self) -> f64 {
         f64::from(self.0) / f64::from(Self::ONE.0)
     }
@@ -81,6 +86,7 @@ pub struct FixedPoint {
 impl FixedPoint {
     /// The point with these coordinates.
     #[must_use]
+    #[inline]
     pub const fn new(x: Fixed, y: Fixed) -> Self {
         Self { x, y }
     }

@@ -78,7 +78,7 @@ pub(super) fn for_each_vector<S: Simd>(
 
 /// [`prepare`] in a function of its own that knows no pipeline, so that it is compiled
 /// once for each level and not for each pipeline at each.
-#[inline(never)]
+#[inline(always)]
 fn prepare_apart<S: Simd>(
     simd: S,
     context: &ShadeContext<'_>,
