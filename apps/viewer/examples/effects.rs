@@ -17,7 +17,7 @@ use trigon_math::glam::Affine2;
 use trigon_math::{DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::primitives::{self, TorusKnot};
 use trigon_scene::{
-    AmbientOcclusion, Background, Effect, EffectPlan, Environment, Fog, Frame, Light, Material,
+    AmbientOcclusion, Background, Effect, EffectPlan, Environment, Fog, Frame, Light, Lighting, Material,
     MetallicRoughness, Node, NodeId, NormalMap, Outline, RenderSettings, Renderer, Scene, Shading, Shadows,
     Sky, Style, Texture, TextureBinding, TextureFormat, ToneMapping, Transform, render, showcase,
 };
@@ -157,6 +157,8 @@ fn shown(subject: &Subject) -> Vec<(Effect, RenderSettings)> {
             settings.effects.environment = Some(Arc::clone(&sky));
             settings.background = Background::Environment;
         }),
+        // These scenes have ambient light of their own, which metals mirror otherwise.
+        asked(Effect::MetalSky, &|settings| settings.lighting = Lighting::Studio),
         asked(Effect::ShadowMaps, &|settings| settings.effects.shadows = Shadows::Maps { resolution: 2048 }),
         asked(Effect::ShadowRays, &|settings| settings.effects.shadows = Shadows::Rays),
         asked(Effect::AmbientOcclusion, &|settings| {

@@ -189,7 +189,7 @@ fn zoomed(camera: Camera, center: DVec3, factor: f64) -> Shot {
                 Projection::orthographic(height / factor, near, far).unwrap_or(camera.projection);
             Shot { camera: camera.with_projection(projection), distance: away.length() }
         }
-        _ => Shot {
+        Projection::Perspective { .. } | Projection::Frustum { .. } | Projection::Pinhole { .. } => Shot {
             camera: Camera { position: center + away / factor, ..camera },
             distance: away.length() / factor,
         },

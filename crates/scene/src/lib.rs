@@ -52,7 +52,7 @@ pub use arena::{Arena, Id};
 pub use background::Background;
 pub use effects::{
     Absence, AmbientOcclusion, Cause, Decision, Effect, EffectCounts, EffectPlan, EffectSettings,
-    Environment, EnvironmentError, Fog, Named, Outline, Shadows, Sky, ToneMapping,
+    Environment, EnvironmentError, Fog, MetalReflection, Named, Outline, Shadows, Sky, ToneMapping,
 };
 pub use frame::{Frame, Hit};
 pub use light::{Light, LightKind};

@@ -28,14 +28,15 @@ pub enum Style {
 /// Which lights a picture uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lighting {
-    /// The scene's own lights, with a little ambient light when it has none of
-    /// that kind; or the studio lights when it has no lights at all.
+    /// The scene's own lights, with a tenth of white from everywhere when it has no
+    /// ambient light; or the studio lights when it has no lights at all.
     #[default]
     Automatic,
     /// The scene's own lights only.
     Scene,
     /// A key, a fill and a rim light that move with the camera, and a little
-    /// ambient light; the scene's own lights are out.
+    /// ambient light; the scene's own lights are out. A white plate that faces the
+    /// camera shows at least 235 of 255, and no white diffuse surface is clipped.
     Studio,
 }
 

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use clap::ValueEnum;
 use trigon_math::Vec3;
 use trigon_scene::{
-    AmbientOcclusion, Background, EffectSettings, Environment, Fog, Reflection, RenderSettings, ShadingModel,
-    Shadows, Sky, ToneMapping,
+    AmbientOcclusion, Background, EffectSettings, Environment, Fog, MetalReflection, Reflection,
+    RenderSettings, ShadingModel, Shadows, Sky, ToneMapping,
 };
 
 use super::quality::Insisted;
@@ -63,6 +63,10 @@ pub(crate) struct EffectArgs {
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) hdri_skybox: Option<bool>,
 
+    /// What metals mirror where nothing else lights the model from all around: a clear sky, or ambient light, which leaves them dark (not in F3D)
+    #[arg(long, value_name = "WHAT", default_value = "sky", help_heading = "Effects")]
+    pub(crate) metal_reflection: MetalReflectionArg,
+
     /// Follow rays of sight so many times at mirrors (metals without roughness) and through glass (not in F3D)
     #[arg(long, value_name = "N", default_value = "0", value_parser = clap::value_parser!(u32).range(0..=16), allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) bounces: u32,
@@ -112,6 +116,13 @@ pub(crate) enum ShadowsArg {
     On,
     Maps,
     Rays,
+}
+
+/// What metals mirror.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MetalReflectionArg {
+    Sky,
+    Ambient,
 }
 
 /// What is said about effects.
@@ -181,6 +192,10 @@ impl EffectArgs {
                 distance: self.ambient_occlusion_distance,
             }),
             environment: (self.sky == Some(true)).then(|| Arc::new(Environment::from_sky(&Sky::default()))),
+            metal_reflection: match self.metal_reflection {
+                MetalReflectionArg::Sky => MetalReflection::Sky,
+                MetalReflectionArg::Ambient => MetalReflection::Ambient,
+            },
             bounces: self.bounces,
             fog: self.fog.map(|density| Fog { color: self.fog_color, density }),
             exposure: self.exposure,

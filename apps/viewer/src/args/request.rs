@@ -185,7 +185,7 @@ fn check_outputs(mode: &Mode, outputs: &[Beside]) -> Result<(), String> {
                 None => Ok(()),
             }
         }
-        _ => Ok(()),
+        Some(Destination::File(_)) | None => Ok(()),
     }
 }
 

@@ -3,8 +3,8 @@
 use trigon_camera::{Camera, CameraError, PixelCenters, Projection, Viewport};
 use trigon_math::{DQuat, DVec2, DVec3};
 use trigon_scene::{
-    AmbientOcclusion, Background, EffectSettings, Environment, Fog, Lighting, Outline, Outputs, Reflection,
-    RenderSettings, ShadingModel, Shadows, Sky, Style, ToneMapping,
+    AmbientOcclusion, Background, EffectSettings, Environment, Fog, Lighting, MetalReflection, Outline,
+    Outputs, Reflection, RenderSettings, ShadingModel, Shadows, Sky, Style, ToneMapping,
 };
 
 use super::stored::{Stored, choice, record};
@@ -14,6 +14,7 @@ record!(EffectSettings {
     shadows,
     ambient_occlusion,
     environment,
+    metal_reflection,
     bounces,
     fog,
     exposure,
@@ -22,6 +23,7 @@ record!(EffectSettings {
 });
 choice!(Shadows { 0 => Off, 1 => Maps { resolution }, 2 => Rays });
 record!(AmbientOcclusion { rays, distance });
+choice!(MetalReflection { 0 => Sky, 1 => Ambient });
 record!(Fog { color, density });
 choice!(ToneMapping { 0 => None, 1 => KhronosPbrNeutral });
 record!(Outline { nodes, color, width });

@@ -6,9 +6,10 @@ use trigon_math::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, Deltas, Mesh, MeshBuilder, MorphTarget, SkinWeights, primitives};
 use trigon_scene::{
     AlphaMode, AmbientOcclusion, Animation, Background, Channel, Curve, EffectSettings, Environment, Filter,
-    Fog, Interpolation, Light, Lighting, Material, MetallicRoughness, MipFilter, Node, NormalMap, Occlusion,
-    Outline, Property, Reflection, RenderSettings, Sampler, Scene, Shading, ShadingModel, Shadows, Skin, Sky,
-    Style, Texture, TextureBinding, TextureFormat, ToneMapping, Transform, Wrap, render, showcase,
+    Fog, Interpolation, Light, Lighting, Material, MetalReflection, MetallicRoughness, MipFilter, Node,
+    NormalMap, Occlusion, Outline, Property, Reflection, RenderSettings, Sampler, Scene, Shading,
+    ShadingModel, Shadows, Skin, Sky, Style, Texture, TextureBinding, TextureFormat, ToneMapping, Transform,
+    Wrap, render, showcase,
 };
 
 fn settings() -> RenderSettings {
@@ -44,6 +45,7 @@ fn the_showcase_under_every_effect() {
         none(),
         EffectSettings { shadows: Shadows::Maps { resolution: 64 }, ..none() },
         EffectSettings { shadows: Shadows::Rays, bounces: 2, ..none() },
+        EffectSettings { metal_reflection: MetalReflection::Ambient, ..none() },
         EffectSettings { ambient_occlusion: Some(AmbientOcclusion { rays: 2, distance: 1.0 }), ..none() },
         EffectSettings { environment: environment(Environment::from_sky(&Sky::default())), ..none() },
         EffectSettings { environment: environment(Environment::uniform(Vec3::X)), exposure: 0.5, ..none() },

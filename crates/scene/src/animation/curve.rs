@@ -113,7 +113,9 @@ impl Curve {
             (Interpolation::Linear, Place::Between { from, share, .. }) => {
                 slerp(self.quaternion(Place::At(from))?, self.quaternion(Place::At(from + 1))?, share)
             }
-            _ => self.quaternion(place),
+            (Interpolation::Linear, Place::At(_)) | (Interpolation::Step | Interpolation::CubicSpline, _) => {
+                self.quaternion(place)
+            }
         }
     }
 

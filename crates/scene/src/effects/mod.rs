@@ -4,6 +4,7 @@
 mod casters;
 mod environment;
 mod fog;
+mod metal_sky;
 mod outline;
 mod plan;
 mod rays;
@@ -16,12 +17,13 @@ pub(crate) use casters::Casters;
 pub(crate) use environment::Surroundings;
 pub use environment::{Environment, EnvironmentError, Sky};
 pub(crate) use fog::Mist;
+pub(crate) use metal_sky::MetalSky;
 pub(crate) use outline::draw_outline;
 pub(crate) use plan::Counts;
 pub use plan::{Absence, Cause, Decision, Effect, EffectCounts, EffectPlan, Named};
 pub(crate) use rays::{AmbientRays, Optics, RayCache};
 pub(crate) use scenery::Scenery;
-pub use settings::{AmbientOcclusion, EffectSettings, Fog, Outline, Shadows, ToneMapping};
+pub use settings::{AmbientOcclusion, EffectSettings, Fog, MetalReflection, Outline, Shadows, ToneMapping};
 pub(crate) use shadow::{LampPose, ShadowCache};
 pub(crate) use tone::{lay_on_background, map_picture};
 

@@ -6,6 +6,7 @@ use trigon_raster::simd::{F32, Simd};
 
 use super::environment::Surroundings;
 use super::fog::Mist;
+use super::metal_sky::MetalSky;
 use super::rays::{AmbientRays, RayScene};
 use super::shadow::ShadowMaps;
 use crate::render::lanes::{V3, dot, splat};
@@ -24,6 +25,8 @@ pub(crate) struct Scenery {
     /// How often rays of sight go on; 0 for none.
     pub(crate) bounces: u32,
     pub(crate) surroundings: Option<Surroundings>,
+    /// What metals mirror in place of ambient light.
+    pub(crate) metal_sky: Option<MetalSky>,
     pub(crate) mist: Option<Mist>,
 }
 

@@ -1,5 +1,5 @@
-//! What a picture asks for beyond surfaces in plain light. Everything is off by
-//! default, and what is off costs nothing.
+//! What a picture asks for beyond surfaces in plain light. Everything but the sky that
+//! metals mirror is off by default, and what is off costs nothing.
 
 use std::sync::Arc;
 
@@ -18,6 +18,9 @@ pub struct EffectSettings {
     /// Ambient light that comes from somewhere; it takes the place of the scene's
     /// ambient lights.
     pub environment: Option<Arc<Environment>>,
+    /// What metals mirror where neither an environment nor ambient light of the scene's
+    /// own says what is around them.
+    pub metal_reflection: MetalReflection,
     /// How often a ray of sight goes on at mirrors (metals without roughness) and
     /// glass (transmission), 0 (never) to 16.
     pub bounces: u32,
@@ -45,6 +48,20 @@ pub enum Shadows {
     },
     /// By a ray from each pixel to each lamp: exact, and sharp.
     Rays,
+}
+
+/// What metals mirror where neither an environment nor ambient light of the scene's own
+/// says what is around them. Surfaces mirror so much of it as they are metallic;
+/// dielectrics look the same either way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MetalReflection {
+    /// The built-in sky, [`Sky::default`](super::Sky::default), +Y of the world up.
+    /// [`Lighting::Scene`](crate::Lighting::Scene) leaves it out.
+    #[default]
+    Sky,
+    /// The ambient light, as dielectrics do: beside the highlights of lamps, metals are
+    /// nearly black.
+    Ambient,
 }
 
 /// Ambient light that does not reach where the surroundings are near, found by

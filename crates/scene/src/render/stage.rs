@@ -10,8 +10,8 @@ use super::lighting::{Lamp, Lights, Source};
 use super::placement::Eye;
 use super::shapes::{Onlookers, Shape, Shapes};
 use crate::effects::{
-    AmbientRays, Casters, Counts, Effect, EffectPlan, LampPose, Mist, RayCache, Scenery, ShadowCache,
-    Shadows, Surroundings, draw_outline, lay_on_background, map_picture,
+    AmbientRays, Casters, Counts, Effect, EffectPlan, LampPose, MetalSky, Mist, RayCache, Scenery,
+    ShadowCache, Shadows, Surroundings, draw_outline, lay_on_background, map_picture,
 };
 use crate::frame::{Frame, resize};
 use crate::light::LightKind;
@@ -91,6 +91,10 @@ impl<'s> Stage<'s> {
         })
     }
 
+    fn metal_sky(&self) -> MetalSky {
+        MetalSky::new(&self.camera_to_world.matrix3.as_mat3(), self.settings.light_factor())
+    }
+
     /// Half the angle of a spot light's cone.
     fn cone(&self, lamp: &Lamp) -> Option<f64> {
         let node = self.scene.nodes().id_at(lamp.node? as usize)?;
@@ -114,6 +118,7 @@ impl Kept {
         let mut scenery = Scenery {
             lights: stage.lights.clone(),
             surroundings: stage.surroundings().filter(|_| on(Effect::Environment)),
+            metal_sky: on(Effect::MetalSky).then(|| stage.metal_sky()),
             mist: effects.fog.as_ref().and_then(Mist::new),
             shadow_rays: on(Effect::ShadowRays),
             ambient_rays: effects
@@ -157,6 +162,9 @@ impl Kept {
         }
         if let Some(surroundings) = &scenery.surroundings {
             counts.of(Effect::Environment).bytes = surroundings.environment.byte_count() as u64;
+        }
+        if let Some(sky) = &scenery.metal_sky {
+            counts.of(Effect::MetalSky).bytes = sky.byte_count() as u64;
         }
         if let Some(rays) = &scenery.rays {
             let [to_lamps, around, sight] = rays.cast();

@@ -30,6 +30,8 @@ pub enum Effect {
     Poses,
     /// Ambient light from a sky or a picture of one.
     Environment,
+    /// The built-in sky in metals, where nothing says what is around them.
+    MetalSky,
     /// Shadows by maps of depth.
     ShadowMaps,
     /// Shadows by rays.
@@ -52,7 +54,7 @@ pub enum Effect {
 
 impl Effect {
     /// All of them, in the order in which a plan lists them.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 22] = [
         Self::Lamps,
         Self::AmbientLight,
         Self::Highlights,
@@ -65,6 +67,7 @@ impl Effect {
         Self::Transparency,
         Self::Poses,
         Self::Environment,
+        Self::MetalSky,
         Self::ShadowMaps,
         Self::ShadowRays,
         Self::AmbientOcclusion,
@@ -92,6 +95,7 @@ impl fmt::Display for Effect {
             Self::Transparency => "transparency",
             Self::Poses => "poses",
             Self::Environment => "environment",
+            Self::MetalSky => "sky in metals",
             Self::ShadowMaps => "shadow maps",
             Self::ShadowRays => "shadow rays",
             Self::AmbientOcclusion => "ambient occlusion",

@@ -2,7 +2,7 @@
 
 use trigon_math::Vec3;
 
-use super::super::{Shadows, ToneMapping};
+use super::super::{MetalReflection, Shadows, ToneMapping};
 use super::Effect;
 use crate::background::Background;
 use crate::material::{Material, Shading};
@@ -23,6 +23,7 @@ impl Effect {
                     settings.background = Background::default();
                 }
             }
+            Self::MetalSky => effects.metal_reflection = MetalReflection::Ambient,
             Self::ShadowMaps | Self::ShadowRays => effects.shadows = Shadows::Off,
             Self::AmbientOcclusion => effects.ambient_occlusion = None,
             Self::Reflection | Self::Refraction => effects.bounces = 0,
@@ -30,9 +31,12 @@ impl Effect {
             Self::ToneMapping => (effects.exposure, effects.tone_mapping) = (0.0, ToneMapping::None),
             Self::Outline => effects.outline = None,
             Self::Edges => settings.style = Style::Surface,
-            Self::Textures | Self::NormalMaps | Self::OcclusionMaps | Self::Emission => {
-                scene.materials.iter_mut().for_each(|(_, material)| self.strip(material));
-            }
+            Self::Textures => each_material(&mut scene, strip_textures),
+            Self::NormalMaps => each_material(&mut scene, |material| material.normal_map = None),
+            Self::OcclusionMaps => each_material(&mut scene, |material| material.occlusion = None),
+            Self::Emission => each_material(&mut scene, |material| {
+                (material.emissive, material.emissive_texture) = (Vec3::ZERO, None);
+            }),
             Self::Lamps
             | Self::AmbientLight
             | Self::VertexColors
@@ -42,20 +46,17 @@ impl Effect {
         }
         Some((scene, settings))
     }
+}
 
-    /// Takes from a material what an effect of materials needs.
-    fn strip(self, material: &mut Material) {
-        match self {
-            Self::NormalMaps => material.normal_map = None,
-            Self::OcclusionMaps => material.occlusion = None,
-            Self::Emission => (material.emissive, material.emissive_texture) = (Vec3::ZERO, None),
-            _ => {
-                (material.base_color_texture, material.emissive_texture) = (None, None);
-                material.transmission_texture = None;
-                strip_shading(&mut material.shading);
-            }
-        }
-    }
+fn each_material(scene: &mut Scene, change: impl Fn(&mut Material)) {
+    scene.materials.iter_mut().for_each(|(_, material)| change(material));
+}
+
+/// Takes all textures but those of normals and occlusion, which are effects of their own.
+fn strip_textures(material: &mut Material) {
+    (material.base_color_texture, material.emissive_texture) = (None, None);
+    material.transmission_texture = None;
+    strip_shading(&mut material.shading);
 }
 
 fn strip_shading(shading: &mut Shading) {

@@ -17,7 +17,7 @@ use std::fmt;
 use trigon_camera::Camera;
 use trigon_math::Vec3;
 
-use super::{Mist, Shadows};
+use super::{MetalReflection, Mist, Shadows};
 use crate::background::Background;
 use crate::render::Stage;
 use crate::scene::Scene;
@@ -80,6 +80,7 @@ fn decide(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Decision {
         Effect::Lamps => lamps(stage, survey),
         Effect::AmbientLight => ambient_light(stage, survey),
         Effect::Environment => environment(stage, survey),
+        Effect::MetalSky => metal_sky(stage, survey),
         Effect::ShadowMaps => {
             shadows(matches!(stage.settings.effects.shadows, Shadows::Maps { .. }), stage, survey)
         }
@@ -94,7 +95,16 @@ fn decide(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Decision {
         Effect::Reflection | Effect::Refraction if stage.settings.effects.bounces == 0 => {
             Err(Absence::NotAsked)
         }
-        _ => of_objects(effect, stage, survey),
+        Effect::NormalMaps | Effect::OcclusionMaps | Effect::Reflection | Effect::Refraction => {
+            of_pixels(effect, stage, survey)
+        }
+        Effect::Highlights
+        | Effect::Textures
+        | Effect::Emission
+        | Effect::VertexColors
+        | Effect::Masks
+        | Effect::Transparency
+        | Effect::Poses => of_objects(effect, stage, survey),
     };
     match outcome {
         Ok(cause) => Decision::On(cause),
@@ -104,7 +114,28 @@ fn decide(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Decision {
 
 /// Whether an effect is about where surfaces are, and not what they look like.
 fn shapes(effect: Effect) -> bool {
-    matches!(effect, Effect::Masks | Effect::Poses | Effect::Edges)
+    match effect {
+        Effect::Masks | Effect::Poses | Effect::Edges => true,
+        Effect::Lamps
+        | Effect::AmbientLight
+        | Effect::Highlights
+        | Effect::Textures
+        | Effect::NormalMaps
+        | Effect::OcclusionMaps
+        | Effect::Emission
+        | Effect::VertexColors
+        | Effect::Transparency
+        | Effect::Environment
+        | Effect::MetalSky
+        | Effect::ShadowMaps
+        | Effect::ShadowRays
+        | Effect::AmbientOcclusion
+        | Effect::Reflection
+        | Effect::Refraction
+        | Effect::Fog
+        | Effect::ToneMapping
+        | Effect::Outline => false,
+    }
 }
 
 type Outcome = Result<Cause, Absence>;
@@ -155,6 +186,26 @@ fn environment(stage: &Stage<'_>, survey: &Survey) -> Outcome {
     Ok(Cause::Asked)
 }
 
+fn metal_sky(stage: &Stage<'_>, survey: &Survey) -> Outcome {
+    match stage.settings.effects.metal_reflection {
+        MetalReflection::Ambient => return Err(Absence::NotAsked),
+        MetalReflection::Sky => {}
+    }
+    check_lit(stage, survey)?;
+    let [metals, _] = survey.of(Effect::MetalSky);
+    if metals.count == 0 {
+        return Err(Absence::NoMetal);
+    }
+    if stage.settings.effects.environment.is_some() {
+        return Err(Absence::Environment);
+    }
+    match (stage.lights.ambient == Vec3::ZERO, stage.lights.own_ambient) {
+        (true, _) => Err(Absence::NoAmbientLight),
+        (false, 0) => Ok(Cause::Metals(metals.clone())),
+        (false, _) => Err(Absence::OwnAmbientLight),
+    }
+}
+
 fn shadows(asked: bool, stage: &Stage<'_>, survey: &Survey) -> Outcome {
     if !asked {
         return Err(Absence::NotAsked);
@@ -183,18 +234,22 @@ fn ambient_occlusion(stage: &Stage<'_>, survey: &Survey) -> Outcome {
     }
 }
 
+/// Effects of objects that need light to be found at each pixel.
+fn of_pixels(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Outcome {
+    let cause = of_objects(effect, stage, survey)?;
+    match stage.settings.shading {
+        ShadingModel::Flat | ShadingModel::Gouraud => Err(Absence::ShadingModel),
+        ShadingModel::Phong => Ok(cause),
+    }
+}
+
 fn of_objects(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Outcome {
-    let per_pixel = matches!(
-        effect,
-        Effect::NormalMaps | Effect::OcclusionMaps | Effect::Reflection | Effect::Refraction
-    );
     let [in_view, elsewhere] = survey.of(effect);
     let faces = matches!(stage.settings.style, Style::Surface | Style::SurfaceWithEdges);
     match (in_view.count, elsewhere.count) {
         (0, 0) => Err(Absence::Nowhere),
         (0, _) => Err(Absence::OutOfView(elsewhere.clone())),
         _ if !faces && effect != Effect::Poses => Err(Absence::NoFaces),
-        _ if per_pixel && stage.settings.shading != ShadingModel::Phong => Err(Absence::ShadingModel),
         _ => Ok(Cause::Objects(in_view.clone())),
     }
 }

@@ -24,6 +24,8 @@ pub enum Cause {
     Studio,
     /// Objects in view have it.
     Objects(Named),
+    /// Objects in view are metal, and nothing says what is around them.
+    Metals(Named),
     /// The settings ask for it, and lamps meet what casts shadows.
     Shadows {
         /// Lights that shine.
@@ -50,6 +52,10 @@ pub enum Absence {
     NoAmbientLight,
     /// The settings ask for it, but nothing is in the way of light.
     NoCaster,
+    /// No metal is in view.
+    NoMetal,
+    /// Ambient light of the scene's own takes its place.
+    OwnAmbientLight,
     /// The environment takes its place.
     Environment,
     /// The shading model leaves it out.
@@ -97,6 +103,15 @@ impl fmt::Display for Cause {
             Self::Studio => f.write_str("what is in view is lit, and the scene has no such light of its own"),
             Self::Objects(Named { count: 1, first }) => write!(f, "`{first}` has it"),
             Self::Objects(Named { count, first }) => write!(f, "{count} objects have it, such as `{first}`"),
+            Self::Metals(Named { count: 1, first }) => {
+                write!(f, "`{first}` is metal, and the scene has no environment")
+            }
+            Self::Metals(Named { count, first }) => {
+                write!(
+                    f,
+                    "{count} objects in view are metal, such as `{first}`, and the scene has no environment"
+                )
+            }
             Self::Shadows { lamps, casters } => {
                 let plural = |count: usize| if count == 1 { "" } else { "s" };
                 let (lights, objects) = (plural(*lamps), plural(*casters));
@@ -124,6 +139,8 @@ impl fmt::Display for Absence {
             Self::NoLamp => f.write_str("no light casts any"),
             Self::NoAmbientLight => f.write_str("there is no light from everywhere"),
             Self::NoCaster => f.write_str("nothing is in the way of light"),
+            Self::NoMetal => f.write_str("no metal is in view"),
+            Self::OwnAmbientLight => f.write_str("the scene has ambient light of its own"),
             Self::Environment => f.write_str("the environment takes its place"),
             Self::ShadingModel => f.write_str("the shading model leaves it out"),
             Self::NoFaces => f.write_str("no faces are drawn"),

@@ -64,9 +64,28 @@ fn has(effect: Effect, material: &Material, shape: &Shape, stage: &Stage<'_>) ->
         Effect::Masks => matches!(material.alpha_mode, AlphaMode::Mask { .. }),
         Effect::Transparency => material.alpha_mode == AlphaMode::Blend,
         Effect::Poses => shape.is_posed,
+        Effect::MetalSky => is_metal(material, stage),
         Effect::Reflection => is_traced(material, false),
         Effect::Refraction => is_traced(material, true),
-        _ => false,
+        // Those that lights and settings call for, whatever the materials are.
+        Effect::Lamps
+        | Effect::AmbientLight
+        | Effect::Environment
+        | Effect::ShadowMaps
+        | Effect::ShadowRays
+        | Effect::AmbientOcclusion
+        | Effect::Fog
+        | Effect::ToneMapping
+        | Effect::Outline
+        | Effect::Edges => false,
+    }
+}
+
+/// Whether a material may be a metal somewhere: textures are not searched for where.
+fn is_metal(material: &Material, stage: &Stage<'_>) -> bool {
+    match stage.settings.reflection.of(material) {
+        Shading::Unlit | Shading::Lambert | Shading::BlinnPhong { .. } => false,
+        Shading::MetallicRoughness(model) => model.metallic > 0.0,
     }
 }
 

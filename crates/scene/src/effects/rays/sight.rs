@@ -28,15 +28,18 @@ struct Walk {
     weights: [Vec3; LANES],
     light: [Vec3; LANES],
     alive: [bool; LANES],
+    /// Whether the last surface was a mirror, and not glass.
+    mirrored: [bool; LANES],
 }
 
 impl Scenery {
-    /// What is seen from eight points on surfaces in some directions; both in camera
-    /// space.
+    /// What is seen from eight points on surfaces of a kind in some directions; both in
+    /// camera space.
     pub(crate) fn seen<S: Simd>(
         &self,
         simd: S,
         points: &LitPoints<S>,
+        optics: &Optics,
         directions: V3<S>,
         active: u64,
     ) -> V3<S> {
@@ -48,6 +51,7 @@ impl Scenery {
             weights: [Vec3::ONE; LANES],
             light: [Vec3::ZERO; LANES],
             alive: lanes_of(|lane| active >> lane & 1 != 0),
+            mirrored: [*optics == Optics::Mirror; LANES],
         };
         for _ in 0..self.bounces.min(MOST) {
             let met = lanes_of(|lane| walk.alive[lane].then(|| rays.met(&walk.ray(lane))).flatten());
@@ -103,11 +107,15 @@ impl Scenery {
         )
     }
 
-    /// What is seen where nothing is in the way, in a direction of the world.
-    fn far(&self, direction: Vec3) -> Vec3 {
-        match &self.surroundings {
-            Some(surroundings) => surroundings.environment.radiance(direction, 0.0) * surroundings.intensity,
-            None => self.lights.ambient,
+    /// What is seen where nothing is in the way, in a direction of the world: from a
+    /// mirror, or else from glass.
+    fn far(&self, direction: Vec3, from_mirror: bool) -> Vec3 {
+        match (&self.surroundings, &self.metal_sky) {
+            (Some(surroundings), _) => {
+                surroundings.environment.radiance(direction, 0.0) * surroundings.intensity
+            }
+            (None, Some(sky)) if from_mirror => sky.radiance(direction),
+            (None, _) => self.lights.ambient,
         }
     }
 }
@@ -120,7 +128,7 @@ impl Walk {
     /// A ray that meets nothing more.
     fn end(&mut self, lane: usize, scenery: &Scenery) {
         if std::mem::take(&mut self.alive[lane]) {
-            self.light[lane] += self.weights[lane] * scenery.far(self.directions[lane]);
+            self.light[lane] += self.weights[lane] * scenery.far(self.directions[lane], self.mirrored[lane]);
         }
     }
 
@@ -137,11 +145,13 @@ impl Walk {
                 let normal = if met.normal.dot(along) > 0.0 { -met.normal } else { met.normal };
                 let reflected = met.color + (Vec3::ONE - met.color) * fresnel(-normal.dot(along), 0.0);
                 self.weights[lane] *= reflected;
+                self.mirrored[lane] = true;
                 self.turn(lane, rays, (met.position, normal), mirrored(along, normal));
             }
             Some(Optics::Glass { transmission, ior }) => {
                 self.light[lane] += self.weights[lane] * met.color * lit * (1.0 - transmission);
                 self.weights[lane] *= transmission;
+                self.mirrored[lane] = false;
                 let enters = met.normal.dot(along) < 0.0;
                 let normal = if enters { met.normal } else { -met.normal };
                 let ratio = if enters { 1.0 / ior } else { ior };
@@ -151,7 +161,7 @@ impl Walk {
                 let head_on = (ior - 1.0) / (ior + 1.0);
                 let cosine = if enters { -normal.dot(along) } else { -normal.dot(through) };
                 let away = fresnel(cosine, head_on * head_on);
-                self.light[lane] += self.weights[lane] * scenery.far(mirrored(along, normal)) * away;
+                self.light[lane] += self.weights[lane] * scenery.far(mirrored(along, normal), false) * away;
                 let tint = if enters { met.color } else { Vec3::ONE };
                 self.weights[lane] *= tint * (1.0 - away);
                 self.turn(lane, rays, (met.position, -normal), through);

@@ -3,12 +3,14 @@
 mod ambient;
 mod backdrop;
 mod kept;
+mod metals;
 mod outline;
 mod planning;
 mod poses;
 mod shading;
 mod shadows;
 mod sight;
+mod studio;
 
 use std::sync::Arc;
 

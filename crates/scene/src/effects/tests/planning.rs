@@ -13,7 +13,7 @@ fn with(effect: Effect) -> [(Scene, RenderSettings); 2] {
     let plain = Material { shading: Shading::Unlit, double_sided: false, ..Material::default() };
     let mut material = Material { base_color: Vec4::ONE, ..plain.clone() };
     let mut effects = EffectSettings::default();
-    let mut style = Style::Surface;
+    let (mut style, mut lighting) = (Style::Surface, Lighting::Scene);
     let mut lights = vec![];
     let lit = Material { shading: Shading::Lambert, ..plain.clone() };
     match effect {
@@ -44,6 +44,7 @@ fn with(effect: Effect) -> [(Scene, RenderSettings); 2] {
             material = lit;
             effects.environment = Some(Arc::new(Environment::uniform(Vec3::ONE)));
         }
+        Effect::MetalSky => (material, lighting) = (metal(1.0), Lighting::Studio),
         Effect::ShadowMaps | Effect::ShadowRays => {
             (material, lights) = (lit, vec![Light::point(3.0)]);
             effects.shadows =
@@ -85,7 +86,7 @@ fn with(effect: Effect) -> [(Scene, RenderSettings); 2] {
         scene.add(Node::from_light(light).at(DVec3::new(0.0, 0.0, 3.0)));
     }
     let off = settings(EffectSettings::default());
-    let on = RenderSettings { style, ..settings(effects) };
+    let on = RenderSettings { style, lighting, ..settings(effects) };
     [(without, off), (scene, on)]
 }
 
@@ -130,7 +131,7 @@ fn an_effect_that_is_left_out_is_off() {
         assert!(!plan.is_on(effect), "{effect}: {}", plan.decision(effect));
         count += 1;
     }
-    assert_eq!(count, 15, "all but those that are the scene itself");
+    assert_eq!(count, 16, "all but those that are the scene itself");
 }
 
 #[test]

@@ -8,7 +8,7 @@ mod power;
 pub(crate) use power::{exp2, pow};
 
 use trigon_math::{Mat3, Mat4, Vec3};
-use trigon_raster::simd::{Each, F32, Simd, greater, lesser, prelude::*};
+use trigon_raster::simd::{Each, F32, I32, LANES, Simd, greater, lesser, prelude::*};
 
 /// Eight vectors: their x, their y and their z.
 pub(crate) type V3<S> = [F32<S>; 3];
@@ -103,6 +103,12 @@ pub(crate) fn mix<S: Simd>(a: F32<S>, b: F32<S>, share: F32<S>) -> F32<S> {
     a + (b - a) * share
 }
 
+/// From the vectors `a` at 0 to `b` at 1.
+#[inline(always)]
+pub(crate) fn mixed<S: Simd>(a: V3<S>, b: V3<S>, share: F32<S>) -> V3<S> {
+    [mix(a[0], b[0], share), mix(a[1], b[1], share), mix(a[2], b[2], share)]
+}
+
 /// A matrix times vectors.
 #[inline(always)]
 pub(crate) fn turned<S: Simd>(matrix: &Mat3, [x, y, z]: V3<S>) -> V3<S> {
@@ -141,4 +147,14 @@ pub(crate) fn fifth_power<S: Simd>(value: F32<S>) -> F32<S> {
 #[inline(always)]
 pub(crate) fn lesser_of<S: Simd>(value: F32<S>, bound: f32) -> F32<S> {
     lesser(value, F32::splat(value.token(), bound))
+}
+
+/// Where values from 0 to 1 lie in a table of `count` entries in equal steps: the entry
+/// before each, and the share of the way to the next one. The last entry is the far end
+/// of the last step.
+#[inline(always)]
+pub(crate) fn table_step<S: Simd>(value: F32<S>, count: usize) -> ([i32; LANES], F32<S>) {
+    let place = saturated(value) * (count - 1) as f32;
+    let first = lesser_of(place.floor(), (count - 2) as f32);
+    (first.to_int::<I32<S>>().into(), place - first)
 }

@@ -21,6 +21,8 @@ pub(crate) struct Microfacets<S: Simd> {
     pub(crate) grazing: F32<S>,
     /// Perceptual roughness, 0…1.
     pub(crate) roughness: F32<S>,
+    /// How far it is a metal, 0…1: what it mirrors depends on that.
+    pub(crate) metallic: F32<S>,
 }
 
 /// The least α (the square of the roughness) that lamps see: a lamp without
@@ -99,7 +101,12 @@ mod tests {
     fn surface(roughness: f32, head_on: f32) -> Microfacets<Fallback> {
         let simd = Fallback::new();
         let splat = |value| F32::splat(simd, value);
-        Microfacets { head_on: [splat(head_on); 3], grazing: splat(1.0), roughness: splat(roughness) }
+        Microfacets {
+            head_on: [splat(head_on); 3],
+            grazing: splat(1.0),
+            roughness: splat(roughness),
+            metallic: splat(0.0),
+        }
     }
 
     /// The integral over all microfacets of D · G₁ · max(v·h, 0) / n·v, which is 1

@@ -3,6 +3,7 @@
 mod brdf;
 mod lamp;
 mod reflectance;
+mod studio;
 mod sum;
 
 pub(crate) use brdf::Microfacets;
@@ -16,8 +17,9 @@ use crate::light::LightKind;
 use crate::scene::Scene;
 use crate::settings::{Lighting, RenderSettings};
 
-/// The light from everywhere in the studio: enough to see shapes in the shade.
-const STUDIO_AMBIENT: Vec3 = Vec3::splat(0.1);
+/// The light from everywhere that is added to lamps of the scene's own. How bright the
+/// scene is, they decide: this is only enough to see shapes that they do not reach.
+const ADDED_AMBIENT: Vec3 = Vec3::splat(0.1);
 
 /// All lights of a picture.
 #[derive(Clone, Debug, Default)]
@@ -47,7 +49,9 @@ impl Lights {
             Lighting::Automatic if lights.is_dark() => Self::studio(),
             // Formats such as glTF know no ambient light; without any, the sides
             // that no light reaches would be black holes.
-            Lighting::Automatic if lights.ambient == Vec3::ZERO => Self { ambient: STUDIO_AMBIENT, ..lights },
+            Lighting::Automatic if lights.ambient == Vec3::ZERO => {
+                Self { ambient: ADDED_AMBIENT, own_ambient: 0, ..lights }
+            }
             Lighting::Automatic | Lighting::Scene => lights,
         }
         .scaled(settings.light_factor())
@@ -70,16 +74,6 @@ impl Lights {
 
     fn is_dark(&self) -> bool {
         self.ambient == Vec3::ZERO && self.lamps.is_empty()
-    }
-
-    /// A key light from the upper left, a weak fill from the right, a rim
-    /// light from behind, and a little light from everywhere. All of it moves
-    /// with the camera, so that no side of a model is ever dark.
-    fn studio() -> Self {
-        let key = Lamp::studio(Vec3::new(-0.55, 0.65, 0.55), 0.78);
-        let fill = Lamp::studio(Vec3::new(0.85, 0.05, 0.5), 0.16);
-        let rim = Lamp::studio(Vec3::new(0.25, 0.75, -0.6), 0.25);
-        Self { ambient: STUDIO_AMBIENT, own_ambient: 0, lamps: vec![key, fill, rim] }
     }
 
     /// Every light this many times as bright; a factor that is no positive

@@ -8,9 +8,9 @@
 use std::sync::OnceLock;
 
 use trigon_math::{Vec3, elementary};
-use trigon_raster::simd::{F32, I32, LANES, Simd, inlined, lanes_of, prelude::*};
+use trigon_raster::simd::{F32, Simd, inlined, lanes_of, prelude::*};
 
-use crate::render::lanes::{mix, saturated};
+use crate::render::lanes::{mix, table_step};
 
 /// Entries for each of roughness and cosine, from 0 to 1.
 const SIDE: usize = 16;
@@ -69,17 +69,7 @@ fn integral(roughness: f32, cosine: f32) -> [f32; 2] {
 #[inline(always)]
 pub(super) fn reflectance<S: Simd>(simd: S, roughness: F32<S>, cosine: F32<S>) -> [F32<S>; 2] {
     let table = table();
-    let split = inlined(
-        #[inline(always)]
-        |value: F32<S>| {
-            let place = saturated(value) * (SIDE - 1) as f32;
-            // The last entry is the far end of the last step.
-            let first = crate::render::lanes::lesser_of(place.floor(), (SIDE - 2) as f32);
-            let index: [i32; LANES] = first.to_int::<I32<S>>().into();
-            (index, place - first)
-        },
-    );
-    let ((row, down), (column, across)) = (split(roughness), split(cosine));
+    let ((row, down), (column, across)) = (table_step(roughness, SIDE), table_step(cosine, SIDE));
     let of = inlined(
         #[inline(always)]
         |factor: usize| {

@@ -14,7 +14,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         let base = splat(simd, self.look.base_color.truncate());
         let lit = match self.illumination {
             Illumination::OnFacets => self.lit_facets(simd, fragments, base),
-            _ => base,
+            Illumination::None | Illumination::AtVertices | Illumination::InPixels => base,
         };
         let [r, g, b] = sum(lit, splat(simd, self.look.emissive));
         match self.look.coverage {

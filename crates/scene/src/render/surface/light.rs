@@ -4,8 +4,8 @@ use trigon_raster::simd::{F32, Simd, inlined, prelude::*};
 use trigon_raster::{FragmentLanes, VertexLanes};
 
 use super::{LightSlots, Surface, Values, load, shown};
-use crate::render::lanes::{V3, dot, negated, normalized, product, scaled, splat, sum, turned};
-use crate::render::lighting::{Answer, LitPoints, Reflected};
+use crate::render::lanes::{V3, dot, mixed, negated, normalized, product, scaled, splat, sum, turned};
+use crate::render::lighting::{Answer, LitPoints, Microfacets, Reflected};
 
 /// Where light is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -168,11 +168,8 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             Answer::Microfacets(facets) => {
                 let shares = facets.surrounded(dot(points.normal, points.view).abs());
                 reflected.diffuse = sum(reflected.diffuse, product(around, shares.diffuse));
-                let mirrored = match mirrored {
-                    Some(traced) => traced,
-                    None => scaled(self.scenery.mirrored(simd, points, facets.roughness), open),
-                };
-                let specular = sum(product(mirrored, shares.single), product(around, shares.repeated));
+                let [mirrored, repeated] = self.on_facets(simd, points, facets, mirrored, around, open);
+                let specular = sum(product(mirrored, shares.single), product(repeated, shares.repeated));
                 reflected.specular = sum(reflected.specular, specular);
             }
             Answer::Lambert | Answer::BlinnPhong { .. } => {
@@ -180,5 +177,33 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             }
         }
         reflected
+    }
+
+    /// The light that microfacets reflect once, from the mirror direction, and repeatedly,
+    /// from all around. `traced` is what rays found in the mirror direction, `around` the
+    /// diffuse light, `open` the share of the ambient light that arrives.
+    #[inline(always)]
+    fn on_facets<S: Simd>(
+        &self,
+        simd: S,
+        points: &LitPoints<S>,
+        facets: &Microfacets<S>,
+        traced: Option<V3<S>>,
+        around: V3<S>,
+        open: F32<S>,
+    ) -> [V3<S>; 2] {
+        let mirrored =
+            traced.unwrap_or_else(|| scaled(self.scenery.mirrored(simd, points, facets.roughness), open));
+        let Some(sky) = &self.scenery.metal_sky else { return [mirrored, around] };
+        let share = facets.metallic;
+        if !share.simd_gt(0.0).any_true() {
+            return [mirrored, around];
+        }
+        let light = sky.light(simd, points, facets.roughness);
+        let repeated = mixed(around, scaled(light.around, open), share);
+        match traced {
+            Some(_) => [mirrored, repeated],
+            None => [mixed(mirrored, scaled(light.mirrored, open), share), repeated],
+        }
     }
 }

@@ -179,6 +179,6 @@ impl MicrofacetModel<'_> {
             mix(lesser_of(z, 1.0) * specular, b, metallic),
         ];
         let grazing = mix(specular, F32::splat(simd, 1.0), metallic);
-        (Answer::Microfacets(Microfacets { head_on, grazing, roughness }), 1.0 - metallic)
+        (Answer::Microfacets(Microfacets { head_on, grazing, roughness, metallic }), 1.0 - metallic)
     }
 }

@@ -24,7 +24,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                 let LitPoints { normal, view, facing, .. } = *points;
                 let cosine = dot(normal, view);
                 let back = difference(scaled(normal, cosine * 2.0), view);
-                let mirrored = self.scenery.seen(simd, points, back, active);
+                let mirrored = self.scenery.seen(simd, points, optics, back, active);
                 let answer = Answer::Microfacets(*facets);
                 let reflected = self.reflected(simd, points, &answer, (open, Some(mirrored)));
                 let Optics::Glass { transmission, ior } = *optics else {
@@ -38,7 +38,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                 let into =
                     difference(scaled(normal, cosine * ratio - bent), scaled(view, F32::splat(simd, ratio)));
                 let inside = LitPoints { facing: negated(facing), ..*points };
-                let through = self.scenery.seen(simd, &inside, into, active);
+                let through = self.scenery.seen(simd, &inside, optics, into, active);
                 let [r, g, b] = facets.fresnel(cosine);
                 let left = [1.0 - r, 1.0 - g, 1.0 - b];
                 let passed = product(product(through, left), scaled(albedo, share * transmission));

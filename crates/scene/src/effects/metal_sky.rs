@@ -1,0 +1,247 @@
+//! The built-in sky, as metals mirror it in a scene that says nothing of what is around
+//! it.
+//!
+//! Metals show hardly anything but what they mirror: with lamps alone they are black
+//! beside their highlights. The sky is the same all around, so what a metal mirrors
+//! depends on two numbers: how high the mirrored direction points, and the roughness. A
+//! table of both is made once, at the first metal, and takes a hundredth of the
+//! look-up's memory and time of making that an [`Environment`](super::Environment) of
+//! the same sky takes.
+//!
+//! The sky stays with the world, as environments do, while the studio's lamps move with
+//! the camera.
+
+use std::sync::LazyLock;
+
+use trigon_math::{Mat3, Vec3, elementary};
+use trigon_raster::simd::{F32, Simd, inlined, lanes_of, prelude::*};
+
+use super::Sky;
+use crate::render::lanes::{V3, dot, mix, splat, table_step};
+use crate::render::lighting::LitPoints;
+
+/// Directions of the table, from straight down to straight up in equal steps of height.
+/// The horizon is one of them: above and below it the sky changes differently.
+const HEIGHTS: usize = 129;
+
+/// Roughnesses of the table, from 0 to 1 in equal steps.
+const ROUGHNESSES: usize = 9;
+
+/// Linear RGB: a row of heights for each roughness.
+static TABLE: LazyLock<Vec<Vec3>> = LazyLock::new(|| {
+    let sky = Sky::default();
+    let share = |step: usize, count: usize| step as f32 / (count - 1) as f32;
+    (0..ROUGHNESSES * HEIGHTS)
+        .map(|entry| {
+            let height = share(entry % HEIGHTS, HEIGHTS) * 2.0 - 1.0;
+            blurred(&sky, share(entry / HEIGHTS, ROUGHNESSES), height)
+        })
+        .collect()
+});
+
+/// The sky around the metals of a picture.
+#[derive(Clone, Debug)]
+pub(crate) struct MetalSky {
+    /// World +Y in camera space.
+    up: Vec3,
+    /// Factor on all of its light.
+    intensity: f32,
+    table: &'static [Vec3],
+}
+
+/// The sky's light on eight points of metal, linear RGB.
+pub(crate) struct SkyOnMetal<S: Simd> {
+    /// From the mirrored direction, blurred by the roughness.
+    pub(crate) mirrored: V3<S>,
+    /// From everywhere, as a white matt surface shows it.
+    pub(crate) around: V3<S>,
+}
+
+impl MetalSky {
+    /// For a camera whose space `to_world` turns into the world's.
+    pub(crate) fn new(to_world: &Mat3, intensity: f32) -> Self {
+        Self { up: to_world.row(1), intensity, table: &TABLE }
+    }
+
+    /// The light on points in camera space.
+    pub(crate) fn light<S: Simd>(&self, simd: S, points: &LitPoints<S>, roughness: F32<S>) -> SkyOnMetal<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let up = splat(simd, self.up);
+                let (normal, view) = (dot(points.normal, up), dot(points.view, up));
+                // Of the direction 2 (n · v) n − v nothing but its height is needed.
+                let height = normal * (dot(points.normal, points.view) * 2.0) - view;
+                // The roughest mirror weighs all directions as a matt surface does.
+                let roughest = F32::splat(simd, 1.0);
+                SkyOnMetal {
+                    mirrored: self.at(simd, height, roughness),
+                    around: self.at(simd, normal, roughest),
+                }
+            },
+        )
+    }
+
+    /// The light from a direction of the world.
+    pub(crate) fn radiance(&self, direction: Vec3) -> Vec3 {
+        Sky::default().radiance(direction) * self.intensity
+    }
+
+    pub(crate) fn byte_count(&self) -> usize {
+        size_of_val(self.table)
+    }
+
+    /// Between the four entries of the table around each height and roughness.
+    #[inline(always)]
+    fn at<S: Simd>(&self, simd: S, height: F32<S>, roughness: F32<S>) -> V3<S> {
+        let (column, across) = table_step(height * 0.5 + 0.5, HEIGHTS);
+        let (row, down) = table_step(roughness, ROUGHNESSES);
+        let channel = inlined(
+            #[inline(always)]
+            |channel: usize| {
+                let entry = inlined(
+                    #[inline(always)]
+                    |step: usize| {
+                        let values = lanes_of(
+                            #[inline(always)]
+                            |lane| {
+                                let first = row[lane] as usize * HEIGHTS + column[lane] as usize;
+                                self.table[first + step][channel]
+                            },
+                        );
+                        F32::simd_from(simd, values)
+                    },
+                );
+                let near = mix(entry(0), entry(1), across);
+                mix(near, mix(entry(HEIGHTS), entry(HEIGHTS + 1), across), down) * self.intensity
+            },
+        );
+        [channel(0), channel(1), channel(2)]
+    }
+}
+
+/// What a mirror of a roughness shows where it is seen head-on and turned to a height:
+/// the sky weighed by GGX's distribution and the cosine (B. Karis, "Real Shading in
+/// Unreal Engine 4", 2013, section "Pre-Filtered Environment Map").
+fn blurred(sky: &Sky, roughness: f32, height: f32) -> Vec3 {
+    /// Half vectors, by how far they are from the normal: as many in each ring as the
+    /// distribution has there.
+    const RINGS: u8 = 16;
+    /// And around it, on one side: the other one mirrors the same.
+    const SECTORS: u8 = 16;
+    let square = roughness * roughness * roughness * roughness;
+    let level = (1.0 - height * height).sqrt();
+    let (mut sum, mut weights) = (Vec3::ZERO, 0.0);
+    for ring in 0..RINGS {
+        let across = (f32::from(ring) + 0.5) / f32::from(RINGS);
+        let half = (1.0 - across) / (1.0 + (square - 1.0) * across);
+        // Of the angle between normal and light, which is twice that of the half vector.
+        let cosine = 2.0 * half - 1.0;
+        if cosine <= 0.0 {
+            continue;
+        }
+        let sine = (1.0 - cosine * cosine).sqrt();
+        for sector in 0..SECTORS {
+            let angle = std::f32::consts::PI * (f32::from(sector) + 0.5) / f32::from(SECTORS);
+            let towards = height * cosine + level * sine * elementary::cos_f32(angle);
+            sum += sky.radiance(Vec3::Y * towards) * cosine;
+            weights += cosine;
+        }
+    }
+    sum / weights
+}
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::Fallback;
+    use trigon_math::DVec3;
+
+    use super::*;
+    use crate::effects::Environment;
+
+    fn direction(height: f32) -> Vec3 {
+        Vec3::new((1.0 - height * height).sqrt(), height, 0.0)
+    }
+
+    /// The sky seen from a point whose normal and view are the same.
+    fn head_on(sky: &MetalSky, towards: Vec3, roughness: f32) -> [Vec3; 2] {
+        let simd = Fallback::new();
+        let towards = splat(simd, towards);
+        let points = LitPoints { position: towards, normal: towards, facing: towards, view: towards };
+        let SkyOnMetal { mirrored, around } = sky.light(simd, &points, F32::splat(simd, roughness));
+        [mirrored, around].map(|light| Vec3::from(light.map(|channel| channel[0])))
+    }
+
+    fn heights() -> impl Iterator<Item = Vec3> {
+        (-50_i8..=50).map(|step| direction(f32::from(step) / 50.0))
+    }
+
+    #[test]
+    fn a_mirror_shows_the_sky_itself() {
+        let sky = MetalSky::new(&Mat3::IDENTITY, 1.0);
+        for towards in heights() {
+            let error = (head_on(&sky, towards, 0.0)[0] - Sky::default().radiance(towards)).abs();
+            // The table's steps are 1/64 high, and the sky's second derivative is below 38:
+            // what is between two entries is within 38/8 of the step's square.
+            assert!(error.max_element() < 1.2e-3, "{towards}: {error}");
+        }
+    }
+
+    /// The mean of the sky over all directions, weighed by the cosine and GGX's
+    /// distribution of the half vector, direction by direction.
+    fn weighed(towards: Vec3, roughness: f64) -> DVec3 {
+        const RINGS: u32 = 300;
+        const SECTORS: u32 = 100;
+        let [normal, across] = [towards.as_dvec3(), DVec3::Z];
+        let along = normal.cross(across);
+        let square = roughness * roughness * roughness * roughness;
+        let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+        for (ring, sector) in (0..RINGS).flat_map(|ring| (0..SECTORS).map(move |sector| (ring, sector))) {
+            // Denser near the normal, where smooth surfaces mirror from.
+            let place = (f64::from(ring) + 0.5) / f64::from(RINGS);
+            let cosine = 1.0 - place * place * place;
+            let angle = std::f64::consts::TAU * (f64::from(sector) + 0.5) / f64::from(SECTORS);
+            let (sine, around) = ((1.0 - cosine * cosine).sqrt(), elementary::cos(angle));
+            let light = normal * cosine + (across * around + along * elementary::sin(angle)) * sine;
+            let half = (light + normal).normalize().dot(normal);
+            let width = half * half * (square - 1.0) + 1.0;
+            let weight = cosine * place * place / (width * width);
+            sum += Sky::default().radiance(light.as_vec3()).as_dvec3() * weight;
+            weights += weight;
+        }
+        sum / weights
+    }
+
+    #[test]
+    fn rough_metals_mirror_the_sky_weighed_by_the_distribution() {
+        let (sky, environment) =
+            (MetalSky::new(&Mat3::IDENTITY, 1.0), Environment::from_sky(&Sky::default()));
+        for roughness in [0.25_f32, 0.5, 0.75, 1.0] {
+            for towards in heights().step_by(5) {
+                let [mirrored, around] = head_on(&sky, towards, roughness);
+                let exact = weighed(towards, f64::from(roughness));
+                let error = (mirrored.as_dvec3() - exact).abs().max_element();
+                // The table's own sum has 16 rings, and its steps curve as above.
+                assert!(error < 0.004, "roughness {roughness}, {towards}: {error}");
+                // An environment of this sky is the same, as far as its coarse maps tell
+                // (0.024 beside the horizon), and its nine coefficients (3 % of the
+                // brightest, Ramamoorthi 2001).
+                let error = (mirrored - environment.radiance(towards, roughness)).abs().max_element();
+                assert!(error < 0.03, "an environment, roughness {roughness}, {towards}: {error}");
+                let error = (around - environment.irradiance(towards)).abs().max_element();
+                assert!(error < 0.03, "matt, {towards}: {error}");
+            }
+        }
+    }
+
+    /// The sky does not turn with the camera.
+    #[test]
+    fn up_is_up_in_the_world() {
+        let quarter = trigon_math::Quat::from_rotation_x(std::f32::consts::FRAC_PI_2);
+        let sky = MetalSky::new(&Mat3::from_quat(quarter), 2.0);
+        let up = quarter.inverse() * Vec3::Y;
+        let [mirrored, _] = head_on(&sky, up, 0.0);
+        assert!((mirrored - Sky::default().zenith * 2.0).length() < 1e-5, "{mirrored}, twice as bright");
+        assert_eq!(sky.radiance(Vec3::NEG_Y), Sky::default().ground * 2.0, "and below");
+    }
+}

@@ -1,0 +1,108 @@
+//! The default light on white surfaces, against the sum of its lamps.
+
+use super::*;
+use crate::Outputs;
+use crate::render::lighting::{Lights, Source};
+
+fn rough() -> Shading {
+    Shading::MetallicRoughness(MetallicRoughness { metallic: 0.0, roughness: 1.0, ..Default::default() })
+}
+
+fn white(shading: Shading) -> Material {
+    Material { base_color: Vec4::ONE, shading, ..Material::default() }
+}
+
+/// White without highlights: Blinn-Phong adds nothing to its diffuse light then.
+fn matt_models() -> [Shading; 3] {
+    [Shading::Lambert, Shading::blinn_phong(Vec3::ZERO, 30.0), rough()]
+}
+
+fn in_the_studio() -> RenderSettings {
+    let outputs = Outputs { radiance: true, normals: true, ..Outputs::default() };
+    RenderSettings { lighting: Lighting::Automatic, outputs, ..settings(EffectSettings::default()) }
+}
+
+/// Lambert's law for a unit normal in camera space, in f64.
+fn lambert(normal: DVec3) -> f64 {
+    each_lamp(|towards, light| light * normal.dot(towards).max(0.0))
+}
+
+/// The rough dielectric of the glTF specification, appendix B, seen along −Z: with an α of
+/// 1 the distribution is 1/π and V is 1 / (2 (n·l + n·v)). In the same light from
+/// everywhere a white one shows just that.
+fn rough_dielectric(normal: DVec3) -> f64 {
+    each_lamp(|towards, light| {
+        let [n_dot_l, n_dot_v] = [normal.dot(towards).max(0.0), normal.z];
+        let v_dot_h = (towards + DVec3::Z).normalize().z;
+        let away = (1.0 - v_dot_h) * (1.0 - v_dot_h);
+        let fresnel = 0.04 + 0.96 * away * away * (1.0 - v_dot_h);
+        light * n_dot_l * (1.0 - fresnel + fresnel * 0.5 / (n_dot_l + n_dot_v))
+    })
+}
+
+fn each_lamp(of: impl Fn(DVec3, f64) -> f64) -> f64 {
+    let studio = Lights::studio();
+    let lamps = studio.lamps.iter().map(|lamp| match lamp.source {
+        Source::Directional(towards) => of(towards.as_dvec3(), f64::from(lamp.radiance.x)),
+        Source::Point { .. } => panic!("lamps of the studio are parallel"),
+    });
+    f64::from(studio.ambient.x) + lamps.sum::<f64>()
+}
+
+#[test]
+fn a_white_ball_shows_the_sum_of_the_lamps_and_is_clipped_nowhere() {
+    for shading in matt_models() {
+        let mut scene = Scene::new();
+        scene.add_object("ball", primitives::uv_sphere(1.9, 128, 64), white(shading));
+        let frame = render(&scene, &from_front(), &in_the_studio()).expect("drawn");
+        let (radiance, normals) = (frame.radiance.expect("asked for"), frame.normals.expect("asked for"));
+        // The picture's vertices are snapped to 1/256 pixel, those of the normals are not:
+        // that is 3e-5 of the ball's radius, and near its rim up to ten times as much of a
+        // normal. The table of what rough surfaces reflect of light from everywhere is
+        // within 1 %.
+        let is_rough = matches!(shading, Shading::MetallicRoughness(_));
+        let tolerance = if is_rough { 0.01 * 0.2 + 3e-4 } else { 3e-4 };
+        let (mut count, mut brightest) = (0, 0.0_f64);
+        for (light, normal) in radiance.iter().zip(&normals) {
+            let normal = normal.as_dvec3();
+            // Near the rim of the ball the division by n·v magnifies how f32 rounds it.
+            if normal.z < 0.1 {
+                continue;
+            }
+            let exact = if is_rough { rough_dielectric(normal) } else { lambert(normal) };
+            let shown = f64::from(light.y);
+            assert!((shown - exact).abs() < tolerance, "{shading:?}, {normal}: {shown}, not {exact}");
+            (count, brightest) = (count + 1, brightest.max(shown));
+        }
+        assert!(count > 8000, "most of the ball was seen: {count} pixels");
+        assert!(brightest <= 1.0, "{shading:?} is clipped: {brightest}");
+        assert!(brightest > 0.9, "{shading:?} is nearly white where it is brightest: {brightest}");
+    }
+}
+
+#[test]
+fn a_white_plate_that_faces_the_camera_is_white() {
+    let perspective = Camera::look_at(DVec3::Z * 3.0, DVec3::ZERO, DVec3::Y);
+    for (shading, camera) in matt_models().into_iter().flat_map(|s| [(s, from_front()), (s, perspective)]) {
+        let mut scene = Scene::new();
+        let plate = scene.add_object("plate", primitives::plane(2.0, 2.0), white(shading));
+        let upright = DQuat::from_rotation_arc(DVec3::Y, DVec3::Z);
+        scene.node_mut(plate).expect("just added").transform =
+            Transform::from_scale_rotation_translation(DVec3::ONE, upright, DVec3::ZERO);
+        let frame = render(&scene, &camera, &in_the_studio()).expect("drawn");
+        for pixel in [SIDE / 2, SIDE * 5 / 12].map(|at| frame.pixel(at, at)) {
+            assert!(pixel.iter().all(|&channel| channel >= 235), "{shading:?}: {pixel:?}");
+        }
+    }
+}
+
+/// What files say of their light is not changed by how bright the default one is.
+#[test]
+fn lamps_of_the_scene_get_a_tenth_of_white_from_everywhere() {
+    let mut scene = Scene::new();
+    scene.add_object("ball", primitives::uv_sphere(1.0, 64, 32), white(Shading::Lambert));
+    scene.add(shining(Light::directional(0.5), DVec3::Y, DVec3::NEG_Z));
+    let frame = render(&scene, &from_front(), &in_the_studio()).expect("drawn");
+    let shown = frame.radiance.expect("asked for")[(SIDE * SIDE / 2 + SIDE / 2) as usize].x;
+    assert!((shown - 0.6).abs() < 1e-3, "half from the lamp and a tenth beside it: {shown}");
+}
