@@ -336,7 +336,7 @@ mod tests {
     use clap::{CommandFactory, Parser};
     use trigon_math::DVec3;
     use trigon_scene::quality::{Preset, Quality};
-    use trigon_scene::{Outputs, ShadingModel, Shadows};
+    use trigon_scene::{MetalReflection, Outputs, ShadingModel, Shadows};
 
     use super::*;
 
@@ -458,6 +458,14 @@ mod tests {
         assert_eq!((rays.occlusion_rays, rays.samples), (5, 4), "rays and samples win");
         assert_eq!(quality("--shadows").shadows, Shadows::Maps { resolution: 2048 }, "without a preset");
         assert!(refusal("--preset=best").contains("draft, standard, high or reference"), "explained");
+    }
+
+    #[test]
+    fn metals_mirror_the_sky_unless_told_otherwise() {
+        let asked = |flags: &str| request(flags).expect("fine").settings.effects.metal_reflection;
+        assert_eq!(asked(""), MetalReflection::Sky, "usually");
+        assert_eq!(asked("--metal-reflection=ambient"), MetalReflection::Ambient, "as asked");
+        assert!(refusal("--metal-reflection=room").contains("sky, ambient"), "explained");
     }
 
     #[test]

@@ -2,15 +2,15 @@
 //! away, where ambient light comes from, and what is in the air.
 
 use trigon_math::Vec3;
-use trigon_raster::simd::{F32, Simd};
+use trigon_raster::simd::{F32, Simd, prelude::*};
 
 use super::environment::Surroundings;
 use super::fog::Mist;
-use super::metal_sky::MetalSky;
+use super::metal_sky::{MetalSky, SkyOnMetal};
 use super::rays::{AmbientRays, RayScene};
 use super::shadow::ShadowMaps;
 use crate::render::lanes::{V3, dot, splat};
-use crate::render::lighting::{Arriving, Lamp, Lights, LitPoints};
+use crate::render::lighting::{Arriving, Lamp, Lights, LitPoints, Microfacets};
 
 /// What all surfaces of a picture have around them.
 #[derive(Debug, Default)]
@@ -80,6 +80,18 @@ impl Scenery {
             }
             None => splat(simd, self.lights.ambient),
         }
+    }
+
+    /// The built-in sky's light on metals, if they mirror it and any point is a metal.
+    #[inline(always)]
+    pub(crate) fn sky_on_metal<S: Simd>(
+        &self,
+        simd: S,
+        points: &LitPoints<S>,
+        facets: &Microfacets<S>,
+    ) -> Option<SkyOnMetal<S>> {
+        let sky = self.metal_sky.as_ref().filter(|_| facets.metallic.simd_gt(0.0).any_true())?;
+        Some(sky.light(simd, points, facets.roughness))
     }
 
     /// Whether there is any light from everywhere.

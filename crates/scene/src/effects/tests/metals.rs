@@ -1,8 +1,8 @@
 //! Metals in a scene that says nothing of what is around them.
 
 use super::*;
-use crate::Outputs;
 use crate::render::lighting::{Lamp, Lights, Source};
+use crate::{Outputs, SimdLevel};
 
 fn in_the_studio(metal_reflection: MetalReflection) -> RenderSettings {
     let outputs = Outputs { radiance: true, normals: true, ids: true, ..Outputs::default() };
@@ -74,7 +74,6 @@ fn metals_are_not_black() {
             shown.iter().sum::<f32>() / shown.len() as f32
         };
         let (with, without) = (mean(MetalReflection::Sky), mean(MetalReflection::Ambient));
-        eprintln!("roughness {roughness}: {with}, and {without} without");
         assert!(with > 0.3 && with > without, "roughness {roughness}: {with}, and {without} without");
     }
 }
@@ -125,6 +124,20 @@ fn nothing_but_metal_changes_by_the_sky() {
         if shading == ShadingModel::Phong {
             assert!(*last > seen / 4 && *last < seen * 3 / 4, "the metal half of it: {last} of {seen}");
         }
+    }
+}
+
+#[test]
+fn metals_are_the_same_at_every_level_and_with_any_threads() {
+    let scene = ball(of_roughness(0.8, 0.37));
+    let draw = |simd, threads| {
+        let threads = std::num::NonZeroUsize::new(threads);
+        let settings = RenderSettings { simd, threads, ..in_the_studio(MetalReflection::Sky) };
+        render(&scene, &from_front(), &settings).expect("drawn").radiance
+    };
+    let expected = draw(None, 1);
+    for level in SimdLevel::ALL.into_iter().filter(|level| level.is_supported()) {
+        assert!(draw(Some(level), 3) == expected, "{level:?} and three threads change the picture");
     }
 }
 

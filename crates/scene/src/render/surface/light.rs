@@ -5,7 +5,7 @@ use trigon_raster::{FragmentLanes, VertexLanes};
 
 use super::{LightSlots, Surface, Values, load, shown};
 use crate::render::lanes::{V3, dot, mixed, negated, normalized, product, scaled, splat, sum, turned};
-use crate::render::lighting::{Answer, LitPoints, Microfacets, Reflected};
+use crate::render::lighting::{Answer, LitPoints, Reflected};
 
 /// Where light is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,22 +144,24 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
                     self.look.transmission_map.as_ref().map(|map| map.look_up_apart(simd, values)[0]);
                 self.traced(simd, points, (facets, optics, open), (albedo, share, passing), active)
             }
-            _ => shown(&self.reflected(simd, points, &answer, (open, None)), scaled(albedo, share)),
+            (None, _) | (Some(_), Answer::Lambert | Answer::BlinnPhong { .. }) => {
+                shown(&self.reflected(simd, points, &answer, (open, None)), scaled(albedo, share))
+            }
         }
     }
 
-    /// All light that the surface sends to the eye. `open` is the share of the
-    /// ambient light that arrives.
+    /// All light that the surface sends to the eye. `open` is the share of the ambient
+    /// light that arrives, `traced` what rays found in the mirror direction.
     #[inline(always)]
     pub(super) fn reflected<S: Simd>(
         &self,
         simd: S,
         points: &LitPoints<S>,
         answer: &Answer<S>,
-        (open, mirrored): (Option<F32<S>>, Option<V3<S>>),
+        (open, traced): (Option<F32<S>>, Option<V3<S>>),
     ) -> Reflected<S> {
         let mut reflected = self.scenery.reflected(simd, points, answer);
-        if !self.scenery.has_ambient() && mirrored.is_none() {
+        if !self.scenery.has_ambient() && traced.is_none() {
             return reflected;
         }
         let open = open.unwrap_or(F32::splat(simd, 1.0));
@@ -168,7 +170,17 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             Answer::Microfacets(facets) => {
                 let shares = facets.surrounded(dot(points.normal, points.view).abs());
                 reflected.diffuse = sum(reflected.diffuse, product(around, shares.diffuse));
-                let [mirrored, repeated] = self.on_facets(simd, points, facets, mirrored, around, open);
+                let mut mirrored = match traced {
+                    Some(traced) => traced,
+                    None => scaled(self.scenery.mirrored(simd, points, facets.roughness), open),
+                };
+                let mut repeated = around;
+                if let Some(sky) = self.scenery.sky_on_metal(simd, points, facets) {
+                    repeated = mixed(repeated, scaled(sky.around, open), facets.metallic);
+                    if traced.is_none() {
+                        mirrored = mixed(mirrored, scaled(sky.mirrored, open), facets.metallic);
+                    }
+                }
                 let specular = sum(product(mirrored, shares.single), product(repeated, shares.repeated));
                 reflected.specular = sum(reflected.specular, specular);
             }
@@ -177,33 +189,5 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
             }
         }
         reflected
-    }
-
-    /// The light that microfacets reflect once, from the mirror direction, and repeatedly,
-    /// from all around. `traced` is what rays found in the mirror direction, `around` the
-    /// diffuse light, `open` the share of the ambient light that arrives.
-    #[inline(always)]
-    fn on_facets<S: Simd>(
-        &self,
-        simd: S,
-        points: &LitPoints<S>,
-        facets: &Microfacets<S>,
-        traced: Option<V3<S>>,
-        around: V3<S>,
-        open: F32<S>,
-    ) -> [V3<S>; 2] {
-        let mirrored =
-            traced.unwrap_or_else(|| scaled(self.scenery.mirrored(simd, points, facets.roughness), open));
-        let Some(sky) = &self.scenery.metal_sky else { return [mirrored, around] };
-        let share = facets.metallic;
-        if !share.simd_gt(0.0).any_true() {
-            return [mirrored, around];
-        }
-        let light = sky.light(simd, points, facets.roughness);
-        let repeated = mixed(around, scaled(light.around, open), share);
-        match traced {
-            Some(_) => [mirrored, repeated],
-            None => [mixed(mirrored, scaled(light.mirrored, open), share), repeated],
-        }
     }
 }
