@@ -79,6 +79,19 @@ sin θ texels, θ being the angle between normal and light, which is just what a
 needs, and by a quarter of a texel for curvature and rounding. Nothing is added to
 depths. A shadow begins at most 1.7 texels from what casts it. Rays need none of
 this.
+
+## What metals mirror
+
+With lamps alone metals are black beside their highlights. Where a scene has neither an
+environment nor ambient light of its own, and is not drawn by its own lights only
+(`Lighting::Scene`), they mirror the built-in sky, +Y of the world up. It is mixed with
+the ambient light that was added by how metallic a point is: dielectrics keep every byte,
+and vectors of eight pixels without metal look nothing up. `--metal-reflection=ambient`
+leaves it out. A default material of glTF is a metal, too.
+
+Three balls of metal, of roughness 0, 0.35 and 0.7 on 43 % of 480×300 pixels, take 13 %
+more instructions by it, and 15 million once, for the table of the sky, which is a quarter
+of such a picture (callgrind, AVX2, one thread). Without metal in view there is neither.
 ";
 
 const HEAD: &str =
