@@ -66,7 +66,11 @@ pub(super) fn for_each_vector<S: Simd>(
     let count = task.vectors();
     for number in 0..count + 1 {
         if number < count {
-            prepare_apart(simd, context, (task, &mut *next), number);
+            // Apart, so that it is compiled once for all pipelines.
+            simd.vectorize(
+                #[inline(always)]
+                || prepare(simd, context, (task, &mut *next), number),
+            );
         }
         if number > 0 {
             let vector = task.vector(simd, number - 1);
@@ -74,21 +78,6 @@ pub(super) fn for_each_vector<S: Simd>(
         }
         std::mem::swap(&mut next, &mut now);
     }
-}
-
-/// [`prepare`] in a function of its own that knows no pipeline, so that it is compiled
-/// once for each level and not for each pipeline at each.
-#[inline(always)]
-fn prepare_apart<S: Simd>(
-    simd: S,
-    context: &ShadeContext<'_>,
-    (task, columns): (&Task<'_>, &mut Columns),
-    number: usize,
-) {
-    simd.vectorize(
-        #[inline(always)]
-        || prepare(simd, context, (task, columns), number),
-    );
 }
 
 /// Loads a vector's triangles, and finds where its pixels lie in them.
