@@ -28,4 +28,5 @@ mod scissor;
 mod simd_levels;
 mod smooth_lines;
 mod targets;
+mod ties;
 mod triangulation;

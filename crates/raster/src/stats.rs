@@ -35,6 +35,10 @@ pub struct Stats {
     pub tiles_rejected: u64,
     /// Tiles that one triangle filled as a whole.
     pub tiles_filled: u64,
+    /// Tiles whose opaque triangles were drawn once more, in the order of (object, face),
+    /// because at too many samples several of them are equally deep. The counts of blocks
+    /// and groups are of the second time.
+    pub tiles_reordered: u64,
     /// Blocks of 8 by 8 pixels that a triangle does not cover, or that hid it as
     /// a whole.
     pub blocks_rejected: u64,
@@ -69,6 +73,7 @@ impl AddAssign for Stats {
         self.tiles += other.tiles;
         self.tiles_rejected += other.tiles_rejected;
         self.tiles_filled += other.tiles_filled;
+        self.tiles_reordered += other.tiles_reordered;
         self.blocks_rejected += other.blocks_rejected;
         self.blocks_accepted += other.blocks_accepted;
         self.groups_tested += other.groups_tested;
@@ -84,6 +89,7 @@ impl Stats {
     pub(crate) fn add_counts(&mut self, counts: &Counts) {
         self.tiles_rejected += counts.tiles_rejected;
         self.tiles_filled += counts.tiles_filled;
+        self.tiles_reordered += counts.tiles_reordered;
         self.blocks_rejected += counts.blocks_rejected;
         self.blocks_accepted += counts.blocks_accepted;
         self.groups_tested += counts.groups;

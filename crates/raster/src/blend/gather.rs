@@ -77,7 +77,7 @@ impl Layers {
         beside: &[Beside],
     ) -> Blocks {
         let Self { runs, last, .. } = self;
-        let order = DepthOrder { frame: tile.frame, places: tile.places };
+        let order = DepthOrder(tile);
         let samples = tile.buffer.samples;
         let mut blocks = Blocks::NONE;
         tile.for_each_seen(

@@ -95,8 +95,8 @@ pub(crate) fn blend_translucent(
     places: Range<usize>,
 ) {
     samples::expand(frame, area, scratch);
-    let Scratch { buffer, places: all, layers, samples, shading, stats, .. } = scratch;
-    let tile = TileView { frame, area, buffer, places: all };
+    let Scratch { buffer, places: all, ties, layers, samples, shading, stats, .. } = scratch;
+    let tile = TileView { frame, area, buffer, places: all, ties };
     stats.pixels_shaded += layers.blend(tile, places, shading, samples);
     samples::collapse(frame, scratch);
 }
@@ -139,7 +139,7 @@ impl Layers {
     fn list(&mut self, tile: TileView<'_>, round: &Round) {
         let Self { runs, fragments, .. } = self;
         let samples = tile.buffer.samples;
-        let order = DepthOrder { frame: tile.frame, places: tile.places };
+        let order = DepthOrder(tile);
         fragments.reset(tile.places.len());
         for block in round.blocks.iter() {
             for pixel in block * BLOCK..(block + 1) * BLOCK {

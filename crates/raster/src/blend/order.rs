@@ -1,16 +1,12 @@
 //! In which order layers are laid.
 
 use super::runs::{Layer, Order};
-use crate::bin::Place;
-use crate::frame::FrameView;
+use crate::tile::TileView;
 use std::cmp::Ordering;
 
 /// The order of layers: a total key.
 #[derive(Clone, Copy)]
-pub(super) struct DepthOrder<'t> {
-    pub(super) frame: &'t FrameView<'t>,
-    pub(super) places: &'t [Place],
-}
+pub(super) struct DepthOrder<'t>(pub(super) TileView<'t>);
 
 impl Order for DepthOrder<'_> {
     #[inline(always)]
@@ -26,9 +22,10 @@ impl Order for DepthOrder<'_> {
 impl DepthOrder<'_> {
     /// Of equal depths the smaller (object, face) is in front. Parts of one
     /// primitive, which may meet in a sample after snapping, go by their number.
-    #[cold]
+    #[inline]
     fn compare_keys(&self, a: &Layer, b: &Layer) -> Ordering {
-        let [a, b] = [a, b].map(|layer| self.places[layer.place as usize]);
-        self.frame.compare(b, a).then_with(|| b.extra().cmp(&a.extra()))
+        let TileView { frame, places, ties, .. } = self.0;
+        let part = |layer: &Layer| places[layer.place as usize].extra();
+        ties.compare(frame, places, [b.place, a.place]).then_with(|| part(b).cmp(&part(a)))
     }
 }

@@ -12,7 +12,7 @@ use crate::paint2d::Rect;
 use crate::pass::{Background, Recorded};
 use crate::setup::SetupTriangle;
 use crate::shade::{AnyPipeline, Encoding};
-use crate::simd::Token;
+use crate::simd::{Each, Token};
 use crate::tile::TileArea;
 use crate::vertex::{DrawVertices, ScreenVertex};
 use std::cmp::Ordering;
@@ -115,11 +115,20 @@ impl<'f> FrameView<'f> {
         if let Some(extra) = place.extra() {
             return self.chunk_of(place).extras[extra];
         }
+        SetupTriangle::whole(self.corners(place).each(|vertex| *vertex), place.ordinal)
+    }
+
+    /// The vertices of a primitive.
+    #[inline(always)]
+    pub(crate) fn corners(&self, place: Place) -> [&'f ScreenVertex; 3] {
         let draw = self.draw_of(place);
         let plan = &self.plan.draws[draw];
         let vertices = self.vertices(draw);
         let corners = self.pass[plan.draw].geometry.corners(place.ordinal - plan.ordinals.start);
-        SetupTriangle::whole(corners.map(|index| *vertices.get(index)), place.ordinal)
+        corners.each(
+            #[inline(always)]
+            |index| vertices.get(index),
+        )
     }
 
     /// The chunk that a triangle belongs to.
@@ -127,15 +136,24 @@ impl<'f> FrameView<'f> {
         &self.chunks[self.chunks.partition_point(|chunk| chunk.ordinals.end <= place.ordinal)]
     }
 
+    /// What decides first between triangles at equal depth, from the index among the plans
+    /// of the triangle's draw: the smaller one is seen.
+    #[inline]
+    pub(crate) fn object_and_face(&self, draw: usize, place: Place) -> u64 {
+        let plan = &self.plan.draws[draw];
+        let geometry = &self.pass[plan.draw].geometry;
+        let face = geometry.face(place.ordinal - plan.ordinals.start);
+        u64::from(geometry.object) << 32 | u64::from(face)
+    }
+
     /// The order of two triangles at equal depth: the smaller (object, face) is
     /// seen. Within a face, and only there, the smaller index, then the earlier
     /// draw.
     pub(crate) fn compare(&self, a: Place, b: Place) -> Ordering {
         let key = |place: Place| {
-            let plan = &self.plan.draws[self.draw_of(place)];
-            let geometry = &self.pass[plan.draw].geometry;
-            let primitive = place.ordinal - plan.ordinals.start;
-            (geometry.object, geometry.face(primitive), primitive, plan.draw)
+            let draw = self.draw_of(place);
+            let plan = &self.plan.draws[draw];
+            (self.object_and_face(draw, place), place.ordinal - plan.ordinals.start, plan.draw)
         };
         key(a).cmp(&key(b))
     }

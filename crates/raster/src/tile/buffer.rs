@@ -125,6 +125,10 @@ impl VisibilityBuffer {
         &self.winner[..self.span * self.samples]
     }
 
+    pub(super) fn winners_mut(&mut self) -> &mut [u32] {
+        &mut self.winner[..self.span * self.samples]
+    }
+
     /// How many samples see a triangle.
     pub(crate) fn seen(&self) -> usize {
         self.winners().iter().filter(|&&winner| winner != NOBODY).count()

@@ -4,15 +4,20 @@ use super::area::{BLOCKS, TileArea};
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::covering::Covering;
 use super::store::{store, store_where};
+use super::ties::Ties;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
 
 /// What all triangles of a tile have in common.
+#[derive(Clone, Copy)]
 pub(crate) struct Cover<'f> {
     pub(crate) area: TileArea,
     pub(crate) offsets: &'f [[i32; 2]],
     /// Whether a later triangle never wins at equal depth; else `precedes`
-    /// decides.
+    /// decides, as long as `ties` are not too many.
     pub(crate) in_order: bool,
+    /// Whether those of a draw come one after the other.
+    pub(crate) by_draws: bool,
+    pub(crate) ties: &'f Ties,
     /// Whether bounds of depths are asked before samples are.
     pub(crate) hierarchical: bool,
     /// Whether the first place is seen before the second at equal depth.
@@ -27,6 +32,7 @@ pub(crate) struct Counts {
     pub(crate) blocks_rejected: u64,
     pub(crate) blocks_accepted: u64,
     pub(crate) groups: u64,
+    pub(crate) tiles_reordered: u64,
 }
 
 /// A triangle on its way through a tile.
@@ -328,6 +334,10 @@ impl Cover<'_> {
     /// Which of the lanes of equal depth have the smaller key.
     #[cold]
     fn won_ties(&self, place: u32, ties: u64, winners: &[u32]) -> u64 {
+        if !self.ties.spend(ties.count_ones()) {
+            // The tile is drawn again.
+            return 0;
+        }
         let wins = |winner: u32| winner != NOBODY && (self.precedes)(place, winner);
         winners
             .iter()

@@ -4,6 +4,7 @@
 use super::blocks::Blocks;
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::seen::{Candidate, TileView};
+use super::ties::Ties;
 use super::visibility::single;
 use super::{Scratch, TileArea};
 use crate::Surface;
@@ -44,17 +45,17 @@ pub(super) fn cover_masked(
     scratch: &mut Scratch,
     range: Range<usize>,
 ) {
-    let Scratch { buffer, places, questions, shading, stats, .. } = scratch;
+    let Scratch { buffer, places, ties, questions, shading, stats, .. } = scratch;
     let draw = |place: usize| frame.draw_of(places[place]);
     for place in range.clone() {
         let turns = place > range.start && draw(place) != draw(place - 1);
         if turns || questions.waiting.len() > PORTION {
-            stats.samples_masked += questions.settle(frame, area, (places, buffer), shading);
+            stats.samples_masked += questions.settle(frame, area, (places, ties, buffer), shading);
         }
-        let view = TileView { frame, area, buffer, places };
+        let view = TileView { frame, area, buffer, places, ties };
         at_level!(frame.token, simd => questions.collect(simd, view, place));
     }
-    stats.samples_masked += questions.settle(frame, area, (places, buffer), shading);
+    stats.samples_masked += questions.settle(frame, area, (places, ties, buffer), shading);
 }
 
 impl Questions {
@@ -107,7 +108,7 @@ impl Questions {
         &mut self,
         frame: &FrameView<'_>,
         area: &TileArea,
-        (places, buffer): (&[Place], &mut VisibilityBuffer),
+        (places, ties, buffer): (&[Place], &Ties, &mut VisibilityBuffer),
         shading: &mut Shading,
     ) -> u64 {
         let Self { waiting, jobs, work, answers } = self;
@@ -117,7 +118,7 @@ impl Questions {
         mask_jobs(frame, area, shading, (places, jobs, work), answers);
         for fragment in waiting.drain(..).filter(|fragment| answers[fragment.answer as usize] != 0) {
             let (index, depth) = (fragment.index as usize, fragment.depth);
-            let view = TileView { frame, area, buffer, places };
+            let view = TileView { frame, area, buffer, places, ties };
             if view.is_seen(index, depth, fragment.place) {
                 buffer.depth[index] = depth;
                 buffer.winner[index] = fragment.place;

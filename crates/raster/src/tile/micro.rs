@@ -169,7 +169,9 @@ impl Cover<'_> {
     }
 
     /// Lets the triangles compete for the pixels that they cover.
-    #[inline(always)]
+    ///
+    /// Apart, so that what finds those takes no registers.
+    #[inline(never)]
     fn scatter(&self, eight: &Eight, first: u32, pixels: &mut Covered, buffer: &mut VisibilityBuffer) {
         let count = std::mem::take(&mut pixels.count);
         for (&place, &depth) in pixels.places[..count].iter().zip(&pixels.depths) {
@@ -190,7 +192,7 @@ impl Cover<'_> {
         if self.in_order {
             winner != NOBODY && place < winner
         } else {
-            winner != NOBODY && (self.precedes)(place, winner)
+            self.ties.spend(1) && winner != NOBODY && (self.precedes)(place, winner)
         }
     }
 }

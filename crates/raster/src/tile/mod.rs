@@ -8,6 +8,7 @@ mod covering;
 mod depth;
 mod edge;
 mod eight;
+mod key_order;
 mod masked;
 mod micro;
 mod scratch;
@@ -17,6 +18,7 @@ mod starts;
 mod store;
 #[cfg(test)]
 mod tests;
+mod ties;
 mod tiny;
 mod visibility;
 
@@ -29,6 +31,7 @@ pub(crate) use depth::DepthPlane;
 pub(crate) use edge::Edge;
 pub(crate) use scratch::{PIXELS, Scratch};
 pub(crate) use seen::{Candidate, SampleGroup, TileView};
+pub(crate) use ties::Ties;
 pub(crate) use visibility::single;
 
 use crate::Surface;
@@ -55,6 +58,7 @@ pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
     scratch.stats.tiles += 1;
     let mut clock = Clock::new(frame.timed);
     scratch.buffer.clear(&area, frame.grid.pattern.count());
+    scratch.ties.reset(scratch.places.len());
     visibility::resolve_visibility(frame, &area, scratch, &surfaces);
     scratch.stats.times.visibility += clock.lap();
     let mut early = None;

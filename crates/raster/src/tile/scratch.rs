@@ -2,7 +2,9 @@
 //! nothing allocates once it is warm.
 
 use super::buffer::VisibilityBuffer;
+use super::key_order::KeyOrder;
 use super::masked::Questions;
+use super::ties::Ties;
 use crate::Stats;
 use crate::bin::Place;
 use crate::blend::Layers;
@@ -15,6 +17,10 @@ pub(crate) struct Scratch {
     /// The tile's triangles: opaque, masked, translucent.
     pub(crate) places: Vec<Place>,
     pub(crate) buffer: VisibilityBuffer,
+    pub(crate) ties: Ties,
+    pub(super) key_order: KeyOrder,
+    /// The opaque triangles in the order of their keys, where that is needed.
+    pub(super) reordered: Vec<Place>,
     pub(crate) shading: Shading,
     /// Colours of samples, where something translucent is laid over them.
     pub(crate) samples: Vec<Vec4>,
@@ -36,6 +42,9 @@ impl Scratch {
         Self {
             places: Vec::new(),
             buffer: VisibilityBuffer::new(),
+            ties: Ties::default(),
+            key_order: KeyOrder::default(),
+            reordered: Vec::new(),
             shading: Shading::new(),
             samples: Vec::new(),
             layers: Layers::default(),

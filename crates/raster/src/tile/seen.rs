@@ -3,7 +3,7 @@
 
 use super::blocks::Blocks;
 use super::buffer::{NOBODY, VisibilityBuffer};
-use super::{Covering, TileArea};
+use super::{Covering, Ties, TileArea};
 use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
@@ -16,6 +16,7 @@ pub(crate) struct TileView<'t> {
     pub(crate) buffer: &'t VisibilityBuffer,
     /// The tile's triangles.
     pub(crate) places: &'t [Place],
+    pub(crate) ties: &'t Ties,
 }
 
 /// A triangle with its index among the tile's.
@@ -103,8 +104,7 @@ impl TileView<'_> {
     }
 
     fn wins_tie(&self, place: u32, winner: u32) -> bool {
-        let precedes = || self.frame.precedes(self.places[place as usize], self.places[winner as usize]);
-        winner != NOBODY && precedes()
+        winner != NOBODY && self.ties.compare(self.frame, self.places, [place, winner]).is_lt()
     }
 
     #[inline(always)]

@@ -17,6 +17,10 @@ use fearless_simd::f64x4;
 /// it is covered anew, the answer stays the same.
 const WRITES: u32 = 4;
 
+/// What finding the samples of a triangle one by one takes before the first of them, in units
+/// of [`Ties`](super::Ties).
+const COVERING: u32 = 16;
+
 /// A triangle on its way through a tile.
 pub(super) struct Tiny<S: Simd> {
     pub(super) place: u32,
@@ -109,29 +113,29 @@ impl Cover<'_> {
             }
         };
         if !self.in_order && ties.any_true() {
-            for sample in 0..self.offsets.len() {
-                self.win_ties((eight, lane), (place, sample), buffer);
-            }
+            self.win_ties((eight, lane), place, buffer);
         }
     }
 
     /// Gives a triangle those of its samples that others hold at the same depth
     /// with a larger key.
     #[cold]
-    fn win_ties(
-        &self,
-        (eight, lane): (&Eight, usize),
-        (place, sample): (u32, usize),
-        buffer: &mut VisibilityBuffer,
-    ) {
+    fn win_ties(&self, (eight, lane): (&Eight, usize), place: u32, buffer: &mut VisibilityBuffer) {
         let Some(covering) = eight.covering(lane, self.offsets) else { return };
-        for y in covering.rows[0]..=covering.rows[1] {
-            for x in covering.columns[0]..=covering.columns[1] {
-                let index = buffer.index(TileArea::index_of([x as usize, y as usize]), sample);
+        let [columns, rows] = [covering.columns, covering.rows];
+        let pixels = (columns[1] + 1 - columns[0]) * (rows[1] + 1 - rows[0]);
+        if !self.ties.spend(COVERING + pixels as u32 * self.offsets.len() as u32) {
+            // The tile is drawn again.
+            return;
+        }
+        for at in (rows[0]..=rows[1]).flat_map(|y| (columns[0]..=columns[1]).map(move |x| [x, y])) {
+            let pixel = TileArea::index_of(at.map(|v| v as usize));
+            for (sample, &offset) in self.offsets.iter().enumerate() {
+                let index = buffer.index(pixel, sample);
                 let winner = buffer.winner[index];
                 if winner != NOBODY
-                    && covering.covers([x, y], sample, [0, 0])
-                    && covering.depth.at(self.area.point([x, y], self.offsets[sample])) == buffer.depth[index]
+                    && covering.covers(at, sample, [0, 0])
+                    && covering.depth.at(self.area.point(at, offset)) == buffer.depth[index]
                     && (self.precedes)(place, winner)
                 {
                     buffer.winner[index] = place;

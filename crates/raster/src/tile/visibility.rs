@@ -4,11 +4,14 @@ use super::cover::Cover;
 use super::eight::Eight;
 use super::micro::Covered;
 use super::starts::Starts;
-use super::{Counts, Covering, Scratch, Surfaces, TileArea, VisibilityBuffer, masked};
+use super::ties::COMPARISON;
+use super::{Counts, Covering, NOBODY, Scratch, Surfaces, TileArea, VisibilityBuffer, masked};
 use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::setup::SetupTriangle;
 use crate::simd::{Each, LANES, Simd, at_level, lanes_of};
+use crate::vertex::ScreenVertex;
+use std::cell::Cell;
 
 /// Finds the nearest opaque or masked triangle at every sample.
 pub(crate) fn resolve_visibility(
@@ -19,10 +22,7 @@ pub(crate) fn resolve_visibility(
 ) {
     let mut counts = Counts::default();
     if !surfaces.opaque.is_empty() {
-        at_level!(frame.token, simd => match frame.grid.pattern.count() {
-            1 => cover_opaque::<_, false>(simd, frame, area, scratch, (surfaces.opaque.len(), &mut counts)),
-            _ => cover_opaque::<_, true>(simd, frame, area, scratch, (surfaces.opaque.len(), &mut counts)),
-        });
+        counts = cover_opaque(frame, area, scratch, surfaces.opaque.len());
     }
     scratch.buffer.settle();
     masked::cover_masked(frame, area, scratch, surfaces.masked.clone());
@@ -33,44 +33,94 @@ pub(crate) fn resolve_visibility(
     scratch.stats.add_counts(&counts);
 }
 
-#[inline(always)]
-fn cover_opaque<S: Simd, const MULTI: bool>(
-    simd: S,
-    frame: &FrameView<'_>,
-    area: &TileArea,
-    scratch: &mut Scratch,
-    (opaque, counts): (usize, &mut Counts),
-) {
-    let Scratch { places, buffer, .. } = scratch;
-    let precedes = |ours: u32, theirs: u32| frame.precedes(places[ours as usize], places[theirs as usize]);
+/// Lets the first so many of the tile's triangles compete.
+fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch, opaque: usize) -> Counts {
+    let Scratch { places, buffer, ties, key_order, reordered, .. } = scratch;
+    let places = &places[..opaque];
+    // Ties of one triangle are mostly with the same other one.
+    let last = Cell::new(([NOBODY; 2], false));
+    let precedes = |ours: u32, theirs: u32| {
+        let (pair, wins) = last.get();
+        if pair == [ours, theirs] {
+            return wins;
+        }
+        ties.spend(COMPARISON);
+        let wins = frame.precedes(places[ours as usize], places[theirs as usize]);
+        last.set(([ours, theirs], wins));
+        wins
+    };
     let cover = Cover {
         area: *area,
         offsets: frame.grid.pattern.offsets(),
         in_order: frame.plan.ordinals_are_keys,
+        by_draws: true,
+        ties,
         hierarchical: frame.hierarchical,
         precedes: &precedes,
     };
-    let places = &places[..opaque];
+    let mut counts = Counts::default();
+    if cover_all(frame, &cover, places, (buffer, &mut counts)) {
+        return counts;
+    }
+    key_order.sort(frame, places);
+    reordered.clear();
+    reordered.extend(key_order.of(places));
+    buffer.clear(area, cover.offsets.len());
+    counts = Counts { tiles_reordered: 1, ..Counts::default() };
+    let cover = Cover { in_order: true, by_draws: false, ..cover };
+    cover_all(frame, &cover, reordered, (buffer, &mut counts));
+    buffer.settle();
+    key_order.name_winners(buffer);
+    counts
+}
+
+/// Lets triangles compete one after the other; false if ties became too many.
+fn cover_all(
+    frame: &FrameView<'_>,
+    cover: &Cover<'_>,
+    places: &[Place],
+    (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
+) -> bool {
+    at_level!(frame.token, simd => match frame.grid.pattern.count() {
+        1 => cover_places::<_, false>(simd, frame, cover, places, (buffer, counts)),
+        _ => cover_places::<_, true>(simd, frame, cover, places, (buffer, counts)),
+    })
+}
+
+#[inline(always)]
+fn cover_places<S: Simd, const MULTI: bool>(
+    simd: S,
+    frame: &FrameView<'_>,
+    cover: &Cover<'_>,
+    places: &[Place],
+    (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
+) -> bool {
+    // A copy of its own, which may stay in registers.
+    let cover = &{ *cover };
     let mut starts = Starts::new(cover.offsets);
     let mut covered = Covered::new();
     let mut start = 0;
-    while start < opaque {
-        let together = side_by_side(frame, &places[start..]);
-        let eight = (together > 0).then(|| eight(simd, frame, area, &places[start..start + together]));
+    while start < places.len() {
+        let together = side_by_side(frame, cover, &places[start..]);
+        let eight = (together > 0).then(|| eight(simd, frame, cover, &places[start..start + together]));
         let end = start + together.max(1);
         if !MULTI && let Some(eight) = eight.as_ref().filter(|eight| eight.micro) {
             cover.micro(simd, (eight, &mut covered), start as u32, buffer, counts);
         } else {
             if let Some(eight) = &eight {
-                starts.find::<S, MULTI>(simd, &cover, eight);
+                starts.find::<S, MULTI>(simd, cover, eight);
             }
             for (lane, &place) in places[start..end].iter().enumerate() {
                 let ready = eight.as_ref().map(|eight| (eight, &mut starts, lane));
-                cover_one::<S, MULTI>(simd, frame, &cover, ready, (place, start + lane), (buffer, counts));
+                cover_one::<S, MULTI>(simd, frame, cover, ready, (place, start + lane), (buffer, counts));
             }
+        }
+        if !cover.in_order && cover.ties.are_many() {
+            return false;
         }
         start = end;
     }
+    true
 }
 
 /// One triangle, perhaps a lane of eight that are ready.
@@ -109,32 +159,40 @@ fn cover_one<S: Simd, const MULTI: bool>(
     }
 }
 
-/// How many of the first of some triangles, up to eight, are whole primitives
-/// of one draw.
+/// How many of the first of some triangles, up to eight, are whole primitives of one draw;
+/// of any, if triangles are not in the order of draws.
 #[inline(always)]
-fn side_by_side(frame: &FrameView<'_>, places: &[Place]) -> usize {
+fn side_by_side(frame: &FrameView<'_>, cover: &Cover<'_>, places: &[Place]) -> usize {
     let first = places[0];
     if !first.is_whole() {
         return 0;
     }
-    let end = frame.plan.draws[frame.draw_of(first)].ordinals.end;
+    let end = if cover.by_draws { frame.plan.draws[frame.draw_of(first)].ordinals.end } else { u32::MAX };
     let belongs = |place: &Place| place.is_whole() && place.ordinal < end;
     places.iter().take(LANES).take_while(|place| belongs(place)).count()
 }
 
-/// Up to eight whole primitives of one draw; lanes to spare repeat the
-/// first.
+/// Up to eight whole primitives; lanes to spare repeat the first.
 #[inline(always)]
-fn eight<S: Simd>(simd: S, frame: &FrameView<'_>, area: &TileArea, places: &[Place]) -> Eight {
-    // Apart, so that it is compiled once.
-    simd.vectorize(
-        #[inline(always)]
-        || eight_apart(simd, frame, area, places),
-    )
+fn eight<S: Simd>(simd: S, frame: &FrameView<'_>, cover: &Cover<'_>, places: &[Place]) -> Eight {
+    // Apart, so that each is compiled once.
+    let (area, pattern) = (&cover.area, frame.grid.pattern);
+    if cover.by_draws {
+        simd.vectorize(
+            #[inline(always)]
+            || Eight::new(simd, area, pattern, (corners_of_one(frame, places), places.len())),
+        )
+    } else {
+        simd.vectorize(
+            #[inline(always)]
+            || Eight::new(simd, area, pattern, (corners_of_several(frame, places), places.len())),
+        )
+    }
 }
 
+/// The vertices of up to eight whole primitives of one draw.
 #[inline(always)]
-fn eight_apart<S: Simd>(simd: S, frame: &FrameView<'_>, area: &TileArea, places: &[Place]) -> Eight {
+fn corners_of_one<'f>(frame: &FrameView<'f>, places: &[Place]) -> [[&'f ScreenVertex; LANES]; 3] {
     let draw = frame.draw_of(places[0]);
     let plan = &frame.plan.draws[draw];
     let (vertices, geometry) = (frame.vertices(draw), &frame.pass[plan.draw].geometry);
@@ -145,7 +203,7 @@ fn eight_apart<S: Simd>(simd: S, frame: &FrameView<'_>, area: &TileArea, places:
             geometry.corners(place.ordinal - plan.ordinals.start)
         },
     );
-    let columns = [0, 1, 2].each(
+    [0, 1, 2].each(
         #[inline(always)]
         |corner| {
             corners.each(
@@ -153,8 +211,16 @@ fn eight_apart<S: Simd>(simd: S, frame: &FrameView<'_>, area: &TileArea, places:
                 |corners| vertices.get(corners[corner]),
             )
         },
-    );
-    Eight::new(simd, area, frame.grid.pattern, (columns, places.len()))
+    )
+}
+
+/// The vertices of up to eight whole primitives of several draws.
+///
+/// Not inlined: few tiles need it.
+#[inline(never)]
+fn corners_of_several<'f>(frame: &FrameView<'f>, places: &[Place]) -> [[&'f ScreenVertex; LANES]; 3] {
+    let corners = lanes_of(|lane| frame.corners(*places.get(lane).unwrap_or(&places[0])));
+    [0, 1, 2].each(|corner| corners.each(|corners| corners[corner]))
 }
 
 /// One triangle of the tile.

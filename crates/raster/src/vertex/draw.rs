@@ -16,10 +16,10 @@ pub(crate) struct DrawVertices<'a> {
     pub(crate) token: Token,
 }
 
-impl DrawVertices<'_> {
+impl<'a> DrawVertices<'a> {
     /// The vertex of an index; one without a place and invalid if there is none.
     #[inline(always)]
-    pub(crate) fn get(&self, index: u32) -> &ScreenVertex {
+    pub(crate) fn get(&self, index: u32) -> &'a ScreenVertex {
         let missing = self.places.len().checked_sub(1).expect("there is one place more than vertices");
         &self.places[self.slots.of(index).min(missing)]
     }

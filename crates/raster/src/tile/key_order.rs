@@ -1,0 +1,83 @@
+//! A tile's triangles in the order of their keys.
+
+use super::buffer::{NOBODY, VisibilityBuffer};
+use crate::bin::Place;
+use crate::frame::FrameView;
+
+/// A triangle of a tile: its object, its face, its number among the tile's.
+///
+/// In one number, from the highest bits down, because such numbers are sorted much faster
+/// than anything that takes a function to compare.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Keyed(u128);
+
+impl Keyed {
+    fn new(object_and_face: u64, number: u32) -> Self {
+        Self(u128::from(object_and_face) << 32 | u128::from(number))
+    }
+
+    fn object_and_face(self) -> u64 {
+        (self.0 >> 32) as u64
+    }
+
+    fn number(self) -> usize {
+        self.0 as u32 as usize
+    }
+}
+
+/// Some of a tile's triangles in the order of their keys: of equally deep ones the first is
+/// seen.
+#[derive(Default)]
+pub(crate) struct KeyOrder {
+    sorted: Vec<Keyed>,
+}
+
+impl KeyOrder {
+    /// Sorts triangles as [`FrameView::compare`] has them. Parts of one primitive stay as
+    /// they are.
+    pub(super) fn sort(&mut self, frame: &FrameView<'_>, places: &[Place]) {
+        self.sorted.clear();
+        // Neighbours mostly belong to the same draw.
+        let mut draw = 0;
+        self.sorted.extend(places.iter().zip(0..).map(|(&place, number)| {
+            if !frame.plan.draws[draw].ordinals.contains(&place.ordinal) {
+                draw = frame.draw_of(place);
+            }
+            Keyed::new(frame.object_and_face(draw, place), number)
+        }));
+        self.sorted.sort_unstable();
+        let same_face = |a: &Keyed, b: &Keyed| a.object_and_face() == b.object_and_face();
+        for face in self.sorted.chunk_by_mut(same_face).filter(|face| face.len() > 1) {
+            let place = |keyed: &Keyed| places[keyed.number()];
+            let [first, last] = [&face[0], &face[face.len() - 1]].map(|keyed| frame.draw_of(place(keyed)));
+            // Those of one draw are in order already.
+            if first != last {
+                face.sort_unstable_by(|a, b| frame.compare(place(a), place(b)).then(a.cmp(b)));
+            }
+        }
+    }
+
+    /// The same triangles in this order.
+    pub(super) fn of(&self, places: &[Place]) -> impl Iterator<Item = Place> {
+        self.sorted.iter().map(|keyed| places[keyed.number()])
+    }
+
+    /// For each triangle how many primitives come before it.
+    pub(super) fn ranks(&self, places: &[Place], ranks: &mut Vec<u32>) {
+        ranks.clear();
+        ranks.resize(places.len(), 0);
+        let same_primitive = |a: &Keyed, b: &Keyed| places[a.number()].ordinal == places[b.number()].ordinal;
+        for (rank, parts) in (0..).zip(self.sorted.chunk_by(same_primitive)) {
+            for part in parts {
+                ranks[part.number()] = rank;
+            }
+        }
+    }
+
+    /// Puts the numbers of triangles among the tile's in place of those in this order.
+    pub(super) fn name_winners(&self, buffer: &mut VisibilityBuffer) {
+        for winner in buffer.winners_mut().iter_mut().filter(|winner| **winner != NOBODY) {
+            *winner = self.sorted[*winner as usize].number() as u32;
+        }
+    }
+}

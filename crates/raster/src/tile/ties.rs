@@ -1,0 +1,85 @@
+//! Which of a tile's triangles is seen where several are equally deep.
+//!
+//! In most tiles there are few such samples, and the keys of two triangles are compared at
+//! each of them. Where there are many, that would take far longer than all else in the tile.
+//! So every tile has a budget for it, of about what it takes to sort its triangles by their
+//! keys. Once that is spent, the opaque triangles are drawn again in the order of their keys,
+//! in which a later one never wins at equal depth (`visibility`); masked and translucent ones
+//! are compared by their ranks in that order.
+
+use super::key_order::KeyOrder;
+use crate::bin::Place;
+use crate::frame::FrameView;
+use std::cell::{Cell, OnceCell};
+use std::cmp::Ordering;
+
+/// What it takes to compare two keys. The unit is what it takes to look at one sample by
+/// itself, a few nanoseconds.
+pub(super) const COMPARISON: u32 = 8;
+
+/// The budget of a tile: so many units for each of its triangles, and so many for the tile.
+/// Sorting takes about twice as many for each triangle, and what was drawn before is lost.
+const UNITS_PER_TRIANGLE: usize = 4;
+const BASE_UNITS: usize = 256;
+
+/// What deciding ties may still take in a tile, and the ranks of its triangles if that is
+/// spent.
+#[derive(Default)]
+pub(crate) struct Ties {
+    left: Cell<u32>,
+    ranks: OnceCell<Vec<u32>>,
+    /// Memory for the ranks and for sorting, kept from tile to tile.
+    spare: Cell<Vec<u32>>,
+    order: Cell<KeyOrder>,
+}
+
+impl Ties {
+    /// Begins a tile of so many triangles.
+    pub(super) fn reset(&mut self, places: usize) {
+        let budget = places.saturating_mul(UNITS_PER_TRIANGLE).saturating_add(BASE_UNITS);
+        self.left.set(u32::try_from(budget).unwrap_or(u32::MAX));
+        if let Some(ranks) = self.ranks.take() {
+            self.spare.set(ranks);
+        }
+    }
+
+    /// Spends some of the budget; whether any is left.
+    #[inline]
+    pub(super) fn spend(&self, units: u32) -> bool {
+        self.left.set(self.left.get().saturating_sub(units));
+        !self.are_many()
+    }
+
+    /// Whether the budget is spent.
+    #[inline(always)]
+    pub(super) fn are_many(&self) -> bool {
+        self.left.get() == 0
+    }
+
+    /// The order of two of the tile's `places` at equal depth, as
+    /// [`FrameView::compare`] has it.
+    #[inline]
+    pub(crate) fn compare(&self, frame: &FrameView<'_>, places: &[Place], [a, b]: [u32; 2]) -> Ordering {
+        match self.ranks.get() {
+            Some(ranks) => ranks[a as usize].cmp(&ranks[b as usize]),
+            None => self.compare_keys(frame, places, [a, b]),
+        }
+    }
+
+    #[cold]
+    fn compare_keys(&self, frame: &FrameView<'_>, places: &[Place], [a, b]: [u32; 2]) -> Ordering {
+        if self.spend(COMPARISON) {
+            return frame.compare(places[a as usize], places[b as usize]);
+        }
+        let ranks = self.ranks.get_or_init(|| self.find_ranks(frame, places));
+        ranks[a as usize].cmp(&ranks[b as usize])
+    }
+
+    fn find_ranks(&self, frame: &FrameView<'_>, places: &[Place]) -> Vec<u32> {
+        let (mut order, mut ranks) = (self.order.take(), self.spare.take());
+        order.sort(frame, places);
+        order.ranks(places, &mut ranks);
+        self.order.set(order);
+        ranks
+    }
+}
