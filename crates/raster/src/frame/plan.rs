@@ -94,15 +94,17 @@ impl Plan {
             .iter()
             .map(|plan| &recorded[plan.draw].geometry)
             .filter(|g| g.surface == Surface::Opaque);
-        let mut before: Option<(u32, u32)> = None;
+        let mut before: Option<((u32, u32), usize)> = None;
         for geometry in opaque.filter(|geometry| geometry.len() > 0) {
             let Some([first, last]) = geometry.ascending_faces() else {
                 return false;
             };
-            if before.is_some_and(|before| before > (geometry.object, first)) {
+            // A face that goes on in the next draw: there a triangle of smaller index may be.
+            let goes_on = |last: (u32, u32), len: usize| last == (geometry.object, first) && len > 1;
+            if before.is_some_and(|(last, len)| last > (geometry.object, first) || goes_on(last, len)) {
                 return false;
             }
-            before = Some((geometry.object, last));
+            before = Some(((geometry.object, last), geometry.len()));
         }
         true
     }

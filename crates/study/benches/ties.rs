@@ -1,7 +1,7 @@
 //! What equal depths cost: many triangles that coincide, as long as the same ones at
 //! different depths.
 //!
-//! `cargo run --release -p trigon-study --example ties -- --samples 1,4 large small`
+//! `cargo bench -p trigon-study --bench ties -- --samples 1,4 large small`
 
 #![expect(clippy::print_stdout, reason = "a table is what this is for")]
 
@@ -54,6 +54,9 @@ struct Arguments {
     /// for counting instructions
     #[arg(long, value_name = "DEPTHS")]
     only: Option<Depths>,
+    /// What cargo tells benches
+    #[arg(long, hide = true)]
+    bench: bool,
     /// Shapes of triangles; all, unless given
     #[arg(value_name = "SHAPE")]
     shapes: Vec<Shape>,
