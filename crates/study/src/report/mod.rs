@@ -5,6 +5,7 @@
 
 mod chapters;
 mod figures;
+mod labels;
 mod markdown;
 mod picture;
 mod plot;

@@ -1,6 +1,7 @@
 //! Plots with logarithmic axes.
 
 use super::figures::Row;
+use super::labels;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::coord::combinators::LogCoord;
 use plotters::prelude::*;
@@ -8,6 +9,9 @@ use std::error::Error;
 use std::io;
 use std::path::Path;
 use trigon_math::elementary;
+
+/// Width and height in pixels.
+const SIZE: (i32, i32) = (840, 540);
 
 /// One plot.
 pub(super) struct Plot {
@@ -56,7 +60,7 @@ impl Plot {
     }
 
     fn draw(&self, path: &Path) -> Result<(), Box<dyn Error>> {
-        let root = SVGBackend::new(path, (760, 480)).into_drawing_area();
+        let root = SVGBackend::new(path, (SIZE.0 as u32, SIZE.1 as u32)).into_drawing_area();
         root.fill(&WHITE)?;
         let [x, y] = [0, 1].map(|axis| self.range(axis));
         let mut chart = ChartBuilder::on(&root)
@@ -81,7 +85,8 @@ impl Plot {
         Ok(root.present()?)
     }
 
-    /// Whole powers of ten about the positive values; what is 0 goes to the lower end.
+    /// 1, 2 or 5 times a power of ten about the positive values; what is 0 goes to the lower end.
+    /// With lines whole powers of ten, which leave room for the list of their names.
     fn range(&self, axis: usize) -> [f64; 2] {
         let values: Vec<f64> = match &self.kind {
             Kind::Trade(points) => points.iter().map(|(_, point)| point[axis]).collect(),
@@ -89,11 +94,17 @@ impl Plot {
         };
         let positive = values.iter().copied().filter(|value| *value > 0.0);
         let (low, high) = positive.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));
-        let decade = |value: f64| elementary::pow(10.0, value);
         if !low.is_finite() {
             return [0.1, 10.0];
         }
-        [decade(elementary::log10(low / 1.5).floor()), decade(elementary::log10(high * 1.5).ceil())]
+        let decade = |value: f64| elementary::pow(10.0, elementary::log10(value).floor());
+        let [below, above] = [low / 1.3, high * 1.3];
+        if matches!(self.kind, Kind::Growth(_)) {
+            return [decade(below), 10.0 * decade(above)];
+        }
+        let first = [5.0, 2.0].map(|step| step * decade(below)).into_iter().find(|step| *step <= below);
+        let last = [2.0, 5.0].map(|step| step * decade(above)).into_iter().find(|step| *step >= above);
+        [first.unwrap_or(decade(below)), last.unwrap_or(10.0 * decade(above))]
     }
 }
 
@@ -105,6 +116,9 @@ fn power(value: f64) -> String {
         format!("{value:.0e}")
     }
 }
+
+/// Where labels may be.
+const WITHIN_AXES: labels::Area = labels::Area { left: 82, top: 42, right: SIZE.0 - 18, bottom: SIZE.1 - 62 };
 
 type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
 type Area<'b> = DrawingArea<SVGBackend<'b>, plotters::coord::Shift>;
@@ -120,29 +134,33 @@ fn draw_trade(
         points.iter().filter(|(_, point)| is_best(*point, points)).map(|(_, point)| place(*point)).collect();
     best.sort_by(|a, b| a.0.total_cmp(&b.0));
     chart.draw_series(LineSeries::new(best, BLUE.mix(0.4)))?;
-    let mut labels: Vec<(i32, i32, String)> = Vec::new();
+    let mut labels = Vec::new();
+    let mut centres = Vec::new();
     for (name, point) in points {
         let color = if is_best(*point, points) { BLUE } else { BLACK };
         chart.draw_series([Circle::new(place(*point), 4, color.filled())])?;
         let zero = if point[1] > 0.0 { "" } else { " (0)" };
-        let (x, y) = chart.backend_coord(&place(*point));
-        labels.push((x, y, format!("{name}{zero}")));
+        labels.push(format!("{name}{zero}"));
+        centres.push(<[i32; 2]>::from(chart.backend_coord(&place(*point))));
     }
-    labels.sort();
-    let mut taken: Vec<(i32, i32, i32)> = Vec::new();
-    for (x, y, label) in labels {
-        const HEIGHT: i32 = 14;
-        /// Within the axes.
-        const LABELS: std::ops::Range<i32> = 40..405;
-        let width = label.chars().count() as i32 * 7;
-        let left = if x + 8 + width > 750 { x - 8 - width } else { x + 8 };
-        let is_free = |top: i32| {
-            taken.iter().all(|&(l, r, t)| left + width < l || r < left || (t - top).abs() >= HEIGHT)
-        };
-        let tops = (0..40).flat_map(|step| [y - 7 - step * 4, y - 7 + step * 4]);
-        let top = tops.filter(|top| LABELS.contains(top)).find(|&top| is_free(top)).unwrap_or(y - 7);
-        taken.push((left, left + width, top));
-        root.draw(&Text::new(label, (left, top), ("sans-serif", 13)))?;
+    draw_labels(root, &labels, &centres)
+}
+
+/// Each label beside its point, with a line between them where it had to go farther.
+fn draw_labels(root: &Area<'_>, labels: &[String], centres: &[[i32; 2]]) -> Result<(), Box<dyn Error>> {
+    const HEIGHT: i32 = 14;
+    /// No letter of the font is wider.
+    const LETTER: i32 = 7;
+    /// From where a line says whose label it is.
+    const FAR: i32 = 12;
+    let widths: Vec<i32> = labels.iter().map(|label| label.chars().count() as i32 * LETTER).collect();
+    let places = labels::place(centres, &widths, HEIGHT, WITHIN_AXES);
+    for ((label, place), &[x, y]) in labels.iter().zip(places).zip(centres) {
+        let [u, v] = place.nearest([x, y]);
+        if (u - x).pow(2) + (v - y).pow(2) > FAR.pow(2) {
+            root.draw(&PathElement::new([(x, y), (u, v)], BLACK.mix(0.4)))?;
+        }
+        root.draw(&Text::new(label.as_str(), (place.left, place.top), ("sans-serif", 13)))?;
     }
     Ok(())
 }
@@ -156,11 +174,16 @@ fn draw_growth<'a>(chart: &mut Chart<'a>, lines: &[(String, Vec<[f64; 2]>)]) -> 
     for (index, (name, line)) in lines.iter().enumerate() {
         let color = Palette99::pick(index).to_rgba();
         let points: Vec<(f64, f64)> = line.iter().map(|&[x, y]| (x, y)).collect();
+        // A later line in the same place leaves a rim of this one.
+        let hidden = lines[index + 1..].iter().filter(|(_, other)| is_near(line, other)).count();
+        let width = 2 + 4 * hidden as u32;
         chart
-            .draw_series(LineSeries::new(points.iter().copied(), color.stroke_width(2)))?
+            .draw_series(LineSeries::new(points.iter().copied(), color.stroke_width(width)))?
             .label(name)
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], color.stroke_width(2)));
-        chart.draw_series(points.into_iter().map(|point| Circle::new(point, 3, color.filled())))?;
+            .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], color.stroke_width(width)));
+        chart.draw_series(
+            points.into_iter().map(|point| Circle::new(point, 2 + width as i32 / 2, color.filled())),
+        )?;
     }
     chart
         .configure_series_labels()
@@ -169,4 +192,11 @@ fn draw_growth<'a>(chart: &mut Chart<'a>, lines: &[(String, Vec<[f64; 2]>)]) -> 
         .border_style(BLACK.mix(0.3))
         .draw()?;
     Ok(())
+}
+
+/// Whether two lines can hardly be told apart.
+fn is_near(line: &[[f64; 2]], other: &[[f64; 2]]) -> bool {
+    let is_near = |a: f64, b: f64| (a - b).abs() <= 0.1 * a.abs();
+    line.len() == other.len()
+        && line.iter().zip(other).all(|(a, b)| (0..2).all(|axis| is_near(a[axis], b[axis])))
 }
