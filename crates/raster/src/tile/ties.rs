@@ -10,8 +10,9 @@
 use super::key_order::KeyOrder;
 use crate::bin::Place;
 use crate::frame::FrameView;
-use std::cell::{Cell, OnceCell};
 use std::cmp::Ordering;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+use std::sync::{Mutex, OnceLock};
 
 /// What it takes to compare two keys. The unit is what it takes to look at one sample by
 /// itself, a few nanoseconds.
@@ -22,38 +23,43 @@ pub(super) const COMPARISON: u32 = 8;
 const UNITS_PER_TRIANGLE: usize = 4;
 const BASE_UNITS: usize = 256;
 
+const NOT_POISONED: &str = "sorting by keys does not panic";
+
 /// What deciding ties may still take in a tile, and the ranks of its triangles if that is
 /// spent.
+///
+/// Comparisons change it behind a shared reference. One thread at a time draws with it; that
+/// it could be shared lets a [`Rasterizer`](crate::Rasterizer) be.
 #[derive(Default)]
 pub(crate) struct Ties {
-    left: Cell<u32>,
-    ranks: OnceCell<Vec<u32>>,
+    left: AtomicU32,
+    ranks: OnceLock<Vec<u32>>,
     /// Memory for the ranks and for sorting, kept from tile to tile.
-    spare: Cell<Vec<u32>>,
-    order: Cell<KeyOrder>,
+    spare: Mutex<(KeyOrder, Vec<u32>)>,
 }
 
 impl Ties {
     /// Begins a tile of so many triangles.
     pub(super) fn reset(&mut self, places: usize) {
         let budget = places.saturating_mul(UNITS_PER_TRIANGLE).saturating_add(BASE_UNITS);
-        self.left.set(u32::try_from(budget).unwrap_or(u32::MAX));
+        *self.left.get_mut() = u32::try_from(budget).unwrap_or(u32::MAX);
         if let Some(ranks) = self.ranks.take() {
-            self.spare.set(ranks);
+            self.spare.get_mut().expect(NOT_POISONED).1 = ranks;
         }
     }
 
     /// Spends some of the budget; whether any is left.
     #[inline]
     pub(super) fn spend(&self, units: u32) -> bool {
-        self.left.set(self.left.get().saturating_sub(units));
+        // Not one atomic operation, which would take longer: no other thread is here.
+        self.left.store(self.left.load(Relaxed).saturating_sub(units), Relaxed);
         !self.are_many()
     }
 
     /// Whether the budget is spent.
     #[inline(always)]
     pub(super) fn are_many(&self) -> bool {
-        self.left.get() == 0
+        self.left.load(Relaxed) == 0
     }
 
     /// The order of two of the tile's `places` at equal depth, as
@@ -76,10 +82,10 @@ impl Ties {
     }
 
     fn find_ranks(&self, frame: &FrameView<'_>, places: &[Place]) -> Vec<u32> {
-        let (mut order, mut ranks) = (self.order.take(), self.spare.take());
+        let mut spare = self.spare.lock().expect(NOT_POISONED);
+        let (order, ranks) = &mut *spare;
         order.sort(frame, places);
-        order.ranks(places, &mut ranks);
-        self.order.set(order);
-        ranks
+        order.ranks(places, ranks);
+        std::mem::take(ranks)
     }
 }
