@@ -5,11 +5,9 @@
 //! Times, or instructions of one warm frame (the difference of two counts):
 //!
 //! ```sh
-//! cargo build --release -p trigon-scene --no-default-features --example overhead
-//! target/release/examples/overhead scene plain 50
-//! for frames in 1 11; do
-//!     valgrind --tool=callgrind target/release/examples/overhead hand plain $frames
-//! done
+//! cargo bench -p trigon-scene --bench overhead -- scene plain 50
+//! program=$(ls -t target/release/deps/overhead-* | grep -v '\.d$' | head -n 1)
+//! for frames in 1 11; do valgrind --tool=callgrind "$program" hand plain $frames; done
 //! ```
 //!
 //! The first word is `scene` or `hand`, the second `plain` or `textured`; by the scene
@@ -45,7 +43,7 @@ const BEHIND: Vec3 = Vec3::new(0.1, 0.1, 0.15);
 const USAGE: &str = "write: scene plain|textured|mapped FRAMES, or: hand plain|textured FRAMES";
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let words: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<String> = std::env::args().skip(1).filter(|word| word != "--bench").collect();
     let [by, look, frames] = words.as_slice() else {
         return Err(USAGE.into());
     };
