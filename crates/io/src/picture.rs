@@ -10,7 +10,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use image::{ImageError, ImageFormat, ImageReader};
+use image::{ImageDecoder, ImageError, ImageFormat, ImageReader};
 
 use crate::error::{LoadError, LoadErrorKind};
 use crate::folder::{Folder, to_the_end};
@@ -71,8 +71,33 @@ pub(crate) fn decode_picture(bytes: &[u8], limits: &Limits) -> Result<Picture, S
     let (width, height) = picture_size(bytes, limits)?;
     let mut reader = ImageReader::with_format(Cursor::new(bytes), picture_format(bytes)?);
     reader.limits(decoder_limits(limits));
-    let rgba = reader.decode().map_err(|error| reason(&error))?.into_rgba8().into_raw();
-    Ok(Picture { width, height, rgba })
+    let decoder = reader.into_decoder().map_err(|error| reason(&error))?;
+    let color = decoder.color_type();
+    // The size is within the limits.
+    let mut bytes = vec![0; decoder.total_bytes() as usize];
+    decoder.read_image(&mut bytes).map_err(|error| reason(&error))?;
+    let is_wide = color.bytes_per_pixel() == 2 * color.channel_count();
+    let channels = if is_wide { rounded(&bytes) } else { bytes };
+    Ok(Picture { width, height, rgba: spread(channels, color.channel_count()) })
+}
+
+/// Channels of 16 bits, in the machine's order of bytes, rounded to 8.
+///
+/// Here, as [`spread`], and not by the `image` crate: that is compiled without optimisation
+/// but for what is generic (`Cargo.toml` of the workspace).
+fn rounded(bytes: &[u8]) -> Vec<u8> {
+    let (pairs, _) = bytes.as_chunks::<2>();
+    pairs.iter().map(|&pair| ((u32::from(u16::from_ne_bytes(pair)) + 128) / 257) as u8).collect()
+}
+
+/// Grey, grey with alpha, or colours, to colours with alpha.
+fn spread(channels: Vec<u8>, count: u8) -> Vec<u8> {
+    match count {
+        1 => channels.iter().flat_map(|&grey| [grey, grey, grey, 255]).collect(),
+        2 => channels.as_chunks::<2>().0.iter().flat_map(|&[grey, a]| [grey, grey, grey, a]).collect(),
+        3 => channels.as_chunks::<3>().0.iter().flat_map(|&[r, g, b]| [r, g, b, 255]).collect(),
+        _ => channels,
+    }
 }
 
 /// A picture that says from afar that the real one is missing: magenta and
@@ -137,6 +162,24 @@ mod tests {
         encode_png(&mut bytes, 3, 2, Pixels::Rgba8(&rgba)).expect("memory takes it");
         let picture = decode_picture(&bytes, &Limits::default()).expect("it is a PNG");
         assert_eq!(picture, Picture { width: 3, height: 2, rgba }, "the same pixels");
+    }
+
+    /// The `image` crate's own conversion is the oracle.
+    #[test]
+    fn every_type_of_pixel_becomes_colours_with_alpha() {
+        use image::{DynamicImage, ExtendedColorType as Type, ImageEncoder, codecs::png::PngEncoder};
+        let types = [Type::L8, Type::La8, Type::Rgb8, Type::Rgba8];
+        let wide = [Type::L16, Type::La16, Type::Rgb16, Type::Rgba16];
+        for color in types.into_iter().chain(wide) {
+            let size = usize::from(color.bits_per_pixel()) / 8 * 64 * 64;
+            // Each pair of bytes is another number of 16 bits.
+            let bytes: Vec<u8> = (0..size).map(|i| (i * 7 + i / 256 * 3) as u8).collect();
+            let mut png = Vec::new();
+            PngEncoder::new(&mut png).write_image(&bytes, 64, 64, color).expect("memory takes it");
+            let theirs = image::load_from_memory(&png).map(DynamicImage::into_rgba8).expect("a PNG");
+            let ours = decode_picture(&png, &Limits::default()).expect("it is a PNG");
+            assert_eq!(ours.rgba, theirs.into_raw(), "{color:?}");
+        }
     }
 
     #[test]

@@ -22,6 +22,8 @@ pub(crate) struct Document {
     pub(crate) target_names: Vec<Vec<String>>,
     /// How many animation channels move something other than a node.
     pub(crate) foreign_channels: usize,
+    /// How many numbers are beyond f32: 0 stands in their places.
+    pub(crate) unbounded: usize,
     /// The attributes that are not read, in the order of the file.
     pub(crate) foreign_attributes: Vec<ForeignAttribute>,
     /// The extensions that any object of the document has.
@@ -72,8 +74,8 @@ pub(crate) fn parse_document(path: &Path, json: &[u8]) -> Result<Document, LoadE
     }
     let preview: Preview = serde_json::from_slice(json).map_err(|error| json_error(path, &error))?;
     check_version(path, &preview)?;
-    let (root, foreign_channels) = match serde_json::from_slice(json) {
-        Ok(root) => (root, 0),
+    let Mended { root, foreign_channels, unbounded } = match serde_json::from_slice(json) {
+        Ok(root) => Mended { root, foreign_channels: 0, unbounded: 0 },
         // The first error has the line; the second try has legal oddities mended.
         Err(error) => parse_mended(json).ok_or_else(|| json_error(path, &error))?,
     };
@@ -82,7 +84,15 @@ pub(crate) fn parse_document(path: &Path, json: &[u8]) -> Result<Document, LoadE
     let primitives = raw.meshes.into_iter().map(|mesh| mesh.primitives).collect();
     let foreign_attributes = foreign_attributes(primitives);
     let (transforms, extensions) = (raw.nodes, preview.extensions);
-    Ok(Document { root, transforms, target_names, foreign_channels, foreign_attributes, extensions })
+    Ok(Document {
+        root,
+        transforms,
+        target_names,
+        foreign_channels,
+        unbounded,
+        foreign_attributes,
+        extensions,
+    })
 }
 
 fn json_error(path: &Path, error: &serde_json::Error) -> LoadError {
@@ -107,12 +117,21 @@ fn check_version(path: &Path, preview: &Preview) -> Result<(), LoadError> {
     Ok(())
 }
 
+/// What [`parse_mended`] finds.
+struct Mended {
+    root: Root,
+    /// As [`Document`] has them.
+    foreign_channels: usize,
+    unbounded: usize,
+}
+
 /// Parses once more without `extras` (which may be anything, where gltf::json
-/// wants objects), with the lists that may be absent, and without animation
-/// channels that move no node; of these it returns the number.
-fn parse_mended(json: &[u8]) -> Option<(Root, usize)> {
+/// wants objects), with the lists that may be absent, without animation
+/// channels that move no node, and with 0 for numbers that f32 cannot hold.
+fn parse_mended(json: &[u8]) -> Option<Mended> {
     let mut value: Value = serde_json::from_slice(json).ok()?;
     let mut waiting = vec![&mut value];
+    let mut unbounded = 0;
     while let Some(next) = waiting.pop() {
         match next {
             Value::Object(map) => {
@@ -120,20 +139,27 @@ fn parse_mended(json: &[u8]) -> Option<(Root, usize)> {
                 waiting.extend(map.values_mut());
             }
             Value::Array(list) => waiting.extend(list),
+            Value::Number(number) if number.as_f64().is_some_and(|n| n.abs() > f64::from(f32::MAX)) => {
+                *next = Value::from(0);
+                unbounded += 1;
+            }
             _ => {}
         }
     }
     for scene in value.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten() {
         scene.as_object_mut()?.entry("nodes").or_insert(Value::Array(Vec::new()));
     }
-    let mut foreign = 0;
+    let mut foreign_channels = 0;
     for animation in value.get_mut("animations").and_then(Value::as_array_mut).into_iter().flatten() {
         let Some(channels) = animation.get_mut("channels").and_then(Value::as_array_mut) else { continue };
         let before = channels.len();
         channels.retain(|channel| channel.pointer("/target/node").is_some());
-        foreign += before - channels.len();
+        foreign_channels += before - channels.len();
     }
-    Some((serde_json::from_value(value).ok()?, foreign))
+    // From bytes again: the code that reads a document from values would take as long to
+    // compile as all that reads it from bytes.
+    let mended = serde_json::to_vec(&value).ok()?;
+    Some(Mended { root: serde_json::from_slice(&mended).ok()?, foreign_channels, unbounded })
 }
 
 #[cfg(test)]

@@ -68,6 +68,12 @@ fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<&[u8]>) -> 
     extensions::check_extensions(import.path, root, &document.extensions, &mut import.warnings)?;
     references::check_references(import.path, root)?;
     let hierarchy = hierarchy::find_hierarchy(import.path, root, import.options)?;
+    import.warnings.push_counted(
+        document.unbounded,
+        Place::Whole,
+        "a number is too large for 32 bits of floating point and is taken as 0",
+        "export the model again",
+    );
     contradictions::warn_of_contradictions(&document, &hierarchy, &mut import.warnings);
     import.scene_names = hierarchy::scene_names(root);
     let mut buffers = Buffers::new(root, binary);

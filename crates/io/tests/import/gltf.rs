@@ -438,6 +438,8 @@ fn a_weight_that_is_not_finite_leaves_the_others_where_they_are() {
     let loaded = doc.load();
     let (_, node) = loaded.scene.nodes().iter().next().expect("a node");
     assert_eq!(node.morph_weights, [0.0, 0.5], "the second target keeps its weight");
+    let warned = loaded.warnings.iter().any(|warning| warning.what.contains("too large for 32 bits"));
+    assert!(warned, "{:?}", loaded.warnings);
 }
 
 #[test]
