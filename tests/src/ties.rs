@@ -255,7 +255,7 @@ fn coincident(corners: [GridPoint; 3], surface: Surface) -> Heap {
         Triangle { corners, level: 1, object: 7, face, index, draw }
     };
     Heap {
-        side: 512,
+        side: 192,
         copies: faces.into_iter().enumerate().map(copy).collect(),
         surfaces: vec![surface; DRAWS],
         descends: false,
@@ -266,8 +266,8 @@ const ALL: [GridPoint; 3] = [[-1000, -1000], [300_000, -1000], [-1000, 300_000]]
 
 #[test]
 fn many_coincident_triangles_show_the_smallest_key() {
-    let small = [[70_000, 70_000], [74_000, 70_000], [70_000, 73_000]];
-    let tiny = [[70_000, 70_000], [70_700, 70_000], [70_000, 70_700]];
+    let small = [[30_000, 30_000], [34_000, 30_000], [30_000, 33_000]];
+    let tiny = [[30_000, 30_000], [30_700, 30_000], [30_000, 30_700]];
     for surface in [Surface::Opaque, Surface::Masked, Surface::MaskedPerSample] {
         for (corners, samples) in [(ALL, 1), (ALL, 4), (small, 1), (small, 8), (tiny, 1), (tiny, 4)] {
             let heap = coincident(corners, surface);
@@ -325,8 +325,8 @@ fn tiles_with_few_ties_are_drawn_once() {
     }
     let mut beside = coincident;
     for (copy, place) in beside.copies.iter_mut().zip(0..) {
-        let corner = [place % 8 * 16_384, place / 8 * 16_384];
-        copy.corners = [[0, 0], [16_384, 0], [0, 16_384]].map(|[x, y]| [corner[0] + x, corner[1] + y]);
+        let corner = [place % 8 * 6_144, place / 8 * 6_144];
+        copy.corners = [[0, 0], [6_144, 0], [0, 6_144]].map(|[x, y]| [corner[0] + x, corner[1] + y]);
     }
     for heap in [in_order, apart, beside] {
         let (pictures, stats) = heap.draw(1, &ExecuteSettings::default());
