@@ -413,10 +413,11 @@ fn within_picture(size: DVec2, point: DVec2) -> Answer {
 }
 
 impl Target {
-    /// Whether it wins a pixel's centre, or covers it, is found from this: how it is met there
-    /// after the renderer has moved its vertices.
-    pub(super) fn snapped(&self, lens: &Lens, at: DVec2) -> (Answer, [f64; 2]) {
+    /// How it is met at a pixel's centre after the renderer has moved its vertices, and
+    /// whether it is drawn; `None` where it is nowhere near.
+    pub(super) fn snapped(&self, lens: &Lens, at: DVec2) -> Option<(Answer, [f64; 2])> {
         let (met, [near, far]) = self.meets(lens, at, SNAPPING);
-        (met.min(self.snapped), [near - DEPTHS * near.abs(), far + DEPTHS * far.abs()])
+        let depths = [near - DEPTHS * near.abs(), far + DEPTHS * far.abs()];
+        (met != No).then_some((met.min(self.snapped), depths))
     }
 }

@@ -9,8 +9,9 @@ use super::oracle::{Answer, Element, Oracle, ROUNDING, contains};
 use super::scenes::{Random, camera, regions, scene};
 use crate::{ElementSet, NodeId, Outputs, Picker, Reach, Region, RenderSettings, render};
 
-const SIZE: [u32; 2] = [160, 120];
-const SCENES: u64 = 24;
+/// Large beside faces, so that most have a pixel that is far from their outline.
+const SIZE: [u32; 2] = [320, 240];
+const SCENES: u64 = 16;
 /// Draws of regions in each scene; each draw has one of each kind.
 const DRAWS: usize = 3;
 
@@ -52,11 +53,11 @@ fn pixel(oracle: &Oracle, at: DVec2) -> Pixel {
     let mut limit = f64::INFINITY;
     let mut met = Vec::new();
     for target in &oracle.targets {
+        let Some((seen, [near, far])) = target.snapped(&oracle.lens, at) else { continue };
         let (covers, _) = target.meets(&oracle.lens, at, ROUNDING);
         if covers != Answer::No {
             pixel.covering.push((target.object, target.face, covers));
         }
-        let (seen, [near, far]) = target.snapped(&oracle.lens, at);
         if seen == Answer::Yes && far < limit {
             limit = far;
         }
@@ -153,7 +154,7 @@ fn regions_hit_what_rays_say() {
     (0..SCENES).for_each(|seed| check_scene(seed, &mut tallies));
     for tally in tallies.as_flattened() {
         let Tally { hit, missed, open } = *tally;
-        assert!(hit > 1000 && missed > 1000, "both happen: {tallies:?}");
+        assert!(hit > 500 && missed > 500, "both happen: {tallies:?}");
         assert!(open * 1000 <= hit + missed + open, "at most a thousandth is open: {tallies:?}");
     }
 }

@@ -62,11 +62,11 @@ fn no_surface() -> Mesh {
 
 fn mesh(random: &mut Random) -> Mesh {
     match random.below(7) {
-        0 => primitives::uv_sphere(0.8, 12, 7),
-        1 => primitives::icosphere(0.9, 2),
+        0 => primitives::uv_sphere(0.8, 11, 6),
+        1 => primitives::icosphere(0.9, 1),
         2 => primitives::grid(2.0, 1.6, 7, 6),
         3 => primitives::cube(1.1),
-        4 => primitives::torus(0.7, 0.3, 14, 8),
+        4 => primitives::torus(0.7, 0.3, 12, 7),
         5 => primitives::dodecahedron(0.6),
         _ => no_surface(),
     }
