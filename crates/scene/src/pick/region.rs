@@ -91,7 +91,7 @@ impl<'r> Area<'r> {
         let mut inside = self.columns.clone().filter(|&column| self.contains(center(column, row)));
         let Some(first) = inside.next() else { return Vec::new() };
         let last = self.columns.clone().rev().find(|&column| self.contains(center(column, row)));
-        vec![first..last.unwrap_or(first) + 1]
+        std::iter::once(first..last.unwrap_or(first) + 1).collect()
     }
 }
 

@@ -88,7 +88,8 @@ impl Screen {
 
     /// From clip space; nowhere before the near plane.
     fn project(&self, clip: DVec4) -> Spot {
-        if !(beyond_near(clip) >= 0.0) || !clip.is_finite() {
+        let is_somewhere = clip.is_finite() && beyond_near(clip) >= 0.0;
+        if !is_somewhere {
             return Spot::NOWHERE;
         }
         let x = (1.0 + clip.x / clip.w) * self.half_size.x;

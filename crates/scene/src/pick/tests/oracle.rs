@@ -118,6 +118,7 @@ pub(super) struct Target {
     /// draws only the first of two equal triangles.
     snapped: Answer,
     corners: [DVec3; 3],
+    is_front: bool,
     /// For each corner the volume opposite to it, as (by x, by y, constant); positive within
     /// the triangle.
     volumes: [DVec3; 3],
@@ -153,12 +154,14 @@ impl Target {
             Span::Eye(volume.abs())
         };
         let snapped = if is_sliver(lens, corners) { Open } else { drawn };
+        let is_front = volume > 0.0;
         Self {
             object,
             face,
             drawn,
             snapped,
             corners,
+            is_front,
             volumes: [b.cross(c), c.cross(a), a.cross(b)].map(linear),
             span,
         }
@@ -169,8 +172,8 @@ impl Target {
     pub(super) fn meets(&self, lens: &Lens, at: DVec2, reach: f64) -> (Answer, [f64; 2]) {
         let value = |volume: DVec3| volume.x * at.x + volume.y * at.y + volume.z;
         let slope = |volume: DVec3| reach * (volume.x.abs() + volume.y.abs());
-        let covered = self.volumes.iter().map(|&volume| Answer::of(value(volume), slope(volume)));
-        let covered = covered.min().expect("three");
+        let covered = self.volumes.map(|volume| self.covered(volume, at, reach));
+        let covered = covered.into_iter().min().expect("three");
         if covered == No {
             return (No, [0.0; 2]);
         }
@@ -413,6 +416,28 @@ fn within_picture(size: DVec2, point: DVec2) -> Answer {
 }
 
 impl Target {
+    /// Its side, counter-clockwise on the screen, if nothing but that leaves open whether the
+    /// renderer finds it at a pixel's centre: then a triangle on the other side of it is there
+    /// if this one is not, since both have the same corners after those were moved.
+    pub(super) fn open_side(&self, lens: &Lens, at: DVec2) -> Option<[DVec3; 2]> {
+        let covered = self.volumes.map(|volume| self.covered(volume, at, SNAPPING));
+        let (met, distances) = self.meets(lens, at, SNAPPING);
+        let in_range = distances.iter().all(|&distance| lens.in_range(distance, SNAPPING) == Yes);
+        let open = covered.iter().position(|&answer| answer == Open)?;
+        let alone = covered.iter().filter(|&&answer| answer == Open).count() == 1;
+        if met == No || self.snapped != Yes || !in_range || !alone {
+            return None;
+        }
+        let [from, to] = [self.corners[(open + 1) % 3], self.corners[(open + 2) % 3]];
+        Some(if self.is_front { [from, to] } else { [to, from] })
+    }
+
+    /// Whether the ray passes a side of it on the inside.
+    fn covered(&self, volume: DVec3, at: DVec2, reach: f64) -> Answer {
+        let value = volume.x * at.x + volume.y * at.y + volume.z;
+        Answer::of(value, reach * (volume.x.abs() + volume.y.abs()))
+    }
+
     /// How it is met at a pixel's centre after the renderer has moved its vertices, and
     /// whether it is drawn; `None` where it is nowhere near.
     pub(super) fn snapped(&self, lens: &Lens, at: DVec2) -> Option<(Answer, [f64; 2])> {

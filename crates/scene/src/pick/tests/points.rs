@@ -182,6 +182,31 @@ fn vertices_are_found_where_poses_put_them() {
     assert!(picker.at(5, 27).is_none(), "nothing is left where it was");
 }
 
+/// Of what is masked or blended only the pixels hide that it wins.
+#[test]
+fn glass_and_holes_hide_nothing() {
+    use crate::AlphaMode::{Blend, Mask, Opaque};
+    let cases = [
+        (Opaque, 1.0, 0, "a wall hides the corners"),
+        (Blend, 0.5, 4, "glass hides none"),
+        (Mask { cutoff: 0.5 }, 1.0, 0, "a mask without holes does"),
+        (Mask { cutoff: 0.5 }, 0.2, 4, "where there is a hole it does not"),
+    ];
+    for (alpha_mode, alpha, expected, what) in cases {
+        let mut scene = Scene::new();
+        let cube = scene.add_object("cube", primitives::cube(1.0), Material::default());
+        let base_color = trigon_math::Vec4::new(1.0, 1.0, 1.0, alpha);
+        let material = Material { alpha_mode, base_color, ..Material::default() };
+        let wall = scene.add_object("wall", primitives::cube(1.5), material);
+        scene.node_mut(wall).expect("just added").transform = Transform::from_translation(DVec3::Z * 2.0);
+        let camera = Camera::look_at(DVec3::Z * 6.0, DVec3::ZERO, DVec3::Y);
+        let frame = draw(&scene, &camera);
+        let picker = Picker::new(&scene, &camera, &frame);
+        let found = picker.vertices(&rectangle([0.0, 0.0], [99.0, 99.0]), Reach::Visible);
+        assert_eq!(found.iter().filter(|&(node, _)| node == cube).count(), expected, "{what}");
+    }
+}
+
 #[test]
 fn the_nearest_elements_are_found_within_a_radius_only() {
     let mut scene = Scene::new();
