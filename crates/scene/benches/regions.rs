@@ -57,7 +57,7 @@ fn elements(criterion: &mut Criterion) {
             group.sample_size(10);
             group.bench_function("faces", |bench| bench.iter(|| black_box(picker.faces(&region, reach))));
             group.bench_function("vertices", |bench| {
-                bench.iter(|| black_box(picker.vertices(&region, reach)))
+                bench.iter(|| black_box(picker.vertices(&region, reach)));
             });
             group.bench_function("edges", |bench| bench.iter(|| black_box(picker.edges(&region, reach))));
         }

@@ -148,7 +148,7 @@ fn a_point_is_its_pixel_and_rectangles_leave_out_their_end() {
 
 #[test]
 fn a_lasso_of_many_long_sides_takes_bounded_memory() {
-    let high = |number: usize| if number % 2 == 0 { -5.0 } else { 16e3 };
+    let high = |number: usize| if number.is_multiple_of(2) { -5.0 } else { 16e3 };
     let corners: Vec<DVec2> =
         (0..2000).map(|number| DVec2::new(number as f64 * 0.01, high(number))).collect();
     let region = Region::Lasso(corners.clone());
