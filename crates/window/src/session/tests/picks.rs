@@ -96,11 +96,15 @@ fn drafts_are_picked_where_they_are_shown() {
         now = live_until(&mut session, &rung, now, is_small);
     }
     assert!(is_small(&session), "a draft is shown");
-    let (name, point) = picked(&session, AT).expect("a cube");
-    assert_eq!(name, "right", "the cube on the right");
-    let seen = Projector::new(&session.stage.camera(), SIZE).to_screen(point).expect("before the eye");
+    let draft = picked(&session, AT).expect("a cube");
+    let seen = Projector::new(&session.stage.camera(), SIZE).to_screen(draft.1).expect("before the eye");
     // The draft's aspect is that of its own whole pixels.
     assert!(seen.distance(AT) < 3.0, "about where it was asked for: {seen}");
+    rest_beside(&mut session, &rung, now);
+    assert!(!is_small(&session), "the same in full");
+    let full = picked(&session, AT).expect("a cube");
+    assert_eq!(draft.0, full.0, "the same cube");
+    assert!(draft.1.distance(full.1) < 0.2, "at about the same point: {} and {}", draft.1, full.1);
 }
 
 /// Paints everything in one colour, and says nothing of what is where.
