@@ -54,11 +54,13 @@ pub use effects::{
     Absence, AmbientOcclusion, Cause, Decision, Effect, EffectCounts, EffectPlan, EffectSettings,
     Environment, EnvironmentError, Fog, MetalReflection, Named, Outline, Shadows, Sky, ToneMapping,
 };
+/// Of [`ElementSet`].
+pub use fixedbitset::FixedBitSet;
 pub use frame::{Frame, Hit};
 pub use light::{Light, LightKind};
 pub use material::{AlphaMode, Material, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding};
 pub use node::Node;
-pub use pick::{Pick, Picked, Picker};
+pub use pick::{ElementSet, Nearest, Pick, Picker, Reach, Region};
 pub use render::{RenderError, Renderer, RendererBuilder, render};
 pub use scene::{MaterialId, MeshAsset, MeshId, NodeId, Scene, SceneError, SkinId, TextureAsset, TextureId};
 pub use settings::{Lighting, MAX_SIZE, Outputs, Reflection, RenderSettings, ShadingModel, Style};

@@ -46,6 +46,11 @@ impl MeshAsset {
         &self.mesh
     }
 
+    /// The same, to be held on to: another one after [`Scene::replace_mesh`].
+    pub fn shared_mesh(&self) -> &Arc<Mesh> {
+        &self.mesh
+    }
+
     /// The smallest box around the vertices that faces, edges or points use.
     pub fn bounds(&self) -> Bounds3 {
         *self.bounds.get_or_init(|| used_bounds(&self.mesh, self.mesh.positions()))

@@ -72,8 +72,8 @@ fn stretch(frame: &Frame, [width, height]: [usize; 2], to: &mut [[u8; 4]]) {
         to.iter_mut().zip(from).for_each(|(to, &rgba)| *to = over_black(rgba));
         return;
     }
-    let columns: Vec<usize> = (0..width).map(|x| x * across / width).collect();
-    let source = |y: usize| y * down / height;
+    let columns: Vec<usize> = (0..width).map(|x| source_pixel(x, width, across)).collect();
+    let source = |y: usize| source_pixel(y, height, down);
     for y in 0..height {
         let (above, row) = to.split_at_mut(y * width);
         let row = &mut row[..width];
@@ -84,6 +84,12 @@ fn stretch(frame: &Frame, [width, height]: [usize; 2], to: &mut [[u8; 4]]) {
         let source = &from[source(y) * across..][..across];
         row.iter_mut().zip(&columns).for_each(|(to, &x)| *to = over_black(source[x]));
     }
+}
+
+/// The column, or row, of a frame that is shown in one of the window: one of `from` for
+/// one of `to`.
+pub(crate) fn source_pixel(at: usize, to: usize, from: usize) -> usize {
+    at * from / to
 }
 
 /// From straight alpha to an opaque pixel over black, as windows have it.

@@ -52,6 +52,7 @@ mod refinement;
 mod session;
 mod shared_scene;
 mod shell;
+mod shown;
 mod stage;
 mod waker;
 mod worker;

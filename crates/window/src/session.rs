@@ -21,6 +21,7 @@ use crate::interface::{Interface, Moment};
 use crate::pacing::{Change, Frames, Pacing, Wake};
 use crate::refinement::Gallery;
 use crate::shared_scene::Revision;
+use crate::shown::DrawnNodes;
 use crate::stage::{FrameReport, Stage, Subject, Visibility};
 use crate::worker::Worker;
 
@@ -48,6 +49,8 @@ pub(crate) struct Session<'a> {
     seen: Visibility,
     /// What the picture that was asked for last is of.
     subject: Option<Subject>,
+    /// The nodes that it shows, of the scene at this revision.
+    nodes: Option<(Revision, Arc<DrawnNodes>)>,
     /// The pictures of the window, and what they are of.
     gallery: Gallery,
     pictured: Option<Subject>,
@@ -82,6 +85,7 @@ impl<'a> Session<'a> {
             bounds: None,
             seen: Visibility::Shown,
             subject: None,
+            nodes: None,
             gallery: Gallery::default(),
             pictured: None,
             shown: None,

@@ -4,10 +4,10 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use trigon_camera::{Camera, DEFAULT_MARGIN, Orbit, Projector, Viewport};
+use trigon_camera::{Camera, DEFAULT_MARGIN, Orbit, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
 use trigon_scene::quality::Preset;
-use trigon_scene::{Hit, NodeId, Outputs, RenderSettings, Renderer, Shadows};
+use trigon_scene::{Hit, NodeId, RenderSettings, Shadows};
 
 use crate::drawer::{Drawer, DrawnBy};
 use crate::keymap::Keymap;
@@ -15,6 +15,7 @@ use crate::overlay::Overlay;
 use crate::pacing::{Progress, USUAL_BUDGET};
 use crate::refinement::{self, Comparison, QualityReport, Refinement, Wanted};
 use crate::shared_scene::{Revision, SharedScene};
+use crate::shown::{self, Shown};
 use crate::waker::Waker;
 
 /// Size of a new window in logical pixels, as in F3D.
@@ -98,7 +99,8 @@ pub struct Stage {
     pub(crate) command_search: String,
     title: String,
     home: Home,
-    renderer: Renderer,
+    /// The picture in the window.
+    shown: Option<Shown>,
     waker: Waker,
     viewport: Viewport,
     scale: f64,
@@ -137,7 +139,7 @@ impl Stage {
             command_search: String::new(),
             title: title.into(),
             home: Home::Fit(DEFAULT_DIRECTION),
-            renderer: Renderer::builder().build(),
+            shown: None,
             waker: Waker::default(),
             viewport: DEFAULT_SIZE,
             scale: 1.0,
@@ -224,24 +226,15 @@ impl Stage {
         self.orbit.fit_points(&points, self.viewport.aspect(), DEFAULT_MARGIN);
     }
 
-    /// What a pixel shows, and where in the world. Draws the ids of that pixel alone.
-    pub fn pick(&mut self, at: DVec2) -> Option<(Hit, DVec3)> {
-        let size = self.viewport.size();
-        if !at.cmpge(DVec2::ZERO).all() || !at.cmplt(size).all() {
-            return None;
-        }
-        let camera = self.camera();
-        let outputs = Outputs { depth: true, ids: true, ..Outputs::NONE };
-        let mut settings =
-            RenderSettings { outputs, samples_per_axis: 1, samples: 1, ..self.settings.clone() };
-        (settings.width, settings.height) = (1, 1);
-        *self.renderer.settings_mut() = settings;
-        let pixel = camera.part(self.viewport, [at.x as u32, at.y as u32], [1, 1]).ok()?;
-        let frame = self.renderer.render(&self.scene, &pixel).ok()?;
-        let hit = frame.hit(self.scene.nodes(), 0, 0)?;
-        let distance = frame.depth?[0];
-        let point = Projector::new(&camera, self.viewport).at_distance(at, distance.into())?;
-        Some((hit, point))
+    /// What the picture in the window shows at a point, in physical pixels, and where in the
+    /// world that is. It is looked up in that picture, in constant time. While something moves,
+    /// that is a draft, which may be older than scene and camera: then it is what the draft shows,
+    /// seen by the draft's camera. A node that was removed since is not found, and of one
+    /// whose mesh was replaced the face is `None`. `None` for background, outside the window,
+    /// and before there is a picture.
+    #[must_use]
+    pub fn pick(&self, at: DVec2) -> Option<(Hit, DVec3)> {
+        self.shown.as_ref()?.pick(at, self.viewport, &self.scene)
     }
 
     /// The box around the selected object in the world.
@@ -287,6 +280,11 @@ impl Stage {
         if scale.is_finite() && scale > 0.0 {
             self.scale = scale;
         }
+    }
+
+    /// The picture in the window is another one.
+    pub(crate) fn show(&mut self, shown: Option<Shown>) {
+        self.shown = shown;
     }
 
     pub(crate) fn set_report(&mut self, report: FrameReport) {
@@ -348,7 +346,7 @@ impl Stage {
 
     /// For the window's size, smaller by a factor in each direction.
     fn fitted(&self, mut settings: RenderSettings, shrink: f64) -> RenderSettings {
-        settings.outputs = Outputs::default();
+        settings.outputs = shown::OUTPUTS;
         settings.line_width *= (self.scale / shrink) as f32;
         let smaller = |size: u32| ((f64::from(size) / shrink) as u32).clamp(1, trigon_scene::MAX_SIZE);
         (settings.width, settings.height) = (smaller(self.viewport.width), smaller(self.viewport.height));

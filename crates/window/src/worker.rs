@@ -7,7 +7,7 @@ use std::thread;
 use std::time::Duration;
 
 use trigon_camera::Camera;
-use trigon_scene::{Cancel, Frame, RenderError, RenderSettings, Renderer, Scene};
+use trigon_scene::{Cancel, Frame, Outputs, RenderError, RenderSettings, Renderer, Scene};
 
 use crate::drawer::Drawer;
 use crate::pacing::Quality;
@@ -252,7 +252,8 @@ impl Drawing {
             Task::Draw { scene, settings, drawer } => {
                 let drawn = match drawer {
                     None => render((&scene, &camera), *settings, &mut self.renderer, cancel),
-                    Some(drawer) => draw_otherwise(&*drawer, (&scene, &camera), &settings, cancel),
+                    Some(drawer) => draw_otherwise(&*drawer, (&scene, &camera), &settings, cancel)
+                        .and_then(|frame| self.with_ids(frame, (&scene, &camera), *settings, cancel)),
                 };
                 drawn.map(Product::Picture)
             }
@@ -261,6 +262,26 @@ impl Drawing {
             }
         };
         Finished { purpose, camera, took: (self.clock)().saturating_sub(begun), product }
+    }
+
+    /// Another drawer's picture, with ids and depths as the renderer finds them where the
+    /// settings ask for them and the drawer has none.
+    fn with_ids(
+        &mut self,
+        frame: Frame,
+        (scene, camera): (&Scene, &Camera),
+        settings: RenderSettings,
+        cancel: &Cancel,
+    ) -> Result<Frame, Unfinished> {
+        let RenderSettings { outputs, .. } = settings;
+        if !outputs.ids || (frame.object_ids.is_some() && frame.face_ids.is_some() && frame.depth.is_some()) {
+            return Ok(frame);
+        }
+        let outputs = Outputs { color: false, radiance: false, ..outputs };
+        let settings = RenderSettings { outputs, samples_per_axis: 1, samples: 1, ..settings };
+        let seen = render((scene, camera), settings, &mut self.renderer, cancel)?;
+        let Frame { depth, object_ids, face_ids, .. } = seen;
+        Ok(Frame { depth, object_ids, face_ids, ..frame })
     }
 }
 

@@ -20,9 +20,9 @@ pub(crate) mod surface;
 mod wire;
 
 pub use builder::RendererBuilder;
-pub(crate) use geometry::Geometry;
+pub(crate) use geometry::{Geometry, Run};
 pub use renderer::Renderer;
-pub(crate) use shapes::{Shape, Shapes};
+pub(crate) use shapes::{Onlookers, Shape, Shapes};
 pub(crate) use stage::Stage;
 
 use thiserror::Error;

@@ -53,6 +53,11 @@ impl Shapes {
         self.0.get(index)?.as_ref()
     }
 
+    /// Takes the shape of a node out.
+    pub(crate) fn take(&mut self, index: usize) -> Option<Shape> {
+        self.0.get_mut(index)?.take()
+    }
+
     /// Bytes of the vertices that were put into a pose.
     pub(crate) fn posed_bytes(&self) -> usize {
         let posed = self.0.iter().flatten().filter(|shape| shape.is_posed);

@@ -85,7 +85,13 @@ impl<'s> PlacedMesh<'s> {
         local.transformed(&self.world)
     }
 
-    fn positions(&self) -> &[Vec3] {
+    /// The map from the positions into the world.
+    pub(crate) fn world(&self) -> &DAffine3 {
+        &self.world
+    }
+
+    /// Where each vertex is in its pose.
+    pub(crate) fn positions(&self) -> &[Vec3] {
         self.posed.as_deref().unwrap_or(self.asset.mesh.positions())
     }
 }

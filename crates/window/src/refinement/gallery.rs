@@ -8,6 +8,7 @@ use trigon_scene::Frame;
 
 use super::{Compared, QualityReport};
 use crate::pacing::Quality;
+use crate::shown::{DrawnNodes, Shown};
 
 /// Pictures of one state of the scene: a draft, the one that the settings give, the best
 /// so far, and what lies between the last two.
@@ -15,6 +16,8 @@ use crate::pacing::Quality;
 pub(crate) struct Gallery {
     /// The one that all were drawn with.
     camera: Option<Camera>,
+    /// What all are of.
+    nodes: Arc<DrawnNodes>,
     draft: Option<Arc<Frame>>,
     settings: Option<Arc<Frame>>,
     best: Option<Arc<Frame>>,
@@ -35,8 +38,7 @@ pub(crate) enum Wanted {
 
 impl Gallery {
     /// A new picture. Those of other states of the scene are given back.
-    pub(crate) fn add(&mut self, quality: Quality, frame: Frame, camera: Camera, took: Duration) {
-        let frame = Arc::new(frame);
+    pub(crate) fn add(&mut self, quality: Quality, Shown { frame, camera, nodes }: Shown, took: Duration) {
         match quality {
             Quality::Draft { .. } => *self = Self { draft: Some(frame), ..Self::default() },
             Quality::Full(0) => {
@@ -49,7 +51,7 @@ impl Gallery {
                 self.report.best = Some(took);
             }
         }
-        self.camera = Some(camera);
+        (self.camera, self.nodes) = (Some(camera), nodes);
     }
 
     /// The picture of the settings and the best one, which is the reference, are compared.
@@ -71,6 +73,14 @@ impl Gallery {
             Wanted::Difference => self.map.as_ref().or(self.settings.as_ref()),
         };
         at_rest.or(self.draft.as_ref())
+    }
+
+    /// What tells what is seen where that is shown: the picture itself, or one that it was
+    /// made of.
+    pub(crate) fn picked(&self, wanted: Wanted) -> Option<Shown> {
+        let shown = self.shown(wanted).filter(|frame| frame.object_ids.is_some());
+        let frame = Arc::clone(shown.or(self.settings.as_ref())?);
+        Some(Shown { frame, camera: self.camera?, nodes: Arc::clone(&self.nodes) })
     }
 
     /// The camera of what is shown.

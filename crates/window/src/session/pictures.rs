@@ -8,6 +8,7 @@ use trigon_scene::RenderSettings;
 
 use super::Session;
 use crate::pacing::{Change, Quality};
+use crate::shown::{DrawnNodes, Shown};
 use crate::stage::FrameReport;
 use crate::worker::{Finished, Job, Product, Purpose, Task, Unfinished};
 
@@ -32,7 +33,8 @@ impl Session<'_> {
         match product {
             Ok(Product::Picture(frame)) => {
                 self.pacing.finished(took);
-                self.gallery.add(quality, frame, camera, took);
+                let nodes = self.nodes.as_ref().map_or_else(Arc::default, |(_, nodes)| Arc::clone(nodes));
+                self.gallery.add(quality, Shown { frame: Arc::new(frame), camera, nodes }, took);
                 self.pictured.clone_from(&self.subject);
                 if matches!(quality, Quality::Draft { .. } | Quality::Full(0)) {
                     self.stage.set_report(FrameReport { render: took, ..self.stage.report() });
@@ -82,6 +84,7 @@ impl Session<'_> {
         if !is_same {
             self.shown = wanted;
             self.stale = true;
+            self.stage.show(self.gallery.picked(self.stage.wanted_picture()));
         }
     }
 
@@ -117,6 +120,10 @@ impl Session<'_> {
     /// Begins the window's picture.
     pub(super) fn begin_picture(&mut self, quality: Quality) {
         self.subject = Some(self.stage.subject());
+        let revision = self.stage.scene.revision();
+        if self.nodes.as_ref().is_none_or(|(known, _)| *known != revision) {
+            self.nodes = Some((revision, Arc::new(DrawnNodes::of(&self.stage.scene))));
+        }
         match self.task(quality) {
             Some(task) => self.begin(Purpose::Window(quality), task),
             None => self.pacing.failed(),

@@ -2,6 +2,7 @@
 
 mod beside;
 mod ownership;
+mod picks;
 mod refinement;
 mod replay;
 

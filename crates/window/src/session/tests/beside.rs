@@ -10,7 +10,9 @@ use trigon_scene::render;
 
 /// What a picture file would hold.
 fn file(stage: &Stage) -> Frame {
-    let settings = RenderSettings { width: SIZE.width, height: SIZE.height, ..stage.settings.clone() };
+    let outputs = crate::shown::OUTPUTS;
+    let settings =
+        RenderSettings { width: SIZE.width, height: SIZE.height, outputs, ..stage.settings.clone() };
     render(&stage.scene, &stage.camera(), &settings).expect("drawn")
 }
 

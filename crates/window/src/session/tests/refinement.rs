@@ -25,7 +25,9 @@ fn opened(stage: Stage, handler: &mut Recorder) -> Session<'_> {
 
 /// What a picture file would hold.
 fn file(stage: &Stage, preset: Option<Preset>) -> Frame {
-    let mut settings = RenderSettings { width: SIZE.width, height: SIZE.height, ..stage.settings.clone() };
+    let outputs = crate::shown::OUTPUTS;
+    let mut settings =
+        RenderSettings { width: SIZE.width, height: SIZE.height, outputs, ..stage.settings.clone() };
     if let Some(preset) = preset {
         preset.apply(&mut settings);
     }

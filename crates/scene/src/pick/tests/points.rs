@@ -1,11 +1,16 @@
 //! Picks against rays in f64 through every pixel.
 
+use std::collections::BTreeSet;
+
 use trigon_camera::{Camera, Projector, Viewport};
-use trigon_math::DVec3;
+use trigon_math::{DVec2, DVec3};
 use trigon_mesh::{Deltas, MorphTarget, primitives};
 
-use super::*;
-use crate::{Material, Outputs, RenderSettings, Transform, render};
+use super::super::region::center;
+use crate::{
+    ElementSet, Frame, Material, NodeId, Outputs, Picker, Reach, Region, RenderSettings, Scene, Transform,
+    render,
+};
 
 const SIZE: [u32; 2] = [73, 55];
 
@@ -27,6 +32,16 @@ fn solids() -> Scene {
     scene.node_mut(cube).expect("just added").transform =
         Transform::from_translation(DVec3::new(0.9, 0.3, 0.6));
     scene
+}
+
+fn rectangle(min: [f64; 2], max: [f64; 2]) -> Region {
+    Region::Rectangle { min: min.into(), max: max.into() }
+}
+
+/// How many faces, vertices and edges are found.
+fn counts(picker: &Picker<'_>, region: &Region, reach: Reach) -> [usize; 3] {
+    let found = [picker.faces(region, reach), picker.vertices(region, reach), picker.edges(region, reach)];
+    found.map(|elements: ElementSet| elements.len())
 }
 
 /// The triangles of all objects in the world: node, face, corners.
@@ -131,12 +146,17 @@ fn a_rectangle_finds_what_is_seen_in_it_and_nothing_behind() {
     let camera = Camera::look_at(DVec3::Z * 5.0, DVec3::ZERO, DVec3::Y);
     let frame = draw(&scene, &camera);
     let picker = Picker::new(&scene, &camera, &frame);
-    let all = picker.within(0..u32::MAX, 0..u32::MAX);
-    assert_eq!(all.nodes, BTreeSet::from([front]), "the other one is hidden");
-    assert_eq!((all.faces.len(), all.vertices.len(), all.edges.len()), (1, 4, 4), "one side of the cube");
-    let left = picker.within(0..SIZE[0] / 2, 0..SIZE[1]);
-    assert_eq!((left.faces.len(), left.vertices.len(), left.edges.len()), (1, 2, 3), "its left half");
-    assert_eq!(picker.within(0..3, 0..3), Picked::default(), "a corner of the picture is empty");
+    let whole = rectangle([0.0, 0.0], [f64::MAX, f64::MAX]);
+    let nodes = |region, reach| picker.nodes(region, reach);
+    assert_eq!(nodes(&whole, Reach::Visible), BTreeSet::from([front]), "the other one is hidden");
+    assert_eq!(nodes(&whole, Reach::Through), BTreeSet::from([front, hidden]), "and is found through it");
+    assert_eq!(counts(&picker, &whole, Reach::Visible), [1, 4, 4], "one side of the cube");
+    assert_eq!(counts(&picker, &whole, Reach::Through), [8, 16, 24], "of the far one two sides are all");
+    let [width, height] = SIZE.map(f64::from);
+    let left = rectangle([0.0, 0.0], [width / 2.0, height]);
+    assert_eq!(counts(&picker, &left, Reach::Visible), [1, 2, 3], "its left half");
+    let corner = rectangle([0.0, 0.0], [3.0, 3.0]);
+    assert_eq!(counts(&picker, &corner, Reach::Through), [0; 3], "a corner of the picture is empty");
     assert_eq!(picker.at(SIZE[0], 0), None, "outside the picture");
 }
 
@@ -160,4 +180,57 @@ fn vertices_are_found_where_poses_put_them() {
     let vertex = mesh.positions()[pick.vertex.expect("has corners") as usize];
     assert_eq!(vertex.to_array(), [-0.5, 0.0, -0.5], "the corner at rest that was moved there");
     assert!(picker.at(5, 27).is_none(), "nothing is left where it was");
+}
+
+/// Of what is masked or blended only the pixels hide that it wins.
+#[test]
+fn glass_and_holes_hide_nothing() {
+    use crate::AlphaMode::{Blend, Mask, Opaque};
+    let cases = [
+        (Opaque, 1.0, 0, "a wall hides the corners"),
+        (Blend, 0.5, 4, "glass hides none"),
+        (Mask { cutoff: 0.5 }, 1.0, 0, "a mask without holes does"),
+        (Mask { cutoff: 0.5 }, 0.2, 4, "where there is a hole it does not"),
+    ];
+    for (alpha_mode, alpha, expected, what) in cases {
+        let mut scene = Scene::new();
+        let cube = scene.add_object("cube", primitives::cube(1.0), Material::default());
+        let base_color = trigon_math::Vec4::new(1.0, 1.0, 1.0, alpha);
+        let material = Material { alpha_mode, base_color, ..Material::default() };
+        let wall = scene.add_object("wall", primitives::cube(1.5), material);
+        scene.node_mut(wall).expect("just added").transform = Transform::from_translation(DVec3::Z * 2.0);
+        let camera = Camera::look_at(DVec3::Z * 6.0, DVec3::ZERO, DVec3::Y);
+        let frame = draw(&scene, &camera);
+        let picker = Picker::new(&scene, &camera, &frame);
+        let found = picker.vertices(&rectangle([0.0, 0.0], [99.0, 99.0]), Reach::Visible);
+        assert_eq!(found.iter().filter(|&(node, _)| node == cube).count(), expected, "{what}");
+    }
+}
+
+#[test]
+fn the_nearest_elements_are_found_within_a_radius_only() {
+    let mut scene = Scene::new();
+    let cube = scene.add_object("cube", primitives::cube(1.0), Material::default());
+    let camera = Camera::look_at(DVec3::Z * 5.0, DVec3::ZERO, DVec3::Y);
+    let frame = draw(&scene, &camera);
+    let picker = Picker::new(&scene, &camera, &frame);
+    let projector = Projector::new(&camera, Viewport { width: SIZE[0], height: SIZE[1] });
+    let corner = DVec3::new(0.5, 0.5, 0.5);
+    let at = projector.to_screen(corner).expect("before the eye");
+    let near = at + DVec2::new(2.0, -2.0);
+    let found = picker.nearest(near, 4.0, Reach::Visible);
+    let mesh = primitives::cube(1.0);
+    let (node, vertex) = found.vertex.expect("the corner is less than 4 pixels away");
+    assert_eq!((node, mesh.positions()[vertex as usize].as_dvec3()), (cube, corner), "that corner");
+    let (_, edge) = found.edge.expect("and so are two sides");
+    assert!(mesh.edges()[edge as usize].contains(&vertex), "an edge of the corner");
+    assert!(found.face.is_some(), "a pixel of the face is less than 4 pixels away");
+    let none = picker.nearest(near, 0.9, Reach::Through);
+    assert_eq!(none, crate::Nearest::default(), "nothing is as near as that");
+    // The corner behind it is seen further inside.
+    let behind = projector.to_screen(DVec3::new(0.5, 0.5, -0.5)).expect("before the eye");
+    let vertex_at = |reach| picker.nearest(behind, 0.5, reach).vertex;
+    assert_eq!(vertex_at(Reach::Visible), None, "it is hidden");
+    let (_, vertex) = vertex_at(Reach::Through).expect("it is there");
+    assert_eq!(mesh.positions()[vertex as usize].z, -0.5, "the one behind");
 }

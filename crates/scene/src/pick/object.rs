@@ -1,0 +1,171 @@
+//! The objects of a scene as they are picked: what their elements are, and where their
+//! points are on the screen. All of it is found when it is first asked for.
+
+use std::sync::OnceLock;
+
+use rayon::prelude::*;
+use trigon_math::{DMat4, DVec3, Vec3};
+use trigon_mesh::Mesh;
+
+use super::screen::{Screen, Spot};
+use crate::material::AlphaMode;
+use crate::render::{Onlookers, Run, Shape, Shapes};
+use crate::scene::{NodeId, PlacedMesh, Scene};
+
+/// Points that a thread projects at a time.
+const POINTS: usize = 4096;
+
+/// A visible node with a mesh.
+pub(super) struct Object<'s> {
+    pub(super) node: NodeId,
+    placed: PlacedMesh<'s>,
+    /// Its triangles as they are drawn; `None` where nothing of them can be in view.
+    drawn: Option<Drawn>,
+    /// Where vertices are.
+    map: DMat4,
+    vertices: OnceLock<Vec<Spot>>,
+    used: OnceLock<Vec<bool>>,
+}
+
+/// The triangles of an object.
+pub(super) struct Drawn {
+    shape: Shape,
+    map: DMat4,
+    /// For each run how its material shows faces.
+    facings: Vec<Facing>,
+    corners: OnceLock<Vec<Spot>>,
+}
+
+/// How faces of a material are drawn.
+#[derive(Clone, Copy)]
+pub(super) struct Facing {
+    /// Whether backs are drawn, too.
+    pub(super) double_sided: bool,
+    /// Whether there are no holes, and nothing shines through.
+    pub(super) is_opaque: bool,
+    /// Whether fronts wind clockwise because the object is mirrored.
+    pub(super) is_mirrored: bool,
+}
+
+/// All visible objects, by the indices of their nodes.
+pub(super) fn objects<'s>(scene: &'s Scene, screen: &Screen) -> Vec<Option<Object<'s>>> {
+    let places = scene.visible_places();
+    let mut shapes = Shapes::new(scene, &places, Onlookers::Camera(&screen.eye));
+    let mut objects: Vec<Option<Object<'_>>> = Vec::new();
+    objects.resize_with(places.len(), || None);
+    for (node, _) in scene.nodes().iter() {
+        let Some(place) = places[node.index()] else { continue };
+        let Some(placed) = scene.placed_mesh(node, place.world) else { continue };
+        let map = screen.map(placed.world());
+        let drawn = shapes.take(node.index()).and_then(|shape| Drawn::new(scene, node, shape, screen));
+        let (vertices, used) = Default::default();
+        objects[node.index()] = Some(Object { node, placed, drawn, map, vertices, used });
+    }
+    objects
+}
+
+impl<'s> Object<'s> {
+    pub(super) fn mesh(&self) -> &'s Mesh {
+        self.placed.mesh()
+    }
+
+    /// Where a vertex is in the world.
+    pub(super) fn place(&self, vertex: u32) -> DVec3 {
+        self.placed.place(vertex)
+    }
+
+    pub(super) fn drawn(&self) -> Option<&Drawn> {
+        self.drawn.as_ref()
+    }
+
+    /// Where each vertex is.
+    pub(super) fn vertices(&self, screen: &Screen) -> &[Spot] {
+        self.vertices.get_or_init(|| {
+            let positions = self.placed.positions().par_iter().with_min_len(POINTS);
+            positions.map(|position| screen.spot(&self.map, position.as_dvec3())).collect()
+        })
+    }
+
+    /// Which vertices belong to a face, an edge or a point.
+    pub(super) fn used(&self) -> &[bool] {
+        self.used.get_or_init(|| self.mesh().used_vertices())
+    }
+
+    /// What the near plane leaves of the line between two vertices.
+    pub(super) fn cut_line(&self, screen: &Screen, ends: [u32; 2]) -> Option<[Spot; 2]> {
+        let positions = self.placed.positions();
+        screen.cut_line(&self.map, ends.map(|end| positions[end as usize].as_dvec3()))
+    }
+}
+
+impl Drawn {
+    fn new(scene: &Scene, node: NodeId, shape: Shape, screen: &Screen) -> Option<Self> {
+        if !screen.eye.may_see(&shape.geometry.bounds(), &shape.place.world) {
+            return None;
+        }
+        let materials = &scene.node(node)?.materials;
+        let facing = |run: &Run| {
+            let material = materials.get(run.slot as usize).and_then(|&id| scene.materials.get(id));
+            Facing {
+                double_sided: material.is_none_or(|material| material.double_sided),
+                is_opaque: material.is_none_or(|material| material.alpha_mode == AlphaMode::Opaque),
+                is_mirrored: shape.place.is_mirrored,
+            }
+        };
+        let facings = shape.geometry.runs.iter().map(facing).collect();
+        Some(Self { map: screen.map(&shape.place.world), facings, shape, corners: OnceLock::new() })
+    }
+
+    /// The triangles of each material.
+    pub(super) fn runs(&self) -> impl Iterator<Item = (Facing, std::ops::Range<usize>)> + '_ {
+        self.facings.iter().copied().zip(self.shape.geometry.runs.iter().map(|run| run.triangles.clone()))
+    }
+
+    pub(super) fn triangle_count(&self) -> usize {
+        self.shape.geometry.triangles.len()
+    }
+
+    /// The polygon of a triangle.
+    pub(super) fn face(&self, triangle: usize) -> u32 {
+        self.shape.geometry.faces[triangle]
+    }
+
+    /// Where each corner of a triangle is that lies beyond the near plane.
+    pub(super) fn corners(&self, screen: &Screen) -> &[Spot] {
+        self.corners.get_or_init(|| {
+            let count = self.shape.geometry.columns.vertex_count();
+            let points = (0..count).into_par_iter().with_min_len(POINTS);
+            points.map(|corner| screen.spot(&self.map, self.position(corner))).collect()
+        })
+    }
+
+    /// Calls `visit` with the triangle, or with those that the near plane leaves of it.
+    #[inline]
+    pub(super) fn pieces(
+        &self,
+        (screen, corners): (&Screen, &[Spot]),
+        triangle: usize,
+        mut visit: impl FnMut(&[Spot; 3]),
+    ) {
+        let numbers = self.shape.geometry.triangles[triangle].map(|corner| corner as usize);
+        let spots = numbers.map(|corner| corners[corner]);
+        if spots.iter().all(Spot::is_somewhere) {
+            visit(&spots);
+        } else if spots.iter().any(Spot::is_somewhere) {
+            let points = numbers.map(|corner| self.position(corner));
+            screen.cut_triangle(&self.map, points).triangles().for_each(|piece| visit(&piece));
+        }
+    }
+
+    fn position(&self, corner: usize) -> DVec3 {
+        let [x, y, z] = &self.shape.geometry.columns.positions;
+        Vec3::new(x[corner], y[corner], z[corner]).as_dvec3()
+    }
+}
+
+impl Facing {
+    /// Whether a triangle of this area on the screen, where y points down, is drawn.
+    pub(super) fn draws(&self, area: f64) -> bool {
+        area != 0.0 && (self.double_sided || (area < 0.0) != self.is_mirrored)
+    }
+}

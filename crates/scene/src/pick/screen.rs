@@ -1,0 +1,178 @@
+//! Where the points of objects are on the screen, in f64.
+//!
+//! Objects are placed as the renderer places them: their maps are made relative to the
+//! camera before anything is multiplied. Depth is that of the depth buffer, which is linear
+//! across the screen: 1 on the near plane, 0 on the far plane or at infinity.
+
+use trigon_camera::{Camera, Viewport};
+use trigon_math::{DAffine3, DMat4, DVec2, DVec3, DVec4};
+
+use crate::render::placement::Eye;
+
+/// By how much a face has to be nearer to hide a point, in pixels' widths at the point's
+/// distance. What is nearer by less touches it: positions are rounded to f32, so that a
+/// vertex on another face would be before or behind it at random.
+const TOUCHING: f64 = 1e-3;
+
+/// A camera and a picture's size.
+pub(super) struct Screen {
+    pub(super) eye: Eye,
+    projection: DMat4,
+    half_size: DVec2,
+    /// A pixel's width, times [`TOUCHING`]: at a distance of one metre in a perspective,
+    /// at any distance in a parallel projection.
+    touching: f64,
+    is_parallel: bool,
+}
+
+/// A point on the screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Spot {
+    /// Pixels.
+    pub(super) at: DVec2,
+    /// Larger is nearer.
+    pub(super) depth: f64,
+}
+
+/// What the near plane leaves of a triangle on the screen.
+pub(super) struct Piece {
+    corners: [Spot; 4],
+    count: usize,
+}
+
+impl Spot {
+    /// A point that is not on the screen.
+    const NOWHERE: Self = Self { at: DVec2::NAN, depth: f64::NAN };
+
+    /// Whether it lies beyond the near plane.
+    pub(super) fn is_somewhere(&self) -> bool {
+        !self.depth.is_nan()
+    }
+
+    /// Whether it lies between the near and the far plane.
+    pub(super) fn is_in_range(&self) -> bool {
+        self.depth >= 0.0
+    }
+
+    /// The point at a share of the way to another one.
+    pub(super) fn towards(&self, other: &Self, share: f64) -> Self {
+        Self {
+            at: self.at + (other.at - self.at) * share,
+            depth: self.depth + (other.depth - self.depth) * share,
+        }
+    }
+}
+
+impl Screen {
+    pub(super) fn new(camera: &Camera, viewport: Viewport) -> Self {
+        let aspect = viewport.aspect();
+        let pixel = camera.projection.height_at(1.0) / f64::from(viewport.height.max(1));
+        Self {
+            eye: Eye::new(camera, aspect),
+            projection: camera.projection.matrix(aspect),
+            half_size: viewport.size() * 0.5,
+            touching: TOUCHING * pixel,
+            is_parallel: camera.projection.is_orthographic(),
+        }
+    }
+
+    /// The map of an object's points to clip space.
+    pub(super) fn map(&self, world: &DAffine3) -> DMat4 {
+        self.projection * DMat4::from(self.eye.to_camera(world))
+    }
+
+    /// Where a point of an object is.
+    pub(super) fn spot(&self, map: &DMat4, point: DVec3) -> Spot {
+        self.project(*map * point.extend(1.0))
+    }
+
+    /// From clip space; nowhere before the near plane.
+    fn project(&self, clip: DVec4) -> Spot {
+        let is_somewhere = clip.is_finite() && beyond_near(clip) >= 0.0;
+        if !is_somewhere {
+            return Spot::NOWHERE;
+        }
+        let x = (1.0 + clip.x / clip.w) * self.half_size.x;
+        let y = (1.0 - clip.y / clip.w) * self.half_size.y;
+        Spot { at: DVec2::new(x, y), depth: clip.z / clip.w }
+    }
+
+    /// The depth that hides a point of this depth.
+    pub(super) fn hiding_depth(&self, depth: f64) -> f64 {
+        let scale = self.projection.z_axis.z;
+        if self.is_parallel {
+            return depth + scale * self.touching;
+        }
+        // depth = offset / distance - scale, and the distance becomes smaller by a factor.
+        let factor = 1.0 - self.touching;
+        if factor > 0.0 { (depth + scale) / factor - scale } else { f64::INFINITY }
+    }
+
+    /// What is beyond the near plane of the line between two points.
+    pub(super) fn cut_line(&self, map: &DMat4, ends: [DVec3; 2]) -> Option<[Spot; 2]> {
+        let clip = ends.map(|end| *map * end.extend(1.0));
+        let spots = match clip.map(|end| beyond_near(end) >= 0.0) {
+            [true, true] => clip.map(|end| self.project(end)),
+            [true, false] => [clip[0], cut(clip[0], clip[1])].map(|end| self.project(end)),
+            [false, true] => [cut(clip[1], clip[0]), clip[1]].map(|end| self.project(end)),
+            [false, false] => return None,
+        };
+        spots.iter().all(Spot::is_somewhere).then_some(spots)
+    }
+
+    /// What is beyond the near plane of a triangle.
+    pub(super) fn cut_triangle(&self, map: &DMat4, corners: [DVec3; 3]) -> Piece {
+        let mut piece = Piece { corners: [Spot::NOWHERE; 4], count: 0 };
+        let clip = corners.map(|corner| *map * corner.extend(1.0));
+        for (from, to) in [(clip[2], clip[0]), (clip[0], clip[1]), (clip[1], clip[2])] {
+            match [from, to].map(|corner| beyond_near(corner) >= 0.0) {
+                [true, true] => piece.push(self.project(to)),
+                [true, false] => piece.push(self.project(cut(from, to))),
+                [false, true] => {
+                    piece.push(self.project(cut(to, from)));
+                    piece.push(self.project(to));
+                }
+                [false, false] => {}
+            }
+        }
+        // A corner that is no number spoils all of it.
+        if !piece.corners().iter().all(Spot::is_somewhere) {
+            piece.count = 0;
+        }
+        piece
+    }
+}
+
+/// Where a line passes through the near plane. From inside to outside, so that
+/// neighbours find the same point.
+fn cut(inside: DVec4, outside: DVec4) -> DVec4 {
+    let [near, far] = [inside, outside].map(beyond_near);
+    let cut = inside + (outside - inside) * (near / (near - far));
+    // On the plane, whatever was rounded.
+    DVec4 { z: cut.w, ..cut }
+}
+
+/// How far a point of clip space is beyond the near plane; negative before it.
+fn beyond_near(clip: DVec4) -> f64 {
+    clip.w - clip.z
+}
+
+impl Piece {
+    fn push(&mut self, spot: Spot) {
+        if let Some(place) = self.corners.get_mut(self.count) {
+            *place = spot;
+            self.count += 1;
+        }
+    }
+
+    pub(super) fn corners(&self) -> &[Spot] {
+        &self.corners[..self.count]
+    }
+
+    /// It as triangles.
+    pub(super) fn triangles(&self) -> impl Iterator<Item = [Spot; 3]> + '_ {
+        let [first, ..] = self.corners;
+        let sides = self.corners().windows(2).skip(1);
+        sides.map(move |side| [first, side[0], side[1]])
+    }
+}

@@ -1,0 +1,7 @@
+//! Picking against rays in f64 that know nothing of it.
+
+mod areas;
+mod oracle;
+mod points;
+mod regions;
+mod scenes;

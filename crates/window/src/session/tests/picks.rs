@@ -1,0 +1,130 @@
+//! What is under the pointer, in the picture that is in the window.
+
+use std::sync::Arc;
+
+use super::*;
+use crate::drawer::Drawer;
+use trigon_camera::{Camera, Projector};
+use trigon_mesh::Mesh;
+use trigon_scene::{Cancel, NodeId, Scene};
+
+/// A pixel of the cube on the right.
+const AT: DVec2 = DVec2::new(70.0, 32.0);
+
+fn name(session: &Session<'_>, node: NodeId) -> String {
+    session.stage.scene.node(node).expect("picked").name.clone()
+}
+
+/// What a ray meets: the name of the object and the point, by the cubes' places.
+fn picked(session: &Session<'_>, at: DVec2) -> Option<(String, DVec3)> {
+    session.stage.pick(at).map(|(hit, point)| (name(session, hit.node), point))
+}
+
+#[test]
+fn before_there_is_a_picture_nothing_is_picked() {
+    let mut handler = Recorder::default();
+    let session = started(&mut handler);
+    assert_eq!(session.stage.pick(AT), None, "nothing is seen yet");
+}
+
+#[test]
+fn a_pick_is_of_the_picture_that_is_seen() {
+    let mut handler = Recorder::default();
+    let mut session = begun(&mut handler);
+    let before = picked(&session, AT).expect("a cube");
+    assert_eq!(before.0, "right", "the cube on the right");
+    let camera = session.stage.camera();
+    let projector = Projector::new(&camera, SIZE);
+    let seen = projector.to_screen(before.1).expect("before the eye");
+    assert!(seen.distance(AT) < 1e-3, "the point is where it was asked for: {seen}");
+    // From behind left is right; but that is not drawn yet.
+    session.stage.orbit.orbit(std::f64::consts::PI, 0.0);
+    session.note(ms(1000));
+    assert_eq!(picked(&session, AT).expect("a cube"), before, "what the user sees is what is picked");
+    run(&mut session, ms(1000));
+    let (other, point) = picked(&session, AT).expect("a cube");
+    assert_eq!(other, "left", "now the other one is there");
+    assert!(point.z < before.1.z - 0.9, "and its back: {point}");
+}
+
+/// The node's place was taken by another one, which a picture from before cannot show.
+#[test]
+fn a_node_that_is_gone_is_not_picked_nor_is_who_took_its_place() {
+    let mut handler = Recorder::default();
+    let mut session = begun(&mut handler);
+    let (hit, _) = session.stage.pick(AT).expect("a cube");
+    session.stage.scene.remove(hit.node);
+    assert_eq!(session.stage.pick(AT), None, "it is gone");
+    let stranger = session.stage.scene.add_object("stranger", primitives::cube(9.0), Material::default());
+    assert_eq!(stranger.index(), hit.node.index(), "its place is used again");
+    assert_eq!(session.stage.pick(AT), None, "the picture does not show that one");
+}
+
+/// The mesh is replaced by an empty one: what is picked has been drawn before, and nothing
+/// of the scene's geometry is asked.
+#[test]
+fn faces_of_a_mesh_that_was_replaced_are_not_told() {
+    let mut handler = Recorder::default();
+    let mut session = begun(&mut handler);
+    let (hit, point) = session.stage.pick(AT).expect("a cube");
+    assert!(hit.face.is_some(), "a face of it");
+    let mesh = session.stage.scene.node(hit.node).and_then(|node| node.mesh).expect("a mesh");
+    session.stage.scene.replace_mesh(mesh, Mesh::default()).expect("it is there");
+    let (now, still) = session.stage.pick(AT).expect("still to be seen");
+    assert_eq!((now.node, now.face, still), (hit.node, None, point), "the node, without a face");
+}
+
+#[test]
+fn drafts_are_picked_where_they_are_shown() {
+    // By this clock pictures take so long that drafts are small.
+    let ((ring, rung), moments) =
+        (std::sync::mpsc::channel(), Arc::new(std::sync::atomic::AtomicU32::new(0)));
+    let clock = move || ms(200) * moments.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+    let ring = move || {
+        // Fails when the test is over.
+        let _ = ring.send(());
+    };
+    let mut handler = Recorder::default();
+    let mut session = session_of(stage(), &mut handler, Worker::of_threads(ring, clock));
+    let is_small =
+        |session: &Session<'_>| session.shown.as_ref().is_some_and(|frame| frame.width < SIZE.width);
+    let mut now = rest_beside(&mut session, &rung, ms(0));
+    // The first two drafts are as large as the window, and show what drafts take.
+    for way in [20.0, 20.0, -40.0] {
+        now += ms(1000);
+        drag(&mut session, PointerButton::Left, DVec2::new(way, 0.0), now);
+        now = live_until(&mut session, &rung, now, is_small);
+    }
+    assert!(is_small(&session), "a draft is shown");
+    let draft = picked(&session, AT).expect("a cube");
+    let seen = Projector::new(&session.stage.camera(), SIZE).to_screen(draft.1).expect("before the eye");
+    // The draft's aspect is that of its own whole pixels.
+    assert!(seen.distance(AT) < 3.0, "about where it was asked for: {seen}");
+    rest_beside(&mut session, &rung, now);
+    assert!(!is_small(&session), "the same in full");
+    let full = picked(&session, AT).expect("a cube");
+    assert_eq!(draft.0, full.0, "the same cube");
+    assert!(draft.1.distance(full.1) < 0.2, "at about the same point: {} and {}", draft.1, full.1);
+}
+
+/// Paints everything in one colour, and says nothing of what is where.
+struct Flat;
+
+impl Drawer for Flat {
+    fn draw(&self, _: &Scene, _: &Camera, settings: &RenderSettings, _: &Cancel) -> Result<Frame, String> {
+        let RenderSettings { width, height, .. } = *settings;
+        Ok(Frame { width, height, color: vec![9; 4 * width as usize * height as usize], ..Frame::default() })
+    }
+}
+
+#[test]
+fn what_another_drawer_shows_is_picked_all_the_same() {
+    let mut handler = Recorder::default();
+    let mut session = begun(&mut handler);
+    let before = session.stage.pick(AT);
+    session.stage.drawer = Some(Arc::new(Flat));
+    session.note(ms(1000));
+    run(&mut session, ms(1000));
+    assert!(session.shown.as_deref().is_some_and(|frame| frame.color[0] == 9), "its picture is shown");
+    assert!(before.is_some() && session.stage.pick(AT) == before, "the renderer tells what is where");
+}

@@ -1,0 +1,72 @@
+//! What the picture in the window shows, pixel by pixel: whoever points at something has
+//! pointed at that picture, which may be older than the scene.
+//!
+//! A picture's ids and depths come with its colours, so that to pick is to look up one pixel.
+//! Nothing is drawn for it, and no vertex is visited.
+
+use std::sync::{Arc, Weak};
+
+use trigon_camera::{Camera, Projector, Viewport};
+use trigon_math::{DVec2, DVec3};
+use trigon_mesh::Mesh;
+use trigon_scene::{Frame, Hit, NodeId, Outputs, Scene};
+
+use crate::canvas::source_pixel;
+
+/// What the window's pictures hold.
+pub(crate) const OUTPUTS: Outputs = Outputs { color: true, depth: true, ids: true, ..Outputs::NONE };
+
+/// The nodes of a scene as it was drawn, by the indices that its pictures hold, and the
+/// meshes that they had. The meshes are not kept alive.
+#[derive(Debug, Default)]
+pub(crate) struct DrawnNodes(Vec<Option<(NodeId, Weak<Mesh>)>>);
+
+impl DrawnNodes {
+    pub(crate) fn of(scene: &Scene) -> Self {
+        let mut nodes = vec![None; scene.nodes().index_bound()];
+        for (id, _) in scene.nodes().iter() {
+            nodes[id.index()] = Some((id, mesh(scene, id)));
+        }
+        Self(nodes)
+    }
+}
+
+/// A picture with ids and depths, and what it was drawn of.
+#[derive(Clone, Debug)]
+pub(crate) struct Shown {
+    pub(crate) frame: Arc<Frame>,
+    pub(crate) camera: Camera,
+    pub(crate) nodes: Arc<DrawnNodes>,
+}
+
+impl Shown {
+    /// What is seen at a point of a window of this size, and where in the world. Of the scene
+    /// as it is now: a node that was removed since is not found, and a polygon only if the
+    /// node still has the same mesh.
+    pub(crate) fn pick(&self, at: DVec2, window: Viewport, scene: &Scene) -> Option<(Hit, DVec3)> {
+        let Frame { width, height, .. } = *self.frame;
+        let inside = at.cmpge(DVec2::ZERO).all() && at.cmplt(window.size()).all();
+        if !inside || width == 0 || height == 0 {
+            return None;
+        }
+        let [x, y] = [(at.x, window.width, width), (at.y, window.height, height)]
+            .map(|(at, window, frame)| source_pixel(at as usize, window as usize, frame as usize));
+        let pixel = y * width as usize + x;
+        let value = |ids: &Option<Vec<u32>>| ids.as_ref().and_then(|ids| ids.get(pixel).copied());
+        let (node, drawn) = self.nodes.0.get(value(&self.frame.object_ids)? as usize)?.as_ref()?;
+        scene.node(*node)?;
+        let face = value(&self.frame.face_ids).filter(|&face| face != u32::MAX);
+        let face = face.filter(|_| drawn.ptr_eq(&mesh(scene, *node))).map(|face| face as usize);
+        let distance = *self.frame.depth.as_ref()?.get(pixel)?;
+        let size = Viewport { width, height };
+        let on_frame = at * size.size() / window.size();
+        let point = Projector::new(&self.camera, size).at_distance(on_frame, distance.into())?;
+        Some((Hit { node: *node, face }, point))
+    }
+}
+
+/// The mesh of a node; one that is nowhere if it has none.
+fn mesh(scene: &Scene, node: NodeId) -> Weak<Mesh> {
+    let asset = scene.node(node).and_then(|node| scene.meshes().get(node.mesh?));
+    asset.map_or_else(Weak::new, |asset| Arc::downgrade(asset.shared_mesh()))
+}
