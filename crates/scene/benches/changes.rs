@@ -2,14 +2,15 @@
 //! million triangles, in one place or all over it, 1920×1080 pixels, one sample.
 //!
 //! ```sh
-//! cargo bench -p trigon-scene --bench changes -- [derived|given] [edges] [ROUNDS] [THREADS]
+//! cargo bench -p trigon-scene --bench changes -- [derived|given] [edges] [KIND …] [ROUNDS] [THREADS]
 //! ```
 //!
 //! The torus takes its normals from its faces (`derived`, if nothing else is said), so that
 //! they change with the vertices, or has normals of its own (`given`). In each round the
 //! cases take turns: a picture without a change, one after each kind of change, and one
-//! after the same change by a new mesh. The last picture of each is held against one of a
-//! new scene, byte for byte.
+//! after the same change by a new mesh; or only those that are named: `none`, `compact`,
+//! `scattered`, `replaced`. The last picture of each is held against one of a new scene, byte
+//! for byte.
 
 #![expect(clippy::print_stdout, reason = "numbers are what this is for")]
 
@@ -62,7 +63,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         ..RenderSettings::new(1920, 1080)
     };
     let torus = torus(says("given"));
-    let mut cases = KINDS.map(|kind| Case::new(kind, torus.clone(), settings.clone()));
+    let is_named = |kind: &&Kind| says(&format!("{kind:?}").to_lowercase());
+    let named: Vec<&Kind> = KINDS.iter().filter(is_named).collect();
+    let kinds = if named.is_empty() { KINDS.iter().collect() } else { named };
+    let mut cases: Vec<Case> =
+        kinds.into_iter().map(|&kind| Case::new(kind, torus.clone(), settings.clone())).collect();
     let camera = cases[0].scene.overview(settings.aspect());
     for case in &mut cases {
         let first = case.first(&camera)?;

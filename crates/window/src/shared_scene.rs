@@ -1,9 +1,8 @@
 //! A scene that is changed on the window's thread while a worker draws it.
 //!
-//! Each of the worker's threads has a copy of its own. Scenes share meshes until one is
-//! changed by [`SharedScene::change_mesh`]; from then on each holder has its own mesh, and
-//! is told only which values changed. So nobody copies a mesh because another thread
-//! draws it.
+//! Each of the worker's threads has a replica of the scene. They share meshes until one is
+//! changed by [`SharedScene::change_mesh`]; from then on each has a mesh of its own and is
+//! sent only the values that changed. So no mesh is copied because another thread draws it.
 
 use std::collections::BTreeMap;
 use std::ops::{Deref, DerefMut};
@@ -12,26 +11,27 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use trigon_scene::mesh::{ChangedElements, MeshChange};
 use trigon_scene::{MeshId, Scene, SceneError};
 
-/// More copies than a worker has threads; of more, the oldest are brought up to date as a
-/// whole.
-const MOST_COPIES: usize = 4;
+/// More than a worker has threads. Of more replicas the one that was brought up to date
+/// longest ago gets a whole scene the next time.
+const MOST_REPLICAS: usize = 4;
 
 /// A scene to be used as any other. What a worker is drawing meanwhile stays as it was.
 ///
-/// Whoever takes it mutably is taken to have changed it: then the next picture begins with
-/// a copy of the nodes and materials, which shares meshes and textures.
+/// Whoever takes it mutably is taken to have changed it: before the next picture its nodes
+/// and materials are copied then, but neither meshes nor textures.
 /// [`change_mesh`](Self::change_mesh) is the way to change a large mesh often.
 #[derive(Clone, Debug, Default)]
 pub struct SharedScene {
     scene: Scene,
     revision: Revision,
-    /// Scenes elsewhere that are behind this one by nothing but changes of meshes.
-    copies: Vec<Copy>,
+    /// Scenes of other threads that differ from this one in values of meshes alone.
+    replicas: Vec<Replica>,
 }
 
-/// A scene that was like this one at some revision.
+/// The scene of another thread.
 #[derive(Clone, Debug)]
-struct Copy {
+struct Replica {
+    /// What it is equal to.
     revision: Revision,
     /// What has been changed since.
     changed: BTreeMap<MeshId, ChangedElements>,
@@ -41,7 +41,7 @@ struct Copy {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Revision(u64);
 
-/// What makes a copy like the scene that it is a copy of.
+/// What makes a replica equal to its scene.
 #[derive(Debug)]
 pub(crate) enum SceneUpdate {
     /// Another scene.
@@ -64,33 +64,33 @@ impl Default for Revision {
 }
 
 impl SharedScene {
-    /// Gives some elements of a mesh other values; see [`Scene::change_mesh`]. Each of the
-    /// worker's threads then has a mesh of its own, made at the first change; later changes
-    /// copy nothing.
+    /// Gives some elements of a mesh other values; see [`Scene::change_mesh`]. The first
+    /// change copies the mesh for each thread that draws it; later ones copy nothing, as
+    /// long as the scene is not changed in other ways in between.
     ///
     /// # Errors
     /// When the mesh is gone, or has not what is to be changed. It stays as it was.
     pub fn change_mesh(&mut self, id: MeshId, change: &MeshChange) -> Result<(), SceneError> {
         self.scene.change_mesh(id, change)?;
         self.revision = Revision::next();
-        for copy in &mut self.copies {
-            copy.changed.entry(id).or_default().add(change);
+        for replica in &mut self.replicas {
+            replica.changed.entry(id).or_default().add(change);
         }
         Ok(())
     }
 
-    /// What brings a copy up to date that was like the scene of the revision `held`; that
-    /// becomes this one's.
+    /// What makes a replica equal to this scene that is equal to the revision `held`. It
+    /// has to be applied: `held` becomes this scene's revision.
     pub(crate) fn update(&mut self, held: &mut Option<Revision>) -> SceneUpdate {
-        let known = self.copies.iter().position(|copy| Some(copy.revision) == *held);
-        let behind = known.map(|known| self.copies.remove(known));
-        if self.copies.len() == MOST_COPIES {
-            self.copies.remove(0);
+        let known = self.replicas.iter().position(|replica| Some(replica.revision) == *held);
+        let behind = known.map(|known| self.replicas.remove(known));
+        if self.replicas.len() == MOST_REPLICAS {
+            self.replicas.remove(0);
         }
-        self.copies.push(Copy { revision: self.revision, changed: BTreeMap::new() });
+        self.replicas.push(Replica { revision: self.revision, changed: BTreeMap::new() });
         *held = Some(self.revision);
         match behind {
-            Some(Copy { changed, .. }) => SceneUpdate::Meshes(self.values(&changed)),
+            Some(Replica { changed, .. }) => SceneUpdate::Meshes(self.values(&changed)),
             None => SceneUpdate::Whole(Box::new(self.scene.clone())),
         }
     }
@@ -139,7 +139,7 @@ impl Deref for SharedScene {
 impl DerefMut for SharedScene {
     fn deref_mut(&mut self) -> &mut Scene {
         self.revision = Revision::next();
-        self.copies.clear();
+        self.replicas.clear();
         &mut self.scene
     }
 }

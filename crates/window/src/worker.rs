@@ -34,7 +34,7 @@ pub(crate) struct Job {
 /// A picture to be drawn, or two to be compared.
 pub(crate) enum Task {
     Draw {
-        /// Of the scene that the thread has; see [`Worker::held`].
+        /// Makes the thread's replica equal to the scene to be drawn; see [`Worker::held`].
         scene: SceneUpdate,
         settings: Box<RenderSettings>,
         /// Instead of the renderer.
@@ -42,7 +42,7 @@ pub(crate) enum Task {
     },
     /// What was found, and what is right.
     Compare([Arc<Frame>; 2]),
-    /// The scene that the thread has is of no more use. There is no product.
+    /// Drops the thread's replica, which is of no more use. There is no product.
     Forget,
 }
 
@@ -92,7 +92,7 @@ struct UnderWay {
 /// A job with its number, and what ends it.
 type Numbered = (u64, Job, Cancel);
 
-/// Who does jobs, and the revision of the scene that it has a copy of.
+/// Who does jobs, and the revision that its replica of the scene is equal to.
 struct Holder {
     hands: Hands,
     held: Option<Revision>,
@@ -109,7 +109,7 @@ enum Hands {
 /// What does jobs.
 struct Drawing {
     renderer: Renderer,
-    /// A copy of its own, so that nobody waits for it.
+    /// A replica of the window's, so that neither waits for the other.
     scene: Scene,
     /// Tells the time since any fixed moment.
     clock: Box<dyn Fn() -> Duration + Send>,
@@ -146,8 +146,7 @@ impl Worker {
     }
 
     fn new(first: Hands, second: Option<Hands>) -> Self {
-        let [first, second] = [Some(first), second].map(|hands| Some(Holder { hands: hands?, held: None }));
-        let first = first.expect("it was given");
+        let (first, second) = (Holder::new(first), second.map(Holder::new));
         Self { first, second, under_way: None, abandoned: None, begun: 0 }
     }
 
@@ -156,8 +155,8 @@ impl Worker {
         self.under_way.is_some()
     }
 
-    /// Which revision of the scene those have who do what is for this purpose: what the next
-    /// such job brings up to date.
+    /// Which revision the replica is equal to that is drawn for this purpose, once all jobs
+    /// begun so far are done.
     pub(crate) fn held(&mut self, purpose: Purpose) -> &mut Option<Revision> {
         &mut self.holder(purpose).held
     }
@@ -174,8 +173,8 @@ impl Worker {
         self.holder(purpose).hands.begin((number, job, cancel));
     }
 
-    /// A scene took the place of the one before: what is only better is drawn of that, too,
-    /// when it is drawn again, and until then nobody should hold the old one.
+    /// Another scene took the place of the one before, which the second thread should not
+    /// hold until it draws again.
     fn forget_others(&mut self, purpose: Purpose) {
         let Some(second) = self.second.as_mut().filter(|_| !purpose.is_refinement()) else { return };
         if second.held.take().is_some() {
@@ -228,6 +227,12 @@ impl Purpose {
     /// Whether there is a right picture already.
     fn is_refinement(self) -> bool {
         matches!(self, Self::Window(Quality::Full(1..)))
+    }
+}
+
+impl Holder {
+    fn new(hands: Hands) -> Self {
+        Self { hands, held: None }
     }
 }
 

@@ -1,7 +1,5 @@
 //! Which elements of a mesh were changed, when their values are in the mesh itself.
 
-use trigon_math::Vec3;
-
 use super::MeshChange;
 use crate::Mesh;
 
@@ -91,6 +89,8 @@ impl Elements {
 
 #[cfg(test)]
 mod tests {
+    use trigon_math::Vec3;
+
     use super::*;
     use crate::primitives;
 

@@ -37,7 +37,9 @@ mod tests {
     #[test]
     fn every_corner_knows_its_face() {
         let mut builder = MeshBuilder::new();
-        (0..9).for_each(|_| drop(builder.push_vertex(trigon_math::Vec3::ZERO)));
+        for _ in 0..9 {
+            builder.push_vertex(trigon_math::Vec3::ZERO);
+        }
         for corners in [3, 9, 4, 3, 3, 7, 3] {
             builder.push_face(&(0..corners).collect::<Vec<_>>()).expect("distinct vertices");
         }

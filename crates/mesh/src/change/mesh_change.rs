@@ -94,17 +94,17 @@ impl MeshChange {
     /// An element or an attribute that the mesh does not have.
     pub fn check(&self, mesh: &Mesh) -> Result<(), ChangeError> {
         let (attributes, corners) = (mesh.attributes(), mesh.corner_count());
-        check_range(&self.positions, "positions", ("vertex", mesh.vertex_count()))?;
-        check_range(&self.corner_normals, "corner_normals", ("corner", corners))?;
+        check_range(&self.positions, "positions", "vertex", mesh.vertex_count())?;
+        check_range(&self.corner_normals, "corner_normals", "corner", corners)?;
         check_present(&self.corner_normals, "corner_normals", attributes.corner_normals.is_some())?;
         for (set, values) in self.uv_sets.iter().enumerate().filter(|(_, values)| !values.is_empty()) {
             let count = attributes.uv_sets.len();
             if set >= count {
                 return Err(ChangeError::NoSuchUvSet { set, count });
             }
-            check_range(values, "uv_sets", ("corner", corners))?;
+            check_range(values, "uv_sets", "corner", corners)?;
         }
-        check_range(&self.corner_colors, "corner_colors", ("corner", corners))?;
+        check_range(&self.corner_colors, "corner_colors", "corner", corners)?;
         check_present(&self.corner_colors, "corner_colors", attributes.corner_colors.is_some())
     }
 }
@@ -138,7 +138,8 @@ fn assign<T: Copy>(list: &mut [T], values: &[(u32, T)]) {
 fn check_range<T>(
     values: &[(u32, T)],
     attribute: &'static str,
-    (element, count): (&'static str, usize),
+    element: &'static str,
+    count: usize,
 ) -> Result<(), ChangeError> {
     match values.iter().find(|(index, _)| *index as usize >= count) {
         Some(&(index, _)) => Err(ChangeError::OutOfRange { attribute, element, index, count }),

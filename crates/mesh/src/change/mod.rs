@@ -14,6 +14,7 @@ mod marks;
 mod mesh_change;
 mod render_links;
 mod render_update;
+mod vertex_values;
 
 pub use changed_elements::ChangedElements;
 pub use mesh_change::{ChangeError, MeshChange};

@@ -103,8 +103,6 @@ fn a_flat_grid_is_cut_where_it_is_bent_and_stays_so() {
     let places = grid.positions().to_vec();
     let changes = [moved(vec![(12, Vec3::Y)]), moved(vec![(12, places[12])]), moved(vec![(12, Vec3::Y)])];
     assert_eq!(follow(&mut grid, &changes[..0]), 25, "one normal, one vertex for all that meet");
-    // The middle is in four of sixteen quads, whose nine vertices have four normals more: 4
-    // in the middle, 2 at each of its neighbours beside 1 or 2 of the flat ones, ...
     let bent = follow(&mut grid, &changes[..1]);
     assert!(bent > 25, "{bent} vertices");
     grid.change(&changes[1]).expect("back");

@@ -20,12 +20,14 @@ impl Geometry {
         Self { links, ..Self::of(render_mesh) }
     }
 
+    /// Whether it can follow changes of its mesh.
+    pub(crate) fn can_follow(&self) -> bool {
+        self.links.is_some()
+    }
+
     /// The geometry of a mesh, from the one that it had before these elements were
     /// changed. That is copied if somebody else holds it.
     pub(crate) fn after_change(before: Arc<Self>, mesh: &Mesh, changed: &ChangedElements) -> Self {
-        if before.links.is_none() {
-            return Self::that_follows(mesh);
-        }
         let mut geometry = Arc::try_unwrap(before).unwrap_or_else(|shared| shared.copied());
         match geometry.follow(mesh, changed) {
             Some(()) => geometry,
