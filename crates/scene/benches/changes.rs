@@ -146,12 +146,16 @@ impl Case {
     fn change(&self, round: u32) -> MeshChange {
         let positions = self.mesh().positions();
         let count = positions.len() as u32;
-        let factor = if round % 2 == 0 { 1.01 } else { 1.0 / 1.01 };
+        // A fifth of a quad's width, so that none folds.
+        let factor = if round.is_multiple_of(2) { 1.001 } else { 1.0 / 1.001 };
         let vertex = |number: u32| match self.kind {
             // A patch of 100 by 100, on the upper side.
             Kind::Compact => (count / 4 / QUADS[0] + number / 100) * QUADS[0] + number % 100 + 200,
-            // In no order: a prime that does not divide the count is a step to each.
-            _ => (u64::from(number) * 50 * 7919 % u64::from(count)) as u32,
+            // One of each fifty, in no order: hardly any two share a face.
+            _ => {
+                let place = number * 7919 % MOVED;
+                place * 50 + place * 31 % 50
+            }
         };
         let moved = (0..MOVED).map(vertex).map(|vertex| {
             let place = positions[vertex as usize];

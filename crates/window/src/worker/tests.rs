@@ -193,14 +193,14 @@ fn a_mesh_is_changed_while_a_picture_of_it_is_under_way() {
     let (gate, (begun, has_begun)) = (Gate::default(), channel());
     let waiting: Arc<dyn Drawer> = Arc::new(Waiting(begun, gate.clone()));
     let (mut worker, rung) = Gate::default().worker(|_| false);
-    let mut begin = |worker: &mut Worker, scene: &mut SharedScene| {
+    let begin = |worker: &mut Worker, scene: &mut SharedScene| {
         let purpose = Purpose::Picture;
         let update = scene.update(worker.held(purpose));
         let (drawer, settings) = (Some(Arc::clone(&waiting)), Box::new(settings.clone()));
         worker.begin(Job { purpose, camera, task: Task::Draw { scene: update, settings, drawer } });
         has_begun.recv().expect("it is being drawn");
     };
-    let mut pull = |scene: &mut SharedScene, to: f32| {
+    let pull = |scene: &mut SharedScene, to: f32| {
         let change = MeshChange { positions: vec![(7, Vec3::splat(to))], ..MeshChange::default() };
         scene.change_mesh(id, &change).expect("a cube has 8 vertices");
         render(scene, &camera, &settings).expect("drawn")
