@@ -1,10 +1,11 @@
 //! Items collected by a small integer key: a counting sort.
 //!
-//! Edges are found, corners welded and normals gathered by vertex. All three
+//! Edges are found, corners welded and changes followed by vertex. All three
 //! need "everything at this vertex, in order", in time that no input can
 //! blow up and in an order that no hash decides.
 
 /// Items by key; within a key they keep the order they came in.
+#[derive(Debug)]
 pub(crate) struct Groups<T> {
     /// Where each key's items start, and one more for the end.
     starts: Vec<u32>,
@@ -34,6 +35,12 @@ impl<T: Copy + Default> Groups<T> {
         }
         starts.pop();
         Self { starts, items }
+    }
+
+    /// The items of a key.
+    pub(crate) fn get(&self, key: u32) -> &[T] {
+        let key = key as usize;
+        &self.items[self.starts[key] as usize..self.starts[key + 1] as usize]
     }
 
     /// The items of each key, in key order.

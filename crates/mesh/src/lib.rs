@@ -47,6 +47,7 @@
 
 mod attributes;
 mod builder;
+mod change;
 mod deform;
 mod edges;
 mod error;
@@ -65,6 +66,7 @@ mod weld;
 
 pub use attributes::Attributes;
 pub use builder::MeshBuilder;
+pub use change::{ChangeError, ChangedElements, MeshChange, RenderLinks, RenderUpdate, UpdatedVertex};
 pub use deform::{Deformed, Deltas, FlatFaces, MorphTarget, SkinWeights};
 pub use error::MeshError;
 pub use mesh::Mesh;

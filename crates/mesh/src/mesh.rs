@@ -142,6 +142,11 @@ impl Mesh {
         self.face_starts[face] as usize..self.face_starts[face + 1] as usize
     }
 
+    /// The face of a corner, by a search.
+    pub(crate) fn face_at(&self, corner: u32) -> usize {
+        self.face_starts.partition_point(|&start| start <= corner) - 1
+    }
+
     /// The corners of every face, in order.
     pub fn faces(&self) -> impl ExactSizeIterator<Item = Range<usize>> + Clone + '_ {
         let starts = self.face_starts.windows(2);

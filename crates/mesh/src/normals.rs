@@ -24,8 +24,11 @@ impl Mesh {
     /// The unit normal of every face. The zero vector where a face has no
     /// area or a position is not finite.
     pub fn face_normals(&self) -> Vec<Vec3> {
-        let normals = (0..self.face_count()).map(|face| self.face_area_vector(face));
-        normals.map(|n| unit_or_zero(n).as_vec3()).collect()
+        (0..self.face_count()).map(|face| self.face_normal(face)).collect()
+    }
+
+    pub(crate) fn face_normal(&self, face: usize) -> Vec3 {
+        unit_or_zero(self.face_area_vector(face)).as_vec3()
     }
 
     /// The unit normal of every vertex: the mean of the normals of all its
@@ -124,6 +127,19 @@ impl Mesh {
     }
 }
 
+/// The angle of a face at the corner of this number among its own: the bits that
+/// [`Mesh::for_each_weighted_corner`] weighs by.
+pub(crate) fn corner_angle(mesh: &Mesh, vertices: &[u32], index: usize) -> f64 {
+    let here = mesh.position(vertices[index]);
+    // Subtracted as on the way round the face.
+    let back = match index {
+        0 => mesh.position(vertices[vertices.len() - 1]) - here,
+        _ => -(here - mesh.position(vertices[index - 1])),
+    };
+    let next = mesh.position(*vertices.get(index + 1).unwrap_or(&vertices[0]));
+    angle(back, next - here)
+}
+
 /// acos(x) / √(1 − x) for x from 0 to 1, by powers of x: within 2·10⁻⁸
 /// (M. Abramowitz and I. Stegun, "Handbook of Mathematical Functions", 1964,
 /// 4.4.46).
@@ -164,12 +180,12 @@ pub(crate) fn unit_or_zero(vector: DVec3) -> DVec3 {
 const UNIT_TOLERANCE: f64 = 1e-6;
 
 /// Like [`unit_or_zero`], but a unit vector keeps its bits.
-fn unit_keeping(normal: Vec3) -> Vec3 {
+pub(crate) fn unit_keeping(normal: Vec3) -> Vec3 {
     let wide = normal.as_dvec3();
     if (wide.length_squared() - 1.0).abs() <= UNIT_TOLERANCE { normal } else { unit_or_zero(wide).as_vec3() }
 }
 
-fn or_if_zero(normal: Vec3, other: Vec3) -> Vec3 {
+pub(crate) fn or_if_zero(normal: Vec3, other: Vec3) -> Vec3 {
     if normal == Vec3::ZERO { other } else { normal }
 }
 

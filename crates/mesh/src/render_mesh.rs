@@ -6,8 +6,8 @@
 
 use trigon_math::{Vec2, Vec3, Vec4};
 
-use crate::weld::weld;
-use crate::{FlatFaces, Mesh, MorphTarget, SkinWeights, Triangulation};
+use crate::weld::{Welded, weld};
+use crate::{FlatFaces, Mesh, MorphTarget, RenderLinks, SkinWeights, Triangulation};
 
 /// A mesh as triangles over welded corners. All lists of vertex values have
 /// the same length, all lists of triangles too.
@@ -46,10 +46,23 @@ impl RenderMesh {
     /// Vertices that no face uses are left out, as are loose edges and points.
     /// The normals are those of [`Mesh::shading_normals`].
     pub fn from_mesh(mesh: &Mesh) -> RenderMesh {
-        let Triangulation { mut triangles, triangle_faces } = mesh.triangulation();
-        let attributes = mesh.attributes();
+        let normals = mesh.shading_normals();
+        Self::from_welded(mesh, &normals, &weld(mesh, &normals))
+    }
+
+    /// The same, and what is needed to follow changes of the mesh later; `None` where a
+    /// pose can bend the mesh, which has to be made anew after a change.
+    pub fn with_links(mesh: &Mesh) -> (RenderMesh, Option<RenderLinks>) {
         let normals = mesh.shading_normals();
         let welded = weld(mesh, &normals);
+        let render_mesh = Self::from_welded(mesh, &normals, &welded);
+        let links = (!render_mesh.is_deformable()).then(|| RenderLinks::new(mesh, welded));
+        (render_mesh, links)
+    }
+
+    fn from_welded(mesh: &Mesh, normals: &[Vec3], welded: &Welded) -> RenderMesh {
+        let Triangulation { mut triangles, triangle_faces } = mesh.triangulation();
+        let attributes = mesh.attributes();
         for triangle in &mut triangles {
             *triangle = triangle.map(|corner| welded.vertex_of_corner[corner as usize]);
         }
@@ -66,7 +79,7 @@ impl RenderMesh {
         let slot = |&face: &u32| slots.map_or(0, |slots| slots[face as usize]);
         RenderMesh {
             positions: corners.iter().map(position).collect(),
-            normals: pick(&normals, corners),
+            normals: pick(normals, corners),
             tangents: attributes.corner_tangents.as_ref().map(|tangents| pick(tangents, corners)),
             uv_sets: attributes.uv_sets.iter().map(|set| pick(set, corners)).collect(),
             colors: attributes.corner_colors.as_ref().map(|c| pick(c, corners)),

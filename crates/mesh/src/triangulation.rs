@@ -19,12 +19,17 @@ impl Mesh {
     /// Cuts all faces into triangles.
     pub fn triangulation(&self) -> Triangulation {
         let most = self.corner_count() - 2 * self.face_count();
-        let mut triangles = Vec::with_capacity(most);
-        let mut triangle_faces = Vec::with_capacity(most);
+        self.triangulation_of(0..self.face_count() as u32, most)
+    }
+
+    /// Cuts some faces into triangles, about `room` of them.
+    pub(crate) fn triangulation_of(&self, faces: impl Iterator<Item = u32>, room: usize) -> Triangulation {
+        let mut triangles = Vec::with_capacity(room);
+        let mut triangle_faces = Vec::with_capacity(room);
         let mut triangulator = Triangulator::default();
         let mut outline = Vec::new();
-        for (face, corners) in self.faces().enumerate() {
-            let before = triangles.len();
+        for face in faces {
+            let (before, corners) = (triangles.len(), self.face_corners(face as usize));
             let vertices = &self.corner_vertices()[corners.clone()];
             outline.clear();
             outline.extend(vertices.iter().map(|&v| self.positions()[v as usize]));
@@ -32,7 +37,7 @@ impl Mesh {
             for triangle in &mut triangles[before..] {
                 *triangle = triangle.map(|corner| corner + corners.start as u32);
             }
-            triangle_faces.resize(triangles.len(), face as u32);
+            triangle_faces.resize(triangles.len(), face);
         }
         Triangulation { triangles, triangle_faces }
     }

@@ -84,6 +84,11 @@ fn link_large(group: &mut [u32], compare: &Comparison, first_alike: &mut [u32]) 
 /// the two zeros are one).
 struct Comparison<'a> {
     normals: &'a [Vec3],
+    others: AttributeComparison<'a>,
+}
+
+/// The same without normals.
+pub(crate) struct AttributeComparison<'a> {
     uv_sets: &'a [Vec<Vec2>],
     /// Empty when the mesh has none.
     colors: &'a [Vec4],
@@ -98,9 +103,25 @@ struct Comparison<'a> {
 
 impl<'a> Comparison<'a> {
     fn new(mesh: &'a Mesh, normals: &'a [Vec3]) -> Self {
+        Self { normals, others: AttributeComparison::new(mesh) }
+    }
+
+    fn equal(&self, a: u32, b: u32) -> bool {
+        let [normal_a, normal_b] = [a, b].map(|corner| self.normals[corner as usize].to_array());
+        bits(normal_a) == bits(normal_b) && self.others.equal(a, b)
+    }
+
+    /// Some total order in which only corners that agree are equal.
+    fn order(&self, a: u32, b: u32) -> Ordering {
+        let [normal_a, normal_b] = [a, b].map(|corner| self.normals[corner as usize].to_array());
+        by_bits(normal_a, normal_b).then_with(|| self.others.order(a, b))
+    }
+}
+
+impl<'a> AttributeComparison<'a> {
+    pub(crate) fn new(mesh: &'a Mesh) -> Self {
         let attributes = mesh.attributes();
         Self {
-            normals,
             uv_sets: &attributes.uv_sets,
             colors: attributes.corner_colors.as_deref().unwrap_or(&[]),
             tangents: attributes.corner_tangents.as_deref().unwrap_or(&[]),
@@ -112,10 +133,9 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    fn equal(&self, a: u32, b: u32) -> bool {
+    pub(crate) fn equal(&self, a: u32, b: u32) -> bool {
         let [a, b] = [a as usize, b as usize];
-        bits(self.normals[a].to_array()) == bits(self.normals[b].to_array())
-            && self.uv_sets.iter().all(|set| bits(set[a].to_array()) == bits(set[b].to_array()))
+        self.uv_sets.iter().all(|set| bits(set[a].to_array()) == bits(set[b].to_array()))
             && [self.colors, self.tangents]
                 .iter()
                 .all(|values| values.is_empty() || bits(values[a].to_array()) == bits(values[b].to_array()))
@@ -123,9 +143,9 @@ impl<'a> Comparison<'a> {
     }
 
     /// Some total order in which only corners that agree are equal.
-    fn order(&self, a: u32, b: u32) -> Ordering {
+    pub(crate) fn order(&self, a: u32, b: u32) -> Ordering {
         let [a, b] = [a as usize, b as usize];
-        let mut order = by_bits(self.normals[a].to_array(), self.normals[b].to_array());
+        let mut order = Ordering::Equal;
         for set in self.uv_sets {
             order = order.then_with(|| by_bits(set[a].to_array(), set[b].to_array()));
         }
@@ -143,7 +163,8 @@ fn by_bits<const N: usize>(a: [f32; N], b: [f32; N]) -> Ordering {
     bits(a).cmp(&bits(b))
 }
 
-fn bits<const N: usize>(values: [f32; N]) -> [u32; N] {
+/// What tells values apart.
+pub(crate) fn bits<const N: usize>(values: [f32; N]) -> [u32; N] {
     // Adding zero turns -0 into +0 and changes nothing else.
     values.map(|value| (value + 0.0).to_bits())
 }

@@ -1,22 +1,23 @@
 //! The scene: a forest of nodes over shared meshes, materials and textures.
 
 mod append;
+mod mesh_asset;
 mod placed;
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use thiserror::Error;
 use trigon_camera::{Camera, Projection};
-use trigon_math::{Bounds3, DAffine3, DMat3, DQuat, DVec3, Vec3};
-use trigon_mesh::Mesh;
+use trigon_math::{Bounds3, DAffine3, DMat3, DQuat, DVec3};
+use trigon_mesh::{ChangeError, Mesh, MeshChange};
 use trigon_raster::Texture;
 
 use crate::animation::Animation;
 use crate::arena::{Arena, Id};
 use crate::material::Material;
 use crate::node::Node;
-use crate::render::Geometry;
 use crate::skin::Skin;
+pub use mesh_asset::MeshAsset;
 pub(crate) use placed::PlacedMesh;
 
 /// Names a node.
@@ -29,44 +30,6 @@ pub type MaterialId = Id<Material>;
 pub type SkinId = Id<Skin>;
 /// Names a texture.
 pub type TextureId = Id<TextureAsset>;
-
-/// A mesh as the scene shares it between nodes.
-#[derive(Clone, Debug)]
-pub struct MeshAsset {
-    /// For people; need not be unique.
-    pub name: String,
-    mesh: Arc<Mesh>,
-    bounds: OnceLock<Bounds3>,
-    geometry: OnceLock<Arc<Geometry>>,
-}
-
-impl MeshAsset {
-    /// The polygons.
-    pub fn mesh(&self) -> &Mesh {
-        &self.mesh
-    }
-
-    /// The same, to be held on to: another one after [`Scene::replace_mesh`].
-    pub fn shared_mesh(&self) -> &Arc<Mesh> {
-        &self.mesh
-    }
-
-    /// The smallest box around the vertices that faces, edges or points use.
-    pub fn bounds(&self) -> Bounds3 {
-        *self.bounds.get_or_init(|| used_bounds(&self.mesh, self.mesh.positions()))
-    }
-
-    /// What is drawn of it; made at the first use.
-    pub(crate) fn geometry(&self) -> &Arc<Geometry> {
-        self.geometry.get_or_init(|| Arc::new(Geometry::new(&self.mesh)))
-    }
-}
-
-/// Stray vertices of a file must not push the model out of the picture.
-fn used_bounds(mesh: &Mesh, positions: &[Vec3]) -> Bounds3 {
-    let used = positions.iter().zip(mesh.used_vertices()).filter(|&(_, used)| used);
-    Bounds3::from_points(used.map(|(point, _)| point.as_dvec3()))
-}
 
 /// A texture as the scene shares it between materials.
 #[derive(Clone, Debug)]
@@ -86,7 +49,7 @@ pub(crate) struct Place {
     pub(crate) is_mirrored: bool,
 }
 
-/// A change that would break the node forest.
+/// A change that a scene cannot make.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum SceneError {
     /// The node was removed, or belongs to another scene.
@@ -100,6 +63,12 @@ pub enum SceneError {
         /// Where it was to hang.
         parent: NodeId,
     },
+    /// The mesh was removed, or belongs to another scene.
+    #[error("mesh {0:?} is not in the scene; it belongs to another one")]
+    NoSuchMesh(MeshId),
+    /// The mesh has not what was to be changed.
+    #[error(transparent)]
+    Change(#[from] ChangeError),
 }
 
 /// Everything that can be drawn: nodes, and the meshes, materials and textures
@@ -127,21 +96,50 @@ impl Scene {
 
     /// Adds a mesh, to be drawn by nodes.
     pub fn add_mesh(&mut self, name: impl Into<String>, mesh: Mesh) -> MeshId {
-        self.meshes.insert(MeshAsset {
-            name: name.into(),
-            mesh: Arc::new(mesh),
-            bounds: OnceLock::new(),
-            geometry: OnceLock::new(),
-        })
+        self.meshes.insert(MeshAsset::new(name.into(), mesh))
     }
 
     /// Changes a mesh for every node that draws it; `None` when it was removed.
     pub fn replace_mesh(&mut self, id: MeshId, mesh: Mesh) -> Option<()> {
-        let asset = self.meshes.get_mut(id)?;
-        asset.mesh = Arc::new(mesh);
-        asset.bounds = OnceLock::new();
-        asset.geometry = OnceLock::new();
+        self.meshes.get_mut(id)?.replace(mesh);
         Some(())
+    }
+
+    /// Gives some elements of a mesh other values, for every node that draws it. Pictures
+    /// are, to the byte, those of a scene that was made with the changed mesh.
+    ///
+    /// Unlike [`replace_mesh`](Self::replace_mesh), this takes a time proportional to the
+    /// change, and so does what the next picture has to find out anew about the mesh: but
+    /// for the first change, after which it is all made anew once. (So an editor hides that wait
+    /// by an empty change before its user drags anything.) Every time anew come the whole mesh if a
+    /// pose can bend it, tangents if they are generated for a normal map, shadow maps, and
+    /// the tree of rays.
+    ///
+    /// A mesh or a scene that was cloned shares its meshes, and a shared mesh is copied when
+    /// it is changed.
+    ///
+    /// ```
+    /// use trigon_scene::math::Vec3;
+    /// use trigon_scene::mesh::{MeshChange, primitives};
+    /// use trigon_scene::{Material, RenderSettings, Scene, render};
+    ///
+    /// let mut scene = Scene::new();
+    /// scene.add_object("grid", primitives::grid(2.0, 2.0, 20, 20), Material::default());
+    /// let (camera, settings) = (scene.overview(1.0), RenderSettings::new(32, 32));
+    /// let before = render(&scene, &camera, &settings)?;
+    ///
+    /// let (id, _) = scene.meshes().iter().next().expect("one was added");
+    /// let change = MeshChange { positions: vec![(220, Vec3::Y)], ..MeshChange::default() };
+    /// scene.change_mesh(id, &change)?;
+    /// assert!(render(&scene, &camera, &settings)? != before, "a vertex was drawn up");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When the mesh is gone, or has not what is to be changed. It stays as it was.
+    pub fn change_mesh(&mut self, id: MeshId, change: &MeshChange) -> Result<(), SceneError> {
+        let asset = self.meshes.get_mut(id).ok_or(SceneError::NoSuchMesh(id))?;
+        Ok(asset.change(change)?)
     }
 
     /// All meshes.

@@ -1,23 +1,54 @@
 //! A scene that is changed on the window's thread while a worker draws it.
+//!
+//! Each of the worker's threads has a replica of the scene. They share meshes until one is
+//! changed by [`SharedScene::change_mesh`]; from then on each has a mesh of its own and is
+//! sent only the values that changed. So no mesh is copied because another thread draws it.
 
+use std::collections::BTreeMap;
 use std::ops::{Deref, DerefMut};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use trigon_scene::Scene;
+use trigon_scene::mesh::{ChangedElements, MeshChange};
+use trigon_scene::{MeshId, Scene, SceneError};
 
-/// A scene to be used as any other. What a worker is drawing meanwhile stays as it
-/// was: the first change after a picture was begun copies the nodes and materials, but
-/// neither meshes nor textures. Whoever takes it mutably is taken to have changed it.
-#[derive(Clone, Debug)]
+/// More than a worker has threads. Of more replicas the one that was brought up to date
+/// longest ago gets a whole scene the next time.
+const MOST_REPLICAS: usize = 4;
+
+/// A scene to be used as any other. What a worker is drawing meanwhile stays as it was.
+///
+/// Whoever takes it mutably is taken to have changed it: before the next picture its nodes
+/// and materials are copied then, but neither meshes nor textures.
+/// [`change_mesh`](Self::change_mesh) is the way to change a large mesh often.
+#[derive(Clone, Debug, Default)]
 pub struct SharedScene {
-    scene: Arc<Scene>,
+    scene: Scene,
     revision: Revision,
+    /// Scenes of other threads that differ from this one in values of meshes alone.
+    replicas: Vec<Replica>,
+}
+
+/// The scene of another thread.
+#[derive(Clone, Debug)]
+struct Replica {
+    /// What it is equal to.
+    revision: Revision,
+    /// What has been changed since.
+    changed: BTreeMap<MeshId, ChangedElements>,
 }
 
 /// Tells two states of a scene apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Revision(u64);
+
+/// What makes a replica equal to its scene.
+#[derive(Debug)]
+pub(crate) enum SceneUpdate {
+    /// Another scene.
+    Whole(Box<Scene>),
+    /// Values in meshes.
+    Meshes(Vec<(MeshId, MeshChange)>),
+}
 
 impl Revision {
     fn next() -> Self {
@@ -26,10 +57,51 @@ impl Revision {
     }
 }
 
+impl Default for Revision {
+    fn default() -> Self {
+        Self::next()
+    }
+}
+
 impl SharedScene {
-    /// The scene of this moment, for another thread.
-    pub(crate) fn share(&self) -> Arc<Scene> {
-        Arc::clone(&self.scene)
+    /// Gives some elements of a mesh other values; see [`Scene::change_mesh`]. The first
+    /// change copies the mesh for each thread that draws it; later ones copy nothing, as
+    /// long as the scene is not changed in other ways in between.
+    ///
+    /// # Errors
+    /// When the mesh is gone, or has not what is to be changed. It stays as it was.
+    pub fn change_mesh(&mut self, id: MeshId, change: &MeshChange) -> Result<(), SceneError> {
+        self.scene.change_mesh(id, change)?;
+        self.revision = Revision::next();
+        for replica in &mut self.replicas {
+            replica.changed.entry(id).or_default().add(change);
+        }
+        Ok(())
+    }
+
+    /// What makes a replica equal to this scene that is equal to the revision `held`. It
+    /// has to be applied: `held` becomes this scene's revision.
+    pub(crate) fn update(&mut self, held: &mut Option<Revision>) -> SceneUpdate {
+        let known = self.replicas.iter().position(|replica| Some(replica.revision) == *held);
+        let behind = known.map(|known| self.replicas.remove(known));
+        if self.replicas.len() == MOST_REPLICAS {
+            self.replicas.remove(0);
+        }
+        self.replicas.push(Replica { revision: self.revision, changed: BTreeMap::new() });
+        *held = Some(self.revision);
+        match behind {
+            Some(Replica { changed, .. }) => SceneUpdate::Meshes(self.values(&changed)),
+            None => SceneUpdate::Whole(Box::new(self.scene.clone())),
+        }
+    }
+
+    /// The values that changed elements have now.
+    fn values(&self, changed: &BTreeMap<MeshId, ChangedElements>) -> Vec<(MeshId, MeshChange)> {
+        let values = changed.iter().filter_map(|(&id, changed)| {
+            let mesh = self.scene.meshes().get(id)?.mesh();
+            Some((id, changed.values_in(mesh)))
+        });
+        values.collect()
     }
 
     pub(crate) fn revision(&self) -> Revision {
@@ -37,15 +109,22 @@ impl SharedScene {
     }
 }
 
-impl Default for SharedScene {
-    fn default() -> Self {
-        Scene::new().into()
+impl SceneUpdate {
+    pub(crate) fn apply(self, scene: &mut Scene) {
+        match self {
+            Self::Whole(whole) => *scene = *whole,
+            Self::Meshes(changes) => {
+                for (id, change) in changes {
+                    scene.change_mesh(id, &change).expect("the original was changed so");
+                }
+            }
+        }
     }
 }
 
 impl From<Scene> for SharedScene {
     fn from(scene: Scene) -> Self {
-        Self { scene: Arc::new(scene), revision: Revision::next() }
+        Self { scene, ..Self::default() }
     }
 }
 
@@ -60,32 +139,10 @@ impl Deref for SharedScene {
 impl DerefMut for SharedScene {
     fn deref_mut(&mut self) -> &mut Scene {
         self.revision = Revision::next();
-        Arc::make_mut(&mut self.scene)
+        self.replicas.clear();
+        &mut self.scene
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_drawn_stays_and_what_is_changed_is_known() {
-        let mut scene = SharedScene::default();
-        scene.add(trigon_scene::Node::default());
-        let (drawn, before) = (scene.share(), scene.revision());
-        assert_eq!(scene.nodes().len(), 1, "looking changes nothing");
-        assert_eq!(scene.revision(), before, "and is not taken for a change");
-        scene.add(trigon_scene::Node::default());
-        assert_eq!(
-            (drawn.nodes().len(), scene.nodes().len()),
-            (1, 2),
-            "the picture under way is of one node"
-        );
-        assert_ne!(scene.revision(), before, "the next one has to be drawn");
-        assert_ne!(
-            SharedScene::default().revision(),
-            SharedScene::default().revision(),
-            "another scene is another"
-        );
-    }
-}
+mod tests;

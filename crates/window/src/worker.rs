@@ -12,6 +12,7 @@ use trigon_scene::{Cancel, Frame, Outputs, RenderError, RenderSettings, Renderer
 use crate::drawer::Drawer;
 use crate::pacing::Quality;
 use crate::refinement::{Compared, compare};
+use crate::shared_scene::{Revision, SceneUpdate};
 
 /// What a picture is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,13 +34,16 @@ pub(crate) struct Job {
 /// A picture to be drawn, or two to be compared.
 pub(crate) enum Task {
     Draw {
-        scene: Arc<Scene>,
+        /// Makes the thread's replica equal to the scene to be drawn; see [`Worker::held`].
+        scene: SceneUpdate,
         settings: Box<RenderSettings>,
         /// Instead of the renderer.
         drawer: Option<Arc<dyn Drawer>>,
     },
     /// What was found, and what is right.
     Compare([Arc<Frame>; 2]),
+    /// Drops the thread's replica, which is of no more use. There is no product.
+    Forget,
 }
 
 /// What a job ends with.
@@ -67,10 +71,10 @@ pub(crate) struct Finished {
 /// Does one job at a time.
 pub(crate) struct Worker {
     /// What somebody waits for.
-    first: Hands,
+    first: Holder,
     /// What is only better than what is shown. Once that is cancelled, nobody waits until
     /// its last tiles are given up, which may take seconds where rays are cast.
-    second: Option<Hands>,
+    second: Option<Holder>,
     under_way: Option<UnderWay>,
     /// Given up, and not collected yet.
     abandoned: Option<UnderWay>,
@@ -88,6 +92,12 @@ struct UnderWay {
 /// A job with its number, and what ends it.
 type Numbered = (u64, Job, Cancel);
 
+/// Who does jobs, and the revision that its replica of the scene is equal to.
+struct Holder {
+    hands: Hands,
+    held: Option<Revision>,
+}
+
 enum Hands {
     /// A thread, and what it has finished.
     Thread { jobs: Sender<Numbered>, finished: Receiver<(u64, Finished)> },
@@ -99,6 +109,8 @@ enum Hands {
 /// What does jobs.
 struct Drawing {
     renderer: Renderer,
+    /// A replica of the window's, so that neither waits for the other.
+    scene: Scene,
     /// Tells the time since any fixed moment.
     clock: Box<dyn Fn() -> Duration + Send>,
 }
@@ -134,6 +146,7 @@ impl Worker {
     }
 
     fn new(first: Hands, second: Option<Hands>) -> Self {
+        let (first, second) = (Holder::new(first), second.map(Holder::new));
         Self { first, second, under_way: None, abandoned: None, begun: 0 }
     }
 
@@ -142,13 +155,32 @@ impl Worker {
         self.under_way.is_some()
     }
 
+    /// Which revision the replica is equal to that is drawn for this purpose, once all jobs
+    /// begun so far are done.
+    pub(crate) fn held(&mut self, purpose: Purpose) -> &mut Option<Revision> {
+        &mut self.holder(purpose).held
+    }
+
     /// Begins a job; the last one is finished.
     pub(crate) fn begin(&mut self, job: Job) {
+        if matches!(job.task, Task::Draw { scene: SceneUpdate::Whole(_), .. }) {
+            self.forget_others(job.purpose);
+        }
         self.begun += 1;
         let (number, cancel) = (self.begun, Cancel::default());
         let Job { purpose, camera, .. } = job;
         self.under_way = Some(UnderWay { number, purpose, camera, cancel: cancel.clone() });
-        self.hands(purpose).begin((number, job, cancel));
+        self.holder(purpose).hands.begin((number, job, cancel));
+    }
+
+    /// Another scene took the place of the one before, which the second thread should not
+    /// hold until it draws again.
+    fn forget_others(&mut self, purpose: Purpose) {
+        let Some(second) = self.second.as_mut().filter(|_| !purpose.is_refinement()) else { return };
+        if second.held.take().is_some() {
+            let forget = Job { purpose, camera: Camera::default(), task: Task::Forget };
+            second.hands.begin((0, forget, Cancel::default()));
+        }
     }
 
     /// Nobody will look at the job under way. It still has to be collected.
@@ -171,13 +203,13 @@ impl Worker {
             });
         }
         let &UnderWay { number, purpose, .. } = self.under_way.as_ref()?;
-        let finished = self.hands(purpose).finished(number)?;
+        let finished = self.holder(purpose).hands.finished(number)?;
         self.under_way = None;
         Some(finished)
     }
 
     /// Who does what is for this purpose.
-    fn hands(&mut self, purpose: Purpose) -> &mut Hands {
+    fn holder(&mut self, purpose: Purpose) -> &mut Holder {
         match &mut self.second {
             Some(second) if purpose.is_refinement() => second,
             _ => &mut self.first,
@@ -198,6 +230,12 @@ impl Purpose {
     }
 }
 
+impl Holder {
+    fn new(hands: Hands) -> Self {
+        Self { hands, held: None }
+    }
+}
+
 impl Hands {
     fn of_caller() -> Self {
         Self::Caller { drawing: Box::new(Drawing::new(|| Duration::ZERO)), finished: None }
@@ -212,10 +250,13 @@ impl Hands {
         let (done, finished) = channel();
         let work = move || {
             while let Ok((number, job, cancel)) = to_do.recv() {
+                let is_silent = matches!(job.task, Task::Forget);
                 if done.send((number, run(job, &cancel))).is_err() {
                     return;
                 }
-                ring();
+                if !is_silent {
+                    ring();
+                }
             }
         };
         thread::Builder::new().name("trigon-render".into()).spawn(work).ok()?;
@@ -243,46 +284,51 @@ impl Hands {
 
 impl Drawing {
     fn new(clock: impl Fn() -> Duration + Send + 'static) -> Self {
-        Self { renderer: Renderer::builder().build(), clock: Box::new(clock) }
+        Self { renderer: Renderer::builder().build(), scene: Scene::new(), clock: Box::new(clock) }
     }
 
     fn run(&mut self, Job { purpose, camera, task }: Job, cancel: &Cancel) -> Finished {
         let begun = (self.clock)();
         let product = match task {
             Task::Draw { scene, settings, drawer } => {
+                // Also for a picture that was cancelled: the next update counts on it.
+                scene.apply(&mut self.scene);
+                let seen = (&self.scene, &camera);
                 let drawn = match drawer {
-                    None => render((&scene, &camera), *settings, &mut self.renderer, cancel),
-                    Some(drawer) => draw_otherwise(&*drawer, (&scene, &camera), &settings, cancel)
-                        .and_then(|frame| self.with_ids(frame, (&scene, &camera), *settings, cancel)),
+                    None => render(seen, *settings, &mut self.renderer, cancel),
+                    Some(drawer) => draw_otherwise(&*drawer, seen, &settings, cancel)
+                        .and_then(|frame| with_ids(frame, seen, *settings, (&mut self.renderer, cancel))),
                 };
                 drawn.map(Product::Picture)
             }
             Task::Compare([found, right]) => {
                 compare(&found, &right, cancel).map(Product::Comparison).ok_or(Unfinished::Cancelled)
             }
+            Task::Forget => {
+                self.scene = Scene::new();
+                Err(Unfinished::Cancelled)
+            }
         };
         Finished { purpose, camera, took: (self.clock)().saturating_sub(begun), product }
     }
+}
 
-    /// Another drawer's picture, with ids and depths as the renderer finds them where the
-    /// settings ask for them and the drawer has none.
-    fn with_ids(
-        &mut self,
-        frame: Frame,
-        (scene, camera): (&Scene, &Camera),
-        settings: RenderSettings,
-        cancel: &Cancel,
-    ) -> Result<Frame, Unfinished> {
-        let RenderSettings { outputs, .. } = settings;
-        if !outputs.ids || (frame.object_ids.is_some() && frame.face_ids.is_some() && frame.depth.is_some()) {
-            return Ok(frame);
-        }
-        let outputs = Outputs { color: false, radiance: false, ..outputs };
-        let settings = RenderSettings { outputs, samples_per_axis: 1, samples: 1, ..settings };
-        let seen = render((scene, camera), settings, &mut self.renderer, cancel)?;
-        let Frame { depth, object_ids, face_ids, .. } = seen;
-        Ok(Frame { depth, object_ids, face_ids, ..frame })
+/// Another drawer's picture, with ids and depths as the renderer finds them where the
+/// settings ask for them and the drawer has none.
+fn with_ids(
+    frame: Frame,
+    seen: (&Scene, &Camera),
+    settings: RenderSettings,
+    (renderer, cancel): (&mut Renderer, &Cancel),
+) -> Result<Frame, Unfinished> {
+    let RenderSettings { outputs, .. } = settings;
+    if !outputs.ids || (frame.object_ids.is_some() && frame.face_ids.is_some() && frame.depth.is_some()) {
+        return Ok(frame);
     }
+    let outputs = Outputs { color: false, radiance: false, ..outputs };
+    let settings = RenderSettings { outputs, samples_per_axis: 1, samples: 1, ..settings };
+    let Frame { depth, object_ids, face_ids, .. } = render(seen, settings, renderer, cancel)?;
+    Ok(Frame { depth, object_ids, face_ids, ..frame })
 }
 
 fn render(

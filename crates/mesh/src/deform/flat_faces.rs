@@ -69,7 +69,7 @@ fn flat_faces(mesh: &Mesh) -> impl Iterator<Item = Range<usize>> + '_ {
     let moves = attributes.skin.is_some() || targets.any(|target| !target.positions.is_empty());
     let is_smooth = |face: usize| attributes.face_smooth.as_ref().is_some_and(|smooth| smooth[face]);
     let told = if moves { told_corners(attributes, mesh.corner_count()) } else { Vec::new() };
-    let faces = mesh.faces().enumerate().filter(move |_| moves);
+    let faces = mesh.faces().enumerate().take(if moves { mesh.face_count() } else { 0 });
     let flat =
         faces.filter(move |(face, corners)| !is_smooth(*face) && !told[corners.clone()].contains(&true));
     flat.map(|(_, corners)| corners)

@@ -1,6 +1,7 @@
 //! Tests of trigon-mesh by its public face, one module per subject.
 
 mod building;
+mod changes;
 mod deform;
 mod normals;
 mod outlines;

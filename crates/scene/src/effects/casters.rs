@@ -8,11 +8,11 @@ use trigon_raster::Texture;
 
 use crate::material::{AlphaMode, Material};
 use crate::node::Node;
-use crate::render::{Geometry, Shape, Shapes};
+use crate::render::{Geometry, GeometryState, Shape, Shapes};
 use crate::scene::{Place, Scene};
 
 /// All that casts shadows in a scene.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Casters {
     pub(crate) list: Vec<Caster>,
     /// In the world; empty without casters.
@@ -20,36 +20,38 @@ pub(crate) struct Casters {
 }
 
 /// One mesh at one node.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Caster {
     pub(crate) geometry: Arc<Geometry>,
+    pub(crate) shadow: ShadowSource,
+    bounds: Bounds3,
+}
+
+/// All that a caster's shadow depends on, to know it again in a later picture. It names the
+/// geometry without holding it: geometry that nobody else holds is changed in place.
+#[derive(Clone, Debug)]
+pub(crate) struct ShadowSource {
+    geometry: GeometryState,
     pub(crate) place: Place,
     /// For each run of the geometry its material, or `None` where light passes.
     pub(crate) materials: Vec<Option<Material>>,
     /// What the materials' textures of colour and of transmission are at this moment:
     /// a picture can be exchanged under its id, or be gone.
     textures: Vec<[Option<Arc<Texture>>; 2]>,
-    bounds: Bounds3,
 }
 
-impl PartialEq for Caster {
-    /// Whether its shadow is the same for sure.
+impl PartialEq for ShadowSource {
+    /// Whether the shadow is the same for sure.
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.geometry, &other.geometry)
+        self.geometry == other.geometry
             && self.place == other.place
             && self.materials == other.materials
             && self.texture_addresses().eq(other.texture_addresses())
     }
 }
 
-impl PartialEq for Casters {
-    fn eq(&self, other: &Self) -> bool {
-        self.list == other.list
-    }
-}
-
-impl Caster {
-    /// What tells textures apart: both casters keep theirs alive, so no two share one.
+impl ShadowSource {
+    /// What tells textures apart: both keep theirs alive, so no two share one.
     fn texture_addresses(&self) -> impl Iterator<Item = Option<*const Texture>> {
         self.textures.iter().flatten().map(|texture| texture.as_ref().map(Arc::as_ptr))
     }
@@ -67,11 +69,17 @@ impl Casters {
             }
             let bounds = geometry.bounds().transformed(&place.world);
             casters.bounds = casters.bounds.union(bounds);
-            let (geometry, place) = (Arc::clone(geometry), *place);
             let textures = materials.iter().flatten().map(|material| textures(scene, material)).collect();
-            casters.list.push(Caster { geometry, place, materials, textures, bounds });
+            let shadow =
+                ShadowSource { geometry: geometry.state.clone(), place: *place, materials, textures };
+            casters.list.push(Caster { geometry: Arc::clone(geometry), shadow, bounds });
         }
         casters
+    }
+
+    /// What the shadows of all casters depend on.
+    pub(crate) fn shadow_sources(&self) -> impl Iterator<Item = &ShadowSource> {
+        self.list.iter().map(|caster| &caster.shadow)
     }
 
     /// The boxes of all casters in the world.

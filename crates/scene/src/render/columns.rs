@@ -2,7 +2,7 @@
 //! vectors reads.
 
 use trigon_math::{Vec2, Vec3, Vec4};
-use trigon_mesh::{Deformed, RenderMesh};
+use trigon_mesh::{Deformed, Mesh, RenderMesh, UpdatedVertex};
 
 /// The values of a mesh's vertices. All columns have the same length.
 #[derive(Clone, Debug, Default)]
@@ -38,6 +38,26 @@ impl Columns {
         }
     }
 
+    /// Writes the values of vertices that a change of the mesh has touched; new ones come
+    /// in the order of their numbers.
+    pub(crate) fn update(&mut self, mesh: &Mesh, vertices: &[UpdatedVertex]) {
+        let attributes = mesh.attributes();
+        let position = |of: &UpdatedVertex| {
+            mesh.positions()[mesh.corner_vertices()[of.corner as usize] as usize].to_array()
+        };
+        write(&mut self.positions, vertices, position);
+        write(&mut self.normals, vertices, |of| of.normal.to_array());
+        if let (Some(columns), Some(values)) = (&mut self.tangents, &attributes.corner_tangents) {
+            write(columns, vertices, |of| values[of.corner as usize].to_array());
+        }
+        for (columns, values) in self.uv_sets.iter_mut().zip(&attributes.uv_sets) {
+            write(columns, vertices, |of| values[of.corner as usize].to_array());
+        }
+        if let (Some(columns), Some(values)) = (&mut self.colors, &attributes.corner_colors) {
+            write(columns, vertices, |of| values[of.corner as usize].to_array());
+        }
+    }
+
     /// Bytes of what a pose changes.
     pub(crate) fn byte_count(&self) -> usize {
         let tangents = self.tangents.iter().flatten();
@@ -47,6 +67,22 @@ impl Columns {
 
     pub(crate) fn vertex_count(&self) -> usize {
         self.positions[0].len()
+    }
+}
+
+fn write<const N: usize>(
+    columns: &mut [Vec<f32>; N],
+    vertices: &[UpdatedVertex],
+    value: impl Fn(&UpdatedVertex) -> [f32; N],
+) {
+    for vertex in vertices {
+        let index = vertex.vertex as usize;
+        for (column, entry) in columns.iter_mut().zip(value(vertex)) {
+            match column.get_mut(index) {
+                Some(place) => *place = entry,
+                None => column.push(entry),
+            }
+        }
     }
 }
 

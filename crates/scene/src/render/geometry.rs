@@ -1,7 +1,9 @@
 //! A mesh as it is drawn: triangles grouped by material slot.
 //!
 //! Made once per mesh, at its first picture, and shared by all nodes that draw
-//! the mesh.
+//! the mesh. After a change of few of the mesh's values it follows: see `change`.
+
+mod change;
 
 use std::mem::take;
 use std::ops::Range;
@@ -9,7 +11,7 @@ use std::sync::{Arc, OnceLock};
 
 use trigon_math::glam::Affine3;
 use trigon_math::{Bounds3, Vec3};
-use trigon_mesh::{Attributes, Deformed, Mesh, RenderMesh};
+use trigon_mesh::{Attributes, Deformed, Mesh, RenderLinks, RenderMesh};
 use trigon_raster::EdgeFlags;
 
 use super::columns::Columns;
@@ -30,6 +32,8 @@ pub(crate) struct Geometry {
     pub(crate) runs: Vec<Run>,
     /// Where each triangle was in the triangulation; `None` when in place.
     order: Option<Vec<u32>>,
+    /// Differs from that of any other geometry, and from its own before a change.
+    pub(crate) state: GeometryState,
     bounds: OnceLock<Bounds3>,
     edge_flags: OnceLock<Vec<EdgeFlags>>,
     /// The mesh at rest, if a pose can change it.
@@ -39,6 +43,20 @@ pub(crate) struct Geometry {
     tangential: Vec<OnceLock<Box<Geometry>>>,
     /// How a posed mesh without tangents came about, to make them.
     pose: Option<Pose>,
+    /// How it follows changes of the mesh; `None` until there was one.
+    links: Option<RenderLinks>,
+}
+
+/// Names geometry as it is at some moment. What is made of geometry is kept with its
+/// state, to know it again, and not with the geometry, which is changed in place where
+/// nobody else holds it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct GeometryState(Arc<()>);
+
+impl PartialEq for GeometryState {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
 }
 
 /// A mesh at rest and how it was deformed.
@@ -58,7 +76,10 @@ pub(crate) struct Run {
 
 impl Geometry {
     pub(crate) fn new(source: &Mesh) -> Self {
-        let mut mesh = RenderMesh::from_mesh(source);
+        Self::of(RenderMesh::from_mesh(source))
+    }
+
+    fn of(mut mesh: RenderMesh) -> Self {
         let order = sorted_by_slot(&mesh.triangle_materials);
         if let Some(order) = &order {
             permute(&mut mesh.triangles, order);
@@ -76,9 +97,11 @@ impl Geometry {
             faces,
             order,
             rest: mesh.is_deformable().then(|| Box::new(mesh)),
+            state: GeometryState::default(),
             bounds: OnceLock::new(),
             edge_flags: OnceLock::new(),
             pose: None,
+            links: None,
         }
     }
 
@@ -100,11 +123,13 @@ impl Geometry {
             faces: self.faces.clone(),
             runs: self.runs.clone(),
             order: self.order.clone(),
+            state: GeometryState::default(),
             bounds: OnceLock::new(),
             edge_flags: self.edge_flags.clone(),
             rest: None,
             tangential: places_for(&self.columns),
             pose: None,
+            links: None,
         })
     }
 
@@ -116,9 +141,9 @@ impl Geometry {
     /// The box around all vertices that faces use.
     pub(crate) fn bounds(&self) -> Bounds3 {
         *self.bounds.get_or_init(|| {
-            let [x, y, z] = &self.columns.positions;
-            let vertices = x.iter().zip(y).zip(z);
-            Bounds3::from_points(vertices.map(|((&x, &y), &z)| Vec3::new(x, y, z).as_dvec3()))
+            let [x, y, z] = self.columns.positions.each_ref().map(|column| range(column));
+            let [min, max] = [0, 1].map(|end| Vec3::new(x[end], y[end], z[end]));
+            box_between(min, max)
         })
     }
 
@@ -156,6 +181,47 @@ impl Geometry {
     }
 }
 
+/// The least and the greatest of some numbers, leaving out NaN. Several at a time, since
+/// large meshes that are changed wait for it.
+fn range(values: &[f32]) -> [f32; 2] {
+    const AT_A_TIME: usize = 16;
+    let (mut least, mut greatest) = ([f32::INFINITY; AT_A_TIME], [f32::NEG_INFINITY; AT_A_TIME]);
+    let (chunks, rest) = values.as_chunks::<AT_A_TIME>();
+    let mut include = |lane: usize, value: f32| {
+        least[lane] = if value < least[lane] { value } else { least[lane] };
+        greatest[lane] = if value > greatest[lane] { value } else { greatest[lane] };
+    };
+    for chunk in chunks {
+        (0..AT_A_TIME).for_each(|lane| include(lane, chunk[lane]));
+    }
+    rest.iter().for_each(|&value| include(0, value));
+    let least_of = |a: f32, b: f32| if b < a { b } else { a };
+    let greatest_of = |a: f32, b: f32| if b > a { b } else { a };
+    [
+        least.into_iter().fold(f32::INFINITY, least_of),
+        greatest.into_iter().fold(f32::NEG_INFINITY, greatest_of),
+    ]
+}
+
+/// The smallest box around points. Its bits do not depend on their order: zeros in it are
+/// positive. A NaN coordinate is skipped.
+pub(crate) fn box_around(points: impl Iterator<Item = Vec3>) -> Bounds3 {
+    let (mut min, mut max) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for point in points {
+        for (axis, value) in point.to_array().into_iter().enumerate() {
+            min[axis] = if value < min[axis] { value } else { min[axis] };
+            max[axis] = if value > max[axis] { value } else { max[axis] };
+        }
+    }
+    box_between(Vec3::from_array(min), Vec3::from_array(max))
+}
+
+fn box_between(min: Vec3, max: Vec3) -> Bounds3 {
+    // Adding zero makes zeros positive and changes nothing else.
+    let [min, max] = [min, max].map(|corner| (corner + Vec3::ZERO).as_dvec3());
+    Bounds3 { min, max }
+}
+
 /// An empty place for each UV set that can have tangents.
 fn places_for(columns: &Columns) -> Vec<OnceLock<Box<Geometry>>> {
     columns.uv_sets.iter().take(MOST_TANGENT_SETS).map(|_| OnceLock::new()).collect()
@@ -191,18 +257,35 @@ fn runs(slots: &[u32]) -> Vec<Run> {
 fn polygon_edges(source: &Mesh) -> Vec<EdgeFlags> {
     let triangulation = source.triangulation();
     let pairs = triangulation.triangles.iter().zip(&triangulation.triangle_faces);
-    let flags = pairs.map(|(&[a, b, c], &face)| {
-        let corners = source.face_corners(face as usize);
-        let (first, last) = (corners.start as u32, corners.end as u32 - 1);
-        let neighbours = |from: u32, to: u32| to == if from == last { first } else { from + 1 };
-        EdgeFlags::new([(a, b), (b, c), (c, a)].map(|(from, to)| neighbours(from, to)))
-    });
-    flags.collect()
+    pairs.map(|(&triangle, &face)| edge_flags(triangle, &source.face_corners(face as usize))).collect()
+}
+
+/// Of a triangle over some of the corners of a polygon.
+fn edge_flags([a, b, c]: [u32; 3], polygon: &Range<usize>) -> EdgeFlags {
+    let (first, last) = (polygon.start as u32, polygon.end as u32 - 1);
+    let neighbours = |from: u32, to: u32| to == if from == last { first } else { from + 1 };
+    EdgeFlags::new([(a, b), (b, c), (c, a)].map(|(from, to)| neighbours(from, to)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_box_around_points_is_that_of_all_of_them_in_any_order() {
+        let numbers = (0..50).map(|i| ((i * 37 % 50) as f32 - 20.0) * 0.5).collect::<Vec<_>>();
+        assert_eq!(range(&numbers), [-10.0, 14.5], "beyond whole groups, too");
+        assert_eq!(range(&[f32::NAN, 3.0]), [3.0; 2], "without NaN");
+        assert_eq!(range(&[]), [f32::INFINITY, f32::NEG_INFINITY], "of none");
+        let points = [Vec3::new(-0.0, 1.0, f32::NAN), Vec3::new(0.0, -2.0, f32::NAN)];
+        for points in [points, [points[1], points[0]]] {
+            let Bounds3 { min, max } = box_around(points.into_iter());
+            assert!(min.x.is_sign_positive() && max.x.is_sign_positive(), "one zero");
+            assert_eq!([min.y, max.y], [-2.0, 1.0], "both points");
+            assert!(min.z > max.z, "nothing is known of z");
+        }
+        assert_eq!(box_around(std::iter::empty()), Bounds3::EMPTY, "around nothing");
+    }
 
     #[test]
     fn triangles_are_grouped_by_slot_in_stable_order() {

@@ -20,7 +20,7 @@ pub(crate) mod surface;
 mod wire;
 
 pub use builder::RendererBuilder;
-pub(crate) use geometry::{Geometry, Run};
+pub(crate) use geometry::{Geometry, GeometryState, Run, box_around};
 pub use renderer::Renderer;
 pub(crate) use shapes::{Onlookers, Shape, Shapes};
 pub(crate) use stage::Stage;

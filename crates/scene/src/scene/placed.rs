@@ -1,10 +1,12 @@
 //! Meshes where their nodes put them, bent as joints and morph weights say.
 
+use std::sync::Arc;
+
 use trigon_math::glam::Affine3;
 use trigon_math::{Bounds3, DAffine3, DVec3, Vec3};
 use trigon_mesh::Mesh;
 
-use super::{MeshAsset, NodeId, Scene, used_bounds};
+use super::{MeshAsset, NodeId, Scene};
 use crate::skin::SkinPose;
 
 /// What bends a mesh.
@@ -26,7 +28,7 @@ pub(crate) struct PlacedMesh<'s> {
 impl Scene {
     /// What bends the mesh of a node; `None` where that is at rest.
     pub(crate) fn bend(&self, id: NodeId, asset: &MeshAsset) -> Option<Bend> {
-        let attributes = asset.mesh.attributes();
+        let attributes = asset.mesh().attributes();
         let joints = attributes.skin.as_ref().and_then(|_| self.skin_pose(id));
         let weights = &self.node(id)?.morph_weights;
         let is_morphed = !attributes.morph_targets.is_empty() && weights.iter().any(|&weight| weight != 0.0);
@@ -41,7 +43,7 @@ impl Scene {
         let Some(bend) = self.bend(id, asset) else {
             return Some(PlacedMesh { asset, posed: None, world });
         };
-        let posed = asset.mesh.deformed_positions(&node.morph_weights, bend.palette());
+        let posed = asset.mesh().deformed_positions(&node.morph_weights, bend.palette());
         Some(PlacedMesh { asset, posed: Some(posed), world: bend.joints.map_or(world, |pose| pose.world) })
     }
 
@@ -61,7 +63,7 @@ impl Bend {
 
 impl<'s> PlacedMesh<'s> {
     pub(crate) fn mesh(&self) -> &'s Mesh {
-        &self.asset.mesh
+        self.asset.mesh()
     }
 
     /// Where a vertex is in the world.
@@ -71,15 +73,15 @@ impl<'s> PlacedMesh<'s> {
 
     /// The vertices in the world that faces, edges or points use.
     pub(crate) fn into_used_points(self) -> impl Iterator<Item = DVec3> {
-        let used = self.asset.mesh.used_vertices();
-        let vertices = (0..).zip(used).filter(|&(_, used)| used);
-        vertices.map(move |(vertex, _)| self.place(vertex))
+        let used = Arc::clone(self.asset.used_vertices());
+        let vertices = (0..used.len() as u32).filter(move |&vertex| used[vertex as usize]);
+        vertices.map(move |vertex| self.place(vertex))
     }
 
     /// A box in the world around them.
     pub(crate) fn bounds(&self) -> Bounds3 {
         let local = match &self.posed {
-            Some(positions) => used_bounds(&self.asset.mesh, positions),
+            Some(positions) => self.asset.bounds_of(positions),
             None => self.asset.bounds(),
         };
         local.transformed(&self.world)
@@ -92,6 +94,6 @@ impl<'s> PlacedMesh<'s> {
 
     /// Where each vertex is in its pose.
     pub(crate) fn positions(&self) -> &[Vec3] {
-        self.posed.as_deref().unwrap_or(self.asset.mesh.positions())
+        self.posed.as_deref().unwrap_or(self.asset.mesh().positions())
     }
 }

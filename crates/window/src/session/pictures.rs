@@ -113,7 +113,8 @@ impl Session<'_> {
         }
         let settings = self.pictures.remove(0);
         self.pacing.occupy(true);
-        self.begin(Purpose::Picture, self.drawing(settings));
+        let task = self.drawing(Purpose::Picture, settings);
+        self.begin(Purpose::Picture, task);
         self.collect(now);
     }
 
@@ -131,21 +132,29 @@ impl Session<'_> {
     }
 
     /// What is to be done for the window; `None` if there is nothing to be compared.
-    fn task(&self, quality: Quality) -> Option<Task> {
+    fn task(&mut self, quality: Quality) -> Option<Task> {
+        let purpose = Purpose::Window(quality);
         let step = match quality {
-            Quality::Draft { shrink } => return Some(self.drawing(self.stage.draft_settings(shrink))),
+            Quality::Draft { shrink } => {
+                return Some(self.drawing(purpose, self.stage.draft_settings(shrink)));
+            }
             Quality::Full(step) => step,
         };
         let Some(settings) = self.stage.ladder().into_iter().nth(step) else {
             return self.gallery.pair().map(Task::Compare);
         };
-        let drawer = self.stage.drawer.clone().filter(|_| step == 0);
-        Some(Task::Draw { scene: self.stage.scene.share(), settings: Box::new(settings), drawer })
+        let other = self.stage.drawer.clone().filter(|_| step == 0);
+        let mut task = self.drawing(purpose, settings);
+        if let Task::Draw { drawer, .. } = &mut task {
+            *drawer = other;
+        }
+        Some(task)
     }
 
     /// A picture by the renderer.
-    fn drawing(&self, settings: RenderSettings) -> Task {
-        Task::Draw { scene: self.stage.scene.share(), settings: Box::new(settings), drawer: None }
+    fn drawing(&mut self, purpose: Purpose, settings: RenderSettings) -> Task {
+        let scene = self.stage.scene.update(self.worker.held(purpose));
+        Task::Draw { scene, settings: Box::new(settings), drawer: None }
     }
 
     fn begin(&mut self, purpose: Purpose, task: Task) {

@@ -10,14 +10,17 @@ use super::{
     Cancel, Drawer, Finished, Frame, Job, Product, Purpose, Quality, RenderSettings, Scene, Task, Unfinished,
     Worker,
 };
+use crate::shared_scene::{SceneUpdate, SharedScene};
 use trigon_camera::Camera;
-use trigon_mesh::primitives;
+use trigon_math::Vec3;
+use trigon_mesh::{MeshChange, primitives};
 use trigon_scene::{Material, render, showcase};
 
 /// A picture of a scene.
 fn job_of(scene: Scene, settings: RenderSettings) -> Job {
     let camera = scene.overview(1.0);
-    let task = Task::Draw { scene: Arc::new(scene), settings: Box::new(settings), drawer: None };
+    let scene = SceneUpdate::Whole(Box::new(scene));
+    let task = Task::Draw { scene, settings: Box::new(settings), drawer: None };
     Job { purpose: Purpose::Picture, camera, task }
 }
 
@@ -162,4 +165,85 @@ fn other_drawers_are_heard_and_not_trusted() {
     };
     assert_eq!(reason(product(Other(Err("not convex".into())))), "not convex", "its reason");
     assert!(reason(product(Other(Ok(3)))).contains("3x3"), "a picture of the wrong size is none");
+}
+
+/// Draws what it is given, once the gate is open, and tells that it has begun.
+struct Waiting(Sender<()>, Gate);
+
+impl Drawer for Waiting {
+    fn draw(
+        &self,
+        scene: &Scene,
+        camera: &Camera,
+        settings: &RenderSettings,
+        _: &Cancel,
+    ) -> Result<Frame, String> {
+        self.0.send(()).expect("the test waits for it");
+        self.1.pass();
+        render(scene, camera, settings).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn a_mesh_is_changed_while_a_picture_of_it_is_under_way() {
+    let mut scene = SharedScene::default();
+    scene.add_object("cube", primitives::cube(1.0), Material::default());
+    let (id, _) = scene.meshes().iter().next().expect("it was added");
+    let (settings, camera) = (RenderSettings::new(24, 24), scene.overview(1.0));
+    let (gate, (begun, has_begun)) = (Gate::default(), channel());
+    let waiting: Arc<dyn Drawer> = Arc::new(Waiting(begun, gate.clone()));
+    let (mut worker, rung) = Gate::default().worker(|_| false);
+    let begin = |worker: &mut Worker, scene: &mut SharedScene| {
+        let purpose = Purpose::Picture;
+        let update = scene.update(worker.held(purpose));
+        let (drawer, settings) = (Some(Arc::clone(&waiting)), Box::new(settings.clone()));
+        worker.begin(Job { purpose, camera, task: Task::Draw { scene: update, settings, drawer } });
+        has_begun.recv().expect("it is being drawn");
+    };
+    let pull = |scene: &mut SharedScene, to: f32| {
+        let change = MeshChange { positions: vec![(7, Vec3::splat(to))], ..MeshChange::default() };
+        scene.change_mesh(id, &change).expect("a cube has 8 vertices");
+        render(scene, &camera, &settings).expect("drawn")
+    };
+    let before = render(&scene, &camera, &settings).expect("drawn");
+    begin(&mut worker, &mut scene);
+    // The thread waits for this one: a change that waited for the thread would never end.
+    let after = pull(&mut scene, 0.9);
+    assert!(after != before, "the change is to be seen");
+    gate.open();
+    rung.recv().expect("it is done");
+    assert!(picture(&mut worker) == Some(before), "the scene as it was when the picture was begun");
+    for to in [0.9, 0.2, 0.7] {
+        let expected = pull(&mut scene, to);
+        begin(&mut worker, &mut scene);
+        rung.recv().expect("it is done");
+        assert!(picture(&mut worker) == Some(expected), "with the vertex at {to}");
+    }
+}
+
+#[test]
+fn nobody_holds_a_scene_that_another_one_replaced() {
+    let drawn = |worker: &mut Worker, purpose, scene: &mut SharedScene| {
+        let update = scene.update(worker.held(purpose));
+        let settings = Box::new(RenderSettings::new(8, 8));
+        let task = Task::Draw { scene: update, settings, drawer: None };
+        worker.begin(Job { purpose, camera: Camera::default(), task });
+    };
+    let (mut worker, rung) = Gate::default().worker(|_| false);
+    let mut scene = SharedScene::default();
+    let better = Purpose::Window(Quality::Full(1));
+    for purpose in [Purpose::Picture, better] {
+        drawn(&mut worker, purpose, &mut scene);
+        rung.recv().expect("it is done");
+        assert!(picture(&mut worker).is_some(), "by either thread");
+    }
+    assert!(worker.held(better).is_some(), "the second has the scene");
+    scene.add_object("cube", primitives::cube(1.0), Material::default());
+    drawn(&mut worker, Purpose::Picture, &mut scene);
+    assert!(worker.held(better).is_none(), "and gives it up");
+    rung.recv().expect("it is done");
+    assert!(picture(&mut worker).is_some(), "told once, for the picture");
+    drawn(&mut worker, better, &mut scene);
+    rung.recv().expect("it is done");
+    assert!(picture(&mut worker).is_some(), "and it goes on");
 }

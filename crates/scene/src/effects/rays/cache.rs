@@ -5,13 +5,13 @@ use std::sync::Arc;
 use trigon_math::DAffine3;
 
 use super::{RayScene, RayTriangles};
-use crate::effects::casters::Casters;
+use crate::effects::casters::{Casters, ShadowSource};
 use crate::scene::Scene;
 
 /// The tree of the last picture.
 #[derive(Debug, Default)]
 pub(crate) struct RayCache {
-    kept: Option<(Casters, Arc<RayTriangles>)>,
+    kept: Option<(Vec<ShadowSource>, Arc<RayTriangles>)>,
 }
 
 impl RayCache {
@@ -22,11 +22,12 @@ impl RayCache {
         looks_of: Option<&Scene>,
         camera_to_world: &DAffine3,
     ) -> RayScene {
-        let fits = |(kept, triangles): &(Casters, Arc<RayTriangles>)| {
-            kept == casters && triangles.surfaces.is_some() == looks_of.is_some()
+        let fits = |(kept, triangles): &(Vec<ShadowSource>, Arc<RayTriangles>)| {
+            casters.shadow_sources().eq(kept) && triangles.surfaces.is_some() == looks_of.is_some()
         };
         let kept = self.kept.take().filter(fits);
-        let made = || (casters.clone(), Arc::new(RayTriangles::new(casters, looks_of)));
+        let sources = || casters.shadow_sources().cloned().collect();
+        let made = || (sources(), Arc::new(RayTriangles::new(casters, looks_of)));
         let (_, triangles) = self.kept.insert(kept.unwrap_or_else(made));
         RayScene::new(Arc::clone(triangles), camera_to_world)
     }

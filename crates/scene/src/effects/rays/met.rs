@@ -130,7 +130,7 @@ impl MetSurfaces {
 
 impl MetCaster {
     fn new(scene: &Scene, caster: &Caster) -> Self {
-        let runs = caster.geometry.runs.iter().zip(&caster.materials);
+        let runs = caster.geometry.runs.iter().zip(&caster.shadow.materials);
         let looks = runs.filter_map(|(run, material)| {
             let material = material.as_ref()?;
             let bound = |binding: Option<TextureBinding>| {
@@ -147,7 +147,8 @@ impl MetCaster {
             };
             Some((run.triangles.clone(), look))
         });
-        let normal_to_scene = normal_matrix(&caster.place.world.matrix3, caster.place.is_mirrored);
+        let normal_to_scene =
+            normal_matrix(&caster.shadow.place.world.matrix3, caster.shadow.place.is_mirrored);
         Self { looks: looks.collect(), normal_to_scene, geometry: Arc::clone(&caster.geometry) }
     }
 }

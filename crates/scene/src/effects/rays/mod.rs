@@ -39,15 +39,17 @@ impl RayTriangles {
         let middle = casters.bounds.center().unwrap_or(DVec3::ZERO);
         let mut triangles = Vec::new();
         for caster in &casters.list {
-            let to_scene =
-                DAffine3 { translation: caster.place.world.translation - middle, ..caster.place.world };
+            let to_scene = DAffine3 {
+                translation: caster.shadow.place.world.translation - middle,
+                ..caster.shadow.place.world
+            };
             let [x, y, z] = &caster.geometry.columns.positions;
             let place = |vertex: u32| {
                 let vertex = vertex as usize;
                 let position = Vec3::new(x[vertex], y[vertex], z[vertex]);
                 to_scene.transform_point3(position.as_dvec3()).as_vec3()
             };
-            for (run, material) in caster.geometry.runs.iter().zip(&caster.materials) {
+            for (run, material) in caster.geometry.runs.iter().zip(&caster.shadow.materials) {
                 if material.is_some() {
                     let run = &caster.geometry.triangles[run.triangles.clone()];
                     triangles.extend(run.iter().map(|corners| corners.map(place)));

@@ -7,14 +7,14 @@ use trigon_math::DAffine3;
 use trigon_raster::{Rasterizer, TargetError};
 
 use super::{LampPose, PlacedMap, ShadowMap, ShadowMaps, draw, fit};
-use crate::effects::casters::Casters;
+use crate::effects::casters::{Casters, ShadowSource};
 use crate::scene::Scene;
 
 /// The shadow maps of the last picture.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ShadowCache {
     /// What was drawn, and in which resolution.
-    casters: Option<Casters>,
+    casters: Vec<ShadowSource>,
     resolution: u32,
     maps: Vec<(LampPose, Vec<Arc<ShadowMap>>)>,
     drawn: usize,
@@ -30,9 +30,9 @@ impl ShadowCache {
         camera_to_world: &DAffine3,
         rasterizer: &mut Rasterizer,
     ) -> Result<ShadowMaps, TargetError> {
-        if self.casters.as_ref() != Some(casters) || self.resolution != resolution {
+        if !casters.shadow_sources().eq(&self.casters) || self.resolution != resolution {
             self.maps.clear();
-            self.casters = Some(casters.clone());
+            self.casters = casters.shadow_sources().cloned().collect();
             self.resolution = resolution;
         }
         self.maps.retain(|(kept, _)| poses.contains(kept));

@@ -30,7 +30,7 @@ pub(super) fn draw(
     let eye = Eye::new(&view.camera, view.aspect);
     let mut shapes = Vec::new();
     for caster in &casters.list {
-        for (run, material) in caster.geometry.runs.iter().zip(&caster.materials) {
+        for (run, material) in caster.geometry.runs.iter().zip(&caster.shadow.materials) {
             let Some(material) = material else { continue };
             shapes.push((caster, run.triangles.clone(), shape(scene, &dark, &eye, caster, material)));
         }
@@ -73,7 +73,7 @@ fn shape<'a>(
         shading: ShadingModel::Flat,
         reflection: Reflection::Material,
     };
-    let place = eye.place(&caster.place, &caster.geometry.bounds());
+    let place = eye.place(&caster.shadow.place, &caster.geometry.bounds());
     if masked {
         Shape::Masked(Surface::new(
             (columns, &[]),

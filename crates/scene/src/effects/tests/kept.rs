@@ -136,6 +136,8 @@ enum Change {
     Texture(usize, [u8; 4]),
     /// The mesh of all nodes.
     Mesh(bool),
+    /// One of its vertices.
+    Vertex(u32, [f32; 3]),
     Camera(bool),
     Shadows(Shadows),
     /// Bounces, and rays of ambient occlusion.
@@ -166,6 +168,7 @@ fn change() -> impl Strategy<Value = Change> {
         2 => (0..3_usize, 0.0_f32..1.0).prop_map(|(node, weight)| Change::Morph(node, weight)),
         2 => (0..2_usize, any::<[u8; 4]>()).prop_map(|(texture, texel)| Change::Texture(texture, texel)),
         1 => any::<bool>().prop_map(Change::Mesh),
+        3 => (0..6_u32, prop::array::uniform3(-1.0_f32..1.0)).prop_map(|(vertex, to)| Change::Vertex(vertex, to)),
         1 => any::<bool>().prop_map(Change::Camera),
         3 => shadows.prop_map(Change::Shadows),
         2 => (0..3_u32, prop::option::of(1..4_u32)).prop_map(|(bounces, rays)| Change::Rays(bounces, rays)),
@@ -249,6 +252,12 @@ impl Changing {
                 let (id, _) = self.scene.meshes().iter().next().expect("there is one");
                 let mesh = if flat { square() } else { primitives::cube(0.8) };
                 self.scene.replace_mesh(id, mesh).expect("it is there");
+            }
+            Change::Vertex(vertex, to) => {
+                let (id, _) = self.scene.meshes().iter().next().expect("there is one");
+                let positions = vec![(vertex, Vec3::from_array(to))];
+                let change = trigon_mesh::MeshChange { positions, ..Default::default() };
+                self.scene.change_mesh(id, &change).expect("either mesh has 6 vertices");
             }
             Change::Camera(above) => self.camera = if above { from_above() } else { from_front() },
             _ => self.change_settings(change),

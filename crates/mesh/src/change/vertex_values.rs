@@ -1,0 +1,130 @@
+//! What the corners at a vertex show, and which of them can still be one render vertex.
+
+use trigon_math::Vec3;
+
+use super::local_normals::LocalNormals;
+use super::render_update::UpdatedVertex;
+use crate::Mesh;
+use crate::groups::Groups;
+use crate::weld::{AttributeComparison, bits};
+
+/// What is known of a mesh to find out what its corners show.
+pub(super) struct VertexValues<'a> {
+    vertex_of_corner: &'a [u32],
+    corners_at: &'a Groups<u32>,
+    normals: LocalNormals<'a>,
+    attributes: AttributeComparison<'a>,
+    /// Whether corners that were one render vertex can differ in nothing but normals.
+    same_attributes: bool,
+}
+
+/// What the corners at some vertices show.
+#[derive(Default)]
+pub(super) struct Shown {
+    /// By render vertices that there are.
+    pub(super) kept: Vec<UpdatedVertex>,
+    /// By new ones.
+    pub(super) split: Vec<SplitOff>,
+}
+
+/// Corners that no longer agree with others of their render vertex.
+pub(super) struct SplitOff {
+    pub(super) corners: Vec<u32>,
+    /// The one whose values they show, and its normal.
+    pub(super) shown: (u32, Vec3),
+}
+
+/// A corner, its normal, its render vertex so far, and the corner whose values that one is
+/// to show, with its normal.
+struct CornerValue {
+    corner: u32,
+    normal: Vec3,
+    before: u32,
+    shown: (u32, Vec3),
+}
+
+impl<'a> VertexValues<'a> {
+    /// `changed` are the corners with other attributes.
+    pub(super) fn new(
+        mesh: &'a Mesh,
+        vertex_of_corner: &'a [u32],
+        corners_at: &'a Groups<u32>,
+        face_normals: &'a [Vec3],
+        changed: &[u32],
+    ) -> Self {
+        Self {
+            vertex_of_corner,
+            corners_at,
+            normals: LocalNormals::new(mesh, face_normals),
+            attributes: AttributeComparison::new(mesh),
+            same_attributes: changed.is_empty(),
+        }
+    }
+
+    /// What is shown at some vertices.
+    pub(super) fn at(&self, vertices: &[u32]) -> Shown {
+        let mut shown = Shown { kept: Vec::with_capacity(vertices.len()), split: Vec::new() };
+        let (mut around, mut normals, mut values) = (Vec::new(), Vec::new(), Vec::new());
+        for &vertex in vertices {
+            let corners = self.corners_at.get(vertex);
+            self.normals.at_corners(corners, &mut around, &mut normals);
+            if let Some(updated) = self.whole(corners, &normals).filter(|_| self.same_attributes) {
+                shown.kept.push(updated);
+                continue;
+            }
+            values.clear();
+            values.extend(corners.iter().zip(&normals).map(|(&corner, &normal)| CornerValue {
+                corner,
+                normal,
+                before: self.vertex_of_corner[corner as usize],
+                shown: (corner, normal),
+            }));
+            self.parts(&mut values, &mut shown);
+        }
+        shown
+    }
+
+    /// The render vertex of all corners at a vertex, if they had the same one and agree in
+    /// their normals.
+    fn whole(&self, corners: &[u32], normals: &[Vec3]) -> Option<UpdatedVertex> {
+        let (&corner, &normal) = corners.first().zip(normals.first())?;
+        let vertex = self.vertex_of_corner[corner as usize];
+        let had_same = corners.iter().all(|&other| self.vertex_of_corner[other as usize] == vertex);
+        let agree = normals.iter().all(|&other| tells_apart(other) == tells_apart(normal));
+        (had_same && agree).then_some(UpdatedVertex { vertex, corner, normal })
+    }
+
+    /// The render vertices of the corners at one vertex: one for all that agreed before and
+    /// agree now.
+    fn parts(&self, values: &mut [CornerValue], found: &mut Shown) {
+        values.sort_unstable_by(|a, b| {
+            let order = tells_apart(a.normal).cmp(&tells_apart(b.normal));
+            order.then_with(|| self.attributes.order(a.corner, b.corner)).then(a.corner.cmp(&b.corner))
+        });
+        // All that agree now show the values of the first of them, as when they are welded.
+        // (They differ in nothing but the signs of zeros.)
+        let agree = |a: &CornerValue, b: &CornerValue| {
+            tells_apart(a.normal) == tells_apart(b.normal) && self.attributes.equal(a.corner, b.corner)
+        };
+        for alike in values.chunk_by_mut(agree) {
+            let first = (alike[0].corner, alike[0].normal);
+            alike.iter_mut().for_each(|value| value.shown = first);
+        }
+        values.sort_unstable_by_key(|value| (value.before, value.shown.0, value.corner));
+        let mut last = None;
+        for alike in values.chunk_by(|a, b| (a.before, a.shown.0) == (b.before, b.shown.0)) {
+            let CornerValue { before, shown, .. } = alike[0];
+            // The first of those that agreed before keep their vertex.
+            if last.replace(before) == Some(before) {
+                let corners = alike.iter().map(|value| value.corner).collect();
+                found.split.push(SplitOff { corners, shown });
+            } else {
+                found.kept.push(UpdatedVertex { vertex: before, corner: shown.0, normal: shown.1 });
+            }
+        }
+    }
+}
+
+fn tells_apart(normal: Vec3) -> [u32; 3] {
+    bits(normal.to_array())
+}

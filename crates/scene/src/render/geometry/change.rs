@@ -1,0 +1,105 @@
+//! Geometry that follows changes of its mesh instead of being made anew.
+//!
+//! Whatever it holds afterwards draws the bytes of geometry made from the changed mesh:
+//! each triangle shows the same values. Only the numbers of vertices may differ. What is
+//! made anew as a whole: tangents that were generated, when a normal map asks for them;
+//! the geometry of a mesh that a pose can bend; and all of it when a polygon gets more or
+//! fewer triangles than it had.
+
+use std::ops::Range;
+use std::sync::{Arc, OnceLock};
+
+use trigon_mesh::{ChangedElements, Mesh, RenderMesh, RenderUpdate};
+
+use super::{Geometry, GeometryState, edge_flags, places_for};
+
+impl Geometry {
+    /// Geometry that can follow changes of its mesh.
+    pub(crate) fn that_follows(mesh: &Mesh) -> Self {
+        let (render_mesh, links) = RenderMesh::with_links(mesh);
+        Self { links, ..Self::of(render_mesh) }
+    }
+
+    /// Whether it can follow changes of its mesh.
+    pub(crate) fn can_follow(&self) -> bool {
+        self.links.is_some()
+    }
+
+    /// The geometry of a mesh, from the one that it had before these elements were
+    /// changed. That is copied if somebody else holds it.
+    pub(crate) fn after_change(before: Arc<Self>, mesh: &Mesh, changed: &ChangedElements) -> Self {
+        let mut geometry = Arc::try_unwrap(before).unwrap_or_else(|shared| shared.copied());
+        match geometry.follow(mesh, changed) {
+            Some(()) => geometry,
+            None => Self::that_follows(mesh),
+        }
+    }
+
+    /// All that follows changes.
+    fn copied(&self) -> Self {
+        Self {
+            columns: self.columns.clone(),
+            triangles: self.triangles.clone(),
+            faces: self.faces.clone(),
+            runs: self.runs.clone(),
+            order: self.order.clone(),
+            state: GeometryState::default(),
+            bounds: OnceLock::new(),
+            edge_flags: self.edge_flags.clone(),
+            rest: None,
+            tangential: Vec::new(),
+            pose: None,
+            links: self.links.clone(),
+        }
+    }
+
+    /// `None` if it cannot follow, and then it is of no more use.
+    fn follow(&mut self, mesh: &Mesh, changed: &ChangedElements) -> Option<()> {
+        let update = self.links.as_mut()?.follow(mesh, changed);
+        self.state = GeometryState::default();
+        self.bounds = OnceLock::new();
+        self.tangential = places_for(&self.columns);
+        self.columns.update(mesh, &update.vertices);
+        self.replace_triangles(mesh, &update)
+    }
+
+    fn replace_triangles(&mut self, mesh: &Mesh, update: &RenderUpdate) -> Option<()> {
+        let slots = mesh.attributes().face_materials.as_deref();
+        let mut made = update.triangulation.triangles.as_slice();
+        let mut made_faces = update.triangulation.triangle_faces.as_slice();
+        for &face in &update.faces {
+            let count = made_faces.iter().take_while(|&&of| of == face).count();
+            let (triangles, rest) = made.split_at(count);
+            (made, made_faces) = (rest, &made_faces[count..]);
+            let slot = slots.map_or(0, |slots| slots[face as usize]);
+            let place = self.place_of(face, slot, mesh.face_count());
+            if place.len() != count {
+                return None;
+            }
+            let vertex_of_corner = self.links.as_ref()?.vertex_of_corner();
+            for (index, &corners) in place.zip(triangles) {
+                self.triangles[index] = corners.map(|corner| vertex_of_corner[corner as usize]);
+                if let Some(flags) = self.edge_flags.get_mut() {
+                    flags[index] = edge_flags(corners, &mesh.face_corners(face as usize));
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// Where the triangles of a face of a slot lie; empty where it has none.
+    fn place_of(&self, face: u32, slot: u32, face_count: usize) -> Range<usize> {
+        let Ok(run) = self.runs.binary_search_by_key(&slot, |run| run.slot) else { return 0..0 };
+        let start = self.runs[run].triangles.start;
+        let faces = &self.faces[self.runs[run].triangles.clone()];
+        // Right at once where all faces have equally many triangles and one slot.
+        let guess = (u64::from(face) * faces.len() as u64 / face_count as u64) as usize;
+        let begins = |at: usize| faces.get(at) == Some(&face) && (at == 0 || faces[at - 1] != face);
+        let first = if begins(guess) { guess } else { faces.partition_point(|&other| other < face) };
+        let count = faces[first..].iter().take_while(|&&other| other == face).count();
+        start + first..start + first + count
+    }
+}
+
+#[cfg(test)]
+mod tests;

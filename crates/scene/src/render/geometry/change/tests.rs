@@ -1,0 +1,337 @@
+//! Geometry that follows changes, and pictures of it, beside those of a scene that was made
+//! with the changed mesh.
+
+use proptest::prelude::*;
+use trigon_math::{Vec2, Vec3, Vec4};
+use trigon_mesh::{Attributes, MeshBuilder, MeshChange, primitives};
+use trigon_raster::{Texture, TextureFormat};
+
+use super::*;
+use crate::{
+    Light, Material, MeshAsset, MeshId, Node, NormalMap, Outputs, RenderSettings, Renderer, Scene, Style,
+    TextureBinding, render,
+};
+
+/// Everything that pictures are made of, triangle by triangle, as bits.
+#[derive(Debug, PartialEq)]
+struct Contents {
+    triangles: Vec<[Vec<u32>; 3]>,
+    faces: Vec<u32>,
+    runs: Vec<super::super::Run>,
+    order: Option<Vec<u32>>,
+    edge_flags: Vec<trigon_raster::EdgeFlags>,
+    bounds: [[u64; 6]; 2],
+}
+
+impl Contents {
+    fn of(asset: &MeshAsset) -> Self {
+        let geometry = asset.geometry();
+        let columns = &geometry.columns;
+        let lists = columns.positions.iter().chain(&columns.normals).chain(columns.uv_sets.iter().flatten());
+        let lists: Vec<&Vec<f32>> = lists.chain(columns.colors.iter().flatten()).collect();
+        let corner =
+            |vertex: u32| lists.iter().map(|column| column[vertex as usize].to_bits()).collect::<Vec<_>>();
+        Self {
+            triangles: geometry.triangles.iter().map(|triangle| triangle.map(corner)).collect(),
+            faces: geometry.faces.clone(),
+            runs: geometry.runs.clone(),
+            order: geometry.order.clone(),
+            edge_flags: geometry.edge_flags(asset.mesh()).to_vec(),
+            bounds: [asset.bounds(), geometry.bounds()].map(|bounds| {
+                let ends = bounds.min.to_array().into_iter().chain(bounds.max.to_array());
+                ends.map(f64::to_bits).collect::<Vec<_>>().try_into().expect("six numbers")
+            }),
+        }
+    }
+}
+
+fn asset(scene: &Scene) -> (MeshId, &MeshAsset) {
+    scene.meshes().iter().next().expect("a scene of one mesh")
+}
+
+/// The same scene without anything that is known about its mesh.
+fn fresh(scene: &Scene) -> Scene {
+    let mut fresh = scene.clone();
+    let (id, asset) = asset(scene);
+    fresh.replace_mesh(id, asset.mesh().clone()).expect("it is there");
+    fresh
+}
+
+/// Few numbers, so that corners agree and polygons are flat, have no area, or flip over.
+fn coordinate() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        20 => (-2_i8..=2).prop_map(f32::from),
+        4 => -2.0_f32..2.0,
+        1 => prop::sample::select(vec![-0.0, f32::NAN, f32::INFINITY, 1e30]),
+    ]
+}
+
+fn place() -> impl Strategy<Value = Vec3> {
+    prop::array::uniform3(coordinate()).prop_map(Vec3::from_array)
+}
+
+/// Any polygons over a few vertices: edges have any number of faces, and corners repeat.
+fn soup() -> impl Strategy<Value = Mesh> {
+    let faces = prop::collection::vec(prop::collection::vec(any::<u32>(), 3..7), 1..12);
+    (prop::collection::vec(place(), 3..12), faces, any::<bool>()).prop_map(|(places, faces, is_loose)| {
+        let mut builder = MeshBuilder::new();
+        for &place in &places {
+            builder.push_vertex(place);
+        }
+        let vertex = |index: &u32| index % places.len() as u32;
+        for face in faces {
+            // Some have too few vertices.
+            let _ = builder.push_face(&face.iter().map(vertex).collect::<Vec<_>>());
+        }
+        if is_loose {
+            builder.push_loose_edge(0, 1).expect("two vertices");
+            builder.push_loose_point(2).expect("a third");
+        }
+        builder.build()
+    })
+}
+
+/// Surfaces as they are modelled.
+fn surface() -> impl Strategy<Value = Mesh> {
+    prop::sample::select(vec![
+        primitives::torus(1.0, 0.4, 7, 5),
+        primitives::grid(2.0, 2.0, 4, 3),
+        primitives::icosphere(1.0, 1),
+        primitives::dodecahedron(1.0),
+        primitives::cube(1.5),
+        primitives::cone(1.0, 1.0, 40),
+    ])
+}
+
+/// What a mesh has on its corners and faces.
+#[derive(Clone, Debug)]
+struct Dress {
+    seed: u32,
+    normals: bool,
+    /// In so many faces one is flat; none is smooth where this is 0.
+    smooth: u32,
+    uv_sets: usize,
+    colors: bool,
+    slots: u32,
+}
+
+fn dress() -> impl Strategy<Value = Dress> {
+    (any::<u32>(), any::<bool>(), 0..4_u32, 0..3_usize, any::<bool>(), 1..4_u32).prop_map(
+        |(seed, normals, smooth, uv_sets, colors, slots)| Dress {
+            seed,
+            normals,
+            smooth,
+            uv_sets,
+            colors,
+            slots,
+        },
+    )
+}
+
+impl Dress {
+    /// Of a few numbers one.
+    fn pick(&self, index: usize, salt: u32, of: u32) -> u32 {
+        let mixed = (index as u32 ^ self.seed.wrapping_add(salt << 20)).wrapping_mul(0x9E37_79B9);
+        (mixed ^ mixed >> 15) % of
+    }
+}
+
+fn dressed() -> impl Strategy<Value = Mesh> {
+    (prop_oneof![soup(), surface()], dress()).prop_map(|(mut mesh, dress)| {
+        let (corners, faces) = (0..mesh.corner_count(), 0..mesh.face_count());
+        // Zero normals are none.
+        let normals = [Vec3::ZERO, Vec3::X, Vec3::new(0.0, 3.0, 4.0), Vec3::NEG_Z];
+        let normal = |corner| normals[dress.pick(corner, 1, 4) as usize];
+        let uv =
+            |corner, set| Vec2::new(dress.pick(corner, set, 3) as f32, dress.pick(corner, set + 7, 2) as f32);
+        let color = |corner| Vec4::new(dress.pick(corner, 5, 3) as f32 * 0.5, 0.5, 1.0, 1.0);
+        let attributes = Attributes {
+            corner_normals: dress.normals.then(|| corners.clone().map(normal).collect()),
+            uv_sets: (0..dress.uv_sets as u32)
+                .map(|set| corners.clone().map(|corner| uv(corner, set)).collect())
+                .collect(),
+            corner_colors: dress.colors.then(|| corners.clone().map(color).collect()),
+            face_materials: (dress.slots > 1)
+                .then(|| faces.clone().map(|face| dress.pick(face, 3, dress.slots)).collect()),
+            face_smooth: (dress.smooth > 0)
+                .then(|| faces.clone().map(|face| face % dress.smooth as usize != 1).collect()),
+            ..Attributes::default()
+        };
+        mesh.set_attributes(attributes).expect("a value for each element");
+        mesh
+    })
+}
+
+/// Other values for elements that are counted modulo those of the mesh.
+#[derive(Clone, Debug)]
+enum Edit {
+    Position(u32, Vec3),
+    Normal(u32, Vec3),
+    Uv(usize, u32, Vec2),
+    Color(u32, f32),
+}
+
+fn edits() -> impl Strategy<Value = Vec<Edit>> {
+    let edit = prop_oneof![
+        5 => (any::<u32>(), place()).prop_map(|(vertex, to)| Edit::Position(vertex, to)),
+        1 => (any::<u32>(), place()).prop_map(|(corner, to)| Edit::Normal(corner, to)),
+        1 => (0..2_usize, any::<u32>(), place())
+            .prop_map(|(set, corner, to)| Edit::Uv(set, corner, to.truncate())),
+        1 => (any::<u32>(), coordinate()).prop_map(|(corner, to)| Edit::Color(corner, to)),
+    ];
+    prop::collection::vec(edit, 0..5)
+}
+
+/// What a mesh has not is left out.
+fn change(mesh: &Mesh, edits: &[Edit]) -> MeshChange {
+    let attributes = mesh.attributes();
+    let mut change =
+        MeshChange { uv_sets: vec![Vec::new(); attributes.uv_sets.len()], ..MeshChange::default() };
+    for edit in edits {
+        let corner = |corner: u32| corner % mesh.corner_count().max(1) as u32;
+        match *edit {
+            Edit::Position(vertex, to) => {
+                change.positions.push((vertex % mesh.vertex_count() as u32, to));
+            }
+            _ if mesh.corner_count() == 0 => {}
+            Edit::Normal(at, to) if attributes.corner_normals.is_some() => {
+                change.corner_normals.push((corner(at), to));
+            }
+            Edit::Uv(set, at, to) if set < attributes.uv_sets.len() => {
+                change.uv_sets[set].push((corner(at), to));
+            }
+            Edit::Color(at, to) if attributes.corner_colors.is_some() => {
+                change.corner_colors.push((corner(at), Vec4::new(to, 0.3, to, 1.0)));
+            }
+            Edit::Normal(..) | Edit::Uv(..) | Edit::Color(..) => {}
+        }
+    }
+    change
+}
+
+/// A mesh in three materials, one of which has a normal map.
+fn scene_of(mesh: Mesh) -> Scene {
+    let mut scene = Scene::new();
+    let texel = Texture::new(1, 1, vec![[200, 90, 220, 255]], TextureFormat::Linear).expect("one texel");
+    let texture = scene.add_texture("bumps", texel);
+    let binding = TextureBinding::new(texture);
+    let materials = [
+        Material { double_sided: true, ..Material::from_color(Vec3::new(0.9, 0.6, 0.2)) },
+        Material { normal_map: Some(NormalMap { binding, scale: 1.0 }), ..Material::from_color(Vec3::ONE) },
+        Material { base_color_texture: Some(binding), ..Material::default() },
+    ]
+    .map(|material| scene.add_material(material));
+    let mesh = scene.add_mesh("mesh", mesh);
+    scene.add(Node { materials: materials.to_vec(), ..Node::from_mesh(mesh, materials[0]) });
+    scene.add(Node::from_light(Light::directional(0.8)));
+    scene.add(Node::from_light(Light::ambient(0.2)));
+    scene
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(192))]
+
+    #[test]
+    fn geometry_that_followed_holds_what_new_geometry_does(
+        mesh in dressed(),
+        steps in prop::collection::vec((edits(), any::<bool>()), 1..8),
+    ) {
+        let mut scene = scene_of(mesh);
+        asset(&scene).1.geometry();
+        for (edits, is_looked_at) in steps {
+            let (id, asset_before) = asset(&scene);
+            let change = change(asset_before.mesh(), &edits);
+            scene.change_mesh(id, &change).expect("the mesh has it all");
+            if is_looked_at {
+                let (kept, fresh) = (Contents::of(asset(&scene).1), Contents::of(asset(&fresh(&scene)).1));
+                prop_assert_eq!(kept, fresh, "after {:?}", change);
+            }
+        }
+        prop_assert_eq!(Contents::of(asset(&scene).1), Contents::of(asset(&fresh(&scene)).1), "in the end");
+    }
+
+    #[test]
+    fn pictures_after_changes_are_those_of_the_changed_mesh(
+        mesh in dressed(),
+        steps in prop::collection::vec(edits(), 1..4),
+        style in prop::sample::select(vec![Style::Surface, Style::SurfaceWithEdges, Style::HiddenLine]),
+    ) {
+        let mut scene = scene_of(mesh);
+        let camera = scene_of(primitives::cube(3.0)).overview(1.0);
+        let outputs = Outputs { depth: true, ids: true, normals: true, triangle_ids: true, ..Outputs::default() };
+        let settings = RenderSettings { samples_per_axis: 1, style, outputs, ..RenderSettings::new(20, 20) };
+        let mut warm = Renderer::new(settings.clone());
+        warm.render(&scene, &camera).expect("drawn");
+        for edits in steps {
+            let (id, asset) = asset(&scene);
+            let change = change(asset.mesh(), &edits);
+            scene.change_mesh(id, &change).expect("the mesh has it all");
+            let kept = warm.render(&scene, &camera).expect("drawn");
+            prop_assert!(kept == render(&fresh(&scene), &camera, &settings).expect("drawn"), "{:?}", change);
+        }
+    }
+}
+
+/// Whether geometry is where it was before a change.
+fn is_in_place(scene: &mut Scene, change: &MeshChange) -> bool {
+    let address = |scene: &Scene| asset(scene).1.geometry().columns.positions[0].as_ptr();
+    let before = address(scene);
+    let id = asset(scene).0;
+    scene.change_mesh(id, change).expect("the mesh has it all");
+    address(scene) == before
+}
+
+/// A step outwards, which folds no polygon.
+fn moved(scene: &Scene, vertex: u32) -> MeshChange {
+    let place = asset(scene).1.mesh().positions()[vertex as usize];
+    MeshChange { positions: vec![(vertex, place * 1.01)], ..MeshChange::default() }
+}
+
+#[test]
+fn geometry_follows_in_place_from_the_second_change_on() {
+    let mut scene = scene_of(primitives::torus(1.0, 0.4, 30, 20));
+    // The first change makes it anew.
+    is_in_place(&mut scene, &MeshChange::default());
+    for vertex in 0..4 {
+        let change = moved(&scene, vertex);
+        assert!(is_in_place(&mut scene, &change), "vertex {vertex}");
+    }
+    let (holder, change) = (scene.clone(), moved(&scene, 9));
+    assert!(!is_in_place(&mut scene, &change), "somebody else draws it");
+    drop(holder);
+    assert!(is_in_place(&mut scene, &change), "now it is its own");
+}
+
+/// A renderer keeps shadows and what they were cast by, and yet holds no geometry.
+#[test]
+fn kept_shadows_do_not_hold_geometry() {
+    let mut scene = scene_of(primitives::torus(1.0, 0.4, 30, 20));
+    let mut renderer = Renderer::builder().size(8, 8).build();
+    renderer.settings_mut().effects.shadows = crate::Shadows::Maps { resolution: 16 };
+    let camera = scene.overview(1.0);
+    is_in_place(&mut scene, &MeshChange::default());
+    renderer.render(&scene, &camera).expect("drawn");
+    let change = moved(&scene, 3);
+    assert!(is_in_place(&mut scene, &change), "nobody else has it");
+    let kept = renderer.render(&scene, &camera).expect("drawn");
+    assert!(kept == render(&fresh(&scene), &camera, renderer.settings()).expect("drawn"), "new shadows");
+}
+
+/// A polygon that folds has fewer triangles; then all are made anew.
+#[test]
+fn a_polygon_may_lose_its_area_and_get_it_back() {
+    let mut scene = scene_of(primitives::dodecahedron(1.0));
+    let id = asset(&scene).0;
+    let places = asset(&scene).1.mesh().positions().to_vec();
+    let all = |to: &dyn Fn(usize) -> Vec3| MeshChange {
+        positions: (0..places.len()).map(|vertex| (vertex as u32, to(vertex))).collect(),
+        ..MeshChange::default()
+    };
+    let mut counts = Vec::new();
+    for change in [all(&|_| Vec3::ZERO), all(&|vertex| places[vertex])] {
+        scene.change_mesh(id, &change).expect("a dodecahedron has 20 vertices");
+        counts.push(asset(&scene).1.geometry().triangles.len());
+        assert_eq!(Contents::of(asset(&scene).1), Contents::of(asset(&fresh(&scene)).1), "as made anew");
+    }
+    assert_eq!(counts, [0, 36], "nothing, and twelve pentagons");
+}

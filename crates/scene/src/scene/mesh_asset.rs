@@ -1,0 +1,152 @@
+//! A mesh of a scene, and what has been found out about it.
+
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use trigon_math::{Bounds3, Vec3};
+use trigon_mesh::{ChangeError, ChangedElements, Mesh, MeshChange};
+
+use crate::render::{Geometry, box_around};
+
+/// A mesh as the scene shares it between nodes.
+#[derive(Clone, Debug)]
+pub struct MeshAsset {
+    /// For people; need not be unique.
+    pub name: String,
+    mesh: Arc<Mesh>,
+    /// Shared by clones, so that none finds out again what another one knows.
+    derived: Arc<Derived>,
+}
+
+/// What is found out about a mesh when somebody asks for it.
+#[derive(Debug, Default)]
+struct Derived {
+    used: OnceLock<Arc<Vec<bool>>>,
+    bounds: OnceLock<Bounds3>,
+    geometry: OnceLock<Arc<Geometry>>,
+    /// What `geometry` is made of after a change. The lock is held only to take it out.
+    outdated: Mutex<Option<Outdated>>,
+}
+
+/// What was known before one or several changes.
+#[derive(Clone, Debug)]
+struct Outdated {
+    /// `None` if there was none, or none that can follow.
+    geometry: Option<Arc<Geometry>>,
+    changed: ChangedElements,
+}
+
+impl MeshAsset {
+    pub(super) fn new(name: String, mesh: Mesh) -> Self {
+        Self { name, mesh: Arc::new(mesh), derived: Arc::default() }
+    }
+
+    pub(super) fn replace(&mut self, mesh: Mesh) {
+        (self.mesh, self.derived) = (Arc::new(mesh), Arc::default());
+    }
+
+    /// The polygons.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// The same, to be held on to: another one after [`Scene::replace_mesh`] and
+    /// [`Scene::change_mesh`].
+    ///
+    /// [`Scene::replace_mesh`]: super::Scene::replace_mesh
+    /// [`Scene::change_mesh`]: super::Scene::change_mesh
+    pub fn shared_mesh(&self) -> &Arc<Mesh> {
+        &self.mesh
+    }
+
+    /// The smallest box around the vertices that faces, edges or points use.
+    pub fn bounds(&self) -> Bounds3 {
+        *self.derived.bounds.get_or_init(|| match self.derived.geometry.get() {
+            // The same vertices, where they are found faster.
+            Some(geometry) if self.has_nothing_loose() => geometry.bounds(),
+            _ => self.bounds_of(self.mesh.positions()),
+        })
+    }
+
+    /// The same with the vertices at other places. Stray vertices of a file must not push
+    /// the model out of the picture.
+    pub(super) fn bounds_of(&self, positions: &[Vec3]) -> Bounds3 {
+        let used = positions.iter().zip(self.used_vertices().iter()).filter(|&(_, &used)| used);
+        box_around(used.map(|(point, _)| *point))
+    }
+
+    fn has_nothing_loose(&self) -> bool {
+        self.mesh.loose_points().is_empty() && self.mesh.loose_edges().is_empty()
+    }
+
+    /// Which vertices faces, edges or points use.
+    pub(super) fn used_vertices(&self) -> &Arc<Vec<bool>> {
+        self.derived.used.get_or_init(|| Arc::new(self.mesh.used_vertices()))
+    }
+
+    /// What is drawn of it; made, or brought up to date, at the first use.
+    pub(crate) fn geometry(&self) -> &Arc<Geometry> {
+        self.derived.geometry.get_or_init(|| {
+            Arc::new(match self.derived.take_outdated() {
+                None => Geometry::new(&self.mesh),
+                Some(Outdated { geometry: None, .. }) => Geometry::that_follows(&self.mesh),
+                Some(Outdated { geometry: Some(before), changed }) => {
+                    Geometry::after_change(before, &self.mesh, &changed)
+                }
+            })
+        })
+    }
+
+    /// See [`Scene::change_mesh`](super::Scene::change_mesh).
+    pub(super) fn change(&mut self, change: &MeshChange) -> Result<(), ChangeError> {
+        change.check(&self.mesh)?;
+        let inside = self.bounds_without(change);
+        Arc::make_mut(&mut self.mesh).change(change)?;
+        let bounds = inside.map(|bounds| self.bounds_with(bounds, change));
+        let derived = Arc::make_mut(&mut self.derived);
+        derived.bounds = bounds.map_or_else(OnceLock::new, OnceLock::from);
+        let outdated = derived.take_outdated();
+        let mut outdated = outdated.unwrap_or_else(|| Outdated {
+            geometry: derived.geometry.take().filter(|geometry| geometry.can_follow()),
+            changed: ChangedElements::default(),
+        });
+        outdated.changed.add(change);
+        derived.outdated = Mutex::new(Some(outdated));
+        Ok(())
+    }
+
+    /// The box, if it is known and stays the same without the vertices to be moved.
+    fn bounds_without(&self, change: &MeshChange) -> Option<Bounds3> {
+        let bounds = *self.derived.bounds.get()?;
+        let used = self.used_vertices();
+        let is_on_border = |&(vertex, _): &(u32, Vec3)| {
+            let place = self.mesh.positions()[vertex as usize].as_dvec3();
+            used[vertex as usize] && (place.cmpeq(bounds.min) | place.cmpeq(bounds.max)).any()
+        };
+        (!change.positions.iter().any(is_on_border)).then_some(bounds)
+    }
+
+    /// The box with the vertices that were moved.
+    fn bounds_with(&self, bounds: Bounds3, change: &MeshChange) -> Bounds3 {
+        let moved = change.positions.iter().map(|&(vertex, _)| vertex as usize);
+        let used = moved.filter(|&vertex| self.used_vertices()[vertex]);
+        bounds.union(box_around(used.map(|vertex| self.mesh.positions()[vertex])))
+    }
+}
+
+impl Derived {
+    fn take_outdated(&self) -> Option<Outdated> {
+        self.outdated.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+}
+
+impl Clone for Derived {
+    fn clone(&self) -> Self {
+        let outdated = self.outdated.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        Self {
+            used: self.used.clone(),
+            bounds: self.bounds.clone(),
+            geometry: self.geometry.clone(),
+            outdated: Mutex::new(outdated),
+        }
+    }
+}
