@@ -6,6 +6,7 @@
 
 use super::{Corners, CutWeights, Kind, SetupTriangle, sorted};
 use crate::line::Stroke;
+use crate::simd::Each;
 use crate::vertex::ScreenVertex;
 
 /// A quadrilateral around a segment or a point.
@@ -100,18 +101,23 @@ impl Quad {
     }
 
     /// The vertices of one of its triangles and their order.
-    fn sorted(&self, half: usize) -> ([ScreenVertex; 3], [usize; 3]) {
-        let vertices = HALVES[half].map(|[end, side]| {
-            let [x, y] = self.corners[end][side];
-            ScreenVertex([x, y, self.depths[end].to_bits() as i32, self.inverse_w[end].to_bits() as i32])
-        });
+    #[inline(always)]
+    pub(crate) fn sorted(&self, half: usize) -> ([ScreenVertex; 3], [usize; 3]) {
+        let vertices = HALVES[half].each(
+            #[inline(always)]
+            |[end, side]| {
+                let [x, y] = self.corners[end][side];
+                ScreenVertex([x, y, self.depths[end].to_bits() as i32, self.inverse_w[end].to_bits() as i32])
+            },
+        );
         (vertices, sorted(vertices))
     }
 
     /// The least and the greatest coordinate of an axis in 1/256 pixel.
     #[inline(always)]
     pub(crate) fn extent(&self, axis: usize) -> [i32; 2] {
-        let [[a, b], [c, d]] = self.corners.map(|end| end.map(|corner| corner[axis]));
+        let [[a, b], [c, d]] = self.corners;
+        let [a, b, c, d] = [a[axis], b[axis], c[axis], d[axis]];
         [a.min(b).min(c.min(d)), a.max(b).max(c.max(d))]
     }
 

@@ -45,7 +45,13 @@ impl Edge {
         let [[a, b], [d, c]] = quad.corners;
         let [ab, ac] = [[b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]];
         let area = i64::from(ab[0]) * i64::from(ac[1]) - i64::from(ab[1]) * i64::from(ac[0]);
-        let edges = [(d, a), (b, c), (a, b), (c, d), (c, a)].map(|(from, to)| Self::through(from, to));
+        let edges = [
+            Self::through(d, a),
+            Self::through(b, c),
+            Self::through(a, b),
+            Self::through(c, d),
+            Self::through(c, a),
+        ];
         if area < 0 { edges.map(Self::reversed) } else { edges }
     }
 

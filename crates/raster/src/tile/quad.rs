@@ -9,19 +9,23 @@
 //! functions say exactly, as for triangles; the diagonal tells which of the two triangles has a
 //! sample, as its depth and colour are found from that.
 
+use super::area::GROUPS;
 use super::buffer::VisibilityBuffer;
 use super::cover::{Counts, Cover};
 use super::store::store_places_where;
 use super::{DepthPlane, Edge, TileArea};
 use crate::samples::{MAX_SAMPLES, SamplePattern};
-use crate::setup::{Kind, Quad};
-use crate::simd::{Each, F32, I32, Mask, Simd, U32, lane_numbers, prelude::*};
+use crate::setup::{Kind, Quad, SMALL};
+use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, U32, inlined, lane_numbers, prelude::*};
 
 /// From this width on, in 1/256 pixel, it pays to ask whole blocks, as for triangles.
 const WIDE: i32 = 32 * 256;
 
 /// The last of the edges: not one of the outline.
 const DIAGONAL: usize = 4;
+
+/// How many there are.
+const EDGES: usize = 5;
 
 /// How a line or a point lies in a tile.
 enum Place {
@@ -33,23 +37,70 @@ enum Place {
 }
 
 /// The edge functions of a line or a point in a tile, over 256 and rounded down as those of
-/// [`Covering`](super::Covering): of the outline, and of the diagonal.
+/// [`Covering`](super::Covering): of the outline, and of the diagonal. As rows of eight, of which
+/// five are used.
 pub(super) struct QuadEdges {
-    right: [i32; 5],
-    down: [i32; 5],
+    right: Row,
+    down: Row,
     /// For each sample of a pixel the values at the tile's first pixel.
-    starts: [[i32; 5]; MAX_SAMPLES],
+    starts: [Row; MAX_SAMPLES],
     /// The greatest of those.
-    greatest: [i32; 5],
+    greatest: Row,
 }
 
 impl QuadEdges {
     pub(super) fn new() -> Self {
-        Self { right: [0; 5], down: [0; 5], starts: [[0; 5]; MAX_SAMPLES], greatest: [0; 5] }
+        let row = [0; LANES];
+        Self { right: row, down: row, starts: [row; MAX_SAMPLES], greatest: row }
     }
 
-    /// Finds them for one tile.
-    fn find(&mut self, quad: &Quad, pattern: SamplePattern, area: &TileArea) -> Place {
+    /// Finds them for one tile that a line or a point reaches into: of one whose sides are
+    /// [`SMALL`] all at once, as then everything fits 32 bits, also a tile away.
+    #[inline(always)]
+    fn find<S: Simd>(&mut self, simd: S, quad: &Quad, pattern: SamplePattern, area: &TileArea) -> Place {
+        let is_small = [0, 1].into_iter().all(|axis| {
+            let [low, high] = quad.extent(axis);
+            high - low < SMALL
+        });
+        if is_small {
+            self.find_small(simd, quad, pattern, area);
+            return Place::Within;
+        }
+        self.find_large(quad, pattern, area)
+    }
+
+    #[inline(always)]
+    fn find_small<S: Simd>(&mut self, simd: S, quad: &Quad, pattern: SamplePattern, area: &TileArea) {
+        // In the order of `Edge::around`.
+        let [[a, b], [d, c]] = quad.corners;
+        let [from, to] = [[d, b, a, c, c], [a, c, b, d, a]].each(
+            #[inline(always)]
+            |[m, n, o, p, q]: [[i32; 2]; EDGES]| {
+                [0, 1].each(
+                    #[inline(always)]
+                    |i| I32::simd_from(simd, [m[i], n[i], o[i], p[i], q[i], q[i], q[i], q[i]]),
+                )
+            },
+        );
+        let is_clockwise = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0;
+        let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+        let (right, down) = if is_clockwise { (-dy, dx) } else { (dy, -dx) };
+        let zero = I32::splat(simd, 0);
+        let inclusive = right.simd_gt(zero) | (right.simd_eq(zero) & down.simd_gt(zero));
+        let [x, y] = [area.origin[0] * 256, area.origin[1] * 256];
+        let value = right * (I32::splat(simd, x) - from[0]) + down * (I32::splat(simd, y) - from[1]);
+        let value = value - inclusive.select(zero, I32::splat(simd, 1));
+        let mut greatest = I32::splat(simd, i32::MIN);
+        for (starts, &[x, y]) in self.starts.iter_mut().zip(pattern.offsets()) {
+            let start = (value + right * x + down * y) >> 8;
+            greatest = greatest.max(start);
+            *starts = start.into();
+        }
+        (self.right, self.down, self.greatest) = (right.into(), down.into(), greatest.into());
+    }
+
+    #[inline(never)]
+    fn find_large(&mut self, quad: &Quad, pattern: SamplePattern, area: &TileArea) -> Place {
         let [least, greatest] = pattern.reach();
         let first = area.origin.map(|v| v * 256 + least);
         let span = area.padded().map(|side| (side as i64 - 1) * 256 + i64::from(greatest - least));
@@ -88,19 +139,9 @@ impl QuadEdges {
         }
     }
 
-    /// At the pixels of a group, but for what the samples add. Partial sums may wrap around; the
-    /// sum fits.
+    /// Their steps within a group, each in a vector of its own.
     #[inline(always)]
-    fn at<S: Simd>(&self, lanes: &[I32<S>; 5], [x, y]: [i32; 2]) -> [I32<S>; 5] {
-        [0, 1, 2, 3, 4].each(
-            #[inline(always)]
-            |k| lanes[k] + self.right[k].wrapping_mul(x).wrapping_add(self.down[k].wrapping_mul(y)),
-        )
-    }
-
-    /// Their steps within a group.
-    #[inline(always)]
-    fn lanes<S: Simd>(&self, simd: S) -> [I32<S>; 5] {
+    fn lanes<S: Simd>(&self, simd: S) -> [I32<S>; EDGES] {
         let (x, y) = (lane_numbers(simd) & 3, lane_numbers(simd) >> 2);
         [0, 1, 2, 3, 4].each(
             #[inline(always)]
@@ -120,12 +161,13 @@ struct Strip {
 
 impl Strip {
     /// From a group on, that with this number along the major axis.
+    #[inline(always)]
     fn new(quad: &Quad, pattern: SamplePattern, area: &TileArea, (major, group): (usize, i32)) -> Self {
         const UNIT: f64 = (1 << 16) as f64;
         // More than all that is rounded, a unit where the corners were, and less than one below.
-        const SLACK: f64 = 2.0;
+        const SLACK: i32 = 2;
         let minor = 1 - major;
-        let pixels = GROUP[major];
+        let pixels = 1 << SHIFT[major];
         let [least, greatest] = pattern.reach();
         let [[a, b], [d, c]] = quad.corners;
         let slope = f64::from(d[minor] - a[minor]) / f64::from(d[major] - a[major]);
@@ -133,27 +175,27 @@ impl Strip {
         let low = f64::from(a[minor] - area.origin[minor] * 256) + slope * f64::from(along - a[major]);
         let rise = slope * f64::from((pixels - 1) * 256 + greatest - least);
         let (below, above) = if rise < 0.0 { (rise, 0.0) } else { (0.0, rise) };
-        let width = f64::from((b[minor] - a[minor]).max(c[minor] - d[minor]));
+        let width = (b[minor] - a[minor]).max(c[minor] - d[minor]);
         Self {
-            first: ((low + below - SLACK + f64::from(255 - greatest)) * UNIT) as i64,
-            last: ((low + above + width + SLACK - f64::from(least)) * UNIT) as i64,
+            first: ((low + below + f64::from(255 - greatest - SLACK)) * UNIT) as i64,
+            last: ((low + above + f64::from(width + SLACK - least)) * UNIT) as i64,
             step: (slope * f64::from(pixels * 256) * UNIT) as i64,
         }
     }
 
-    /// The groups of the next pixels along the major axis, within a range of pixels.
+    /// The groups of the next pixels along the major axis, within a range of pixels across.
     #[inline(always)]
-    fn next(&mut self, [first, last]: [i32; 2], pixels: i32) -> std::ops::Range<i32> {
+    fn next(&mut self, [first, last]: [i32; 2], shift: i32) -> std::ops::Range<i32> {
         let first = ((self.first >> 24) as i32).max(first);
         let last = ((self.last >> 24) as i32).min(last);
         self.first += self.step;
         self.last += self.step;
-        first / pixels..(last + pixels) / pixels
+        first >> shift..(last >> shift) + 1
     }
 }
 
-/// Pixels in a row and a column of a group.
-const GROUP: [i32; 2] = [4, 2];
+/// Bits of the number of a pixel's column and row that tell it from others of its group.
+const SHIFT: [i32; 2] = [2, 1];
 
 /// The round outline of a point, from the tile's corner.
 struct Disc {
@@ -183,12 +225,14 @@ impl Disc {
     }
 }
 
-/// What the samples of a line or a point are compared with.
-struct Fill<'q> {
+/// A line or a point on its way through a tile.
+struct Walk<'q, S: Simd> {
+    quad: &'q Quad,
     edges: &'q QuadEdges,
+    /// The edges' steps within a group.
+    lanes: [I32<S>; EDGES],
     disc: Option<Disc>,
-    /// The depth of all, or the planes of both triangles.
-    depth: f32,
+    /// The planes of both triangles, if the ends are not equally deep.
     planes: Option<[DepthPlane; 2]>,
     /// The first triangle among the tile's; the other comes next.
     place: u32,
@@ -207,125 +251,154 @@ impl Cover<'_> {
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) -> bool {
+        // Apart, so that it takes no registers where there are only triangles.
+        simd.vectorize(
+            #[inline(always)]
+            || self.quad_apart::<S, MULTI>(simd, (quad, edges), pattern, place, buffer, counts),
+        )
+    }
+
+    #[inline(always)]
+    fn quad_apart<S: Simd, const MULTI: bool>(
+        &self,
+        simd: S,
+        (quad, edges): (&Quad, &mut QuadEdges),
+        pattern: SamplePattern,
+        place: u32,
+        buffer: &mut VisibilityBuffer,
+        counts: &mut Counts,
+    ) -> bool {
         if self.tile_hides(buffer, quad.nearest()) {
             counts.tiles_rejected += 1;
             return true;
         }
         let [[a, b], [d, c]] = quad.corners;
         let major = usize::from(a[0] != b[0]);
-        if (b[1 - major] - a[1 - major]).max(c[1 - major] - d[1 - major]) >= WIDE {
+        let minor = 1 - major;
+        if (b[minor] - a[minor]).max(c[minor] - d[minor]) >= WIDE {
             return false;
         }
         let Some(pixels) = pixels_in(quad, pattern, &self.area) else { return true };
-        match edges.find(quad, pattern, &self.area) {
+        match edges.find(simd, quad, pattern, &self.area) {
             Place::Beside => return true,
             Place::TooLong => return false,
             Place::Within => {}
         }
         buffer.settle();
-        let fill = Fill {
-            edges,
-            disc: (quad.kind == Kind::RoundPoint).then(|| Disc::new(quad, &self.area)),
-            depth: quad.depths[0],
-            planes: (quad.depths[0] != quad.depths[1]).then(|| [0, 1].map(|i| DepthPlane::of(&quad.half(i)))),
-            place,
-        };
-        // Apart, so that it takes no registers where there are only triangles.
-        simd.vectorize(
+        let planes = (quad.depths[0] != quad.depths[1]).then(
             #[inline(always)]
-            || {
-                let lanes = fill.edges.lanes(simd);
-                let groups = [pixels[major][0] / GROUP[major], pixels[major][1] / GROUP[major]];
-                let mut strip = Strip::new(quad, pattern, &self.area, (major, groups[0]));
-                let mut noted = usize::MAX;
-                for along in groups[0]..groups[1] + 1 {
-                    for across in strip.next(pixels[1 - major], GROUP[1 - major]) {
-                        let at = if major == 0 { [along, across] } else { [across, along] };
-                        let group = TileArea::group_of(at.each(
-                            #[inline(always)]
-                            |v| v as usize,
-                        ));
-                        let block = group / super::area::GROUPS;
-                        if self.hierarchical && self.hides(buffer.blocks[block].farthest, quad.nearest()) {
-                            continue;
-                        }
-                        counts.groups += 1;
-                        let first = [at[0] * GROUP[0], at[1] * GROUP[1]];
-                        let wrote = self.group::<S, MULTI>(simd, &fill, &lanes, (group, first), buffer);
-                        if wrote && block != noted {
-                            buffer.note_write(block, quad.nearest());
-                            noted = block;
-                        }
-                    }
-                }
-            },
+            || [plane_of_half(quad, 0), plane_of_half(quad, 1)],
         );
+        let disc = (quad.kind == Kind::RoundPoint).then(|| Disc::new(quad, &self.area));
+        let walk = Walk { quad, lanes: edges.lanes(simd), edges, disc, planes, place };
+        let (first, last) = (pixels[major][0] >> SHIFT[major], pixels[major][1] >> SHIFT[major]);
+        let mut strip = Strip::new(quad, pattern, &self.area, (major, first));
+        for along in first..last + 1 {
+            for across in strip.next(pixels[minor], SHIFT[minor]) {
+                let at = if major == 0 { [along, across] } else { [across, along] };
+                self.group::<S, MULTI>(simd, &walk, at, buffer, counts);
+            }
+        }
         true
     }
 
-    /// Lets the samples of a group compete; whether any was written.
+    /// Lets the samples of a group, by its column and row, compete.
     #[inline(always)]
     fn group<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        fill: &Fill<'_>,
-        lanes: &[I32<S>; 5],
-        (group, first): (usize, [i32; 2]),
+        walk: &Walk<'_, S>,
+        [column, row]: [i32; 2],
         buffer: &mut VisibilityBuffer,
-    ) -> bool {
-        let edges = fill.edges.at(lanes, first);
-        if MULTI && !inside(simd, edges, fill.edges.greatest).any_true() {
-            return false;
+        counts: &mut Counts,
+    ) {
+        let group = TileArea::group_of([column as usize, row as usize]);
+        let block = group / GROUPS;
+        if self.hierarchical && self.hides(buffer.blocks[block].farthest, walk.quad.nearest()) {
+            return;
         }
-        let samples = if MULTI { buffer.samples } else { 1 };
+        counts.groups += 1;
+        let first = [column << SHIFT[0], row << SHIFT[1]];
+        let QuadEdges { right, down, starts, greatest } = walk.edges;
+        // What the group and the sample add, of all edges at once. Partial sums may wrap around;
+        // the sum fits.
+        let [right, down] = [I32::simd_from(simd, *right), I32::simd_from(simd, *down)];
+        let here = right * first[0] + down * first[1];
+        if MULTI {
+            let here: Row = (here + I32::simd_from(simd, *greatest)).into();
+            if !walk.inside(simd, &here).any_true() {
+                return;
+            }
+        }
         let mut wrote = false;
-        for sample in 0..samples {
-            let starts = fill.edges.starts[sample];
-            let mut covered = inside(simd, edges, starts);
-            if let Some(disc) = &fill.disc {
+        for sample in 0..if MULTI { buffer.samples } else { 1 } {
+            let here: Row = (here + I32::simd_from(simd, starts[sample])).into();
+            let mut covered = walk.inside(simd, &here);
+            if let Some(disc) = &walk.disc {
                 covered &= disc.covers(simd, first, self.offsets[sample]);
             }
             if !covered.any_true() {
                 continue;
             }
-            let is_first = (edges[DIAGONAL] + starts[DIAGONAL]).simd_ge(I32::splat(simd, 0));
-            let depth = match &fill.planes {
-                None => F32::splat(simd, fill.depth),
-                Some([a, b]) => {
-                    let point = self.area.point(first, self.offsets[sample]);
-                    is_first.select(a.group(simd, point), b.group(simd, point))
-                }
-            };
-            let at = (group * samples + sample) * crate::simd::LANES;
-            let seen = self.seen(simd, fill.place, (covered, depth), buffer, at);
+            let is_first = (walk.lanes[DIAGONAL] + here[DIAGONAL]).simd_ge(I32::splat(simd, 0));
+            let depth = walk.depth(simd, is_first, self.area.point(first, self.offsets[sample]));
+            let at = (group * buffer.samples + sample) * LANES;
+            let seen = self.seen(simd, walk.place, (covered, depth), buffer, at);
             if seen.any_true() {
-                let places = is_first.select(U32::splat(simd, fill.place), U32::splat(simd, fill.place + 1));
+                let places = is_first.select(U32::splat(simd, walk.place), U32::splat(simd, walk.place + 1));
                 store_places_where(simd, seen, (places, depth), buffer, at);
                 wrote = true;
             }
         }
-        wrote
+        if wrote {
+            buffer.note_write(block, walk.quad.nearest());
+        }
     }
 }
 
-/// Which pixels lie inside of the outline, with what a sample adds.
+impl<S: Simd> Walk<'_, S> {
+    /// Which pixels of a group lie inside of the outline, from the values at its first.
+    #[inline(always)]
+    fn inside(&self, simd: S, here: &Row) -> Mask<S> {
+        let [a, b, c, d] = [0, 1, 2, 3].each(
+            #[inline(always)]
+            |k| self.lanes[k] + here[k],
+        );
+        (a | b | (c | d)).simd_ge(I32::splat(simd, 0))
+    }
+
+    /// The depths in a group whose first point is given, each of the triangle that it is in.
+    #[inline(always)]
+    fn depth(&self, simd: S, is_first: Mask<S>, point: [i32; 2]) -> F32<S> {
+        match &self.planes {
+            None => F32::splat(simd, self.quad.depths[0]),
+            Some([a, b]) => is_first.select(a.group(simd, point), b.group(simd, point)),
+        }
+    }
+}
+
+/// The plane of the depths of one of the triangles.
 #[inline(always)]
-fn inside<S: Simd>(simd: S, edges: [I32<S>; 5], starts: [i32; 5]) -> Mask<S> {
-    let [a, b, c, d] = [0, 1, 2, 3].each(
+fn plane_of_half(quad: &Quad, half: usize) -> DepthPlane {
+    let (vertices, order) = quad.sorted(half);
+    DepthPlane::through(order.each(
         #[inline(always)]
-        |k| edges[k] + starts[k],
-    );
-    (a | b | (c | d)).simd_ge(I32::splat(simd, 0))
+        |i| vertices[i],
+    ))
 }
 
 /// The first and last columns and rows of the tile that may have a sample of a line or a point;
 /// `None` if there are none.
+#[inline(always)]
 fn pixels_in(quad: &Quad, pattern: SamplePattern, area: &TileArea) -> Option<[[i32; 2]; 2]> {
-    let range = |axis: usize| {
-        let [first, last] = pattern.pixels_between(quad.extent(axis))?;
-        let first = (first - area.origin[axis]).max(0);
-        let last = (last - area.origin[axis]).min(area.padded()[axis] as i32 - 1);
-        (first <= last).then_some([first, last])
-    };
+    let range = inlined(
+        #[inline(always)]
+        |axis: usize| {
+            let [first, last] = pattern.pixels_between(quad.extent(axis))?;
+            let first = (first - area.origin[axis]).max(0);
+            let last = (last - area.origin[axis]).min(area.padded()[axis] as i32 - 1);
+            (first <= last).then_some([first, last])
+        },
+    );
     Some([range(0)?, range(1)?])
 }
