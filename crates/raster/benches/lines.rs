@@ -6,6 +6,8 @@
 //! matters little. A name on the command line picks the rows that contain it, `--quick` takes
 //! one turn.
 
+#![expect(clippy::print_stdout, reason = "a table of times is what it is for")]
+
 use std::hint::black_box;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};

@@ -100,7 +100,7 @@ fn cover_places<S: Simd, const MULTI: bool>(
     let cover = &{ *cover };
     let mut starts = Starts::new(cover.offsets);
     let mut covered = Covered::new();
-    let mut edges = QuadEdges::new();
+    let mut edges = QuadEdges::new(frame.grid.pattern);
     let mut start = 0;
     while start < places.len() {
         let together = side_by_side(frame, cover, &places[start..]);
@@ -150,7 +150,7 @@ fn cover_quad<S: Simd, const MULTI: bool>(
 ) -> bool {
     let first = place.is_first_half().then(|| frame.chunk_of(place));
     let Some(quad) = first.and_then(|chunk| chunk.quad(place)) else { return false };
-    cover.quad::<S, MULTI>(simd, (quad, edges), frame.grid.pattern, number as u32, buffer, counts)
+    cover.quad::<S, MULTI>(simd, (quad, edges), number as u32, buffer, counts)
 }
 
 /// One triangle, perhaps a lane of eight that are ready.

@@ -9,8 +9,8 @@ use crate::tile::{BEHIND_ALL, DepthPlane};
 use crate::vertex::{ScreenVertex, nearer};
 use crate::viewport::Viewport;
 use crate::{
-    ExecuteSettings, Fragment, Lines, Output, Pass, Pictures, Pipeline, PointShape, Points, Surface, Target,
-    VertexOutput,
+    ExecuteSettings, FixedBitSet, Fragment, Lines, MarkedPoints, Outline, Output, Pass, Pictures, Pipeline,
+    PointShape, Points, Surface, Target, VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
@@ -342,5 +342,39 @@ proptest! {
         prop_assert!(opaque == masked, "{:?}", settings);
         let reference = draw(&draws, Surface::Opaque, ExecuteSettings::default(), sampling);
         prop_assert!(opaque == reference, "{:?}", settings);
+    }
+}
+
+/// A draw with marked points is as two draws, one of each size.
+#[test]
+fn marked_points_have_a_size_of_their_own() {
+    let positions: Vec<_> =
+        (0..40).map(|i| Vec4::new(0.05 * i as f32 - 1.0, 0.04 * (i % 7) as f32 - 0.1, 0.5, 1.0)).collect();
+    let lights = (0..40).map(|i| i as f32).collect();
+    let mark = Mark::Point(3.0, PointShape::Round);
+    let marks = Marks { mark, object: 0, toward_eye: 0.0, ids: None, positions, lights };
+    // Shorter than the draw: points beyond it are not marked.
+    let set: FixedBitSet = (0..30).filter(|i| i % 3 == 0).collect();
+    let all: Vec<u32> = (0..40).collect();
+    let (marked, usual): (Vec<u32>, Vec<u32>) = all.iter().partition(|&&i| set.contains(i as usize));
+    for outline in [Outline::Sharp, Outline::AntiAliased] {
+        let picture = |draws: &[Points<'_, Marks>]| {
+            let [width, height] = SIZE.map(|side| side as u32);
+            let mut target = Target::new(width, height, &[Output::Linear, Output::Depth]).unwrap();
+            let mut pass = Pass::new();
+            for &Points { points, ids, size, marked, .. } in draws {
+                pass.points(Points { ids, marked, outline, ..Points::new(&marks, points, size) });
+            }
+            Rasterizer::default().draw(&pass, &mut target);
+            target.into_pictures()
+        };
+        let together =
+            Points { marked: Some(MarkedPoints { set: &set, size: 7.0 }), ..Points::new(&marks, &all, 3.0) };
+        let apart = [
+            Points { ids: Some(&usual), ..Points::new(&marks, &usual, 3.0) },
+            Points { ids: Some(&marked), ..Points::new(&marks, &marked, 7.0) },
+        ];
+        assert!(picture(&[together]) == picture(&apart), "{outline:?}");
+        assert!(picture(&apart) != picture(&[Points::new(&marks, &all, 3.0)]), "the mark is seen");
     }
 }
