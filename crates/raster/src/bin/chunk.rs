@@ -209,8 +209,8 @@ impl Chunk {
     pub(crate) fn collect(&self, grid: &Grid, tile: u32, places: &mut Vec<Place>) {
         let listed = self.listed(tile);
         if self.large.is_empty() {
-            if self.quads.is_empty() {
-                places.extend(listed.iter().map(|&entry| self.triangle(entry)));
+            if self.extras.is_empty() && self.quads.is_empty() {
+                places.extend(listed.iter().map(|&entry| Place::whole(self.ordinals.start, entry)));
             } else {
                 listed.iter().for_each(|&entry| self.append(entry, places));
             }
@@ -244,7 +244,7 @@ impl Chunk {
     #[inline(always)]
     fn triangle(&self, entry: Entry) -> Place {
         match entry.listed() {
-            Listed::Primitive(at) => Place { ordinal: self.ordinals.start + at, extra: Place::WHOLE },
+            Listed::Primitive(_) => Place::whole(self.ordinals.start, entry),
             Listed::Extra(extra) => Place { ordinal: self.extras[extra].ordinal, extra: extra as u32 },
             Listed::Quad(index) => Place::half(self.quads[index].ordinal, index, 0),
         }

@@ -59,8 +59,14 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    pub(super) const WHOLE: u32 = u32::MAX;
+    const WHOLE: u32 = u32::MAX;
     const QUAD: u32 = 1 << 31;
+
+    /// A primitive of a chunk whose ordinals start here.
+    #[inline(always)]
+    pub(super) fn whole(start: u32, Entry(place): Entry) -> Self {
+        Self { ordinal: start + place, extra: Self::WHOLE }
+    }
 
     /// Half of a line or a point.
     #[inline(always)]
