@@ -1,6 +1,7 @@
 //! What a pass records: triangles, lines and points, each with its pipeline.
 
 use crate::EdgeFlags;
+use fixedbitset::FixedBitSet;
 
 /// Which triangles are dropped by the side that they show.
 ///
@@ -175,6 +176,16 @@ pub enum PointShape {
     Square,
 }
 
+/// Points of a [`Points`] draw that have a size of their own.
+#[derive(Clone, Copy, Debug)]
+pub struct MarkedPoints<'a> {
+    /// Their indices among the draw's [`points`](Points::points); those beyond the set's length
+    /// are not marked.
+    pub set: &'a FixedBitSet,
+    /// Their diameter or edge, as [`Points::size`].
+    pub size: f32,
+}
+
 /// Points of a size in pixels.
 ///
 /// A point that lies behind the near plane, or further than its size outside
@@ -192,6 +203,10 @@ pub struct Points<'a, P> {
     /// Diameter or edge in output pixels; below 1 counts as 1 unless it is
     /// anti-aliased, above 4096 as 4096.
     pub size: f32,
+    /// Those points that have another size, such as the selected ones. (For another colour
+    /// the pipeline can ask the same set: it is told the point's index, see
+    /// [`Fragment::triangle`](crate::Fragment::triangle).)
+    pub marked: Option<MarkedPoints<'a>>,
     /// Sharp or anti-aliased.
     pub outline: Outline,
     /// Round or square.
@@ -211,6 +226,7 @@ impl<'a, P> Points<'a, P> {
             ids: None,
             object: 0,
             size,
+            marked: None,
             outline: Outline::default(),
             shape: PointShape::default(),
             toward_eye: 0.0,

@@ -1,13 +1,32 @@
 //! What was recorded, without the pipeline: indices and ids.
 
 use crate::simd::{Each, LANES};
-use crate::{Culling, EdgeFlags, Outline, PointShape, Surface};
+use crate::{Culling, EdgeFlags, MarkedPoints, Outline, PointShape, Surface};
 
 /// The primitives of one draw.
 pub(crate) enum Shape<'a> {
     Triangles { triangles: &'a [[u32; 3]], edge_flags: Option<&'a [EdgeFlags]>, culling: Culling },
     Lines { segments: &'a [[u32; 2]], width: f32, outline: Outline, toward_eye: f32 },
-    Points { points: &'a [u32], size: f32, shape: PointShape, outline: Outline, toward_eye: f32 },
+    Points { points: &'a [u32], sizes: PointSizes<'a>, shape: PointShape, outline: Outline, toward_eye: f32 },
+}
+
+/// The sizes of a draw's points.
+#[derive(Clone, Copy)]
+pub(crate) struct PointSizes<'a> {
+    pub(crate) size: f32,
+    pub(crate) marked: Option<MarkedPoints<'a>>,
+}
+
+impl PointSizes<'_> {
+    /// What is made of the size of each point, by its index: once for each size.
+    pub(crate) fn each<T: Copy>(&self, of_size: impl Fn(f32) -> T) -> impl Fn(u32) -> T {
+        let (usual, marked) =
+            (of_size(self.size), self.marked.map(|marked| (marked.set, of_size(marked.size))));
+        move |point| match marked {
+            Some((set, of_marked)) if set.contains(point as usize) => of_marked,
+            _ => usual,
+        }
+    }
 }
 
 /// One draw's primitives with what identifies them.

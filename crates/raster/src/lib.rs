@@ -123,7 +123,7 @@ mod viewport;
 
 pub use cancel::Cancel;
 pub use certify::{Certainty, Certificate, Tolerance};
-pub use draw::{Culling, Draw, Lines, Outline, PointShape, Points, Surface};
+pub use draw::{Culling, Draw, Lines, MarkedPoints, Outline, PointShape, Points, Surface};
 pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,
 };
@@ -147,6 +147,8 @@ pub use texture::{
 pub use varyings::Varyings;
 pub use vertex::VertexLanes;
 
+/// The set that [`MarkedPoints`] takes.
+pub use fixedbitset::FixedBitSet;
 /// The crate below, so that points and vectors need no other dependency.
 pub use trigon_math as math;
 

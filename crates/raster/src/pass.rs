@@ -1,6 +1,6 @@
 //! A recorded pass: what is to be drawn, and then the frame in one go.
 
-use crate::geometry::{Geometry, Shape};
+use crate::geometry::{Geometry, PointSizes, Shape};
 use crate::paint2d::Rect;
 use crate::shade::AnyPipeline;
 use crate::{Draw, LanePipeline, Lines, Points, Target};
@@ -78,8 +78,10 @@ impl<'a> Pass<'a> {
 
     /// Records points.
     pub fn points<P: LanePipeline>(&mut self, points: Points<'a, P>) -> &mut Self {
-        let Points { pipeline, points, ids, object, size, shape, outline, toward_eye, surface } = points;
-        let shape = Shape::Points { points, size, shape, outline, toward_eye };
+        let Points { pipeline, points, ids, object, size, marked, shape, outline, toward_eye, surface } =
+            points;
+        let sizes = PointSizes { size, marked };
+        let shape = Shape::Points { points, sizes, shape, outline, toward_eye };
         let surface = outline.surface(surface);
         self.record(pipeline, Geometry { shape, faces: ids, object, surface })
     }

@@ -28,6 +28,10 @@ pub trait Pipeline: Sync {
     /// What is interpolated from the vertices to the fragments.
     type Varyings: Varyings;
 
+    /// Whether [`fragment`](Self::fragment) is asked only once for each visible primitive; see
+    /// [`LanePipeline::FLAT`]. Of the fragment only the ids have a meaning then.
+    const FLAT: bool = false;
+
     /// How many vertices there are; indices beyond are dropped with their
     /// triangle.
     fn vertex_count(&self) -> usize;
@@ -139,6 +143,7 @@ pub trait LanePipeline: Sync {
 
 impl<P: Pipeline> LanePipeline for P {
     const VARYINGS: usize = P::Varyings::COMPONENTS;
+    const FLAT: bool = P::FLAT;
     const SCALAR: bool = true;
 
     fn as_scalar(&self) -> Option<&dyn ScalarPipeline> {

@@ -4,8 +4,8 @@ use crate::tile::Counts;
 use std::ops::AddAssign;
 use std::time::Duration;
 
-/// Counts of one executed pass, and its times. Lines and points count as the
-/// triangles that they are made of, from `set_up` on.
+/// Counts of one executed pass, and its times. A line or a point counts as one
+/// triangle.
 ///
 /// The counts of triangles and samples do not depend on the number of threads;
 /// `binned` and `tiles` depend on the tile size.

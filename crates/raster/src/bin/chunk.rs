@@ -1,66 +1,15 @@
 //! A run of the frame's primitives, set up and sorted into tiles.
 
+use super::place::{Entry, Listed, Place};
 use super::{Grid, TileRange};
 use crate::line::Stroke;
-use crate::setup::{CutWeights, Kind, SetupTriangle};
+use crate::setup::{Corners, CutWeights, DetailIndex, Quad, QuadDetail, SetupTriangle};
 use crate::simd::{Each, LANES, Mask, Simd, U32, append, prelude::*};
+use crate::tile::Edge;
 use crate::{Stats, Surface};
 use std::ops::Range;
 
-/// A triangle of a chunk: a primitive of it that is drawn as it is, or one of
-/// the triangles made from a cut primitive, a line or a point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Entry(u32);
-
-impl Entry {
-    const EXTRA: u32 = 1 << 31;
-
-    /// The primitive at this place in the chunk, as it is.
-    #[inline(always)]
-    pub(crate) fn primitive(place: u32) -> Self {
-        Self(place)
-    }
-
-    /// A triangle of the chunk's own.
-    #[inline(always)]
-    pub(crate) fn extra(index: usize) -> Self {
-        Self(index as u32 | Self::EXTRA)
-    }
-
-    /// The place of a primitive in its chunk; `Err` with the index among the
-    /// chunk's own triangles.
-    #[inline(always)]
-    pub(crate) fn place(self) -> Result<u32, usize> {
-        if self.0 & Self::EXTRA == 0 { Ok(self.0) } else { Err((self.0 & !Self::EXTRA) as usize) }
-    }
-}
-
-/// A triangle of a frame: a primitive that is drawn as it is, or one that its
-/// chunk keeps.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
-    /// The primitive's ordinal in the frame.
-    pub(crate) ordinal: u32,
-    extra: u32,
-}
-
-impl Place {
-    const WHOLE: u32 = u32::MAX;
-
-    /// Whether it is simply a primitive.
-    #[inline(always)]
-    pub(crate) fn is_whole(self) -> bool {
-        self.extra == Self::WHOLE
-    }
-
-    /// Its index among the chunk's own triangles.
-    #[inline(always)]
-    pub(crate) fn extra(self) -> Option<usize> {
-        (!self.is_whole()).then_some(self.extra as usize)
-    }
-}
-
-/// A triangle over many tiles, so that it is not listed in each.
+/// A triangle, line or point over many tiles, so that it is not listed in each.
 struct Large {
     entry: Entry,
     tiles: TileRange,
@@ -78,10 +27,12 @@ pub(crate) struct Chunk {
     pub(crate) surface: Surface,
     /// Triangles that are not just primitives.
     pub(crate) extras: Vec<SetupTriangle>,
-    /// Weights of the corners at the vertices of cut triangles.
+    /// Weights of the corners at the vertices of those.
     pub(crate) weights: Vec<CutWeights>,
-    /// What the anti-aliased lines and points cover.
-    strokes: Vec<Stroke>,
+    /// Lines and points.
+    quads: Vec<Quad>,
+    /// What only some of them have.
+    details: Vec<QuadDetail>,
     pub(crate) stats: Stats,
     /// A tile and an entry for each time that a triangle is listed, in the order of the
     /// primitives.
@@ -101,7 +52,8 @@ impl Chunk {
         self.surface = surface;
         self.extras.clear();
         self.weights.clear();
-        self.strokes.clear();
+        self.quads.clear();
+        self.details.clear();
         self.stats = Stats::default();
         self.tiles.clear();
         self.pushed.clear();
@@ -139,22 +91,76 @@ impl Chunk {
         }
     }
 
-    /// Keeps a stroke for the triangles around it.
-    pub(crate) fn keep_stroke(&mut self, stroke: Stroke) -> Kind {
-        self.strokes.push(stroke);
-        Kind::Stroke(self.strokes.len() as u32 - 1)
+    /// Keeps a line or a point and notes all tiles that it may have samples in; false if
+    /// there are none.
+    pub(crate) fn push_quad(&mut self, grid: &Grid, quad: Quad) -> bool {
+        let Some([columns, rows]) = grid.pixels_between([quad.extent(0), quad.extent(1)]) else {
+            return false;
+        };
+        let entry = Entry::quad(self.quads.len());
+        let tiles = grid.tiles_of(columns, rows);
+        if tiles.len() == 1 {
+            self.push(tiles.rows.start * grid.columns + tiles.columns.start, entry);
+        } else {
+            let count = self.tiles.len();
+            let sides = Edge::sides(&quad);
+            let is_large = !grid.tiles_between(&sides, tiles.clone(), |tile| {
+                self.push(tile, entry);
+                self.tiles.len() - count < LARGE
+            });
+            if is_large {
+                self.tiles.truncate(count);
+                self.pushed.truncate(count);
+                self.large.push(Large { entry, tiles });
+            } else if self.tiles.len() == count {
+                return false;
+            }
+        }
+        self.quads.push(quad);
+        true
     }
 
-    /// One of its strokes.
-    pub(crate) fn stroke(&self, index: u32) -> &Stroke {
-        &self.strokes[index as usize]
+    /// Keeps what only some lines and points have.
+    pub(crate) fn keep(&mut self, detail: QuadDetail) -> Option<DetailIndex> {
+        let index = DetailIndex::new(self.details.len());
+        self.details.push(detail);
+        index
     }
 
-    /// The stroke that one of the chunk's own triangles lies around.
-    pub(crate) fn stroke_of(&self, extra: usize) -> Option<&Stroke> {
-        match self.extras[extra].kind {
-            Kind::Stroke(index) => Some(self.stroke(index)),
-            _ => None,
+    fn detail(&self, quad: &Quad) -> Option<&QuadDetail> {
+        quad.detail.map(|index| &self.details[index.get()])
+    }
+
+    /// The line or point that a triangle is half of.
+    #[inline(always)]
+    pub(crate) fn quad(&self, place: Place) -> Option<&Quad> {
+        place.quad().map(|(index, _)| &self.quads[index])
+    }
+
+    /// The triangle of a place that is not a whole primitive; `None` if it is.
+    pub(crate) fn made(&self, place: Place) -> Option<SetupTriangle> {
+        match place.quad() {
+            Some((index, half)) => Some(self.quads[index].half(half)),
+            None => place.extra().map(|extra| self.extras[extra]),
+        }
+    }
+
+    /// The stroke of the anti-aliased line or point that a triangle is half of.
+    pub(crate) fn stroke_of(&self, place: Place) -> Option<&Stroke> {
+        self.detail(self.quad(place)?)?.stroke.as_ref()
+    }
+
+    /// The weights of the primitive's corners at the vertices of a triangle, unless those
+    /// are its corners.
+    pub(crate) fn weights_of(&self, place: Place) -> Option<CutWeights> {
+        if let Some((index, half)) = place.quad() {
+            let quad = &self.quads[index];
+            let ends = self.detail(quad).map_or(QuadDetail::WHOLE, |detail| detail.weights);
+            return quad.weights(half, ends);
+        }
+        match self.extras[place.extra()?].corners {
+            Corners::Cut { weights, .. } => Some(self.weights[weights as usize]),
+            Corners::Whole(_) | Corners::Ends(_) => None,
         }
     }
 
@@ -203,7 +209,11 @@ impl Chunk {
     pub(crate) fn collect(&self, grid: &Grid, tile: u32, places: &mut Vec<Place>) {
         let listed = self.listed(tile);
         if self.large.is_empty() {
-            places.extend(listed.iter().map(|&entry| self.place(entry)));
+            if self.extras.is_empty() && self.quads.is_empty() {
+                places.extend(listed.iter().map(|&entry| Place::whole(self.ordinals.start, entry)));
+            } else {
+                listed.iter().for_each(|&entry| self.append(entry, places));
+            }
             return;
         }
         let (column, row) = (tile % grid.columns, tile / grid.columns);
@@ -214,37 +224,50 @@ impl Chunk {
             while let Some(entry) =
                 listed.next_if(|entry| self.primitive(*entry) < self.primitive(large.entry))
             {
-                places.push(self.place(entry));
+                self.append(entry, places);
             }
-            places.push(self.place(large.entry));
+            self.append(large.entry, places);
         }
-        places.extend(listed.map(|entry| self.place(entry)));
+        listed.for_each(|entry| self.append(entry, places));
     }
 
-    /// The triangle of an entry.
+    /// Appends the triangles of an entry.
     #[inline(always)]
-    fn place(&self, entry: Entry) -> Place {
-        match entry.place() {
-            Ok(at) => Place { ordinal: self.ordinals.start + at, extra: Place::WHOLE },
-            Err(extra) => Place { ordinal: self.extras[extra].ordinal, extra: extra as u32 },
+    fn append(&self, entry: Entry, places: &mut Vec<Place>) {
+        places.push(self.triangle(entry));
+        if let Listed::Quad(index) = entry.listed() {
+            places.push(Place::half(self.quads[index].ordinal, index, 1));
+        }
+    }
+
+    /// The only triangle of an entry, or the first of two.
+    #[inline(always)]
+    fn triangle(&self, entry: Entry) -> Place {
+        match entry.listed() {
+            Listed::Primitive(_) => Place::whole(self.ordinals.start, entry),
+            Listed::Extra(extra) => Place { ordinal: self.extras[extra].ordinal, extra: extra as u32 },
+            Listed::Quad(index) => Place::half(self.quads[index].ordinal, index, 0),
         }
     }
 
     /// All triangles that any tile lists, in the order of the primitives.
-    pub(crate) fn all(&self) -> impl Iterator<Item = Place> {
+    pub(crate) fn all(&self) -> Vec<Place> {
         let mut entries: Vec<_> =
             self.large.iter().map(|large| large.entry).chain(self.entries.clone()).collect();
         entries.sort_unstable_by_key(|&entry| (self.primitive(entry), entry.0));
         entries.dedup();
-        entries.into_iter().map(|entry| self.place(entry))
+        let mut places = Vec::new();
+        entries.into_iter().for_each(|entry| self.append(entry, &mut places));
+        places
     }
 
     /// The place in the chunk of the primitive that a triangle belongs to.
     #[inline]
     pub(crate) fn primitive(&self, entry: Entry) -> u32 {
-        match entry.place() {
-            Ok(place) => place,
-            Err(extra) => self.extras[extra].ordinal - self.ordinals.start,
+        match entry.listed() {
+            Listed::Primitive(place) => place,
+            Listed::Extra(extra) => self.extras[extra].ordinal - self.ordinals.start,
+            Listed::Quad(index) => self.quads[index].ordinal - self.ordinals.start,
         }
     }
 

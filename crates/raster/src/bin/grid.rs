@@ -76,8 +76,15 @@ impl Grid {
     /// there are none.
     #[inline]
     pub(crate) fn pixels_of(&self, triangle: &SetupTriangle) -> Option<[[i32; 2]; 2]> {
-        let columns = self.pattern.pixels_between(triangle.extent(0))?;
-        let rows = self.pattern.pixels_between(triangle.extent(1))?;
+        self.pixels_between([triangle.extent(0), triangle.extent(1)])
+    }
+
+    /// The pixels in view that may hold a sample between coordinates of both axes; `None` if
+    /// there are none.
+    #[inline]
+    pub(crate) fn pixels_between(&self, [columns, rows]: [[i32; 2]; 2]) -> Option<[[i32; 2]; 2]> {
+        let columns = self.pattern.pixels_between(columns)?;
+        let rows = self.pattern.pixels_between(rows)?;
         let meets = |[first, last]: [i32; 2], side: u32| first < side as i32 && last >= 0;
         (meets(columns, self.viewport.width) && meets(rows, self.viewport.height)).then_some([columns, rows])
     }
@@ -109,13 +116,27 @@ impl Grid {
         }
     }
 
+    /// Visits those of some tiles that lie outside none of the edges until `visit` says that
+    /// it is enough; false if it did.
+    pub(crate) fn tiles_between(
+        &self,
+        edges: &[Edge],
+        TileRange { columns, rows }: TileRange,
+        mut visit: impl FnMut(u32) -> bool,
+    ) -> bool {
+        rows.into_iter().all(|row| {
+            let mut columns = self.columns_inside(edges, columns.clone(), row);
+            columns.all(|column| visit(row * self.columns + column))
+        })
+    }
+
     /// Those tiles of a row that lie outside none of the edges.
     ///
     /// The greatest value of an edge in a tile grows by the same step from tile to
     /// tile, so its sign changes at one column, which a division finds exactly: a
     /// long thin triangle costs as much as the tiles that it crosses, not as those
     /// of its bounding box.
-    fn columns_inside(&self, edges: &[Edge; 3], columns: Range<u32>, row: u32) -> Range<u32> {
+    fn columns_inside(&self, edges: &[Edge], columns: Range<u32>, row: u32) -> Range<u32> {
         let (mut first, mut last) = (i64::from(columns.start), i64::from(columns.end) - 1);
         for edge in edges {
             let [low, high] = self.reach_of_tile([0, row]);

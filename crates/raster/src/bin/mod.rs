@@ -5,6 +5,8 @@
 
 mod chunk;
 mod grid;
+mod place;
 
-pub(crate) use chunk::{Chunk, Entry, Place};
+pub(crate) use chunk::Chunk;
 pub(crate) use grid::{Grid, TileRange};
+pub(crate) use place::{Entry, Place};

@@ -27,7 +27,7 @@ impl Shape {
     fn new(tile: TileView<'_>, place: usize) -> Option<Self> {
         let at = tile.places[place];
         let covering = single(tile.frame, tile.area, at)?;
-        let stroke = at.extra().and_then(|extra| tile.frame.chunk_of(at).stroke_of(extra).copied());
+        let stroke = at.part().and_then(|_| tile.frame.chunk_of(at).stroke_of(at).copied());
         Some(Self { covering, place: place as u32, stroke })
     }
 

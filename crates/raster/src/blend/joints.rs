@@ -60,7 +60,7 @@ struct Segment {
 
 impl Segment {
     fn of(frame: &FrameView<'_>, place: Place) -> Option<Self> {
-        place.extra()?;
+        place.part()?;
         let plan = &frame.plan.draws[frame.draw_of(place)];
         let geometry = &frame.pass[plan.draw].geometry;
         let segment = || {

@@ -25,7 +25,7 @@ impl DepthOrder<'_> {
     #[inline]
     fn compare_keys(&self, a: &Layer, b: &Layer) -> Ordering {
         let TileView { frame, places, ties, .. } = self.0;
-        let part = |layer: &Layer| places[layer.place as usize].extra();
+        let part = |layer: &Layer| places[layer.place as usize].part();
         ties.compare(frame, places, [b.place, a.place]).then_with(|| part(b).cmp(&part(a)))
     }
 }

@@ -59,11 +59,13 @@ impl Gather<'_> {
                 let half_width = half_size((width, outline), supersampling);
                 segments.iter().for_each(|&indices| self.segment(indices, half_width, toward_eye));
             }
-            Shape::Points { points, size, shape, outline, toward_eye } => {
-                let half = half_size((size, outline), supersampling).round() as i32;
+            Shape::Points { points, sizes, shape, outline, toward_eye } => {
+                let half_of = sizes.each(|size| half_size((size, outline), supersampling).round() as i32);
                 // What covers a share of a sample is never certain.
                 let form = (outline == Outline::Sharp).then_some(shape);
-                points.iter().for_each(|&index| self.point(index, (half, form), toward_eye));
+                for (number, &index) in (0..).zip(points) {
+                    self.point(index, (half_of(number), form), toward_eye);
+                }
             }
         }
     }

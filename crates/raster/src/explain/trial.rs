@@ -6,7 +6,7 @@ use crate::Surface;
 use crate::bin::Place;
 use crate::blend::leaves;
 use crate::frame::FrameView;
-use crate::line::Form;
+use crate::line::{Form, Stroke};
 use crate::resolve::saturated;
 use crate::setup::{Corners, Kind, SetupTriangle};
 use crate::tile::{BEHIND_ALL, Covering, Edge};
@@ -86,7 +86,7 @@ impl<'f> Trial<'f> {
         let mut fragment = self.describe(*place, triangle, point);
         let covering = Covering::new(triangle, &self.frame.grid, &pixel.area);
         let at = pixel.at.map(|v| v as i32);
-        let stroke = place.extra().and_then(|extra| self.frame.chunk_of(*place).stroke_of(extra));
+        let stroke = self.frame.chunk_of(*place).stroke_of(*place);
         let coverage = stroke.map_or(1.0, |stroke| stroke.coverage_at(point) as f32);
         let covers = |covering: &Covering| coverage > 0.0 && covering.covers(at, number, point);
         if let Some(covering) = covering.filter(covers) {
@@ -137,10 +137,10 @@ impl<'f> Trial<'f> {
             Kind::Line => PrimitiveKind::Line,
             Kind::SquarePoint => PrimitiveKind::SquarePoint,
             Kind::RoundPoint => PrimitiveKind::RoundPoint,
-            Kind::Stroke(index) => match self.frame.chunk_of(place).stroke(index).form() {
-                Form::Line => PrimitiveKind::Line,
-                Form::Square => PrimitiveKind::SquarePoint,
-                Form::Round => PrimitiveKind::RoundPoint,
+            Kind::Stroke => match self.frame.chunk_of(place).stroke_of(place).map(Stroke::form) {
+                Some(Form::Square) => PrimitiveKind::SquarePoint,
+                Some(Form::Round) => PrimitiveKind::RoundPoint,
+                Some(Form::Line) | None => PrimitiveKind::Line,
             },
         }
     }
@@ -149,9 +149,9 @@ impl<'f> Trial<'f> {
     fn is_cut(&self, place: Place, triangle: &SetupTriangle) -> bool {
         match triangle.corners {
             Corners::Whole(_) => false,
-            Corners::Cut { weights, .. } => {
-                let weights = &self.frame.chunk_of(place).weights[weights as usize];
-                !weights.iter().all(|corners| corners.contains(&1.0))
+            Corners::Cut { .. } | Corners::Ends(_) => {
+                let weights = self.frame.chunk_of(place).weights_of(place);
+                weights.is_some_and(|weights| !weights.iter().all(|corners| corners.contains(&1.0)))
             }
         }
     }

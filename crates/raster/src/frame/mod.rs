@@ -112,8 +112,10 @@ impl<'f> FrameView<'f> {
     /// A triangle of a tile, ready.
     #[inline]
     pub(crate) fn triangle(&self, place: Place) -> SetupTriangle {
-        if let Some(extra) = place.extra() {
-            return self.chunk_of(place).extras[extra];
+        if !place.is_whole()
+            && let Some(triangle) = self.chunk_of(place).made(place)
+        {
+            return triangle;
         }
         SetupTriangle::whole(self.corners(place).each(|vertex| *vertex), place.ordinal)
     }

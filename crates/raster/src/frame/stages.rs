@@ -228,10 +228,10 @@ fn set_up_part(mut setup: Setup<'_>, shape: &Shape<'_>, axis: u32, token: Token,
                 setup.segment(index, segments[index as usize], style);
             }
         }
-        Shape::Points { points, size, shape, outline, toward_eye } => {
-            let style = PointStyle::new((size, outline), shape, toward_eye, axis);
+        Shape::Points { points, sizes, shape, outline, toward_eye } => {
+            let style_of = sizes.each(|size| PointStyle::new((size, outline), shape, toward_eye, axis));
             for index in range {
-                setup.point(index, points[index as usize], style);
+                setup.point(index, points[index as usize], style_of(index));
             }
         }
     }

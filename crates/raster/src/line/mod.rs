@@ -1,5 +1,5 @@
 //! Segments become parallelograms: two triangles each, covered by the same
-//! exact rule.
+//! exact rule, in one record.
 //!
 //! The parallelogram spans the width across the minor direction and is closed
 //! by cuts along it, so that a line one pixel wide has one pixel in each step
@@ -13,9 +13,9 @@ mod stroke;
 pub(crate) use stroke::{Form, Stroke};
 
 use crate::Outline;
-use crate::setup::{Candidate, CutWeights, Kind, Setup};
+use crate::setup::{Ends, Kind, Quad, QuadDetail, Setup};
 use crate::vertex::{ScreenVertex, nearer};
-use trigon_math::{ClipVertex, Fixed, FixedPoint, clip_segment};
+use trigon_math::{ClipVertex, Fixed, clip_segment};
 
 /// The widest line and largest point in pixels.
 pub(crate) const SIZE_MAX: f32 = 4096.0;
@@ -106,45 +106,41 @@ impl Setup<'_> {
         }
     }
 
-    /// The two triangles around a segment.
+    /// What lies around a segment.
     fn parallelogram(&mut self, primitive: u32, mut ends: [(ScreenVertex, [f32; 2]); 2], style: LineStyle) {
         // From the upper end to the lower, and from the smaller index where both
-        // lie on one point (the sort is stable): then nothing below depends on
-        // which end was given first.
-        ends.sort_by_key(|(end, _)| {
+        // lie on one point: then nothing below depends on which end was given first.
+        let key = |(end, _): &(ScreenVertex, [f32; 2])| {
             let [x, y] = end.raw();
             (y, x)
-        });
+        };
+        if key(&ends[1]) < key(&ends[0]) {
+            ends.swap(0, 1);
+        }
         // Columns of the weights in the order of the ends, too.
         let swapped = ends[0].1[0] < ends[1].1[0];
-        let corners = if swapped { [1, 0, 0] } else { [0, 1, 1] };
         let weights = ends.map(|(_, [a, b])| if swapped { [b, a, 0.0] } else { [a, b, 0.0] });
-        let stroke = style.smooth.map(|width| Stroke::line(ends.map(|(end, _)| end.raw()), width));
-        let points = ends.map(|(end, _)| end.point());
-        let outline = match &stroke {
+        let points = ends.map(|(end, _)| end.raw());
+        let stroke = style.smooth.map(|width| Stroke::line(points, width));
+        let corners = match &stroke {
             Some(stroke) => rectangle(points, stroke, style.half_width),
             None => outline(points, style),
         };
-        let Some(outline) = outline else {
+        let Some(corners) = corners else {
             self.chunk.stats.outside += 1;
             return;
         };
-        let kind = stroke.map_or(Kind::Line, |stroke| self.chunk.keep_stroke(stroke));
-        let vertex = |end: usize, side: usize| {
-            let vertex = ends[end].0.at(outline[end][side]);
-            vertex.with_depth(nearer(vertex.depth(), style.toward_eye))
-        };
-        for [a, b, c] in [[(0, 0), (0, 1), (1, 1)], [(0, 0), (1, 1), (1, 0)]] {
-            let candidate = Candidate {
-                vertices: [a, b, c].map(|(end, side)| vertex(end, side)),
-                primitive,
-                corners,
-                kind,
-                front_facing: true,
-            };
-            let shares: CutWeights = [a, b, c].map(|(end, _): (usize, usize)| weights[end]);
-            self.push(candidate, Some(shares));
-        }
+        let is_plain = stroke.is_none() && weights == QuadDetail::WHOLE;
+        let detail = if is_plain { None } else { self.chunk.keep(QuadDetail { weights, stroke }) };
+        self.push_quad(Quad {
+            corners,
+            depths: ends.map(|(end, _)| nearer(end.depth(), style.toward_eye)),
+            inverse_w: ends.map(|(end, _)| end.inverse_w()),
+            ordinal: self.first + primitive,
+            detail,
+            kind: if stroke.is_some() { Kind::Stroke } else { Kind::Line },
+            ends: if swapped { Ends::Swapped } else { Ends::InOrder },
+        });
     }
 }
 
@@ -153,50 +149,74 @@ fn by_index<T>(indices: [u32; 2], [a, b]: [T; 2]) -> [T; 2] {
     if indices[0] > indices[1] { [b, a] } else { [a, b] }
 }
 
-/// The corners of the parallelogram around a segment: for each end the one
-/// before and the one behind it across the minor direction. `None` if one has
-/// no place on the grid.
-fn outline(ends: [FixedPoint; 2], style: LineStyle) -> Option<[[FixedPoint; 2]; 2]> {
-    let [from, to] = ends.map(|end| [end.x.raw(), end.y.raw()]);
+/// For each end of a segment the corners before it and behind it, across: x and y in 1/256
+/// pixel.
+type Corners = [[[i32; 2]; 2]; 2];
+
+/// The corners of the parallelogram around a segment, across the minor direction. `None` if one
+/// has no place on the grid.
+fn outline([from, to]: [[i32; 2]; 2], style: LineStyle) -> Option<Corners> {
     let span = [to[0] - from[0], to[1] - from[1]].map(f64::from);
     let major = if span[0].abs() >= span[1].abs() { 0 } else { 1 };
     let minor = 1 - major;
-    let length = (span[0] * span[0] + span[1] * span[1]).sqrt();
-    let degenerate = length == 0.0;
+    let degenerate = span == [0.0; 2];
     let slope = if degenerate { 0.0 } else { span[minor] / span[major] };
     // How far the cut ends lie from the middle, and how far the segment is
     // prolonged, so that its corners meet those of a segment at a right angle.
     let across = if style.single || degenerate {
         style.half_width
     } else {
+        let length = (span[0] * span[0] + span[1] * span[1]).sqrt();
         style.half_width * length / span[major].abs()
     };
     let along = if span[major] < 0.0 { -style.half_width } else { style.half_width };
-    let corner = |end: [i32; 2], along: f64, across: f64| {
-        let mut point = [0.0; 2];
-        point[major] = f64::from(end[major]) + along;
-        point[minor] = f64::from(end[minor]) + along * slope + across;
-        let fixed = |raw: f64| Fixed::from_f64(raw / 256.0);
-        Some(FixedPoint::new(fixed(point[0])?, fixed(point[1])?))
+    let corners = |end: [i32; 2], along: f64| {
+        let place = on_grid(f64::from(end[major]) + along)?;
+        let middle = f64::from(end[minor]) + along * slope;
+        let sides = [on_grid(middle - across)?, on_grid(middle + across)?];
+        Some(sides.map(|side| if major == 0 { [place, side] } else { [side, place] }))
     };
-    Some([
-        [corner(from, -along, -across)?, corner(from, -along, across)?],
-        [corner(to, along, -across)?, corner(to, along, across)?],
-    ])
+    Some([corners(from, -along)?, corners(to, along)?])
 }
 
-/// The corners of the rectangle around an anti-aliased segment, in the order of
-/// [`outline`]'s.
-fn rectangle(ends: [FixedPoint; 2], stroke: &Stroke, reach: f64) -> Option<[[FixedPoint; 2]; 2]> {
+/// The corners of the rectangle around an anti-aliased segment.
+fn rectangle(ends: [[i32; 2]; 2], stroke: &Stroke, reach: f64) -> Option<Corners> {
     let [dx, dy] = stroke.direction().map(|v| v * reach);
-    let corner = |end: FixedPoint, along: f64, across: f64| {
-        let x = f64::from(end.x.raw()) + along * dx - across * dy;
-        let y = f64::from(end.y.raw()) + along * dy + across * dx;
-        Some(FixedPoint::new(Fixed::from_f64(x / 256.0)?, Fixed::from_f64(y / 256.0)?))
+    let corner = |[x, y]: [i32; 2], along: f64, across: f64| {
+        let x = f64::from(x) + along * dx - across * dy;
+        let y = f64::from(y) + along * dy + across * dx;
+        Some([on_grid(x)?, on_grid(y)?])
     };
     let [from, to] = ends;
     Some([
         [corner(from, -1.0, -1.0)?, corner(from, -1.0, 1.0)?],
         [corner(to, 1.0, -1.0)?, corner(to, 1.0, 1.0)?],
     ])
+}
+
+/// A coordinate in 1/256 pixel, rounded as [`Fixed::from_f64`](trigon_math::Fixed::from_f64) does,
+/// without the call that this takes where processors of all kinds are served.
+#[inline(always)]
+fn on_grid(raw: f64) -> Option<i32> {
+    // Adding it rounds to whole numbers, ties to even, and leaves them in the low bits.
+    const ROUND: f64 = 1.5 * (1_u64 << 52) as f64;
+    // And a half, which is rounded down to it.
+    const LIMIT: f64 = ((Fixed::LIMIT as i64) << Fixed::FRACTION_BITS) as f64 + 0.5;
+    (raw.abs() <= LIMIT).then(|| (raw + ROUND).to_bits() as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn places_on_the_grid_are_those_of_fixed(raw in -2e9_f64..2e9, halves in any::<i32>(), far: f64) {
+            for raw in [raw, f64::from(halves) / 2.0, far] {
+                let fixed = Fixed::from_f64(raw / 256.0).map(Fixed::raw);
+                prop_assert_eq!(on_grid(raw), fixed, "{}", raw);
+            }
+        }
+    }
 }

@@ -1,12 +1,11 @@
-//! Points become squares: two triangles each; for a disc the tile looks at the
+//! Points become squares of one record each; for a disc the tile looks at the
 //! distance from the centre, and for anti-aliased ones at what they cover (see
 //! [`Stroke`]).
 
 use crate::line::{Form, Stroke, half_size, smooth_size};
-use crate::setup::{Candidate, Kind, Setup};
+use crate::setup::{Ends, Kind, Quad, QuadDetail, Setup};
 use crate::vertex::{ScreenVertex, nearer};
 use crate::{Outline, PointShape};
-use trigon_math::{Fixed, FixedPoint};
 
 /// How a draw's points look.
 #[derive(Clone, Copy)]
@@ -51,26 +50,23 @@ impl Setup<'_> {
     }
 
     fn square(&mut self, primitive: u32, centre: ScreenVertex, style: PointStyle) {
-        let centre = centre.with_depth(nearer(centre.depth(), style.toward_eye));
         let [column, row] = centre.raw();
+        let PointStyle { half, .. } = style;
         // Within the guard band and the largest size, nothing leaves the grid.
-        let vertex = |x: i32, y: i32| {
-            let moved = |raw: i32, by: i32| Fixed::from_raw(raw + by * style.half);
-            centre.at(FixedPoint::new(moved(column, x), moved(row, y)))
-        };
-        let kind = style.smooth.map_or(style.kind, |size| {
+        let corner = |x: i32, y: i32| [column + x * half, row + y * half];
+        let detail = style.smooth.and_then(|size| {
             let form = if style.kind == Kind::RoundPoint { Form::Round } else { Form::Square };
-            self.chunk.keep_stroke(Stroke::point([column, row], size, form))
+            let stroke = Some(Stroke::point([column, row], size, form));
+            self.chunk.keep(QuadDetail { weights: QuadDetail::WHOLE, stroke })
         });
-        for other in [vertex(1, -1), vertex(-1, 1)] {
-            let candidate = Candidate {
-                vertices: [vertex(-1, -1), other, vertex(1, 1)],
-                primitive,
-                corners: [0, 0, 0],
-                kind,
-                front_facing: true,
-            };
-            self.push(candidate, None);
-        }
+        self.push_quad(Quad {
+            corners: [[corner(-1, -1), corner(1, -1)], [corner(-1, 1), corner(1, 1)]],
+            depths: [nearer(centre.depth(), style.toward_eye); 2],
+            inverse_w: [centre.inverse_w(); 2],
+            ordinal: self.first + primitive,
+            detail,
+            kind: if style.smooth.is_some() { Kind::Stroke } else { style.kind },
+            ends: Ends::Point,
+        });
     }
 }

@@ -4,6 +4,7 @@
 mod columns;
 mod ears;
 mod eight;
+mod quad;
 #[cfg(test)]
 mod tests;
 mod triangle;
@@ -11,6 +12,7 @@ mod triangle;
 pub(crate) use columns::{Column, small_lanes, sorted_columns};
 pub(crate) use ears::{cut_ears, doubled_area};
 pub(crate) use eight::SMALL;
+pub(crate) use quad::{DetailIndex, Ends, Quad, QuadDetail};
 pub(crate) use triangle::{Corners, Kind, SetupTriangle, sorted};
 
 use crate::Culling;
@@ -34,13 +36,13 @@ pub(crate) struct Setup<'a> {
     pub(crate) chunk: &'a mut Chunk,
 }
 
-/// Three vertices on their way into a record.
-pub(crate) struct Candidate {
-    pub(crate) vertices: [ScreenVertex; 3],
-    pub(crate) primitive: u32,
-    pub(crate) corners: [u8; 3],
-    pub(crate) kind: Kind,
-    pub(crate) front_facing: bool,
+/// Three vertices of a cut triangle on their way into a record.
+struct Candidate {
+    vertices: [ScreenVertex; 3],
+    primitive: u32,
+    /// The corner that each column of the weights is for.
+    order: [u8; 3],
+    front_facing: bool,
 }
 
 impl Setup<'_> {
@@ -100,11 +102,10 @@ impl Setup<'_> {
             let candidate = Candidate {
                 vertices: ear.map(|i| screen[i]),
                 primitive,
-                corners: cut.order,
-                kind: Kind::Triangle,
+                order: cut.order,
                 front_facing: area < 0,
             };
-            self.push(candidate, Some(ear.map(|i| vertices[i].weights)));
+            self.push(candidate, ear.map(|i| vertices[i].weights));
         });
     }
 
@@ -131,17 +132,13 @@ impl Setup<'_> {
 
     /// Sorts the vertices and keeps the triangle if it can hold a sample of the
     /// view.
-    pub(crate) fn push(&mut self, candidate: Candidate, weights: Option<CutWeights>) {
+    fn push(&mut self, candidate: Candidate, weights: CutWeights) {
         let order = sorted(candidate.vertices);
-        let corners = match weights {
-            None => Corners::Whole(order.map(|i| candidate.corners[i])),
-            Some(_) => Corners::Cut { weights: self.chunk.weights.len() as u32, order: candidate.corners },
-        };
         let triangle = SetupTriangle {
             vertices: order.map(|i| candidate.vertices[i]),
             ordinal: self.first + candidate.primitive,
-            corners,
-            kind: candidate.kind,
+            corners: Corners::Cut { weights: self.chunk.weights.len() as u32, order: candidate.order },
+            kind: Kind::Triangle,
             front_facing: candidate.front_facing,
         };
         if triangle.doubled_area() == 0 || self.grid.pixels_of(&triangle).is_none() {
@@ -149,9 +146,18 @@ impl Setup<'_> {
             return;
         }
         self.chunk.stats.set_up += 1;
-        self.chunk.weights.extend(weights.map(|weights| order.map(|i| weights[i])));
+        self.chunk.weights.push(order.map(|i| weights[i]));
         let entry = Entry::extra(self.chunk.extras.len());
         self.chunk.push_all(self.grid, &triangle, entry);
         self.chunk.extras.push(triangle);
+    }
+
+    /// Keeps a line or a point if it can hold a sample of the view.
+    pub(crate) fn push_quad(&mut self, quad: Quad) {
+        if self.chunk.push_quad(self.grid, quad) {
+            self.chunk.stats.set_up += 1;
+        } else {
+            self.chunk.stats.culled += 1;
+        }
     }
 }

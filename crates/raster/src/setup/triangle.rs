@@ -11,9 +11,8 @@ pub(crate) enum Kind {
     SquarePoint,
     /// Half of the square around a disc.
     RoundPoint,
-    /// Half of the rectangle around an anti-aliased line or point: the index among
-    /// its chunk's strokes.
-    Stroke(u32),
+    /// Half of the rectangle around an anti-aliased line or point.
+    Stroke,
 }
 
 /// How the vertices of a set-up triangle come from the corners of the
@@ -29,6 +28,9 @@ pub(crate) enum Corners {
         /// The corner that column `i` of the weights is for.
         order: [u8; 3],
     },
+    /// Made from a segment: the weights of its vertices are those at its ends, and
+    /// column `i` of them is for vertex `[i]` of the segment.
+    Ends([u8; 3]),
 }
 
 /// A triangle with an area and, perhaps, samples inside.

@@ -5,7 +5,6 @@ use super::task::Vector;
 use super::triangle_lanes::CutColumns;
 use super::weights::Placed;
 use super::{MAX_VARYINGS, ShadeContext};
-use crate::setup::Corners;
 use crate::simd::{Each, I32, LANES, Mask, Row, Simd, U32, inlined, prelude::*, transpose};
 
 /// The records of the triangles of eight pixels, and the lanes of all but the first.
@@ -245,13 +244,7 @@ impl Special {
         self.is_cut = false;
         for lane in 0..LANES {
             let place = context.places[self.cold[cold::PLACE][lane] as usize];
-            let cut = place.extra().and_then(|extra| {
-                let chunk = context.frame.chunk_of(place);
-                match chunk.extras[extra].corners {
-                    Corners::Cut { weights, .. } => Some(chunk.weights[weights as usize]),
-                    Corners::Whole(_) => None,
-                }
-            });
+            let cut = place.part().and_then(|_| context.frame.chunk_of(place).weights_of(place));
             self.is_cut |= cut.is_some();
             let weights = cut.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
             for (columns, weights) in self.cut.iter_mut().zip(weights) {

@@ -1,8 +1,9 @@
 //! What shading has to know: the frame, the tile, and which pixels.
 
+use crate::Surface;
 use crate::bin::Place;
 use crate::frame::{DrawPlan, FrameView};
-use crate::geometry::Geometry;
+use crate::geometry::{Geometry, Shape};
 use crate::simd::{I32, Mask, Simd, U32, prelude::*};
 use crate::tile::TileArea;
 use crate::vertex::{DrawVertices, Slots};
@@ -41,6 +42,15 @@ impl<'f> ShadeContext<'f> {
         let (plan, stride) = (self.plan(), self.frame.pipeline(self.draw).stride());
         let values = &self.frame.varyings[plan.varyings..plan.varyings + plan.used.len() * stride];
         DrawVaryings { slots: self.frame.plan.slots(plan), values, stride }
+    }
+
+    /// Whether the draw is of lines or points that have one colour each and no mask, which
+    /// might ask for more.
+    pub(crate) fn has_flat_marks(&self) -> bool {
+        let Geometry { shape, surface, .. } = self.geometry();
+        self.frame.pipeline(self.draw).is_flat()
+            && !matches!(shape, Shape::Triangles { .. })
+            && matches!(surface, Surface::Opaque | Surface::Translucent)
     }
 
     /// How many varyings a vertex has.

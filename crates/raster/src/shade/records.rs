@@ -99,12 +99,28 @@ impl Records {
             self.tags.resize(seen.len(), Tag::default());
         }
         let shape = self.shape;
+        if context.has_flat_marks() {
+            return self.fill_flat(context, length);
+        }
         at_level!(token, simd => {
             let rows = self.rows.chunks_mut(LANES * shape.size);
             for ((seen, rows), tags) in seen.chunks(LANES).zip(rows).zip(self.tags.chunks_mut(LANES)) {
                 eight(simd, context, seen, (rows, shape), tags);
             }
         });
+    }
+
+    /// The records of flat lines and points: of such only the ids have a meaning, so all else
+    /// stays empty, with steps of no triangle that is wide or cut.
+    fn fill_flat(&mut self, context: &ShadeContext<'_>, length: usize) {
+        let Self { rows, tags, shape, seen } = self;
+        rows[..length].fill([0; LANES]);
+        let first = context.plan().ordinals.start;
+        for ((record, tag), &number) in rows.chunks_exact_mut(shape.size).zip(tags).zip(&*seen) {
+            record[0][hot::STEPS] = 1;
+            record[0][hot::STEPS + 1] = 1;
+            *tag = Tag { primitive: context.places[number as usize].ordinal - first, flags: 0 };
+        }
     }
 
     #[inline(always)]

@@ -179,7 +179,7 @@ impl<S: Simd> Sorted<S> {
 fn corner_of(triangle: &SetupTriangle, vertex: usize) -> u8 {
     match triangle.corners {
         Corners::Whole(corners) => corners[vertex],
-        Corners::Cut { order, .. } => order[vertex],
+        Corners::Cut { order, .. } | Corners::Ends(order) => order[vertex],
     }
 }
 
@@ -188,7 +188,7 @@ fn flags_of(triangle: &SetupTriangle) -> i32 {
         let [low, high] = triangle.extent(axis);
         high - low >= SMALL
     });
-    let is_cut = matches!(triangle.corners, Corners::Cut { .. });
+    let is_cut = !matches!(triangle.corners, Corners::Whole(_));
     let flags = [
         (!triangle.front_facing, flag::BACK),
         (triangle.kind == Kind::Triangle, flag::EDGES),

@@ -311,7 +311,7 @@ impl Cover<'_> {
 
     /// The covered lanes that are nearer than what is there.
     #[inline(always)]
-    fn seen<S: Simd>(
+    pub(super) fn seen<S: Simd>(
         &self,
         simd: S,
         place: u32,

@@ -1,7 +1,7 @@
 //! The depth of a triangle at any point of the sub-pixel grid.
 
 use crate::setup::SetupTriangle;
-use crate::simd::{F32, Simd, greater, lesser, prelude::*};
+use crate::simd::{Each, F32, Simd, greater, lesser, prelude::*};
 use crate::vertex::ScreenVertex;
 use fearless_simd::f64x4;
 
@@ -30,8 +30,14 @@ pub(crate) struct DepthPlane {
 impl DepthPlane {
     #[inline]
     pub(crate) fn of(triangle: &SetupTriangle) -> Self {
-        let [a, b, c] = triangle.vertices.map(ScreenVertex::raw);
-        let [za, zb, zc] = triangle.vertices.map(ScreenVertex::depth);
+        Self::through(triangle.vertices)
+    }
+
+    /// Through vertices in their order.
+    #[inline(always)]
+    pub(crate) fn through(vertices: [ScreenVertex; 3]) -> Self {
+        let [a, b, c] = vertices.each(ScreenVertex::raw);
+        let [za, zb, zc] = vertices.each(ScreenVertex::depth);
         let low = |a: f32, b: f32| if b < a { b } else { a };
         let high = |a: f32, b: f32| if b > a { b } else { a };
         let step = |from: i32, to: i32| f64::from(to - from);

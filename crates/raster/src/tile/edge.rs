@@ -3,7 +3,7 @@
 //! After J. Pineda, "A Parallel Algorithm for Polygon Rasterization", 1988, in
 //! integers on the sub-pixel grid.
 
-use crate::setup::SetupTriangle;
+use crate::setup::{Quad, SetupTriangle};
 use crate::vertex::ScreenVertex;
 
 /// The edge opposite one vertex as a linear function of a point in 1/256 pixel:
@@ -28,6 +28,31 @@ impl Edge {
         let [a, b, c] = triangle.vertices.map(ScreenVertex::raw);
         let edges = [Self::through(b, c), Self::through(c, a), Self::through(a, b)];
         if triangle.doubled_area() < 0 { edges.map(Self::reversed) } else { edges }
+    }
+
+    /// The two sides of a line or a point along it, positive inside.
+    #[inline]
+    pub(crate) fn sides(quad: &Quad) -> [Self; 2] {
+        let [near, far, ..] = Self::around(quad);
+        [near, far]
+    }
+
+    /// The edges of a line or a point, positive inside: its two sides along it, its two ends;
+    /// and the diagonal between its triangles, positive in the first of them.
+    #[inline]
+    pub(crate) fn around(quad: &Quad) -> [Self; 5] {
+        // Once around: a, b, c, d. The triangles are a, b, c and a, c, d.
+        let [[a, b], [d, c]] = quad.corners;
+        let [ab, ac] = [[b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]];
+        let area = i64::from(ab[0]) * i64::from(ac[1]) - i64::from(ab[1]) * i64::from(ac[0]);
+        let edges = [
+            Self::through(d, a),
+            Self::through(b, c),
+            Self::through(a, b),
+            Self::through(c, d),
+            Self::through(c, a),
+        ];
+        if area < 0 { edges.map(Self::reversed) } else { edges }
     }
 
     #[inline]

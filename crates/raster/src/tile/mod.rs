@@ -11,6 +11,7 @@ mod eight;
 mod key_order;
 mod masked;
 mod micro;
+mod quad;
 mod scratch;
 mod seen;
 mod several;

@@ -19,12 +19,24 @@ pub(super) fn store_where<S: Simd>(
     buffer: &mut VisibilityBuffer,
     at: usize,
 ) {
+    store_places_where(simd, mask, (U32::splat(simd, place), depth), buffer, at);
+}
+
+/// Writes some lanes, each with a place of its own.
+#[inline(always)]
+pub(super) fn store_places_where<S: Simd>(
+    simd: S,
+    mask: Mask<S>,
+    (places, depth): (U32<S>, F32<S>),
+    buffer: &mut VisibilityBuffer,
+    at: usize,
+) {
     let bits = mask.select(U32::splat(simd, u32::MAX), U32::splat(simd, 0));
     let there = F32::from_slice(simd, &buffer.depth[at..at + LANES]);
     let depth: F32<S> = blended(bits, there.bitcast(), depth.bitcast()).bitcast();
     depth.store_slice(&mut buffer.depth[at..at + LANES]);
     let winners = buffer.winner[at..].first_chunk_mut().expect("groups are whole");
-    name_where(simd, mask, place, winners);
+    *winners = blended(bits, U32::simd_from(simd, *winners), places).into();
 }
 
 /// Makes a place the winner in some lanes.

@@ -1,6 +1,7 @@
 //! What tiles show, against a search through all triangles at every sample.
 
 mod large;
+mod marks;
 mod quick;
 mod small;
 

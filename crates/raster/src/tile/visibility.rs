@@ -3,6 +3,7 @@
 use super::cover::Cover;
 use super::eight::Eight;
 use super::micro::Covered;
+use super::quad::QuadEdges;
 use super::starts::Starts;
 use super::ties::COMPARISON;
 use super::{Counts, Covering, NOBODY, Scratch, Surfaces, TileArea, VisibilityBuffer, masked};
@@ -99,12 +100,25 @@ fn cover_places<S: Simd, const MULTI: bool>(
     let cover = &{ *cover };
     let mut starts = Starts::new(cover.offsets);
     let mut covered = Covered::new();
+    let mut edges = QuadEdges::new(frame.grid.pattern);
     let mut start = 0;
     while start < places.len() {
         let together = side_by_side(frame, cover, &places[start..]);
         let eight = (together > 0).then(|| eight(simd, frame, cover, &places[start..start + together]));
-        let end = start + together.max(1);
-        if !MULTI && let Some(eight) = eight.as_ref().filter(|eight| eight.micro) {
+        let mut end = start + together.max(1);
+        if eight.is_none()
+            && cover_quad::<S, MULTI>(
+                simd,
+                frame,
+                cover,
+                &mut edges,
+                (places[start], start),
+                (buffer, counts),
+            )
+        {
+            // Both of its triangles.
+            end += 1;
+        } else if !MULTI && let Some(eight) = eight.as_ref().filter(|eight| eight.micro) {
             cover.micro(simd, (eight, &mut covered), start as u32, buffer, counts);
         } else {
             if let Some(eight) = &eight {
@@ -121,6 +135,22 @@ fn cover_places<S: Simd, const MULTI: bool>(
         start = end;
     }
     true
+}
+
+/// A line or a point of which this is the first triangle; false if it is not, or has to go the
+/// way of triangles.
+#[inline(always)]
+fn cover_quad<S: Simd, const MULTI: bool>(
+    simd: S,
+    frame: &FrameView<'_>,
+    cover: &Cover<'_>,
+    edges: &mut QuadEdges,
+    (place, number): (Place, usize),
+    (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
+) -> bool {
+    let first = place.is_first_half().then(|| frame.chunk_of(place));
+    let Some(quad) = first.and_then(|chunk| chunk.quad(place)) else { return false };
+    cover.quad::<S, MULTI>(simd, (quad, edges), number as u32, buffer, counts)
 }
 
 /// One triangle, perhaps a lane of eight that are ready.

@@ -56,6 +56,12 @@ impl ScreenVertex {
         f32::from_bits(self.0[2] as u32)
     }
 
+    /// 1/w.
+    #[inline(always)]
+    pub(crate) fn inverse_w(self) -> f32 {
+        f32::from_bits(self.0[3] as u32)
+    }
+
     #[inline]
     pub(crate) fn with_depth(self, depth: f32) -> Self {
         let Self([x, y, _, q]) = self;

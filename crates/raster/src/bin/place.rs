@@ -1,0 +1,110 @@
+//! How chunks and tiles name what is drawn: in as few bytes as they can, as there are many.
+
+/// What a tile of a chunk lists: a primitive that is drawn as it is, one of the triangles
+/// made from a cut one, or a line or a point, which is two triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Entry(pub(super) u32);
+
+/// What an [`Entry`] stands for.
+pub(super) enum Listed {
+    /// The primitive at this place in the chunk.
+    Primitive(u32),
+    /// The index of one of the chunk's own triangles.
+    Extra(usize),
+    /// The index of one of the chunk's lines and points.
+    Quad(usize),
+}
+
+impl Entry {
+    const EXTRA: u32 = 1 << 31;
+    const QUAD: u32 = 1 << 30;
+
+    /// The primitive at this place in the chunk, as it is.
+    #[inline(always)]
+    pub(crate) fn primitive(place: u32) -> Self {
+        Self(place)
+    }
+
+    /// A triangle of the chunk's own.
+    #[inline(always)]
+    pub(crate) fn extra(index: usize) -> Self {
+        Self(index as u32 | Self::EXTRA)
+    }
+
+    /// A line or a point.
+    #[inline(always)]
+    pub(super) fn quad(index: usize) -> Self {
+        Self(index as u32 | Self::QUAD)
+    }
+
+    #[inline(always)]
+    pub(super) fn listed(self) -> Listed {
+        if self.0 & Self::EXTRA != 0 {
+            Listed::Extra((self.0 & !Self::EXTRA) as usize)
+        } else if self.0 & Self::QUAD != 0 {
+            Listed::Quad((self.0 & !Self::QUAD) as usize)
+        } else {
+            Listed::Primitive(self.0)
+        }
+    }
+}
+
+/// A triangle of a frame: a primitive that is drawn as it is, one that its
+/// chunk keeps, or half of a line or a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    /// The primitive's ordinal in the frame.
+    pub(crate) ordinal: u32,
+    pub(super) extra: u32,
+}
+
+impl Place {
+    const WHOLE: u32 = u32::MAX;
+    const QUAD: u32 = 1 << 31;
+
+    /// A primitive of a chunk whose ordinals start here.
+    #[inline(always)]
+    pub(super) fn whole(start: u32, Entry(place): Entry) -> Self {
+        Self { ordinal: start + place, extra: Self::WHOLE }
+    }
+
+    /// Half of a line or a point.
+    #[inline(always)]
+    pub(super) fn half(ordinal: u32, quad: usize, half: u32) -> Self {
+        Self { ordinal, extra: Self::QUAD | (quad as u32) << 1 | half }
+    }
+
+    /// Whether it is simply a primitive.
+    #[inline(always)]
+    pub(crate) fn is_whole(self) -> bool {
+        self.extra == Self::WHOLE
+    }
+
+    /// The part of its primitive that it is, if it is not all of it: a number that grows from
+    /// part to part.
+    #[inline(always)]
+    pub(crate) fn part(self) -> Option<u32> {
+        (!self.is_whole()).then_some(self.extra)
+    }
+
+    /// Its index among the chunk's own triangles.
+    #[inline(always)]
+    pub(super) fn extra(self) -> Option<usize> {
+        // What is whole has all bits set.
+        (self.extra & Self::QUAD == 0).then_some(self.extra as usize)
+    }
+
+    /// The index of a line or a point among the chunk's, and which half of it it is.
+    #[inline(always)]
+    pub(super) fn quad(self) -> Option<(usize, usize)> {
+        let is_half = !self.is_whole() && self.extra & Self::QUAD != 0;
+        is_half.then_some(((self.extra & !Self::QUAD) as usize >> 1, self.extra as usize & 1))
+    }
+
+    /// Whether it is half of a line or a point: the first half, and the other comes next, as
+    /// tiles have both.
+    #[inline(always)]
+    pub(crate) fn is_first_half(self) -> bool {
+        self.quad().is_some_and(|(_, half)| half == 0)
+    }
+}

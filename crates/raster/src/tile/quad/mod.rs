@@ -1,0 +1,235 @@
+//! Opaque lines and points: both triangles at once, in those groups only that the outline
+//! crosses.
+//!
+//! A line's outline has two ends along an axis and two sides that climb by no more than a
+//! pixel in each pixel of the other, the major axis (see [`line`](crate::line)). So the groups
+//! are gone through along the major axis, four columns or two rows at a time, and across it only
+//! from where the one side may pass to where the other may: four or five groups for twelve
+//! pixels of a thin line, whatever its length. Where in a group the outline lies, its edge
+//! functions say exactly, as for triangles; the diagonal tells which of the two triangles has a
+//! sample, as its depth and colour are found from that.
+
+mod edges;
+mod strip;
+
+pub(super) use edges::QuadEdges;
+
+use super::area::GROUPS;
+use super::buffer::VisibilityBuffer;
+use super::cover::{Counts, Cover};
+use super::store::store_places_where;
+use super::{DepthPlane, TileArea};
+use crate::samples::SamplePattern;
+use crate::setup::{Kind, Quad};
+use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, U32, inlined, lane_numbers, prelude::*};
+use edges::{DIAGONAL, EDGES, Place};
+use strip::{SHIFT, Strip};
+
+/// From this width on, in 1/256 pixel, it pays to ask whole blocks, as for triangles.
+const WIDE: i32 = 32 * 256;
+
+/// The round outline of a point, from the tile's corner.
+struct Disc {
+    /// Twice the centre, in 1/256 pixel.
+    centre: [i32; 2],
+    square_of_diameter: i32,
+}
+
+impl Disc {
+    /// Of a point that is not [`WIDE`], so that squares in the groups around it fit 32 bits.
+    fn new(quad: &Quad, area: &TileArea) -> Self {
+        let [[left, right], [top, bottom]] = [quad.extent(0), quad.extent(1)];
+        let [x, y] = area.origin.map(|v| v * 512);
+        let diameter = right - left;
+        Self { centre: [left + right - x, top + bottom - y], square_of_diameter: diameter * diameter }
+    }
+
+    /// Which pixels of a group have the sample at this offset in the disc.
+    #[inline(always)]
+    fn covers<S: Simd>(&self, simd: S, first: [i32; 2], offset: [i32; 2]) -> Mask<S> {
+        let lanes = [lane_numbers(simd) & 3, lane_numbers(simd) >> 2];
+        let [dx, dy] = [0, 1].each(
+            #[inline(always)]
+            |axis| (lanes[axis] << 9) + (first[axis] * 512 + 2 * offset[axis] - self.centre[axis]),
+        );
+        (dx * dx + dy * dy).simd_lt(I32::splat(simd, self.square_of_diameter))
+    }
+}
+
+/// A line or a point on its way through a tile.
+struct Walk<'q, S: Simd> {
+    quad: &'q Quad,
+    edges: &'q QuadEdges,
+    /// The edges' steps within a group.
+    lanes: [I32<S>; EDGES],
+    disc: Option<Disc>,
+    /// The planes of both triangles, if the ends are not equally deep.
+    planes: Option<[DepthPlane; 2]>,
+    /// The first triangle among the tile's; the other comes next.
+    place: u32,
+}
+
+impl Cover<'_> {
+    /// Lets a line or a point compete for the samples that it covers; false if it has to go the
+    /// way of triangles.
+    #[inline(always)]
+    pub(super) fn quad<S: Simd, const MULTI: bool>(
+        &self,
+        simd: S,
+        (quad, edges): (&Quad, &mut QuadEdges),
+        place: u32,
+        buffer: &mut VisibilityBuffer,
+        counts: &mut Counts,
+    ) -> bool {
+        // Apart, so that it takes no registers where there are only triangles.
+        simd.vectorize(
+            #[inline(always)]
+            || self.quad_apart::<S, MULTI>(simd, (quad, edges), place, buffer, counts),
+        )
+    }
+
+    #[inline(always)]
+    fn quad_apart<S: Simd, const MULTI: bool>(
+        &self,
+        simd: S,
+        (quad, edges): (&Quad, &mut QuadEdges),
+        place: u32,
+        buffer: &mut VisibilityBuffer,
+        counts: &mut Counts,
+    ) -> bool {
+        if self.tile_hides(buffer, quad.nearest()) {
+            counts.tiles_rejected += 1;
+            return true;
+        }
+        let [[a, b], [d, c]] = quad.corners;
+        let major = usize::from(a[0] != b[0]);
+        let minor = 1 - major;
+        if (b[minor] - a[minor]).max(c[minor] - d[minor]) >= WIDE {
+            return false;
+        }
+        let Some(pixels) = pixels_in(quad, edges.pattern, &self.area) else { return true };
+        match edges.find(simd, quad, &self.area) {
+            Place::Beside => return true,
+            Place::TooLong => return false,
+            Place::Within => {}
+        }
+        buffer.settle();
+        let planes = (quad.depths[0] != quad.depths[1]).then(
+            #[inline(always)]
+            || [plane_of_half(quad, 0), plane_of_half(quad, 1)],
+        );
+        let disc = (quad.kind == Kind::RoundPoint).then(|| Disc::new(quad, &self.area));
+        let pattern = edges.pattern;
+        let walk = Walk { quad, lanes: edges.lanes(simd), edges, disc, planes, place };
+        let (first, last) = (pixels[major][0] >> SHIFT[major], pixels[major][1] >> SHIFT[major]);
+        let mut strip = Strip::new(quad, pattern, &self.area, (major, first));
+        for along in first..last + 1 {
+            for across in strip.next(pixels[minor], SHIFT[minor]) {
+                let at = if major == 0 { [along, across] } else { [across, along] };
+                self.group::<S, MULTI>(simd, &walk, at, buffer, counts);
+            }
+        }
+        true
+    }
+
+    /// Lets the samples of a group, by its column and row, compete.
+    #[inline(always)]
+    fn group<S: Simd, const MULTI: bool>(
+        &self,
+        simd: S,
+        walk: &Walk<'_, S>,
+        [column, row]: [i32; 2],
+        buffer: &mut VisibilityBuffer,
+        counts: &mut Counts,
+    ) {
+        let group = TileArea::group_of([column as usize, row as usize]);
+        let block = group / GROUPS;
+        if self.hierarchical && self.hides(buffer.blocks[block].farthest, walk.quad.nearest()) {
+            return;
+        }
+        counts.groups += 1;
+        let first = [column << SHIFT[0], row << SHIFT[1]];
+        let QuadEdges { right, down, starts, greatest, .. } = walk.edges;
+        // What the group and the sample add, of all edges at once. Partial sums may wrap around;
+        // the sum fits.
+        let [right, down] = [I32::simd_from(simd, *right), I32::simd_from(simd, *down)];
+        let here = right * first[0] + down * first[1];
+        if MULTI {
+            let here: Row = (here + I32::simd_from(simd, *greatest)).into();
+            if !walk.inside(simd, &here).any_true() {
+                return;
+            }
+        }
+        let mut wrote = false;
+        let samples = if MULTI { buffer.samples } else { 1 };
+        for (sample, starts) in starts[..samples].iter().enumerate() {
+            let here: Row = (here + I32::simd_from(simd, *starts)).into();
+            let mut covered = walk.inside(simd, &here);
+            if let Some(disc) = &walk.disc {
+                covered &= disc.covers(simd, first, self.offsets[sample]);
+            }
+            if !covered.any_true() {
+                continue;
+            }
+            let is_first = (walk.lanes[DIAGONAL] + here[DIAGONAL]).simd_ge(I32::splat(simd, 0));
+            let depth = walk.depth(simd, is_first, self.area.point(first, self.offsets[sample]));
+            let at = (group * samples + sample) * LANES;
+            let seen = self.seen(simd, walk.place, (covered, depth), buffer, at);
+            if seen.any_true() {
+                let places = is_first.select(U32::splat(simd, walk.place), U32::splat(simd, walk.place + 1));
+                store_places_where(simd, seen, (places, depth), buffer, at);
+                wrote = true;
+            }
+        }
+        if wrote {
+            buffer.note_write(block, walk.quad.nearest());
+        }
+    }
+}
+
+impl<S: Simd> Walk<'_, S> {
+    /// Which pixels of a group lie inside of the outline, from the values at its first.
+    #[inline(always)]
+    fn inside(&self, simd: S, here: &Row) -> Mask<S> {
+        let [a, b, c, d] = [0, 1, 2, 3].each(
+            #[inline(always)]
+            |k| self.lanes[k] + here[k],
+        );
+        (a | b | (c | d)).simd_ge(I32::splat(simd, 0))
+    }
+
+    /// The depths in a group whose first point is given, each of the triangle that it is in.
+    #[inline(always)]
+    fn depth(&self, simd: S, is_first: Mask<S>, point: [i32; 2]) -> F32<S> {
+        match &self.planes {
+            None => F32::splat(simd, self.quad.depths[0]),
+            Some([a, b]) => is_first.select(a.group(simd, point), b.group(simd, point)),
+        }
+    }
+}
+
+/// The plane of the depths of one of the triangles.
+#[inline(always)]
+fn plane_of_half(quad: &Quad, half: usize) -> DepthPlane {
+    let (vertices, order) = quad.sorted(half);
+    DepthPlane::through(order.each(
+        #[inline(always)]
+        |i| vertices[i],
+    ))
+}
+
+/// The first and last columns and rows of the tile that may have a sample of a line or a point;
+/// `None` if there are none.
+#[inline(always)]
+fn pixels_in(quad: &Quad, pattern: SamplePattern, area: &TileArea) -> Option<[[i32; 2]; 2]> {
+    let range = inlined(
+        #[inline(always)]
+        |axis: usize| {
+            let [first, last] = pattern.pixels_between(quad.extent(axis))?;
+            let first = (first - area.origin[axis]).max(0);
+            let last = (last - area.origin[axis]).min(area.padded()[axis] as i32 - 1);
+            (first <= last).then_some([first, last])
+        },
+    );
+    Some([range(0)?, range(1)?])
+}
