@@ -187,17 +187,43 @@ fn runs(slots: &[u32]) -> Vec<Run> {
 }
 
 /// An edge of a triangle is an edge of its polygon when it joins neighbouring
-/// corners; all others are diagonals of the triangulation.
+/// corners; all others are diagonals of the triangulation. With them goes how much larger
+/// the polygon is than the triangle shows.
 fn polygon_edges(source: &Mesh) -> Vec<EdgeFlags> {
     let triangulation = source.triangulation();
-    let pairs = triangulation.triangles.iter().zip(&triangulation.triangle_faces);
-    let flags = pairs.map(|(&[a, b, c], &face)| {
-        let corners = source.face_corners(face as usize);
+    let faces = triangulation.triangle_faces.chunk_by(|a, b| a == b);
+    let mut flags = Vec::with_capacity(triangulation.triangles.len());
+    let mut rest = triangulation.triangles.as_slice();
+    for face in faces {
+        let (triangles, others) = rest.split_at(face.len());
+        rest = others;
+        let corners = source.face_corners(face[0] as usize);
         let (first, last) = (corners.start as u32, corners.end as u32 - 1);
         let neighbours = |from: u32, to: u32| to == if from == last { first } else { from + 1 };
-        EdgeFlags::new([(a, b), (b, c), (c, a)].map(|(from, to)| neighbours(from, to)))
-    });
-    flags.collect()
+        let edges = |&[a, b, c]: &[u32; 3]| [(a, b), (b, c), (c, a)].map(|(from, to)| neighbours(from, to));
+        let parts = triangles.iter().map(|triangle| (triangle, edges(triangle)));
+        if let [_] = triangles {
+            flags.extend(parts.map(|(_, edges)| EdgeFlags::new(edges)));
+            continue;
+        }
+        let measures = parts.clone().map(|(triangle, edges)| measure(source, triangle, edges));
+        let [area, length] = measures.clone().fold([0.0, 0.0], |[a, b], [c, d]| [a + c, b + d]);
+        flags.extend(parts.zip(measures).map(|((_, edges), own)| {
+            // Without an area or without an edge it is no number, and so ignored.
+            let ratio = (area * own[1]) / (own[0] * length);
+            EdgeFlags::new(edges).with_radius_ratio(ratio as f32)
+        }));
+    }
+    flags
+}
+
+/// Twice the area of a triangle, and the length of those of its sides that are edges.
+fn measure(source: &Mesh, triangle: &[u32; 3], edges: [bool; 3]) -> [f64; 2] {
+    let position = |corner: u32| source.positions()[source.corner_vertices()[corner as usize] as usize];
+    let [a, b, c] = triangle.map(|corner| position(corner).as_dvec3());
+    let sides = [b - a, c - b, a - c];
+    let lengths = sides.iter().zip(edges).map(|(side, is_edge)| if is_edge { side.length() } else { 0.0 });
+    [sides[0].cross(sides[1]).length(), lengths.sum()]
 }
 
 #[cfg(test)]
