@@ -15,6 +15,8 @@
 mod lined;
 mod outer;
 mod rule;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use outer::{Footprint, OuterInk};
 pub(crate) use rule::{FaceLine, LineColumns};
@@ -112,7 +114,7 @@ impl Ink {
 }
 
 #[cfg(test)]
-mod tests {
+mod limits {
     use super::*;
 
     #[test]

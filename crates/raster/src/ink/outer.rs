@@ -169,13 +169,7 @@ impl OuterInk {
 
     /// The pixels that lines of others may cover: a bit for each column of each row.
     #[inline(always)]
-    fn candidates<S: Simd>(
-        &self,
-        simd: S,
-        area: &TileArea,
-        visible: &Rows,
-        reach: usize,
-    ) -> [u64; MAX_SIDE] {
+    fn candidates<S: Simd>(&self, simd: S, area: &TileArea, visible: &Rows, reach: usize) -> [u64; MAX_SIDE] {
         let [columns, rows] = self.own_part.clone();
         let own = (u64::MAX >> (MAX_SIDE - columns.len())) << columns.start;
         let mut found = [0; MAX_SIDE];
@@ -272,9 +266,11 @@ impl OuterInk {
         lined.nearest(point).fold(0.0, |most, edge| {
             let covered = line.coverage(edge.distance);
             let is_seen = || {
-                ground.is_none_or(|ground| {
-                    if are_joined { !ground.hides(&edge) } else { ground.is_behind(&edge) }
-                })
+                ground.is_none_or(
+                    |ground| {
+                        if are_joined { !ground.hides(&edge) } else { ground.is_behind(&edge) }
+                    },
+                )
             };
             if covered > most && is_seen() { covered } else { most }
         })

@@ -1,9 +1,9 @@
 //! What a pipeline knows when it shades eight pixels.
 
-use super::{ShadeContext, Work};
 use super::records::{Records, Tag, cold, flag, lined};
 use super::task::Vector;
 use super::weights::Weights;
+use super::{ShadeContext, Work};
 use crate::fragment::nearest_edge;
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, lanes_of, lesser, prelude::*};
 use crate::{Fragment, Varyings};

@@ -138,12 +138,12 @@ impl Lines {
         let is_painted = lined & F32::simd_from(simd, self.weight).simd_gt(0.0);
         let least: [f32; LANES] = is_painted.select(lesser(lesser(a, b), c), none).into();
         for (lane, &place) in seen.iter().enumerate() {
-            let line = match self.shows_edges {
-                true => {
-                    let (half, weight) = (self.half[lane], self.weight[lane]);
-                    FaceLine { half, weight, radius: self.radius[lane] }
-                }
-                false => FaceLine::UNLINED,
+            let (half, weight, radius) = (self.half[lane], self.weight[lane], self.radius[lane]);
+            let line = match (self.shows_edges, self.lined >> lane & 1 != 0) {
+                (true, true) => FaceLine { half, weight, radius },
+                // In the middle of its polygon.
+                (true, false) => FaceLine { radius, ..FaceLine::UNLINED },
+                (false, _) => FaceLine::UNLINED,
             };
             outer.note(place, Footprint { least: least[lane], greatest: greatest[lane] }, line);
         }

@@ -23,8 +23,7 @@ pub(crate) fn shade_tile(
     let runs = std::mem::take(&mut shading.runs);
     let outer = std::mem::take(&mut shading.outer);
     for run in &runs {
-        let context =
-            ShadeContext { frame, area: *area, places, draw: run.draw, outer: outer.coverage() };
+        let context = ShadeContext { frame, area: *area, places, draw: run.draw, outer: outer.coverage() };
         match run.records {
             Some(shape) => shading.records.select(shape),
             None => shading.records.fill(frame.token, &context, &shading.seen[run.slots.clone()]),
@@ -62,6 +61,8 @@ pub(crate) fn list_visible(
             run.records = Some(records.append(frame.token, &context, seen, Some(&mut outer)));
         }
         outer.find(frame, (ink, area), buffer, places);
+    } else if !outer.is_empty() {
+        outer.begin(0);
     }
     shading.outer = outer;
     count

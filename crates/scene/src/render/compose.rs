@@ -254,11 +254,8 @@ impl<'s> Composer<'s> {
 
     fn hidden_line<'c>(&'c self, object: &Object<'s>) -> Box<dyn Record + 'c> {
         let geometry = object.geometry;
-        let pipeline = HiddenLine {
-            columns: &geometry.columns,
-            place: object.place,
-            backdrop: self.backdrop,
-        };
+        let pipeline =
+            HiddenLine { columns: &geometry.columns, place: object.place, backdrop: self.backdrop };
         Box::new(Triangles {
             pipeline,
             triangles: &geometry.triangles,

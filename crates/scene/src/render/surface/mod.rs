@@ -27,7 +27,7 @@ use trigon_raster::simd::{F32, Mask, Simd, prelude::*};
 use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
 
 use super::columns::Columns;
-use super::lanes::{V3, normalized, saturated, splat, sum, tinted, turned};
+use super::lanes::{V3, normalized, saturated, splat, sum, turned};
 use super::lighting::Reflected;
 use super::placement::Placement;
 use crate::effects::Scenery;
