@@ -102,7 +102,7 @@ impl EdgeFlags {
 
     /// The same flags of a triangle whose face has this many times the inner radius that
     /// the triangle shows by itself: twice its area over the length of those of its sides
-    /// that are flagged. For [`FaceEdges`](crate::FaceEdges), which makes lines narrower on
+    /// that are flagged, or of all where none is (it lies in the middle of its face then). For [`FaceEdges`](crate::FaceEdges), which makes lines narrower on
     /// small faces; slivers of the triangulation of a large polygon are told from such by
     /// this. A radius is twice an area over a perimeter.
     ///

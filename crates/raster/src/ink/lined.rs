@@ -1,11 +1,12 @@
-//! A triangle with the edges of its face: how far they are from a point, and what lies in
+//! A triangle and the edges of its face: how far they are from a point, and what lies in
 //! front of what.
 
 use crate::bin::Place;
 use crate::frame::FrameView;
+use crate::geometry::Geometry;
 use crate::setup::{Corners, SetupTriangle};
 use crate::tile::{DepthPlane, Edge};
-use crate::vertex::ScreenVertex;
+use crate::vertex::{DrawVertices, ScreenVertex};
 
 /// An edge of a face between two vertices.
 #[derive(Clone, Copy, Default)]
@@ -30,15 +31,20 @@ pub(super) struct EdgePoint {
     depth: f64,
 }
 
-/// A visible triangle.
-#[derive(Clone, Copy)]
-pub(super) struct LinedTriangle {
-    vertices: [ScreenVertex; 3],
+/// A visible triangle and the edges of the face that it belongs to: slivers beside it may
+/// cover no sample, and nobody else would paint their edges.
+#[derive(Default)]
+pub(super) struct LinedFace {
+    /// Places and bits of depths.
+    vertices: Vec<[i32; 3]>,
+    segments: Vec<Segment>,
     edges: [Edge; 3],
     plane: DepthPlane,
-    segments: [Segment; 3],
-    count: usize,
+    has_parts: bool,
 }
+
+/// The most triangles of the face that are looked at before this one, and after it.
+const MOST_PARTS: u32 = 32;
 
 impl Segment {
     fn between(from: ScreenVertex, to: ScreenVertex) -> Self {
@@ -64,44 +70,67 @@ impl Segment {
     }
 }
 
-impl LinedTriangle {
-    pub(super) fn new(frame: &FrameView<'_>, place: Place) -> Self {
+impl LinedFace {
+    /// Becomes that of a triangle.
+    pub(super) fn set(&mut self, frame: &FrameView<'_>, place: Place) {
         let triangle = frame.triangle(place);
-        let mut lined = Self {
-            vertices: triangle.vertices,
-            edges: Edge::of(&triangle),
-            plane: DepthPlane::of(&triangle),
-            segments: [Segment::default(); 3],
-            count: 0,
-        };
-        let plan = &frame.plan.draws[frame.draw_of(place)];
+        (self.edges, self.plane) = (Edge::of(&triangle), DepthPlane::of(&triangle));
+        self.vertices.clear();
+        self.vertices.extend(triangle.vertices.each_ref().map(identity));
+        self.segments.clear();
+        self.has_parts = false;
+        let draw = frame.draw_of(place);
+        let plan = &frame.plan.draws[draw];
         let geometry = &frame.pass[plan.draw].geometry;
         if !geometry.shows_edges() {
-            return lined;
+            return;
         }
-        let flags = geometry.edge_flags(place.ordinal - plan.ordinals.start);
+        let primitive = place.ordinal - plan.ordinals.start;
+        let flags = geometry.edge_flags(primitive);
         for (from, to) in [(0, 1), (1, 2), (2, 0)] {
             // The corner that the side does not meet; none for a side that a cut made.
             let opposite = opposite_corner(frame, place, &triangle, [from, to]);
             if opposite.is_some_and(|corner| flags.contains((corner + 1) % 3)) {
-                lined.segments[lined.count] =
-                    Segment::between(triangle.vertices[from], triangle.vertices[to]);
-                lined.count += 1;
+                self.segments.push(Segment::between(triangle.vertices[from], triangle.vertices[to]));
             }
         }
-        lined
+        for part in parts(geometry, primitive) {
+            self.has_parts = true;
+            self.add(frame.vertices(draw), geometry, part);
+        }
+    }
+
+    /// Adds another triangle of the face, unless it has to be cut.
+    fn add(&mut self, vertices: DrawVertices<'_>, geometry: &Geometry<'_>, primitive: u32) {
+        let corners = geometry.corners(primitive).map(|index| *vertices.get(index));
+        if !corners.iter().all(|corner| corner.has_place()) {
+            return;
+        }
+        for corner in corners.iter().map(identity) {
+            if !self.vertices.contains(&corner) {
+                self.vertices.push(corner);
+            }
+        }
+        let flags = geometry.edge_flags(primitive);
+        for edge in (0..3).filter(|&edge| flags.contains(edge)) {
+            self.segments.push(Segment::between(corners[edge], corners[(edge + 1) % 3]));
+        }
+    }
+
+    /// Whether the face has more triangles.
+    pub(super) fn has_parts(&self) -> bool {
+        self.has_parts
     }
 
     /// The nearest points of the edges to a point in 1/256 pixel.
     pub(super) fn nearest(&self, point: [i32; 2]) -> impl Iterator<Item = EdgePoint> {
         let point = point.map(f64::from);
-        self.segments[..self.count].iter().map(move |segment| segment.nearest(point))
+        self.segments.iter().map(move |segment| segment.nearest(point))
     }
 
-    /// Whether the two have a vertex in common: the same point at the same depth.
+    /// Whether the two faces have a vertex in common: the same point at the same depth.
     pub(super) fn shares_a_vertex(&self, other: &Self) -> bool {
-        let place = |vertex: &ScreenVertex| [vertex.0[0], vertex.0[1], vertex.0[2]];
-        self.vertices.iter().any(|a| other.vertices.iter().any(|b| place(a) == place(b)))
+        self.vertices.iter().any(|vertex| other.vertices.contains(vertex))
     }
 
     /// Whether a point lies in front of the plane.
@@ -122,6 +151,20 @@ impl LinedTriangle {
         let DepthPlane { anchor, value, right, down, .. } = self.plane;
         value + down * (y - f64::from(anchor[1])) + right * (x - f64::from(anchor[0]))
     }
+}
+
+/// What tells a vertex from others.
+fn identity(vertex: &ScreenVertex) -> [i32; 3] {
+    [vertex.0[0], vertex.0[1], vertex.0[2]]
+}
+
+/// The other triangles of a face: those around one of them that have its number.
+fn parts(geometry: &Geometry<'_>, primitive: u32) -> impl Iterator<Item = u32> {
+    let face = geometry.face(primitive);
+    let end = (geometry.len() as u32).min(primitive + 1 + MOST_PARTS);
+    let is_part = move |part: &u32| geometry.face(*part) == face;
+    let before = (primitive.saturating_sub(MOST_PARTS)..primitive).rev().take_while(is_part);
+    before.chain((primitive + 1..end).take_while(is_part))
 }
 
 /// The corner of the primitive that is opposite its side on which two vertices lie.

@@ -41,8 +41,9 @@ use trigon_math::{Vec3, Vec4};
 /// share of the face that its lines cover, `1 - ((r - h) / r)²` for lines of half width h,
 /// takes the place of the distances to single edges.
 ///
-/// What of a line lies beyond its own face follows from that face's r; on a face that
-/// shares a corner with it, from the smaller of the two. Triangles tell the radius of
+/// What of a line lies beyond its own face follows from that face's r, and fades out from
+/// r = 2 pixels of the finer grid to 1; on a face that shares a corner with it, it follows
+/// from the smaller of the two. Triangles tell the radius of
 /// their polygon by the edges that are flagged, and by
 /// [`EdgeFlags::with_radius_ratio`](crate::EdgeFlags::with_radius_ratio). A triangle that
 /// is cut by the near plane or far outside of the view counts as large.

@@ -6,13 +6,16 @@
 //!    of the two is large. The rest are neighbours in a dense mesh: the edge between them is
 //!    an edge of both, and each paints its half. And
 //! 2. the point of the edge that is nearest to the pixel lies in front of the plane of T;
-//!    or T and U have a vertex in common and T does not cover that point.
+//!    or their faces have a vertex in common and T does not cover that point.
+//!
+//! With U all triangles of its face count (some may be slivers that no sample sees), and so
+//! do those of T's own face.
 //!
 //! Which pixels this may hold for at all is found for rows of pixels at once, from the
 //! greatest of the depths around each; only those look at their neighbours one by one. All
 //! of it depends on what is visible around a pixel, and not on tiles.
 
-use super::lined::LinedTriangle;
+use super::lined::LinedFace;
 use super::{FaceLine, Ink};
 use crate::bin::Place;
 use crate::frame::FrameView;
@@ -74,8 +77,13 @@ pub(crate) struct OuterInk {
     /// The lanes of each group that the tile draws itself.
     own: Vec<u8>,
     own_part: [Range<usize>; 2],
-    ready: Vec<Option<(u32, LinedTriangle)>>,
+    /// Faces whose edges are looked at, and such as they lie over.
+    ready: [Ready; 2],
 }
+
+/// Faces that are kept for the next pixels, with the places of their triangles.
+#[derive(Default)]
+struct Ready(Vec<(u32, LinedFace)>);
 
 impl OuterInk {
     /// Forgets the last tile; this one has so many triangles.
@@ -154,8 +162,7 @@ impl OuterInk {
         let mut rows = self.rows.take().unwrap_or_else(Rows::new);
         self.spread(area, (buffer, places.len()), &mut rows);
         let found = at_level!(frame.token, simd => self.candidates(simd, area, &rows, reach));
-        self.ready.clear();
-        self.ready.resize(READY, None);
+        self.ready.iter_mut().for_each(Ready::clear);
         for y in self.own_part[1].clone() {
             let mut rest = found[y];
             while rest != 0 {
@@ -222,7 +229,8 @@ impl OuterInk {
     ) {
         let own = rows.farthest[y][x];
         let point = area.point([x as i32, y as i32], [128, 128]);
-        let (mut most, mut last) = (0.0, own);
+        let mut most = self.cover_by_own(frame, places, own, point);
+        let mut last = own;
         let columns = x.saturating_sub(reach)..(x + reach + 1).min(area.size[0]);
         for row in y.saturating_sub(reach)..(y + reach + 1).min(area.size[1]) {
             for column in columns.clone() {
@@ -233,7 +241,7 @@ impl OuterInk {
                 }
                 last = other;
                 let covered = self.cover_by(frame, places, [other, own], point);
-                most = if covered > most { covered } else { most };
+                most = greatest(covered, most);
             }
         }
         if most > 0.0 {
@@ -241,6 +249,20 @@ impl OuterInk {
             self.coverage[pixel] = most;
             self.touched.push(pixel as u32);
         }
+    }
+
+    /// What lines of its face cover of a pixel, beside those of the triangle that it sees:
+    /// if that is large, as for other triangles.
+    fn cover_by_own(&mut self, frame: &FrameView<'_>, places: &[Place], own: u32, point: [i32; 2]) -> f32 {
+        if own == NOBODY || self.lines[own as usize].radius < LARGE {
+            return 0.0;
+        }
+        let line = self.lines[own as usize];
+        let ground = self.ready[1].face(frame, places, own);
+        if !ground.has_parts() {
+            return 0.0;
+        }
+        ground.nearest(point).map(|edge| line.coverage(edge.distance)).fold(0.0, greatest)
     }
 
     /// What lines of a triangle cover of a pixel that sees another one.
@@ -259,9 +281,10 @@ impl OuterInk {
         if !(is_before || (is_large && least > f32::NEG_INFINITY)) {
             return 0.0;
         }
-        let lined = self.lined(frame, places, other);
-        let ground = (own != NOBODY).then(|| self.lined(frame, places, own));
-        let are_joined = ground.is_some_and(|ground| ground.shares_a_vertex(&lined));
+        let [others, grounds] = &mut self.ready;
+        let lined = others.face(frame, places, other);
+        let ground = (own != NOBODY).then(|| grounds.face(frame, places, own));
+        let are_joined = ground.is_some_and(|ground| ground.shares_a_vertex(lined));
         let line = if are_joined { theirs.narrower(ours) } else { theirs };
         lined.nearest(point).fold(0.0, |most, edge| {
             let covered = line.coverage(edge.distance);
@@ -275,19 +298,29 @@ impl OuterInk {
             if covered > most && is_seen() { covered } else { most }
         })
     }
+}
 
-    /// A triangle with its edges.
-    fn lined(&mut self, frame: &FrameView<'_>, places: &[Place], place: u32) -> LinedTriangle {
-        let ready = &mut self.ready[place as usize % READY];
-        match ready {
-            Some((of, lined)) if *of == place => *lined,
-            _ => {
-                let lined = LinedTriangle::new(frame, places[place as usize]);
-                *ready = Some((place, lined));
-                lined
-            }
-        }
+impl Ready {
+    /// Forgets all, and keeps their memory.
+    fn clear(&mut self) {
+        self.0.resize_with(READY, || (NOBODY, LinedFace::default()));
+        self.0.iter_mut().for_each(|(place, _)| *place = NOBODY);
     }
+
+    /// The face of a triangle of the tile.
+    fn face(&mut self, frame: &FrameView<'_>, places: &[Place], place: u32) -> &LinedFace {
+        let (of, face) = &mut self.0[place as usize % READY];
+        if *of != place {
+            face.set(frame, places[place as usize]);
+            *of = place;
+        }
+        face
+    }
+}
+
+/// The larger of two.
+fn greatest(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
 }
 
 impl Rows {

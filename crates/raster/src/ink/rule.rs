@@ -1,7 +1,7 @@
 //! How wide the lines on a face are: the rule of [`FaceEdges`](crate::FaceEdges).
 
 use super::Ink;
-use crate::simd::{F32, Mask, Simd, greater, lesser, prelude::*};
+use crate::simd::{F32, Simd, greater, lesser, prelude::*};
 
 /// The most of its inner radius that half a line takes of a face.
 const SHARE: f32 = 1.0 / 3.0;
@@ -13,6 +13,10 @@ const FADING: f32 = 1.5;
 /// place of distances.
 const RESOLVED: [f32; 2] = [0.5, 1.5];
 
+/// The radii in pixels of the finer grid between which lines begin to show beyond their
+/// faces: of smaller ones that is less than a pixel shows, and everywhere.
+const BEYOND: [f32; 2] = [1.0, 2.0];
+
 /// The lines on eight faces, in pixels of the finer grid.
 #[derive(Clone, Copy)]
 pub(crate) struct LineColumns<S: Simd> {
@@ -22,6 +26,8 @@ pub(crate) struct LineColumns<S: Simd> {
     pub(crate) weight: F32<S>,
     /// What they cover in any case: the share where it counts.
     pub(crate) floor: F32<S>,
+    /// 1 where they show in full beyond their faces, 0 where they do not.
+    pub(crate) beyond: F32<S>,
 }
 
 impl<S: Simd> LineColumns<S> {
@@ -32,26 +38,16 @@ impl<S: Simd> LineColumns<S> {
         let fading = radius * radius * (SHARE / (FADING * ink.scale));
         let half = lesser(lesser(wanted, radius * SHARE), fading);
         let [zero, one] = [0.0, 1.0].map(|value| F32::splat(simd, value));
-        let [low, high] = RESOLVED;
-        let weight = lesser(greater((radius - low) * (1.0 / (high - low)), zero), one);
+        let rising =
+            |[low, high]: [f32; 2]| lesser(greater((radius - low) * (1.0 / (high - low)), zero), one);
+        let weight = rising(RESOLVED);
         let inner = (radius - half) / radius;
         let floor = (one - weight) * (one - inner * inner);
-        Self { half, weight, floor }
-    }
-
-    /// The same for faces that have no lines at all.
-    #[inline(always)]
-    pub(crate) fn only(self, simd: S, lined: Mask<S>) -> Self {
-        let zero = F32::splat(simd, 0.0);
-        Self {
-            half: lined.select(self.half, zero),
-            weight: lined.select(self.weight, zero),
-            floor: lined.select(self.floor, zero),
-        }
+        Self { half, weight, floor, beyond: rising(BEYOND) }
     }
 }
 
-/// The lines on one face.
+/// The lines on one face, as they show beyond it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct FaceLine {
     pub(crate) half: f32,
@@ -91,7 +87,7 @@ mod tests {
         let ink = Ink::new(&FaceEdges { width, color: Vec3::ZERO, opacity: 1.0 }, scale).unwrap();
         let token = SimdLevel::best().token().expect("the best level is there");
         at_level!(token, simd => {
-            let LineColumns { half, weight, floor } = LineColumns::new(simd, &ink, F32::simd_from(simd, radii));
+            let LineColumns { half, weight, floor, .. } = LineColumns::new(simd, &ink, F32::simd_from(simd, radii));
             [half.into(), weight.into(), floor.into()]
         })
     }

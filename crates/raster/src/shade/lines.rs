@@ -13,18 +13,15 @@ use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, inlined, less
 /// The radius in pixels of faces that are so large that nobody asks how large.
 const HUGE: f32 = 1e9;
 
-/// The shortest sum of edges in pixels: of a triangle without edges no radius is known, and
-/// this makes it large.
-const SHORTEST: f32 = 1e-6;
+/// The least radius and the shortest perimeter in pixels: nothing is divided by 0.
+const LEAST: f32 = 1e-6;
 
 /// What is painted on eight triangles, and what others have to know of it.
 pub(super) struct Lines {
     columns: [[f32; LANES]; lined::COUNT],
     half: [f32; LANES],
-    weight: [f32; LANES],
+    beyond: [f32; LANES],
     radius: [f32; LANES],
-    /// The lanes whose triangles have lines.
-    lined: u64,
     /// Whether the draw has any.
     shows_edges: bool,
 }
@@ -51,16 +48,14 @@ impl Lines {
             let cut = Mask::from_bitmask(simd, bits(is_cut));
             radius = cut.select(F32::splat(simd, HUGE), radius);
         }
-        let lined = is_edge[0] | is_edge[1] | is_edge[2];
-        let line = LineColumns::new(simd, ink, radius).only(simd, lined);
+        let line = LineColumns::new(simd, ink, radius);
         let inverse = inverses(simd, sorted, lengths);
         let columns = Self::columns(simd, (inverse, is_edge), &line);
         let mut lines = Self {
             columns,
             half: line.half.into(),
-            weight: line.weight.into(),
+            beyond: line.beyond.into(),
             radius: radius.into(),
-            lined: lined.to_bitmask() & 0xff,
             shows_edges,
         };
         for lane in (0..LANES).filter(|&lane| is_cut[lane]) {
@@ -75,7 +70,7 @@ impl Lines {
         (inverse, is_edge): ([F32<S>; 3], [Mask<S>; 3]),
         line: &LineColumns<S>,
     ) -> [[f32; LANES]; lined::COUNT] {
-        let LineColumns { half, weight, floor } = *line;
+        let LineColumns { half, weight, floor, .. } = *line;
         let [a, b, c] = [0, 1, 2].each(
             #[inline(always)]
             |corner| is_edge[corner].select(inverse[corner] * weight, F32::splat(simd, -1.0)),
@@ -103,7 +98,6 @@ impl Lines {
         };
         // Opposite each vertex; their signs do not matter, as they are all the same.
         let steps = [way(1, 2), way(2, 0), way(0, 1)];
-        self.lined &= !(1 << lane);
         for column in 0..3 {
             let slope = |axis: usize| {
                 (0..3).map(|i| f64::from(weights[i][column]) * f64::from(q[i][lane]) * steps[i][axis]).sum()
@@ -111,7 +105,6 @@ impl Lines {
             let (right, down): (f64, f64) = (slope(0), slope(1));
             let slope = (right * right + down * down).sqrt() * 256.0;
             let is_edge = flags.contains((usize::from(order[column]) + 1) % 3) && slope > 0.0;
-            self.lined |= u64::from(is_edge) << lane;
             self.columns[lined::INVERSE + column][lane] = if is_edge { (1.0 / slope) as f32 } else { -1.0 };
         }
     }
@@ -134,17 +127,12 @@ impl Lines {
         let [a, b, c] = sorted.depth;
         let greatest: [f32; LANES] = greater(greater(a, b), c).into();
         let none = F32::splat(simd, f32::NEG_INFINITY);
-        let lined = Mask::from_bitmask(simd, self.lined);
-        let is_painted = lined & F32::simd_from(simd, self.weight).simd_gt(0.0);
-        let least: [f32; LANES] = is_painted.select(lesser(lesser(a, b), c), none).into();
+        let is_painted = F32::simd_from(simd, self.beyond).simd_gt(0.0);
+        let least = is_painted.select(lesser(lesser(a, b), c), none);
+        let least: [f32; LANES] = if self.shows_edges { least.into() } else { none.into() };
         for (lane, &place) in seen.iter().enumerate() {
-            let (half, weight, radius) = (self.half[lane], self.weight[lane], self.radius[lane]);
-            let line = match (self.shows_edges, self.lined >> lane & 1 != 0) {
-                (true, true) => FaceLine { half, weight, radius },
-                // In the middle of its polygon.
-                (true, false) => FaceLine { radius, ..FaceLine::UNLINED },
-                (false, _) => FaceLine::UNLINED,
-            };
+            let (half, weight, radius) = (self.half[lane], self.beyond[lane], self.radius[lane]);
+            let line = if self.shows_edges { FaceLine { half, weight, radius } } else { FaceLine::UNLINED };
             outer.note(place, Footprint { least: least[lane], greatest: greatest[lane] }, line);
         }
     }
@@ -200,7 +188,10 @@ fn radius_of<S: Simd>(
         #[inline(always)]
         |side| is_edge[side].select(lengths[side], zero),
     );
-    let perimeter = greater(a + b + c, F32::splat(simd, SHORTEST));
+    // In the middle of a face there are no edges.
+    let has_edges = is_edge[0] | is_edge[1] | is_edge[2];
+    let perimeter = has_edges.select(a + b + c, lengths[0] + lengths[1] + lengths[2]);
+    let least = F32::splat(simd, LEAST);
     let [ux, uy, vx, vy] = [(sorted.x, 1), (sorted.y, 1), (sorted.x, 2), (sorted.y, 2)].each(
         #[inline(always)]
         |(axis, to)| (axis[to] - axis[0]).to_float::<F32<S>>() * (1.0 / 256.0),
@@ -213,7 +204,7 @@ fn radius_of<S: Simd>(
         ),
     );
     let doubled_area = (ux * vy - uy * vx).abs();
-    lesser(greater(doubled_area / perimeter * ratio, F32::splat(simd, SHORTEST)), F32::splat(simd, HUGE))
+    lesser(greater(doubled_area / greater(perimeter, least) * ratio, least), F32::splat(simd, HUGE))
 }
 
 /// What turns shares of corners into distances in pixels.

@@ -206,24 +206,50 @@ fn polygon_edges(source: &Mesh) -> Vec<EdgeFlags> {
             flags.extend(parts.map(|(_, edges)| EdgeFlags::new(edges)));
             continue;
         }
-        let measures = parts.clone().map(|(triangle, edges)| measure(source, triangle, edges));
-        let [area, length] = measures.clone().fold([0.0, 0.0], |[a, b], [c, d]| [a + c, b + d]);
-        flags.extend(parts.zip(measures).map(|((_, edges), own)| {
-            // Without an area or without an edge it is no number, and so ignored.
-            let ratio = (area * own[1]) / (own[0] * length);
+        let measures = parts.clone().map(|(triangle, edges)| Measure::new(source, triangle, edges));
+        let whole = measures.clone().fold(Measure::default(), Measure::sum);
+        flags.extend(parts.zip(measures).map(|((_, edges), part)| {
+            // In the middle of a polygon there are no edges.
+            let own = if part.edges > 0.0 { part.edges } else { part.perimeter };
+            // Without an area it is no number, and so ignored.
+            let ratio = (whole.area * own) / (part.area * whole.edges);
             EdgeFlags::new(edges).with_radius_ratio(ratio as f32)
         }));
     }
     flags
 }
 
-/// Twice the area of a triangle, and the length of those of its sides that are edges.
-fn measure(source: &Mesh, triangle: &[u32; 3], edges: [bool; 3]) -> [f64; 2] {
-    let position = |corner: u32| source.positions()[source.corner_vertices()[corner as usize] as usize];
-    let [a, b, c] = triangle.map(|corner| position(corner).as_dvec3());
-    let sides = [b - a, c - b, a - c];
-    let lengths = sides.iter().zip(edges).map(|(side, is_edge)| if is_edge { side.length() } else { 0.0 });
-    [sides[0].cross(sides[1]).length(), lengths.sum()]
+/// How large triangles of a polygon are.
+#[derive(Clone, Copy, Default)]
+struct Measure {
+    /// Twice the area.
+    area: f64,
+    perimeter: f64,
+    /// The length of those sides that are edges of the polygon.
+    edges: f64,
+}
+
+impl Measure {
+    fn new(source: &Mesh, triangle: &[u32; 3], edges: [bool; 3]) -> Self {
+        let position = |corner: u32| source.positions()[source.corner_vertices()[corner as usize] as usize];
+        let [a, b, c] = triangle.map(|corner| position(corner).as_dvec3());
+        let sides = [b - a, c - b, a - c];
+        let lengths = sides.map(|side| side.length());
+        let of_edges = lengths.iter().zip(edges).filter(|(_, is_edge)| *is_edge);
+        Self {
+            area: sides[0].cross(sides[1]).length(),
+            perimeter: lengths.iter().sum(),
+            edges: of_edges.map(|(length, _)| length).sum(),
+        }
+    }
+
+    fn sum(self, other: Self) -> Self {
+        Self {
+            area: self.area + other.area,
+            perimeter: self.perimeter + other.perimeter,
+            edges: self.edges + other.edges,
+        }
+    }
 }
 
 #[cfg(test)]

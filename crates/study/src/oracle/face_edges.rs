@@ -16,9 +16,10 @@ use trigon_math::{DVec2, DVec3};
 /// Points in a row of a pixel, and in a column.
 pub const POINTS: usize = 16;
 
-/// By how much of its distance something has to lie nearer to hide an edge: the roundings of
-/// f64 on the way are far below that, and so do edges not hide themselves.
-const NEARER: f64 = 1e-9;
+/// By how much of its distance something has to lie nearer to hide an edge. Positions of f32
+/// lie that much beside the planes of their faces, a few units of 2^-24, and less; so edges do
+/// not hide themselves.
+const NEARER: f64 = 1e-5;
 
 /// From where a scene is seen, and how large.
 #[derive(Clone, Copy, Debug)]
