@@ -1,6 +1,9 @@
 //! What edges of faces cost, and how near they come to the area that lines cover:
 //!
 //! `cargo run --release -p trigon-study --example edges -- --threads 1,2 --png edges`
+//!
+//! For the memory that they take, the peak of two processes (`time -v`), with `--only surface`
+//! and with `--only edges`, each with `--no-comparison`.
 
 #![expect(clippy::print_stdout, reason = "a table is what this is for")]
 
@@ -11,10 +14,11 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use trigon_camera::{Camera, Projection};
+use trigon_math::color::linear_to_srgba8;
 use trigon_math::{DVec3, Vec3, Vec4};
 use trigon_mesh::{Mesh, MeshBuilder, primitives};
 use trigon_raster::simd::SimdLevel;
+use trigon_scene::camera::{Camera, Projection};
 use trigon_scene::{
     Background, Frame, Material, Outputs, RenderSettings, Renderer, Scene, Shading, Style, ToneMapping,
 };
@@ -104,7 +108,7 @@ fn measure(arguments: &Arguments, is_cut: bool, threads: NonZeroUsize) -> Result
         println!("{faces}, {threads} threads, {name}: shortest {shortest:.2} ms, median {median:.2} ms");
     }
     if let Some(folder) = &arguments.png {
-        save(&folder.join(format!("torus-{faces}.png")), [1920, 1080], &frame.color)?;
+        save(&folder.join(format!("million-{faces}.png")), [1920, 1080], &frame.color)?;
     }
     Ok(())
 }
@@ -121,7 +125,7 @@ struct Case {
     eye: DVec3,
 }
 
-/// An arrow whose triangles are slivers, raised to a prism's face.
+/// A star whose triangles are slivers.
 fn concave() -> Mesh {
     let mut builder = MeshBuilder::new();
     let outline = [
@@ -152,6 +156,7 @@ fn cases() -> Vec<Case> {
         case("torus near", primitives::torus(0.7, 0.3, 24, 12), [0.4, 1.4, 1.8]),
         case("torus silhouette", primitives::torus(0.7, 0.3, 24, 12), [0.0, 0.3, 2.0]),
         case("torus far", primitives::torus(0.7, 0.3, 48, 24), [2.0, 6.0, 9.0]),
+        case("triangles", cut(&primitives::torus(0.7, 0.3, 48, 24)), [1.0, 1.0, 2.0]),
     ]
 }
 
@@ -186,44 +191,40 @@ fn drawn(case: &Case, width: f32, samples: [u32; 2]) -> Result<(Frame, Vec<f64>)
 /// Of the pictures that are compared.
 const SIZE: [usize; 2] = [192, 144];
 
-/// One picture beside the exact area: the root of the mean square of the difference, over all
-/// pixels.
-fn compare(arguments: &Arguments, case: &Case, width: f32) -> Result<(), Box<dyn Error>> {
-    let view =
-        View { eye: case.eye, target: DVec3::ZERO, half_height: std::f64::consts::SQRT_2 - 1.0, size: SIZE };
+/// The share of each pixel that lines cover.
+fn exact(case: &Case, width: f32) -> Vec<f64> {
+    let half_height = std::f64::consts::SQRT_2 - 1.0;
+    let view = View { eye: case.eye, target: DVec3::ZERO, half_height, size: SIZE };
     let positions: Vec<DVec3> = case.mesh.positions().iter().map(|position| position.as_dvec3()).collect();
     let corners = case.mesh.corner_vertices();
     let faces = (0..case.mesh.face_count()).map(|face| corners[case.mesh.face_corners(face)].to_vec());
-    let exact = coverage(&view, &positions, &faces.collect::<Vec<_>>(), f64::from(width));
-    let mut errors = Vec::new();
-    for samples in [[1, 1], [3, 1], [1, 4]] {
+    coverage(&view, &positions, &faces.collect::<Vec<_>>(), f64::from(width))
+}
+
+/// One picture beside the exact area: the root of the mean square of the difference, over all
+/// pixels.
+fn compare(arguments: &Arguments, case: &Case, width: f32) -> Result<(), Box<dyn Error>> {
+    let exact = exact(case, width);
+    let path = |end: &str| {
+        let folder = arguments.png.as_ref()?;
+        Some(folder.join(format!("{}-{width}-{end}.png", case.name.replace(' ', "-"))))
+    };
+    let size = SIZE.map(|side| side as u32);
+    let count = exact.len() as f64;
+    print!("{}, width {width}, {:.3} is covered: RMSE", case.name, exact.iter().sum::<f64>() / count);
+    for (samples, name) in [([1, 1], "1 sample"), ([3, 1], "3×3"), ([1, 4], "4")] {
         let (frame, found) = drawn(case, width, samples)?;
         let squares: f64 = found.iter().zip(&exact).map(|(a, b)| (a - b) * (a - b)).sum();
-        errors.push((squares / exact.len() as f64).sqrt());
-        if let Some(folder) = &arguments.png {
-            let name = format!("{}-{width}-{}-{}.png", case.name.replace(' ', "-"), samples[0], samples[1]);
-            save(&folder.join(name), SIZE.map(|side| side as u32), &frame.color)?;
+        print!(" {:.4} with {name},", (squares / count).sqrt());
+        if let Some(path) = path(name) {
+            save(&path, size, &frame.color)?;
         }
     }
-    if let Some(folder) = &arguments.png {
-        let grey = |&share: &f64| {
-            let [r, g, b, a] =
-                trigon_math::color::linear_to_srgba8(Vec4::splat(1.0 - share as f32).with_w(1.0));
-            [r, g, b, a]
-        };
-        let pixels: Vec<u8> = exact.iter().flat_map(grey).collect();
-        let name = format!("{}-{width}-exact.png", case.name.replace(' ', "-"));
-        save(&folder.join(name), SIZE.map(|side| side as u32), &pixels)?;
+    println!();
+    if let Some(path) = path("exact") {
+        let grey = |&share: &f64| linear_to_srgba8(Vec4::splat(1.0 - share as f32).with_w(1.0));
+        save(&path, size, &exact.iter().flat_map(grey).collect::<Vec<u8>>())?;
     }
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    println!(
-        "{}, width {width}: RMSE {:.4} with 1 sample, {:.4} with 3×3, {:.4} with 4; {:.3} is covered",
-        case.name,
-        errors[0],
-        errors[1],
-        errors[2],
-        mean(&exact)
-    );
     Ok(())
 }
 

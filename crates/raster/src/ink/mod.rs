@@ -14,6 +14,7 @@
 
 mod lined;
 mod outer;
+mod rows;
 mod rule;
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,7 @@
 use crate::simd::SimdLevel;
 use crate::{
     Background, Certainty, Culling, Draw, EdgeFlags, ExecuteSettings, FaceEdges, Fragment, Output, Pass,
-    Pipeline, Rasterizer, Surface, Target, TileSize, Tolerance, VertexOutput,
+    Pipeline, Rasterizer, Rect, Surface, Target, TileSize, Tolerance, VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
@@ -263,6 +263,23 @@ proptest! {
         for level in SimdLevel::ALL.into_iter().filter(|level| level.token().is_some()) {
             let settings = ExecuteSettings { simd: Some(level), ..Default::default() };
             prop_assert!(picture(list, width, grid, settings) == expected, "{:?}", level);
+        }
+    }
+
+    #[test]
+    fn a_part_of_a_picture_has_the_edges_of_the_whole(
+        opaque in faces(), grid in grid(), width in width(), first in [0..40_i32, 0..40_i32],
+    ) {
+        let list: &[&Faces] = &[&opaque];
+        let whole = picture(list, width, grid, ExecuteSettings::default());
+        let last = first.map(|v| v + 7);
+        let mut target = target(grid);
+        let mut pass = pass(list, width);
+        Rasterizer::default().draw(pass.scissor(Rect::new(first, last)), &mut target);
+        let part = target.linear().unwrap();
+        for (y, x) in (first[1]..last[1]).flat_map(|y| (first[0]..last[0]).map(move |x| (y, x))) {
+            let pixel = y as usize * SIDE as usize + x as usize;
+            prop_assert_eq!(part[pixel], whole[pixel], "({}, {})", x, y);
         }
     }
 
