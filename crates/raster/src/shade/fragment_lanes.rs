@@ -1,9 +1,11 @@
 //! What a pipeline knows when it shades eight pixels.
 
-use super::records::{Records, Tag, cold, flag, lined};
+use super::ShadeContext;
+use super::columns::Columns;
+use super::lines_over::LinesOver;
+use super::records::{Records, Tag, cold, flag};
 use super::task::Vector;
 use super::weights::Weights;
-use super::{ShadeContext, Work};
 use crate::fragment::nearest_edge;
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, lanes_of, lesser, prelude::*};
 use crate::{Fragment, Varyings};
@@ -17,8 +19,7 @@ pub struct FragmentLanes<'a, S: Simd> {
     pub(crate) simd: S,
     /// The varyings at each of the three corners: equally many.
     pub(super) varyings: [&'a [Row]; 3],
-    /// See [`lined`]; of a draw whose edges are painted.
-    pub(super) lines: Option<&'a [Row; lined::COUNT]>,
+    pub(super) columns: &'a Columns,
     pub(crate) place: Weights<S>,
     /// In 1/256 internal pixel from the tile's corner.
     pub(crate) point: [I32<S>; 2],
@@ -156,40 +157,8 @@ impl<S: Simd> FragmentLanes<'_, S> {
     #[inline(always)]
     pub(super) fn with_lines(&self, color: [F32<S>; 4]) -> [F32<S>; 4] {
         let Some(ink) = &self.context.frame.ink else { return color };
-        let share = match (self.lines, self.context.outer) {
-            (None, None) => return color,
-            (Some(lines), None) => self.own_share(lines),
-            (None, Some(outer)) => self.outer_share(outer),
-            (Some(lines), Some(outer)) => greater(self.own_share(lines), self.outer_share(outer)),
-        };
-        ink.over_lanes(color, share)
-    }
-
-    /// What edges of the triangles themselves cover.
-    #[inline(always)]
-    fn own_share(&self, lines: &[Row; lined::COUNT]) -> F32<S> {
-        let column = |index: usize| I32::simd_from(self.simd, lines[index]).bitcast::<F32<S>>();
-        let zero = F32::splat(self.simd, 0.0);
-        let mut nearest = F32::splat(self.simd, f32::INFINITY);
-        for corner in 0..3 {
-            let inverse = column(lined::INVERSE + corner);
-            let distance = lesser(self.place.shares[corner] * inverse, nearest);
-            // Diagonals are less than 0.
-            nearest = inverse.simd_ge(zero).select(distance, nearest);
-        }
-        let overlap = lesser(column(lined::REACH) - nearest, column(lined::MOST));
-        greater(overlap, zero) + column(lined::FLOOR)
-    }
-
-    /// What edges of others cover.
-    #[inline(always)]
-    fn outer_share(&self, outer: &[f32]) -> F32<S> {
-        let spots: [u32; LANES] = self.vector.spots.into();
-        let shares = spots.each(
-            #[inline(always)]
-            |spot| outer[Work::pixel_of(spot)],
-        );
-        F32::simd_from(self.simd, shares)
+        let over = LinesOver { ink, context: self.context, records: self.records, columns: self.columns };
+        over.lay(self.simd, self.vector.spots, color)
     }
 
     /// Calls `visit` with each active lane as a fragment of its own.

@@ -8,6 +8,7 @@ mod erased;
 mod fragment_lanes;
 mod fragments;
 mod lines;
+mod lines_over;
 mod list;
 mod output;
 mod records;

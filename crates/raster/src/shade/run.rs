@@ -105,7 +105,7 @@ fn fragments<'v, S: Simd>(
     FragmentLanes {
         simd,
         varyings: columns.varyings(records.shape().varyings),
-        lines: columns.lines(records.shape()),
+        columns,
         place: TriangleLanes::load(simd, columns).at(simd, &columns.placed),
         point: columns.placed.point(simd),
         vector,

@@ -63,8 +63,6 @@ pub(crate) struct Weights<S: Simd> {
     edges: [F32<S>; 3],
     area: F32<S>,
     total: F32<S>,
-    /// The corners' shares: each 0 on the edge opposite its corner.
-    pub(crate) shares: [F32<S>; 3],
     /// Distances in pixels to the edges opposite the corners.
     pub(crate) distances: [F32<S>; 3],
 }
@@ -117,7 +115,6 @@ impl<S: Simd> TriangleLanes<'_, S> {
             edges,
             area,
             total: shares[0] + shares[1] + shares[2],
-            shares,
             distances: [0, 1, 2].each(
                 #[inline(always)]
                 |k| {
