@@ -52,7 +52,8 @@ pub struct Draw<'a, P> {
     /// face of its own, numbered by its index.
     pub faces: Option<&'a [u32]>,
     /// For each triangle which of its edges are edges of the face. Without it
-    /// (or beyond its end) all are.
+    /// (or beyond its end) all are; but a pass that paints edges
+    /// ([`Pass::edges`](crate::Pass::edges)) paints only those of draws that list them.
     pub edge_flags: Option<&'a [EdgeFlags]>,
     /// The object id; `u32::MAX` means background and should not be used.
     pub object: u32,

@@ -71,8 +71,23 @@ pub(crate) fn nearest_edge(distances: [f32; 3], flags: EdgeFlags) -> f32 {
 /// which are only diagonals of its triangulation.
 ///
 /// Edge `i` runs from corner `i` to corner `i + 1 (mod 3)` of the triangle.
+///
+/// Beside the flags there is room for how large the face is beside its triangle: see
+/// [`with_radius_ratio`](Self::with_radius_ratio).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct EdgeFlags(u8);
+
+/// Powers of two in halves of the exponent, from 2^0 on.
+const RADIUS_RATIOS: [f32; 32] = {
+    let mut ratios = [1.0; 32];
+    let mut step = 2;
+    ratios[1] = std::f32::consts::SQRT_2;
+    while step < 32 {
+        ratios[step] = ratios[step - 2] * 2.0;
+        step += 1;
+    }
+    ratios
+};
 
 impl EdgeFlags {
     /// No edge is a real one.
@@ -83,6 +98,32 @@ impl EdgeFlags {
     /// Flags from one truth value for each edge.
     pub const fn new(edges: [bool; 3]) -> Self {
         Self(edges[0] as u8 | (edges[1] as u8) << 1 | (edges[2] as u8) << 2)
+    }
+
+    /// The same flags of a triangle whose face has this many times the inner radius that
+    /// the triangle shows by itself: twice its area over the length of those of its sides
+    /// that are flagged, or of all where none is (it lies in the middle of its face then). For [`FaceEdges`](crate::FaceEdges), which makes lines narrower on
+    /// small faces; slivers of the triangulation of a large polygon are told from such by
+    /// this. A radius is twice an area over a perimeter.
+    ///
+    /// Rounded down to half a power of two, from 1 to 2^15.5; 1 unless it is given.
+    #[must_use]
+    pub fn with_radius_ratio(self, ratio: f32) -> Self {
+        let above = RADIUS_RATIOS.iter().filter(|&&step| step <= ratio).count();
+        Self(self.0 & 0b111 | (above.saturating_sub(1) as u8) << 3)
+    }
+
+    /// How many times the radius that the triangle shows its face has.
+    #[inline]
+    pub(crate) const fn radius_ratio(self) -> f32 {
+        RADIUS_RATIOS[(self.0 >> 3) as usize]
+    }
+
+    /// The flags by the corners opposite the edges: bit `k` for the edge from corner
+    /// `k + 1` to corner `k + 2`.
+    #[inline]
+    pub(crate) const fn opposite_corners(self) -> i32 {
+        (self.0 >> 1 & 0b11 | (self.0 & 1) << 2) as i32
     }
 
     /// Whether edge `edge` (0, 1 or 2) is flagged.

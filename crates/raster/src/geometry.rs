@@ -96,6 +96,12 @@ impl Geometry<'_> {
         listed.copied().unwrap_or(primitive)
     }
 
+    /// Whether a pass that paints edges paints those of this draw.
+    #[inline]
+    pub(crate) fn shows_edges(&self) -> bool {
+        matches!(self.shape, Shape::Triangles { edge_flags: Some(_), .. })
+    }
+
     /// Which edges of a primitive are a face's.
     #[inline]
     pub(crate) fn edge_flags(&self, primitive: u32) -> EdgeFlags {

@@ -75,12 +75,12 @@
 //! # Wireframes
 //! A line along the edge of a surface has, off its exact middle, another depth
 //! than the surface, and would fight with it. So edges of visible faces are best
-//! drawn by the surface itself: [`Fragment::nearest_edge`] is the distance to
-//! the next edge of the face in pixels, and [`Draw::edge_flags`] tells edges
-//! from diagonals. For hidden lines shade the surface in the colour of the
-//! background and only its edges in ink; for see-through wireframes draw
+//! painted by the pass itself: [`Pass::edges`] lays them over what is visible, and
+//! [`Draw::edge_flags`] tells edges from diagonals. For hidden lines shade the
+//! surface in the colour of the background; for see-through wireframes draw
 //! [`Lines`] alone. Lines over a surface of their own can be drawn a little
-//! nearer with [`Lines::toward_eye`].
+//! nearer with [`Lines::toward_eye`]. A pipeline that wants to do more with edges
+//! asks for the distance to the next one: [`Fragment::nearest_edge`].
 //!
 //! # User interfaces
 //! [`paint2d`] is a path of its own, without depth and in gamma space: it paints
@@ -99,6 +99,7 @@ mod explain;
 mod fragment;
 mod frame;
 mod geometry;
+mod ink;
 mod line;
 pub mod paint2d;
 mod pass;
@@ -128,6 +129,7 @@ pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,
 };
 pub use fragment::{EdgeFlags, Fragment};
+pub use ink::FaceEdges;
 pub use paint2d::Rect;
 pub use pass::{Background, Pass};
 #[doc(hidden)]

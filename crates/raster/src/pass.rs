@@ -3,7 +3,7 @@
 use crate::geometry::{Geometry, PointSizes, Shape};
 use crate::paint2d::Rect;
 use crate::shade::AnyPipeline;
-use crate::{Draw, LanePipeline, Lines, Points, Target};
+use crate::{Draw, FaceEdges, LanePipeline, Lines, Points, Target};
 use trigon_math::{UVec2, Vec4};
 
 /// What a pass is drawn on.
@@ -30,6 +30,7 @@ pub struct Pass<'a> {
     pub(crate) background: Background<'a>,
     pub(crate) draws: Vec<Recorded<'a>>,
     pub(crate) scissor: Option<Rect>,
+    pub(crate) edges: Option<FaceEdges>,
 }
 
 impl Default for Pass<'_> {
@@ -41,7 +42,7 @@ impl Default for Pass<'_> {
 impl<'a> Pass<'a> {
     /// An empty pass on transparent black.
     pub fn new() -> Self {
-        Self { background: Background::Color(Vec4::ZERO), draws: Vec::new(), scissor: None }
+        Self { background: Background::Color(Vec4::ZERO), draws: Vec::new(), scissor: None, edges: None }
     }
 
     /// Draws on `background` instead.
@@ -58,6 +59,20 @@ impl<'a> Pass<'a> {
     /// Tiles that the rectangle does not meet cost nothing.
     pub fn scissor(&mut self, rect: Rect) -> &mut Self {
         self.scissor = Some(rect);
+        self
+    }
+
+    /// Paints the edges of faces: those of draws with
+    /// [`edge_flags`](crate::Draw::edge_flags), over the colours of their pipelines and over
+    /// all that is seen beside them, the background included. They are visible where their
+    /// faces are; translucent faces paint what lies on them and nothing beside.
+    ///
+    /// It costs no vertices and no lines: [`FaceEdges`] says what is painted. With several
+    /// samples ([`Target::with_samples`](crate::Target::with_samples)) the part beyond a
+    /// face is found once for each pixel, at its centre, for the farthest that it sees, and
+    /// laid over all that it sees. Of faces beside the picture nothing is seen in it.
+    pub fn edges(&mut self, edges: FaceEdges) -> &mut Self {
+        self.edges = Some(edges);
         self
     }
 

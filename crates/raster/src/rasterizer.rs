@@ -56,6 +56,7 @@ impl Rasterizer {
             tile_size,
             hierarchical: true,
             timed: false,
+            finds_colors: true,
             cancel: None,
         };
         prepare(&mut self.arena, pass, target, how)
@@ -72,7 +73,8 @@ impl Rasterizer {
         let hierarchical = self.settings.depth_test == crate::DepthTest::Hierarchical;
         let timed = self.settings.timed;
         let cancel = self.cancel.as_ref();
-        let how = How { token: self.token, workers, tile_size, hierarchical, timed, cancel };
+        let finds_colors = false;
+        let how = How { token: self.token, workers, tile_size, hierarchical, timed, finds_colors, cancel };
         draw(&mut self.arena, pass, target, how)
     }
 

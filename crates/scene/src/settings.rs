@@ -1,6 +1,7 @@
 //! What a picture is to hold and how it is drawn.
 
 use std::num::NonZeroUsize;
+use trigon_raster::FaceEdges;
 use trigon_raster::simd::SimdLevel;
 
 use trigon_math::{DVec3, Vec3};
@@ -181,10 +182,15 @@ pub struct RenderSettings {
     pub background: Background,
     /// Faces, edges or both.
     pub style: Style,
-    /// Width of edges and of loose lines, in pixels.
+    /// Width of edges and of loose lines, in pixels. The edges of faces on surfaces are no
+    /// wider than 16 pixels (fewer with supersampling), and narrower on faces that have no
+    /// room for them: [`trigon_raster::FaceEdges`] says how much.
     pub line_width: f32,
     /// Linear RGB of the edges in all styles but [`Style::Surface`].
     pub edge_color: Vec3,
+    /// How much of what lies below them edges hide in [`Style::SurfaceWithEdges`] and
+    /// [`Style::HiddenLine`], 0 to 1.
+    pub edge_opacity: f32,
     /// Which lights.
     pub lighting: Lighting,
     /// Factor for every light, the studio's too; 1 leaves them as they are.
@@ -217,6 +223,7 @@ impl RenderSettings {
             style: Style::default(),
             line_width: 1.0,
             edge_color: Vec3::splat(0.02),
+            edge_opacity: 1.0,
             lighting: Lighting::default(),
             light_intensity: 1.0,
             shading: ShadingModel::default(),
@@ -226,6 +233,11 @@ impl RenderSettings {
             threads: None,
             simd: None,
         }
+    }
+
+    /// How the edges of faces are painted, in styles that paint them.
+    pub(crate) fn face_edges(&self) -> FaceEdges {
+        FaceEdges { width: self.line_width, color: self.edge_color, opacity: self.edge_opacity }
     }
 
     /// The factor for every light.

@@ -51,7 +51,7 @@ use stream::{Damage, Reader, Writer};
 const MAGIC: [u8; 8] = *b"\x93TRIGON\n";
 
 /// The version of the format.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// A scene, a camera, settings and the picture that they made.
 ///

@@ -65,10 +65,12 @@ impl Stored for RenderSettings {
         background.write(to);
         style.write(to);
         line_width.write(to);
-        let Self { edge_color, lighting, light_intensity, shading, reflection, effects, .. } = self;
+        let Self { edge_color, edge_opacity, lighting, light_intensity, .. } = self;
         edge_color.write(to);
+        edge_opacity.write(to);
         lighting.write(to);
         light_intensity.write(to);
+        let Self { shading, reflection, effects, .. } = self;
         shading.write(to);
         reflection.write(to);
         effects.write(to);
@@ -85,6 +87,7 @@ impl Stored for RenderSettings {
             style: Stored::read(from)?,
             line_width: Stored::read(from)?,
             edge_color: Stored::read(from)?,
+            edge_opacity: Stored::read(from)?,
             lighting: Stored::read(from)?,
             light_intensity: Stored::read(from)?,
             shading: Stored::read(from)?,

@@ -83,7 +83,7 @@ impl Chunk {
         let Some([columns, rows]) = grid.pixels_of(triangle) else {
             return;
         };
-        let tiles = grid.tiles_of(columns, rows);
+        let tiles = grid.tiles_that_see(columns, rows);
         if tiles.len() >= LARGE {
             self.large.push(Large { entry, tiles });
         } else {

@@ -7,12 +7,14 @@ use crate::tile::Edge;
 use crate::viewport::Viewport;
 use std::ops::Range;
 
-/// `columns * rows` squares of `size` pixels, numbered row by row.
+/// `columns * rows` squares of `size` pixels, numbered row by row. Each sees `apron` pixels
+/// more on all sides, as far as the picture goes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
     pub(crate) viewport: Viewport,
     pub(crate) pattern: SamplePattern,
     pub(crate) size: u32,
+    pub(crate) apron: u32,
     pub(crate) columns: u32,
     /// 2^32 / size, rounded up: a product with it divides.
     reciprocal: u64,
@@ -45,7 +47,12 @@ impl Grid {
     pub(crate) fn new(viewport: Viewport, pattern: SamplePattern, size: u32) -> Self {
         let columns = viewport.width.div_ceil(size);
         let reciprocal = (1_u64 << 32).div_ceil(u64::from(size));
-        Self { viewport, pattern, size, columns, reciprocal, inverse: 1.0 / size as f32 }
+        Self { viewport, pattern, size, apron: 0, columns, reciprocal, inverse: 1.0 / size as f32 }
+    }
+
+    /// The same, and its tiles see more.
+    pub(crate) fn with_apron(self, apron: u32) -> Self {
+        Self { apron, ..self }
     }
 
     /// The column or row of tiles that a pixel lies in.
@@ -72,6 +79,14 @@ impl Grid {
         TileRange { columns: tiles(columns, self.viewport.width), rows: tiles(rows, self.viewport.height) }
     }
 
+    /// The tiles that see these pixels.
+    #[inline]
+    pub(crate) fn tiles_that_see(&self, columns: [i32; 2], rows: [i32; 2]) -> TileRange {
+        let apron = self.apron as i32;
+        let wider = |[first, last]: [i32; 2]| [first - apron, last + apron];
+        self.tiles_of(wider(columns), wider(rows))
+    }
+
     /// The pixels in view that may hold a sample of the triangle; `None` if
     /// there are none.
     #[inline]
@@ -89,11 +104,13 @@ impl Grid {
         (meets(columns, self.viewport.width) && meets(rows, self.viewport.height)).then_some([columns, rows])
     }
 
-    /// The smallest rectangle around all samples of a tile, in 1/256 pixel.
+    /// The smallest rectangle around all samples that a tile sees, in 1/256 pixel.
     pub(crate) fn reach_of_tile(&self, tile: [u32; 2]) -> [[i32; 2]; 2] {
         let [least, greatest] = self.pattern.reach();
+        let apron = self.apron as i32 * 256;
         let first = tile.map(|v| (v * self.size) as i32 * 256);
-        [first.map(|v| v + least), first.map(|v| v + (self.size as i32 - 1) * 256 + greatest)]
+        let last = (self.size as i32 - 1) * 256 + greatest + apron;
+        [first.map(|v| v + least - apron), first.map(|v| v + last)]
     }
 
     /// The tiles that a triangle may have samples in: those of its bounding box,
@@ -102,7 +119,7 @@ impl Grid {
         let Some([columns, rows]) = self.pixels_of(triangle) else {
             return;
         };
-        let TileRange { columns, rows } = self.tiles_of(columns, rows);
+        let TileRange { columns, rows } = self.tiles_that_see(columns, rows);
         let few = columns.len() + rows.len() <= 3;
         let edges = (!few).then(|| Edge::of(triangle));
         for row in rows {

@@ -19,7 +19,7 @@ pub(super) fn expand(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scrat
         if !area.contains(place) {
             continue;
         }
-        let background = || frame.background_at(area, place);
+        let background = || frame.lined_background_at(area, place, &shading.outer);
         for sample in 0..count {
             let index = buffer.index(pixel, sample);
             samples[index] = match buffer.winner[index] {

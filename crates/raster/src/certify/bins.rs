@@ -24,7 +24,7 @@ impl Bins {
             if columns[1] < 0 || rows[1] < 0 || columns[0] >= sides[0] || rows[0] >= sides[1] {
                 continue;
             }
-            let tiles = grid.tiles_of(columns, rows);
+            let tiles = grid.tiles_that_see(columns, rows);
             for row in tiles.rows {
                 pairs
                     .extend(tiles.columns.clone().map(|column| (row * grid.columns + column, number as u32)));

@@ -60,13 +60,16 @@ impl Certificate {
     /// Takes over what is known of a tile.
     pub(super) fn note(&mut self, frame: &FrameView<'_>, area: &TileArea, tile: &TileCertainty) {
         let axis = frame.supersampling as usize;
-        let [left, top] = area.origin.map(|v| v as usize / axis);
+        let [left, top] = area.own_origin().map(|v| v as usize / axis);
+        let margin = area.margin;
+        let reach = frame.ink.map_or(0, |ink| ink.reach() as usize);
         let [columns, rows] = frame.drawn_part(area);
         for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
             let index = (top + y) * self.size[0] as usize + left + x;
-            let cells = || (0..axis * axis).map(|i| [x * axis + i % axis, y * axis + i / axis]);
+            let cell = |i: usize| [margin[0] + x * axis + i % axis, margin[1] + y * axis + i / axis];
+            let cells = || (0..axis * axis).map(cell);
             self.drawn[index] = cells().any(|cell| tile.is_drawn(cell));
-            if cells().any(|cell| tile.is_doubtful(cell)) {
+            if cells().any(|cell| tile.is_doubtful_around(cell, reach)) {
                 self.pixels[index] = Certainty::Visibility;
             }
         }

@@ -51,6 +51,9 @@
 //! into triangles may come near the pixel. Bytes are proven if both ends of the
 //! range of colours are encoded the same.
 //!
+//! Where a pass paints edges of faces, a pixel shows the edges of what pixels around it see,
+//! too, so all of those must be proven.
+//!
 //! # What is never certified
 //! Pixels that show masked fragments or lines, or whose samples lie near an edge
 //! that may be visible, also one between two triangles of a face; and where

@@ -54,8 +54,16 @@ impl TileCertainty {
     }
 
     /// Whether a pixel of the tile may come to see something else.
-    pub(super) fn is_doubtful(&self, [x, y]: [usize; 2]) -> bool {
+    fn is_doubtful(&self, [x, y]: [usize; 2]) -> bool {
         self.doubtful[y * self.width + x]
+    }
+
+    /// Whether a pixel of the tile, or one of those within so many of it, may come to see
+    /// something else.
+    pub(super) fn is_doubtful_around(&self, [x, y]: [usize; 2], reach: usize) -> bool {
+        let height = self.doubtful.len() / self.width;
+        let around = |at: usize, end: usize| at.saturating_sub(reach)..end.min(at + reach + 1);
+        around(y, height).any(|y| around(x, self.width).any(|x| self.is_doubtful([x, y])))
     }
 
     /// Whether a pixel of the tile certainly shows a primitive.

@@ -2,7 +2,8 @@
 
 use crate::bin::Place;
 use crate::frame::FrameView;
-use crate::shade::{Job, ShadeOutput, Shading, Work, mask_jobs, shade_jobs};
+use crate::ink::OuterInk;
+use crate::shade::{Job, ShadeOutput, Shading, Work, mask_jobs, shade_jobs_with};
 use crate::tile::TileArea;
 use trigon_math::Vec4;
 
@@ -33,12 +34,12 @@ pub(super) fn mask(frame: &FrameView<'_>, pixel: PixelInTile, sample: Option<usi
     kept != [0]
 }
 
-/// The colour of a triangle at a pixel that it covers.
-pub(super) fn color(frame: &FrameView<'_>, pixel: PixelInTile, place: Place) -> Vec4 {
+/// The colour of a triangle at a pixel that it covers, with edges that others paint there.
+pub(super) fn color(frame: &FrameView<'_>, pixel: PixelInTile, place: Place, outer: &OuterInk) -> Vec4 {
     let (job, work) = pixel.alone(frame);
     let mut colors = [[0.0; 4]];
     let list: (&[_], &[_], &[_]) = (&[place], &[job], &[work]);
     let mut output = ShadeOutput::Colors(&mut colors);
-    shade_jobs(frame, &pixel.area, &mut Shading::new(), list, &mut output);
+    shade_jobs_with(frame, &pixel.area, &mut Shading::new(), list, (&mut output, outer.coverage()));
     Vec4::from_array(colors[0])
 }

@@ -6,10 +6,11 @@ use crate::Surface;
 use crate::bin::Place;
 use crate::blend::leaves;
 use crate::frame::FrameView;
+use crate::ink::OuterInk;
 use crate::line::{Form, Stroke};
 use crate::resolve::saturated;
 use crate::setup::{Corners, Kind, SetupTriangle};
-use crate::tile::{BEHIND_ALL, Covering, Edge};
+use crate::tile::{BEHIND_ALL, Covering, Edge, outer_ink};
 use crate::ulps;
 use std::cmp::Ordering;
 use trigon_math::Vec4;
@@ -48,7 +49,8 @@ impl<'f> Trial<'f> {
     pub(super) fn sample(&self, (cell, number): ([u32; 2], usize)) -> SampleExplanation {
         let frame = self.frame;
         let tile = cell.map(|v| frame.grid.tile_of(v));
-        let area = frame.area(tile[1] * frame.grid.columns + tile[0]);
+        let tile = tile[1] * frame.grid.columns + tile[0];
+        let (area, outer) = (frame.area(tile), outer_ink(frame, tile));
         let at = [0, 1].map(|axis| cell[axis] as usize - area.origin[axis] as usize);
         let pixel = PixelInTile { area, at };
         let offset = frame.grid.pattern.offsets()[number];
@@ -59,12 +61,15 @@ impl<'f> Trial<'f> {
         self.number_layers(&mut entrants);
         for entrant in &mut entrants {
             if matches!(entrant.fragment.verdict, Verdict::Won | Verdict::Layer(_)) {
-                entrant.fragment.color = Some(ask::color(frame, pixel, entrant.place) * entrant.coverage);
+                // Over translucent faces no edges of others are laid.
+                let outer = if entrant.is(Verdict::Won) { &outer } else { &OuterInk::default() };
+                let color = ask::color(frame, pixel, entrant.place, outer);
+                entrant.fragment.color = Some(color * entrant.coverage);
             }
         }
         entrants.sort_by(|a, b| self.in_telling_order(a, b));
         let fragments: Vec<_> = entrants.into_iter().map(|entrant| entrant.fragment).collect();
-        let background = frame.background_at(&area, at);
+        let background = frame.lined_background_at(&area, at, &outer);
         SampleExplanation { cell, number, position, color: blended(&fragments, background), fragments }
     }
 

@@ -8,6 +8,7 @@ pub(crate) use stages::{Arena, How, draw, prepare};
 
 use crate::StageTimes;
 use crate::bin::{Chunk, Grid, Place, TileRange};
+use crate::ink::Ink;
 use crate::paint2d::Rect;
 use crate::pass::{Background, Recorded};
 use crate::setup::SetupTriangle;
@@ -44,6 +45,8 @@ pub(crate) struct FrameView<'f> {
     /// Internal pixels for each pixel of the target and axis.
     pub(crate) supersampling: u32,
     pub(crate) wants: Wants,
+    /// What paints the edges of faces, if anything does.
+    pub(crate) ink: Option<Ink>,
     pub(crate) token: Token,
     pub(crate) hierarchical: bool,
     pub(crate) timed: bool,
@@ -52,15 +55,25 @@ pub(crate) struct FrameView<'f> {
 }
 
 impl<'f> FrameView<'f> {
-    /// The rectangle of a tile.
+    /// The rectangle that a tile sees.
     pub(crate) fn area(&self, tile: u32) -> TileArea {
-        let Grid { viewport, size, columns, .. } = self.grid;
-        let origin = [(tile % columns) * size, (tile / columns) * size];
-        let side = |axis: usize, whole: u32| (whole - origin[axis]).min(size) as usize;
+        let Grid { viewport, size, apron, columns, .. } = self.grid;
+        let own = [(tile % columns) * size, (tile / columns) * size];
+        let first = own.map(|v| v.saturating_sub(apron));
+        let side = |axis: usize, whole: u32| (whole.min(own[axis] + size + apron) - first[axis]) as usize;
         TileArea {
-            origin: origin.map(|v| v as i32),
+            origin: first.map(|v| v as i32),
             size: [side(0, viewport.width), side(1, viewport.height)],
+            margin: [0, 1].map(|axis| (own[axis] - first[axis]) as usize),
         }
+    }
+
+    /// The columns and rows of a tile that belong to it and to none of its neighbours.
+    pub(crate) fn own_part(&self, area: &TileArea) -> [Range<usize>; 2] {
+        [0, 1].map(|axis| {
+            let first = area.margin[axis];
+            first..area.size[axis].min(first + self.grid.size as usize)
+        })
     }
 
     /// The tiles that have pixels to be drawn.
@@ -75,12 +88,13 @@ impl<'f> FrameView<'f> {
     }
 
     /// The columns and rows of a tile that are drawn, in pixels of the target
-    /// from the tile's first one.
+    /// from the first one that is the tile's own.
     pub(crate) fn drawn_part(&self, area: &TileArea) -> [Range<usize>; 2] {
         let axis = self.supersampling;
+        let (origin, own) = (area.own_origin(), self.own_part(area));
         [0, 1].map(|i| {
-            let first = area.origin[i] / axis as i32;
-            let side = area.size[i] / axis as usize;
+            let first = origin[i] / axis as i32;
+            let side = own[i].len() / axis as usize;
             let within = |end: i32| ((end - first).max(0) as usize).min(side);
             within(self.drawn.min[i])..within(self.drawn.max[i])
         })

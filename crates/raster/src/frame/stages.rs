@@ -6,6 +6,7 @@ use crate::bin::{Chunk, Grid};
 use crate::clip;
 use crate::clock::Clock;
 use crate::geometry::Shape;
+use crate::ink::Ink;
 use crate::line::LineStyle;
 use crate::pass::{Pass, Recorded};
 use crate::point::PointStyle;
@@ -15,7 +16,7 @@ use crate::setup::Setup;
 use crate::shade::Encoding;
 use crate::simd::{Simd, Token, at_level};
 use crate::target::Bands;
-use crate::tile::{Scratch, draw_tile};
+use crate::tile::{MAX_SIDE, Scratch, draw_tile};
 use crate::vertex::{DrawVertices, ScreenVertex};
 use crate::viewport::Viewport;
 use crate::{Cancel, Culling, StageTimes, Stats, Target};
@@ -44,6 +45,8 @@ pub(crate) struct How<'w> {
     pub(crate) tile_size: u32,
     pub(crate) hierarchical: bool,
     pub(crate) timed: bool,
+    /// Whether colours are found, whatever the target keeps.
+    pub(crate) finds_colors: bool,
     pub(crate) cancel: Option<&'w Cancel>,
 }
 
@@ -79,8 +82,11 @@ pub(crate) fn prepare<'f>(
 ) -> FrameView<'f> {
     let axis = target.samples_per_axis();
     let viewport = Viewport { width: target.width() * axis, height: target.height() * axis };
-    let tile_pixels = (how.tile_size / axis).max(1);
-    let grid = Grid::new(viewport, target.pattern(), tile_pixels * axis);
+    let wants = wants(target);
+    let ink = if wants.color || how.finds_colors { ink(pass, axis) } else { None };
+    let apron = ink.map_or(0, |ink| ink.reach().next_multiple_of(axis));
+    let tile_pixels = (own_side(how.tile_size, apron) / axis).max(1);
+    let grid = Grid::new(viewport, target.pattern(), tile_pixels * axis).with_apron(apron);
     let Arena { plan, places, varyings, chunks, .. } = arena;
     let used = plan.make(&pass.draws, chunks, how.workers.count());
     let chunks = &mut chunks[..used];
@@ -101,12 +107,25 @@ pub(crate) fn prepare<'f>(
         grid,
         drawn: pass.drawn_pixels(target),
         supersampling: axis,
-        wants: wants(target),
+        wants,
+        ink,
         token: how.token,
         hierarchical: how.hierarchical,
         timed: how.timed,
         times,
     }
+}
+
+/// What paints edges, if there are any.
+fn ink(pass: &Pass<'_>, axis: u32) -> Option<Ink> {
+    let has_edges = pass.draws.iter().any(|draw| draw.geometry.shows_edges());
+    has_edges.then(|| Ink::new(&pass.edges?, axis)).flatten()
+}
+
+/// The side of a tile without what it sees of its neighbours. With that it is as large as
+/// was asked for, unless too little would be left of it, and never larger than can be.
+fn own_side(tile_size: u32, apron: u32) -> u32 {
+    if tile_size >= 4 * apron { tile_size - 2 * apron } else { tile_size.min(MAX_SIDE as u32 - 2 * apron) }
 }
 
 fn wants(target: &Target<'_>) -> Wants {

@@ -1,6 +1,7 @@
 //! What is seen where nothing is drawn.
 
 use crate::frame::FrameView;
+use crate::ink::OuterInk;
 use crate::pass::Background;
 use crate::shade::{EmptyGroup, Encoding, Shading};
 use crate::simd::LANES;
@@ -17,6 +18,16 @@ impl FrameView<'_> {
         self.background_of(pixel / self.supersampling)
     }
 
+    /// The background at a pixel of the tile, with the lines on it.
+    #[inline]
+    pub(crate) fn lined_background_at(&self, area: &TileArea, at: [usize; 2], outer: &OuterInk) -> Vec4 {
+        let color = self.background_at(area, at);
+        match (&self.ink, outer.at(TileArea::index_of(at))) {
+            (Some(ink), share) if share > 0.0 => ink.over(color, share),
+            _ => color,
+        }
+    }
+
     /// The background at a pixel of the target.
     fn background_of(&self, pixel: UVec2) -> Vec4 {
         let value = match self.background {
@@ -29,9 +40,9 @@ impl FrameView<'_> {
 
 /// Draws neighbouring tiles of one row that nothing is in, from the first to the last.
 pub(super) fn fill_background(frame: &FrameView<'_>, [first, last]: [TileArea; 2], bands: &Bands<'_>) {
-    let corner = first.origin.map(|v| v as u32 / frame.supersampling);
+    let corner = first.own_origin().map(|v| v as u32 / frame.supersampling);
     let [columns, rows] = frame.drawn_part(&first);
-    let way = (last.origin[0] - first.origin[0]) as usize / frame.supersampling as usize;
+    let way = (last.own_origin()[0] - first.own_origin()[0]) as usize / frame.supersampling as usize;
     let columns = columns.start..way + frame.drawn_part(&last)[0].end;
     let (mut band, first) = bands.lock(corner);
     let band = &mut *band;
@@ -97,10 +108,10 @@ impl Part {
 pub(super) fn lay_codes(frame: &FrameView<'_>, area: &TileArea, shading: &mut Shading, encoding: Encoding) {
     let encode = |color| u32::from_le_bytes(encoding.encode(color));
     let constant = match frame.background {
-        Background::Color(_) => Some(encode(frame.background_of(UVec2::ZERO))),
-        Background::PerPixel(_) => None,
+        Background::Color(_) if shading.outer.is_empty() => Some(encode(frame.background_of(UVec2::ZERO))),
+        Background::Color(_) | Background::PerPixel(_) => None,
     };
-    let Shading { empty_groups, codes, .. } = shading;
+    let Shading { empty_groups, codes, outer, .. } = shading;
     for &EmptyGroup { number, lanes } in empty_groups.iter() {
         let codes = &mut codes[number as usize * LANES..][..LANES];
         match constant {
@@ -108,7 +119,7 @@ pub(super) fn lay_codes(frame: &FrameView<'_>, area: &TileArea, shading: &mut Sh
             Some(code) => bits(lanes).for_each(|lane| codes[lane] = code),
             None => {
                 for (lane, at) in within(area, number, lanes) {
-                    codes[lane] = encode(frame.background_at(area, at));
+                    codes[lane] = encode(frame.lined_background_at(area, at, outer));
                 }
             }
         }
@@ -118,10 +129,11 @@ pub(super) fn lay_codes(frame: &FrameView<'_>, area: &TileArea, shading: &mut Sh
 /// Puts the background's colour into all pixels of which the first sample sees it.
 /// (Edge pixels get their colour afterwards.)
 pub(super) fn lay_colors(frame: &FrameView<'_>, area: &TileArea, shading: &mut Shading) {
-    let Shading { empty_groups, colors, .. } = shading;
+    let Shading { empty_groups, colors, outer, .. } = shading;
     for &EmptyGroup { number, lanes } in empty_groups.iter() {
         for (lane, at) in within(area, number, lanes) {
-            colors[number as usize * LANES + lane] = frame.background_at(area, at).to_array();
+            let color = frame.lined_background_at(area, at, outer);
+            colors[number as usize * LANES + lane] = color.to_array();
         }
     }
 }

@@ -43,15 +43,16 @@ fn for_each_group<S: Simd>(
     shading: &mut Shading,
     mut visit: impl FnMut(EdgeGroup, &[[f32; 4]; LANES], &mut [u32], &mut [[f32; 4]]),
 ) {
-    let Shading { edges, codes, colors, .. } = shading;
-    let varies = matches!(frame.background, Background::PerPixel(_));
+    let Shading { edges, codes, colors, outer, .. } = shading;
+    let varies = matches!(frame.background, Background::PerPixel(_)) || !outer.is_empty();
     colors[BEHIND] = frame.background_at(area, [0, 0]).to_array();
     let mut means = [[0.0; 4]; LANES];
     for (group, names) in edges.iter() {
         let first = group.number as usize * LANES;
         for lane in group.lanes() {
             if varies {
-                colors[BEHIND] = frame.background_at(area, TileArea::pixel_at(first + lane)).to_array();
+                let at = TileArea::pixel_at(first + lane);
+                colors[BEHIND] = frame.lined_background_at(area, at, outer).to_array();
             }
             means[lane] = mean_of(simd, (names, lane), colors);
         }

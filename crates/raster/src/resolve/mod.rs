@@ -111,11 +111,12 @@ fn for_each_drawn(
     bands: &Bands<'_>,
     mut visit: impl FnMut(&mut Band<'_>, usize, [usize; 2]),
 ) {
-    let (mut band, first) = bands.lock(area.origin.map(|v| v as u32 / frame.supersampling));
+    let (mut band, first) = bands.lock(area.own_origin().map(|v| v as u32 / frame.supersampling));
     let [columns, rows] = frame.drawn_part(area);
+    let [left, top] = area.margin.map(|side| side / frame.supersampling as usize);
     for y in rows {
         for x in columns.clone() {
-            visit(&mut band, first + y * bands.width() + x, [x, y]);
+            visit(&mut band, first + y * bands.width() + x, [left + x, top + y]);
         }
     }
 }

@@ -27,7 +27,7 @@ impl Strip {
     /// does not continue it.
     pub(crate) fn push_empty(&mut self, frame: &FrameView<'_>, area: &TileArea, bands: &Bands<'_>) {
         match &mut self.empty {
-            Some([_, last]) if continues(last, area) => *last = *area,
+            Some([_, last]) if continues(frame, last, area) => *last = *area,
             _ => {
                 self.write_empty(frame, bands);
                 self.empty = Some([*area; 2]);
@@ -44,7 +44,7 @@ impl Strip {
         codes: &mut Vec<u32>,
         bands: &Bands<'_>,
     ) {
-        let continued = self.areas.last().is_none_or(|last| continues(last, area));
+        let continued = self.areas.last().is_none_or(|last| continues(frame, last, area));
         if !continued || self.areas.len() == Self::MOST {
             self.write_finished(frame, bands);
         }
@@ -69,7 +69,7 @@ impl Strip {
 
     fn write_finished(&mut self, frame: &FrameView<'_>, bands: &Bands<'_>) {
         let Some(first) = self.areas.first() else { return };
-        let (mut band, corner) = bands.lock(first.origin.map(|v| v as u32));
+        let (mut band, corner) = bands.lock(first.own_origin().map(|v| v as u32));
         let band = &mut *band;
         let picture = if band.unorm8.is_empty() { &mut *band.srgb8 } else { &mut *band.unorm8 };
         let [_, rows] = frame.drawn_part(first);
@@ -78,8 +78,9 @@ impl Strip {
             for (area, codes) in self.areas.iter().zip(&self.codes) {
                 let [columns, _] = frame.drawn_part(area);
                 let row = &mut picture[start + columns.start..start + columns.end];
-                copy_row(row, codes, [columns.start, y]);
-                start += area.size[0];
+                let [left, top] = area.margin;
+                copy_row(row, codes, [left + columns.start, top + y]);
+                start += frame.own_part(area)[0].len();
             }
         }
         self.areas.clear();
@@ -87,9 +88,9 @@ impl Strip {
 }
 
 /// Whether a tile is the next one of its row.
-fn continues(last: &TileArea, next: &TileArea) -> bool {
-    let [x, y] = last.origin;
-    next.origin == [x + last.size[0] as i32, y]
+fn continues(frame: &FrameView<'_>, last: &TileArea, next: &TileArea) -> bool {
+    let [x, y] = last.own_origin();
+    next.own_origin() == [x + frame.own_part(last)[0].len() as i32, y]
 }
 
 /// Copies bytes to a row from a column on, a row of a block at a time.

@@ -172,11 +172,12 @@ impl Setup<'_> {
     #[inline(always)]
     fn push_together<S: Simd>(&mut self, simd: S, first: u32, drawn: u64, pixels: [[I32<S>; 2]; 2]) -> bool {
         let grid = self.grid;
+        let apron = grid.apron as i32;
         let [columns, rows] = [(0, grid.viewport.width), (1, grid.viewport.height)].each(
             #[inline(always)]
             |(axis, side)| {
                 let [begin, end] = pixels[axis];
-                [begin.max(0), end.min(side as i32 - 1)].each(
+                [(begin - apron).max(0), (end + apron).min(side as i32 - 1)].each(
                     #[inline(always)]
                     |pixel| grid.tiles_at(pixel),
                 )
@@ -197,7 +198,7 @@ impl Setup<'_> {
     /// more only where tiles are smaller than usual.
     #[inline(always)]
     fn push_box(&mut self, primitive: u32, columns: [i32; 2], rows: [i32; 2]) {
-        let tiles = self.grid.tiles_of(columns, rows);
+        let tiles = self.grid.tiles_that_see(columns, rows);
         let entry = Entry::primitive(self.place(primitive));
         for row in tiles.rows {
             for column in tiles.columns.clone() {

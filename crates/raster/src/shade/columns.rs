@@ -1,6 +1,6 @@
 //! The columns of eight pixels' triangles, from their records.
 
-use super::records::{Records, cold, hot};
+use super::records::{RecordShape, Records, cold, hot, lined};
 use super::task::Vector;
 use super::triangle_lanes::CutColumns;
 use super::weights::Placed;
@@ -58,7 +58,7 @@ impl<S: Simd> Seen<S> {
 }
 
 /// Rows for the longest record, in whole records' rows.
-const ROWS: usize = (hot::COUNT + 3 * MAX_VARYINGS).next_multiple_of(LANES);
+const ROWS: usize = (hot::COUNT + 3 * MAX_VARYINGS + lined::COUNT).next_multiple_of(LANES);
 
 /// Where a row begins, a line of the cache does, or a half: none lies in two.
 #[repr(align(64))]
@@ -125,6 +125,12 @@ impl Columns {
         let (first, others) = self.rows.0[hot::COUNT..].split_at(count);
         let (second, others) = others.split_at(count);
         [first, second, &others[..count]]
+    }
+
+    /// The columns of lines, of a draw whose edges are painted.
+    #[inline(always)]
+    pub(super) fn lines(&self, shape: RecordShape) -> Option<&[Row; lined::COUNT]> {
+        self.rows.0[shape.lines?..].first_chunk()
     }
 
     /// What is special, if a triangle is wide or cut.

@@ -4,6 +4,7 @@ use crate::Surface;
 use crate::bin::Place;
 use crate::frame::{DrawPlan, FrameView};
 use crate::geometry::{Geometry, Shape};
+use crate::ink::Ink;
 use crate::simd::{I32, Mask, Simd, U32, prelude::*};
 use crate::tile::TileArea;
 use crate::vertex::{DrawVertices, Slots};
@@ -18,6 +19,8 @@ pub(crate) struct ShadeContext<'f> {
     pub(crate) places: &'f [Place],
     /// Index of the draw among the frame's plans.
     pub(crate) draw: usize,
+    /// What edges of other faces cover, by the number of the pixel, if anything.
+    pub(crate) outer: Option<&'f [f32]>,
 }
 
 impl<'f> ShadeContext<'f> {
@@ -29,6 +32,12 @@ impl<'f> ShadeContext<'f> {
     #[inline(always)]
     pub(crate) fn geometry(&self) -> &'f Geometry<'f> {
         &self.frame.pass[self.plan().draw].geometry
+    }
+
+    /// What paints the edges of the draw's faces, if anything does.
+    #[inline(always)]
+    pub(crate) fn ink(&self) -> Option<&'f Ink> {
+        self.frame.ink.as_ref().filter(|_| self.geometry().shows_edges())
     }
 
     #[inline(always)]
@@ -122,6 +131,12 @@ impl Work {
     #[inline(always)]
     pub(crate) fn spot(self) -> u32 {
         self.spot
+    }
+
+    /// The number of the pixel of a [`spot`](Self::spot).
+    #[inline(always)]
+    pub(crate) fn pixel_of(spot: u32) -> usize {
+        (spot & ((1 << Self::PARTLY) - 1)) as usize
     }
 
     /// The corners of eight pixels in 1/256 pixel from the tile's; and, unless all

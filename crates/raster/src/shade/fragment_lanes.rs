@@ -1,6 +1,8 @@
 //! What a pipeline knows when it shades eight pixels.
 
 use super::ShadeContext;
+use super::columns::Columns;
+use super::lines_over::LinesOver;
 use super::records::{Records, Tag, cold, flag};
 use super::task::Vector;
 use super::weights::Weights;
@@ -17,6 +19,7 @@ pub struct FragmentLanes<'a, S: Simd> {
     pub(crate) simd: S,
     /// The varyings at each of the three corners: equally many.
     pub(super) varyings: [&'a [Row]; 3],
+    pub(super) columns: &'a Columns,
     pub(crate) place: Weights<S>,
     /// In 1/256 internal pixel from the tile's corner.
     pub(crate) point: [I32<S>; 2],
@@ -148,6 +151,14 @@ impl<S: Simd> FragmentLanes<'_, S> {
             },
         );
         F32::simd_from(self.simd, nearest)
+    }
+
+    /// The colours with the edges that are painted over them.
+    #[inline(always)]
+    pub(super) fn with_lines(&self, color: [F32<S>; 4]) -> [F32<S>; 4] {
+        let Some(ink) = &self.context.frame.ink else { return color };
+        let over = LinesOver { ink, context: self.context, records: self.records, columns: self.columns };
+        over.lay(self.simd, self.vector.spots, color)
     }
 
     /// Calls `visit` with each active lane as a fragment of its own.

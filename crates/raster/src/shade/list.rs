@@ -17,7 +17,20 @@ pub(crate) fn shade_jobs(
     (places, jobs, work): (&[Place], &[Job], &[Work]),
     output: &mut ShadeOutput<'_>,
 ) {
+    // Over translucent faces no edges of others are laid.
+    shade_jobs_with(frame, area, shading, (places, jobs, work), (output, None));
+}
+
+/// [`shade_jobs`], with what edges of other faces cover.
+pub(crate) fn shade_jobs_with(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    shading: &mut Shading,
+    (places, jobs, work): (&[Place], &[Job], &[Work]),
+    (output, outer): (&mut ShadeOutput<'_>, Option<&[f32]>),
+) {
     for_each_part(frame, area, shading, (places, jobs, work), |context, shading| {
+        let context = &ShadeContext { outer, ..*context };
         let Shading { records, columns, fragments, .. } = shading;
         let task = Task::of_fragments(records, 0, fragments.all());
         frame.pipeline(context.draw).shade(frame.token, context, (&task, columns), output);
@@ -62,7 +75,7 @@ fn for_each_part(
                 shading.fragments.push(slot as u32, work);
             }
         }
-        let context = ShadeContext { frame, area: *area, places, draw };
+        let context = ShadeContext { frame, area: *area, places, draw, outer: None };
         shading.records.fill(frame.token, &context, &shading.seen);
         visit(&context, shading);
         rest = after;

@@ -2,8 +2,10 @@
 //! which vectors of pixels take their columns.
 
 use super::ShadeContext;
+use super::lines::Lines;
 use super::sorted::Sorted;
 use crate::bin::Place;
+use crate::ink::OuterInk;
 use crate::simd::{Each, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
 
 /// The columns that every vector loads before those of varyings.
@@ -37,6 +39,21 @@ pub(super) mod cold {
     pub(crate) const COUNT: usize = 16;
 }
 
+/// Columns of the lines on triangles, behind the varyings, of draws whose edges are painted.
+pub(super) mod lined {
+    /// One over the slope of the corners' shares in pixels, times the weight: what turns a
+    /// share into the distance from the edge opposite the corner. Below 0 where that is no
+    /// edge of the face.
+    pub(crate) const INVERSE: usize = 0;
+    /// The distance at which a line ends to cover anything, and the most that it covers.
+    pub(crate) const REACH: usize = 3;
+    pub(crate) const MOST: usize = 4;
+    /// What is covered everywhere.
+    pub(crate) const FLOOR: usize = 5;
+    /// How many there are.
+    pub(crate) const COUNT: usize = 6;
+}
+
 /// Bits of a record's flags. The lowest six tell which corners the vertices are,
 /// two bits each.
 pub(super) mod flag {
@@ -65,58 +82,92 @@ pub(super) struct Tag {
 pub(crate) struct Records {
     rows: Vec<Row>,
     tags: Vec<Tag>,
-    shape: Shape,
     /// The triangles among the tile's.
     seen: Vec<u32>,
+    /// Those of the draw that is asked for.
+    shape: RecordShape,
+    /// How many rows and records there are.
+    used: [usize; 2],
 }
 
-/// How a record is laid out.
+/// Where the records of a draw are, and how each is laid out.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Shape {
-    /// All of its rows.
+pub(super) struct RecordShape {
+    /// The first row and the first record.
+    first: [usize; 2],
+    /// All rows of a record.
     size: usize,
     /// The first of them, that every vector loads.
     pub(super) loaded: usize,
     /// How many varyings each vertex has.
     pub(super) varyings: usize,
+    /// The first column of [`lined`], where edges are painted.
+    pub(super) lines: Option<usize>,
 }
 
 impl Records {
-    /// Makes records of some of the tile's triangles, all of the context's draw.
+    /// Makes records of some of the tile's triangles, all of the context's draw, and forgets
+    /// all others.
     pub(crate) fn fill(&mut self, token: Token, context: &ShadeContext<'_>, seen: &[u32]) {
-        let varyings = context.varying_count();
-        let loaded = (hot::COUNT + 3 * varyings).div_ceil(LANES);
-        let is_asked_all = context.frame.pipeline(context.draw).asks_all();
-        let size = loaded + if is_asked_all { cold::COUNT / LANES } else { 0 };
-        self.shape = Shape { size, loaded, varyings };
+        self.clear();
+        self.append(token, context, seen, None);
+    }
+
+    /// Forgets all records.
+    pub(super) fn clear(&mut self) {
+        self.used = [0; 2];
         self.seen.clear();
+    }
+
+    /// Makes records of some more triangles, all of the context's draw, and tells `outer`
+    /// what it has to know of them. They are those that are asked for from now on.
+    pub(super) fn append(
+        &mut self,
+        token: Token,
+        context: &ShadeContext<'_>,
+        seen: &[u32],
+        mut outer: Option<&mut OuterInk>,
+    ) -> RecordShape {
+        let shape = RecordShape { first: self.used, ..RecordShape::new(context) };
+        let [row, record] = shape.first;
+        let used = [row + seen.len() * shape.size, record + seen.len()];
+        if self.rows.len() < used[0] {
+            self.rows.resize(used[0], [0; LANES]);
+        }
+        if self.tags.len() < used[1] {
+            self.tags.resize(used[1], Tag::default());
+        }
         self.seen.extend_from_slice(seen);
-        let length = seen.len() * self.shape.size;
-        if self.rows.len() < length {
-            self.rows.resize(length, [0; LANES]);
-        }
-        if self.tags.len() < seen.len() {
-            self.tags.resize(seen.len(), Tag::default());
-        }
-        let shape = self.shape;
-        if context.has_flat_marks() {
-            return self.fill_flat(context, length);
+        (self.used, self.shape) = (used, shape);
+        // Edges of faces beside them ask where they lie.
+        if outer.is_none() && context.has_flat_marks() {
+            self.fill_flat(context, seen, shape);
+            return shape;
         }
         at_level!(token, simd => {
-            let rows = self.rows.chunks_mut(LANES * shape.size);
-            for ((seen, rows), tags) in seen.chunks(LANES).zip(rows).zip(self.tags.chunks_mut(LANES)) {
-                eight(simd, context, seen, (rows, shape), tags);
+            let rows = self.rows[row..used[0]].chunks_mut(LANES * shape.size);
+            let tags = self.tags[record..used[1]].chunks_mut(LANES);
+            for ((seen, rows), tags) in seen.chunks(LANES).zip(rows).zip(tags) {
+                eight(simd, context, seen, (rows, shape), (tags, outer.as_deref_mut()));
             }
         });
+        shape
+    }
+
+    /// Turns to the records of another draw.
+    pub(super) fn select(&mut self, shape: RecordShape) {
+        self.shape = shape;
     }
 
     /// The records of flat lines and points: of such only the ids have a meaning, so all else
     /// stays empty, with steps of no triangle that is wide or cut.
-    fn fill_flat(&mut self, context: &ShadeContext<'_>, length: usize) {
-        let Self { rows, tags, shape, seen } = self;
-        rows[..length].fill([0; LANES]);
+    fn fill_flat(&mut self, context: &ShadeContext<'_>, seen: &[u32], shape: RecordShape) {
+        let [row, record] = shape.first;
+        let rows = &mut self.rows[row..self.used[0]];
+        rows.fill([0; LANES]);
         let first = context.plan().ordinals.start;
-        for ((record, tag), &number) in rows.chunks_exact_mut(shape.size).zip(tags).zip(&*seen) {
+        let tags = &mut self.tags[record..];
+        for ((record, tag), &number) in rows.chunks_exact_mut(shape.size).zip(tags).zip(seen) {
             record[0][hot::STEPS] = 1;
             record[0][hot::STEPS + 1] = 1;
             *tag = Tag { primitive: context.places[number as usize].ordinal - first, flags: 0 };
@@ -124,19 +175,25 @@ impl Records {
     }
 
     #[inline(always)]
-    pub(super) fn shape(&self) -> Shape {
+    pub(super) fn shape(&self) -> RecordShape {
         self.shape
     }
 
     #[inline(always)]
     pub(super) fn tag(&self, slot: u32) -> Tag {
-        self.tags[slot as usize]
+        self.tags[self.shape.first[1] + slot as usize]
+    }
+
+    /// The rows of a triangle.
+    #[inline(always)]
+    fn rows_of(&self, slot: u32) -> &[Row] {
+        &self.rows[self.shape.first[0] + slot as usize * self.shape.size..]
     }
 
     /// The rows of a triangle that every vector loads.
     #[inline(always)]
     pub(super) fn of(&self, slot: u32) -> &[Row] {
-        &self.rows[slot as usize * self.shape.size..][..self.shape.loaded]
+        &self.rows_of(slot)[..self.shape.loaded]
     }
 
     /// The cold columns of eight triangles.
@@ -153,7 +210,7 @@ impl Records {
             || {
                 let seen = slots.each(
                     #[inline(always)]
-                    |slot| self.seen[slot as usize],
+                    |slot| self.seen[self.shape.first[1] + slot as usize],
                 );
                 let mut columns = [[0; LANES]; cold::COUNT];
                 if self.shape.size == self.shape.loaded {
@@ -166,7 +223,7 @@ impl Records {
                         let row = self.shape.loaded + half;
                         let rows = slots.each(
                             #[inline(always)]
-                            |slot| &self.rows[slot as usize * self.shape.size + row],
+                            |slot| &self.rows_of(slot)[row],
                         );
                         transpose(simd, rows, columns);
                     }
@@ -175,6 +232,25 @@ impl Records {
                 columns
             },
         )
+    }
+}
+
+impl RecordShape {
+    /// All rows of a record.
+    #[inline(always)]
+    pub(super) fn rows(self) -> usize {
+        self.size
+    }
+
+    /// The first of all.
+    fn new(context: &ShadeContext<'_>) -> Self {
+        let varyings = context.varying_count();
+        let lines = context.ink().map(|_| hot::COUNT + 3 * varyings);
+        let columns = lines.map_or(hot::COUNT + 3 * varyings, |first| first + lined::COUNT);
+        let loaded = columns.div_ceil(LANES);
+        let is_asked_all = context.frame.pipeline(context.draw).asks_all();
+        let size = loaded + if is_asked_all { cold::COUNT / LANES } else { 0 };
+        Self { first: [0; 2], size, loaded, varyings, lines }
     }
 }
 
@@ -193,8 +269,8 @@ fn eight<S: Simd>(
     simd: S,
     context: &ShadeContext<'_>,
     seen: &[u32],
-    (rows, shape): (&mut [Row], Shape),
-    tags: &mut [Tag],
+    (rows, shape): (&mut [Row], RecordShape),
+    (tags, outer): (&mut [Tag], Option<&mut OuterInk>),
 ) {
     let numbers = lanes_of(
         #[inline(always)]
@@ -227,6 +303,21 @@ fn eight<S: Simd>(
         for (record, turned) in rows.chunks_exact_mut(shape.size).zip(turned) {
             record[row] = turned;
         }
+    }
+    if let Some(ink) = &context.frame.ink
+        && (shape.lines.is_some() || outer.is_some())
+    {
+        // Apart, so that it takes no registers where it is not needed.
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let lines = Lines::new(simd, (context, ink), &sorted, (places, primitives));
+                lines.store((rows, shape), seen.len());
+                if let Some(outer) = outer {
+                    lines.note(simd, &sorted, seen, outer);
+                }
+            },
+        );
     }
     let corners = lanes_of(
         #[inline(always)]

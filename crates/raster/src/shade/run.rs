@@ -23,7 +23,7 @@ pub(super) fn shade<S: Simd, P: LanePipeline>(
         (task, columns),
         #[inline(always)]
         |fragments, vector| {
-            let color = finite(simd, pipeline.fragments(simd, fragments));
+            let color = finite(simd, fragments.with_lines(pipeline.fragments(simd, fragments)));
             output.write(simd, color, vector.destination);
         },
     );
@@ -105,6 +105,7 @@ fn fragments<'v, S: Simd>(
     FragmentLanes {
         simd,
         varyings: columns.varyings(records.shape().varyings),
+        columns,
         place: TriangleLanes::load(simd, columns).at(simd, &columns.placed),
         point: columns.placed.point(simd),
         vector,

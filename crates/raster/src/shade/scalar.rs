@@ -43,7 +43,7 @@ fn shade_lanes<S: Simd>(
                 #[inline(always)]
                 |column| F32::simd_from(simd, column),
             );
-            output.write(simd, finite(simd, color), vector.destination);
+            output.write(simd, finite(simd, fragments.with_lines(color)), vector.destination);
         },
     );
 }

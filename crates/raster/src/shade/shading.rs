@@ -4,7 +4,9 @@ use super::Records;
 use super::columns::Columns;
 use super::edges::Edges;
 use super::fragments::FragmentList;
+use super::records::RecordShape;
 use super::task::Group;
+use crate::ink::OuterInk;
 use crate::tile::PIXELS;
 use std::ops::Range;
 
@@ -16,6 +18,8 @@ pub(super) struct Run {
     pub(super) groups: Range<usize>,
     pub(super) fragments: Range<usize>,
     pub(super) parts: Range<usize>,
+    /// Its records, if they are there already.
+    pub(super) records: Option<RecordShape>,
 }
 
 /// A group with pixels whose first samples see nobody.
@@ -56,6 +60,8 @@ pub(crate) struct Shading {
     pub(crate) empty_groups: Vec<EmptyGroup>,
     /// Pixels whose samples see different triangles.
     pub(crate) edges: Edges,
+    /// What edges cover beyond their faces.
+    pub(crate) outer: OuterInk,
 }
 
 impl Shading {
@@ -88,6 +94,7 @@ impl Shading {
             colors: vec![[0.0; 4]; PIXELS + 1],
             empty_groups: Vec::new(),
             edges: Edges::new(),
+            outer: OuterInk::default(),
         }
     }
 }

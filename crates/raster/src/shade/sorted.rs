@@ -9,15 +9,15 @@ use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, inlined, lanes_of, pre
 
 /// Eight triangles, their vertices sorted.
 pub(super) struct Sorted<S: Simd> {
-    x: [I32<S>; 3],
-    y: [I32<S>; 3],
-    depth: [F32<S>; 3],
-    inverse_w: [F32<S>; 3],
+    pub(super) x: [I32<S>; 3],
+    pub(super) y: [I32<S>; 3],
+    pub(super) depth: [F32<S>; 3],
+    pub(super) inverse_w: [F32<S>; 3],
     /// The corners that the vertices are, or that the columns of cut weights
     /// belong to.
     pub(super) corners: [Row; 3],
     /// Where the sorted vertices run clockwise on the screen.
-    clockwise: Mask<S>,
+    pub(super) clockwise: Mask<S>,
     /// All but the corners.
     flags: I32<S>,
 }

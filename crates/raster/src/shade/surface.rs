@@ -5,9 +5,10 @@ use super::shading::{Run, Shading};
 use super::task::Task;
 use super::visible::{divide, list};
 use super::{Encoding, ShadeContext, ShadeOutput, Work};
+use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::simd::{LANES, at_level};
-use crate::tile::{Scratch, TileArea};
+use crate::tile::{Scratch, TileArea, VisibilityBuffer};
 
 /// Shades all pixels of a tile: to bytes if an encoding is given, else in linear
 /// light. What covers a part of its pixel is left in linear light in any case.
@@ -18,20 +19,53 @@ pub(crate) fn shade_tile(
     encoding: Option<Encoding>,
 ) {
     let Scratch { buffer, shading, places, stats, .. } = scratch;
-    stats.pixels_shaded += at_level!(frame.token, simd => list(simd, buffer, places.len(), shading)) as u64;
-    divide(frame, buffer, places, shading);
+    stats.pixels_shaded += list_visible(frame, area, (buffer, places), shading) as u64;
     let runs = std::mem::take(&mut shading.runs);
+    let outer = std::mem::take(&mut shading.outer);
     for run in &runs {
-        let context = ShadeContext { frame, area: *area, places, draw: run.draw };
-        shading.records.fill(frame.token, &context, &shading.seen[run.slots.clone()]);
+        let context = ShadeContext { frame, area: *area, places, draw: run.draw, outer: outer.coverage() };
+        match run.records {
+            Some(shape) => shading.records.select(shape),
+            None => shading.records.fill(frame.token, &context, &shading.seen[run.slots.clone()]),
+        }
         let winners = (buffer.winners(), LANES * buffer.samples);
-        if frame.pipeline(run.draw).is_flat() {
+        // Lines make no triangle flat.
+        if frame.pipeline(run.draw).is_flat() && frame.ink.is_none() {
             shade_flat(&context, shading, (run, winners), encoding);
         } else {
             shade_run(&context, shading, (run, winners), encoding);
         }
     }
-    shading.runs = runs;
+    (shading.runs, shading.outer) = (runs, outer);
+}
+
+/// Lists what is visible in a tile, by draws; and finds what edges cover beyond their
+/// triangles. Tells how many fragments are to be shaded.
+pub(crate) fn list_visible(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    (buffer, places): (&VisibilityBuffer, &[Place]),
+    shading: &mut Shading,
+) -> usize {
+    let mut outer = std::mem::take(&mut shading.outer);
+    let own = frame.ink.is_some().then(|| outer.own_lanes(frame, area));
+    let count = at_level!(frame.token, simd => list(simd, buffer, (places.len(), own), shading));
+    divide(frame, buffer, places, shading);
+    if let Some(ink) = &frame.ink {
+        outer.begin(places.len());
+        let Shading { runs, records, seen, .. } = shading;
+        records.clear();
+        for run in runs {
+            let context = ShadeContext { frame, area: *area, places, draw: run.draw, outer: None };
+            let seen = &seen[run.slots.clone()];
+            run.records = Some(records.append(frame.token, &context, seen, Some(&mut outer)));
+        }
+        outer.find(frame, (ink, area), buffer, places);
+    } else if !outer.is_empty() {
+        outer.begin(0);
+    }
+    shading.outer = outer;
+    count
 }
 
 /// What groups see, and from group to group how many samples there are.

@@ -13,17 +13,18 @@ use crate::tile::{NOBODY, VisibilityBuffer};
 const FULL: u32 = 4;
 
 /// Lists what is visible in a tile: the triangles, and the pixels that they are
-/// seen at. Tells how many fragments are to be shaded.
+/// seen at, of those lanes of each group that are the tile's `own` where not all
+/// are. Tells how many fragments are to be shaded.
 #[inline(always)]
 pub(super) fn list<S: Simd>(
     simd: S,
     buffer: &VisibilityBuffer,
-    places: usize,
+    (places, own): (usize, Option<&[u8]>),
     shading: &mut Shading,
 ) -> usize {
     match buffer.samples {
-        1 => list_samples::<S, 1>(simd, buffer, places, shading),
-        _ => list_samples::<S, 0>(simd, buffer, places, shading),
+        1 => list_samples::<S, 1>(simd, buffer, (places, own), shading),
+        _ => list_samples::<S, 0>(simd, buffer, (places, own), shading),
     }
 }
 
@@ -32,7 +33,7 @@ pub(super) fn list<S: Simd>(
 fn list_samples<S: Simd, const SAMPLES: usize>(
     simd: S,
     buffer: &VisibilityBuffer,
-    places: usize,
+    (places, own): (usize, Option<&[u8]>),
     shading: &mut Shading,
 ) -> usize {
     let samples = if SAMPLES > 0 { SAMPLES } else { buffer.samples };
@@ -58,12 +59,16 @@ fn list_samples<S: Simd, const SAMPLES: usize>(
             #[inline(always)]
             |agree, row| agree & lanes.simd_eq(U32::simd_from(simd, *row)),
         );
-        let partly = !agree.to_bitmask() & 0xff;
-        let empty = lanes.simd_eq(U32::splat(simd, NOBODY)).to_bitmask();
+        let own = own.map_or(0xff, |own| u64::from(own[group]));
+        let partly = !agree.to_bitmask() & own;
+        if own != 0xff && samples > 1 {
+            mark_all(marks, others, places);
+        }
+        let empty = lanes.simd_eq(U32::splat(simd, NOBODY)).to_bitmask() & own;
         if empty != 0 {
             empty_groups.push(EmptyGroup { number: group as u32, lanes: empty as u32 });
         }
-        let seen = !empty & 0xff;
+        let seen = !empty & own;
         pixels += seen.count_ones();
         if partly != 0 {
             edges.push(simd, (group, rows), partly, parts);
@@ -82,6 +87,13 @@ fn list_samples<S: Simd, const SAMPLES: usize>(
         shading.colors.resize(needed, [0.0; 4]);
     }
     pixels as usize + shading.edges.part_count()
+}
+
+/// Marks what further samples see, of a group that is not shaded as a whole.
+fn mark_all(marks: &mut [u32], rows: &[[u32; LANES]], places: usize) {
+    for winner in rows.as_flattened() {
+        marks[(*winner as usize).min(places)] = 1;
+    }
 }
 
 /// Numbers the triangles that are marked in their order, and gives what was listed the
@@ -140,7 +152,7 @@ pub(super) fn divide(
         let draw = frame.draw_of(places[first as usize]);
         let ordinals = frame.plan.draws[draw].ordinals.end;
         let end = start + seen[start..].partition_point(|&place| places[place as usize].ordinal < ordinals);
-        runs.push(Run { draw, slots: start..end, groups: 0..0, fragments: 0..0, parts: 0..0 });
+        runs.push(Run { draw, slots: start..end, groups: 0..0, fragments: 0..0, parts: 0..0, records: None });
         start = end;
     }
     if runs.len() > 1 {

@@ -16,6 +16,8 @@ pub(crate) struct TileArea {
     pub(crate) origin: [i32; 2],
     /// Pixels in a row and in a column, at most [`MAX_SIDE`].
     pub(crate) size: [usize; 2],
+    /// How many pixels on the left and at the top belong to its neighbours.
+    pub(crate) margin: [usize; 2],
 }
 
 /// Blocks in a row of a tile.
@@ -61,6 +63,11 @@ impl TileArea {
             #[inline(always)]
             |axis| (self.origin[axis] + pixel[axis]) * 256 + offset[axis],
         )
+    }
+
+    /// The first pixel that belongs to no neighbour.
+    pub(crate) fn own_origin(&self) -> [i32; 2] {
+        [0, 1].map(|axis| self.origin[axis] + self.margin[axis] as i32)
     }
 
     /// Whether a pixel of the tile lies in the picture.

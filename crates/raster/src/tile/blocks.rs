@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn a_tile_is_taken_apart_block_by_block() {
-        let area = TileArea { origin: [0, 0], size: [17, 9] };
+        let area = TileArea { origin: [0, 0], size: [17, 9], margin: [0, 0] };
         let mut left = Blocks::of(&area);
         assert_eq!(left.iter().collect::<Vec<_>>(), [0, 1, 2, 8, 9, 10], "three columns, two rows");
         assert_eq!(left.within([8, 15], [3, 8]).collect::<Vec<_>>(), [1, 9], "the middle column");
@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn the_largest_tile_has_all_blocks() {
-        let area = TileArea { origin: [0, 0], size: [64, 64] };
+        let area = TileArea { origin: [0, 0], size: [64, 64], margin: [0, 0] };
         assert_eq!(Blocks::of(&area), Blocks::ALL, "64 of them");
         assert_eq!(Blocks::ALL.iter().count(), 64, "one after another");
     }

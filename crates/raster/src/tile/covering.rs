@@ -180,7 +180,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn area(size: [usize; 2]) -> TileArea {
-        TileArea { origin: [64, 128], size }
+        TileArea { origin: [64, 128], size, margin: [0, 0] }
     }
 
     /// Holds what a tile knows of a triangle against its edges, asked at every sample.

@@ -282,7 +282,7 @@ mod tests {
         ) {
             let pattern = SamplePattern::of(samples).unwrap();
             let grid = Grid::new(Viewport { width: 300, height: 300 }, pattern, 64);
-            let area = TileArea { origin: [64, 128], size: [64, 60] };
+            let area = TileArea { origin: [64, 128], size: [64, 60], margin: [0, 0] };
             let vertices: [[ScreenVertex; 3]; 8] = std::array::from_fn(|lane| {
                 std::array::from_fn(|corner| {
                     let place = |i: usize| i32::from(points[lane][corner][i]) / 3 / steps * steps;

@@ -38,6 +38,7 @@ pub(crate) use visibility::single;
 use crate::Surface;
 use crate::clock::Clock;
 use crate::frame::FrameView;
+use crate::ink::OuterInk;
 use crate::target::Bands;
 use crate::{blend, resolve, shade};
 use std::ops::Range;
@@ -74,6 +75,21 @@ pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
     }
     resolve::resolve(frame, &area, scratch, (bands, early));
     scratch.stats.times.resolve += clock.lap();
+}
+
+/// What edges cover beyond their faces in a tile that is looked at by itself.
+pub(crate) fn outer_ink(frame: &FrameView<'_>, index: u32) -> OuterInk {
+    let mut scratch = Scratch::new();
+    if frame.ink.is_some() {
+        let area = frame.area(index);
+        let surfaces = collect(frame, &mut scratch, index);
+        scratch.buffer.clear(&area, frame.grid.pattern.count());
+        scratch.ties.reset(scratch.places.len());
+        visibility::resolve_visibility(frame, &area, &mut scratch, &surfaces);
+        let Scratch { buffer, places, shading, .. } = &mut scratch;
+        shade::list_visible(frame, &area, (buffer, places), shading);
+    }
+    scratch.shading.outer
 }
 
 /// Lists the triangles of a tile.

@@ -3,14 +3,14 @@
 
 use trigon_camera::Camera;
 use trigon_math::Vec3;
-use trigon_raster::Culling;
+use trigon_raster::{Culling, EdgeFlags};
 
 use super::backdrop::Backdrop;
 use super::geometry::{Geometry, Run};
 use super::placement::{Eye, Placement};
 use super::record::{Dots, Record, Segments, Triangles};
 use super::shapes::{Shape, Shapes};
-use super::surface::{Dressed, EdgeOverlay, Occasion, Rays, Surface};
+use super::surface::{Dressed, Occasion, Rays, Surface};
 use super::wire::{HiddenLine, Wire};
 use crate::effects::{Counts, Effect, Scenery};
 use crate::material::{AlphaMode, Material, Shading};
@@ -111,12 +111,12 @@ impl<'s> Composer<'s> {
     }
 
     /// What is out of view is not prepared. Lines and points reach beyond their
-    /// vertices by their width, so only plain surfaces are left out.
+    /// vertices by their width, so only surfaces are left out.
     fn may_show(&self, asset: &MeshAsset, shape: &Shape) -> bool {
         let mesh = asset.mesh();
         let wires = !mesh.loose_edges().is_empty() || !mesh.loose_points().is_empty();
         wires
-            || self.settings.style != Style::Surface
+            || self.settings.style == Style::Wireframe
             || self.eye.may_see(&shape.geometry.bounds(), &shape.place.world)
     }
 
@@ -133,15 +133,18 @@ impl<'s> Composer<'s> {
                     Purpose::Shapes => self.shape(object, run),
                 }));
             }
-            Style::HiddenLine => draws.push(self.hidden_line(object)),
-            Style::Wireframe => {}
+            Style::HiddenLine => {
+                draws.push(self.hidden_line(object));
+                counts.of(Effect::Edges).bytes += size_of_val(self.edge_flags(object)) as u64;
+            }
+            Style::Wireframe => {
+                let edges = &object.asset.mesh().edges()[..object.asset.mesh().face_edge_count()];
+                counts.of(Effect::Edges).bytes += size_of_val(edges) as u64;
+                draws.extend(self.segments(object, edges, self.settings.edge_color));
+            }
         }
-        if self.settings.style != Style::Surface {
-            // On a surface these fill up what a face cannot paint by itself: the
-            // outer half of an edge on the silhouette.
-            let edges = &object.asset.mesh().edges()[..object.asset.mesh().face_edge_count()];
-            counts.of(Effect::Edges).bytes += size_of_val(edges) as u64;
-            draws.extend(self.segments(object, edges, self.settings.edge_color));
+        if self.shows_edges() {
+            counts.of(Effect::Edges).bytes += size_of_val(self.edge_flags(object)) as u64;
         }
         let color = self.material(object, 0).base_color.truncate();
         draws.extend(self.segments(object, object.asset.mesh().loose_edges(), color));
@@ -226,9 +229,8 @@ impl<'s> Composer<'s> {
         let shows_edges = self.shows_edges();
         let triangles = &geometry.triangles[run.triangles.clone()];
         let mesh = (&geometry.columns, triangles);
-        let mut pipeline = Surface::<FLAT>::new(mesh, object.place, dressed, &self.occasion());
-        pipeline.edges = shows_edges.then(|| self.edge_overlay());
-        let flags = shows_edges.then(|| &geometry.edge_flags(object.asset.mesh())[run.triangles.clone()]);
+        let pipeline = Surface::<FLAT>::new(mesh, object.place, dressed, &self.occasion());
+        let flags = shows_edges.then(|| &self.edge_flags(object)[run.triangles.clone()]);
         Box::new(Triangles {
             pipeline,
             triangles,
@@ -245,24 +247,20 @@ impl<'s> Composer<'s> {
         self.purpose == Purpose::Colors && self.settings.style == Style::SurfaceWithEdges
     }
 
-    fn edge_overlay(&self) -> EdgeOverlay {
-        EdgeOverlay { color: self.settings.edge_color, half_width: self.settings.line_width * 0.5 }
+    /// Which edges of the triangles are edges of faces. (Tangents change none.)
+    fn edge_flags(&self, object: &Object<'s>) -> &'s [EdgeFlags] {
+        object.geometry.edge_flags(object.asset.mesh())
     }
 
     fn hidden_line<'c>(&'c self, object: &Object<'s>) -> Box<dyn Record + 'c> {
         let geometry = object.geometry;
-        let pipeline = HiddenLine {
-            columns: &geometry.columns,
-            place: object.place,
-            backdrop: self.backdrop,
-            edges: self.edge_overlay(),
-        };
-        let flags = geometry.edge_flags(object.asset.mesh());
+        let pipeline =
+            HiddenLine { columns: &geometry.columns, place: object.place, backdrop: self.backdrop };
         Box::new(Triangles {
             pipeline,
             triangles: &geometry.triangles,
             faces: &geometry.faces,
-            edge_flags: Some(flags),
+            edge_flags: Some(self.edge_flags(object)),
             object: object.index,
             culling: Culling::None,
             surface: trigon_raster::Surface::Opaque,

@@ -13,7 +13,7 @@ use crate::effects::{Counts, Effect, EffectCounts, EffectPlan, Scenery};
 use crate::frame::Frame;
 use crate::outputs::{self, Needed};
 use crate::scene::Scene;
-use crate::settings::RenderSettings;
+use crate::settings::{RenderSettings, Style};
 
 /// Draws pictures one after the other. What it keeps between them changes no byte.
 #[derive(Default)]
@@ -88,6 +88,9 @@ impl Engine {
             Backdrop::Color(color) => Background::Color(color),
             Backdrop::Rows(..) | Backdrop::Environment(_) => Background::PerPixel(&behind),
         });
+        if matches!(settings.style, Style::SurfaceWithEdges | Style::HiddenLine) {
+            pass.edges(settings.face_edges());
+        }
         draws.iter().for_each(|draw| draw.record(&mut pass));
         let needed = if apart { Needed::default() } else { Needed::of(&settings.outputs) };
         // Depth that has a pass of its own is not to be written twice.

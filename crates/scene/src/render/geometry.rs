@@ -4,6 +4,7 @@
 //! the mesh. After a change of few of the mesh's values it follows: see `change`.
 
 mod change;
+mod edge_flags;
 
 use std::mem::take;
 use std::ops::Range;
@@ -15,6 +16,7 @@ use trigon_mesh::{Attributes, Deformed, Mesh, RenderLinks, RenderMesh};
 use trigon_raster::EdgeFlags;
 
 use super::columns::Columns;
+use edge_flags::flags_of_mesh;
 
 /// The UV sets for which tangents are made: as many as the glTF reader takes. Each set
 /// with a normal map takes as much memory as the mesh, and a file may have thousands.
@@ -172,7 +174,7 @@ impl Geometry {
     /// pictures that show edges ask for it.
     pub(crate) fn edge_flags(&self, source: &Mesh) -> &[EdgeFlags] {
         self.edge_flags.get_or_init(|| {
-            let mut flags = polygon_edges(source);
+            let mut flags = flags_of_mesh(source);
             if let Some(order) = &self.order {
                 permute(&mut flags, order);
             }
@@ -252,21 +254,6 @@ fn runs(slots: &[u32]) -> Vec<Run> {
     slots.chunk_by(|a, b| a == b).map(run).collect()
 }
 
-/// An edge of a triangle is an edge of its polygon when it joins neighbouring
-/// corners; all others are diagonals of the triangulation.
-fn polygon_edges(source: &Mesh) -> Vec<EdgeFlags> {
-    let triangulation = source.triangulation();
-    let pairs = triangulation.triangles.iter().zip(&triangulation.triangle_faces);
-    pairs.map(|(&triangle, &face)| edge_flags(triangle, &source.face_corners(face as usize))).collect()
-}
-
-/// Of a triangle over some of the corners of a polygon.
-fn edge_flags([a, b, c]: [u32; 3], polygon: &Range<usize>) -> EdgeFlags {
-    let (first, last) = (polygon.start as u32, polygon.end as u32 - 1);
-    let neighbours = |from: u32, to: u32| to == if from == last { first } else { from + 1 };
-    EdgeFlags::new([(a, b), (b, c), (c, a)].map(|(from, to)| neighbours(from, to)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -295,14 +282,5 @@ mod tests {
         let grouped = runs(&[0, 0, 1, 2, 2]);
         let expected = [(0, 0..2), (1, 2..3), (2, 3..5)].map(|(slot, triangles)| Run { slot, triangles });
         assert_eq!(grouped, expected, "one run a slot");
-    }
-
-    #[test]
-    fn a_cube_shows_twelve_edges_and_no_diagonal() {
-        let cube = trigon_mesh::primitives::cube(1.0);
-        let flags = polygon_edges(&cube);
-        let shown: usize =
-            flags.iter().map(|flags| (0..3).filter(|&edge| flags.contains(edge)).count()).sum();
-        assert_eq!((flags.len(), shown), (12, 24), "each edge is seen from its two faces");
     }
 }

@@ -17,6 +17,8 @@ mod renderer;
 mod shapes;
 mod stage;
 pub(crate) mod surface;
+#[cfg(test)]
+mod tests;
 mod wire;
 
 pub use builder::RendererBuilder;

@@ -8,7 +8,6 @@ use trigon_raster::{Fragment, FragmentLanes, LanePipeline, Pipeline, VertexLanes
 use super::backdrop::Backdrop;
 use super::columns::Columns;
 use super::placement::Placement;
-use super::surface::EdgeOverlay;
 
 /// Vertices of a mesh in one colour, unlit.
 pub(super) struct Wire<'a> {
@@ -35,13 +34,12 @@ impl Pipeline for Wire<'_> {
     }
 }
 
-/// Faces painted like the background, with their edges on them: a drawing
-/// without its hidden lines.
+/// Faces painted like the background: with the edges that the pass paints on them, a
+/// drawing without its hidden lines.
 pub(super) struct HiddenLine<'a> {
     pub(super) columns: &'a Columns,
     pub(super) place: Placement,
     pub(super) backdrop: &'a Backdrop,
-    pub(super) edges: EdgeOverlay,
 }
 
 impl LanePipeline for HiddenLine<'_> {
@@ -63,7 +61,7 @@ impl LanePipeline for HiddenLine<'_> {
         let [columns, rows] = [0, 1].map(|axis| <[f32; LANES]>::from(fragments.position()[axis]));
         let papers =
             lanes_of(|lane| self.backdrop.at(UVec2::new(columns[lane] as u32, rows[lane] as u32)).to_array());
-        let paper = [0, 1, 2, 3].each(
+        [0, 1, 2, 3].each(
             #[inline(always)]
             |channel| {
                 let values = papers.each(
@@ -72,7 +70,6 @@ impl LanePipeline for HiddenLine<'_> {
                 );
                 F32::simd_from(simd, values)
             },
-        );
-        self.edges.over(simd, paper, fragments.nearest_edge())
+        )
     }
 }

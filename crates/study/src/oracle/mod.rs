@@ -30,6 +30,7 @@ pub mod area;
 pub mod coverage;
 pub mod depth;
 mod double_double;
+pub mod face_edges;
 pub mod half_plane;
 pub mod ray;
 

@@ -11,7 +11,8 @@ use std::sync::{Arc, OnceLock};
 
 use trigon_mesh::{ChangedElements, Mesh, RenderMesh, RenderUpdate};
 
-use super::{Geometry, GeometryState, edge_flags, places_for};
+use super::edge_flags::flags_of_face;
+use super::{Geometry, GeometryState, places_for};
 
 impl Geometry {
     /// Geometry that can follow changes of its mesh.
@@ -77,11 +78,14 @@ impl Geometry {
                 return None;
             }
             let vertex_of_corner = self.links.as_ref()?.vertex_of_corner();
-            for (index, &corners) in place.zip(triangles) {
+            for (index, &corners) in place.clone().zip(triangles) {
                 self.triangles[index] = corners.map(|corner| vertex_of_corner[corner as usize]);
-                if let Some(flags) = self.edge_flags.get_mut() {
-                    flags[index] = edge_flags(corners, &mesh.face_corners(face as usize));
-                }
+            }
+            if let Some(flags) = self.edge_flags.get_mut() {
+                let mut places = flags[place].iter_mut();
+                flags_of_face(mesh, (face, triangles), |of_triangle| {
+                    *places.next().expect("as many as triangles") = of_triangle;
+                });
             }
         }
         Some(())

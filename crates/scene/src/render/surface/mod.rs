@@ -27,7 +27,7 @@ use trigon_raster::simd::{F32, Mask, Simd, prelude::*};
 use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
 
 use super::columns::Columns;
-use super::lanes::{V3, normalized, saturated, splat, sum, tinted, turned};
+use super::lanes::{V3, normalized, saturated, splat, sum, turned};
 use super::lighting::Reflected;
 use super::placement::Placement;
 use crate::effects::Scenery;
@@ -44,7 +44,6 @@ pub(crate) struct Surface<'a, const FLAT: bool> {
     /// Whether rays of view meet in the camera, or run parallel.
     pub(crate) rays: Rays,
     pub(crate) scenery: &'a Scenery,
-    pub(crate) edges: Option<EdgeOverlay>,
 }
 
 /// A side of a face.
@@ -61,14 +60,6 @@ pub(crate) enum Rays {
     Meeting,
     /// Orthographic.
     Parallel,
-}
-
-/// Edges drawn on the surface, in shading: they cannot fight with it for depth.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct EdgeOverlay {
-    pub(crate) color: Vec3,
-    /// Pixels.
-    pub(crate) half_width: f32,
 }
 
 impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
@@ -118,7 +109,7 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
     ) -> Self {
         let Dressed { look, layout, illumination } = dressed;
         let Occasion { rays, scenery, .. } = *occasion;
-        Self { columns, triangles, place, layout, look, illumination, rays, scenery, edges: None }
+        Self { columns, triangles, place, layout, look, illumination, rays, scenery }
     }
 
     #[inline(always)]
@@ -164,7 +155,7 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
         if let (Some(mist), Some(at)) = (&self.scenery.mist, self.layout.position) {
             shaded = mist.over(simd, three(fragments, at), shaded);
         }
-        self.finished(simd, fragments, shaded, alpha)
+        self.finished(simd, shaded, alpha)
     }
 
     #[inline(always)]
@@ -180,38 +171,16 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
         }
     }
 
-    /// Alpha, and edges on it.
+    /// With its alpha, premultiplied.
     #[inline(always)]
-    fn finished<S: Simd>(
-        &self,
-        simd: S,
-        fragments: &FragmentLanes<'_, S>,
-        [r, g, b]: V3<S>,
-        alpha: F32<S>,
-    ) -> [F32<S>; 4] {
-        let color = match self.look.coverage {
+    fn finished<S: Simd>(&self, simd: S, [r, g, b]: V3<S>, alpha: F32<S>) -> [F32<S>; 4] {
+        match self.look.coverage {
             Coverage::Opaque => [r, g, b, F32::splat(simd, 1.0)],
             Coverage::Translucent => {
                 let alpha = saturated(alpha);
                 [r * alpha, g * alpha, b * alpha, alpha]
             }
-        };
-        match self.edges {
-            None => color,
-            Some(edges) => edges.over(simd, color, fragments.nearest_edge()),
         }
-    }
-}
-
-impl EdgeOverlay {
-    /// The edge's colour over the surface's, fading out over one pixel.
-    #[inline(always)]
-    pub(crate) fn over<S: Simd>(&self, simd: S, color: [F32<S>; 4], distance: F32<S>) -> [F32<S>; 4] {
-        let edge = saturated(F32::splat(simd, self.half_width + 0.5) - distance);
-        let [red, green, blue] = tinted(edge, self.color);
-        let [r, g, b, a] = color;
-        let rest = 1.0 - edge;
-        [r * rest + red, g * rest + green, b * rest + blue, a * rest + edge]
     }
 }
 

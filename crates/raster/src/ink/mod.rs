@@ -1,0 +1,147 @@
+//! Edges of faces, painted from what is visible: no line is drawn for them.
+//!
+//! A pixel shows an edge in one of two ways.
+//! - **Own ink**: the edges of the triangle that it sees. Shading knows the distances to
+//!   them already, and lays the line over the triangle's colour.
+//! - **Outer ink**: the edges of triangles that other pixels close by see. They show the
+//!   half of a line that lies beyond its face: outside of a silhouette, around a corner,
+//!   beyond a diagonal. [`outer`] finds it before a tile is shaded. It needs to know what
+//!   is visible around a tile, so tiles see a margin of [`Ink::reach`] pixels that their
+//!   neighbours draw.
+//!
+//! Both cover what an anti-aliased line does ([`crate::line`]): at a distance of d from a
+//! line of width w, `min(w, 1, w/2 + 1/2 - d)` of a pixel. A pixel shows the larger one.
+
+mod lined;
+mod outer;
+mod rows;
+mod rule;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use outer::{Footprint, OuterInk};
+pub(crate) use rule::{FaceLine, LineColumns};
+
+use crate::simd::{Each, F32, Simd};
+use trigon_math::{Vec3, Vec4};
+
+/// How a pass paints the edges of faces: see [`Pass::edges`](crate::Pass::edges).
+///
+/// # Widths
+/// A line has the width that is asked for where faces have room for it, and takes no more
+/// than a share of a small face, so that a dense mesh keeps the colour of its surface.
+/// With r the inner radius of a face in pixels of the target, twice its area over its
+/// perimeter as they are on the screen, the half of a line that lies on the face is no
+/// wider than
+///
+/// `min(width / 2, r / 3, r² / 4.5)`
+///
+/// pixels: a third of the radius, and from r = 1.5 pixels on less and less, so that edges
+/// fade away with the distance. A pixel cannot resolve the edges of a face that is smaller
+/// than itself. From r = 1.5 pixels down to 0.5 (of the finer grid, with supersampling) the
+/// share of the face that its lines cover, `1 - ((r - h) / r)²` for lines of half width h,
+/// takes the place of the distances to single edges.
+///
+/// What of a line lies beyond its own face follows from that face's r, and fades out from
+/// r = 2 pixels of the finer grid to 1; on a face that shares a corner with it, it follows
+/// from the smaller of the two. Triangles tell the radius of
+/// their polygon by the edges that are flagged, and by
+/// [`EdgeFlags::with_radius_ratio`](crate::EdgeFlags::with_radius_ratio). A triangle that
+/// is cut by the near plane or far outside of the view counts as large.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaceEdges {
+    /// Pixels of the target, 0 (no edges) to [`MAX_WIDTH`](Self::MAX_WIDTH); with
+    /// supersampling to 31 pixels of the finer grid, if that is less. More counts as that.
+    pub width: f32,
+    /// Linear RGB.
+    pub color: Vec3,
+    /// From 0, no edges, to 1.
+    pub opacity: f32,
+}
+
+impl FaceEdges {
+    /// The greatest width in pixels.
+    pub const MAX_WIDTH: f32 = 16.0;
+}
+
+/// The greatest width in pixels of the finer grid: its reach leaves half of a tile's side.
+const MAX_INNER_WIDTH: f32 = 31.0;
+
+/// [`FaceEdges`] on the finer grid, in its pixels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ink {
+    half_width: f32,
+    /// Pixels of the finer grid for one of the target.
+    scale: f32,
+    /// Premultiplied by the opacity.
+    color: [f32; 4],
+}
+
+impl Ink {
+    /// `None` if there is nothing to be painted.
+    pub(crate) fn new(edges: &FaceEdges, samples_per_axis: u32) -> Option<Self> {
+        let FaceEdges { width, color, opacity } = *edges;
+        let is_seen = width > 0.0 && opacity > 0.0 && color.is_finite();
+        let scale = samples_per_axis as f32;
+        let width = (width.min(FaceEdges::MAX_WIDTH) * scale).min(MAX_INNER_WIDTH);
+        let color = (color.extend(1.0) * opacity.min(1.0)).to_array();
+        is_seen.then_some(Self { half_width: width * 0.5, scale, color })
+    }
+
+    /// How far from an edge it may cover a part of a pixel, in whole pixels.
+    pub(crate) fn reach(&self) -> u32 {
+        (self.half_width + 0.5).ceil() as u32
+    }
+
+    /// Laid over a colour with a share of 0 to 1.
+    #[inline(always)]
+    pub(crate) fn over(&self, color: Vec4, share: f32) -> Vec4 {
+        let color = color.to_array();
+        let rest = 1.0 - self.color[3] * share;
+        Vec4::from_array([0, 1, 2, 3].each(
+            #[inline(always)]
+            |channel| color[channel] * rest + self.color[channel] * share,
+        ))
+    }
+
+    /// [`over`](Self::over), for lanes.
+    #[inline(always)]
+    pub(crate) fn over_lanes<S: Simd>(&self, color: [F32<S>; 4], share: F32<S>) -> [F32<S>; 4] {
+        let rest = 1.0 - share * self.color[3];
+        [0, 1, 2, 3].each(
+            #[inline(always)]
+            |channel| color[channel] * rest + share * self.color[channel],
+        )
+    }
+}
+
+#[cfg(test)]
+mod limits {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_seen_is_no_ink() {
+        let plain = FaceEdges { width: 1.0, color: Vec3::ZERO, opacity: 1.0 };
+        assert!(Ink::new(&plain, 1).is_some(), "black lines");
+        let nothing = [
+            FaceEdges { width: 0.0, ..plain },
+            FaceEdges { width: f32::NAN, ..plain },
+            FaceEdges { opacity: 0.0, ..plain },
+            FaceEdges { opacity: f32::NAN, ..plain },
+            FaceEdges { color: Vec3::splat(f32::INFINITY), ..plain },
+        ];
+        for edges in nothing {
+            assert!(Ink::new(&edges, 1).is_none(), "{edges:?}");
+        }
+    }
+
+    #[test]
+    fn no_line_reaches_farther_than_a_tile_can_see() {
+        for samples_per_axis in 1..=4 {
+            let wide = FaceEdges { width: f32::INFINITY, color: Vec3::ZERO, opacity: 2.0 };
+            let ink = Ink::new(&wide, samples_per_axis).unwrap();
+            assert!(ink.reach() <= 16, "{} with {samples_per_axis} per axis", ink.reach());
+            assert_eq!(ink.over(Vec4::ONE, 1.0), Vec4::W, "no more than opaque");
+        }
+    }
+}

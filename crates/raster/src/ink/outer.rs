@@ -1,0 +1,326 @@
+//! What edges cover of pixels that see another triangle, or none.
+//!
+//! A pixel that sees a triangle T (the farthest one, where its samples see several) shows
+//! the edges of those triangles U that pixels within the reach of a line see, if
+//! 1. nothing is behind U but the background; or all of U lies in front of all of T; or one
+//!    of the two is large. The rest are neighbours in a dense mesh: the edge between them is
+//!    an edge of both, and each paints its half. And
+//! 2. the point of the edge that is nearest to the pixel lies in front of the plane of T;
+//!    or their faces have a vertex in common and T does not cover that point.
+//!
+//! With U all triangles of its face count (some may be slivers that no sample sees), and so
+//! do those of T's own face.
+//!
+//! Which pixels this may hold for at all is found for rows of pixels at once, from the
+//! greatest of the depths around each; only those look at their neighbours one by one. All
+//! of it depends on what is visible around a pixel, and not on tiles.
+
+use super::lined::LinedFace;
+use super::rows::{Rows, beside_large, in_front};
+use super::{FaceLine, Ink};
+use crate::bin::Place;
+use crate::frame::FrameView;
+use crate::simd::{LANES, Simd, at_level};
+use crate::tile::{MAX_SIDE, NOBODY, PIXELS, TileArea, VisibilityBuffer};
+use std::ops::Range;
+
+/// Triangles whose faces have at least this inner radius, in pixels, are large.
+const LARGE: f32 = 3.0;
+
+/// Triangles that are kept ready: neighbouring pixels ask for the same ones.
+const READY: usize = 16;
+
+/// The depths of a visible triangle.
+#[derive(Clone, Copy)]
+pub(crate) struct Footprint {
+    /// The least, of a triangle with lines; below all depths for others.
+    pub(crate) least: f32,
+    /// The greatest.
+    pub(crate) greatest: f32,
+}
+
+impl Footprint {
+    const NOBODY: Self = Self { least: f32::NEG_INFINITY, greatest: f32::NEG_INFINITY };
+}
+
+/// What outer halves of lines cover in a tile.
+#[derive(Default)]
+pub(crate) struct OuterInk {
+    /// By the number of the pixel.
+    coverage: Vec<f32>,
+    /// The pixels that something covers.
+    touched: Vec<u32>,
+    /// Of the tile's triangles, and of nobody.
+    footprints: Vec<Footprint>,
+    lines: Vec<FaceLine>,
+    has_lines: bool,
+    has_large: bool,
+    /// `None` until edges are painted.
+    rows: Option<Box<Rows>>,
+    /// The lanes of each group that the tile draws itself.
+    own: Vec<u8>,
+    own_part: [Range<usize>; 2],
+    /// Faces whose edges are looked at, and such as they lie over.
+    ready: [Ready; 2],
+}
+
+/// Faces that are kept for the next pixels, with the places of their triangles.
+#[derive(Default)]
+struct Ready(Vec<(u32, LinedFace)>);
+
+impl OuterInk {
+    /// Forgets the last tile; this one has so many triangles.
+    pub(crate) fn begin(&mut self, places: usize) {
+        self.coverage.resize(PIXELS, 0.0);
+        for pixel in self.touched.drain(..) {
+            self.coverage[pixel as usize] = 0.0;
+        }
+        (self.has_lines, self.has_large) = (false, false);
+        // What is not seen is not asked for.
+        if self.footprints.len() < places + 1 {
+            self.footprints.resize(places + 1, Footprint::NOBODY);
+            self.lines.resize(places + 1, FaceLine::UNLINED);
+        }
+        self.footprints[places] = Footprint::NOBODY;
+        self.lines[places] = FaceLine::UNLINED;
+    }
+
+    /// Takes a visible triangle of the tile.
+    #[inline(always)]
+    pub(crate) fn note(&mut self, place: u32, footprint: Footprint, line: FaceLine) {
+        self.footprints[place as usize] = footprint;
+        self.lines[place as usize] = line;
+        self.has_lines |= footprint.least > f32::NEG_INFINITY;
+        self.has_large |= line.radius >= LARGE;
+    }
+
+    /// The lanes of each group of a tile that the tile draws itself; all that is beside is
+    /// drawn by its neighbours.
+    pub(crate) fn own_lanes(&mut self, frame: &FrameView<'_>, area: &TileArea) -> &[u8] {
+        let part = frame.own_part(area);
+        if self.own.is_empty() || self.own_part != part {
+            let [columns, rows] = &part;
+            let lanes = |group: usize| {
+                (0..LANES).fold(0, |lanes, lane| {
+                    let [x, y] = TileArea::pixel_at(group * LANES + lane);
+                    lanes | u8::from(columns.contains(&x) && rows.contains(&y)) << lane
+                })
+            };
+            self.own.clear();
+            self.own.extend((0..PIXELS / LANES).map(lanes));
+            self.own_part = part;
+        }
+        &self.own
+    }
+
+    /// Whether anything is covered.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.touched.is_empty()
+    }
+
+    /// What is covered, by the number of the pixel; `None` if nothing is.
+    pub(crate) fn coverage(&self) -> Option<&[f32]> {
+        (!self.is_empty()).then_some(&self.coverage)
+    }
+
+    /// What is covered of a pixel by its number.
+    #[inline(always)]
+    pub(crate) fn at(&self, pixel: usize) -> f32 {
+        if self.is_empty() { 0.0 } else { self.coverage[pixel] }
+    }
+
+    /// Finds what lines cover beyond their triangles, all of which have been noted.
+    pub(crate) fn find(
+        &mut self,
+        frame: &FrameView<'_>,
+        (ink, area): (&Ink, &TileArea),
+        buffer: &VisibilityBuffer,
+        places: &[Place],
+    ) {
+        if !self.has_lines {
+            return;
+        }
+        self.own_lanes(frame, area);
+        let reach = ink.reach() as usize;
+        let mut rows = self.rows.take().unwrap_or_else(Rows::new);
+        self.spread(area, (buffer, places.len()), &mut rows);
+        let found = at_level!(frame.token, simd => self.candidates(simd, area, &rows, reach));
+        self.ready.iter_mut().for_each(Ready::clear);
+        for y in self.own_part[1].clone() {
+            let mut rest = found[y];
+            while rest != 0 {
+                let x = rest.trailing_zeros() as usize;
+                rest &= rest - 1;
+                self.cover(frame, area, (places, &rows), ([x, y], reach));
+            }
+        }
+        self.rows = Some(rows);
+    }
+
+    /// The pixels that lines of others may cover: a bit for each column of each row.
+    #[inline(always)]
+    fn candidates<S: Simd>(&self, simd: S, area: &TileArea, visible: &Rows, reach: usize) -> [u64; MAX_SIDE] {
+        let [columns, rows] = self.own_part.clone();
+        let own = (u64::MAX >> (MAX_SIDE - columns.len())) << columns.start;
+        let mut found = [0; MAX_SIDE];
+        for y in rows {
+            let around = y.saturating_sub(reach)..(y + reach + 1).min(area.size[1]);
+            let mut bits = in_front(simd, visible, (y, around.clone()), reach);
+            if self.has_large {
+                bits |= beside_large(simd, visible, (y, around), reach);
+            }
+            found[y] = bits & own;
+        }
+        found
+    }
+
+    /// Lays what pixels see out in rows.
+    fn spread(&self, area: &TileArea, (buffer, places): (&VisibilityBuffer, usize), rows: &mut Rows) {
+        if area.padded() != [MAX_SIDE; 2] {
+            rows.least.fill([f32::NEG_INFINITY; MAX_SIDE]);
+            rows.large.fill([0.0; MAX_SIDE]);
+            rows.nearest.fill([NOBODY; MAX_SIDE]);
+        }
+        let [columns, height] = area.padded();
+        for (y, x) in (0..height).flat_map(|y| (0..columns).step_by(4).map(move |x| (y, x))) {
+            let first = TileArea::index_of([x, y]);
+            for lane in 0..4 {
+                let [near, far] = ends(buffer, first + lane);
+                let footprint = self.footprints[(near as usize).min(places)];
+                rows.least[y][x + lane] = footprint.least;
+                rows.nearest[y][x + lane] = near;
+                rows.farthest[y][x + lane] = far;
+                rows.greatest[y][x + lane] = match near == far {
+                    true => footprint.greatest,
+                    false => self.footprints[(far as usize).min(places)].greatest,
+                };
+                if self.has_large {
+                    let is_large = self.lines[(near as usize).min(places)].radius >= LARGE;
+                    rows.large[y][x + lane] = f32::from(u8::from(is_large));
+                }
+            }
+        }
+    }
+
+    /// Finds what lines of others cover of a pixel.
+    fn cover(
+        &mut self,
+        frame: &FrameView<'_>,
+        area: &TileArea,
+        (places, rows): (&[Place], &Rows),
+        ([x, y], reach): ([usize; 2], usize),
+    ) {
+        let own = rows.farthest[y][x];
+        let point = area.point([x as i32, y as i32], [128, 128]);
+        let mut most = self.cover_by_own(frame, places, own, point);
+        let mut last = own;
+        let columns = x.saturating_sub(reach)..(x + reach + 1).min(area.size[0]);
+        for row in y.saturating_sub(reach)..(y + reach + 1).min(area.size[1]) {
+            for column in columns.clone() {
+                let other = rows.nearest[row][column];
+                // Most often the same as before.
+                if other == last || other == own || other == NOBODY {
+                    continue;
+                }
+                last = other;
+                let covered = self.cover_by(frame, places, [other, own], point);
+                most = greatest(covered, most);
+            }
+        }
+        if most > 0.0 {
+            let pixel = TileArea::index_of([x, y]);
+            self.coverage[pixel] = most;
+            self.touched.push(pixel as u32);
+        }
+    }
+
+    /// What lines of its face cover of a pixel, beside those of the triangle that it sees:
+    /// if that is large, as for other triangles.
+    fn cover_by_own(&mut self, frame: &FrameView<'_>, places: &[Place], own: u32, point: [i32; 2]) -> f32 {
+        if own == NOBODY || self.lines[own as usize].radius < LARGE {
+            return 0.0;
+        }
+        let line = self.lines[own as usize];
+        let ground = self.ready[1].face(frame, places, own);
+        if !ground.has_parts() {
+            return 0.0;
+        }
+        ground.nearest(point).map(|edge| line.coverage(edge.distance)).fold(0.0, greatest)
+    }
+
+    /// What lines of a triangle cover of a pixel that sees another one.
+    fn cover_by(
+        &mut self,
+        frame: &FrameView<'_>,
+        places: &[Place],
+        [other, own]: [u32; 2],
+        point: [i32; 2],
+    ) -> f32 {
+        let index = |place: u32| (place as usize).min(places.len());
+        let [ours, theirs] = [own, other].map(|place| self.lines[index(place)]);
+        let least = self.footprints[index(other)].least;
+        let is_before = least > self.footprints[index(own)].greatest;
+        let is_large = ours.radius >= LARGE || theirs.radius >= LARGE;
+        if !(is_before || (is_large && least > f32::NEG_INFINITY)) {
+            return 0.0;
+        }
+        let [others, grounds] = &mut self.ready;
+        let lined = others.face(frame, places, other);
+        let ground = (own != NOBODY).then(|| grounds.face(frame, places, own));
+        let are_joined = ground.is_some_and(|ground| ground.shares_a_vertex(lined));
+        let line = if are_joined { theirs.narrower(ours) } else { theirs };
+        lined.nearest(point).fold(0.0, |most, edge| {
+            let covered = line.coverage(edge.distance);
+            let is_seen = || {
+                ground.is_none_or(
+                    |ground| {
+                        if are_joined { !ground.hides(&edge) } else { ground.is_behind(&edge) }
+                    },
+                )
+            };
+            if covered > most && is_seen() { covered } else { most }
+        })
+    }
+}
+
+impl Ready {
+    /// Forgets all, and keeps their memory.
+    fn clear(&mut self) {
+        self.0.resize_with(READY, || (NOBODY, LinedFace::default()));
+        self.0.iter_mut().for_each(|(place, _)| *place = NOBODY);
+    }
+
+    /// The face of a triangle of the tile.
+    fn face(&mut self, frame: &FrameView<'_>, places: &[Place], place: u32) -> &LinedFace {
+        let (of, face) = &mut self.0[place as usize % READY];
+        if *of != place {
+            face.set(frame, places[place as usize]);
+            *of = place;
+        }
+        face
+    }
+}
+
+/// The larger of two.
+fn greatest(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// The nearest and the farthest triangle that the samples of a pixel see.
+#[inline(always)]
+fn ends(buffer: &VisibilityBuffer, pixel: usize) -> [u32; 2] {
+    let first = buffer.index(pixel, 0);
+    let mut ends = [buffer.winner[first]; 2];
+    let mut depths = [buffer.depth[first]; 2];
+    for sample in 1..buffer.samples {
+        let index = first + sample * LANES;
+        let (winner, depth) = (buffer.winner[index], buffer.depth[index]);
+        if depth > depths[0] {
+            (ends[0], depths[0]) = (winner, depth);
+        }
+        if depth < depths[1] {
+            (ends[1], depths[1]) = (winner, depth);
+        }
+    }
+    ends
+}

@@ -1,0 +1,121 @@
+//! How wide the lines on a face are: the rule of [`FaceEdges`](crate::FaceEdges).
+
+use super::Ink;
+use crate::simd::{F32, Simd, greater, lesser, prelude::*};
+
+/// The most of its inner radius that half a line takes of a face.
+const SHARE: f32 = 1.0 / 3.0;
+
+/// The radius in pixels of the target below which it takes less.
+const FADING: f32 = 1.5;
+
+/// The radii in pixels of the finer grid between which the share of the face takes the
+/// place of distances.
+const RESOLVED: [f32; 2] = [0.5, 1.5];
+
+/// The radii in pixels of the finer grid between which lines begin to show beyond their
+/// faces: of smaller ones that is less than a pixel shows, and everywhere.
+const BEYOND: [f32; 2] = [1.0, 2.0];
+
+/// The lines on eight faces, in pixels of the finer grid.
+#[derive(Clone, Copy)]
+pub(crate) struct LineColumns<S: Simd> {
+    /// Half of the width.
+    pub(crate) half: F32<S>,
+    /// 1 where distances to single edges count, 0 where the share of the face does.
+    pub(crate) weight: F32<S>,
+    /// What they cover in any case: the share where it counts.
+    pub(crate) floor: F32<S>,
+    /// 1 where they show in full beyond their faces, 0 where they do not.
+    pub(crate) beyond: F32<S>,
+}
+
+impl<S: Simd> LineColumns<S> {
+    /// Of faces with these inner radii, above 0, in pixels of the finer grid.
+    #[inline(always)]
+    pub(crate) fn new(simd: S, ink: &Ink, radius: F32<S>) -> Self {
+        let wanted = F32::splat(simd, ink.half_width);
+        let fading = radius * radius * (SHARE / (FADING * ink.scale));
+        let half = lesser(lesser(wanted, radius * SHARE), fading);
+        let [zero, one] = [0.0, 1.0].map(|value| F32::splat(simd, value));
+        let rising =
+            |[low, high]: [f32; 2]| lesser(greater((radius - low) * (1.0 / (high - low)), zero), one);
+        let weight = rising(RESOLVED);
+        let inner = (radius - half) / radius;
+        let floor = (one - weight) * (one - inner * inner);
+        Self { half, weight, floor, beyond: rising(BEYOND) }
+    }
+}
+
+/// The lines on one face, as they show beyond it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct FaceLine {
+    pub(crate) half: f32,
+    pub(crate) weight: f32,
+    /// The inner radius.
+    pub(crate) radius: f32,
+}
+
+impl FaceLine {
+    /// Of a triangle that belongs to no face with edges: it narrows no line of others.
+    pub(crate) const UNLINED: Self = Self { half: f32::INFINITY, weight: 1.0, radius: 0.0 };
+
+    /// What a line of a face covers on another one that shares a corner with it.
+    pub(crate) fn narrower(self, other: Self) -> Self {
+        let least = |a: f32, b: f32| if b < a { b } else { a };
+        Self { half: least(self.half, other.half), weight: least(self.weight, other.weight), ..self }
+    }
+
+    /// What it covers of a pixel at a distance.
+    pub(crate) fn coverage(self, distance: f64) -> f32 {
+        let most = if self.half < 0.5 { 2.0 * self.half } else { 1.0 };
+        let overlap = self.half + 0.5 - distance as f32;
+        let overlap = if overlap < most { overlap } else { most };
+        if overlap > 0.0 { self.weight * overlap } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::FaceEdges;
+    use crate::simd::{LANES, SimdLevel, at_level};
+    use trigon_math::Vec3;
+
+    /// Half widths, weights and floors.
+    fn lines(width: f32, scale: u32, radii: [f32; LANES]) -> [[f32; LANES]; 3] {
+        let ink = Ink::new(&FaceEdges { width, color: Vec3::ZERO, opacity: 1.0 }, scale).unwrap();
+        let token = SimdLevel::best().token().expect("the best level is there");
+        at_level!(token, simd => {
+            let LineColumns { half, weight, floor, .. } = LineColumns::new(simd, &ink, F32::simd_from(simd, radii));
+            [half.into(), weight.into(), floor.into()]
+        })
+    }
+
+    #[test]
+    fn lines_take_no_more_than_their_share_and_fade_away() {
+        let radii = [100.0, 4.5, 3.0, 1.5, 1.0, 0.5, 0.1, 0.001];
+        let [half, weight, floor] = lines(2.0, 1, radii);
+        assert_eq!(&half[..3], [1.0, 1.0, 1.0], "a third of the radius is enough");
+        for (lane, radius) in radii.into_iter().enumerate() {
+            let expected = 1.0_f32.min(radius / 3.0).min(radius * radius / 4.5);
+            assert!((half[lane] - expected).abs() <= expected * 1e-6, "{} at {radius}", half[lane]);
+            let inner = 1.0 - expected / radius;
+            let share = 1.0 - inner * inner;
+            // A few roundings of numbers of about 1.
+            assert!((floor[lane] - (1.0 - weight[lane]) * share).abs() < 1e-6, "the share at {radius}");
+        }
+        assert_eq!(weight, [1.0, 1.0, 1.0, 1.0, 0.5, 0.0, 0.0, 0.0], "a pixel cannot resolve the last");
+        assert!(floor[7] < 1e-3, "nothing is left of the edges of faces far away");
+    }
+
+    #[test]
+    fn a_finer_grid_changes_no_width() {
+        let radii = [40.0, 10.0, 5.0, 3.0, 2.0, 1.0, 0.5, 0.1];
+        let [coarse, ..] = lines(3.0, 1, radii);
+        let [fine, ..] = lines(3.0, 4, radii.map(|radius| radius * 4.0));
+        for (coarse, fine) in coarse.into_iter().zip(fine) {
+            assert!((fine - coarse * 4.0).abs() <= fine * 1e-6, "{fine} for {coarse}");
+        }
+    }
+}
