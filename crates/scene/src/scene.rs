@@ -108,15 +108,15 @@ impl Scene {
     /// Gives some elements of a mesh other values, for every node that draws it. Pictures
     /// are, to the byte, those of a scene that was made with the changed mesh.
     ///
-    /// Unlike [`replace_mesh`](Self::replace_mesh), this takes a time proportional to the
-    /// change, and so does what the next picture has to find out anew about the mesh: but
-    /// for the first change, after which it is all made anew once. (So an editor hides that wait
-    /// by an empty change before its user drags anything.) Every time anew come the whole mesh if a
-    /// pose can bend it, tangents if they are generated for a normal map, shadow maps, and
-    /// the tree of rays.
+    /// This takes a time proportional to the change, and so does what the next picture finds
+    /// out anew about the mesh. The first change is the exception: after it the next picture
+    /// takes as long as after [`replace_mesh`](Self::replace_mesh). An editor can make an
+    /// empty change beforehand, so that nobody waits for that while dragging. These are
+    /// made anew after every change: the whole mesh if a pose can bend it or if a polygon of
+    /// four corners or more folds or unfolds, tangents that are generated for a normal map,
+    /// shadow maps, and the tree of rays.
     ///
-    /// A mesh or a scene that was cloned shares its meshes, and a shared mesh is copied when
-    /// it is changed.
+    /// Clones of a scene share its meshes; a shared mesh is copied when it is changed.
     ///
     /// ```
     /// use trigon_scene::math::Vec3;
