@@ -73,14 +73,17 @@ impl Strip {
         let band = &mut *band;
         let picture = if band.unorm8.is_empty() { &mut *band.srgb8 } else { &mut *band.unorm8 };
         let [_, rows] = frame.drawn_part(first);
+        // For each of them once: its columns that are drawn, its width, and where its own begin.
+        let parts: [_; Self::MOST] = std::array::from_fn(|number| {
+            let area = self.areas.get(number).unwrap_or(first);
+            (frame.drawn_part(area)[0].clone(), frame.own_part(area)[0].len(), area.margin)
+        });
         for y in rows {
             let mut start = corner + y * bands.width();
-            for (area, codes) in self.areas.iter().zip(&self.codes) {
-                let [columns, _] = frame.drawn_part(area);
+            for ((columns, width, [left, top]), codes) in parts[..self.areas.len()].iter().zip(&self.codes) {
                 let row = &mut picture[start + columns.start..start + columns.end];
-                let [left, top] = area.margin;
                 copy_row(row, codes, [left + columns.start, top + y]);
-                start += frame.own_part(area)[0].len();
+                start += width;
             }
         }
         self.areas.clear();

@@ -148,10 +148,10 @@ impl Columns {
         records: &Records,
         vector: &Vector<'_, S>,
     ) {
-        let before = self.uniform.take();
+        let (before, rows) = (self.uniform.take(), records.selected());
         let of = inlined(
             #[inline(always)]
-            |slot: u32| records.of(slot),
+            |slot: u32| rows.of(slot),
         );
         match Seen::find(simd, vector) {
             Seen::One(slots) => {

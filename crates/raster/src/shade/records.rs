@@ -193,7 +193,13 @@ impl Records {
     /// The rows of a triangle that every vector loads.
     #[inline(always)]
     pub(super) fn of(&self, slot: u32) -> &[Row] {
-        &self.rows_of(slot)[..self.shape.loaded]
+        self.selected().of(slot)
+    }
+
+    /// The rows of the draw that is asked for.
+    #[inline(always)]
+    pub(super) fn selected(&self) -> SelectedRows<'_> {
+        SelectedRows { rows: &self.rows[self.shape.first[0]..], shape: self.shape }
     }
 
     /// The cold columns of eight triangles.
@@ -232,6 +238,21 @@ impl Records {
                 columns
             },
         )
+    }
+}
+
+/// The rows of one draw.
+#[derive(Clone, Copy)]
+pub(super) struct SelectedRows<'r> {
+    rows: &'r [Row],
+    shape: RecordShape,
+}
+
+impl<'r> SelectedRows<'r> {
+    /// Those of a triangle that every vector loads.
+    #[inline(always)]
+    pub(super) fn of(self, slot: u32) -> &'r [Row] {
+        &self.rows[slot as usize * self.shape.size..][..self.shape.loaded]
     }
 }
 

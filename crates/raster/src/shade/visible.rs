@@ -22,18 +22,21 @@ pub(super) fn list<S: Simd>(
     (places, own): (usize, Option<&[u8]>),
     shading: &mut Shading,
 ) -> usize {
-    match buffer.samples {
-        1 => list_samples::<S, 1>(simd, buffer, (places, own), shading),
-        _ => list_samples::<S, 0>(simd, buffer, (places, own), shading),
+    match (buffer.samples, own) {
+        (1, None) => list_samples::<S, 1, true>(simd, buffer, (places, &[]), shading),
+        (1, Some(own)) => list_samples::<S, 1, false>(simd, buffer, (places, own), shading),
+        (_, None) => list_samples::<S, 0, true>(simd, buffer, (places, &[]), shading),
+        (_, Some(own)) => list_samples::<S, 0, false>(simd, buffer, (places, own), shading),
     }
 }
 
-/// The same with `SAMPLES` samples to a pixel, if that is not 0.
+/// The same with `SAMPLES` samples to a pixel, if that is not 0, and all pixels the tile's own
+/// if `WHOLE`.
 #[inline(always)]
-fn list_samples<S: Simd, const SAMPLES: usize>(
+fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
     simd: S,
     buffer: &VisibilityBuffer,
-    (places, own): (usize, Option<&[u8]>),
+    (places, own): (usize, &[u8]),
     shading: &mut Shading,
 ) -> usize {
     let samples = if SAMPLES > 0 { SAMPLES } else { buffer.samples };
@@ -59,9 +62,9 @@ fn list_samples<S: Simd, const SAMPLES: usize>(
             #[inline(always)]
             |agree, row| agree & lanes.simd_eq(U32::simd_from(simd, *row)),
         );
-        let own = own.map_or(0xff, |own| u64::from(own[group]));
+        let own = if WHOLE { 0xff } else { u64::from(own[group]) };
         let partly = !agree.to_bitmask() & own;
-        if own != 0xff && samples > 1 {
+        if !WHOLE && own != 0xff && samples > 1 {
             mark_all(marks, others, places);
         }
         let empty = lanes.simd_eq(U32::splat(simd, NOBODY)).to_bitmask() & own;
