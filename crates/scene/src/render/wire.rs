@@ -19,6 +19,7 @@ pub(super) struct Wire<'a> {
 
 impl Pipeline for Wire<'_> {
     type Varyings = ();
+    const FLAT: bool = true;
 
     fn vertex_count(&self) -> usize {
         self.positions.len()
