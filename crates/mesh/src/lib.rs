@@ -50,6 +50,7 @@ mod builder;
 mod change;
 mod deform;
 mod edges;
+pub mod edit;
 mod error;
 mod groups;
 mod mesh;

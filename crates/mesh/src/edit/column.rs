@@ -1,0 +1,260 @@
+//! One value for each element, with a record of what a change replaced.
+//!
+//! A [`Column`] is a plain list while nothing is recorded. While a transaction runs, the
+//! first write to an element keeps its old value; once these take more memory than the old
+//! list, the old list is kept whole and writes are as cheap as without a record.
+
+use std::ops::Index;
+
+/// A list with a record of what was replaced since [`Column::begin`].
+#[derive(Debug, Clone)]
+pub(super) struct Column<T> {
+    values: Vec<T>,
+    record: Record<T>,
+    /// One bit for each element of the old list whose old value is in the record. All zero
+    /// while nothing is recorded; kept for its memory.
+    noted: Vec<u64>,
+}
+
+#[derive(Debug, Clone)]
+enum Record<T> {
+    Off,
+    /// The old values of elements that were written to, and the old length.
+    Elements {
+        old: Vec<(u32, T)>,
+        length: usize,
+    },
+    Whole(Vec<T>),
+}
+
+/// How to get from one state of a column to another.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum ColumnDifference<T> {
+    /// Values for some elements, and then those from `kept` on.
+    Elements {
+        values: Vec<(u32, T)>,
+        /// The length without `tail`.
+        kept: usize,
+        tail: Vec<T>,
+    },
+    Whole(Vec<T>),
+}
+
+impl<T: Copy> Column<T> {
+    pub(super) fn new(values: Vec<T>) -> Self {
+        Self { values, record: Record::Off, noted: Vec::new() }
+    }
+
+    pub(super) fn values(&self) -> &[T] {
+        &self.values
+    }
+
+    pub(super) fn len(&self) -> u32 {
+        self.values.len() as u32
+    }
+
+    /// The memory that the list takes, in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.values.capacity() * size_of::<T>()
+    }
+
+    pub(super) fn push(&mut self, value: T) {
+        self.values.push(value);
+    }
+
+    /// An element, to be changed.
+    #[inline]
+    pub(super) fn write(&mut self, index: u32) -> &mut T {
+        if matches!(self.record, Record::Elements { .. }) {
+            self.note(index);
+        }
+        &mut self.values[index as usize]
+    }
+
+    /// Keeps the old value of an element if this is its first change.
+    #[inline]
+    fn note(&mut self, index: u32) {
+        let Record::Elements { old, length } = &mut self.record else { return };
+        if index as usize >= *length {
+            // It came with this change.
+            return;
+        }
+        if self.noted.len() < length.div_ceil(64) {
+            self.noted.resize(length.div_ceil(64), 0);
+        }
+        let (word, bit) = (&mut self.noted[index as usize / 64], 1u64 << (index % 64));
+        if *word & bit != 0 {
+            return;
+        }
+        *word |= bit;
+        old.push((index, self.values[index as usize]));
+        if old.len() * size_of::<(u32, T)>() > *length * size_of::<T>() {
+            self.keep_whole();
+        }
+    }
+
+    /// Turns a record of elements into one of the whole list.
+    #[cold]
+    fn keep_whole(&mut self) {
+        let Record::Elements { old, length } = &self.record else { return };
+        let mut whole = self.values[..*length].to_vec();
+        for &(index, value) in old {
+            whole[index as usize] = value;
+        }
+        self.noted.fill(0);
+        self.record = Record::Whole(whole);
+    }
+
+    /// All elements, to be changed: the old list is kept whole.
+    pub(super) fn write_all(&mut self) -> &mut [T] {
+        self.keep_whole();
+        &mut self.values
+    }
+
+    /// Starts to record.
+    pub(super) fn begin(&mut self) {
+        self.record = Record::Elements { old: Vec::new(), length: self.values.len() };
+    }
+
+    /// Stops to record. What leads back to the state at [`Self::begin`]; `None` where
+    /// nothing changed.
+    pub(super) fn finish(&mut self) -> Option<ColumnDifference<T>> {
+        if let Record::Elements { old, length } = &self.record {
+            let appended = self.values.len().saturating_sub(*length) * size_of::<T>();
+            let elements = old.len() * size_of::<(u32, T)>();
+            // After an undo the appended values are kept in place of the old ones.
+            if elements + appended > *length * size_of::<T>() {
+                self.keep_whole();
+            }
+        }
+        match std::mem::replace(&mut self.record, Record::Off) {
+            Record::Off => None,
+            Record::Whole(whole) => Some(ColumnDifference::Whole(whole)),
+            Record::Elements { old, length } => {
+                for &(index, _) in &old {
+                    self.noted[index as usize / 64] = 0;
+                }
+                if old.is_empty() && length == self.values.len() {
+                    return None;
+                }
+                Some(ColumnDifference::Elements { values: old, kept: length, tail: Vec::new() })
+            }
+        }
+    }
+
+    /// Goes to the other state, and makes the difference lead back.
+    pub(super) fn swap(&mut self, difference: &mut ColumnDifference<T>) {
+        debug_assert!(matches!(self.record, Record::Off), "nothing is undone within a transaction");
+        match difference {
+            ColumnDifference::Whole(whole) => std::mem::swap(&mut self.values, whole),
+            ColumnDifference::Elements { values, kept, tail } => {
+                for (index, value) in values {
+                    std::mem::swap(&mut self.values[*index as usize], value);
+                }
+                if tail.is_empty() {
+                    *tail = self.values.split_off(*kept);
+                } else {
+                    self.values.append(tail);
+                }
+            }
+        }
+    }
+}
+
+impl<T> Index<u32> for Column<T> {
+    type Output = T;
+
+    #[inline]
+    fn index(&self, index: u32) -> &T {
+        &self.values[index as usize]
+    }
+}
+
+/// Whether the values are the same; what is recorded does not count.
+impl<T: PartialEq> PartialEq for Column<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.values == other.values
+    }
+}
+
+impl<T> ColumnDifference<T> {
+    /// The memory that it takes, in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        match self {
+            Self::Whole(whole) => whole.capacity() * size_of::<T>(),
+            Self::Elements { values, tail, .. } => {
+                values.capacity() * size_of::<(u32, T)>() + tail.capacity() * size_of::<T>()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[derive(Debug, Clone)]
+    enum Step {
+        Write(u32, u16),
+        Push(u16),
+        WriteAll(u16),
+    }
+
+    fn steps() -> impl Strategy<Value = Vec<Step>> {
+        let step = prop_oneof![
+            30 => (any::<u32>(), any::<u16>()).prop_map(|(index, value)| Step::Write(index, value)),
+            10 => any::<u16>().prop_map(Step::Push),
+            1 => any::<u16>().prop_map(Step::WriteAll),
+        ];
+        prop::collection::vec(step, 0..60)
+    }
+
+    fn apply(column: &mut Column<u16>, steps: &[Step]) {
+        for step in steps {
+            match *step {
+                Step::Write(index, value) if column.len() > 0 => *column.write(index % column.len()) = value,
+                Step::Write(..) => {}
+                Step::Push(value) => column.push(value),
+                Step::WriteAll(value) => column.write_all().fill(value),
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn differences_lead_back_and_forth(
+            start in prop::collection::vec(any::<u16>(), 0..80),
+            transactions in prop::collection::vec(steps(), 1..6),
+        ) {
+            let mut column = Column::new(start);
+            let mut states = vec![column.values().to_vec()];
+            let mut differences = Vec::new();
+            for steps in &transactions {
+                column.begin();
+                apply(&mut column, steps);
+                differences.push(column.finish());
+                states.push(column.values().to_vec());
+            }
+            for (difference, state) in differences.iter_mut().zip(&states).rev() {
+                difference.iter_mut().for_each(|difference| column.swap(difference));
+                prop_assert_eq!(column.values(), &state[..]);
+            }
+            for (difference, state) in differences.iter_mut().zip(&states[1..]) {
+                difference.iter_mut().for_each(|difference| column.swap(difference));
+                prop_assert_eq!(column.values(), &state[..]);
+            }
+        }
+    }
+
+    #[test]
+    fn few_changes_keep_few_values() {
+        let mut column = Column::new(vec![0u32; 1_000_000]);
+        column.begin();
+        *column.write(5) = 1;
+        *column.write(5) = 2;
+        let difference = column.finish().expect("it changed");
+        assert!(difference.bytes() <= 64, "{} bytes for one value", difference.bytes());
+    }
+}

@@ -1,0 +1,228 @@
+//! The editing mesh: its columns, and which slots of them are in use.
+
+use trigon_math::{DVec3, Vec3};
+
+use super::column::Column;
+use super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
+use super::layers::Layer;
+use super::records::{ALIVE, CornerRecord, EdgeRecord, FaceRecord, Slots, VertexRecord};
+use super::refusal::Refusal;
+
+/// A polygon mesh that can be edited: explicit vertices, edges, corners and faces that know
+/// their neighbours in every direction.
+///
+/// Any number of faces may share an edge, edges and vertices may stand alone, and faces may
+/// be open, folded or doubled: what is usually called non-manifold is ordinary here. Two
+/// vertices are joined by at most one edge. A face has at least three corners, at three
+/// different vertices at least; its consecutive vertices differ.
+///
+/// An id stays valid while its element lives; a local edit takes time proportional to its
+/// neighbourhood, not to the mesh. Changes within [`EditMesh::transaction`] can be undone to
+/// the same bytes.
+///
+/// Made from a [`Mesh`](crate::Mesh) by [`EditMesh::from_mesh`], and back by
+/// [`EditMesh::to_mesh`].
+///
+/// ```
+/// use trigon_mesh::edit::EditMesh;
+/// use trigon_mesh::primitives;
+///
+/// let (cube, _) = EditMesh::from_mesh(&primitives::cube(2.0));
+/// let face = cube.faces().next().expect("a cube has six");
+/// assert_eq!(cube.face_size(face), 4);
+/// for edge in cube.face_edges(face) {
+///     assert_eq!(cube.edge_faces(edge).count(), 2, "a cube is closed");
+/// }
+/// ```
+///
+/// Two are equal if all elements have the same ids, neighbours in the same order, and values,
+/// and the same slots are free.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EditMesh {
+    pub(super) vertices: Column<VertexRecord>,
+    /// In metres.
+    pub(super) positions: Column<Vec3>,
+    /// Where each vertex was when it was made: what it can be reset to.
+    pub(super) first_positions: Column<Vec3>,
+    pub(super) edges: Column<EdgeRecord>,
+    pub(super) corners: Column<CornerRecord>,
+    pub(super) faces: Column<FaceRecord>,
+    pub(super) vertex_layers: Vec<Layer>,
+    pub(super) corner_layers: Vec<Layer>,
+    pub(super) slots: AllSlots,
+    /// Whether a transaction runs.
+    pub(super) is_recording: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct AllSlots {
+    pub(super) vertices: Slots,
+    pub(super) edges: Slots,
+    pub(super) corners: Slots,
+    pub(super) faces: Slots,
+}
+
+impl Default for EditMesh {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl EditMesh {
+    /// A mesh with nothing in it.
+    pub fn new() -> Self {
+        Self {
+            vertices: Column::new(Vec::new()),
+            positions: Column::new(Vec::new()),
+            first_positions: Column::new(Vec::new()),
+            edges: Column::new(Vec::new()),
+            corners: Column::new(Vec::new()),
+            faces: Column::new(Vec::new()),
+            vertex_layers: Vec::new(),
+            corner_layers: Vec::new(),
+            slots: AllSlots::default(),
+            is_recording: false,
+        }
+    }
+
+    /// How many vertices there are.
+    pub fn vertex_count(&self) -> usize {
+        self.slots.vertices.alive as usize
+    }
+
+    /// How many edges there are, loose ones included.
+    pub fn edge_count(&self) -> usize {
+        self.slots.edges.alive as usize
+    }
+
+    /// How many corners all faces have together.
+    pub fn corner_count(&self) -> usize {
+        self.slots.corners.alive as usize
+    }
+
+    /// How many faces there are.
+    pub fn face_count(&self) -> usize {
+        self.slots.faces.alive as usize
+    }
+
+    /// All indices of vertices are below this: how long a list by index has to be.
+    pub fn vertex_capacity(&self) -> usize {
+        self.vertices.len() as usize
+    }
+
+    /// All indices of edges are below this.
+    pub fn edge_capacity(&self) -> usize {
+        self.edges.len() as usize
+    }
+
+    /// All indices of corners are below this.
+    pub fn corner_capacity(&self) -> usize {
+        self.corners.len() as usize
+    }
+
+    /// All indices of faces are below this.
+    pub fn face_capacity(&self) -> usize {
+        self.faces.len() as usize
+    }
+
+    /// Whether there is such a vertex.
+    pub fn has_vertex(&self, vertex: VertexId) -> bool {
+        self.vertices.values().get(vertex.0 as usize).is_some_and(|record| record.flags & ALIVE != 0)
+    }
+
+    /// Whether there is such an edge.
+    pub fn has_edge(&self, edge: EdgeId) -> bool {
+        self.edges.values().get(edge.0 as usize).is_some_and(|record| record.flags & ALIVE != 0)
+    }
+
+    /// Whether there is such a corner.
+    pub fn has_corner(&self, corner: CornerId) -> bool {
+        self.corners.values().get(corner.0 as usize).is_some_and(|record| record.face != NONE)
+    }
+
+    /// Whether there is such a face.
+    pub fn has_face(&self, face: FaceId) -> bool {
+        self.faces.values().get(face.0 as usize).is_some_and(|record| record.flags & ALIVE != 0)
+    }
+
+    /// All vertices, by index.
+    pub fn vertices(&self) -> impl Iterator<Item = VertexId> + Clone + '_ {
+        let alive = (0u32..).zip(self.vertices.values()).filter(|(_, record)| record.flags & ALIVE != 0);
+        alive.map(|(index, _)| VertexId(index))
+    }
+
+    /// All edges, by index.
+    pub fn edges(&self) -> impl Iterator<Item = EdgeId> + Clone + '_ {
+        let alive = (0u32..).zip(self.edges.values()).filter(|(_, record)| record.flags & ALIVE != 0);
+        alive.map(|(index, _)| EdgeId(index))
+    }
+
+    /// All corners, by index.
+    pub fn corners(&self) -> impl Iterator<Item = CornerId> + Clone + '_ {
+        let alive = (0u32..).zip(self.corners.values()).filter(|(_, record)| record.face != NONE);
+        alive.map(|(index, _)| CornerId(index))
+    }
+
+    /// All faces, by index.
+    pub fn faces(&self) -> impl Iterator<Item = FaceId> + Clone + '_ {
+        let alive = (0u32..).zip(self.faces.values()).filter(|(_, record)| record.flags & ALIVE != 0);
+        alive.map(|(index, _)| FaceId(index))
+    }
+
+    /// Where a vertex is, in metres. Any value is kept, also one that is not finite.
+    ///
+    /// # Panics
+    /// When there is no such index. So do all functions that take an id, unless they say
+    /// otherwise; of a slot that is free they tell nothing of use.
+    pub fn position(&self, vertex: VertexId) -> Vec3 {
+        self.positions[vertex.0]
+    }
+
+    /// The same for computations.
+    pub(super) fn point(&self, vertex: VertexId) -> DVec3 {
+        self.positions[vertex.0].as_dvec3()
+    }
+
+    /// Moves a vertex.
+    pub fn set_position(&mut self, vertex: VertexId, position: Vec3) {
+        *self.positions.write(vertex.0) = position;
+    }
+
+    /// Where a vertex was when it was made: what it can be reset to.
+    pub fn first_position(&self, vertex: VertexId) -> Vec3 {
+        self.first_positions[vertex.0]
+    }
+
+    /// Declares a place to be that to which a vertex is reset.
+    pub fn set_first_position(&mut self, vertex: VertexId, position: Vec3) {
+        *self.first_positions.write(vertex.0) = position;
+    }
+
+    /// The memory that the mesh takes, in bytes, without what is recorded for undo.
+    pub fn bytes(&self) -> usize {
+        let layers = self.vertex_layers.iter().chain(&self.corner_layers).map(Layer::bytes);
+        self.vertices.bytes()
+            + self.positions.bytes()
+            + self.first_positions.bytes()
+            + self.edges.bytes()
+            + self.corners.bytes()
+            + self.faces.bytes()
+            + layers.sum::<usize>()
+    }
+
+    pub(super) fn check_vertex(&self, vertex: VertexId) -> Result<(), Refusal> {
+        if self.has_vertex(vertex) { Ok(()) } else { Err(Refusal::NoSuchVertex(vertex)) }
+    }
+
+    pub(super) fn check_edge(&self, edge: EdgeId) -> Result<(), Refusal> {
+        if self.has_edge(edge) { Ok(()) } else { Err(Refusal::NoSuchEdge(edge)) }
+    }
+
+    pub(super) fn check_face(&self, face: FaceId) -> Result<(), Refusal> {
+        if self.has_face(face) { Ok(()) } else { Err(Refusal::NoSuchFace(face)) }
+    }
+
+    pub(super) fn check_corner(&self, corner: CornerId) -> Result<(), Refusal> {
+        if self.has_corner(corner) { Ok(()) } else { Err(Refusal::NoSuchCorner(corner)) }
+    }
+}

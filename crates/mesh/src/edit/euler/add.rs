@@ -1,0 +1,118 @@
+//! New vertices, edges and faces.
+
+use trigon_math::Vec3;
+
+use super::super::edit_mesh::EditMesh;
+use super::super::ids::{EdgeId, FaceId, NONE, VertexId};
+use super::super::refusal::Refusal;
+
+/// Indices stay below this, so that `NONE` is none of them.
+const MOST: u32 = u32::MAX - 1;
+
+impl EditMesh {
+    /// Adds a vertex; it can be reset to this place.
+    ///
+    /// # Errors
+    /// There are as many as indices can name.
+    pub fn add_vertex(&mut self, position: Vec3) -> Result<VertexId, Refusal> {
+        self.check_room()?;
+        Ok(VertexId(self.new_vertex(position)))
+    }
+
+    /// The edge between two vertices: the one that is there, or a new one.
+    ///
+    /// # Errors
+    /// A vertex does not exist, or both are the same.
+    pub fn add_edge(&mut self, a: VertexId, b: VertexId) -> Result<EdgeId, Refusal> {
+        self.check_vertex(a)?;
+        self.check_vertex(b)?;
+        self.check_room()?;
+        if a == b {
+            let reason = "an edge joins two different vertices";
+            return Err(Refusal::NotPossible { operation: "adding an edge", reason });
+        }
+        Ok(self.join(a, b))
+    }
+
+    /// The edge between two different vertices that exist.
+    pub(in super::super) fn join(&mut self, a: VertexId, b: VertexId) -> EdgeId {
+        if let Some(edge) = self.find_edge(a, b) {
+            return edge;
+        }
+        let edge = self.new_edge([a.0, b.0]);
+        self.link_at_vertex(edge, 0);
+        self.link_at_vertex(edge, 1);
+        EdgeId(edge)
+    }
+
+    /// Adds a polygon, counter-clockwise seen from outside, with the edges that it lacks. Its
+    /// values are zero, its material is slot 0.
+    ///
+    /// # Errors
+    /// A vertex does not exist, consecutive ones are the same, there are fewer than three
+    /// different ones.
+    pub fn add_face(&mut self, vertices: &[VertexId]) -> Result<FaceId, Refusal> {
+        for &vertex in vertices {
+            self.check_vertex(vertex)?;
+        }
+        self.check_room()?;
+        check_outline(vertices)?;
+        Ok(self.face_of(vertices))
+    }
+
+    /// The face of an outline that has been checked.
+    pub(in super::super) fn face_of(&mut self, vertices: &[VertexId]) -> FaceId {
+        let face = self.new_face();
+        let mut first = NONE;
+        let mut last = NONE;
+        for (i, &vertex) in vertices.iter().enumerate() {
+            let next = vertices[(i + 1) % vertices.len()];
+            let edge = self.join(vertex, next);
+            let corner = self.new_corner(vertex.0, face);
+            self.link_at_edge(corner, edge.0);
+            if last == NONE {
+                first = corner;
+            } else {
+                self.link_in_face(last, corner);
+            }
+            last = corner;
+        }
+        self.link_in_face(last, first);
+        let record = self.faces.write(face);
+        record.corner = first;
+        record.size = vertices.len() as u32;
+        FaceId(face)
+    }
+
+    /// Whether there is room for some more elements; an operation that adds many asks for each.
+    pub(in super::super) fn check_room(&self) -> Result<(), Refusal> {
+        /// More than any single element can take: a split edge has a corner in each of its faces,
+        /// a face a corner for each of its vertices, and lists of these are limited themselves.
+        const MARGIN: u32 = 1 << 20;
+        let longest = self.corners.len().max(self.edges.len()).max(self.vertices.len());
+        if longest < MOST - MARGIN { Ok(()) } else { Err(Refusal::TooMany) }
+    }
+}
+
+/// Whether an outline can be that of a face.
+pub(in super::super) fn check_outline(vertices: &[VertexId]) -> Result<(), Refusal> {
+    let refused = |reason| Err(Refusal::NotPossible { operation: "adding a face", reason });
+    let next = vertices.iter().cycle().skip(1);
+    if vertices.iter().zip(next).any(|(a, b)| a == b) {
+        return refused("consecutive vertices of a face differ");
+    }
+    let distinct = |wanted: usize| {
+        let mut found: [Option<VertexId>; 3] = [None; 3];
+        for &vertex in vertices {
+            if !found.contains(&Some(vertex)) {
+                let slot = found.iter().position(Option::is_none).expect("it stops at the third");
+                found[slot] = Some(vertex);
+                if slot + 1 == wanted {
+                    return true;
+                }
+            }
+        }
+        false
+    };
+    if distinct(3) { Ok(()) } else { refused("a face has at least three different vertices") }
+}

@@ -1,0 +1,118 @@
+//! Two edges become one, two faces become one: what undoes a split.
+
+use smallvec::SmallVec;
+
+use super::super::edit_mesh::EditMesh;
+use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
+use super::super::refusal::Refusal;
+
+impl EditMesh {
+    /// Removes a vertex between exactly two edges, which become one, in all their faces. Marks
+    /// that either had stay. If its ends are joined by an edge already, that one takes the place of both.
+    ///
+    /// # Errors
+    /// There is no such vertex, it has not exactly two edges, a face runs to it and back, or a face
+    /// would have fewer than three different vertices.
+    pub fn join_edges(&mut self, vertex: VertexId) -> Result<EdgeId, Refusal> {
+        self.check_vertex(vertex)?;
+        let refused = |reason| Err(Refusal::NotPossible { operation: "joining edges", reason });
+        let edges: SmallVec<[EdgeId; 2]> = self.vertex_edges(vertex).take(3).collect();
+        let [first, second] = edges[..] else {
+            return refused("a vertex between exactly two edges is needed");
+        };
+        let corners: SmallVec<[CornerId; 4]> = self.vertex_corners(vertex).collect();
+        for &corner in &corners {
+            if self.corner_edge(corner) == self.corner_edge(self.previous_corner(corner)) {
+                return refused("a face runs along the edge and back");
+            }
+            if !self.keeps_three_vertices(self.corner_face(corner), vertex) {
+                return refused("a face would have fewer than three vertices; remove it first");
+            }
+        }
+        let (a, b) = (self.other_vertex(first, vertex), self.other_vertex(second, vertex));
+        let known = self.find_edge(a, b);
+        let edge = self.join(a, b);
+        match known {
+            Some(_) => self.unite_edge_marks(first, edge),
+            None => self.copy_edge(first, edge),
+        }
+        self.unite_edge_marks(second, edge);
+        for corner in corners {
+            let before = self.previous_corner(corner);
+            self.drop_corner(corner);
+            self.unlink_at_edge(before.0);
+            self.link_at_edge(before.0, edge.0);
+        }
+        self.remove_edge(first)?;
+        self.remove_edge(second)?;
+        self.free_vertex(vertex.0);
+        Ok(edge)
+    }
+
+    /// Whether a face has three different vertices besides one.
+    fn keeps_three_vertices(&self, face: FaceId, without: VertexId) -> bool {
+        let mut found = SmallVec::<[VertexId; 3]>::new();
+        for vertex in self.face_vertices(face) {
+            if vertex != without && !found.contains(&vertex) {
+                found.push(vertex);
+                if found.len() == 3 {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// Takes a corner out of its face. The corner before it still leaves along its old edge: the caller
+    /// mends that.
+    pub(in super::super) fn drop_corner(&mut self, corner: CornerId) {
+        let record = self.corners[corner.0];
+        self.unlink_at_edge(corner.0);
+        self.link_in_face(record.previous, record.next);
+        let face = self.faces.write(record.face);
+        face.size -= 1;
+        if face.corner == corner.0 {
+            face.corner = record.next;
+        }
+        self.free_corner(corner.0);
+    }
+
+    /// Removes an edge where exactly two different faces meet that run along it in opposite
+    /// directions, and makes them one face: the first of them. Faces that share more edges then
+    /// run along those and back.
+    ///
+    /// # Errors
+    /// There is no such edge, or it is not between two such faces.
+    pub fn join_faces(&mut self, edge: EdgeId) -> Result<FaceId, Refusal> {
+        self.check_edge(edge)?;
+        let refused = |reason| Err(Refusal::NotPossible { operation: "joining faces", reason });
+        let Some([one, two]) = self.edge_pair(edge) else {
+            return refused("an edge between exactly two faces is needed");
+        };
+        let (kept, gone) = (self.corner_face(one), self.corner_face(two));
+        if kept == gone {
+            return refused("both sides of the edge are the same face");
+        }
+        if self.corner_vertex(one) == self.corner_vertex(two) {
+            return refused("the faces wind in opposite ways; recalculate normals first");
+        }
+        let moved: Vec<CornerId> = self.face_corners(gone).collect();
+        for corner in &moved {
+            self.corners.write(corner.0).face = kept.0;
+        }
+        let (before_one, after_one) = (self.corners[one.0].previous, self.corners[one.0].next);
+        let (before_two, after_two) = (self.corners[two.0].previous, self.corners[two.0].next);
+        self.link_in_face(before_one, after_two);
+        self.link_in_face(before_two, after_one);
+        for corner in [one, two] {
+            self.unlink_at_edge(corner.0);
+            self.free_corner(corner.0);
+        }
+        let record = self.faces.write(kept.0);
+        record.size = record.size + moved.len() as u32 - 2;
+        record.corner = after_one;
+        self.free_face(gone.0);
+        self.remove_edge(edge)?;
+        Ok(kept)
+    }
+}

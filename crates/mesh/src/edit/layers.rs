@@ -1,0 +1,220 @@
+//! The values that vertices and corners carry besides their places: texture coordinates,
+//! colours, normals, skin weights, morph targets.
+
+use trigon_math::{DVec2, DVec3, DVec4, Vec2, Vec3, Vec4};
+
+use super::column::{Column, ColumnDifference};
+use super::skin::Influences;
+
+/// What the values of a layer are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum LayerKind {
+    /// Texture coordinates; sets count in the order of their layers. On corners.
+    Uv,
+    /// Linear light, straight alpha. On corners.
+    Color,
+    /// Normals that were given. On corners.
+    Normal,
+    /// Tangents that were given. On corners.
+    Tangent,
+    /// What a morph target adds to positions. On vertices, numbered.
+    MorphPosition(u16),
+    /// What a morph target adds to normals. On corners, numbered.
+    MorphNormal(u16),
+    /// What a morph target adds to tangents. On corners, numbered.
+    MorphTangent(u16),
+    /// Joints and their weights. On vertices.
+    Skin,
+}
+
+/// One value for each vertex or each corner.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Layer {
+    pub(super) kind: LayerKind,
+    pub(super) values: LayerValues,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum LayerValues {
+    Vec2(Column<Vec2>),
+    Vec3(Column<Vec3>),
+    Vec4(Column<Vec4>),
+    Influences(Column<Influences>),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum LayerDifference {
+    Unchanged,
+    Vec2(ColumnDifference<Vec2>),
+    Vec3(ColumnDifference<Vec3>),
+    Vec4(ColumnDifference<Vec4>),
+    Influences(ColumnDifference<Influences>),
+}
+
+/// Runs the same expression for the column of any type.
+macro_rules! for_column {
+    ($values:expr, $column:ident => $body:expr) => {
+        match $values {
+            LayerValues::Vec2($column) => $body,
+            LayerValues::Vec3($column) => $body,
+            LayerValues::Vec4($column) => $body,
+            LayerValues::Influences($column) => $body,
+        }
+    };
+}
+
+/// A weighted sum of values: weights add up to one.
+pub(super) trait Blend: Copy + Default {
+    fn blend(parts: &[(Self, f64)]) -> Self;
+}
+
+impl Blend for Vec2 {
+    fn blend(parts: &[(Self, f64)]) -> Self {
+        parts.iter().fold(DVec2::ZERO, |sum, (value, weight)| sum + value.as_dvec2() * *weight).as_vec2()
+    }
+}
+
+impl Blend for Vec3 {
+    fn blend(parts: &[(Self, f64)]) -> Self {
+        parts.iter().fold(DVec3::ZERO, |sum, (value, weight)| sum + value.as_dvec3() * *weight).as_vec3()
+    }
+}
+
+impl Blend for Vec4 {
+    fn blend(parts: &[(Self, f64)]) -> Self {
+        parts.iter().fold(DVec4::ZERO, |sum, (value, weight)| sum + value.as_dvec4() * *weight).as_vec4()
+    }
+}
+
+impl Layer {
+    /// Adds a slot with the value zero.
+    pub(super) fn push_default(&mut self) {
+        for_column!(&mut self.values, column => column.push(Default::default()));
+    }
+
+    pub(super) fn copy(&mut self, from: u32, to: u32) {
+        for_column!(&mut self.values, column => {
+            let value = column[from];
+            *column.write(to) = value;
+        });
+    }
+
+    pub(super) fn clear(&mut self, to: u32) {
+        for_column!(&mut self.values, column => *column.write(to) = Default::default());
+    }
+
+    /// Gives an element the weighted sum of the values of others. A direction keeps unit length, as
+    /// far as it has any.
+    pub(super) fn blend(&mut self, parts: &[(u32, f64)], to: u32) {
+        let kind = self.kind;
+        match &mut self.values {
+            LayerValues::Vec2(column) => blend_column(column, parts, to),
+            LayerValues::Vec3(column) => {
+                blend_column(column, parts, to);
+                if kind == LayerKind::Normal {
+                    let normal = column.write(to);
+                    *normal = normal.as_dvec3().normalize_or_zero().as_vec3();
+                }
+            }
+            LayerValues::Vec4(column) if kind == LayerKind::Tangent => {
+                let handedness = column[heaviest(parts)].w;
+                blend_column(column, parts, to);
+                let tangent = column.write(to);
+                let direction = tangent.truncate().as_dvec3().normalize_or_zero().as_vec3();
+                *tangent = direction.extend(handedness);
+            }
+            LayerValues::Vec4(column) => blend_column(column, parts, to),
+            LayerValues::Influences(column) => blend_column(column, parts, to),
+        }
+    }
+
+    pub(super) fn begin(&mut self) {
+        for_column!(&mut self.values, column => column.begin());
+    }
+
+    pub(super) fn finish(&mut self) -> LayerDifference {
+        match &mut self.values {
+            LayerValues::Vec2(column) => column.finish().map(LayerDifference::Vec2),
+            LayerValues::Vec3(column) => column.finish().map(LayerDifference::Vec3),
+            LayerValues::Vec4(column) => column.finish().map(LayerDifference::Vec4),
+            LayerValues::Influences(column) => column.finish().map(LayerDifference::Influences),
+        }
+        .unwrap_or(LayerDifference::Unchanged)
+    }
+
+    pub(super) fn swap(&mut self, difference: &mut LayerDifference) {
+        match (&mut self.values, difference) {
+            (_, LayerDifference::Unchanged) => {}
+            (LayerValues::Vec2(column), LayerDifference::Vec2(difference)) => column.swap(difference),
+            (LayerValues::Vec3(column), LayerDifference::Vec3(difference)) => column.swap(difference),
+            (LayerValues::Vec4(column), LayerDifference::Vec4(difference)) => column.swap(difference),
+            (LayerValues::Influences(column), LayerDifference::Influences(difference)) => {
+                column.swap(difference);
+            }
+            _ => unreachable!("a difference is applied to the layer that it came from"),
+        }
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        for_column!(&self.values, column => column.bytes())
+    }
+
+    /// How many slots it has.
+    pub(super) fn len(&self) -> u32 {
+        for_column!(&self.values, column => column.len())
+    }
+
+    /// Of a corner whose face turns over: normals point the other way, so bitangents would, too.
+    pub(super) fn turn_over(&mut self, index: u32) {
+        match (&mut self.values, self.kind) {
+            (LayerValues::Vec3(column), LayerKind::Normal | LayerKind::MorphNormal(_)) => {
+                let normal = column.write(index);
+                *normal = -*normal;
+            }
+            (LayerValues::Vec4(column), LayerKind::Tangent) => {
+                let tangent = column.write(index);
+                tangent.w = -tangent.w;
+            }
+            _ => {}
+        }
+    }
+}
+
+impl LayerDifference {
+    pub(super) fn bytes(&self) -> usize {
+        match self {
+            Self::Unchanged => 0,
+            Self::Vec2(difference) => difference.bytes(),
+            Self::Vec3(difference) => difference.bytes(),
+            Self::Vec4(difference) => difference.bytes(),
+            Self::Influences(difference) => difference.bytes(),
+        }
+    }
+}
+
+/// The element with the largest weight, the first of several.
+fn heaviest(parts: &[(u32, f64)]) -> u32 {
+    let mut best = parts[0];
+    for &part in parts {
+        if part.1 > best.1 {
+            best = part;
+        }
+    }
+    best.0
+}
+
+fn blend_column<T: Blend>(column: &mut Column<T>, parts: &[(u32, f64)], to: u32) {
+    /// Most sums have few parts: these need no memory of their own.
+    const FEW: usize = 8;
+    let value = |&(index, weight): &(u32, f64)| (column[index], weight);
+    let blended = if parts.len() <= FEW {
+        let mut values = [(T::default(), 0.0); FEW];
+        for (to, from) in values.iter_mut().zip(parts) {
+            *to = value(from);
+        }
+        T::blend(&values[..parts.len()])
+    } else {
+        T::blend(&parts.iter().map(value).collect::<Vec<_>>())
+    };
+    *column.write(to) = blended;
+}

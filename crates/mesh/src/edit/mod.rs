@@ -1,0 +1,39 @@
+//! Meshes that can be edited, and the operations on them.
+//!
+//! [`EditMesh`] knows every neighbour of every element, so that an operation finds what it needs
+//! at once. Each operation is a file with one function, which returns what it made or a
+//! [`Refusal`] that says why it did nothing. Run in [`EditMesh::transaction`], it can be
+//! undone to the last byte.
+//!
+//! From low to high: [`ids`], [`column`] (values with a record of changes), [`records`] and
+//! [`layers`] (what is stored), `edit_mesh` (all columns), `slots` and `rings` (the only places
+//! that write neighbours), `walk` (from element to element), `euler` (elementary changes), and the
+//! operations.
+
+mod column;
+mod edit_mesh;
+mod euler;
+mod from_mesh;
+mod ids;
+mod layers;
+mod operations;
+mod records;
+mod refusal;
+mod rings;
+mod skin;
+mod slots;
+#[cfg(test)]
+mod tests;
+mod to_mesh;
+mod transaction;
+mod validate;
+mod values;
+mod walk;
+
+pub use edit_mesh::EditMesh;
+pub use euler::{SplitEdge, SplitFace};
+pub use from_mesh::LeftOut;
+pub use ids::{CornerId, EdgeId, FaceId, VertexId};
+pub use refusal::Refusal;
+pub use to_mesh::ElementMap;
+pub use transaction::Difference;

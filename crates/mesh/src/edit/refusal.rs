@@ -1,0 +1,52 @@
+//! Why an operation did nothing.
+
+use thiserror::Error;
+
+use super::ids::{CornerId, EdgeId, FaceId, VertexId};
+
+/// Why an operation was refused. The mesh is as it was before.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// There is no such vertex (any more).
+    #[error("there is no {0}: it was removed, or never made")]
+    NoSuchVertex(VertexId),
+    /// There is no such edge (any more).
+    #[error("there is no {0}: it was removed, or never made")]
+    NoSuchEdge(EdgeId),
+    /// There is no such corner (any more).
+    #[error("there is no {0}: it was removed, or never made")]
+    NoSuchCorner(CornerId),
+    /// There is no such face (any more).
+    #[error("there is no {0}: it was removed, or never made")]
+    NoSuchFace(FaceId),
+    /// The operation needs elements, and none were given.
+    #[error("{operation} needs {needed}: select them first")]
+    NothingGiven {
+        /// What was to be done.
+        operation: &'static str,
+        /// What it needs, as "at least one face".
+        needed: &'static str,
+    },
+    /// What was given does not fit together.
+    #[error("{operation} is not possible here: {reason}")]
+    NotPossible {
+        /// What was to be done.
+        operation: &'static str,
+        /// What is in the way, and what to do instead.
+        reason: &'static str,
+    },
+    /// A parameter is out of its range, or not finite.
+    #[error("{parameter} is {value}, but has to be {range}")]
+    OutOfRange {
+        /// Which.
+        parameter: &'static str,
+        /// What was given.
+        value: f64,
+        /// What is allowed, as "at least 1".
+        range: &'static str,
+    },
+    /// The mesh would have more elements than 32-bit indices can name.
+    #[error("the mesh would have too many elements for 32-bit indices: do it to a part of it")]
+    TooMany,
+}

@@ -1,0 +1,71 @@
+//! The joints that one vertex follows.
+
+use std::cmp::Ordering;
+
+use super::layers::Blend;
+
+/// The most joints that a vertex follows while it is edited.
+pub(super) const MOST: usize = 8;
+
+/// Joints and their weights, the heaviest first. Weights sum to 1, unless all are 0.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Influences {
+    pub(super) joints: [u16; MOST],
+    pub(super) weights: [f32; MOST],
+}
+
+impl Influences {
+    /// From any number of joints, each at most once: the heaviest [`MOST`], so scaled that they
+    /// sum to 1.
+    pub(super) fn heaviest(mut all: Vec<(u16, f64)>) -> Self {
+        all.sort_by(|a, b| b.1.partial_cmp(&a.1).unwrap_or(Ordering::Equal).then(a.0.cmp(&b.0)));
+        all.truncate(MOST);
+        let sum: f64 = all.iter().map(|(_, weight)| weight).sum();
+        let mut influences = Self::default();
+        if sum > 0.0 {
+            for (slot, (joint, weight)) in all.into_iter().enumerate() {
+                influences.joints[slot] = joint;
+                influences.weights[slot] = (weight / sum) as f32;
+            }
+        }
+        influences
+    }
+}
+
+impl Blend for Influences {
+    fn blend(parts: &[(Self, f64)]) -> Self {
+        let mut all: Vec<(u16, f64)> = Vec::new();
+        for (influences, part) in parts {
+            for (&joint, &weight) in influences.joints.iter().zip(&influences.weights) {
+                let weight = f64::from(weight) * part;
+                match all.iter_mut().find(|(known, _)| *known == joint) {
+                    Some((_, sum)) => *sum += weight,
+                    None if weight > 0.0 => all.push((joint, weight)),
+                    None => {}
+                }
+            }
+        }
+        Self::heaviest(all)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_way_between_two_vertices_both_joints_count_half() {
+        let of = |joint| Influences::heaviest(vec![(joint, 1.0)]);
+        let half = Influences::blend(&[(of(3), 0.5), (of(1), 0.5)]);
+        assert_eq!((&half.joints[..2], &half.weights[..3]), (&[1, 3][..], &[0.5, 0.5, 0.0][..]), "joints");
+        assert_eq!(Influences::blend(&[(half, 1.0)]), half, "nothing is lost");
+    }
+
+    #[test]
+    fn of_many_joints_the_heaviest_stay_and_sum_to_one() {
+        let kept = Influences::heaviest((0..12).map(|joint| (joint, f64::from(joint))).collect());
+        assert_eq!(kept.joints, [11, 10, 9, 8, 7, 6, 5, 4], "the heaviest");
+        let sum: f32 = kept.weights.iter().sum();
+        assert!((sum - 1.0).abs() < 1e-6, "rounded sum of eight is {sum}");
+    }
+}

@@ -1,0 +1,131 @@
+//! Making and freeing slots. What is freed last is used first, so that a mesh that is edited
+//! for long does not grow, and the same steps give the same ids.
+
+use trigon_math::Vec3;
+
+use super::edit_mesh::EditMesh;
+use super::ids::NONE;
+use super::records::{ALIVE, CornerRecord, EdgeRecord, FaceRecord, VertexRecord};
+
+/// An edge's record without neighbours.
+fn lone_edge(vertices: [u32; 2]) -> EdgeRecord {
+    EdgeRecord { vertices, next: [NONE; 2], previous: [NONE; 2], corner: NONE, crease: 0.0, flags: ALIVE }
+}
+
+/// What a corner's slot holds while it is free.
+fn free_corner(next: u32) -> CornerRecord {
+    CornerRecord {
+        vertex: NONE,
+        edge: NONE,
+        face: NONE,
+        next,
+        previous: NONE,
+        radial_next: NONE,
+        radial_previous: NONE,
+    }
+}
+
+impl EditMesh {
+    /// A vertex without edges; its values are zero.
+    pub(super) fn new_vertex(&mut self, position: Vec3) -> u32 {
+        let record = VertexRecord { edge: NONE, flags: ALIVE };
+        let slots = &mut self.slots.vertices;
+        slots.alive += 1;
+        let index = slots.free;
+        if index == NONE {
+            let index = self.vertices.len();
+            self.vertices.push(record);
+            self.positions.push(position);
+            self.first_positions.push(position);
+            self.vertex_layers.iter_mut().for_each(super::layers::Layer::push_default);
+            return index;
+        }
+        slots.free = self.vertices[index].edge;
+        *self.vertices.write(index) = record;
+        *self.positions.write(index) = position;
+        *self.first_positions.write(index) = position;
+        for layer in &mut self.vertex_layers {
+            layer.clear(index);
+        }
+        index
+    }
+
+    pub(super) fn free_vertex(&mut self, index: u32) {
+        debug_assert_eq!(self.vertices[index].edge, NONE, "its edges were removed first");
+        let slots = &mut self.slots.vertices;
+        *self.vertices.write(index) = VertexRecord { edge: slots.free, flags: 0 };
+        slots.free = index;
+        slots.alive -= 1;
+    }
+
+    /// An edge that no vertex knows yet.
+    pub(super) fn new_edge(&mut self, vertices: [u32; 2]) -> u32 {
+        let record = lone_edge(vertices);
+        let slots = &mut self.slots.edges;
+        slots.alive += 1;
+        let index = slots.free;
+        if index == NONE {
+            self.edges.push(record);
+            return self.edges.len() - 1;
+        }
+        slots.free = self.edges[index].next[0];
+        *self.edges.write(index) = record;
+        index
+    }
+
+    pub(super) fn free_edge(&mut self, index: u32) {
+        let slots = &mut self.slots.edges;
+        let free = EdgeRecord { next: [slots.free, NONE], flags: 0, ..lone_edge([NONE; 2]) };
+        *self.edges.write(index) = free;
+        slots.free = index;
+        slots.alive -= 1;
+    }
+
+    /// A corner that neither its face nor its edge know yet; its values are zero.
+    pub(super) fn new_corner(&mut self, vertex: u32, face: u32) -> u32 {
+        let record = CornerRecord { vertex, face, ..free_corner(NONE) };
+        let slots = &mut self.slots.corners;
+        slots.alive += 1;
+        let index = slots.free;
+        if index == NONE {
+            self.corners.push(record);
+            self.corner_layers.iter_mut().for_each(super::layers::Layer::push_default);
+            return self.corners.len() - 1;
+        }
+        slots.free = self.corners[index].next;
+        *self.corners.write(index) = record;
+        for layer in &mut self.corner_layers {
+            layer.clear(index);
+        }
+        index
+    }
+
+    pub(super) fn free_corner(&mut self, index: u32) {
+        let slots = &mut self.slots.corners;
+        *self.corners.write(index) = free_corner(slots.free);
+        slots.free = index;
+        slots.alive -= 1;
+    }
+
+    /// A face without corners.
+    pub(super) fn new_face(&mut self) -> u32 {
+        let record = FaceRecord { corner: NONE, size: 0, material: 0, flags: ALIVE };
+        let slots = &mut self.slots.faces;
+        slots.alive += 1;
+        let index = slots.free;
+        if index == NONE {
+            self.faces.push(record);
+            return self.faces.len() - 1;
+        }
+        slots.free = self.faces[index].corner;
+        *self.faces.write(index) = record;
+        index
+    }
+
+    pub(super) fn free_face(&mut self, index: u32) {
+        let slots = &mut self.slots.faces;
+        *self.faces.write(index) = FaceRecord { corner: slots.free, size: 0, material: 0, flags: 0 };
+        slots.free = index;
+        slots.alive -= 1;
+    }
+}

@@ -1,0 +1,139 @@
+//! From a mesh that was edited to one that is shown and saved: without free slots, in the
+//! order of indices.
+
+use super::column::Column;
+use super::edit_mesh::EditMesh;
+use super::ids::{CornerId, EdgeId, FaceId, VertexId};
+use super::layers::{LayerKind, LayerValues};
+use super::records::{POINT, SMOOTH};
+use super::skin::{Influences, MOST};
+use crate::mesh::Parts;
+use crate::{Attributes, Deltas, Mesh, MorphTarget, SkinWeights};
+
+/// For each element of a [`Mesh`] which one it was while it was edited.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ElementMap {
+    /// By the mesh's vertices.
+    pub vertices: Vec<VertexId>,
+    /// By the mesh's faces.
+    pub faces: Vec<FaceId>,
+    /// By the mesh's corners.
+    pub corners: Vec<CornerId>,
+    /// By [`Mesh::loose_edges`].
+    pub loose_edges: Vec<EdgeId>,
+}
+
+impl ElementMap {
+    /// By the mesh's edges, those of faces first.
+    pub fn edges(&self, mesh: &Mesh, edited: &EditMesh) -> Vec<EdgeId> {
+        let mut edges = vec![EdgeId(super::ids::NONE); mesh.face_edge_count()];
+        for (index, &corner) in self.corners.iter().enumerate() {
+            if let Some(edge) = mesh.corner_edge(index) {
+                edges[edge as usize] = edited.corner_edge(corner);
+            }
+        }
+        edges.extend(&self.loose_edges);
+        edges
+    }
+}
+
+impl EditMesh {
+    /// The mesh without free slots, elements in the order of their indices, and which
+    /// element each was. First positions, marks of edges and what is hidden have no place in it.
+    pub fn to_mesh(&self) -> (Mesh, ElementMap) {
+        let mut map = ElementMap {
+            vertices: self.vertices().collect(),
+            faces: self.faces().collect(),
+            corners: Vec::with_capacity(self.corner_count()),
+            loose_edges: self.edges().filter(|&edge| self.edge_corners(edge).next().is_none()).collect(),
+        };
+        let mut numbers = vec![0u32; self.vertex_capacity()];
+        for (number, vertex) in (0u32..).zip(&map.vertices) {
+            numbers[vertex.0 as usize] = number;
+        }
+        let number = |vertex: VertexId| numbers[vertex.0 as usize];
+        let mut face_starts = Vec::with_capacity(map.faces.len() + 1);
+        let mut corner_vertices = Vec::with_capacity(self.corner_count());
+        face_starts.push(0);
+        for &face in &map.faces {
+            for corner in self.face_corners(face) {
+                map.corners.push(corner);
+                corner_vertices.push(number(self.corner_vertex(corner)));
+            }
+            face_starts.push(corner_vertices.len() as u32);
+        }
+        let is_point = |&&vertex: &&VertexId| self.vertices[vertex.0].flags & POINT != 0;
+        let mut mesh = Mesh::from_parts(Parts {
+            positions: map.vertices.iter().map(|&vertex| self.position(vertex)).collect(),
+            face_starts,
+            corner_vertices,
+            loose_edges: map.loose_edges.iter().map(|&edge| self.edge_vertices(edge).map(number)).collect(),
+            loose_points: map.vertices.iter().filter(is_point).map(|&vertex| number(vertex)).collect(),
+        });
+        *mesh.attributes_mut() = self.attributes(&map);
+        (mesh, map)
+    }
+
+    fn attributes(&self, map: &ElementMap) -> Attributes {
+        let faces = || map.faces.iter().map(|face| &self.faces[face.0]);
+        let mut attributes = Attributes::default();
+        if faces().any(|face| face.material != 0) {
+            attributes.face_materials = Some(faces().map(|face| face.material).collect());
+        }
+        if faces().any(|face| face.flags & SMOOTH != 0) {
+            attributes.face_smooth = Some(faces().map(|face| face.flags & SMOOTH != 0).collect());
+        }
+        for layer in &self.vertex_layers {
+            match (&layer.values, layer.kind) {
+                (LayerValues::Vec3(column), LayerKind::MorphPosition(number)) => {
+                    let values = map.vertices.iter().map(|vertex| column[vertex.0]);
+                    morph_target(&mut attributes, number).positions = Deltas::from_dense(values);
+                }
+                (LayerValues::Influences(column), _) => attributes.skin = skin(map, column),
+                _ => {}
+            }
+        }
+        for layer in &self.corner_layers {
+            match (&layer.values, layer.kind) {
+                (LayerValues::Vec2(column), _) => attributes.uv_sets.push(of_corners(map, column)),
+                (LayerValues::Vec4(column), LayerKind::Tangent) => {
+                    attributes.corner_tangents = Some(of_corners(map, column));
+                }
+                (LayerValues::Vec4(column), _) => attributes.corner_colors = Some(of_corners(map, column)),
+                (LayerValues::Vec3(column), LayerKind::MorphNormal(number)) => {
+                    let values = Deltas::from_dense(of_corners(map, column));
+                    morph_target(&mut attributes, number).normals = values;
+                }
+                (LayerValues::Vec3(column), LayerKind::MorphTangent(number)) => {
+                    let values = Deltas::from_dense(of_corners(map, column));
+                    morph_target(&mut attributes, number).tangents = values;
+                }
+                (LayerValues::Vec3(column), _) => attributes.corner_normals = Some(of_corners(map, column)),
+                (LayerValues::Influences(_), _) => {}
+            }
+        }
+        attributes
+    }
+}
+
+fn of_corners<T: Copy>(map: &ElementMap, column: &Column<T>) -> Vec<T> {
+    map.corners.iter().map(|corner| column[corner.0]).collect()
+}
+
+fn morph_target(attributes: &mut Attributes, number: u16) -> &mut MorphTarget {
+    let targets = &mut attributes.morph_targets;
+    if targets.len() <= number as usize {
+        targets.resize_with(number as usize + 1, MorphTarget::default);
+    }
+    &mut targets[number as usize]
+}
+
+/// As many joints for each vertex as the busiest has.
+fn skin(map: &ElementMap, column: &Column<Influences>) -> Option<SkinWeights> {
+    let of_vertices = || map.vertices.iter().map(|vertex| column[vertex.0]);
+    let used = |influences: Influences| influences.weights.iter().take_while(|&&weight| weight > 0.0).count();
+    let per_vertex = of_vertices().map(used).max().unwrap_or(0).clamp(1, MOST);
+    let joints = of_vertices().flat_map(|influences| influences.joints.into_iter().take(per_vertex));
+    let weights = of_vertices().flat_map(|influences| influences.weights.into_iter().take(per_vertex));
+    SkinWeights::new(per_vertex, joints.collect(), weights.collect())
+}

@@ -1,0 +1,214 @@
+//! Changes that happen as a whole or not at all, and that can be undone to the same bytes.
+
+use trigon_math::Vec3;
+
+use super::column::ColumnDifference;
+use super::edit_mesh::{AllSlots, EditMesh};
+use super::layers::{Layer, LayerDifference};
+use super::records::{CornerRecord, EdgeRecord, FaceRecord, VertexRecord};
+use super::refusal::Refusal;
+
+/// What leads from a mesh to its state before or after a change.
+///
+/// It keeps the values that differ, or whole lists where these take less memory.
+/// [`Difference::apply`] goes to the other state and turns the difference around, so that
+/// one difference serves to undo and to redo, any number of times.
+#[derive(Debug, Clone)]
+#[must_use = "without it the change cannot be undone"]
+pub struct Difference {
+    vertices: Option<ColumnDifference<VertexRecord>>,
+    positions: Option<ColumnDifference<Vec3>>,
+    first_positions: Option<ColumnDifference<Vec3>>,
+    edges: Option<ColumnDifference<EdgeRecord>>,
+    corners: Option<ColumnDifference<CornerRecord>>,
+    faces: Option<ColumnDifference<FaceRecord>>,
+    vertex_layers: LayersDifference,
+    corner_layers: LayersDifference,
+    slots: AllSlots,
+}
+
+/// Of the layers of one kind of element. A change may add layers after the others.
+#[derive(Debug, Clone)]
+struct LayersDifference {
+    common: Vec<LayerDifference>,
+    /// Those that the state without them has not.
+    added: Vec<Layer>,
+}
+
+impl EditMesh {
+    /// Runs a change. If it is refused, the mesh is as it was before, to the last byte.
+    /// Otherwise what it returns, and what undoes it.
+    ///
+    /// A transaction within another belongs to the outer one; so operations may be
+    /// used within operations. Its own difference is empty then, and a refusal within is only
+    /// taken back when the outer one is refused, too: pass it on.
+    ///
+    /// # Errors
+    /// Those of the change.
+    ///
+    /// ```
+    /// use trigon_mesh::edit::{EditMesh, Refusal};
+    /// use trigon_mesh::math::Vec3;
+    ///
+    /// let mut mesh = EditMesh::new();
+    /// let (vertex, mut difference) = mesh.transaction(|mesh| Ok::<_, Refusal>(mesh.add_vertex(Vec3::X)?))?;
+    /// difference.apply(&mut mesh);
+    /// assert!(!mesh.has_vertex(vertex), "undone");
+    /// difference.apply(&mut mesh);
+    /// assert_eq!(mesh.position(vertex), Vec3::X, "and done again");
+    /// # Ok::<(), Refusal>(())
+    /// ```
+    pub fn transaction<T, E>(
+        &mut self,
+        change: impl FnOnce(&mut Self) -> Result<T, E>,
+    ) -> Result<(T, Difference), E> {
+        if self.is_recording {
+            let slots = self.slots;
+            return change(self).map(|result| (result, Difference::none(slots)));
+        }
+        let recording = Recording::begin(self);
+        let result = change(self);
+        let mut difference = recording.finish(self);
+        match result {
+            Ok(result) => Ok((result, difference)),
+            Err(refusal) => {
+                difference.apply(self);
+                Err(refusal)
+            }
+        }
+    }
+
+    /// Runs an operation that may be refused half way: then the mesh is as it was before.
+    /// Within a transaction it belongs to that.
+    pub(super) fn whole<T>(
+        &mut self,
+        operation: impl FnOnce(&mut Self) -> Result<T, Refusal>,
+    ) -> Result<T, Refusal> {
+        // What undoes it is not wanted here.
+        self.transaction(operation).map(|(result, _)| result)
+    }
+}
+
+/// A transaction that runs.
+struct Recording {
+    slots: AllSlots,
+    vertex_layers: usize,
+    corner_layers: usize,
+}
+
+impl Recording {
+    fn begin(mesh: &mut EditMesh) -> Self {
+        mesh.is_recording = true;
+        mesh.vertices.begin();
+        mesh.positions.begin();
+        mesh.first_positions.begin();
+        mesh.edges.begin();
+        mesh.corners.begin();
+        mesh.faces.begin();
+        mesh.vertex_layers.iter_mut().for_each(Layer::begin);
+        mesh.corner_layers.iter_mut().for_each(Layer::begin);
+        let (vertex_layers, corner_layers) = (mesh.vertex_layers.len(), mesh.corner_layers.len());
+        Self { slots: mesh.slots, vertex_layers, corner_layers }
+    }
+
+    fn finish(self, mesh: &mut EditMesh) -> Difference {
+        mesh.is_recording = false;
+        let layers = |layers: &mut [Layer], common: usize| LayersDifference {
+            common: layers[..common].iter_mut().map(Layer::finish).collect(),
+            added: Vec::new(),
+        };
+        Difference {
+            vertices: mesh.vertices.finish(),
+            positions: mesh.positions.finish(),
+            first_positions: mesh.first_positions.finish(),
+            edges: mesh.edges.finish(),
+            corners: mesh.corners.finish(),
+            faces: mesh.faces.finish(),
+            vertex_layers: layers(&mut mesh.vertex_layers, self.vertex_layers),
+            corner_layers: layers(&mut mesh.corner_layers, self.corner_layers),
+            slots: self.slots,
+        }
+    }
+}
+
+impl Difference {
+    fn none(slots: AllSlots) -> Self {
+        let none = || LayersDifference { common: Vec::new(), added: Vec::new() };
+        Self {
+            vertices: None,
+            positions: None,
+            first_positions: None,
+            edges: None,
+            corners: None,
+            faces: None,
+            vertex_layers: none(),
+            corner_layers: none(),
+            slots,
+        }
+    }
+
+    /// Takes the mesh to the other state: the one before the change, or after it again. In
+    /// time proportional to what differs.
+    ///
+    /// # Panics
+    /// May panic, or leave a mesh without sense, unless the mesh is in the state to which this
+    /// difference belongs: differences are applied backwards in the order of their changes.
+    pub fn apply(&mut self, mesh: &mut EditMesh) {
+        fn swap<T: Copy>(
+            column: &mut super::column::Column<T>,
+            difference: &mut Option<ColumnDifference<T>>,
+        ) {
+            if let Some(difference) = difference {
+                column.swap(difference);
+            }
+        }
+        swap(&mut mesh.vertices, &mut self.vertices);
+        swap(&mut mesh.positions, &mut self.positions);
+        swap(&mut mesh.first_positions, &mut self.first_positions);
+        swap(&mut mesh.edges, &mut self.edges);
+        swap(&mut mesh.corners, &mut self.corners);
+        swap(&mut mesh.faces, &mut self.faces);
+        self.vertex_layers.apply(&mut mesh.vertex_layers);
+        self.corner_layers.apply(&mut mesh.corner_layers);
+        std::mem::swap(&mut mesh.slots, &mut self.slots);
+    }
+
+    /// Whether both states are the same.
+    pub fn is_empty(&self) -> bool {
+        let layers = [&self.vertex_layers, &self.corner_layers];
+        self.bytes() == 0 && layers.iter().all(|layers| layers.added.is_empty())
+    }
+
+    /// The memory that it takes, in bytes.
+    pub fn bytes(&self) -> usize {
+        fn of<T>(difference: &Option<ColumnDifference<T>>) -> usize {
+            difference.as_ref().map_or(0, ColumnDifference::bytes)
+        }
+        of(&self.vertices)
+            + of(&self.positions)
+            + of(&self.first_positions)
+            + of(&self.edges)
+            + of(&self.corners)
+            + of(&self.faces)
+            + self.vertex_layers.bytes()
+            + self.corner_layers.bytes()
+    }
+}
+
+impl LayersDifference {
+    fn apply(&mut self, layers: &mut Vec<Layer>) {
+        for (layer, difference) in layers.iter_mut().zip(&mut self.common) {
+            layer.swap(difference);
+        }
+        if self.added.is_empty() {
+            self.added = layers.split_off(self.common.len());
+        } else {
+            layers.append(&mut self.added);
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        let common = self.common.iter().map(LayerDifference::bytes);
+        common.sum::<usize>() + self.added.iter().map(Layer::bytes).sum::<usize>()
+    }
+}

@@ -1,0 +1,224 @@
+//! The values of elements, one by one: marks of edges, materials of faces, texture
+//! coordinates and colours of corners.
+
+use trigon_math::{Vec2, Vec3, Vec4};
+
+use super::edit_mesh::EditMesh;
+use super::ids::{CornerId, EdgeId, FaceId, VertexId};
+use super::layers::{LayerKind, LayerValues};
+use super::records::{HIDDEN, SEAM, SHARP, SMOOTH};
+
+/// Sets or clears one flag.
+fn set_flag(flags: &mut u32, flag: u32, is_set: bool) {
+    *flags = if is_set { *flags | flag } else { *flags & !flag };
+}
+
+impl EditMesh {
+    /// Whether an edge stays sharp in smooth shading.
+    pub fn is_sharp(&self, edge: EdgeId) -> bool {
+        self.edges[edge.0].flags & SHARP != 0
+    }
+
+    /// Declares an edge sharp, or not.
+    pub fn set_sharp(&mut self, edge: EdgeId, is_sharp: bool) {
+        set_flag(&mut self.edges.write(edge.0).flags, SHARP, is_sharp);
+    }
+
+    /// Whether texture coordinates are cut at an edge when they are laid out.
+    pub fn is_seam(&self, edge: EdgeId) -> bool {
+        self.edges[edge.0].flags & SEAM != 0
+    }
+
+    /// Declares an edge a seam, or not.
+    pub fn set_seam(&mut self, edge: EdgeId, is_seam: bool) {
+        set_flag(&mut self.edges.write(edge.0).flags, SEAM, is_seam);
+    }
+
+    /// How sharp an edge stays in Catmull-Clark subdivision: 0 (smooth) to 1 (sharp).
+    pub fn crease(&self, edge: EdgeId) -> f32 {
+        self.edges[edge.0].crease
+    }
+
+    /// Sets how sharp an edge stays: 0 to 1. A value out of range is clamped, NaN is 0.
+    pub fn set_crease(&mut self, edge: EdgeId, crease: f32) {
+        self.edges.write(edge.0).crease = if crease > 0.0 { crease.min(1.0) } else { 0.0 };
+    }
+
+    /// The material slot of a face.
+    pub fn material(&self, face: FaceId) -> u32 {
+        self.faces[face.0].material
+    }
+
+    /// Sets the material slot of a face.
+    pub fn set_material(&mut self, face: FaceId, material: u32) {
+        self.faces.write(face.0).material = material;
+    }
+
+    /// Whether a face is shaded smoothly where its corners have no normals of their own.
+    pub fn is_smooth(&self, face: FaceId) -> bool {
+        self.faces[face.0].flags & SMOOTH != 0
+    }
+
+    /// Sets whether a face is shaded smoothly.
+    pub fn set_smooth(&mut self, face: FaceId, is_smooth: bool) {
+        set_flag(&mut self.faces.write(face.0).flags, SMOOTH, is_smooth);
+    }
+
+    /// Whether a vertex is hidden from the user.
+    pub fn is_vertex_hidden(&self, vertex: VertexId) -> bool {
+        self.vertices[vertex.0].flags & HIDDEN != 0
+    }
+
+    /// Hides a vertex, or shows it. Its edges and faces are for the caller.
+    pub fn set_vertex_hidden(&mut self, vertex: VertexId, is_hidden: bool) {
+        set_flag(&mut self.vertices.write(vertex.0).flags, HIDDEN, is_hidden);
+    }
+
+    /// Whether an edge is hidden from the user.
+    pub fn is_edge_hidden(&self, edge: EdgeId) -> bool {
+        self.edges[edge.0].flags & HIDDEN != 0
+    }
+
+    /// Hides an edge, or shows it. Its vertices and faces are for the caller.
+    pub fn set_edge_hidden(&mut self, edge: EdgeId, is_hidden: bool) {
+        set_flag(&mut self.edges.write(edge.0).flags, HIDDEN, is_hidden);
+    }
+
+    /// Whether a face is hidden from the user.
+    pub fn is_face_hidden(&self, face: FaceId) -> bool {
+        self.faces[face.0].flags & HIDDEN != 0
+    }
+
+    /// Hides a face, or shows it. Its edges and vertices are for the caller.
+    pub fn set_face_hidden(&mut self, face: FaceId, is_hidden: bool) {
+        set_flag(&mut self.faces.write(face.0).flags, HIDDEN, is_hidden);
+    }
+
+    /// How many sets of texture coordinates there are.
+    pub fn uv_set_count(&self) -> usize {
+        self.corner_layers.iter().filter(|layer| layer.kind == LayerKind::Uv).count()
+    }
+
+    /// The texture coordinates of a corner in one of the sets; `None` where there is no such set.
+    pub fn uv(&self, set: usize, corner: CornerId) -> Option<Vec2> {
+        let mut sets = self.corner_layers.iter().filter(|layer| layer.kind == LayerKind::Uv);
+        match &sets.nth(set)?.values {
+            LayerValues::Vec2(column) => Some(column[corner.0]),
+            _ => None,
+        }
+    }
+
+    /// Sets the texture coordinates of a corner in one of the sets; nothing happens where there is
+    /// no such set.
+    pub fn set_uv(&mut self, set: usize, corner: CornerId, uv: Vec2) {
+        let mut sets = self.corner_layers.iter_mut().filter(|layer| layer.kind == LayerKind::Uv);
+        if let Some(LayerValues::Vec2(column)) = sets.nth(set).map(|layer| &mut layer.values) {
+            *column.write(corner.0) = uv;
+        }
+    }
+
+    /// The colour of a corner: linear light, straight alpha; `None` where the mesh has no colours.
+    pub fn color(&self, corner: CornerId) -> Option<Vec4> {
+        let layer = self.corner_layers.iter().find(|layer| layer.kind == LayerKind::Color)?;
+        match &layer.values {
+            LayerValues::Vec4(column) => Some(column[corner.0]),
+            _ => None,
+        }
+    }
+
+    /// Sets the colour of a corner; nothing happens where the mesh has no colours.
+    pub fn set_color(&mut self, corner: CornerId, color: Vec4) {
+        let layer = self.corner_layers.iter_mut().find(|layer| layer.kind == LayerKind::Color);
+        if let Some(LayerValues::Vec4(column)) = layer.map(|layer| &mut layer.values) {
+            *column.write(corner.0) = color;
+        }
+    }
+
+    /// The normal that was given for a corner; `None` where none was.
+    pub fn custom_normal(&self, corner: CornerId) -> Option<Vec3> {
+        let layer = self.corner_layers.iter().find(|layer| layer.kind == LayerKind::Normal)?;
+        match &layer.values {
+            LayerValues::Vec3(column) => Some(column[corner.0]).filter(|&normal| normal != Vec3::ZERO),
+            _ => None,
+        }
+    }
+
+    /// Gives a corner a normal, or none (zero); nothing happens where the mesh has no normals.
+    pub fn set_custom_normal(&mut self, corner: CornerId, normal: Vec3) {
+        let layer = self.corner_layers.iter_mut().find(|layer| layer.kind == LayerKind::Normal);
+        if let Some(LayerValues::Vec3(column)) = layer.map(|layer| &mut layer.values) {
+            *column.write(corner.0) = normal;
+        }
+    }
+
+    /// Gives a corner all values of another: texture coordinates, colour, normal.
+    pub fn copy_corner(&mut self, from: CornerId, to: CornerId) {
+        for layer in &mut self.corner_layers {
+            layer.copy(from.0, to.0);
+        }
+    }
+
+    /// Gives a corner the weighted mean of all values of others; weights sum to 1.
+    pub(crate) fn blend_corner(&mut self, parts: &[(CornerId, f64)], to: CornerId) {
+        if self.corner_layers.is_empty() {
+            return;
+        }
+        let parts: smallvec::SmallVec<[(u32, f64); 8]> =
+            parts.iter().map(|&(corner, weight)| (corner.0, weight)).collect();
+        for layer in &mut self.corner_layers {
+            layer.blend(&parts, to.0);
+        }
+    }
+
+    /// Gives a vertex all values of another but its place: skin weights, morph targets.
+    pub(crate) fn copy_vertex(&mut self, from: VertexId, to: VertexId) {
+        for layer in &mut self.vertex_layers {
+            layer.copy(from.0, to.0);
+        }
+        self.vertices.write(to.0).flags = self.vertices[from.0].flags;
+    }
+
+    /// Gives a vertex the weighted mean of all values of others but their places; weights sum
+    /// to 1. The first position is theirs, too.
+    pub(crate) fn blend_vertex(&mut self, parts: &[(VertexId, f64)], to: VertexId) {
+        let mut first = trigon_math::DVec3::ZERO;
+        for &(vertex, weight) in parts {
+            first += self.first_positions[vertex.0].as_dvec3() * weight;
+        }
+        *self.first_positions.write(to.0) = first.as_vec3();
+        if self.vertex_layers.is_empty() {
+            return;
+        }
+        let parts: smallvec::SmallVec<[(u32, f64); 8]> =
+            parts.iter().map(|&(vertex, weight)| (vertex.0, weight)).collect();
+        for layer in &mut self.vertex_layers {
+            layer.blend(&parts, to.0);
+        }
+    }
+
+    /// Gives an edge the marks of another: sharp, seam, crease, hidden.
+    pub(crate) fn copy_edge(&mut self, from: EdgeId, to: EdgeId) {
+        let (flags, crease) = (self.edges[from.0].flags, self.edges[from.0].crease);
+        let record = self.edges.write(to.0);
+        record.flags = flags;
+        record.crease = crease;
+    }
+
+    /// Adds the marks of one edge to those of another that takes its place.
+    pub(crate) fn unite_edge_marks(&mut self, from: EdgeId, into: EdgeId) {
+        let (flags, crease) = (self.edges[from.0].flags, self.edges[from.0].crease);
+        let record = self.edges.write(into.0);
+        record.flags |= flags & (SHARP | SEAM);
+        if crease > record.crease {
+            record.crease = crease;
+        }
+    }
+
+    /// Gives a face the values of another: material, smooth, hidden.
+    pub(crate) fn copy_face(&mut self, from: FaceId, to: FaceId) {
+        let (material, flags) = (self.faces[from.0].material, self.faces[from.0].flags);
+        let record = self.faces.write(to.0);
+        record.material = material;
+        record.flags = flags;
+    }
+}
