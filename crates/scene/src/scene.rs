@@ -2,6 +2,7 @@
 
 mod append;
 mod mesh_asset;
+mod parts;
 mod placed;
 
 use std::sync::Arc;
@@ -18,6 +19,7 @@ use crate::material::Material;
 use crate::node::Node;
 use crate::skin::Skin;
 pub use mesh_asset::MeshAsset;
+pub use parts::SceneParts;
 pub(crate) use placed::PlacedMesh;
 
 /// Names a node.

@@ -1,0 +1,126 @@
+//! Commands as data: what was done, with all its parameters, so that it can be written down, run
+//! again, and adjusted.
+//!
+//! A command is one variant of [`Command`] and one file with its parameters and what it does.
+//! Its description, for scripts and for the documentation, is made from the comments of its
+//! parameters.
+
+mod delete;
+mod mode;
+mod objects;
+mod outcome;
+mod select;
+mod select_property;
+mod select_related;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::document::Change;
+use crate::error::EditError;
+
+pub use delete::{Delete, DeleteObjects, Deleted};
+pub use mode::{EditObjects, LeaveEditMode, SetElementKind};
+pub use objects::ObjectName;
+pub use outcome::Outcome;
+pub use select::{Select, SelectAction, SelectAll, SelectInverse, SelectNone};
+pub use select_property::{
+    SelectBorder, SelectByMaterial, SelectByNormal, SelectNonManifold, SelectSharp, SelectSimilar,
+};
+pub use select_related::{SelectLess, SelectLinked, SelectLoop, SelectMore, SelectPath, SelectRing};
+
+/// What a command does to a document.
+pub(crate) trait Action {
+    /// Does it. After a refusal the document takes back what was done until then.
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError>;
+}
+
+/// Lists all commands: variant, type, name for people.
+macro_rules! commands {
+    ($($(#[$doc:meta])* $variant:ident($name:literal, $selects:literal)),* $(,)?) => {
+        /// A command with its parameters. In JSON an object whose `op` is the command's name in lower
+        /// case with underscores, as `{ "op": "select_all" }`; parameters that are not
+        /// given have their defaults, unknown ones are refused.
+        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(tag = "op", rename_all = "snake_case")]
+        #[non_exhaustive]
+        pub enum Command {
+            $($(#[$doc])* $variant($variant)),*
+        }
+
+        impl Command {
+            /// What a user sees in menus and in the history.
+            #[must_use]
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$variant(_) => $name),*
+                }
+            }
+
+            /// Whether it changes only what is selected.
+            #[must_use]
+            pub fn is_selection(&self) -> bool {
+                match self {
+                    $(Self::$variant(_) => $selects),*
+                }
+            }
+
+            pub(crate) fn action(&self) -> &dyn Action {
+                match self {
+                    $(Self::$variant(command) => command),*
+                }
+            }
+        }
+
+        $(impl From<$variant> for Command {
+            fn from(command: $variant) -> Self {
+                Self::$variant(command)
+            }
+        })*
+    };
+}
+
+commands! {
+    /// Starts to edit the meshes of objects.
+    EditObjects("Edit Mode", true),
+    /// Goes back to whole objects.
+    LeaveEditMode("Object Mode", true),
+    /// Selects vertices, edges or faces from now on.
+    SetElementKind("Select Mode", true),
+    /// Selects, adds to or takes from what is selected.
+    Select("Select", true),
+    /// Selects all that is not hidden.
+    SelectAll("Select All", true),
+    /// Selects nothing.
+    SelectNone("Select None", true),
+    /// Selects what was not selected.
+    SelectInverse("Invert Selection", true),
+    /// Selects all that hangs together with what is selected.
+    SelectLinked("Select Linked", true),
+    /// Selects what touches the selected.
+    SelectMore("Select More", true),
+    /// Selects no more what touches something that is not selected.
+    SelectLess("Select Less", true),
+    /// Selects loops of edges or faces.
+    SelectLoop("Select Loops", true),
+    /// Selects rings of edges.
+    SelectRing("Select Rings", true),
+    /// Selects the shortest path between the last two.
+    SelectPath("Select Shortest Path", true),
+    /// Selects edges at a border.
+    SelectBorder("Select Border", true),
+    /// Selects edges where not exactly two faces meet.
+    SelectNonManifold("Select Non-Manifold", true),
+    /// Selects sharp edges.
+    SelectSharp("Select Sharp Edges", true),
+    /// Selects faces by direction.
+    SelectByNormal("Select by Normal", true),
+    /// Selects faces by material.
+    SelectByMaterial("Select by Material", true),
+    /// Selects what has something in common with the selected.
+    SelectSimilar("Select Similar", true),
+    /// Deletes what is selected of meshes.
+    Delete("Delete", false),
+    /// Deletes the selected objects and what hangs on them.
+    DeleteObjects("Delete Objects", false),
+}

@@ -1,0 +1,19 @@
+//! What a command tells when it is done.
+
+/// What a user is told.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Outcome {
+    /// A line for the status bar, as "merged 12 vertices"; empty where the picture says it all.
+    pub message: String,
+}
+
+impl Outcome {
+    /// Nothing to tell.
+    pub(crate) fn silent() -> Self {
+        Self::default()
+    }
+
+    pub(crate) fn with_message(message: impl Into<String>) -> Self {
+        Self { message: message.into() }
+    }
+}

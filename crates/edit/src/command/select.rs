@@ -1,0 +1,206 @@
+//! Selecting objects and elements by number or name, all, none, and the rest.
+
+use fixedbitset::FixedBitSet;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trigon_mesh::edit::EditMesh;
+
+use super::{Action, ObjectName, Outcome};
+use crate::document::Change;
+use crate::error::EditError;
+use crate::selection::ElementKind;
+
+/// What becomes of what was selected before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SelectAction {
+    /// It is selected no more.
+    #[default]
+    Replace,
+    /// It stays selected.
+    Add,
+    /// What is named is selected no more.
+    Remove,
+    /// Of what is named, the selected is selected no more, and the rest is.
+    Toggle,
+}
+
+/// Selects objects, or elements of an object that is edited. In edit mode `elements` are numbers of
+/// vertices, edges or faces, whichever kind is selected.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Select {
+    /// In object mode: which. In edit mode: the one whose elements are meant; the only one
+    /// that is edited if none is named.
+    pub objects: Vec<ObjectName>,
+    /// In edit mode: the numbers of elements.
+    pub elements: Vec<u32>,
+    /// What becomes of what was selected before.
+    pub action: SelectAction,
+}
+
+impl Action for Select {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let found: Result<Vec<_>, _> = self.objects.iter().map(|name| name.find(change.scene())).collect();
+        let objects = found?;
+        if !change.selection().is_editing() {
+            let selection = change.selection_mut();
+            if self.action == SelectAction::Replace {
+                selection.objects.clear();
+            }
+            for object in objects {
+                let is_in = selection.objects.contains(&object);
+                if self.selects(is_in) {
+                    selection.objects.insert(object);
+                    selection.active = Some(object);
+                } else {
+                    selection.objects.remove(&object);
+                }
+            }
+            return Ok(Outcome::silent());
+        }
+        let mut meshes = change.meshes_of(objects);
+        if meshes.is_empty() {
+            meshes = change.selection().meshes().map(|(mesh, _)| mesh).collect();
+        }
+        let &[id] = &meshes[..] else {
+            let needed = "one object whose elements are meant";
+            return Err(EditError::NothingSelected { command: "selecting elements", needed });
+        };
+        let kind = change.selection().kind();
+        let (selection, meshes) = change.selection_and_meshes();
+        if self.action == SelectAction::Replace {
+            let all: Vec<_> = selection.meshes().map(|(mesh, _)| mesh).collect();
+            for mesh in all {
+                selection.of_mut(mesh).expect("it was just listed").clear();
+            }
+        }
+        let (Some(mesh), Some(selection)) = (meshes.get(&id), selection.of_mut(id)) else {
+            return Err(EditError::NotEditing("selecting elements of an object"));
+        };
+        for &element in &self.elements {
+            check_element(mesh, kind, element)?;
+            if self.selects(selection.contains(element)) {
+                selection.insert(element);
+            } else {
+                selection.remove(element);
+            }
+        }
+        Ok(Outcome::silent())
+    }
+}
+
+impl Select {
+    /// Whether an element that is named is selected afterwards.
+    fn selects(&self, was_selected: bool) -> bool {
+        match self.action {
+            SelectAction::Replace | SelectAction::Add => true,
+            SelectAction::Remove => false,
+            SelectAction::Toggle => !was_selected,
+        }
+    }
+}
+
+fn check_element(mesh: &EditMesh, kind: ElementKind, index: u32) -> Result<(), EditError> {
+    use trigon_mesh::edit::{EdgeId, FaceId, Refusal, VertexId};
+    let (vertex, edge, face) = (VertexId::new(index), EdgeId::new(index), FaceId::new(index));
+    match kind {
+        ElementKind::Vertex if !mesh.has_vertex(vertex) => Err(Refusal::NoSuchVertex(vertex).into()),
+        ElementKind::Edge if !mesh.has_edge(edge) => Err(Refusal::NoSuchEdge(edge).into()),
+        ElementKind::Face if !mesh.has_face(face) => Err(Refusal::NoSuchFace(face).into()),
+        _ => Ok(()),
+    }
+}
+
+/// Selects all objects, or all elements that are not hidden of the meshes that are edited.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SelectAll {}
+
+impl Action for SelectAll {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        if !change.selection().is_editing() {
+            let all = change.scene().nodes().iter().map(|(id, _)| id).collect();
+            change.selection_mut().objects = all;
+            return Ok(Outcome::silent());
+        }
+        for_each_mesh(change, |mesh, kind, _| visible(mesh, kind))
+    }
+}
+
+/// Selects nothing.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SelectNone {}
+
+impl Action for SelectNone {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        if !change.selection().is_editing() {
+            change.selection_mut().objects.clear();
+            return Ok(Outcome::silent());
+        }
+        for_each_mesh(change, |_, _, _| FixedBitSet::new())
+    }
+}
+
+/// Selects what was not selected and is not hidden.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SelectInverse {}
+
+impl Action for SelectInverse {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        if !change.selection().is_editing() {
+            let all = change.scene().nodes().iter().map(|(id, _)| id);
+            let rest = all.filter(|id| !change.selection().objects.contains(id)).collect();
+            change.selection_mut().objects = rest;
+            return Ok(Outcome::silent());
+        }
+        for_each_mesh(change, |mesh, kind, selected| {
+            let mut rest = visible(mesh, kind);
+            rest.difference_with(selected);
+            rest
+        })
+    }
+}
+
+/// All elements of a kind that are not hidden.
+fn visible(mesh: &EditMesh, kind: ElementKind) -> FixedBitSet {
+    match kind {
+        ElementKind::Vertex => bits(
+            mesh.vertex_capacity(),
+            mesh.vertices().filter(|&vertex| !mesh.is_vertex_hidden(vertex)).map(|vertex| vertex.index()),
+        ),
+        ElementKind::Edge => bits(
+            mesh.edge_capacity(),
+            mesh.edges().filter(|&edge| !mesh.is_edge_hidden(edge)).map(|edge| edge.index()),
+        ),
+        ElementKind::Face => bits(
+            mesh.face_capacity(),
+            mesh.faces().filter(|&face| !mesh.is_face_hidden(face)).map(|face| face.index()),
+        ),
+    }
+}
+
+fn bits(capacity: usize, indices: impl Iterator<Item = u32>) -> FixedBitSet {
+    let mut bits = FixedBitSet::with_capacity(capacity);
+    indices.for_each(|index| bits.insert(index as usize));
+    bits
+}
+
+/// Selects other elements of each mesh that is edited.
+fn for_each_mesh(
+    change: &mut Change<'_>,
+    select: impl Fn(&EditMesh, ElementKind, &FixedBitSet) -> FixedBitSet,
+) -> Result<Outcome, EditError> {
+    let kind = change.selection().kind();
+    let ids: Vec<_> = change.selection().meshes().map(|(id, _)| id).collect();
+    let (selection, meshes) = change.selection_and_meshes();
+    for id in ids {
+        if let (Some(mesh), Some(selection)) = (meshes.get(&id), selection.of_mut(id)) {
+            let chosen = select(mesh, kind, selection.bits());
+            selection.set(chosen);
+        }
+    }
+    Ok(Outcome::silent())
+}

@@ -1,0 +1,124 @@
+//! What a command may change while it runs.
+
+use std::collections::BTreeMap;
+
+use trigon_mesh::edit::{Difference, EditMesh, Refusal};
+use trigon_scene::{MeshId, NodeId, Scene, SceneError, SceneParts};
+
+use super::Document;
+use crate::error::EditError;
+use crate::selection::{Elements, MeshSelection, Selection};
+
+/// A command that runs: all changes go through it, so that they can be taken back.
+pub(crate) struct Change<'d> {
+    pub(super) document: &'d mut Document,
+    pub(super) meshes: Vec<(MeshId, Difference)>,
+    pub(super) parts: Option<Box<SceneParts>>,
+}
+
+impl Change<'_> {
+    pub(crate) fn scene(&self) -> &Scene {
+        &self.document.scene
+    }
+
+    /// The scene with its nodes and materials to be changed. Meshes may be added, but not replaced: use
+    /// [`Self::edit`].
+    pub(crate) fn scene_mut(&mut self) -> &mut Scene {
+        if self.parts.is_none() {
+            self.parts = Some(Box::new(self.document.scene.parts()));
+        }
+        &mut self.document.scene
+    }
+
+    pub(crate) fn selection(&self) -> &Selection {
+        &self.document.selection
+    }
+
+    pub(crate) fn selection_mut(&mut self) -> &mut Selection {
+        &mut self.document.selection
+    }
+
+    /// What is selected, to be changed, and the meshes to look at.
+    pub(crate) fn selection_and_meshes(&mut self) -> (&mut Selection, &BTreeMap<MeshId, EditMesh>) {
+        (&mut self.document.selection, &self.document.meshes)
+    }
+
+    /// A mesh with its neighbours, made from the scene's at the first call.
+    pub(crate) fn mesh(&mut self, id: MeshId) -> Option<&EditMesh> {
+        if !self.document.meshes.contains_key(&id) {
+            let asset = self.document.scene.meshes().get(id)?;
+            let (mesh, _) = EditMesh::from_mesh(asset.mesh());
+            self.document.meshes.insert(id, mesh);
+        }
+        self.document.meshes.get(&id)
+    }
+
+    /// Changes a mesh. A refusal leaves that mesh as it was.
+    pub(crate) fn edit<T>(
+        &mut self,
+        id: MeshId,
+        change: impl FnOnce(&mut EditMesh) -> Result<T, EditError>,
+    ) -> Result<T, EditError> {
+        self.mesh(id);
+        let Some(mesh) = self.document.meshes.get_mut(&id) else {
+            return Err(SceneError::NoSuchMesh(id).into());
+        };
+        let (result, difference) = mesh.transaction(change)?;
+        if !difference.is_empty() {
+            self.meshes.push((id, difference));
+            self.document.stale.insert(id);
+        }
+        Ok(result)
+    }
+
+    /// The meshes of objects that have one, each once, in the order of objects.
+    pub(crate) fn meshes_of(&self, objects: impl IntoIterator<Item = NodeId>) -> Vec<MeshId> {
+        let mut meshes = Vec::new();
+        for object in objects {
+            let mesh = self.document.scene.node(object).and_then(|node| node.mesh);
+            meshes.extend(mesh.filter(|mesh| !meshes.contains(mesh)));
+        }
+        meshes
+    }
+
+    /// Changes each mesh that is edited and of which something is selected; the change is given what
+    /// is selected, and tells what is to be selected afterwards (`None`: nothing). A mesh
+    /// that refuses is passed over if another does not.
+    pub(crate) fn edit_selected(
+        &mut self,
+        command: &'static str,
+        needed: &'static str,
+        mut operation: impl FnMut(&mut EditMesh, &MeshSelection) -> Result<Option<Elements>, Refusal>,
+    ) -> Result<usize, EditError> {
+        if !self.selection().is_editing() {
+            return Err(EditError::NotEditing(command));
+        }
+        let kind = self.selection().kind();
+        let selected = |(id, selection): (MeshId, &MeshSelection)| {
+            (!selection.is_empty()).then(|| (id, selection.clone()))
+        };
+        let meshes: Vec<_> = self.selection().meshes().filter_map(selected).collect();
+        let mut refused = None;
+        let mut count = 0;
+        for (id, selection) in meshes {
+            match self.edit(id, |mesh| operation(mesh, &selection).map_err(EditError::from)) {
+                Ok(result) => {
+                    count += 1;
+                    let (selections, meshes) = self.selection_and_meshes();
+                    if let (Some(selection), Some(mesh)) = (selections.of_mut(id), meshes.get(&id)) {
+                        match result {
+                            Some(elements) => selection.select(mesh, kind, &elements),
+                            None => selection.clear(),
+                        }
+                    }
+                }
+                Err(refusal) => refused = Some(refusal),
+            }
+        }
+        match (count, refused) {
+            (0, Some(refusal)) => Err(refusal),
+            (0, None) => Err(EditError::NothingSelected { command, needed }),
+            _ => Ok(count),
+        }
+    }
+}

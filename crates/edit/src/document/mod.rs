@@ -1,0 +1,203 @@
+//! An open document: a scene, its meshes while they are edited, what is selected, what was done.
+
+mod change;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use trigon_mesh::edit::{EditMesh, ElementMap};
+use trigon_scene::{MeshId, Scene};
+
+use crate::command::{Command, Outcome};
+use crate::error::EditError;
+use crate::history::{Entry, History};
+use crate::selection::Selection;
+
+pub(crate) use change::Change;
+
+/// A scene that is edited by commands.
+///
+/// Everything that changes goes through [`Document::run`], so that it can be undone to the same
+/// bytes, repeated, adjusted, and written down as a script. The document never draws:
+/// [`Document::scene`] is what is to be drawn.
+///
+/// ```
+/// use trigon_edit::{Command, Document};
+/// use trigon_scene::showcase;
+///
+/// let mut document = Document::new(showcase());
+/// let before = document.scene().nodes().len();
+/// let all: Command = serde_json::from_str(r#"{ "op": "select_all" }"#)?;
+/// document.run(all)?;
+/// document.run(serde_json::from_str(r#"{ "op": "delete_objects" }"#)?)?;
+/// assert_eq!(document.scene().nodes().len(), 0);
+/// document.undo()?;
+/// assert_eq!(document.scene().nodes().len(), before);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct Document {
+    scene: Scene,
+    meshes: BTreeMap<MeshId, EditMesh>,
+    selection: Selection,
+    history: History,
+    /// Edited meshes that the scene does not show as they are yet.
+    stale: BTreeSet<MeshId>,
+    /// Which elements the scene's meshes show.
+    shown: BTreeMap<MeshId, ElementMap>,
+}
+
+impl Document {
+    /// Opens a scene. Nothing is selected.
+    #[must_use]
+    pub fn new(scene: Scene) -> Self {
+        Self { scene, ..Self::default() }
+    }
+
+    /// The scene as it is now, to be drawn. Meshes that were edited since the last call are made anew
+    /// in it.
+    pub fn scene(&mut self) -> &Scene {
+        for id in std::mem::take(&mut self.stale) {
+            let Some(edited) = self.meshes.get(&id) else { continue };
+            let (mesh, map) = edited.to_mesh();
+            // A mesh is never taken out of the scene, so that an undone object finds it again.
+            if self.scene.replace_mesh(id, mesh).is_some() {
+                self.shown.insert(id, map);
+            }
+        }
+        &self.scene
+    }
+
+    /// The nodes and materials as they are now, and meshes as they were when [`Self::scene`] was called
+    /// last.
+    #[must_use]
+    pub fn nodes(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// A mesh with its neighbours, if it is or was edited.
+    #[must_use]
+    pub fn mesh(&self, id: MeshId) -> Option<&EditMesh> {
+        self.meshes.get(&id)
+    }
+
+    /// Which elements of an edited mesh those of the scene's mesh are, as of the last
+    /// [`Self::scene`]; `None` for a mesh that was never edited, where all numbers are the same.
+    #[must_use]
+    pub fn shown_elements(&self, id: MeshId) -> Option<&ElementMap> {
+        self.shown.get(&id)
+    }
+
+    /// What is selected.
+    #[must_use]
+    pub fn selection(&self) -> &Selection {
+        &self.selection
+    }
+
+    /// What was done.
+    #[must_use]
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// Sets how much memory the history may take, in bytes.
+    pub fn set_history_budget(&mut self, bytes: usize) {
+        self.history.set_budget(bytes);
+    }
+
+    /// Runs a command: one entry in the history.
+    ///
+    /// # Errors
+    /// Why it was refused. The document is as it was before.
+    pub fn run(&mut self, command: Command) -> Result<Outcome, EditError> {
+        let selection = self.selection.clone();
+        let mut change = Change { document: self, meshes: Vec::new(), parts: None };
+        let result = command.action().run(&mut change);
+        let Change { meshes, parts, .. } = change;
+        let mut entry = Entry { command, meshes, parts, selection };
+        match result {
+            Ok(outcome) => {
+                self.history.push(entry);
+                Ok(outcome)
+            }
+            Err(refusal) => {
+                self.exchange(&mut entry);
+                Err(refusal)
+            }
+        }
+    }
+
+    /// Takes back the last command.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn undo(&mut self) -> Result<(), EditError> {
+        let mut history = std::mem::take(&mut self.history);
+        let entry = history.step_back().ok_or(EditError::Nothing("undo"));
+        let result = entry.map(|entry| self.exchange(entry));
+        self.history = history;
+        result
+    }
+
+    /// Does again what was taken back last.
+    ///
+    /// # Errors
+    /// There is nothing.
+    pub fn redo(&mut self) -> Result<(), EditError> {
+        let mut history = std::mem::take(&mut self.history);
+        let entry = history.step_forward().ok_or(EditError::Nothing("do again"));
+        let result = entry.map(|entry| self.exchange(entry));
+        self.history = history;
+        result
+    }
+
+    /// Runs the last command that was not a selection once more.
+    ///
+    /// # Errors
+    /// There is none, or it is refused now.
+    pub fn repeat_last(&mut self) -> Result<Outcome, EditError> {
+        let last = self.history.done().iter().rev().find(|entry| !entry.command.is_selection());
+        let command = last.ok_or(EditError::Nothing("repeat"))?.command.clone();
+        self.run(command)
+    }
+
+    /// Runs another command in place of the last one, usually the same with other parameters.
+    ///
+    /// # Errors
+    /// There is none, or the other one is refused: then the last one stays done.
+    pub fn adjust_last(&mut self, command: Command) -> Result<Outcome, EditError> {
+        if self.history.done().is_empty() {
+            return Err(EditError::Nothing("adjust"));
+        }
+        let (selection, undone) = (self.selection.clone(), self.history.undone().len());
+        self.undo()?;
+        self.run(command).inspect_err(|_| {
+            debug_assert_eq!(self.history.undone().len(), undone + 1, "a refusal adds no entry");
+            if self.redo().is_ok() {
+                self.selection = selection;
+            }
+        })
+    }
+
+    /// All commands that are done, to be run again on the document as it was opened. Not
+    /// complete when entries were dropped ([`History::dropped`]).
+    #[must_use]
+    pub fn script(&self) -> Vec<Command> {
+        self.history.done().iter().map(|entry| entry.command.clone()).collect()
+    }
+
+    /// Goes to an entry's other state.
+    fn exchange(&mut self, entry: &mut Entry) {
+        // A command may change a mesh several times: backwards in time, and the next time forwards.
+        for (id, difference) in entry.meshes.iter_mut().rev() {
+            if let Some(mesh) = self.meshes.get_mut(id) {
+                difference.apply(mesh);
+                self.stale.insert(*id);
+            }
+        }
+        entry.meshes.reverse();
+        if let Some(parts) = &mut entry.parts {
+            self.scene.swap_parts(parts);
+        }
+        std::mem::swap(&mut self.selection, &mut entry.selection);
+    }
+}

@@ -1,0 +1,33 @@
+//! An open document that can be edited: a scene, selections, commands as data, exact history,
+//! scripts.
+//!
+//! This crate never draws and never opens a window: an editor, a script or a test drives it by
+//! [`Command`]s and draws [`Document::scene`]. The operations on meshes themselves are in
+//! [`trigon_mesh::edit`].
+
+mod command;
+mod document;
+mod error;
+mod history;
+mod script;
+mod selection;
+#[cfg(test)]
+mod tests;
+
+pub use command::*;
+pub use document::Document;
+pub use error::EditError;
+pub use history::{Entry, History};
+pub use script::{Script, ScriptProgress};
+pub use selection::{
+    ElementKind, Elements, MeshSelection, Selection, Similarity, border_edges, edge_loop, edge_ring,
+    face_loop, faces_of_material, faces_towards, non_manifold_edges, sharp_edges, shortest_path, similar,
+};
+
+/// The crates below, so that programs need no other dependency.
+pub use {trigon_mesh as mesh, trigon_scene as scene};
+
+/// Runs the README's example as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,187 @@
+//! What is selected: objects, and within them vertices, edges or faces.
+
+mod convert;
+mod grow;
+mod loops;
+mod path;
+mod properties;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use fixedbitset::FixedBitSet;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
+use trigon_scene::{MeshId, NodeId};
+
+pub use loops::{edge_loop, edge_ring, face_loop};
+pub use path::shortest_path;
+pub use properties::{
+    Similarity, border_edges, faces_of_material, faces_towards, non_manifold_edges, sharp_edges, similar,
+};
+
+/// Which kind of element is selected in edit mode. The other kinds follow from it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ElementKind {
+    /// An edge or a face is selected if all its vertices are.
+    #[default]
+    Vertex,
+    /// A vertex is selected if one of its edges is, a face if all its edges are.
+    Edge,
+    /// Edges and vertices are selected if one of their faces is.
+    Face,
+}
+
+/// The objects that are selected, and the elements of the meshes that are edited.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Selection {
+    /// Objects, in object mode.
+    pub objects: BTreeSet<NodeId>,
+    /// The object that was selected last: the one that joins others, or whose values are shown.
+    pub active: Option<NodeId>,
+    kind: ElementKind,
+    elements: BTreeMap<MeshId, MeshSelection>,
+}
+
+/// The selected elements of one mesh, of the kind that its [`Selection`] tells.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MeshSelection {
+    bits: FixedBitSet,
+    /// Those that were selected one by one, the last at the end; bulk selections clear it.
+    order: Vec<u32>,
+}
+
+impl Selection {
+    /// Which kind of element is selected.
+    #[must_use]
+    pub fn kind(&self) -> ElementKind {
+        self.kind
+    }
+
+    /// The meshes of which elements may be selected: those that are edited.
+    pub fn meshes(&self) -> impl Iterator<Item = (MeshId, &MeshSelection)> {
+        self.elements.iter().map(|(&mesh, selection)| (mesh, selection))
+    }
+
+    /// The elements of a mesh that are selected; `None` where it is not edited.
+    #[must_use]
+    pub fn of(&self, mesh: MeshId) -> Option<&MeshSelection> {
+        self.elements.get(&mesh)
+    }
+
+    /// The same, to be changed.
+    pub fn of_mut(&mut self, mesh: MeshId) -> Option<&mut MeshSelection> {
+        self.elements.get_mut(&mesh)
+    }
+
+    /// Whether elements of meshes are selected rather than objects.
+    #[must_use]
+    pub fn is_editing(&self) -> bool {
+        !self.elements.is_empty()
+    }
+
+    /// Starts to select elements of a mesh, or goes on to.
+    pub(crate) fn enter(&mut self, mesh: MeshId) {
+        self.elements.entry(mesh).or_default();
+    }
+
+    /// Selects objects again. What was selected within them is forgotten.
+    pub(crate) fn leave(&mut self) {
+        self.elements.clear();
+    }
+
+    /// Selects another kind of element: those that followed from what was selected.
+    pub(crate) fn set_kind(&mut self, kind: ElementKind, meshes: &BTreeMap<MeshId, EditMesh>) {
+        let old = self.kind;
+        self.kind = kind;
+        for (id, selection) in &mut self.elements {
+            if let Some(mesh) = meshes.get(id) {
+                selection.convert(mesh, old, kind);
+            }
+        }
+    }
+
+    /// Roughly the memory that it takes, in bytes.
+    pub(crate) fn bytes(&self) -> usize {
+        let of_mesh = |selection: &MeshSelection| selection.bits.len() / 8 + selection.order.len() * 4;
+        self.objects.len() * 16 + self.elements.values().map(of_mesh).sum::<usize>()
+    }
+}
+
+impl MeshSelection {
+    /// Whether an element is selected, by its index.
+    #[must_use]
+    pub fn contains(&self, index: u32) -> bool {
+        self.bits.contains(index as usize)
+    }
+
+    /// The indices of selected elements, increasing. Some may have been removed from the mesh by
+    /// now.
+    pub fn indices(&self) -> impl Iterator<Item = u32> + '_ {
+        self.bits.ones().map(|index| index as u32)
+    }
+
+    /// How many elements are selected.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.bits.count_ones(..)
+    }
+
+    /// Whether nothing is selected.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.bits.is_clear()
+    }
+
+    /// The elements that were selected one by one, the last at the end.
+    #[must_use]
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// Selects one more element.
+    pub fn insert(&mut self, index: u32) {
+        self.bits.grow(index as usize + 1);
+        self.bits.insert(index as usize);
+        self.order.retain(|&other| other != index);
+        self.order.push(index);
+    }
+
+    /// Selects an element no more.
+    pub fn remove(&mut self, index: u32) {
+        if self.contains(index) {
+            self.bits.remove(index as usize);
+            self.order.retain(|&other| other != index);
+        }
+    }
+
+    /// Selects nothing.
+    pub fn clear(&mut self) {
+        self.bits.clear();
+        self.order.clear();
+    }
+
+    /// Selects these elements and no others.
+    pub fn set(&mut self, bits: FixedBitSet) {
+        self.bits = bits;
+        self.order.clear();
+    }
+
+    /// The selected elements as bits by index; there may be fewer bits than indices.
+    #[must_use]
+    pub fn bits(&self) -> &FixedBitSet {
+        &self.bits
+    }
+}
+
+/// A set of elements of one mesh of any kind: what an operation made.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Elements {
+    /// Vertices.
+    Vertices(Vec<VertexId>),
+    /// Edges.
+    Edges(Vec<EdgeId>),
+    /// Faces.
+    Faces(Vec<FaceId>),
+}

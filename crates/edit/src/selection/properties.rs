@@ -1,0 +1,146 @@
+//! Selecting by what elements are: border, non-manifold, sharp, similar, by normal, by material.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
+use trigon_mesh::math::DVec3;
+
+use super::Elements;
+
+/// What elements have to have in common with one that is selected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Similarity {
+    /// Faces: as many corners.
+    #[default]
+    Corners,
+    /// Faces: the same material slot.
+    Material,
+    /// Faces: about the same area.
+    Area,
+    /// Faces: about the same direction.
+    Normal,
+    /// Edges: about the same length.
+    Length,
+    /// Edges: as many faces.
+    Faces,
+    /// Vertices: as many edges.
+    Edges,
+}
+
+/// Edges with exactly one face.
+#[must_use]
+pub fn border_edges(mesh: &EditMesh) -> Elements {
+    Elements::Edges(mesh.edges().filter(|&edge| mesh.is_boundary(edge)).collect())
+}
+
+/// Edges where not exactly two sides of faces meet that run in opposite directions.
+#[must_use]
+pub fn non_manifold_edges(mesh: &EditMesh) -> Elements {
+    let is_manifold = |edge: EdgeId| {
+        mesh.edge_pair(edge).is_some_and(|[a, b]| mesh.corner_vertex(a) != mesh.corner_vertex(b))
+    };
+    Elements::Edges(mesh.edges().filter(|&edge| !is_manifold(edge)).collect())
+}
+
+/// Edges that are marked sharp, and edges between two faces whose directions differ by more than an
+/// angle (in radians).
+#[must_use]
+pub fn sharp_edges(mesh: &EditMesh, angle: f64) -> Elements {
+    let least = trigon_mesh::math::elementary::sin_cos(angle).1;
+    let is_sharp = |edge: EdgeId| {
+        let between = mesh.edge_pair(edge).map(|[a, b]| [mesh.corner_face(a), mesh.corner_face(b)]);
+        let differs = |[a, b]: [FaceId; 2]| face_direction(mesh, a).dot(face_direction(mesh, b)) < least;
+        mesh.is_sharp(edge) || between.is_some_and(differs)
+    };
+    Elements::Edges(mesh.edges().filter(|&edge| is_sharp(edge)).collect())
+}
+
+/// Faces whose direction differs from another by at most an angle (in radians).
+#[must_use]
+pub fn faces_towards(mesh: &EditMesh, direction: DVec3, angle: f64) -> Elements {
+    let least = trigon_mesh::math::elementary::sin_cos(angle).1;
+    let direction = direction.normalize_or_zero();
+    Elements::Faces(mesh.faces().filter(|&face| face_direction(mesh, face).dot(direction) >= least).collect())
+}
+
+/// Faces of a material slot.
+#[must_use]
+pub fn faces_of_material(mesh: &EditMesh, material: u32) -> Elements {
+    Elements::Faces(mesh.faces().filter(|&face| mesh.material(face) == material).collect())
+}
+
+/// Elements that have something in common with at least one of those that are given. Lengths and areas
+/// may differ by the share `tolerance`, directions by that many radians.
+#[must_use]
+pub fn similar(mesh: &EditMesh, given: &Elements, what: Similarity, tolerance: f64) -> Elements {
+    let near = |values: &[f64], value: f64| {
+        // The values increase: the nearest ones are at the place where it would be put in.
+        let place = values.partition_point(|&other| other < value);
+        let is_near = |other: &f64| (other - value).abs() <= tolerance * other.abs().max(value.abs());
+        values[..place].last().is_some_and(is_near) || values[place..].first().is_some_and(is_near)
+    };
+    let sorted = |mut values: Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        values
+    };
+    match given {
+        Elements::Vertices(vertices) => {
+            let degree = |vertex: VertexId| mesh.vertex_edges(vertex).count() as f64;
+            let known = sorted(vertices.iter().map(|&vertex| degree(vertex)).collect());
+            Elements::Vertices(mesh.vertices().filter(|&v| near(&known, degree(v))).collect())
+        }
+        Elements::Edges(edges) => {
+            let value = |edge: EdgeId| match what {
+                Similarity::Faces => mesh.edge_faces(edge).count() as f64,
+                _ => edge_length(mesh, edge),
+            };
+            let known = sorted(edges.iter().map(|&edge| value(edge)).collect());
+            Elements::Edges(mesh.edges().filter(|&edge| near(&known, value(edge))).collect())
+        }
+        Elements::Faces(faces) if what == Similarity::Normal => {
+            let least = trigon_mesh::math::elementary::sin_cos(tolerance).1;
+            // Few directions are different on most meshes.
+            let mut known: Vec<DVec3> = faces.iter().map(|&face| face_direction(mesh, face)).collect();
+            known.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
+            known.dedup();
+            let is_near = |face: FaceId| {
+                let direction = face_direction(mesh, face);
+                known.iter().any(|other| other.dot(direction) >= least)
+            };
+            Elements::Faces(mesh.faces().filter(|&face| is_near(face)).collect())
+        }
+        Elements::Faces(faces) => {
+            let value = |face: FaceId| match what {
+                Similarity::Material => f64::from(mesh.material(face)),
+                Similarity::Area => area_vector(mesh, face).length(),
+                _ => mesh.face_size(face) as f64,
+            };
+            let known = sorted(faces.iter().map(|&face| value(face)).collect());
+            Elements::Faces(mesh.faces().filter(|&face| near(&known, value(face))).collect())
+        }
+    }
+}
+
+fn edge_length(mesh: &EditMesh, edge: EdgeId) -> f64 {
+    let [a, b] = mesh.edge_vertices(edge).map(|vertex| mesh.position(vertex).as_dvec3());
+    (b - a).length()
+}
+
+fn face_direction(mesh: &EditMesh, face: FaceId) -> DVec3 {
+    area_vector(mesh, face).normalize_or_zero()
+}
+
+/// Its direction is the face's, its length the area.
+fn area_vector(mesh: &EditMesh, face: FaceId) -> DVec3 {
+    let mut vertices = mesh.face_vertices(face).map(|vertex| mesh.position(vertex).as_dvec3());
+    let origin = vertices.next().expect("a face has corners");
+    let mut sum = DVec3::ZERO;
+    let mut last = DVec3::ZERO;
+    for vertex in vertices {
+        let here = vertex - origin;
+        sum += last.cross(here);
+        last = here;
+    }
+    sum * 0.5
+}
