@@ -9,8 +9,10 @@ mod command;
 mod document;
 mod error;
 mod history;
+mod recovery;
 mod script;
 mod selection;
+mod storage;
 #[cfg(test)]
 mod tests;
 
@@ -18,11 +20,13 @@ pub use command::*;
 pub use document::Document;
 pub use error::EditError;
 pub use history::{Entry, History};
+pub use recovery::{Event, RecoveryLog, RecoveryStatus, RecoveryWriter, UnreadableRecovery};
 pub use script::{Script, ScriptProgress};
 pub use selection::{
     ElementKind, Elements, MeshSelection, Selection, Similarity, border_edges, edge_loop, edge_ring,
     face_loop, faces_of_material, faces_towards, non_manifold_edges, sharp_edges, shortest_path, similar,
 };
+pub use storage::{Disk, SaveError, Storage, backup_path, save};
 
 /// The crates below, so that programs need no other dependency.
 pub use {trigon_mesh as mesh, trigon_scene as scene};

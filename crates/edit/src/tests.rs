@@ -73,6 +73,7 @@ proptest! {
     #[test]
     fn undo_and_redo_lead_to_the_same_bytes(commands in prop::collection::vec(any_command(), 1..30)) {
         let mut document = document();
+        document.take_events();
         run_all(&mut document, &[json!({ "op": "edit_objects", "objects": [0, 1] })]);
         let mut states = vec![state(&document)];
         for json in commands {
@@ -95,6 +96,11 @@ proptest! {
             document.redo().expect("each was undone");
             prop_assert!(state(&document) == *known, "done again");
         }
+        // What a recovery file was told does the same, with undo and redo.
+        let mut recovered = self::document();
+        recovered.replay(&document.take_events()).expect("as before");
+        prop_assert!(state(&recovered) == state(&document), "recovered");
+        prop_assert_eq!(recovered.script(), document.script(), "with its history");
         // The history as a script does the same.
         let script = Script::from_json(&Script::new(document.script()).to_json()).expect("as written");
         let mut again = self::document();

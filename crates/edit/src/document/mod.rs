@@ -10,6 +10,7 @@ use trigon_scene::{MeshId, Scene};
 use crate::command::{Command, Outcome};
 use crate::error::EditError;
 use crate::history::{Entry, History};
+use crate::recovery::Event;
 use crate::selection::Selection;
 
 pub(crate) use change::Change;
@@ -44,6 +45,8 @@ pub struct Document {
     stale: BTreeSet<MeshId>,
     /// Which elements the scene's meshes show.
     shown: BTreeMap<MeshId, ElementMap>,
+    /// What was done since the last time that somebody asked; `None` until somebody asks.
+    events: Option<Vec<Event>>,
 }
 
 impl Document {
@@ -116,6 +119,7 @@ impl Document {
         let mut entry = Entry { command, meshes, parts, selection };
         match result {
             Ok(outcome) => {
+                self.note(|| Event::Run(Box::new(entry.command.clone())));
                 self.history.push(entry);
                 Ok(outcome)
             }
@@ -135,6 +139,9 @@ impl Document {
         let entry = history.step_back().ok_or(EditError::Nothing("undo"));
         let result = entry.map(|entry| self.exchange(entry));
         self.history = history;
+        if result.is_ok() {
+            self.note(|| Event::Undo);
+        }
         result
     }
 
@@ -147,6 +154,9 @@ impl Document {
         let entry = history.step_forward().ok_or(EditError::Nothing("do again"));
         let result = entry.map(|entry| self.exchange(entry));
         self.history = history;
+        if result.is_ok() {
+            self.note(|| Event::Redo);
+        }
         result
     }
 
@@ -183,6 +193,18 @@ impl Document {
     #[must_use]
     pub fn script(&self) -> Vec<Command> {
         self.history.done().iter().map(|entry| entry.command.clone()).collect()
+    }
+
+    /// What was done since the last call: what a recovery file is told. The first call starts to
+    /// write down.
+    pub fn take_events(&mut self) -> Vec<Event> {
+        self.events.replace(Vec::new()).unwrap_or_default()
+    }
+
+    fn note(&mut self, event: impl FnOnce() -> Event) {
+        if let Some(events) = &mut self.events {
+            events.push(event());
+        }
     }
 
     /// Goes to an entry's other state.

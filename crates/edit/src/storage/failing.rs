@@ -1,0 +1,235 @@
+//! A disk in memory that remembers every step, can fail at one, and can lose what was not synced:
+//! what saving and recovery are tested with.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::Storage;
+
+/// One step of a program.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Step {
+    /// A file is emptied and then written, or written at its end.
+    Write {
+        path: PathBuf,
+        bytes: Vec<u8>,
+        appends: bool,
+    },
+    Sync(PathBuf),
+    Link {
+        from: PathBuf,
+        to: PathBuf,
+    },
+    Rename {
+        from: PathBuf,
+        to: PathBuf,
+    },
+    Remove(PathBuf),
+    SyncFolder,
+}
+
+#[derive(Debug, Default)]
+pub(crate) struct FailingDisk {
+    log: Vec<Step>,
+    fails_at: Option<usize>,
+    has_no_links: bool,
+}
+
+/// The files by their names.
+pub(crate) type Files = BTreeMap<PathBuf, Vec<u8>>;
+
+impl FailingDisk {
+    pub(crate) fn without_links() -> Self {
+        Self { has_no_links: true, ..Self::default() }
+    }
+
+    pub(crate) fn log(&self) -> &[Step] {
+        &self.log
+    }
+
+    /// The step with this number fails, and is not done.
+    pub(crate) fn fail_at(&mut self, step: usize) {
+        self.fails_at = Some(step);
+    }
+
+    fn files(&self) -> Files {
+        State::after(&self.log).visible()
+    }
+
+    fn step(&mut self, step: Step) -> io::Result<()> {
+        if self.fails_at == Some(self.log.len()) {
+            self.fails_at = None;
+            return Err(io::Error::other("the disk is full"));
+        }
+        self.log.push(step);
+        Ok(())
+    }
+
+    fn require(&self, path: &Path) -> io::Result<()> {
+        self.read(path).map(drop)
+    }
+}
+
+impl Storage for FailingDisk {
+    fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
+        self.files().remove(path).ok_or_else(|| io::ErrorKind::NotFound.into())
+    }
+
+    fn exists(&self, path: &Path) -> bool {
+        self.files().contains_key(path)
+    }
+
+    fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        self.step(Step::Write { path: path.into(), bytes: bytes.into(), appends: false })
+    }
+
+    fn append(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        self.step(Step::Write { path: path.into(), bytes: bytes.into(), appends: true })
+    }
+
+    fn sync(&mut self, path: &Path) -> io::Result<()> {
+        self.require(path)?;
+        self.step(Step::Sync(path.into()))
+    }
+
+    fn link(&mut self, from: &Path, to: &Path) -> io::Result<()> {
+        self.require(from)?;
+        if self.has_no_links || self.exists(to) {
+            return Err(io::ErrorKind::Unsupported.into());
+        }
+        self.step(Step::Link { from: from.into(), to: to.into() })
+    }
+
+    fn rename(&mut self, from: &Path, to: &Path) -> io::Result<()> {
+        self.require(from)?;
+        self.step(Step::Rename { from: from.into(), to: to.into() })
+    }
+
+    fn remove(&mut self, path: &Path) -> io::Result<()> {
+        self.require(path)?;
+        self.step(Step::Remove(path.into()))
+    }
+
+    fn sync_folder(&mut self, _: &Path) -> io::Result<()> {
+        self.step(Step::SyncFolder)
+    }
+}
+
+/// A disk's contents: files by number, and which names lead to them.
+#[derive(Debug, Clone, Default)]
+struct State {
+    /// For each file what is there, and what is synced.
+    files: Vec<(Vec<u8>, Vec<u8>)>,
+    names: BTreeMap<PathBuf, usize>,
+    /// The names as they were at the last sync of the folder, and what was done to them since.
+    synced_names: BTreeMap<PathBuf, usize>,
+    unsynced: Vec<NameChange>,
+}
+
+/// A change of names that a crash may lose.
+#[derive(Debug, Clone)]
+enum NameChange {
+    Add(PathBuf, usize),
+    Move(PathBuf, PathBuf),
+    Remove(PathBuf),
+}
+
+impl State {
+    fn after(log: &[Step]) -> Self {
+        let mut state = Self::default();
+        log.iter().for_each(|step| state.apply(step));
+        state
+    }
+
+    fn apply(&mut self, step: &Step) {
+        match step {
+            Step::Write { path, bytes, appends } => {
+                let file = match self.names.get(path) {
+                    Some(&file) => file,
+                    None => {
+                        self.files.push(Default::default());
+                        let file = self.files.len() - 1;
+                        self.change(NameChange::Add(path.clone(), file));
+                        file
+                    }
+                };
+                let contents = &mut self.files[file].0;
+                if !appends {
+                    contents.clear();
+                }
+                contents.extend(bytes);
+            }
+            Step::Sync(path) => {
+                let (contents, synced) = &mut self.files[self.names[path]];
+                synced.clone_from(contents);
+            }
+            Step::Link { from, to } => self.change(NameChange::Add(to.clone(), self.names[from])),
+            Step::Rename { from, to } => self.change(NameChange::Move(from.clone(), to.clone())),
+            Step::Remove(path) => self.change(NameChange::Remove(path.clone())),
+            Step::SyncFolder => {
+                self.synced_names.clone_from(&self.names);
+                self.unsynced.clear();
+            }
+        }
+    }
+
+    fn change(&mut self, change: NameChange) {
+        change.apply(&mut self.names);
+        self.unsynced.push(change);
+    }
+
+    /// What a running program sees.
+    fn visible(&self) -> Files {
+        self.names.iter().map(|(name, &file)| (name.clone(), self.files[file].0.clone())).collect()
+    }
+}
+
+impl NameChange {
+    fn apply(&self, names: &mut BTreeMap<PathBuf, usize>) {
+        match self {
+            Self::Add(path, file) => drop(names.insert(path.clone(), *file)),
+            Self::Move(from, to) => {
+                if let Some(file) = names.remove(from) {
+                    names.insert(to.clone(), file);
+                }
+            }
+            Self::Remove(path) => drop(names.remove(path)),
+        }
+    }
+}
+
+/// What a crash after these steps can leave: of the changes of names since the last sync of
+/// the folder any first ones were done; of contents that were not synced there is nothing, half,
+/// all, or something else of the same length.
+pub(crate) fn crashes(log: &[Step]) -> Vec<Files> {
+    let state = State::after(log);
+    let mut results = Vec::new();
+    for done in 0..=state.unsynced.len() {
+        let mut names = state.synced_names.clone();
+        state.unsynced[..done].iter().for_each(|change| change.apply(&mut names));
+        for damage in 0..4 {
+            let contents = |file: usize| {
+                let (now, synced) = &state.files[file];
+                if now == synced {
+                    return now.clone();
+                }
+                let is_longer = now.starts_with(synced);
+                let half = if is_longer { (synced.len() + now.len()) / 2 } else { now.len() / 2 };
+                match damage {
+                    0 => synced.clone(),
+                    1 => now[..half].to_vec(),
+                    2 => now.clone(),
+                    _ => {
+                        let kept = if is_longer { synced.len() } else { 0 };
+                        let mut torn = now.clone();
+                        torn[kept..].iter_mut().for_each(|byte| *byte ^= 0xa5);
+                        torn
+                    }
+                }
+            };
+            results.push(names.iter().map(|(name, &file)| (name.clone(), contents(file))).collect());
+        }
+    }
+    results
+}

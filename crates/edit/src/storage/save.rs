@@ -1,0 +1,200 @@
+//! Saving a file so that at each moment the old or the new one is there, whole, and the one before as a
+//! backup.
+
+use std::ffi::OsString;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::Storage;
+
+/// Why a file was not saved. The old one is still there.
+#[derive(Debug, Error)]
+#[error("{}: cannot be saved, {step} failed ({source}); the file is as it was before: check that its folder is writable and has room, or save under another name", path.display())]
+pub struct SaveError {
+    /// The file.
+    pub path: PathBuf,
+    /// What was being done.
+    pub step: &'static str,
+    /// What the system said.
+    pub source: io::Error,
+}
+
+/// Where the version before the last one is kept: the same name with `.bak` at its end.
+#[must_use]
+pub fn backup_path(path: &Path) -> PathBuf {
+    with_suffix(path, ".bak")
+}
+
+/// Saves a file: writes and syncs a new one beside it, keeps the old one as a backup, gives the new one
+/// the name, and syncs the folder. A symbolic link is followed: its target is replaced.
+/// Wherever this is interrupted, the path leads to the old or to the new contents, whole; what is left
+/// over beside it ends in `.part`.
+///
+/// # Errors
+/// Which step failed. The file is as it was before.
+///
+/// ```
+/// use trigon_edit::{Disk, backup_path, save};
+///
+/// let folder = std::env::temp_dir().join(format!("trigon-save-example-{}", std::process::id()));
+/// std::fs::create_dir_all(&folder)?;
+/// let path = folder.join("chair.glb");
+/// save(&mut Disk, &path, b"first")?;
+/// save(&mut Disk, &path, b"second")?;
+/// assert_eq!(std::fs::read(&path)?, b"second");
+/// assert_eq!(std::fs::read(backup_path(&path))?, b"first");
+/// std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn save(storage: &mut dyn Storage, path: &Path, bytes: &[u8]) -> Result<(), SaveError> {
+    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let new = write_new(storage, &target, bytes)?;
+    if storage.exists(&target) {
+        keep_backup(storage, &target).map_err(failed(path, "keeping the old file as a backup"))?;
+    }
+    give_name(storage, &new, &target)
+}
+
+/// The same without a backup.
+pub(crate) fn replace(storage: &mut dyn Storage, path: &Path, bytes: &[u8]) -> Result<(), SaveError> {
+    let new = write_new(storage, path, bytes)?;
+    give_name(storage, &new, path)
+}
+
+fn failed(path: &Path, step: &'static str) -> impl FnOnce(io::Error) -> SaveError {
+    move |source| SaveError { path: path.to_owned(), step, source }
+}
+
+/// Writes and syncs a file beside the one that it is to replace.
+fn write_new(storage: &mut dyn Storage, path: &Path, bytes: &[u8]) -> Result<PathBuf, SaveError> {
+    let new = part_path(path, "new");
+    let written = storage.write(&new, bytes).and_then(|()| storage.sync(&new));
+    if let Err(source) = written {
+        // What was written of it is of no use; if it cannot be removed either, it does no harm.
+        drop(storage.remove(&new));
+        return Err(failed(path, "writing the new file")(source));
+    }
+    Ok(new)
+}
+
+fn give_name(storage: &mut dyn Storage, new: &Path, path: &Path) -> Result<(), SaveError> {
+    storage.rename(new, path).map_err(failed(path, "replacing the old file"))?;
+    storage.sync_folder(folder_of(path)).map_err(failed(path, "making the new name durable"))
+}
+
+fn keep_backup(storage: &mut dyn Storage, target: &Path) -> io::Result<()> {
+    let part = part_path(target, "old");
+    if storage.exists(&part) {
+        // Left over from a save that was interrupted.
+        storage.remove(&part)?;
+    }
+    if storage.link(target, &part).is_err() {
+        // A file system without second names: a copy takes longer, and is as good.
+        let old = storage.read(target)?;
+        storage.write(&part, &old)?;
+        storage.sync(&part)?;
+    }
+    storage.rename(&part, &backup_path(target))
+}
+
+/// A name in the same folder that no other process of ours uses.
+fn part_path(path: &Path, what: &str) -> PathBuf {
+    with_suffix(path, &format!(".{what}-{}.part", std::process::id()))
+}
+
+fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = path.file_name().map_or_else(OsString::new, OsString::from);
+    name.push(suffix);
+    path.with_file_name(name)
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::failing::{FailingDisk, crashes};
+    use super::*;
+
+    /// Saves several versions one after another, and looks at every state in which a crash can
+    /// leave the disk.
+    fn check_all_crashes(versions: &[Vec<u8>]) {
+        let path = Path::new("/models/chair.glb");
+        let mut disk = FailingDisk::default();
+        let mut saved_after = Vec::new();
+        for version in versions {
+            save(&mut disk, path, version).expect("nothing fails");
+            saved_after.push(disk.log().len());
+        }
+        for steps in 0..=disk.log().len() {
+            // How many versions were saved for certain, their folders synced.
+            let certain = saved_after.iter().filter(|&&end| end <= steps).count();
+            for state in crashes(&disk.log()[..steps]) {
+                match state.get(path) {
+                    None => assert_eq!(certain, 0, "after {steps} steps nothing is there"),
+                    Some(bytes) => {
+                        let found = versions.iter().position(|version| version == bytes);
+                        let found = found.unwrap_or_else(|| panic!("after {steps} steps: a torn file"));
+                        assert!(found + 1 >= certain, "after {steps} steps: version {found} of {certain}");
+                    }
+                }
+                if let Some(backup) = state.get(&backup_path(path)) {
+                    assert!(versions.contains(backup), "after {steps} steps: a torn backup");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_prefix_of_the_log_reopens_to_the_last_saved_or_a_newer_version() {
+        check_all_crashes(&[b"first version".to_vec(), b"second".to_vec(), b"and a third one".to_vec()]);
+    }
+
+    #[test]
+    fn a_disk_without_links_keeps_a_copy_as_backup() {
+        let path = Path::new("/models/chair.glb");
+        let mut disk = FailingDisk::without_links();
+        save(&mut disk, path, b"first").expect("nothing fails");
+        save(&mut disk, path, b"second").expect("nothing fails");
+        assert_eq!(disk.read(&backup_path(path)).expect("there"), b"first", "the one before");
+    }
+
+    #[test]
+    fn whatever_step_fails_the_old_file_is_there() {
+        let path = Path::new("/models/chair.glb");
+        let mut failures = 0;
+        // More than there are; where a step that failed was a link, a copy takes its place.
+        for step in 0..12 {
+            let mut disk = FailingDisk::default();
+            save(&mut disk, path, b"first").expect("nothing fails");
+            disk.fail_at(disk.log().len() + step);
+            let saved = save(&mut disk, path, b"second");
+            let bytes = disk.read(path).expect("there");
+            assert!(bytes == b"first" || bytes == b"second", "one of both, whole");
+            if let Err(error) = saved {
+                failures += 1;
+                let message = error.to_string();
+                assert!(message.contains("chair.glb") && message.contains("failed"), "{message}");
+            } else {
+                assert_eq!(bytes, b"second", "what is said to be saved is saved");
+            }
+        }
+        assert!(failures >= 5, "{failures} steps can fail");
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        #[test]
+        fn random_versions_survive_every_crash(
+            versions in prop::collection::hash_set(prop::collection::vec(any::<u8>(), 1..40), 1..5),
+        ) {
+            check_all_crashes(&versions.into_iter().collect::<Vec<_>>());
+        }
+    }
+}
