@@ -5,3 +5,7 @@
 //! A refusal leaves the mesh as it was.
 
 mod delete;
+mod merge;
+pub(super) mod numbering;
+
+pub use merge::MergedVertices;
