@@ -7,5 +7,8 @@
 mod delete;
 mod merge;
 pub(super) mod numbering;
+mod parts;
+mod subdivide;
 
 pub use merge::MergedVertices;
+pub use subdivide::Subdivided;
