@@ -6,6 +6,7 @@ use trigon_math::Vec3;
 use super::edit_mesh::EditMesh;
 use super::ids::NONE;
 use super::records::{ALIVE, CornerRecord, EdgeRecord, FaceRecord, VertexRecord};
+use super::refusal::Refusal;
 
 /// An edge's record without neighbours.
 fn lone_edge(vertices: [u32; 2]) -> EdgeRecord {
@@ -25,7 +26,28 @@ fn free_corner(next: u32) -> CornerRecord {
     }
 }
 
+/// How many elements of each kind an operation may add.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Room {
+    pub(super) vertices: u64,
+    pub(super) edges: u64,
+    pub(super) corners: u64,
+    pub(super) faces: u64,
+}
+
 impl EditMesh {
+    /// Refuses where indices could not name so many more elements.
+    pub(super) fn check_room_for(&self, room: Room) -> Result<(), Refusal> {
+        let totals = [
+            u64::from(self.vertices.len()) + room.vertices,
+            u64::from(self.edges.len()) + room.edges,
+            u64::from(self.corners.len()) + room.corners,
+            u64::from(self.faces.len()) + room.faces,
+        ];
+        // `NONE` is no index.
+        if totals.into_iter().all(|total| total < u64::from(NONE)) { Ok(()) } else { Err(Refusal::TooMany) }
+    }
+
     /// A vertex without edges; its values are zero.
     pub(super) fn new_vertex(&mut self, position: Vec3) -> u32 {
         let record = VertexRecord { edge: NONE, flags: ALIVE };

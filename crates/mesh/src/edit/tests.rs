@@ -79,6 +79,27 @@ pub(super) fn meshes() -> impl Strategy<Value = Mesh> {
     prop_oneof![4 => closed, 1 => open, 2 => soup()].prop_map(with_affine_values)
 }
 
+/// Runs an operation on a copy of a mesh and checks what holds for each: the structure is whole
+/// afterwards, a refusal changes nothing, undoing gives the first bytes and redoing the last. The
+/// mesh afterwards and what the operation returned; `None` if it was refused.
+pub(super) fn check_operation<T>(
+    before: &EditMesh,
+    operation: impl FnOnce(&mut EditMesh) -> Result<T, Refusal>,
+) -> Result<Option<(EditMesh, T)>, String> {
+    let mut mesh = before.clone();
+    let Ok((result, mut difference)) = mesh.transaction(operation) else {
+        return if mesh == *before { Ok(None) } else { Err("a refusal changed the mesh".into()) };
+    };
+    mesh.check_structure()?;
+    let after = mesh.clone();
+    difference.apply(&mut mesh);
+    if mesh != *before {
+        return Err("undoing does not give the first mesh".into());
+    }
+    difference.apply(&mut mesh);
+    if mesh == after { Ok(Some((after, result))) } else { Err("redoing does not give the last mesh".into()) }
+}
+
 /// Which elementary change, and two numbers that choose elements.
 type Step = (u8, u32, u32);
 

@@ -1,13 +1,31 @@
 //! Several vertices become one.
 
-use std::collections::BTreeMap;
-
 use smallvec::SmallVec;
 
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
+use super::super::operations::numbering::{Numbering, sorted_once};
 use super::super::refusal::Refusal;
 use super::add::check_outline;
+
+/// What takes the place of each vertex that goes.
+struct Targets {
+    /// (vertex, what takes its place), by vertex.
+    pairs: Vec<(VertexId, VertexId)>,
+    numbering: Numbering,
+}
+
+impl Targets {
+    /// What is in a vertex's place afterwards.
+    #[inline]
+    fn of(&self, vertex: VertexId) -> VertexId {
+        self.numbering.get(vertex.0).map_or(vertex, |place| self.pairs[place].1)
+    }
+
+    fn gone(&self) -> impl Iterator<Item = VertexId> + Clone + '_ {
+        self.pairs.iter().map(|&(vertex, _)| vertex)
+    }
+}
 
 impl EditMesh {
     /// Lets one vertex take the place of others, for any number of pairs (vertex, what takes its
@@ -20,12 +38,8 @@ impl EditMesh {
     /// replaced by two different ones.
     pub fn merge_vertices(&mut self, pairs: &[(VertexId, VertexId)]) -> Result<(), Refusal> {
         let targets = self.merge_targets(pairs)?;
-        let mut faces: Vec<FaceId> = targets.keys().flat_map(|&vertex| self.vertex_faces(vertex)).collect();
-        faces.sort_unstable();
-        faces.dedup();
-        let mut edges: Vec<EdgeId> = targets.keys().flat_map(|&vertex| self.vertex_edges(vertex)).collect();
-        edges.sort_unstable();
-        edges.dedup();
+        let faces = sorted_once(targets.gone().flat_map(|vertex| self.vertex_faces(vertex)).collect());
+        let edges = sorted_once(targets.gone().flat_map(|vertex| self.vertex_edges(vertex)).collect());
         for &edge in &edges {
             self.stand_in(edge, &targets);
         }
@@ -35,32 +49,33 @@ impl EditMesh {
         for edge in edges {
             self.remove_edge(edge)?;
         }
-        for &vertex in targets.keys() {
+        for vertex in targets.gone() {
             self.remove_vertex(vertex)?;
         }
         Ok(())
     }
 
-    fn merge_targets(&self, pairs: &[(VertexId, VertexId)]) -> Result<BTreeMap<VertexId, VertexId>, Refusal> {
-        let mut targets = BTreeMap::new();
+    fn merge_targets(&self, pairs: &[(VertexId, VertexId)]) -> Result<Targets, Refusal> {
+        let refused = |reason| Err(Refusal::NotPossible { operation: "merging vertices", reason });
         for &(from, into) in pairs {
             self.check_vertex(from)?;
             self.check_vertex(into)?;
-            if from != into && targets.insert(from, into).is_some_and(|other| other != into) {
-                let reason = "a vertex can be merged into one other only";
-                return Err(Refusal::NotPossible { operation: "merging vertices", reason });
-            }
         }
-        if targets.values().any(|into| targets.contains_key(into)) {
-            let reason = "what takes a place has to stay itself";
-            return Err(Refusal::NotPossible { operation: "merging vertices", reason });
+        let pairs = sorted_once(pairs.iter().copied().filter(|(from, into)| from != into).collect());
+        if pairs.windows(2).any(|two| two[0].0 == two[1].0) {
+            return refused("a vertex can be merged into one other only");
         }
-        Ok(targets)
+        let gone: Vec<u32> = pairs.iter().map(|(from, _)| from.0).collect();
+        let numbering = Numbering::new(&gone, self.vertex_capacity());
+        if pairs.iter().any(|(_, into)| numbering.get(into.0).is_some()) {
+            return refused("what takes a place has to stay itself");
+        }
+        Ok(Targets { pairs, numbering })
     }
 
     /// Makes the edge that takes the place of one at a merged vertex, if any does.
-    fn stand_in(&mut self, edge: EdgeId, targets: &BTreeMap<VertexId, VertexId>) {
-        let [a, b] = self.edge_vertices(edge).map(|vertex| targets.get(&vertex).copied().unwrap_or(vertex));
+    fn stand_in(&mut self, edge: EdgeId, targets: &Targets) {
+        let [a, b] = self.edge_vertices(edge).map(|vertex| targets.of(vertex));
         if a == b {
             return;
         }
@@ -69,8 +84,7 @@ impl EditMesh {
         if is_known { self.unite_edge_marks(edge, new) } else { self.copy_edge(edge, new) }
     }
 
-    fn merge_in_face(&mut self, face: FaceId, targets: &BTreeMap<VertexId, VertexId>) -> Result<(), Refusal> {
-        let target = |vertex: VertexId| targets.get(&vertex).copied().unwrap_or(vertex);
+    fn merge_in_face(&mut self, face: FaceId, targets: &Targets) -> Result<(), Refusal> {
         let corners: SmallVec<[CornerId; 8]> = self.face_corners(face).collect();
         // Of consecutive corners at what becomes one vertex, one stays: that which was there
         // already, else the first.
@@ -85,7 +99,7 @@ impl EditMesh {
             }
         };
         for &corner in &corners {
-            let vertex = target(self.corner_vertex(corner));
+            let vertex = targets.of(self.corner_vertex(corner));
             match outline.last() {
                 Some(&(_, last)) if last == vertex => {
                     let slot = outline.len() - 1;

@@ -11,4 +11,5 @@ mod relink;
 mod remove;
 mod split;
 
+pub(super) use add::check_outline;
 pub use split::{SplitEdge, SplitFace};

@@ -5,3 +5,10 @@
 //! A refusal leaves the mesh as it was.
 
 mod delete;
+mod merge;
+pub(super) mod numbering;
+mod parts;
+mod subdivide;
+
+pub use merge::MergedVertices;
+pub use subdivide::Subdivided;

@@ -1,0 +1,64 @@
+//! Numbers for the elements of a list: what an operation looks up for each element that it
+//! meets.
+
+/// Tells at which place of a sorted list an index stands.
+///
+/// A table by index is fast, but takes time proportional to the mesh to make. It pays where the
+/// list is long; a short list is searched.
+pub(in super::super) enum Numbering {
+    Searched(Vec<u32>),
+    /// By index: the place, or `u32::MAX`.
+    Table(Vec<u32>),
+}
+
+impl Numbering {
+    /// A table has at most so many entries for each element of the list.
+    const SPARSEST: usize = 32;
+
+    /// The list holds ascending indices below `capacity`, each once.
+    pub(in super::super) fn new(sorted: &[u32], capacity: usize) -> Self {
+        if sorted.len() * Self::SPARSEST < capacity {
+            return Self::Searched(sorted.to_vec());
+        }
+        let mut table = vec![u32::MAX; capacity];
+        for (place, &index) in (0..).zip(sorted) {
+            table[index as usize] = place;
+        }
+        Self::Table(table)
+    }
+
+    /// The place of an index in the list; `None` where it is not in it.
+    #[inline]
+    pub(in super::super) fn get(&self, index: u32) -> Option<usize> {
+        match self {
+            Self::Searched(sorted) => sorted.binary_search(&index).ok(),
+            // An element that came later is in no list.
+            Self::Table(table) => {
+                table.get(index as usize).filter(|&&place| place != u32::MAX).map(|&place| place as usize)
+            }
+        }
+    }
+}
+
+/// Ascending, each once.
+pub(in super::super) fn sorted_once<T: Ord>(mut list: Vec<T>) -> Vec<T> {
+    list.sort_unstable();
+    list.dedup();
+    list
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_search_and_a_table_give_the_same_places() {
+        let list = [2, 3, 7];
+        let (searched, table) = (Numbering::new(&list, 1000), Numbering::new(&list, 9));
+        assert!(matches!((&searched, &table), (Numbering::Searched(_), Numbering::Table(_))), "one of each");
+        for index in 0..12 {
+            let expected = list.iter().position(|&other| other == index);
+            assert_eq!([searched.get(index), table.get(index)], [expected; 2], "{index}");
+        }
+    }
+}
