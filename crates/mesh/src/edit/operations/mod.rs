@@ -5,3 +5,6 @@
 //! A refusal leaves the mesh as it was.
 
 mod delete;
+mod loop_cut;
+
+pub use loop_cut::{LoopCut, LoopCutSettings};
