@@ -10,6 +10,7 @@
 //! that write neighbours), `walk` (from element to element), `euler` (elementary changes), and the
 //! operations.
 
+mod blends;
 mod column;
 mod edit_mesh;
 mod euler;
