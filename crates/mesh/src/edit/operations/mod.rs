@@ -6,5 +6,6 @@
 
 mod delete;
 mod loop_cut;
+mod slide;
 
 pub use loop_cut::{LoopCut, LoopCutSettings};
