@@ -113,15 +113,14 @@ impl Layer {
                 blend_column(column, parts, to);
                 if kind == LayerKind::Normal {
                     let normal = column.write(to);
-                    *normal = normal.as_dvec3().normalize_or_zero().as_vec3();
+                    *normal = unit_or_zero(*normal);
                 }
             }
             LayerValues::Vec4(column) if kind == LayerKind::Tangent => {
                 let handedness = column[heaviest(parts)].w;
                 blend_column(column, parts, to);
                 let tangent = column.write(to);
-                let direction = tangent.truncate().as_dvec3().normalize_or_zero().as_vec3();
-                *tangent = direction.extend(handedness);
+                *tangent = unit_or_zero(tangent.truncate()).extend(handedness);
             }
             LayerValues::Vec4(column) => blend_column(column, parts, to),
             LayerValues::Influences(column) => blend_column(column, parts, to),
@@ -192,8 +191,13 @@ impl LayerDifference {
     }
 }
 
+/// A direction with length 1, computed in f64; zero where it has none.
+pub(super) fn unit_or_zero(direction: Vec3) -> Vec3 {
+    direction.as_dvec3().normalize_or_zero().as_vec3()
+}
+
 /// The element with the largest weight, the first of several.
-fn heaviest(parts: &[(u32, f64)]) -> u32 {
+pub(super) fn heaviest(parts: &[(u32, f64)]) -> u32 {
     let mut best = parts[0];
     for &part in parts {
         if part.1 > best.1 {
@@ -204,10 +208,15 @@ fn heaviest(parts: &[(u32, f64)]) -> u32 {
 }
 
 fn blend_column<T: Blend>(column: &mut Column<T>, parts: &[(u32, f64)], to: u32) {
+    *column.write(to) = blended(column, parts);
+}
+
+/// The weighted sum of some elements' values.
+pub(super) fn blended<T: Blend>(column: &Column<T>, parts: &[(u32, f64)]) -> T {
     /// Most sums have few parts: these need no memory of their own.
     const FEW: usize = 8;
     let value = |&(index, weight): &(u32, f64)| (column[index], weight);
-    let blended = if parts.len() <= FEW {
+    if parts.len() <= FEW {
         let mut values = [(T::default(), 0.0); FEW];
         for (to, from) in values.iter_mut().zip(parts) {
             *to = value(from);
@@ -215,6 +224,5 @@ fn blend_column<T: Blend>(column: &mut Column<T>, parts: &[(u32, f64)], to: u32)
         T::blend(&values[..parts.len()])
     } else {
         T::blend(&parts.iter().map(value).collect::<Vec<_>>())
-    };
-    *column.write(to) = blended;
+    }
 }

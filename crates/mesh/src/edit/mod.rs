@@ -10,6 +10,7 @@
 //! that write neighbours), `walk` (from element to element), `euler` (elementary changes), and the
 //! operations.
 
+mod blends;
 mod column;
 mod edit_mesh;
 mod euler;
@@ -35,6 +36,7 @@ pub use euler::{SplitEdge, SplitFace};
 pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
 pub use operations::{MergedVertices, Subdivided};
+pub use operations::{LoopCut, LoopCutSettings};
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;

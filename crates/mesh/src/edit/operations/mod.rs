@@ -12,3 +12,7 @@ mod subdivide;
 
 pub use merge::MergedVertices;
 pub use subdivide::Subdivided;
+mod loop_cut;
+mod slide;
+
+pub use loop_cut::{LoopCut, LoopCutSettings};
