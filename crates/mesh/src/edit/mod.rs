@@ -16,10 +16,12 @@ mod euler;
 mod from_mesh;
 mod ids;
 mod layers;
+mod measure;
 mod operations;
 mod records;
 mod refusal;
 mod rings;
+mod sharp_normals;
 mod skin;
 mod slots;
 #[cfg(test)]
@@ -34,6 +36,9 @@ pub use edit_mesh::EditMesh;
 pub use euler::{SplitEdge, SplitFace};
 pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
+pub use operations::{
+    Falloff, FalloffDistance, FalloffShape, MoveSession, RecalculatedNormals, Transform, VisibilityChange,
+};
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;

@@ -5,3 +5,11 @@
 //! A refusal leaves the mesh as it was.
 
 mod delete;
+mod hide;
+mod marks;
+mod recalculate_normals;
+mod transform;
+
+pub use hide::VisibilityChange;
+pub use recalculate_normals::RecalculatedNormals;
+pub use transform::{Falloff, FalloffDistance, FalloffShape, MoveSession, Transform};
