@@ -37,7 +37,8 @@ pub use euler::{SplitEdge, SplitFace};
 pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
 pub use operations::{
-    Falloff, FalloffDistance, FalloffShape, MoveSession, RecalculatedNormals, Transform, VisibilityChange,
+    Falloff, FalloffDistance, FalloffShape, Mirrored, MoveSession, RecalculatedNormals, Symmetrized,
+    Transform, VisibilityChange,
 };
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;

@@ -7,9 +7,13 @@
 mod delete;
 mod hide;
 mod marks;
+mod mirror;
 mod recalculate_normals;
+mod symmetrize;
 mod transform;
 
 pub use hide::VisibilityChange;
+pub use mirror::Mirrored;
 pub use recalculate_normals::RecalculatedNormals;
+pub use symmetrize::Symmetrized;
 pub use transform::{Falloff, FalloffDistance, FalloffShape, MoveSession, Transform};

@@ -20,7 +20,7 @@ const FLAT: f64 = 4e-5;
 
 /// The normals and tangents of the faces at vertices that move, from before they do.
 #[derive(Debug, Clone, Default)]
-pub(super) struct GivenNormals {
+pub(in super::super) struct GivenNormals {
     faces: Vec<FaceStart>,
     /// Those of each face in turn.
     corners: Vec<CornerStart>,
@@ -45,7 +45,11 @@ struct CornerStart {
 
 impl GivenNormals {
     /// Of the faces at some vertices, each of which moves wholly or in part.
-    pub(super) fn at(mesh: &EditMesh, vertices: &[VertexId], is_whole: impl Fn(usize) -> bool) -> Self {
+    pub(in super::super) fn at(
+        mesh: &EditMesh,
+        vertices: &[VertexId],
+        is_whole: impl Fn(usize) -> bool,
+    ) -> Self {
         let mut given = Self::default();
         if !mesh.has_given_directions() {
             return given;
@@ -76,7 +80,7 @@ impl GivenNormals {
 
     /// Turns them by the matrix by which directions turn, or clears them without one and where
     /// faces bend.
-    pub(super) fn apply(&self, mesh: &mut EditMesh, linear: Option<&DMat3>) {
+    pub(in super::super) fn apply(&self, mesh: &mut EditMesh, linear: Option<&DMat3>) {
         let turn = linear.map(|matrix| (matrix, cofactors(matrix)));
         let mut corners = self.corners.iter();
         for start in &self.faces {

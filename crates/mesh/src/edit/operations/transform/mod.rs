@@ -15,6 +15,8 @@ mod session;
 #[cfg(test)]
 mod tests;
 
+pub(super) use given_normals::GivenNormals;
+
 pub use falloff::{Falloff, FalloffDistance, FalloffShape};
 pub use kind::Transform;
 pub use session::MoveSession;

@@ -129,11 +129,20 @@ impl MoveSession {
             self.restore(mesh);
             return Ok(());
         }
-        for (vertex, &place) in self.vertices.iter().zip(&self.places) {
-            *mesh.positions.write(vertex.0) = place;
-        }
+        self.write(mesh, &self.places);
         self.given.apply(mesh, prepared.linear().as_ref());
         Ok(())
+    }
+
+    fn write(&self, mesh: &mut EditMesh, places: &[Vec3]) {
+        let moved = self.vertices.iter().zip(places);
+        if self.vertices.len() > mesh.vertex_capacity() / 2 {
+            // One copy of the old list takes less time and memory than a note for each.
+            let positions = mesh.positions.write_all();
+            moved.for_each(|(vertex, &place)| positions[vertex.0 as usize] = place);
+        } else {
+            moved.for_each(|(vertex, &place)| *mesh.positions.write(vertex.0) = place);
+        }
     }
 
     fn find_places(&mut self, prepared: &Prepared) {
@@ -167,9 +176,7 @@ impl MoveSession {
     }
 
     fn restore(&self, mesh: &mut EditMesh) {
-        for (vertex, &start) in self.vertices.iter().zip(&self.starts) {
-            *mesh.positions.write(vertex.0) = start;
-        }
+        self.write(mesh, &self.starts);
         self.given.restore(mesh);
     }
 
