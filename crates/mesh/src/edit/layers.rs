@@ -163,6 +163,26 @@ impl Layer {
         for_column!(&self.values, column => column.len())
     }
 
+    /// Of an element that is seen in a mirror with this unit normal: directions and what morph
+    /// targets add are mirrored, and bitangents turn to the other side.
+    pub(super) fn reflect(&mut self, index: u32, normal: DVec3) {
+        let reflected = |vector: Vec3| {
+            let vector = vector.as_dvec3();
+            (vector - normal * (2.0 * normal.dot(vector))).as_vec3()
+        };
+        match (&mut self.values, self.kind) {
+            (LayerValues::Vec3(column), _) => {
+                let vector = column.write(index);
+                *vector = reflected(*vector);
+            }
+            (LayerValues::Vec4(column), LayerKind::Tangent) => {
+                let tangent = column.write(index);
+                *tangent = reflected(tangent.truncate()).extend(-tangent.w);
+            }
+            _ => {}
+        }
+    }
+
     /// Of a corner whose face turns over: normals point the other way, so bitangents would, too.
     pub(super) fn turn_over(&mut self, index: u32) {
         match (&mut self.values, self.kind) {

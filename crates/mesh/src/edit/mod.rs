@@ -17,10 +17,12 @@ mod euler;
 mod from_mesh;
 mod ids;
 mod layers;
+mod measure;
 mod operations;
 mod records;
 mod refusal;
 mod rings;
+mod sharp_normals;
 mod skin;
 mod slots;
 #[cfg(test)]
@@ -37,6 +39,10 @@ pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
 pub use operations::{MergedVertices, Subdivided};
 pub use operations::{LoopCut, LoopCutSettings};
+pub use operations::{
+    Falloff, FalloffDistance, FalloffShape, Mirrored, MoveSession, RecalculatedNormals, Symmetrized,
+    Transform, VisibilityChange,
+};
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;

@@ -1,6 +1,8 @@
 //! From a mesh that was edited to one that is shown and saved: without free slots, in the
 //! order of indices.
 
+use trigon_math::Vec3;
+
 use super::column::Column;
 use super::edit_mesh::EditMesh;
 use super::ids::{CornerId, EdgeId, FaceId, VertexId};
@@ -8,6 +10,7 @@ use super::layers::{LayerKind, LayerValues};
 use super::records::{POINT, SMOOTH};
 use super::skin::{Influences, MOST};
 use crate::mesh::Parts;
+use crate::normals::or_if_zero;
 use crate::{Attributes, Deltas, Mesh, MorphTarget, SkinWeights};
 
 /// For each element of a [`Mesh`] which one it was while it was edited.
@@ -39,7 +42,8 @@ impl ElementMap {
 
 impl EditMesh {
     /// The mesh without free slots, elements in the order of their indices, and which
-    /// element each was. First positions, marks of edges and what is hidden have no place in it.
+    /// element each was. First positions, creases, seams and what is hidden have no place in it;
+    /// sharp edges between smooth faces show in the normals of the corners there.
     pub fn to_mesh(&self) -> (Mesh, ElementMap) {
         let mut map = ElementMap {
             vertices: self.vertices().collect(),
@@ -70,8 +74,19 @@ impl EditMesh {
             loose_edges: map.loose_edges.iter().map(|&edge| self.edge_vertices(edge).map(number)).collect(),
             loose_points: map.vertices.iter().filter(is_point).map(|&vertex| number(vertex)).collect(),
         });
-        *mesh.attributes_mut() = self.attributes(&map);
+        let mut attributes = self.attributes(&map);
+        self.show_sharp_edges(&map, &mut attributes);
+        *mesh.attributes_mut() = attributes;
         (mesh, map)
+    }
+
+    /// Gives normals to corners at sharp edges that have none of their own.
+    fn show_sharp_edges(&self, map: &ElementMap, attributes: &mut Attributes) {
+        let Some(of_fans) = self.sharp_normals() else { return };
+        let normals = attributes.corner_normals.get_or_insert_with(|| vec![Vec3::ZERO; map.corners.len()]);
+        for (normal, corner) in normals.iter_mut().zip(&map.corners) {
+            *normal = or_if_zero(*normal, of_fans[corner.0 as usize]);
+        }
     }
 
     fn attributes(&self, map: &ElementMap) -> Attributes {

@@ -16,3 +16,15 @@ mod loop_cut;
 mod slide;
 
 pub use loop_cut::{LoopCut, LoopCutSettings};
+mod hide;
+mod marks;
+mod mirror;
+mod recalculate_normals;
+mod symmetrize;
+mod transform;
+
+pub use hide::VisibilityChange;
+pub use mirror::Mirrored;
+pub use recalculate_normals::RecalculatedNormals;
+pub use symmetrize::Symmetrized;
+pub use transform::{Falloff, FalloffDistance, FalloffShape, MoveSession, Transform};

@@ -1,0 +1,3 @@
+//! Measures of what is edited: normals, areas, lengths, angles, bounds, volume.
+
+mod faces;

@@ -1,0 +1,22 @@
+//! Moving vertices: translate, rotate, scale, shear, to sphere, along normals, push and pull,
+//! with proportional falloff.
+//!
+//! Everything starts from the places at which vertices were when a [`MoveSession`] began: each
+//! new place is computed from these in f64 and rounded once, so a drag of a thousand steps
+//! ends where one step would.
+
+mod along_edges;
+mod falloff;
+mod given_normals;
+mod kind;
+mod nearest;
+mod reset;
+mod session;
+#[cfg(test)]
+mod tests;
+
+pub(super) use given_normals::GivenNormals;
+
+pub use falloff::{Falloff, FalloffDistance, FalloffShape};
+pub use kind::Transform;
+pub use session::MoveSession;
