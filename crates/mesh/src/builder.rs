@@ -163,16 +163,20 @@ impl MeshBuilder {
     /// Half-edges (corners and loose edges) are numbered together while edges
     /// are searched, so one limit holds for both; faces are fewer.
     fn check_room(&self, more: usize) -> Result<(), MeshError> {
-        let used = self.corner_vertices.len() + self.loose_edges.len();
-        if used + more > LIMIT as usize {
-            return Err(MeshError::TooMany { what: "corners and loose edges", limit: LIMIT });
-        }
-        Ok(())
+        check_room(self.corner_vertices.len() + self.loose_edges.len() + more)
     }
 }
 
+/// Whether so many corners and loose edges can be numbered.
+pub(crate) fn check_room(half_edges: usize) -> Result<(), MeshError> {
+    if half_edges > LIMIT as usize {
+        return Err(MeshError::TooMany { what: "corners and loose edges", limit: LIMIT });
+    }
+    Ok(())
+}
+
 /// Counts distinct vertices, but stops at three.
-fn distinct_up_to_3(vertices: &[u32]) -> usize {
+pub(crate) fn distinct_up_to_3(vertices: &[u32]) -> usize {
     let Some(&a) = vertices.first() else { return 0 };
     let Some(&b) = vertices.iter().find(|&&v| v != a) else {
         return 1;

@@ -50,6 +50,14 @@ pub enum MeshError {
         /// The most that fits.
         limit: u32,
     },
+    /// The sizes of faces do not add up to the number of corners.
+    #[error("the faces have {expected} corners in all, but {found} are given: give each face its corners")]
+    CornerCount {
+        /// The sum of the faces' sizes.
+        expected: u64,
+        /// How many were given.
+        found: usize,
+    },
     /// An attribute list has not one value per element.
     #[error("{attribute} has {found} values, but the mesh has {expected} {element}: give one each")]
     AttributeLength {

@@ -48,6 +48,7 @@
 mod attributes;
 mod builder;
 mod change;
+mod columns;
 mod deform;
 mod edges;
 pub mod edit;
@@ -68,6 +69,7 @@ mod weld;
 pub use attributes::Attributes;
 pub use builder::MeshBuilder;
 pub use change::{ChangeError, ChangedElements, MeshChange, RenderLinks, RenderUpdate, UpdatedVertex};
+pub use columns::MeshColumns;
 pub use deform::{Deformed, Deltas, FlatFaces, MorphTarget, SkinWeights};
 pub use error::MeshError;
 pub use mesh::Mesh;

@@ -18,6 +18,7 @@ mod from_mesh;
 mod ids;
 mod layers;
 mod measure;
+mod marks;
 mod operations;
 mod records;
 mod refusal;
@@ -43,6 +44,7 @@ pub use operations::{
     Falloff, FalloffDistance, FalloffShape, Mirrored, MoveSession, RecalculatedNormals, Symmetrized,
     Transform, VisibilityChange,
 };
+pub use marks::{EdgeMark, Marks, MarksError};
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;

@@ -7,6 +7,9 @@ use super::layers::Blend;
 /// The most joints that a vertex follows while it is edited.
 pub(super) const MOST: usize = 8;
 
+/// More than the sum of [`MOST`] weights that were rounded to f32 can be off.
+const ROUNDING: f64 = 1e-6;
+
 /// Joints and their weights, the heaviest first. Weights sum to 1, unless all are 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Influences {
@@ -16,11 +19,12 @@ pub(super) struct Influences {
 
 impl Influences {
     /// From any number of joints, each at most once: the heaviest [`MOST`], so scaled that they
-    /// sum to 1.
+    /// sum to 1. Weights that do so already, but for rounding, keep their bits.
     pub(super) fn heaviest(mut all: Vec<(u16, f64)>) -> Self {
         all.sort_by(|a, b| b.1.partial_cmp(&a.1).unwrap_or(Ordering::Equal).then(a.0.cmp(&b.0)));
         all.truncate(MOST);
         let sum: f64 = all.iter().map(|(_, weight)| weight).sum();
+        let sum = if (sum - 1.0).abs() <= ROUNDING { 1.0 } else { sum };
         let mut influences = Self::default();
         if sum > 0.0 {
             for (slot, (joint, weight)) in all.into_iter().enumerate() {
@@ -67,5 +71,15 @@ mod tests {
         assert_eq!(kept.joints, [11, 10, 9, 8, 7, 6, 5, 4], "the heaviest");
         let sum: f32 = kept.weights.iter().sum();
         assert!((sum - 1.0).abs() < 1e-6, "rounded sum of eight is {sum}");
+    }
+
+    #[test]
+    fn weights_that_are_scaled_stay_as_they_are() {
+        let thirds = Influences::heaviest(vec![(0, 1.0), (1, 1.0), (2, 1.0), (3, 4.0)]);
+        let again = |from: Influences| {
+            let all = from.joints.into_iter().zip(from.weights.map(f64::from));
+            Influences::heaviest(all.filter(|&(_, weight)| weight > 0.0).collect())
+        };
+        assert_eq!(again(thirds), thirds, "to the last bit");
     }
 }

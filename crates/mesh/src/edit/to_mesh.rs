@@ -143,12 +143,19 @@ fn morph_target(attributes: &mut Attributes, number: u16) -> &mut MorphTarget {
     &mut targets[number as usize]
 }
 
-/// As many joints for each vertex as the busiest has.
+/// As many joints for each vertex as the busiest has; a vertex without any follows the first.
+/// All others keep the bits of their weights.
 fn skin(map: &ElementMap, column: &Column<Influences>) -> Option<SkinWeights> {
-    let of_vertices = || map.vertices.iter().map(|vertex| column[vertex.0]);
+    let lone = |mut influences: Influences| {
+        if influences.weights[0] == 0.0 {
+            influences.weights[0] = 1.0;
+        }
+        influences
+    };
+    let of_vertices = || map.vertices.iter().map(|vertex| lone(column[vertex.0]));
     let used = |influences: Influences| influences.weights.iter().take_while(|&&weight| weight > 0.0).count();
     let per_vertex = of_vertices().map(used).max().unwrap_or(0).clamp(1, MOST);
     let joints = of_vertices().flat_map(|influences| influences.joints.into_iter().take(per_vertex));
     let weights = of_vertices().flat_map(|influences| influences.weights.into_iter().take(per_vertex));
-    SkinWeights::new(per_vertex, joints.collect(), weights.collect())
+    SkinWeights::from_normalized(per_vertex, joints.collect(), weights.collect())
 }
