@@ -59,7 +59,17 @@ fn any_command() -> impl Strategy<Value = serde_json::Value> {
     prop_oneof![
         6 => plain.prop_map(|op| json!({ "op": op })),
         2 => kind.prop_map(|kind| json!({ "op": "set_element_kind", "kind": kind })),
-        2 => what.prop_map(|what| json!({ "op": "delete", "what": what })),
+        1 => what.prop_map(|what| json!({ "op": "delete", "what": what })),
+        2 => prop::array::uniform3(-1.0f64..1.0).prop_map(|v| json!({ "op": "translate", "offset": v })),
+        1 => (-1.0f64..1.0).prop_map(|turn| json!({ "op": "rotate", "angle": turn * 90.0, "center": [1, 0, 0] })),
+        1 => Just(json!({ "op": "subdivide" })),
+        1 => (0.0f64..2.0).prop_map(|near| json!({ "op": "merge", "at": "distance", "distance": near })),
+        1 => any::<bool>().prop_map(|linked| json!({ "op": "duplicate_objects", "linked": linked })),
+        1 => Just(json!({ "op": "add_object", "object": { "shape": "cube", "edge": 1.0 } })),
+        1 => Just(json!({ "op": "add_light", "light": "spot" })),
+        1 => any::<bool>().prop_map(|visible| json!({ "op": "show_objects", "visible": visible })),
+        1 => Just(json!({ "op": "rename_object", "object": 1, "name": "another" })),
+        1 => (0u32..3).prop_map(|parent| json!({ "op": "set_parent", "parent": parent })),
         1 => Just(json!({ "op": "edit_objects", "objects": ["grid", 0] })),
         4 => (action, 0u32..2, prop::collection::vec(0u32..20, 0..6)).prop_map(|(action, object, elements)| {
             json!({ "op": "select", "objects": [object], "elements": elements, "action": action })

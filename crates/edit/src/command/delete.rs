@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Action, Outcome};
-use crate::document::Change;
+use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::ElementKind;
 
@@ -45,7 +45,7 @@ impl Action for Delete {
                 Deleted::Faces => mesh.delete_faces(&selection.faces(mesh, kind))?,
                 Deleted::OnlyFaces => mesh.delete_only_faces(&selection.faces(mesh, kind))?,
             }
-            Ok(None)
+            Ok(AfterEdit::Clear)
         })?;
         Ok(Outcome::silent())
     }
@@ -69,6 +69,6 @@ impl Action for DeleteObjects {
         change.selection_mut().active = None;
         let scene = change.scene_mut();
         let count: usize = objects.into_iter().map(|object| scene.remove(object)).sum();
-        Ok(Outcome::with_message(format!("deleted {count} object{}", if count == 1 { "" } else { "s" })))
+        Ok(Outcome::counted("deleted", count, ["object", "objects"]))
     }
 }

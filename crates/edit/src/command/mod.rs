@@ -5,13 +5,21 @@
 //! Its description, for scripts and for the documentation, is made from the comments of its
 //! parameters.
 
+mod cut;
 mod delete;
+mod marks;
+mod merge;
+mod mirror;
 mod mode;
+mod normals;
 mod objects;
 mod outcome;
+mod reference;
+mod scene;
 mod select;
 mod select_property;
 mod select_related;
+mod transform;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -19,15 +27,28 @@ use serde::{Deserialize, Serialize};
 use crate::document::Change;
 use crate::error::EditError;
 
+pub use cut::{LoopCut, SlideEdges, Subdivide};
 pub use delete::{Delete, DeleteObjects, Deleted};
+pub use marks::{AssignMaterial, Crease, Hide, MarkSeam, MarkSharp, Reveal, Shade};
+pub use merge::{Merge, MergeAt};
+pub use mirror::{Mirror, MirrorPlane, Symmetrize};
 pub use mode::{EditObjects, LeaveEditMode, SetElementKind};
+pub use normals::{FlipNormals, RecalculateNormals};
 pub use objects::ObjectName;
 pub use outcome::Outcome;
+pub use reference::command_reference;
+pub use scene::{
+    AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, SetParent, Shape, ShowObjects,
+};
 pub use select::{Select, SelectAction, SelectAll, SelectInverse, SelectNone};
 pub use select_property::{
     SelectBorder, SelectByMaterial, SelectByNormal, SelectNonManifold, SelectSharp, SelectSimilar,
 };
 pub use select_related::{SelectLess, SelectLinked, SelectLoop, SelectMore, SelectPath, SelectRing};
+pub use transform::{
+    Proportional, ProportionalShape, PushPull, ResetVertices, Rotate, Scale, Shear, ShrinkFatten, ToSphere,
+    Translate,
+};
 
 /// What a command does to a document.
 pub(crate) trait Action {
@@ -123,4 +144,62 @@ commands! {
     Delete("Delete", false),
     /// Deletes the selected objects and what hangs on them.
     DeleteObjects("Delete Objects", false),
+    /// Moves what is selected.
+    Translate("Move", false),
+    /// Turns what is selected.
+    Rotate("Rotate", false),
+    /// Scales what is selected.
+    Scale("Scale", false),
+    /// Shears the selected vertices.
+    Shear("Shear", false),
+    /// Moves the selected vertices towards a sphere.
+    ToSphere("To Sphere", false),
+    /// Moves the selected vertices along their normals.
+    ShrinkFatten("Shrink/Fatten", false),
+    /// Moves the selected vertices away from a centre.
+    PushPull("Push/Pull", false),
+    /// Takes the selected vertices back to their first positions.
+    ResetVertices("Reset to First Positions", false),
+    /// Cuts the selected edges into pieces.
+    Subdivide("Subdivide", false),
+    /// Cuts loops across a ring of quads.
+    LoopCut("Loop Cut", false),
+    /// Slides loops of edges.
+    SlideEdges("Slide Edges", false),
+    /// Merges the selected vertices.
+    Merge("Merge", false),
+    /// Marks edges sharp.
+    MarkSharp("Mark Sharp", false),
+    /// Marks edges as seams.
+    MarkSeam("Mark Seam", false),
+    /// Sets the crease of edges.
+    Crease("Crease", false),
+    /// Shades faces smoothly or flat.
+    Shade("Shade Smooth/Flat", false),
+    /// Gives faces a material slot.
+    AssignMaterial("Assign Material", false),
+    /// Hides what is selected.
+    Hide("Hide", false),
+    /// Shows all that is hidden.
+    Reveal("Reveal", false),
+    /// Turns faces over.
+    FlipNormals("Flip Normals", false),
+    /// Lets faces look outwards.
+    RecalculateNormals("Recalculate Normals", false),
+    /// Mirrors what is selected.
+    Mirror("Mirror", false),
+    /// Makes faces symmetric.
+    Symmetrize("Symmetrize", false),
+    /// Adds a standard object.
+    AddObject("Add Object", false),
+    /// Adds a light.
+    AddLight("Add Light", false),
+    /// Gives an object another name.
+    RenameObject("Rename", false),
+    /// Shows or hides objects.
+    ShowObjects("Show/Hide Objects", false),
+    /// Hangs objects on another one.
+    SetParent("Set Parent", false),
+    /// Copies objects.
+    DuplicateObjects("Duplicate Objects", false),
 }

@@ -13,6 +13,11 @@ impl Outcome {
         Self::default()
     }
 
+    /// As "merged 12 vertices".
+    pub(crate) fn counted(verb: &str, count: usize, [one, many]: [&str; 2]) -> Self {
+        Self::with_message(format!("{verb} {count} {}", if count == 1 { one } else { many }))
+    }
+
     pub(crate) fn with_message(message: impl Into<String>) -> Self {
         Self { message: message.into() }
     }

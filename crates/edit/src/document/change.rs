@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use trigon_mesh::edit::{Difference, EditMesh, Refusal};
+use trigon_mesh::edit::{Difference, EdgeId, EditMesh, FaceId, Refusal, VertexId};
 use trigon_scene::{MeshId, NodeId, Scene, SceneError, SceneParts};
 
 use super::Document;
@@ -14,6 +14,16 @@ pub(crate) struct Change<'d> {
     pub(super) document: &'d mut Document,
     pub(super) meshes: Vec<(MeshId, Difference)>,
     pub(super) parts: Option<Box<SceneParts>>,
+}
+
+/// What is selected of a mesh after it was changed.
+pub(crate) enum AfterEdit {
+    /// What was.
+    Keep,
+    /// Nothing.
+    Clear,
+    /// These, or what represents them in the kind that is selected.
+    Select(Elements),
 }
 
 impl Change<'_> {
@@ -71,6 +81,20 @@ impl Change<'_> {
         Ok(result)
     }
 
+    /// A copy of a mesh as it is now, for another object.
+    pub(crate) fn copy_mesh(&mut self, id: MeshId) -> Option<MeshId> {
+        let asset = self.document.scene.meshes().get(id)?;
+        let (name, mesh) = (asset.name.clone(), asset.mesh().clone());
+        let edited = self.document.meshes.get(&id).cloned();
+        // Meshes are only ever added, so this needs no record: an undone copy stays unused.
+        let copy = self.document.scene.add_mesh(name, mesh);
+        if let Some(edited) = edited {
+            self.document.meshes.insert(copy, edited);
+            self.document.stale.insert(copy);
+        }
+        Some(copy)
+    }
+
     /// The meshes of objects that have one, each once, in the order of objects.
     pub(crate) fn meshes_of(&self, objects: impl IntoIterator<Item = NodeId>) -> Vec<MeshId> {
         let mut meshes = Vec::new();
@@ -82,13 +106,13 @@ impl Change<'_> {
     }
 
     /// Changes each mesh that is edited and of which something is selected; the change is given what
-    /// is selected, and tells what is to be selected afterwards (`None`: nothing). A mesh
+    /// is selected, and tells what is to be selected afterwards. A mesh
     /// that refuses is passed over if another does not.
     pub(crate) fn edit_selected(
         &mut self,
         command: &'static str,
         needed: &'static str,
-        mut operation: impl FnMut(&mut EditMesh, &MeshSelection) -> Result<Option<Elements>, Refusal>,
+        mut operation: impl FnMut(&mut EditMesh, &MeshSelection) -> Result<AfterEdit, Refusal>,
     ) -> Result<usize, EditError> {
         if !self.selection().is_editing() {
             return Err(EditError::NotEditing(command));
@@ -107,8 +131,9 @@ impl Change<'_> {
                     let (selections, meshes) = self.selection_and_meshes();
                     if let (Some(selection), Some(mesh)) = (selections.of_mut(id), meshes.get(&id)) {
                         match result {
-                            Some(elements) => selection.select(mesh, kind, &elements),
-                            None => selection.clear(),
+                            AfterEdit::Select(elements) => selection.select(mesh, kind, &elements),
+                            AfterEdit::Clear => selection.clear(),
+                            AfterEdit::Keep => {}
                         }
                     }
                 }
@@ -120,5 +145,47 @@ impl Change<'_> {
             (0, None) => Err(EditError::NothingSelected { command, needed }),
             _ => Ok(count),
         }
+    }
+
+    /// Changes the selected vertices of each mesh that is edited; what is selected stays so.
+    pub(crate) fn edit_selected_vertices(
+        &mut self,
+        command: &'static str,
+        needed: &'static str,
+        mut operation: impl FnMut(&mut EditMesh, &[VertexId]) -> Result<(), Refusal>,
+    ) -> Result<usize, EditError> {
+        let kind = self.selection().kind();
+        self.edit_selected(command, needed, |mesh, selection| {
+            operation(mesh, &selection.vertices(mesh, kind))?;
+            Ok(AfterEdit::Keep)
+        })
+    }
+
+    /// Changes the selected edges of each mesh that is edited; what is selected stays so.
+    pub(crate) fn edit_selected_edges(
+        &mut self,
+        command: &'static str,
+        needed: &'static str,
+        mut operation: impl FnMut(&mut EditMesh, &[EdgeId]) -> Result<(), Refusal>,
+    ) -> Result<usize, EditError> {
+        let kind = self.selection().kind();
+        self.edit_selected(command, needed, |mesh, selection| {
+            operation(mesh, &selection.edges(mesh, kind))?;
+            Ok(AfterEdit::Keep)
+        })
+    }
+
+    /// Changes the selected faces of each mesh that is edited; what is selected stays so.
+    pub(crate) fn edit_selected_faces(
+        &mut self,
+        command: &'static str,
+        needed: &'static str,
+        mut operation: impl FnMut(&mut EditMesh, &[FaceId]) -> Result<(), Refusal>,
+    ) -> Result<usize, EditError> {
+        let kind = self.selection().kind();
+        self.edit_selected(command, needed, |mesh, selection| {
+            operation(mesh, &selection.faces(mesh, kind))?;
+            Ok(AfterEdit::Keep)
+        })
     }
 }

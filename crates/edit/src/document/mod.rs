@@ -13,7 +13,7 @@ use crate::history::{Entry, History};
 use crate::recovery::Event;
 use crate::selection::Selection;
 
-pub(crate) use change::Change;
+pub(crate) use change::{AfterEdit, Change};
 
 /// A scene that is edited by commands.
 ///

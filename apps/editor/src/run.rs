@@ -1,0 +1,57 @@
+//! A script from the first to the last command, and the result in a file.
+
+use std::path::Path;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use trigon_edit::{Disk, Document, Script, save};
+use trigon_io::LoadOptions;
+
+use crate::arguments::Arguments;
+use crate::report;
+
+/// Runs what the command line asks for.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
+    let (Some(script), Some(output)) = (&arguments.run, &arguments.output) else {
+        return Err("a script and an output are needed: --run SCRIPT --output FILE".into());
+    };
+    let script = read_script(script)?;
+    let mut document = open(arguments)?;
+    run_script(&script, &mut document, arguments.quiet)?;
+    let file = document.encode().map_err(|error| error.to_string())?;
+    if !file.losses.is_empty() {
+        file.losses.iter().for_each(|loss| report("warning", &format!("would be lost: {loss}")));
+        if !arguments.accept_losses {
+            return Err("nothing is written; --accept-losses writes the file all the same".into());
+        }
+    }
+    save(&mut Disk, output, &file.bytes).map_err(|error| error.to_string())
+}
+
+fn read_script(path: &Path) -> Result<Script, String> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| format!("{}: cannot be read ({error})", path.display()))?;
+    Script::from_json(&text).map_err(|error| format!("{}, {error}", path.display()))
+}
+
+fn open(arguments: &Arguments) -> Result<Document, String> {
+    let Some(path) = &arguments.file else { return Ok(Document::default()) };
+    let (document, warnings) =
+        Document::open(path, &LoadOptions::default()).map_err(|error| error.to_string())?;
+    if !arguments.quiet {
+        warnings.iter().for_each(|warning| report("warning", &warning.to_string()));
+    }
+    Ok(document)
+}
+
+fn run_script(script: &Script, document: &mut Document, quiet: bool) -> Result<(), String> {
+    let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(script.commands.len() as u64) };
+    // Drawn at most some times a second, and only where somebody looks.
+    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} {msg}").expect("a valid template");
+    bar.set_style(style);
+    let result = script.run(document, |progress| {
+        bar.set_position(progress.index as u64);
+        bar.set_message(progress.command.name());
+    });
+    bar.finish_and_clear();
+    result.map_err(|error| error.to_string())
+}

@@ -1,0 +1,106 @@
+//! Extruding and insetting.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trigon_mesh::edit::{ExtrudeOffset, Inset as InsetSettings};
+use trigon_mesh::math::DVec3;
+
+use super::{Action, Outcome};
+use crate::document::{AfterEdit, Change};
+use crate::error::EditError;
+use crate::selection::{ElementKind, Elements};
+
+/// Extrudes what is selected: faces as a region, edges to faces, vertices to edges. What was extruded
+/// is selected, and moves.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Extrude {
+    /// How far along normals, in metres; of faces only.
+    pub distance: f64,
+    /// How far in addition, in metres.
+    pub offset: [f64; 3],
+    /// Whether each face is extruded by itself.
+    pub individual: bool,
+}
+
+impl Action for Extrude {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        let offset = DVec3::from(self.offset);
+        change.edit_selected("extruding", "something selected", |mesh, selection| {
+            let faces = selection.faces(mesh, kind);
+            if !faces.is_empty() {
+                let along = ExtrudeOffset::Along(self.distance);
+                let made = if self.individual {
+                    mesh.extrude_individual(&faces, along)?
+                } else {
+                    mesh.extrude_region(&faces, along)?
+                };
+                if offset != DVec3::ZERO {
+                    let moved = trigon_mesh::edit::Transform::Translate { offset };
+                    mesh.transform_vertices(&made.vertices, &moved, None)?;
+                }
+                return Ok(AfterEdit::Select(Elements::Faces(faces)));
+            }
+            let edges = selection.edges(mesh, kind);
+            if !edges.is_empty() && kind != ElementKind::Vertex || edges.len() > 1 {
+                return Ok(AfterEdit::Select(Elements::Edges(mesh.extrude_edges(&edges, offset)?.edges)));
+            }
+            let made = mesh.extrude_vertices(&selection.vertices(mesh, kind), offset)?;
+            Ok(AfterEdit::Select(Elements::Vertices(made.vertices)))
+        })?;
+        Ok(Outcome::silent())
+    }
+}
+
+/// What an inset shrinks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum InsetMode {
+    /// The selected faces together.
+    #[default]
+    Region,
+    /// Each selected face by itself.
+    Individual,
+    /// The faces around the selected ones.
+    Outset,
+}
+
+/// Makes a rim of faces inside the selected ones.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Inset {
+    /// How wide the rim is, in metres.
+    #[schemars(range(min = 0.0))]
+    pub thickness: f64,
+    /// How far the faces are moved along their normals, in metres.
+    pub depth: f64,
+    /// What shrinks.
+    pub mode: InsetMode,
+    /// Whether there is a rim at open borders of the mesh, too.
+    pub open_borders: bool,
+}
+
+impl Default for Inset {
+    fn default() -> Self {
+        Self { thickness: 0.1, depth: 0.0, mode: InsetMode::default(), open_borders: true }
+    }
+}
+
+impl Action for Inset {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        let (thickness, depth, open_borders) = (self.thickness, self.depth, self.open_borders);
+        let settings = InsetSettings { thickness, depth, open_borders };
+        change.edit_selected("insetting", "at least one selected face", |mesh, selection| {
+            let faces = selection.faces(mesh, kind);
+            match self.mode {
+                InsetMode::Region => mesh.inset_region(&faces, settings)?,
+                InsetMode::Individual => mesh.inset_individual(&faces, settings)?,
+                InsetMode::Outset => mesh.outset_region(&faces, settings)?,
+            };
+            Ok(AfterEdit::Select(Elements::Faces(faces)))
+        })?;
+        Ok(Outcome::silent())
+    }
+}

@@ -1,0 +1,170 @@
+//! What users mark elements with: sharp, seam, crease, smooth, material, hidden.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Action, Outcome};
+use crate::document::{AfterEdit, Change};
+use crate::error::EditError;
+use crate::selection::ElementKind;
+
+const EDGES: &str = "at least one selected edge";
+const FACES: &str = "at least one selected face";
+
+/// Marks the selected edges sharp, or clears the mark.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct MarkSharp {
+    /// Whether the mark is set.
+    pub sharp: bool,
+    /// Marks those whose faces meet at more than this angle in degrees, and clears the others.
+    pub angle: Option<f64>,
+}
+
+impl Default for MarkSharp {
+    fn default() -> Self {
+        Self { sharp: true, angle: None }
+    }
+}
+
+impl Action for MarkSharp {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let mut count = 0;
+        change.edit_selected_edges("marking edges", EDGES, |mesh, edges| {
+            count += match self.angle {
+                Some(angle) => mesh.mark_sharp_by_angle(edges, angle.to_radians())?,
+                None if self.sharp => mesh.mark_sharp(edges)?,
+                None => mesh.clear_sharp(edges)?,
+            };
+            Ok(())
+        })?;
+        Ok(Outcome::counted("changed", count, ["edge", "edges"]))
+    }
+}
+
+/// Marks the selected edges as seams of texture coordinates, or clears the mark.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct MarkSeam {
+    /// Whether the mark is set.
+    pub seam: bool,
+}
+
+impl Default for MarkSeam {
+    fn default() -> Self {
+        Self { seam: true }
+    }
+}
+
+impl Action for MarkSeam {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let mut count = 0;
+        change.edit_selected_edges("marking seams", EDGES, |mesh, edges| {
+            count += if self.seam { mesh.mark_seams(edges)? } else { mesh.clear_seams(edges)? };
+            Ok(())
+        })?;
+        Ok(Outcome::counted("changed", count, ["edge", "edges"]))
+    }
+}
+
+/// Sets how sharp the selected edges stay in Catmull-Clark subdivision.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Crease {
+    /// 0 (smooth) to 1 (sharp).
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub crease: f32,
+}
+
+impl Action for Crease {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let mut count = 0;
+        change.edit_selected_edges("creasing edges", EDGES, |mesh, edges| {
+            count += mesh.crease_edges(edges, self.crease)?;
+            Ok(())
+        })?;
+        Ok(Outcome::counted("changed", count, ["edge", "edges"]))
+    }
+}
+
+/// Shades the selected faces smoothly, or flat.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Shade {
+    /// Whether smoothly.
+    pub smooth: bool,
+}
+
+impl Default for Shade {
+    fn default() -> Self {
+        Self { smooth: true }
+    }
+}
+
+impl Action for Shade {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let mut count = 0;
+        change.edit_selected_faces("shading faces", FACES, |mesh, faces| {
+            count += if self.smooth { mesh.shade_smooth(faces)? } else { mesh.shade_flat(faces)? };
+            Ok(())
+        })?;
+        Ok(Outcome::counted("changed", count, ["face", "faces"]))
+    }
+}
+
+/// Gives the selected faces a material slot of their object.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct AssignMaterial {
+    /// The slot, from 0.
+    pub material: u32,
+}
+
+impl Action for AssignMaterial {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let mut count = 0;
+        change.edit_selected_faces("assigning a material", FACES, |mesh, faces| {
+            count += mesh.assign_material(faces, self.material)?;
+            Ok(())
+        })?;
+        Ok(Outcome::counted("changed", count, ["face", "faces"]))
+    }
+}
+
+/// Hides what is selected; it is selected no more.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Hide {}
+
+impl Action for Hide {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        change.edit_selected("hiding", "something selected", |mesh, selection| {
+            match kind {
+                ElementKind::Vertex => mesh.hide_vertices(&selection.vertices(mesh, kind))?,
+                ElementKind::Edge => mesh.hide_edges(&selection.edges(mesh, kind))?,
+                ElementKind::Face => mesh.hide_faces(&selection.faces(mesh, kind))?,
+            };
+            Ok(AfterEdit::Clear)
+        })?;
+        Ok(Outcome::silent())
+    }
+}
+
+/// Shows all that is hidden of the meshes that are edited.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Reveal {}
+
+impl Action for Reveal {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        if !change.selection().is_editing() {
+            return Err(EditError::NotEditing("showing hidden elements"));
+        }
+        let ids: Vec<_> = change.selection().meshes().map(|(id, _)| id).collect();
+        for id in ids {
+            change.edit(id, |mesh| Ok(mesh.reveal_all()))?;
+        }
+        Ok(Outcome::silent())
+    }
+}

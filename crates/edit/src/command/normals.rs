@@ -1,0 +1,41 @@
+//! Which side of faces is outside.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Action, Outcome};
+use crate::document::Change;
+use crate::error::EditError;
+
+const FACES: &str = "at least one selected face";
+
+/// Turns the selected faces over.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct FlipNormals {}
+
+impl Action for FlipNormals {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        change.edit_selected_faces("flipping normals", FACES, |mesh, faces| mesh.flip_faces(faces))?;
+        Ok(Outcome::silent())
+    }
+}
+
+/// Turns over those of the selected faces that look inwards.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RecalculateNormals {
+    /// Lets all look inwards instead.
+    pub inside: bool,
+}
+
+impl Action for RecalculateNormals {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let mut turned = 0;
+        change.edit_selected_faces("recalculating normals", FACES, |mesh, faces| {
+            turned += mesh.recalculate_normals(faces)?.turned.len();
+            if self.inside { mesh.flip_faces(faces) } else { Ok(()) }
+        })?;
+        Ok(Outcome::counted("turned over", turned, ["face", "faces"]))
+    }
+}

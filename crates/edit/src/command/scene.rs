@@ -1,0 +1,283 @@
+//! Objects as a whole: new ones, names, visibility, parents, copies.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trigon_mesh::math::{DVec3, Vec3};
+use trigon_mesh::{Mesh, primitives};
+use trigon_scene::{Light, Material, Node, NodeId};
+
+use super::{Action, ObjectName, Outcome};
+use crate::document::Change;
+use crate::error::EditError;
+
+/// A standard object. Lengths are in metres.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Shape {
+    Plane { width: f32, depth: f32 },
+    Grid { width: f32, depth: f32, columns: u32, rows: u32 },
+    Cube { edge: f32 },
+    UvSphere { radius: f32, segments: u32, rings: u32 },
+    Icosphere { radius: f32, subdivisions: u32 },
+    Cylinder { radius: f32, height: f32, segments: u32 },
+    Cone { radius: f32, height: f32, segments: u32 },
+    Disc { radius: f32, segments: u32 },
+    Torus { major_radius: f32, minor_radius: f32, major_segments: u32, minor_segments: u32 },
+    Pyramid { edge: f32, height: f32 },
+    Tetrahedron { edge: f32 },
+    Octahedron { edge: f32 },
+    Dodecahedron { edge: f32 },
+    Icosahedron { edge: f32 },
+    Teapot { subdivisions: u32 },
+}
+
+impl Shape {
+    /// What it is called.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Plane { .. } => "Plane",
+            Self::Grid { .. } => "Grid",
+            Self::Cube { .. } => "Cube",
+            Self::UvSphere { .. } => "Sphere",
+            Self::Icosphere { .. } => "Icosphere",
+            Self::Cylinder { .. } => "Cylinder",
+            Self::Cone { .. } => "Cone",
+            Self::Disc { .. } => "Disc",
+            Self::Torus { .. } => "Torus",
+            Self::Pyramid { .. } => "Pyramid",
+            Self::Tetrahedron { .. } => "Tetrahedron",
+            Self::Octahedron { .. } => "Octahedron",
+            Self::Dodecahedron { .. } => "Dodecahedron",
+            Self::Icosahedron { .. } => "Icosahedron",
+            Self::Teapot { .. } => "Teapot",
+        }
+    }
+
+    fn mesh(self) -> Mesh {
+        match self {
+            Self::Plane { width, depth } => primitives::plane(width, depth),
+            Self::Grid { width, depth, columns, rows } => primitives::grid(width, depth, columns, rows),
+            Self::Cube { edge } => primitives::cube(edge),
+            Self::UvSphere { radius, segments, rings } => primitives::uv_sphere(radius, segments, rings),
+            Self::Icosphere { radius, subdivisions } => primitives::icosphere(radius, subdivisions),
+            Self::Cylinder { radius, height, segments } => primitives::cylinder(radius, height, segments),
+            Self::Cone { radius, height, segments } => primitives::cone(radius, height, segments),
+            Self::Disc { radius, segments } => primitives::disc(radius, segments),
+            Self::Torus { major_radius, minor_radius, major_segments, minor_segments } => {
+                primitives::torus(major_radius, minor_radius, major_segments, minor_segments)
+            }
+            Self::Pyramid { edge, height } => primitives::pyramid(edge, height),
+            Self::Tetrahedron { edge } => primitives::tetrahedron(edge),
+            Self::Octahedron { edge } => primitives::octahedron(edge),
+            Self::Dodecahedron { edge } => primitives::dodecahedron(edge),
+            Self::Icosahedron { edge } => primitives::icosahedron(edge),
+            Self::Teapot { subdivisions } => primitives::teapot(subdivisions),
+        }
+    }
+}
+
+/// Adds a standard object and selects it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AddObject {
+    /// Which, with its measures.
+    pub object: Shape,
+    /// Its name; that of the shape if none is given.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// Where its origin is, in metres.
+    #[serde(default)]
+    pub position: [f64; 3],
+}
+
+impl Action for AddObject {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        if change.selection().is_editing() {
+            return Err(EditError::Editing("adding an object"));
+        }
+        let name = self.name.clone().unwrap_or_else(|| self.object.name().to_owned());
+        let scene = change.scene_mut();
+        let id = scene.add_object(name, self.object.mesh(), Material::default());
+        let position = DVec3::from(self.position);
+        scene.node_mut(id).expect("it was just added").transform.set_translation(position);
+        select_only(change, id);
+        Ok(Outcome::silent())
+    }
+}
+
+/// Which light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LightShape {
+    /// Shines from a point to all sides.
+    #[default]
+    Point,
+    /// Shines from far away, along −Z of its object.
+    Directional,
+    /// Shines in a cone along −Z of its object.
+    Spot,
+}
+
+/// Adds a light and selects it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct AddLight {
+    /// Which.
+    pub light: LightShape,
+    /// Its name.
+    pub name: String,
+    /// Candela for points and spots, lux for directional lights.
+    #[schemars(range(min = 0.0))]
+    pub intensity: f32,
+    /// Linear red, green and blue.
+    pub color: [f32; 3],
+    /// Where it is, in metres.
+    pub position: [f64; 3],
+}
+
+impl Default for AddLight {
+    fn default() -> Self {
+        let (light, name) = (LightShape::default(), "Light".to_owned());
+        Self { light, name, intensity: 10.0, color: [1.0; 3], position: [0.0; 3] }
+    }
+}
+
+impl Action for AddLight {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        if change.selection().is_editing() {
+            return Err(EditError::Editing("adding a light"));
+        }
+        let light = match self.light {
+            LightShape::Point => Light::point(self.intensity),
+            LightShape::Directional => Light::directional(self.intensity),
+            LightShape::Spot => Light::spot(self.intensity),
+        };
+        let node = Node::from_light(light.with_color(Vec3::from(self.color))).with_name(self.name.clone());
+        let id = change.scene_mut().add(node.at(DVec3::from(self.position)));
+        select_only(change, id);
+        Ok(Outcome::silent())
+    }
+}
+
+fn select_only(change: &mut Change<'_>, id: NodeId) {
+    let selection = change.selection_mut();
+    selection.objects = [id].into();
+    selection.active = Some(id);
+}
+
+/// Gives an object another name.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RenameObject {
+    /// Which.
+    pub object: ObjectName,
+    /// The new name.
+    pub name: String,
+}
+
+impl Action for RenameObject {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let id = self.object.find(change.scene())?;
+        change.scene_mut().node_mut(id).expect("it was just found").name.clone_from(&self.name);
+        Ok(Outcome::silent())
+    }
+}
+
+/// Shows or hides objects with what hangs on them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ShowObjects {
+    /// Which; those that are selected if none are named.
+    #[serde(default)]
+    pub objects: Vec<ObjectName>,
+    /// Whether they are shown.
+    pub visible: bool,
+}
+
+impl Action for ShowObjects {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let objects = named_or_selected(change, &self.objects, "showing objects")?;
+        let scene = change.scene_mut();
+        for id in objects {
+            scene.node_mut(id).expect("it was just found").visible = self.visible;
+        }
+        Ok(Outcome::silent())
+    }
+}
+
+/// Hangs objects on another one, or on none. They stay where they are relative to it.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SetParent {
+    /// Which; those that are selected if none are named.
+    pub objects: Vec<ObjectName>,
+    /// What they hang on; nothing if it is not given.
+    pub parent: Option<ObjectName>,
+}
+
+impl Action for SetParent {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let objects = named_or_selected(change, &self.objects, "setting a parent")?;
+        let parent = self.parent.as_ref().map(|name| name.find(change.scene())).transpose()?;
+        let scene = change.scene_mut();
+        for id in objects.into_iter().filter(|&id| Some(id) != parent) {
+            scene.set_parent(id, parent)?;
+        }
+        Ok(Outcome::silent())
+    }
+}
+
+/// Copies the selected objects, and selects the copies. What hangs on them is not copied.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct DuplicateObjects {
+    /// Whether the copies show the same mesh, so that changing one changes all.
+    pub linked: bool,
+    /// How far the copies are moved, in metres.
+    pub offset: [f64; 3],
+}
+
+impl Action for DuplicateObjects {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let objects = named_or_selected(change, &[], "duplicating objects")?;
+        let mut copies = std::collections::BTreeSet::new();
+        for id in objects {
+            let mut node = change.scene().node(id).expect("it was just found").clone();
+            let parent = node.parent();
+            node.transform.translate(DVec3::from(self.offset));
+            if let Some(mesh) = node.mesh.filter(|_| !self.linked) {
+                node.mesh = change.copy_mesh(mesh);
+            }
+            let scene = change.scene_mut();
+            let copy = match parent {
+                Some(parent) => scene.add_child(parent, node),
+                None => Some(scene.add(node)),
+            };
+            copies.extend(copy);
+        }
+        let selection = change.selection_mut();
+        selection.active = copies.last().copied();
+        selection.objects = copies;
+        Ok(Outcome::silent())
+    }
+}
+
+fn named_or_selected(
+    change: &Change<'_>,
+    names: &[ObjectName],
+    command: &'static str,
+) -> Result<Vec<NodeId>, EditError> {
+    let found: Result<Vec<NodeId>, EditError> = if names.is_empty() {
+        let selected = change.selection().objects.iter().copied();
+        Ok(selected.filter(|&id| change.scene().node(id).is_some()).collect())
+    } else {
+        names.iter().map(|name| name.find(change.scene())).collect()
+    };
+    match found? {
+        objects if objects.is_empty() => {
+            Err(EditError::NothingSelected { command, needed: "at least one object" })
+        }
+        objects => Ok(objects),
+    }
+}

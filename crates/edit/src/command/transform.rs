@@ -1,0 +1,314 @@
+//! Moving, turning and scaling: elements in edit mode, objects in object mode.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trigon_mesh::edit::{EditMesh, Falloff, FalloffDistance, FalloffShape, Transform, VertexId};
+use trigon_mesh::math::{DMat3, DVec3, elementary};
+use trigon_scene::Node;
+
+use super::{Action, Outcome};
+use crate::document::Change;
+use crate::error::EditError;
+
+/// Moves what is near the selected, too, the less the farther it is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Proportional {
+    /// How far it reaches, in metres.
+    #[schemars(range(min = 0.0))]
+    pub radius: f64,
+    /// How it falls off.
+    pub shape: ProportionalShape,
+    /// Whether only what hangs together with the selected is moved, by its distance along edges.
+    pub connected: bool,
+}
+
+impl Default for Proportional {
+    fn default() -> Self {
+        Self { radius: 1.0, shape: ProportionalShape::default(), connected: false }
+    }
+}
+
+/// How a move falls off with distance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[expect(missing_docs, reason = "the names are those of every modeller")]
+pub enum ProportionalShape {
+    #[default]
+    Smooth,
+    Sphere,
+    Root,
+    Sharp,
+    Linear,
+    Constant,
+}
+
+impl Proportional {
+    fn falloff(&self) -> Falloff {
+        Falloff {
+            radius: self.radius,
+            shape: match self.shape {
+                ProportionalShape::Smooth => FalloffShape::Smooth,
+                ProportionalShape::Sphere => FalloffShape::Sphere,
+                ProportionalShape::Root => FalloffShape::Root,
+                ProportionalShape::Sharp => FalloffShape::Sharp,
+                ProportionalShape::Linear => FalloffShape::Linear,
+                ProportionalShape::Constant => FalloffShape::Constant,
+            },
+            distance: if self.connected { FalloffDistance::AlongEdges } else { FalloffDistance::Straight },
+        }
+    }
+}
+
+/// Moves what is selected: elements in the space of their mesh, objects in that of their parent.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Translate {
+    /// How far, in metres.
+    pub offset: [f64; 3],
+    /// Moves what is near, too.
+    pub proportional: Option<Proportional>,
+}
+
+/// Turns what is selected about a centre, counter-clockwise seen from the tip of the axis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Rotate {
+    /// By how much, in degrees.
+    pub angle: f64,
+    /// The axis; its length does not count.
+    pub axis: [f64; 3],
+    /// What stays, in metres: the middle of the selected vertices if it is not given, and of objects
+    /// each one's origin.
+    pub center: Option<[f64; 3]>,
+    /// Turns what is near, too.
+    pub proportional: Option<Proportional>,
+}
+
+impl Default for Rotate {
+    fn default() -> Self {
+        Self { angle: 0.0, axis: [0.0, 1.0, 0.0], center: None, proportional: None }
+    }
+}
+
+/// Scales what is selected about a centre, along the axes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Scale {
+    /// Along x, y and z; negative ones mirror.
+    pub factors: [f64; 3],
+    /// What stays, in metres: the middle of the selected vertices if it is not given, and of objects
+    /// each one's origin.
+    pub center: Option<[f64; 3]>,
+    /// Scales what is near, too.
+    pub proportional: Option<Proportional>,
+}
+
+impl Default for Scale {
+    fn default() -> Self {
+        Self { factors: [1.0; 3], center: None, proportional: None }
+    }
+}
+
+/// Shears the selected vertices: each moves in a direction by a share of its distance from a plane.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Shear {
+    /// How far, for each metre from the plane.
+    pub factor: f64,
+    /// Perpendicular to the plane.
+    pub normal: [f64; 3],
+    /// Where to.
+    pub direction: [f64; 3],
+    /// On the plane: the middle of the selected vertices if it is not given.
+    pub center: Option<[f64; 3]>,
+    /// Shears what is near, too.
+    pub proportional: Option<Proportional>,
+}
+
+impl Default for Shear {
+    fn default() -> Self {
+        let (normal, direction) = ([0.0, 1.0, 0.0], [1.0, 0.0, 0.0]);
+        Self { factor: 0.0, normal, direction, center: None, proportional: None }
+    }
+}
+
+/// Moves the selected vertices towards a sphere around their middle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ToSphere {
+    /// 0 (as they are) to 1 (on the sphere).
+    pub factor: f64,
+    /// The middle of the sphere: that of the selected vertices if it is not given.
+    pub center: Option<[f64; 3]>,
+    /// Moves what is near, too.
+    pub proportional: Option<Proportional>,
+}
+
+impl Default for ToSphere {
+    fn default() -> Self {
+        Self { factor: 1.0, center: None, proportional: None }
+    }
+}
+
+/// Moves the selected vertices along their normals.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ShrinkFatten {
+    /// Outwards, in metres; negative inwards.
+    pub distance: f64,
+    /// Moves what is near, too.
+    pub proportional: Option<Proportional>,
+}
+
+/// Moves the selected vertices straight away from a centre, all by the same distance.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct PushPull {
+    /// Outwards, in metres; negative inwards.
+    pub distance: f64,
+    /// From where: the middle of the selected vertices if it is not given.
+    pub center: Option<[f64; 3]>,
+    /// Moves what is near, too.
+    pub proportional: Option<Proportional>,
+}
+
+/// Takes the selected vertices back to where they were when they were made or loaded.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ResetVertices {}
+
+const VERTICES: &str = "at least one selected vertex";
+
+/// Runs a transform on the selected vertices of each mesh. The selection stays.
+fn transform_vertices(
+    change: &mut Change<'_>,
+    command: &'static str,
+    center: Option<[f64; 3]>,
+    proportional: Option<&Proportional>,
+    transform: impl Fn(DVec3) -> Transform,
+) -> Result<Outcome, EditError> {
+    let falloff = proportional.map(Proportional::falloff);
+    change.edit_selected_vertices(command, VERTICES, |mesh, vertices| {
+        let center = center.map_or_else(|| middle(mesh, vertices), DVec3::from);
+        mesh.transform_vertices(vertices, &transform(center), falloff.as_ref())
+    })?;
+    Ok(Outcome::silent())
+}
+
+/// The mean of some vertices; the origin where it is not finite.
+fn middle(mesh: &EditMesh, vertices: &[VertexId]) -> DVec3 {
+    let sum: DVec3 = vertices.iter().map(|&vertex| mesh.position(vertex).as_dvec3()).sum();
+    let mean = sum / vertices.len() as f64;
+    if mean.is_finite() { mean } else { DVec3::ZERO }
+}
+
+/// Changes each selected object.
+fn transform_objects(
+    change: &mut Change<'_>,
+    command: &'static str,
+    transform: impl Fn(&mut Node),
+) -> Result<Outcome, EditError> {
+    let objects = change.selection().objects.clone();
+    if objects.is_empty() {
+        return Err(EditError::NothingSelected { command, needed: "at least one object" });
+    }
+    let scene = change.scene_mut();
+    for object in objects {
+        if let Some(node) = scene.node_mut(object) {
+            transform(node);
+        }
+    }
+    Ok(Outcome::silent())
+}
+
+impl Action for Translate {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let offset = DVec3::from(self.offset);
+        if !change.selection().is_editing() {
+            return transform_objects(change, "moving", |node| node.transform.translate(offset));
+        }
+        let translate = |_| Transform::Translate { offset };
+        transform_vertices(change, "moving", None, self.proportional.as_ref(), translate)
+    }
+}
+
+impl Action for Rotate {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let (axis, angle) = (DVec3::from(self.axis), self.angle.to_radians());
+        if !change.selection().is_editing() {
+            return transform_objects(change, "turning", |node| {
+                node.transform.rotate(axis, angle);
+                if let (Some(center), Some(axis)) = (self.center.map(DVec3::from), axis.try_normalize()) {
+                    let arm = node.transform.translation() - center;
+                    node.transform.set_translation(center + turned(arm, axis, angle));
+                }
+            });
+        }
+        let rotate = |center| Transform::Rotate { center, axis, angle };
+        transform_vertices(change, "turning", self.center, self.proportional.as_ref(), rotate)
+    }
+}
+
+/// A vector turned about an axis of unit length (Olinde Rodrigues, 1840).
+fn turned(vector: DVec3, axis: DVec3, angle: f64) -> DVec3 {
+    let (sine, cosine) = elementary::sin_cos(angle);
+    vector * cosine + axis.cross(vector) * sine + axis * (axis.dot(vector) * (1.0 - cosine))
+}
+
+impl Action for Scale {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let factors = DVec3::from(self.factors);
+        if !change.selection().is_editing() {
+            return transform_objects(change, "scaling", |node| {
+                node.transform.scale_by(factors);
+                if let Some(center) = self.center.map(DVec3::from) {
+                    let arm = node.transform.translation() - center;
+                    node.transform.set_translation(center + arm * factors);
+                }
+            });
+        }
+        let scale = |center| Transform::Scale { center, factors, orientation: DMat3::IDENTITY };
+        transform_vertices(change, "scaling", self.center, self.proportional.as_ref(), scale)
+    }
+}
+
+impl Action for Shear {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let (normal, direction) = (DVec3::from(self.normal), DVec3::from(self.direction));
+        let shear = |center| Transform::Shear { center, normal, direction, factor: self.factor };
+        transform_vertices(change, "shearing", self.center, self.proportional.as_ref(), shear)
+    }
+}
+
+impl Action for ToSphere {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let to_sphere = |center| Transform::ToSphere { center, factor: self.factor };
+        transform_vertices(change, "moving to a sphere", self.center, self.proportional.as_ref(), to_sphere)
+    }
+}
+
+impl Action for ShrinkFatten {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let along = |_| Transform::AlongNormals { distance: self.distance };
+        transform_vertices(change, "moving along normals", None, self.proportional.as_ref(), along)
+    }
+}
+
+impl Action for PushPull {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let push = |center| Transform::PushPull { center, distance: self.distance };
+        transform_vertices(change, "pushing", self.center, self.proportional.as_ref(), push)
+    }
+}
+
+impl Action for ResetVertices {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let mut moved = 0;
+        change.edit_selected_vertices("resetting vertices", VERTICES, |mesh, vertices| {
+            moved += mesh.reset_vertices(vertices)?;
+            Ok(())
+        })?;
+        Ok(Outcome::counted("took back", moved, ["vertex", "vertices"]))
+    }
+}

@@ -1,0 +1,270 @@
+//! Ten thousand random operations on random meshes, a third of them non-manifold or open.
+//!
+//! After each the structure is whole; a refusal changes nothing; undoing all gives the first bytes,
+//! redoing all the last. Each operation is run a hundred times at least, and of these runs four
+//! fifths at least change the mesh: a test that only ever met refusals would show nothing. The counts are printed
+//! (`cargo test -p trigon-edit --test random_operations -- --nocapture`).
+
+use std::collections::BTreeMap;
+
+use serde_json::{Value, json};
+use trigon_edit::mesh::edit::EditMesh;
+use trigon_edit::mesh::math::Vec3;
+use trigon_edit::mesh::{Attributes, Mesh, MeshBuilder, primitives};
+use trigon_edit::scene::{Material, MeshId, Scene};
+use trigon_edit::{Command, Document, Selection};
+
+const OPERATIONS: usize = 10_000;
+const RUNS_OF_EACH: usize = 100;
+/// A mesh that has grown beyond this is put away: the operations on it would take the time of many.
+const MOST_FACES: usize = 1500;
+
+/// Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^ (mixed >> 31)
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.next() % count.max(1) as u64) as usize
+    }
+
+    /// −1 to 1.
+    fn share(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    fn vector(&mut self) -> [f64; 3] {
+        [self.share(), self.share(), self.share()]
+    }
+}
+
+/// Polygons over random vertices: anything may touch anything.
+fn soup(random: &mut Random) -> Mesh {
+    let mut builder = MeshBuilder::new();
+    let count = 8 + random.below(20);
+    for _ in 0..count {
+        builder.push_vertex(Vec3::from_array(random.vector().map(|x| x as f32 * 2.0)));
+    }
+    for _ in 0..12 + random.below(12) {
+        let face: Vec<u32> = (0..3 + random.below(4)).map(|_| random.below(count) as u32).collect();
+        // Some have too few vertices.
+        drop(builder.push_face(&face));
+    }
+    builder.build()
+}
+
+fn mesh(random: &mut Random) -> Mesh {
+    let mut mesh = match random.below(9) {
+        0 | 1 => soup(random),
+        2 => primitives::grid(2.0, 2.0, 2 + random.below(4) as u32, 2 + random.below(4) as u32),
+        3 => primitives::torus(2.0, 0.5, 5, 4),
+        4 => primitives::icosphere(1.0, 1),
+        5 => primitives::cylinder(1.0, 2.0, 6),
+        6 => primitives::uv_sphere(1.0, 6, 5),
+        7 => primitives::dodecahedron(1.0),
+        _ => primitives::cube(2.0),
+    };
+    let corners = mesh.corner_count();
+    let attributes =
+        Attributes { uv_sets: vec![vec![Default::default(); corners]], ..mesh.attributes().clone() };
+    mesh.set_attributes(attributes).expect("one for each corner");
+    mesh
+}
+
+/// What has to be selected for an operation.
+#[derive(Clone, Copy)]
+enum Needs {
+    /// Of this kind ("vertex" …), about so many elements in one place.
+    Some(&'static str, usize),
+}
+
+/// An operation: its name, what it needs, and its parameters.
+struct Operation {
+    name: &'static str,
+    needs: Needs,
+    parameters: fn(&mut Random) -> Value,
+}
+
+/// All commands that change meshes. A command that is added belongs here: see the last test.
+fn operations() -> Vec<Operation> {
+    use Needs::Some;
+    let operation = |name, needs, parameters| Operation { name, needs, parameters };
+    vec![
+        operation("translate", Some("vertex", 5), |r| json!({ "offset": r.vector() })),
+        operation("rotate", Some("face", 3), |r| json!({ "angle": r.share() * 90.0, "axis": r.vector() })),
+        operation("scale", Some("edge", 4), |r| json!({ "factors": r.vector().map(|x| 1.0 + 0.5 * x) })),
+        operation("shear", Some("vertex", 5), |r| json!({ "factor": r.share() })),
+        operation("to_sphere", Some("face", 4), |r| json!({ "factor": r.share() })),
+        operation("shrink_fatten", Some("face", 4), |r| json!({ "distance": 0.2 * r.share() })),
+        operation("push_pull", Some("vertex", 4), |r| json!({ "distance": 0.2 * r.share() })),
+        operation("reset_vertices", Some("vertex", 1000), |_| json!({})),
+        operation("subdivide", Some("edge", 6), |r| json!({ "cuts": 1 + r.below(3) })),
+        operation(
+            "loop_cut",
+            Some("edge", 1),
+            |r| json!({ "cuts": 1 + r.below(2), "position": r.share() * 0.5 }),
+        ),
+        operation("slide_edges", Some("edge", 1), |r| json!({ "factor": 0.5 * r.share() })),
+        operation("merge", Some("vertex", 3), |r| {
+            let at = ["center", "first", "last", "collapse", "distance"][r.below(5)];
+            json!({ "at": at, "distance": 0.5 })
+        }),
+        operation("mark_sharp", Some("edge", 4), |r| json!({ "sharp": r.below(4) > 0 })),
+        operation("mark_seam", Some("edge", 4), |r| json!({ "seam": r.below(4) > 0 })),
+        operation("crease", Some("edge", 4), |r| json!({ "crease": (r.share() + 1.0) / 2.0 })),
+        operation("shade", Some("face", 4), |r| json!({ "smooth": r.below(2) == 0 })),
+        operation("assign_material", Some("face", 4), |r| json!({ "material": r.below(50) })),
+        operation("hide", Some("face", 2), |_| json!({})),
+        operation("reveal", Some("face", 1), |_| json!({})),
+        operation("flip_normals", Some("face", 3), |_| json!({})),
+        operation("recalculate_normals", Some("face", 1000), |r| json!({ "inside": r.below(2) == 0 })),
+        operation(
+            "mirror",
+            Some("face", 4),
+            |r| json!({ "plane": { "normal": r.vector() }, "copy": r.below(2) == 0, "merge_distance": 0.01 }),
+        ),
+        operation("symmetrize", Some("face", 1000), |r| json!({ "plane": { "normal": r.vector() } })),
+        operation(
+            "delete",
+            Some("face", 2),
+            |r| json!({ "what": ["vertices", "edges", "faces", "only_faces"][r.below(4)] }),
+        ),
+    ]
+}
+
+fn command(op: &str, parameters: Value) -> Command {
+    let mut object = parameters;
+    object["op"] = op.into();
+    serde_json::from_value(object.clone()).unwrap_or_else(|error| panic!("{object}: {error}"))
+}
+
+/// A document with one mesh that is edited.
+struct Session {
+    document: Document,
+    mesh: MeshId,
+}
+
+impl Session {
+    fn new(mesh: Mesh) -> Self {
+        let mut scene = Scene::new();
+        let node = scene.add_object("mesh", mesh, Material::default());
+        let mesh = scene.node(node).and_then(|node| node.mesh).expect("it has a mesh");
+        let mut document = Document::new(scene);
+        document.run(command("edit_objects", json!({ "objects": [0] }))).expect("it has a mesh");
+        Self { document, mesh }
+    }
+
+    fn mesh(&self) -> &EditMesh {
+        self.document.mesh(self.mesh).expect("it is edited")
+    }
+
+    fn state(&self) -> (EditMesh, Selection) {
+        (self.mesh().clone(), self.document.selection().clone())
+    }
+
+    /// Selects about as many elements as are needed, one beside the other.
+    fn select(&mut self, needs: Needs, random: &mut Random) {
+        let Needs::Some(kind, count) = needs;
+        self.run("set_element_kind", json!({ "kind": kind }));
+        let mesh = self.mesh();
+        let all: Vec<u32> = match kind {
+            "vertex" => mesh.vertices().filter(|&v| !mesh.is_vertex_hidden(v)).map(|v| v.index()).collect(),
+            "edge" => mesh.edges().filter(|&e| !mesh.is_edge_hidden(e)).map(|e| e.index()).collect(),
+            _ => mesh.faces().filter(|&f| !mesh.is_face_hidden(f)).map(|f| f.index()).collect(),
+        };
+        if all.is_empty() {
+            return;
+        }
+        if count >= 1000 {
+            return self.run("select_all", json!({}));
+        }
+        let place = random.below(all.len());
+        let mut chosen: Vec<u32> =
+            all.iter().cycle().skip(place).take(count.min(all.len())).copied().collect();
+        chosen.dedup();
+        self.run("select", json!({ "elements": chosen }));
+    }
+
+    fn run(&mut self, op: &str, parameters: Value) {
+        self.document.run(command(op, parameters)).unwrap_or_else(|error| panic!("{op}: {error}"));
+    }
+
+    /// Back to the start and forth again.
+    fn finish(mut self, first: &(EditMesh, Selection)) {
+        let last = self.state();
+        let entries = self.document.history().done().len();
+        // The first entry is edit mode.
+        for _ in 1..entries {
+            self.document.undo().expect("it was done");
+        }
+        assert!(self.state() == *first, "all undone gives the first bytes");
+        for _ in 1..entries {
+            self.document.redo().expect("it was undone");
+        }
+        assert!(self.state() == last, "all done again gives the last bytes");
+    }
+}
+
+#[derive(Default)]
+struct Count {
+    done: usize,
+    changed: usize,
+    refused: usize,
+}
+
+#[test]
+fn ten_thousand_random_operations_keep_meshes_whole() {
+    let mut random = Random(22);
+    let operations = operations();
+    let mut counts: BTreeMap<&str, Count> = BTreeMap::new();
+    let mut total = 0;
+    while total < OPERATIONS || counts.values().any(|count| count.done < RUNS_OF_EACH) {
+        assert!(total < 20 * OPERATIONS, "some operation is always refused");
+        let mut session = Session::new(mesh(&mut random));
+        let first = session.state();
+        for _ in 0..25 {
+            // What was run least comes first, so that each gets its share.
+            let fewest = |operation: &&Operation| counts.get(operation.name).map_or(0, |count| count.done);
+            let operation = if random.below(2) == 0 {
+                &operations[random.below(operations.len())]
+            } else {
+                operations.iter().min_by_key(fewest).expect("there are some")
+            };
+            session.select(operation.needs, &mut random);
+            let before = session.mesh().clone();
+            let parameters = (operation.parameters)(&mut random);
+            let said = parameters.to_string();
+            let result = session.document.run(command(operation.name, parameters));
+            total += 1;
+            let count = counts.entry(operation.name).or_default();
+            let has_changed = *session.mesh() != before;
+            if let Err(error) = &result {
+                count.refused += 1;
+                assert!(!has_changed, "{} was refused ({error}) and changed the mesh", operation.name);
+            } else {
+                count.done += 1;
+                count.changed += usize::from(has_changed);
+            }
+            if let Err(broken) = session.mesh().check_structure() {
+                panic!("after {} {said}: {broken}", operation.name);
+            }
+            if session.mesh().face_count() > MOST_FACES || session.mesh().face_count() == 0 {
+                break;
+            }
+        }
+        session.finish(&first);
+    }
+    println!("{:24} {:>6} {:>8} {:>8}", "operation", "done", "changed", "refused");
+    for (name, count) in &counts {
+        println!("{name:24} {:>6} {:>8} {:>8}", count.done, count.changed, count.refused);
+        let share = count.changed as f64 / count.done as f64;
+        assert!(share >= 0.8, "{name} changed only {} of {} meshes", count.changed, count.done);
+    }
+    println!("{total} operations");
+}
