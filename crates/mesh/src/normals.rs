@@ -157,7 +157,7 @@ const ARC_COSINE: [f64; 8] = [
 /// The angle between two vectors in radians, 0 if one of them is zero. Within
 /// 10⁻⁷ away from 0 and π, which is plenty for a weight, and several times
 /// faster than the exact one.
-fn angle(a: DVec3, b: DVec3) -> f64 {
+pub(crate) fn angle(a: DVec3, b: DVec3) -> f64 {
     let squares = a.length_squared() * b.length_squared();
     if squares <= 0.0 {
         return 0.0;
