@@ -5,3 +5,12 @@
 //! A refusal leaves the mesh as it was.
 
 mod delete;
+mod extrude;
+mod frame;
+mod inset;
+mod lift;
+mod region;
+mod tables;
+
+pub use extrude::{ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices};
+pub use inset::{Inset, InsetFaces};
