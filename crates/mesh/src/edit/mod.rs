@@ -34,7 +34,9 @@ pub use edit_mesh::EditMesh;
 pub use euler::{SplitEdge, SplitFace};
 pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
-pub use operations::{ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices, Inset, InsetFaces};
+pub use operations::{
+    CopiedElements, ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices, Inset, InsetFaces,
+};
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;
