@@ -63,7 +63,7 @@ pub(crate) fn transformed_direction(matrix: &DMat3, direction: Vec3) -> Vec3 {
 
 /// What is to be added to a transformed direction, which becomes a unit vector,
 /// so that the sum points where the transformed sum did.
-fn transformed_delta(matrix: &DMat3, base: Vec3, delta: Vec3) -> Vec3 {
+pub(crate) fn transformed_delta(matrix: &DMat3, base: Vec3, delta: Vec3) -> Vec3 {
     let length = (*matrix * base.as_dvec3()).length();
     let scale = if length > 0.0 && length.is_finite() { 1.0 / length } else { 1.0 };
     (*matrix * delta.as_dvec3() * scale).as_vec3()

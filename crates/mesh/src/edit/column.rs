@@ -62,6 +62,11 @@ impl<T: Copy> Column<T> {
         self.values.push(value);
     }
 
+    /// Takes away elements at the end, none of which was there when recording began.
+    pub(super) fn truncate(&mut self, length: u32) {
+        self.values.truncate(length as usize);
+    }
+
     /// An element, to be changed.
     #[inline]
     pub(super) fn write(&mut self, index: u32) -> &mut T {

@@ -86,6 +86,40 @@ impl Blend for Vec4 {
     }
 }
 
+impl LayerKind {
+    /// Whether values are directions on the surface, which say nothing about a face that stands
+    /// upright on it.
+    pub(super) fn is_direction(self) -> bool {
+        matches!(self, Self::Normal | Self::Tangent | Self::MorphNormal(_) | Self::MorphTangent(_))
+    }
+}
+
+/// Weighted sums for many elements, all taken before any is written.
+#[derive(Debug, Default)]
+pub(super) struct Blends {
+    /// The parts of all, one after the other: elements and their weights.
+    parts: Vec<(u32, f64)>,
+    /// For each element that gets a sum, the end of its parts.
+    targets: Vec<(u32, usize)>,
+}
+
+impl Blends {
+    /// Adds one: weights sum to 1.
+    pub(super) fn push(&mut self, parts: impl IntoIterator<Item = (u32, f64)>, to: u32) {
+        self.parts.extend(parts);
+        self.targets.push((to, self.parts.len()));
+    }
+
+    fn each(&self) -> impl Iterator<Item = (&[(u32, f64)], u32)> {
+        let mut start = 0;
+        self.targets.iter().map(move |&(to, end)| {
+            let parts = &self.parts[start..end];
+            start = end;
+            (parts, to)
+        })
+    }
+}
+
 impl Layer {
     /// Adds a slot with the value zero.
     pub(super) fn push_default(&mut self) {
@@ -125,6 +159,21 @@ impl Layer {
             LayerValues::Vec4(column) => blend_column(column, parts, to),
             LayerValues::Influences(column) => blend_column(column, parts, to),
         }
+    }
+
+    /// The same for many elements, which may be parts of each other.
+    pub(super) fn blend_all(&mut self, blends: &Blends) {
+        // The sums are kept in elements past the end, of which the layer then has none again.
+        let own = self.len();
+        for (parts, _) in blends.each() {
+            self.push_default();
+            let last = self.len() - 1;
+            self.blend(parts, last);
+        }
+        for (sum, (_, to)) in (own..).zip(blends.each()) {
+            self.copy(sum, to);
+        }
+        for_column!(&mut self.values, column => column.truncate(own));
     }
 
     pub(super) fn begin(&mut self) {

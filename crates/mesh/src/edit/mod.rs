@@ -45,6 +45,9 @@ pub use operations::{
     Transform, VisibilityChange,
 };
 pub use marks::{EdgeMark, Marks, MarksError};
+pub use operations::{
+    CopiedElements, ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices, Inset, InsetFaces,
+};
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;

@@ -158,6 +158,14 @@ impl EditMesh {
         }
     }
 
+    /// Gives a corner of a face that stands upright on another what both share there: texture
+    /// coordinates and colour, but no directions.
+    pub(crate) fn copy_corner_upright(&mut self, from: CornerId, to: CornerId) {
+        for layer in self.corner_layers.iter_mut().filter(|layer| !layer.kind.is_direction()) {
+            layer.copy(from.0, to.0);
+        }
+    }
+
     /// Gives a corner the weighted mean of all values of others; weights sum to 1.
     pub(crate) fn blend_corner(&mut self, parts: &[(CornerId, f64)], to: CornerId) {
         if self.corner_layers.is_empty() {

@@ -1,5 +1,6 @@
 //! New vertices, edges and faces.
 
+use smallvec::SmallVec;
 use trigon_math::Vec3;
 
 use super::super::edit_mesh::EditMesh;
@@ -62,12 +63,21 @@ impl EditMesh {
 
     /// The face of an outline that has been checked.
     pub(in super::super) fn face_of(&mut self, vertices: &[VertexId]) -> FaceId {
+        let mut outline = SmallVec::<[(VertexId, EdgeId); 8]>::with_capacity(vertices.len());
+        for (i, &vertex) in vertices.iter().enumerate() {
+            let next = vertices[(i + 1) % vertices.len()];
+            outline.push((vertex, self.join(vertex, next)));
+        }
+        self.face_along(&outline)
+    }
+
+    /// The face of an outline that has been checked, whose edges are known: each vertex with the edge
+    /// from it to the next.
+    pub(in super::super) fn face_along(&mut self, outline: &[(VertexId, EdgeId)]) -> FaceId {
         let face = self.new_face();
         let mut first = NONE;
         let mut last = NONE;
-        for (i, &vertex) in vertices.iter().enumerate() {
-            let next = vertices[(i + 1) % vertices.len()];
-            let edge = self.join(vertex, next);
+        for &(vertex, edge) in outline {
             let corner = self.new_corner(vertex.0, face);
             self.link_at_edge(corner, edge.0);
             if last == NONE {
@@ -80,7 +90,7 @@ impl EditMesh {
         self.link_in_face(last, first);
         let record = self.faces.write(face);
         record.corner = first;
-        record.size = vertices.len() as u32;
+        record.size = outline.len() as u32;
         FaceId(face)
     }
 
@@ -88,9 +98,14 @@ impl EditMesh {
     pub(in super::super) fn check_room(&self) -> Result<(), Refusal> {
         /// More than any single element can take: a split edge has a corner in each of its faces,
         /// a face a corner for each of its vertices, and lists of these are limited themselves.
-        const MARGIN: u32 = 1 << 20;
+        const MARGIN: usize = 1 << 20;
+        self.check_room_for(MARGIN)
+    }
+
+    /// Whether there is room for so many more elements of each kind.
+    pub(in super::super) fn check_room_for(&self, more: usize) -> Result<(), Refusal> {
         let longest = self.corners.len().max(self.edges.len()).max(self.vertices.len());
-        if longest < MOST - MARGIN { Ok(()) } else { Err(Refusal::TooMany) }
+        if more < (MOST - longest.min(MOST)) as usize { Ok(()) } else { Err(Refusal::TooMany) }
     }
 }
 

@@ -4,6 +4,7 @@
 //! proportional to what it changes, and returns what it made. Ids that are given twice count once.
 //! A refusal leaves the mesh as it was.
 
+mod copy;
 mod delete;
 mod merge;
 pub(super) mod numbering;
@@ -28,3 +29,17 @@ pub use mirror::Mirrored;
 pub use recalculate_normals::RecalculatedNormals;
 pub use symmetrize::Symmetrized;
 pub use transform::{Falloff, FalloffDistance, FalloffShape, MoveSession, Transform};
+mod duplicate;
+mod extrude;
+mod frame;
+mod inset;
+mod join;
+mod lift;
+mod region;
+mod separate;
+mod split;
+mod tables;
+
+pub use copy::CopiedElements;
+pub use extrude::{ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices};
+pub use inset::{Inset, InsetFaces};

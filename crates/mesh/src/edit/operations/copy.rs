@@ -1,0 +1,223 @@
+//! Taking a part of a mesh out as a mesh of its own, and adding a whole mesh to another: what
+//! duplicating, separating and joining are made of.
+
+use trigon_math::Vec4;
+
+use super::super::column::Column;
+use super::super::edit_mesh::EditMesh;
+use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
+use super::super::layers::{Layer, LayerKind, LayerValues};
+use super::tables::{IndexSet, IndexTable};
+
+/// Elements that were added to a mesh as copies of others, in the order of the originals' ids.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CopiedElements {
+    /// The new vertices.
+    pub vertices: Vec<VertexId>,
+    /// The new edges.
+    pub edges: Vec<EdgeId>,
+    /// The new faces.
+    pub faces: Vec<FaceId>,
+}
+
+/// Elements by index, each once.
+#[derive(Debug, Default)]
+pub(super) struct Elements {
+    pub(super) vertices: Vec<VertexId>,
+    pub(super) edges: Vec<EdgeId>,
+    pub(super) faces: Vec<FaceId>,
+}
+
+impl Elements {
+    /// Faces with their edges, edges with their ends, and vertices.
+    pub(super) fn with_parts(
+        mesh: &EditMesh,
+        vertices: &[VertexId],
+        edges: &[EdgeId],
+        faces: &[FaceId],
+    ) -> Self {
+        let corners: usize = faces.iter().map(|&face| mesh.face_size(face)).sum();
+        let expected = corners + 2 * edges.len() + vertices.len();
+        let mut seen_faces = IndexSet::new(mesh.face_capacity(), faces.len());
+        let mut seen_edges = IndexSet::new(mesh.edge_capacity(), expected);
+        let mut seen_vertices = IndexSet::new(mesh.vertex_capacity(), expected);
+        let mut elements = Self::default();
+        elements.faces.extend(faces.iter().copied().filter(|face| seen_faces.insert(face.0)));
+        let of_faces = elements.faces.iter().flat_map(|&face| mesh.face_edges(face));
+        let all_edges = of_faces.chain(edges.iter().copied());
+        elements.edges.extend(all_edges.filter(|edge| seen_edges.insert(edge.0)));
+        let of_edges = elements.edges.iter().flat_map(|&edge| mesh.edge_vertices(edge));
+        let all_vertices = of_edges.chain(vertices.iter().copied());
+        elements.vertices.extend(all_vertices.filter(|vertex| seen_vertices.insert(vertex.0)));
+        elements.faces.sort_unstable();
+        elements.edges.sort_unstable();
+        elements.vertices.sort_unstable();
+        elements
+    }
+
+    /// All of a mesh.
+    pub(super) fn all(mesh: &EditMesh) -> Self {
+        Self {
+            vertices: mesh.vertices().collect(),
+            edges: mesh.edges().collect(),
+            faces: mesh.faces().collect(),
+        }
+    }
+}
+
+impl EditMesh {
+    /// A mesh of some elements, which have everything that they are made of among them. They get
+    /// indices in their order. All layers are there.
+    pub(super) fn part(&self, elements: &Elements) -> Self {
+        let layers = |layers: &[Layer]| layers.iter().map(Layer::empty_like).collect();
+        let mut part = Self {
+            vertex_layers: layers(&self.vertex_layers),
+            corner_layers: layers(&self.corner_layers),
+            ..Self::new()
+        };
+        let all = |count: usize| (0..count).map(Some).collect::<Vec<_>>();
+        let pairs = LayerPairs {
+            of_vertices: all(self.vertex_layers.len()),
+            of_corners: all(self.corner_layers.len()),
+        };
+        part.add_copies(self, elements, &pairs);
+        part
+    }
+
+    /// Adds a whole other mesh. Layers that either lacks are added: with zeros, colours with white,
+    /// as which a mesh without colours is shown.
+    pub(super) fn append(&mut self, other: &Self) -> CopiedElements {
+        let vertices = self.vertices.len();
+        let corners = self.corners.len();
+        let pairs = LayerPairs {
+            of_vertices: unite_layers(&mut self.vertex_layers, &other.vertex_layers, vertices),
+            of_corners: unite_layers(&mut self.corner_layers, &other.corner_layers, corners),
+        };
+        self.add_copies(other, &Elements::all(other), &pairs)
+    }
+
+    fn add_copies(&mut self, other: &Self, elements: &Elements, layers: &LayerPairs) -> CopiedElements {
+        let mut copied = CopiedElements::default();
+        let mut vertices = IndexTable::new(other.vertex_capacity(), elements.vertices.len());
+        for &vertex in &elements.vertices {
+            let new = VertexId(self.new_vertex(other.position(vertex)));
+            *self.first_positions.write(new.0) = other.first_position(vertex);
+            self.vertices.write(new.0).flags = other.vertices[vertex.0].flags;
+            copy_values(
+                &mut self.vertex_layers,
+                &other.vertex_layers,
+                &layers.of_vertices,
+                [vertex.0, new.0],
+            );
+            vertices.insert(vertex.0, new.0);
+            copied.vertices.push(new);
+        }
+        let mut edges = IndexTable::new(other.edge_capacity(), elements.edges.len());
+        for &edge in &elements.edges {
+            let new_end =
+                |vertex: VertexId| VertexId(vertices.get(vertex.0).expect("edges have their ends along"));
+            let [a, b] = other.edge_vertices(edge).map(new_end);
+            let new = self.fresh_edge(a, b);
+            let record = self.edges.write(new.0);
+            record.flags = other.edges[edge.0].flags;
+            record.crease = other.edges[edge.0].crease;
+            edges.insert(edge.0, new.0);
+            copied.edges.push(new);
+        }
+        let mut outline = Vec::new();
+        for &face in &elements.faces {
+            outline.clear();
+            outline.extend(other.face_corners(face).map(|corner| {
+                let vertex = vertices.get(other.corner_vertex(corner).0);
+                let edge = edges.get(other.corner_edge(corner).0);
+                let (vertex, edge) = vertex.zip(edge).expect("faces have their parts along");
+                (VertexId(vertex), EdgeId(edge))
+            }));
+            let new = self.face_along(&outline);
+            let record = self.faces.write(new.0);
+            record.material = other.faces[face.0].material;
+            record.flags = other.faces[face.0].flags;
+            let mut corner = CornerId(self.faces[new.0].corner);
+            for from in other.face_corners(face) {
+                copy_values(
+                    &mut self.corner_layers,
+                    &other.corner_layers,
+                    &layers.of_corners,
+                    [from.0, corner.0],
+                );
+                corner = self.next_corner(corner);
+            }
+            copied.faces.push(new);
+        }
+        copied
+    }
+}
+
+/// For each layer of the mesh that is added to, which of the other mesh's has its values.
+struct LayerPairs {
+    of_vertices: Vec<Option<usize>>,
+    of_corners: Vec<Option<usize>>,
+}
+
+fn copy_values(to: &mut [Layer], from: &[Layer], pairs: &[Option<usize>], [source, target]: [u32; 2]) {
+    for (layer, pair) in to.iter_mut().zip(pairs) {
+        match pair {
+            Some(other) => layer.copy_from(&from[*other], source, target),
+            None => layer.set_usual(target),
+        }
+    }
+}
+
+/// Adds those layers of another mesh that are missing, so long. Which of the other's belongs to
+/// each of the own.
+fn unite_layers(own: &mut Vec<Layer>, other: &[Layer], length: u32) -> Vec<Option<usize>> {
+    let mut pairs: Vec<Option<usize>> = vec![None; own.len()];
+    for (place, layer) in other.iter().enumerate() {
+        // Several sets of texture coordinates pair in their order.
+        let same = |slot: &usize| own[*slot].kind == layer.kind && pairs[*slot].is_none();
+        if let Some(slot) = (0..own.len()).find(same) {
+            pairs[slot] = Some(place);
+            continue;
+        }
+        let mut added = layer.empty_like();
+        for index in 0..length {
+            added.push_default();
+            added.set_usual(index);
+        }
+        own.push(added);
+        pairs.push(Some(place));
+    }
+    pairs
+}
+
+impl Layer {
+    /// Without elements.
+    fn empty_like(&self) -> Self {
+        let values = match &self.values {
+            LayerValues::Vec2(_) => LayerValues::Vec2(Column::new(Vec::new())),
+            LayerValues::Vec3(_) => LayerValues::Vec3(Column::new(Vec::new())),
+            LayerValues::Vec4(_) => LayerValues::Vec4(Column::new(Vec::new())),
+            LayerValues::Influences(_) => LayerValues::Influences(Column::new(Vec::new())),
+        };
+        Self { kind: self.kind, values }
+    }
+
+    /// Gives an element the value that stands for none: white for colours, else zero.
+    fn set_usual(&mut self, index: u32) {
+        self.clear(index);
+        if let (LayerKind::Color, LayerValues::Vec4(column)) = (self.kind, &mut self.values) {
+            *column.write(index) = Vec4::ONE;
+        }
+    }
+
+    /// Gives an element the value of one of another layer of the same kind.
+    fn copy_from(&mut self, other: &Self, from: u32, to: u32) {
+        match (&mut self.values, &other.values) {
+            (LayerValues::Vec2(own), LayerValues::Vec2(other)) => *own.write(to) = other[from],
+            (LayerValues::Vec3(own), LayerValues::Vec3(other)) => *own.write(to) = other[from],
+            (LayerValues::Vec4(own), LayerValues::Vec4(other)) => *own.write(to) = other[from],
+            (LayerValues::Influences(own), LayerValues::Influences(other)) => *own.write(to) = other[from],
+            _ => unreachable!("layers of the same kind have values of the same type"),
+        }
+    }
+}
