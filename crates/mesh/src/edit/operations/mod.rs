@@ -4,8 +4,10 @@
 //! proportional to what it changes, and returns what it made. Ids that are given twice count once.
 //! A refusal leaves the mesh as it was.
 
+mod bevel;
 mod delete;
 mod loop_cut;
 mod slide;
 
+pub use bevel::{BevelLeftOut, BevelSettings, Beveled};
 pub use loop_cut::{LoopCut, LoopCutSettings};
