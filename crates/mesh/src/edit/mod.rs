@@ -48,6 +48,7 @@ pub use marks::{EdgeMark, Marks, MarksError};
 pub use operations::{
     CopiedElements, ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices, Inset, InsetFaces,
 };
+pub use operations::{BevelLeftOut, BevelSettings, Beveled, LoopCut, LoopCutSettings};
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;

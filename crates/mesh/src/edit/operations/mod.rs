@@ -5,6 +5,7 @@
 //! A refusal leaves the mesh as it was.
 
 mod copy;
+mod bevel;
 mod delete;
 mod merge;
 pub(super) mod numbering;
@@ -16,6 +17,7 @@ pub use subdivide::Subdivided;
 mod loop_cut;
 mod slide;
 
+pub use bevel::{BevelLeftOut, BevelSettings, Beveled};
 pub use loop_cut::{LoopCut, LoopCutSettings};
 mod hide;
 mod marks;

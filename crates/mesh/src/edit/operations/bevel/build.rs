@@ -1,0 +1,148 @@
+//! Makes what was laid out.
+
+use smallvec::SmallVec;
+
+use super::super::super::blends::CornerBlends;
+use super::super::super::edit_mesh::EditMesh;
+use super::super::super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
+use super::super::super::records::SEAM;
+use super::nodes::End;
+use super::shape::{Blueprint, NewCorner};
+
+impl EditMesh {
+    /// Carries out a plan; the new faces and vertices.
+    pub(super) fn build_bevel(
+        &mut self,
+        mut plan: Blueprint,
+        edges: &[EdgeId],
+    ) -> (Vec<FaceId>, Vec<VertexId>) {
+        let vertices = self.add_points(&plan);
+        self.move_edges(&plan, edges, &vertices);
+        for moved in &plan.laid.moves {
+            self.corners.write(moved.corner.0).vertex = vertices[moved.node as usize].0;
+            plan.blends.assign(moved.sum, moved.corner);
+        }
+        let mut start = 0;
+        for insertion in &plan.insertions {
+            let new = &plan.corners[start..insertion.end];
+            self.insert_corners(new, insertion.of, &vertices, &mut plan.blends);
+            start = insertion.end;
+        }
+        let mut faces = Vec::with_capacity(plan.faces.len());
+        let mut outline = SmallVec::<[VertexId; 8]>::new();
+        for face in &plan.faces {
+            let new = &plan.corners[start..face.end];
+            start = face.end;
+            outline.clear();
+            outline.extend(new.iter().map(|corner| vertices[corner.point as usize]));
+            let id = self.face_of(&outline);
+            self.copy_face(face.of, id);
+            let mut corner = CornerId(self.faces[id.0].corner);
+            for &NewCorner { sum, .. } in new {
+                plan.blends.assign(sum, corner);
+                corner = self.next_corner(corner);
+            }
+            faces.push(id);
+        }
+        self.mark_seams(&plan, edges, &vertices);
+        self.blend_corners(&plan.blends);
+        for round in &plan.laid.rounds {
+            // Wires and faces of other fans may still be there.
+            let vertex = round.fan.vertex;
+            if self.has_vertex(vertex) && self.vertices[vertex.0].edge == NONE {
+                self.free_vertex(vertex.0);
+            }
+        }
+        (faces, vertices)
+    }
+
+    fn add_points(&mut self, plan: &Blueprint) -> Vec<VertexId> {
+        let mut vertices = Vec::with_capacity(plan.positions.len());
+        let mut parts = SmallVec::<[(VertexId, f64); 16]>::new();
+        for (&position, &sum) in plan.positions.iter().zip(&plan.point_sums) {
+            let vertex = VertexId(self.new_vertex(position.as_vec3()));
+            parts.clear();
+            // The old corners still have their old vertices.
+            parts.extend(plan.blends.parts(sum).map(|(corner, weight)| (self.corner_vertex(corner), weight)));
+            self.blend_vertex(&parts, vertex);
+            vertices.push(vertex);
+        }
+        vertices
+    }
+
+    /// Lets the edges round each vertex end at the new ones, and makes each beveled edge the rim on its
+    /// left, beside a new one on its right.
+    fn move_edges(&mut self, plan: &Blueprint, edges: &[EdgeId], vertices: &[VertexId]) {
+        for round in &plan.laid.rounds {
+            for stop in &plan.laid.stops[round.stops[0]..round.stops[1]] {
+                if stop.beveled == NONE {
+                    self.move_end(stop.edge, round.fan.vertex, vertices[stop.left as usize]);
+                }
+            }
+        }
+        for (&edge, [start, end]) in edges.iter().zip(&plan.laid.ends) {
+            // Seen from its other end, right is left.
+            self.move_end(edge, start.vertex, vertices[start.left as usize]);
+            self.move_end(edge, end.vertex, vertices[end.right as usize]);
+            let right = self.join(vertices[start.right as usize], vertices[end.left as usize]);
+            if right != edge {
+                self.unlink_at_edge(end.left_corner.0);
+                self.link_at_edge(end.left_corner.0, right.0);
+                self.copy_edge(edge, right);
+                self.edges.write(right.0).flags &= !SEAM;
+            }
+        }
+    }
+
+    /// Lets an edge end at another vertex.
+    fn move_end(&mut self, edge: EdgeId, from: VertexId, to: VertexId) {
+        let end = self.edges[edge.0].end(from.0);
+        self.unlink_at_vertex(edge.0, end);
+        self.edges.write(edge.0).vertices[end] = to.0;
+        self.link_at_vertex(edge.0, end);
+    }
+
+    /// Puts new corners before an old one in its face.
+    fn insert_corners(
+        &mut self,
+        new: &[NewCorner],
+        before: CornerId,
+        vertices: &[VertexId],
+        blends: &mut CornerBlends,
+    ) {
+        let face = self.corners[before.0].face;
+        for (i, corner) in new.iter().enumerate() {
+            let vertex = vertices[corner.point as usize];
+            let next = match new.get(i + 1) {
+                Some(next) => vertices[next.point as usize],
+                None => self.corner_vertex(before),
+            };
+            let edge = self.join(vertex, next);
+            let id = self.new_corner(vertex.0, face);
+            self.link_in_face(self.corners[before.0].previous, id);
+            self.link_in_face(id, before.0);
+            self.link_at_edge(id, edge.0);
+            blends.assign(corner.sum, CornerId(id));
+        }
+        self.faces.write(face).size += new.len() as u32;
+    }
+
+    /// Moves seams from beveled edges to where their two sides meet now.
+    fn mark_seams(&mut self, plan: &Blueprint, edges: &[EdgeId], vertices: &[VertexId]) {
+        for (&edge, ends) in edges.iter().zip(&plan.laid.ends) {
+            if self.edges[edge.0].flags & SEAM == 0 {
+                continue;
+            }
+            self.edges.write(edge.0).flags &= !SEAM;
+            let step = plan.segments.div_ceil(2);
+            let steps = [step, plan.segments - step];
+            let point = |i: usize| {
+                let end: &End = &ends[i];
+                vertices[plan.curve_point(end.arc, end.is_reversed, steps[i]) as usize]
+            };
+            if let Some(line) = self.find_edge(point(0), point(1)) {
+                self.edges.write(line.0).flags |= SEAM;
+            }
+        }
+    }
+}

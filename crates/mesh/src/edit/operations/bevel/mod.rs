@@ -1,0 +1,322 @@
+//! Bevels: edges and vertices give way to flat or round faces.
+//!
+//! In four steps. `fans` walks round the vertices; `nodes` finds the places of the new rims,
+//! which move in proportion to the width, so that overlaps are found before any width is fixed;
+//! `shape` lays out all new vertices, faces and values (`profile` is the cross-section, `patch`
+//! the grid where three or more bevels meet); `build` changes the mesh. Until then nothing is
+//! written, and a refusal costs nothing.
+//!
+//! Arrangement and names follow Blender's bevel (Howard Trickey); the positions within patches
+//! are our own.
+
+mod build;
+mod fans;
+mod frames;
+mod nodes;
+mod patch;
+mod profile;
+mod shape;
+#[cfg(test)]
+mod tests;
+
+use super::super::edit_mesh::EditMesh;
+use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
+use super::super::refusal::Refusal;
+use super::delete::require;
+use fans::Fans;
+use nodes::Nodes;
+use profile::Profile;
+
+const OPERATION: &str = "a bevel";
+const MOST_SEGMENTS: usize = 100;
+
+/// How [`EditMesh::bevel_edges`] and [`EditMesh::bevel_vertices`] work.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BevelSettings {
+    /// In metres, at least 0. Of edges the distance of each new rim from the old edge, in the
+    /// face's plane; of vertices the distance of each new vertex from the old one, along its
+    /// edge.
+    pub width: f64,
+    /// How many faces go across a bevel: 1 to 100.
+    pub segments: usize,
+    /// The cross-section, 0 to 1. With `r = -2 ln 2 / ln profile` it is the superellipse
+    /// `x^r + y^r = 1` between the two rims at (1, 0) and (0, 1), whose tangents meet at the old
+    /// edge at (1, 1); so its middle lies at `√profile`. 0.5 is round, 0.25 flat, less is
+    /// hollow, 1 keeps the edge. 0 counts as 0.000001. Points are at even distances along it.
+    pub profile: f64,
+    /// Whether the width is lessened where new vertices would pass each other along an edge.
+    pub clamp_overlap: bool,
+}
+
+impl Default for BevelSettings {
+    fn default() -> Self {
+        Self { width: 0.1, segments: 1, profile: 0.5, clamp_overlap: true }
+    }
+}
+
+/// What a bevel made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Beveled {
+    /// The new faces: those along the edges, edge by edge, then those at the vertices.
+    pub faces: Vec<FaceId>,
+    /// The new vertices.
+    pub vertices: Vec<VertexId>,
+    /// The width that was used, in metres: less than was asked for where overlaps were avoided.
+    pub width: f64,
+    /// What was given, but not beveled.
+    pub left_out: BevelLeftOut,
+}
+
+/// How many of the elements that were given were not beveled, and why.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct BevelLeftOut {
+    /// Edges and vertices without faces.
+    pub wires: usize,
+    /// Edges with one face.
+    pub borders: usize,
+    /// Edges with more than two faces.
+    pub non_manifold: usize,
+    /// Edges whose two faces wind in opposite ways.
+    pub opposite: usize,
+    /// Edges and vertices where such edges end or a face runs along an edge and back: what the
+    /// faces round a vertex are is not known there.
+    pub unclear: usize,
+}
+
+impl BevelLeftOut {
+    fn reason(&self) -> &'static str {
+        if self.non_manifold > 0 {
+            "more than two faces meet at the edges"
+        } else if self.opposite > 0 {
+            "faces wind in opposite ways; recalculate normals first"
+        } else if self.unclear > 0 {
+            "more than two faces, or faces that wind in opposite ways, meet beside them"
+        } else if self.borders > 0 {
+            "the edges have one face; an edge between two faces is needed"
+        } else {
+            "no faces are there"
+        }
+    }
+}
+
+impl EditMesh {
+    /// Replaces edges by faces: flat ones, or round ones of several segments.
+    ///
+    /// Each face beside an edge draws back by the width. Where one beveled edge ends, its rims end on
+    /// the edges beside it; if there are more, each gets a vertex and a polygon fills the middle. Where
+    /// two meet, their bevels meet in one curve. Where three or more meet, a polygon fills the
+    /// middle, or with several segments a grid, as on a cube with all edges beveled: a part of a
+    /// sphere. (A polygon, too, where the faces do not close round the vertex, or more than 32 meet.)
+    /// Edges between two beveled ones lead to the place between these.
+    ///
+    /// Faces keep their ids, and edges that were not beveled; the old edge is now the rim on the
+    /// side of its first face. New faces have the material of the face on their side, for an odd number
+    /// of segments the middle one that of the first side. Both rims take over sharp and crease, and the
+    /// line where the material changes takes over the seam. Values are interpolated; where texture
+    /// coordinates are cut, each side continues its own. Hidden faces are beveled like others.
+    ///
+    /// Edges that cannot be beveled are left out and counted: a border, an edge with more than two
+    /// faces, and what ends at such. Unlike in Blender, overlaps are avoided unless asked
+    /// for, and marks are always kept.
+    ///
+    /// # Errors
+    /// No edge is given, or one does not exist; none of them can be beveled; a setting is out of
+    /// range; there would be too many elements.
+    ///
+    /// ```
+    /// use trigon_mesh::edit::{BevelSettings, EditMesh};
+    /// use trigon_mesh::primitives;
+    ///
+    /// let (mut cube, _) = EditMesh::from_mesh(&primitives::cube(2.0));
+    /// let edges: Vec<_> = cube.edges().collect();
+    /// let settings = BevelSettings { width: 0.25, segments: 4, ..BevelSettings::default() };
+    /// let beveled = cube.bevel_edges(&edges, &settings)?;
+    /// // Four faces along each of twelve edges, a grid of twelve at each of eight corners.
+    /// assert_eq!(beveled.faces.len(), 12 * 4 + 8 * 12);
+    /// # Ok::<(), trigon_mesh::edit::Refusal>(())
+    /// ```
+    pub fn bevel_edges(&mut self, edges: &[EdgeId], settings: &BevelSettings) -> Result<Beveled, Refusal> {
+        require(edges, OPERATION, "at least one edge")?;
+        edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
+        settings.check()?;
+        let mut left_out = BevelLeftOut::default();
+        let (chosen, fans, marks) = self.beveled_edges(edges, &mut left_out);
+        if chosen.is_empty() {
+            return Err(Refusal::NotPossible { operation: OPERATION, reason: left_out.reason() });
+        }
+        let mut nodes = Nodes::new(self, marks, chosen.len());
+        for &fan in &fans.fans {
+            nodes.add_edge_fan(fan, &fans.corners[fan.start..fan.end]);
+        }
+        self.run(nodes.finish(&chosen), &chosen, settings, left_out)
+    }
+
+    /// Replaces vertices by faces: the corner is cut off, flat or round.
+    ///
+    /// Each edge at a vertex ends at the width from it. Between them, the faces there end in straight
+    /// lines, or with several segments in curves of the profile; a polygon or a grid fills
+    /// the middle. At a border the polygon's last side is straight. All else is as for
+    /// [`Self::bevel_edges`].
+    ///
+    /// # Errors
+    /// No vertex is given, or one does not exist; none of them can be beveled; a setting is out of
+    /// range; there would be too many elements.
+    pub fn bevel_vertices(
+        &mut self,
+        vertices: &[VertexId],
+        settings: &BevelSettings,
+    ) -> Result<Beveled, Refusal> {
+        require(vertices, OPERATION, "at least one vertex")?;
+        vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;
+        settings.check()?;
+        let mut left_out = BevelLeftOut::default();
+        let fans = self.fans_of_vertices(vertices, &mut left_out);
+        if fans.fans.is_empty() {
+            return Err(Refusal::NotPossible { operation: OPERATION, reason: left_out.reason() });
+        }
+        // The zeros cost nothing until they are touched.
+        let mut nodes = Nodes::new(self, vec![0; self.edge_capacity()], 0);
+        for &fan in &fans.fans {
+            nodes.add_vertex_fan(fan, &fans.corners[fan.start..fan.end]);
+        }
+        self.run(nodes.finish(&[]), &[], settings, left_out)
+    }
+
+    fn run(
+        &mut self,
+        nodes: nodes::Laid,
+        edges: &[EdgeId],
+        settings: &BevelSettings,
+        left_out: BevelLeftOut,
+    ) -> Result<Beveled, Refusal> {
+        let limit = if settings.clamp_overlap { nodes.limit } else { f64::INFINITY };
+        let width = if limit < settings.width { limit } else { settings.width };
+        let profile = Profile::new(settings.segments, settings.profile);
+        shape::check_size(self, &nodes, settings.segments)?;
+        let plan = shape::Plan::draw(self, nodes, &profile, width);
+        let (faces, vertices) = self.build_bevel(plan, edges);
+        Ok(Beveled { faces, vertices, width, left_out })
+    }
+
+    /// Which of some edges can be beveled, each once; the fans at their ends; and for each edge of the
+    /// mesh 1 + its number among these, or 0.
+    fn beveled_edges(&self, edges: &[EdgeId], left_out: &mut BevelLeftOut) -> (Vec<EdgeId>, Fans, Vec<u32>) {
+        // The zeros cost nothing until they are touched.
+        let mut marks: Vec<u32> = vec![0; self.edge_capacity()];
+        let mut chosen = Vec::with_capacity(edges.len());
+        for &edge in edges {
+            let mark = &mut marks[edge.0 as usize];
+            if *mark == 0 && self.has_two_sides(edge, left_out) {
+                chosen.push(edge);
+            }
+            // Also of those that are left out, so that they count once.
+            *mark = u32::MAX;
+        }
+        for &edge in edges {
+            marks[edge.0 as usize] = 0;
+        }
+        for (number, edge) in (1..).zip(&chosen) {
+            marks[edge.0 as usize] = number;
+        }
+        let fans = self.fans_of_edges(&chosen, &mut marks, left_out);
+        chosen.retain(|edge| marks[edge.0 as usize] != 0);
+        for (number, edge) in (1..).zip(&chosen) {
+            marks[edge.0 as usize] = number;
+        }
+        (chosen, fans, marks)
+    }
+
+    /// The fans at the ends of edges, each once; unmarks edges that end at one that is not simple.
+    fn fans_of_edges(&self, edges: &[EdgeId], marks: &mut [u32], left_out: &mut BevelLeftOut) -> Fans {
+        let mut fans = Fans::default();
+        let mut is_known = vec![[false; 2]; edges.len()];
+        let mut is_unclear = vec![false; edges.len()];
+        for (number, &edge) in edges.iter().enumerate() {
+            for side in self.edge_corners(edge) {
+                let vertex = self.corner_vertex(side);
+                if is_known[number][usize::from(self.edge_vertices(edge)[0] != vertex)] {
+                    continue;
+                }
+                let fan = fans.walk(self, side);
+                for &corner in &fans.corners[fan.start..fan.end] {
+                    let edge = self.corner_edge(corner);
+                    if marks[edge.0 as usize] != 0 {
+                        let other = marks[edge.0 as usize] as usize - 1;
+                        is_known[other][usize::from(self.edge_vertices(edge)[0] != vertex)] = true;
+                        is_unclear[other] |= !fan.is_simple;
+                    }
+                }
+            }
+        }
+        for (edge, is_unclear) in edges.iter().zip(is_unclear) {
+            if is_unclear {
+                marks[edge.0 as usize] = 0;
+                left_out.unclear += 1;
+            }
+        }
+        fans
+    }
+
+    /// Whether two faces meet at an edge that wind in the same way. Otherwise it is counted.
+    fn has_two_sides(&self, edge: EdgeId, left_out: &mut BevelLeftOut) -> bool {
+        let mut sides = self.edge_corners(edge);
+        let counter = match [sides.next(), sides.next(), sides.next()] {
+            [Some(a), Some(b), None] if self.corner_vertex(a) != self.corner_vertex(b) => return true,
+            [Some(_), Some(_), None] => &mut left_out.opposite,
+            [Some(_), Some(_), Some(_)] => &mut left_out.non_manifold,
+            [Some(_), ..] => &mut left_out.borders,
+            _ => &mut left_out.wires,
+        };
+        *counter += 1;
+        false
+    }
+
+    /// The fans at vertices that can be beveled, each vertex once.
+    fn fans_of_vertices(&self, vertices: &[VertexId], left_out: &mut BevelLeftOut) -> Fans {
+        let mut sorted = vertices.to_vec();
+        sorted.sort_unstable();
+        sorted.dedup();
+        let mut fans = Fans::default();
+        for vertex in sorted {
+            let (corners, known) = (fans.corners.len(), fans.fans.len());
+            let mut all: Vec<CornerId> = self.vertex_corners(vertex).collect();
+            all.sort_unstable();
+            let mut seen: Vec<bool> = vec![false; all.len()];
+            for i in 0..all.len() {
+                if seen[i] {
+                    continue;
+                }
+                let fan = fans.walk(self, all[i]);
+                for corner in &fans.corners[fan.start..fan.end] {
+                    if let Ok(index) = all.binary_search(corner) {
+                        seen[index] = true;
+                    }
+                }
+            }
+            let is_simple = fans.fans[known..].iter().all(|fan| fan.is_simple);
+            if !is_simple {
+                fans.corners.truncate(corners);
+                fans.fans.truncate(known);
+            }
+            left_out.unclear += usize::from(!is_simple);
+            left_out.wires += usize::from(all.is_empty());
+        }
+        fans
+    }
+}
+
+impl BevelSettings {
+    fn check(&self) -> Result<(), Refusal> {
+        let refused = |parameter, value, range| Err(Refusal::OutOfRange { parameter, value, range });
+        if !(self.width >= 0.0 && self.width.is_finite()) {
+            return refused("the width of a bevel", self.width, "at least 0");
+        }
+        if !(1..=MOST_SEGMENTS).contains(&self.segments) {
+            return refused("the number of segments", self.segments as f64, "1 to 100");
+        }
+        if !(0.0..=1.0).contains(&self.profile) {
+            return refused("the profile of a bevel", self.profile, "0 to 1");
+        }
+        Ok(())
+    }
+}
