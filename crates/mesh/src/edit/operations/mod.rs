@@ -4,6 +4,7 @@
 //! proportional to what it changes, and returns what it made. Ids that are given twice count once.
 //! A refusal leaves the mesh as it was.
 
+mod catmull_clark;
 mod delete;
 mod merge;
 pub(super) mod numbering;
