@@ -10,6 +10,10 @@ mod merge;
 pub(super) mod numbering;
 mod parts;
 mod subdivide;
+mod triangulate;
+mod tris_to_quads;
 
 pub use merge::MergedVertices;
 pub use subdivide::Subdivided;
+pub use triangulate::Triangulated;
+pub use tris_to_quads::QuadLimits;

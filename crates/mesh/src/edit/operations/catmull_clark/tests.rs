@@ -217,7 +217,8 @@ proptest! {
         start in meshes(), removed in any::<u32>(), crease in any::<u64>(), levels in 1u32..3,
     ) {
         let mut mesh = editable(&start);
-        mesh.remove_edge(EdgeId(removed % mesh.edge_capacity().max(1) as u32)).expect("soups have faces");
+        // Some have no edge.
+        drop(mesh.remove_edge(EdgeId(removed % mesh.edge_capacity().max(1) as u32)));
         for edge in mesh.edges().collect::<Vec<_>>() {
             mesh.set_crease(edge, (crease >> (edge.0 % 32) & 7) as f32 / 7.0);
         }
