@@ -6,13 +6,16 @@
 
 mod catmull_clark;
 mod delete;
+mod fill;
 mod merge;
 pub(super) mod numbering;
+mod outlines;
 mod parts;
 mod subdivide;
 mod triangulate;
 mod tris_to_quads;
 
+pub use fill::Filled;
 pub use merge::MergedVertices;
 pub use subdivide::Subdivided;
 pub use triangulate::Triangulated;
