@@ -116,6 +116,18 @@ impl<T: Copy> Column<T> {
         &mut self.values
     }
 
+    /// Puts another list in the place of all values. The old list is kept as it is, not copied.
+    pub(super) fn replace(&mut self, values: Vec<T>) {
+        let mut whole = std::mem::replace(&mut self.values, values);
+        let Record::Elements { old, length } = &self.record else { return };
+        whole.truncate(*length);
+        for &(index, value) in old {
+            whole[index as usize] = value;
+        }
+        self.noted.fill(0);
+        self.record = Record::Whole(whole);
+    }
+
     /// Starts to record.
     pub(super) fn begin(&mut self) {
         self.record = Record::Elements { old: Vec::new(), length: self.values.len() };
@@ -205,6 +217,7 @@ mod tests {
         Write(u32, u16),
         Push(u16),
         WriteAll(u16),
+        Replace(Vec<u16>),
     }
 
     fn steps() -> impl Strategy<Value = Vec<Step>> {
@@ -212,17 +225,21 @@ mod tests {
             30 => (any::<u32>(), any::<u16>()).prop_map(|(index, value)| Step::Write(index, value)),
             10 => any::<u16>().prop_map(Step::Push),
             1 => any::<u16>().prop_map(Step::WriteAll),
+            1 => prop::collection::vec(any::<u16>(), 0..90).prop_map(Step::Replace),
         ];
         prop::collection::vec(step, 0..60)
     }
 
     fn apply(column: &mut Column<u16>, steps: &[Step]) {
         for step in steps {
-            match *step {
-                Step::Write(index, value) if column.len() > 0 => *column.write(index % column.len()) = value,
+            match step {
+                Step::Write(index, value) if column.len() > 0 => {
+                    *column.write(index % column.len()) = *value;
+                }
                 Step::Write(..) => {}
-                Step::Push(value) => column.push(value),
-                Step::WriteAll(value) => column.write_all().fill(value),
+                Step::Push(value) => column.push(*value),
+                Step::WriteAll(value) => column.write_all().fill(*value),
+                Step::Replace(values) => column.replace(values.clone()),
             }
         }
     }

@@ -49,6 +49,7 @@ pub use operations::{
     CopiedElements, ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices, Inset, InsetFaces,
 };
 pub use operations::{BevelLeftOut, BevelSettings, Beveled, LoopCut, LoopCutSettings};
+pub use operations::{Filled, MergedVertices, QuadLimits, Subdivided, Triangulated};
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;

@@ -6,12 +6,18 @@
 
 mod copy;
 mod bevel;
+mod catmull_clark;
 mod delete;
+mod fill;
 mod merge;
 pub(super) mod numbering;
+mod outlines;
 mod parts;
 mod subdivide;
+mod triangulate;
+mod tris_to_quads;
 
+pub use fill::Filled;
 pub use merge::MergedVertices;
 pub use subdivide::Subdivided;
 mod loop_cut;
@@ -45,3 +51,5 @@ mod tables;
 pub use copy::CopiedElements;
 pub use extrude::{ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices};
 pub use inset::{Inset, InsetFaces};
+pub use triangulate::Triangulated;
+pub use tris_to_quads::QuadLimits;
