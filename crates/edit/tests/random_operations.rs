@@ -133,7 +133,7 @@ fn operations() -> Vec<Operation> {
         operation(
             "delete",
             Some("face", 2),
-            |r| json!({ "what": ["vertices", "edges", "faces", "only_faces"][r.below(4)] }),
+            |r| json!({ "what": (["vertices", "edges", "faces", "only_faces"][r.below(4)]) }),
         ),
     ]
 }

@@ -50,9 +50,13 @@ impl Action for Bevel {
             } else {
                 mesh.bevel_edges(&selection.edges(mesh, kind), &settings)?
             };
-            left_out += made.left_out.total();
+            left_out += made.left_out.count();
             Ok(AfterEdit::Select(Elements::Faces(made.faces)))
         })?;
-        if left_out == 0 { Ok(Outcome::silent()) } else { Ok(Outcome::counted("left out", left_out, ["edge", "edges"])) }
+        if left_out == 0 {
+            Ok(Outcome::silent())
+        } else {
+            Ok(Outcome::counted("left out", left_out, ["edge", "edges"]))
+        }
     }
 }

@@ -5,8 +5,11 @@
 //! Its description, for scripts and for the documentation, is made from the comments of its
 //! parameters.
 
+mod bevel;
 mod cut;
 mod delete;
+mod dissolve;
+mod extrude;
 mod marks;
 mod merge;
 mod mirror;
@@ -14,11 +17,13 @@ mod mode;
 mod normals;
 mod objects;
 mod outcome;
+mod parts;
 mod reference;
 mod scene;
 mod select;
 mod select_property;
 mod select_related;
+mod surface;
 mod transform;
 
 use schemars::JsonSchema;
@@ -27,8 +32,10 @@ use serde::{Deserialize, Serialize};
 use crate::document::Change;
 use crate::error::EditError;
 
+pub use bevel::Bevel;
 pub use cut::{LoopCut, SlideEdges, Subdivide};
 pub use delete::{Delete, DeleteObjects, Deleted};
+pub use extrude::{Extrude, Inset, InsetMode};
 pub use marks::{AssignMaterial, Crease, Hide, MarkSeam, MarkSharp, Reveal, Shade};
 pub use merge::{Merge, MergeAt};
 pub use mirror::{Mirror, MirrorPlane, Symmetrize};
@@ -36,6 +43,8 @@ pub use mode::{EditObjects, LeaveEditMode, SetElementKind};
 pub use normals::{FlipNormals, RecalculateNormals};
 pub use objects::ObjectName;
 pub use outcome::Outcome;
+pub use dissolve::{Dissolve, DissolveFlat};
+pub use parts::{Duplicate, JoinObjects, Separate, SplitOff};
 pub use reference::command_reference;
 pub use scene::{
     AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, SetParent, Shape, ShowObjects,
@@ -45,6 +54,7 @@ pub use select_property::{
     SelectBorder, SelectByMaterial, SelectByNormal, SelectNonManifold, SelectSharp, SelectSimilar,
 };
 pub use select_related::{SelectLess, SelectLinked, SelectLoop, SelectMore, SelectPath, SelectRing};
+pub use surface::{CatmullClark, Fill, Triangulate, TrisToQuads};
 pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Rotate, Scale, Shear, ShrinkFatten, ToSphere,
     Translate,
@@ -160,6 +170,32 @@ commands! {
     PushPull("Push/Pull", false),
     /// Takes the selected vertices back to their first positions.
     ResetVertices("Reset to First Positions", false),
+    /// Extrudes what is selected.
+    Extrude("Extrude", false),
+    /// Makes a rim inside the selected faces.
+    Inset("Inset", false),
+    /// Replaces edges or vertices by new faces.
+    Bevel("Bevel", false),
+    /// Copies what is selected within its mesh.
+    Duplicate("Duplicate", false),
+    /// Splits the selected faces off.
+    SplitOff("Split", false),
+    /// Makes the selected faces an object.
+    Separate("Separate", false),
+    /// Puts several objects into one.
+    JoinObjects("Join", false),
+    /// Subdivides meshes to smooth surfaces.
+    CatmullClark("Catmull-Clark", false),
+    /// Cuts faces into triangles.
+    Triangulate("Triangulate", false),
+    /// Joins triangles to quads.
+    TrisToQuads("Tris to Quads", false),
+    /// Makes faces where there are none.
+    Fill("Fill", false),
+    /// Removes elements, and leaves the surface.
+    Dissolve("Dissolve", false),
+    /// Unites what lies flat.
+    DissolveFlat("Limited Dissolve", false),
     /// Cuts the selected edges into pieces.
     Subdivide("Subdivide", false),
     /// Cuts loops across a ring of quads.

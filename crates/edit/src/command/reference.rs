@@ -149,7 +149,10 @@ mod tests {
             std::fs::write(path, &page).expect("docs can be written");
         }
         let known = std::fs::read_to_string(path).unwrap_or_default();
-        assert!(known == page, "docs/commands.md is not what the code says: TRIGON_UPDATE_GOLDENS=1 writes it");
+        assert!(
+            known == page,
+            "docs/commands.md is not what the code says: TRIGON_UPDATE_GOLDENS=1 writes it"
+        );
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use trigon_mesh::edit::{Difference, EdgeId, EditMesh, FaceId, Refusal, VertexId};
-use trigon_scene::{MeshId, NodeId, Scene, SceneError, SceneParts};
+use trigon_scene::{MeshId, Node, NodeId, Scene, SceneError, SceneParts};
 
 use super::Document;
 use crate::error::EditError;
@@ -93,6 +93,31 @@ impl Change<'_> {
             self.document.stale.insert(copy);
         }
         Some(copy)
+    }
+
+    /// Makes parts of meshes objects of their own, beside the objects that they come from: those that are
+    /// edited, in their order.
+    pub(crate) fn add_parts(&mut self, parts: Vec<EditMesh>) {
+        let owners: Vec<(NodeId, Node)> = self
+            .selection()
+            .meshes()
+            .filter_map(|(mesh, _)| self.scene().nodes().iter().find(|(_, node)| node.mesh == Some(mesh)))
+            .map(|(id, node)| (id, node.clone()))
+            .collect();
+        for (part, (_, owner)) in parts.into_iter().zip(owners) {
+            let (mesh, _) = part.to_mesh();
+            let mesh = self.document.scene.add_mesh(owner.name.clone(), mesh);
+            self.document.meshes.insert(mesh, part);
+            self.document.stale.insert(mesh);
+            let parent = owner.parent();
+            let mut node = owner;
+            node.mesh = Some(mesh);
+            let scene = self.scene_mut();
+            match parent {
+                Some(parent) => drop(scene.add_child(parent, node)),
+                None => drop(scene.add(node)),
+            }
+        }
     }
 
     /// The meshes of objects that have one, each once, in the order of objects.

@@ -17,8 +17,8 @@ mod euler;
 mod from_mesh;
 mod ids;
 mod layers;
-mod measure;
 mod marks;
+mod measure;
 mod operations;
 mod records;
 mod refusal;
@@ -38,18 +38,8 @@ pub use edit_mesh::EditMesh;
 pub use euler::{SplitEdge, SplitFace};
 pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
-pub use operations::{MergedVertices, Subdivided};
-pub use operations::{LoopCut, LoopCutSettings};
-pub use operations::{
-    Falloff, FalloffDistance, FalloffShape, Mirrored, MoveSession, RecalculatedNormals, Symmetrized,
-    Transform, VisibilityChange,
-};
 pub use marks::{EdgeMark, Marks, MarksError};
-pub use operations::{
-    CopiedElements, ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices, Inset, InsetFaces,
-};
-pub use operations::{BevelLeftOut, BevelSettings, Beveled, LoopCut, LoopCutSettings};
-pub use operations::{Filled, MergedVertices, QuadLimits, Subdivided, Triangulated};
+pub use operations::*;
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;

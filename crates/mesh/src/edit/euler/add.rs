@@ -99,11 +99,11 @@ impl EditMesh {
         /// More than any single element can take: a split edge has a corner in each of its faces,
         /// a face a corner for each of its vertices, and lists of these are limited themselves.
         const MARGIN: usize = 1 << 20;
-        self.check_room_for(MARGIN)
+        self.check_room_for_each(MARGIN)
     }
 
     /// Whether there is room for so many more elements of each kind.
-    pub(in super::super) fn check_room_for(&self, more: usize) -> Result<(), Refusal> {
+    pub(in super::super) fn check_room_for_each(&self, more: usize) -> Result<(), Refusal> {
         let longest = self.corners.len().max(self.edges.len()).max(self.vertices.len());
         if more < (MOST - longest.min(MOST)) as usize { Ok(()) } else { Err(Refusal::TooMany) }
     }

@@ -37,7 +37,7 @@ impl EditMesh {
         edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
         faces.iter().try_for_each(|&face| self.check_face(face))?;
         let part = self.part(&Elements::with_parts(self, vertices, edges, faces));
-        self.check_room_for(part.corner_count().max(part.edge_count()).max(part.vertex_count()))?;
+        self.check_room_for_each(part.corner_count().max(part.edge_count()).max(part.vertex_count()))?;
         Ok(self.append(&part))
     }
 }

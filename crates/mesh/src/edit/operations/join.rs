@@ -21,7 +21,7 @@ impl EditMesh {
     /// # Errors
     /// There would be too many elements.
     pub fn join_mesh(&mut self, other: &Self, transform: &DAffine3) -> Result<CopiedElements, Refusal> {
-        self.check_room_for(other.corner_count().max(other.edge_count()).max(other.vertex_count()))?;
+        self.check_room_for_each(other.corner_count().max(other.edge_count()).max(other.vertex_count()))?;
         if *transform == DAffine3::IDENTITY {
             return Ok(self.append(other));
         }

@@ -4,9 +4,9 @@
 //! proportional to what it changes, and returns what it made. Ids that are given twice count once.
 //! A refusal leaves the mesh as it was.
 
-mod copy;
 mod bevel;
 mod catmull_clark;
+mod copy;
 mod delete;
 mod fill;
 mod merge;

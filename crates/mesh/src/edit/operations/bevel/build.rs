@@ -44,7 +44,7 @@ impl EditMesh {
             }
             faces.push(id);
         }
-        self.mark_seams(&plan, edges, &vertices);
+        self.move_seams(&plan, edges, &vertices);
         self.blend_corners(&plan.blends);
         for round in &plan.laid.rounds {
             // Wires and faces of other fans may still be there.
@@ -128,7 +128,7 @@ impl EditMesh {
     }
 
     /// Moves seams from beveled edges to where their two sides meet now.
-    fn mark_seams(&mut self, plan: &Blueprint, edges: &[EdgeId], vertices: &[VertexId]) {
+    fn move_seams(&mut self, plan: &Blueprint, edges: &[EdgeId], vertices: &[VertexId]) {
         for (&edge, ends) in edges.iter().zip(&plan.laid.ends) {
             if self.edges[edge.0].flags & SEAM == 0 {
                 continue;

@@ -84,6 +84,12 @@ pub struct BevelLeftOut {
 }
 
 impl BevelLeftOut {
+    /// How many there are of all kinds.
+    pub fn count(&self) -> usize {
+        let Self { wires, borders, non_manifold, opposite, unclear } = self;
+        wires + borders + non_manifold + opposite + unclear
+    }
+
     fn reason(&self) -> &'static str {
         if self.non_manifold > 0 {
             "more than two faces meet at the edges"

@@ -78,7 +78,7 @@ impl EditMesh {
         let region = Region::new(self, faces, "extruding")?;
         offset.check()?;
         // Each corner of the region has at most one in a bottom and four in a wall.
-        self.check_room_for(5 * region.corner_count(self))?;
+        self.check_room_for_each(5 * region.corner_count(self))?;
         let border = region.border(self);
         let sheets = region.sheets(self, &border);
         let vertices = region.vertices(self);
@@ -116,7 +116,7 @@ impl EditMesh {
     ) -> Result<ExtrudedFaces, Refusal> {
         let region = Region::new(self, faces, "extruding")?;
         offset.check()?;
-        self.check_room_for(4 * region.corner_count(self))?;
+        self.check_room_for_each(4 * region.corner_count(self))?;
         let mut lifted = LiftedFaces::default();
         let mut places = Vec::new();
         for &face in &region.faces {

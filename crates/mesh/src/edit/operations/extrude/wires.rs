@@ -46,7 +46,7 @@ impl EditMesh {
         require(edges, "extruding edges", "at least one edge")?;
         edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
         check_finite(&offset.to_array())?;
-        self.check_room_for(4 * edges.len())?;
+        self.check_room_for_each(4 * edges.len())?;
         let mut edges = edges.to_vec();
         edges.sort_unstable();
         edges.dedup();
@@ -135,7 +135,7 @@ impl EditMesh {
         require(vertices, "extruding vertices", "at least one vertex")?;
         vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;
         check_finite(&offset.to_array())?;
-        self.check_room_for(vertices.len())?;
+        self.check_room_for_each(vertices.len())?;
         let mut vertices = vertices.to_vec();
         vertices.sort_unstable();
         vertices.dedup();

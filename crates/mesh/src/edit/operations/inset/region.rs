@@ -67,7 +67,7 @@ impl EditMesh {
     ) -> Result<InsetFaces, Refusal> {
         let region = Region::new(self, faces, "insetting")?;
         inset.check()?;
-        self.check_room_for(5 * region.corner_count(self))?;
+        self.check_room_for_each(5 * region.corner_count(self))?;
         let mut border = region.border(self);
         border.retain(|edge| inset.open_borders || edge.outer.is_some());
         if border.is_empty() {
@@ -85,7 +85,7 @@ impl EditMesh {
         let rim = IndexSet::from_faces(self, &lifted.walls);
         let slides = self.slides(&border, &lifted.walls, shrinks);
         self.dress_rim(&border, &lifted.walls, shrinks);
-        self.slide(&slides, inset.thickness, |face| match shrinks {
+        self.slide_border(&slides, inset.thickness, |face| match shrinks {
             Shrinks::Region => region.contains(face),
             Shrinks::Outside => !region.contains(face) && !rim.contains(face.0),
         });
@@ -182,7 +182,7 @@ impl EditMesh {
 
     /// Moves vertices away from the old border, and gives the corners there that belong to a surface
     /// their share of the values of their faces.
-    fn slide(&mut self, slides: &Slides, distance: f64, is_surface: impl Fn(FaceId) -> bool) {
+    fn slide_border(&mut self, slides: &Slides, distance: f64, is_surface: impl Fn(FaceId) -> bool) {
         let mut jobs: Vec<(FaceId, CornerId, usize)> = Vec::new();
         for (place, slide) in slides.list.iter().enumerate() {
             let corners = self.vertex_corners(slide.vertex);

@@ -1,0 +1,128 @@
+//! Other faces for the same surface: Catmull-Clark, triangles, quads; and faces where there are none.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trigon_mesh::edit::QuadLimits;
+
+use super::{Action, Outcome};
+use crate::document::{AfterEdit, Change};
+use crate::error::EditError;
+use crate::selection::{ElementKind, Elements};
+
+const FACES: &str = "at least one selected face";
+
+/// Subdivides whole meshes to smooth surfaces: those that are edited, or those of the selected objects.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct CatmullClark {
+    /// How many times.
+    #[schemars(range(min = 1, max = 10))]
+    pub levels: u32,
+}
+
+impl Default for CatmullClark {
+    fn default() -> Self {
+        Self { levels: 1 }
+    }
+}
+
+impl Action for CatmullClark {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let ids = if change.selection().is_editing() {
+            change.selection().meshes().map(|(id, _)| id).collect()
+        } else {
+            change.meshes_of(change.selection().objects.iter().copied())
+        };
+        if ids.is_empty() {
+            let needed = "at least one object with a mesh";
+            return Err(EditError::NothingSelected { command: "subdividing", needed });
+        }
+        let mut faces = 0;
+        for id in ids {
+            faces += change.edit(id, |mesh| {
+                mesh.catmull_clark(self.levels)?;
+                Ok(mesh.face_count())
+            })?;
+        }
+        Ok(Outcome::counted("made", faces, ["face", "faces"]))
+    }
+}
+
+/// Cuts the selected faces into triangles.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Triangulate {}
+
+impl Action for Triangulate {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        let mut left = 0;
+        change.edit_selected("triangulating", FACES, |mesh, selection| {
+            let made = mesh.triangulate_faces(&selection.faces(mesh, kind))?;
+            left += made.left.len();
+            Ok(AfterEdit::Select(Elements::Faces(made.faces)))
+        })?;
+        if left == 0 {
+            Ok(Outcome::silent())
+        } else {
+            Ok(Outcome::counted("left as they were", left, ["face", "faces"]))
+        }
+    }
+}
+
+/// Joins pairs of the selected triangles to quads.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct TrisToQuads {
+    /// How far two triangles may be from one plane, in degrees.
+    #[schemars(range(min = 0.0, max = 180.0))]
+    pub face_angle: f64,
+    /// How far the corners of a quad may be from right angles, in degrees.
+    #[schemars(range(min = 0.0, max = 180.0))]
+    pub shape_angle: f64,
+}
+
+impl Default for TrisToQuads {
+    fn default() -> Self {
+        Self { face_angle: 40.0, shape_angle: 40.0 }
+    }
+}
+
+impl Action for TrisToQuads {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        let limits = QuadLimits {
+            face_angle: self.face_angle.to_radians(),
+            shape_angle: self.shape_angle.to_radians(),
+        };
+        let mut quads = 0;
+        change.edit_selected("joining triangles", "at least two selected triangles", |mesh, selection| {
+            quads += mesh.tris_to_quads(&selection.faces(mesh, kind), limits)?.len();
+            Ok(AfterEdit::Keep)
+        })?;
+        Ok(Outcome::counted("made", quads, ["quad", "quads"]))
+    }
+}
+
+/// Makes a face of a loop or a chain of edges, or of vertices; of two vertices an edge.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Fill {}
+
+impl Action for Fill {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        change.edit_selected("filling", "edges or vertices", |mesh, selection| {
+            let edges = selection.edges(mesh, kind);
+            let made = if kind == ElementKind::Vertex && edges.len() < 2 {
+                mesh.fill_vertices(&selection.vertices(mesh, kind))?
+            } else {
+                mesh.fill_edges(&edges)?
+            };
+            let elements =
+                if made.faces.is_empty() { Elements::Edges(made.edges) } else { Elements::Faces(made.faces) };
+            Ok(AfterEdit::Select(elements))
+        })?;
+        Ok(Outcome::silent())
+    }
+}
