@@ -11,6 +11,9 @@ use std::ops::Index;
 pub(super) struct Column<T> {
     values: Vec<T>,
     record: Record<T>,
+    /// Writes below this index are recorded: 0 unless [`Record::Elements`] runs, so that one comparison
+    /// tells.
+    recorded: u32,
     /// One bit for each element of the old list whose old value is in the record. All zero
     /// while nothing is recorded; kept for its memory.
     noted: Vec<u64>,
@@ -42,7 +45,7 @@ pub(super) enum ColumnDifference<T> {
 
 impl<T: Copy> Column<T> {
     pub(super) fn new(values: Vec<T>) -> Self {
-        Self { values, record: Record::Off, noted: Vec::new() }
+        Self { values, record: Record::Off, recorded: 0, noted: Vec::new() }
     }
 
     /// A list with room for an eighth more: the first elements that are added do not move all others to
@@ -78,28 +81,16 @@ impl<T: Copy> Column<T> {
     /// An element, to be changed.
     #[inline]
     pub(super) fn write(&mut self, index: u32) -> &mut T {
-        if matches!(self.record, Record::Elements { .. }) {
+        if index < self.recorded && self.noted[index as usize / 64] >> (index % 64) & 1 == 0 {
             self.note(index);
         }
         &mut self.values[index as usize]
     }
 
-    /// Keeps the old value of an element if this is its first change.
-    #[inline]
+    /// Keeps the old value of an element before its first change.
     fn note(&mut self, index: u32) {
         let Record::Elements { old, length } = &mut self.record else { return };
-        if index as usize >= *length {
-            // It came with this change.
-            return;
-        }
-        if self.noted.len() < length.div_ceil(64) {
-            self.noted.resize(length.div_ceil(64), 0);
-        }
-        let (word, bit) = (&mut self.noted[index as usize / 64], 1u64 << (index % 64));
-        if *word & bit != 0 {
-            return;
-        }
-        *word |= bit;
+        self.noted[index as usize / 64] |= 1u64 << (index % 64);
         old.push((index, self.values[index as usize]));
         if old.len() * size_of::<(u32, T)>() > *length * size_of::<T>() {
             self.keep_whole();
@@ -115,6 +106,7 @@ impl<T: Copy> Column<T> {
             whole[index as usize] = value;
         }
         self.noted.fill(0);
+        self.recorded = 0;
         self.record = Record::Whole(whole);
     }
 
@@ -126,12 +118,18 @@ impl<T: Copy> Column<T> {
 
     /// Starts to record.
     pub(super) fn begin(&mut self) {
-        self.record = Record::Elements { old: Vec::new(), length: self.values.len() };
+        let length = self.values.len();
+        self.record = Record::Elements { old: Vec::new(), length };
+        self.recorded = length as u32;
+        if self.noted.len() < length.div_ceil(64) {
+            self.noted.resize(length.div_ceil(64), 0);
+        }
     }
 
     /// Stops to record. What leads back to the state at [`Self::begin`]; `None` where
     /// nothing changed.
     pub(super) fn finish(&mut self) -> Option<ColumnDifference<T>> {
+        self.recorded = 0;
         match std::mem::replace(&mut self.record, Record::Off) {
             Record::Off => None,
             Record::Whole(whole) => Some(ColumnDifference::Whole(whole)),
