@@ -35,7 +35,8 @@ pub use euler::{SplitEdge, SplitFace};
 pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
 pub use operations::{
-    CopiedElements, ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices, Inset, InsetFaces,
+    CopiedElements, Dissolved, ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices, Inset,
+    InsetFaces, LimitedDissolve,
 };
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;

@@ -6,6 +6,7 @@
 
 mod copy;
 mod delete;
+mod dissolve;
 mod duplicate;
 mod extrude;
 mod frame;
@@ -18,5 +19,6 @@ mod split;
 mod tables;
 
 pub use copy::CopiedElements;
+pub use dissolve::{Dissolved, LimitedDissolve};
 pub use extrude::{ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices};
 pub use inset::{Inset, InsetFaces};
