@@ -43,9 +43,9 @@ impl EditMesh {
             records[point as usize].flags |= POINT;
         }
         self.slots.vertices = Slots { free: NONE, alive: records.len() as u32 };
-        self.vertices = Column::new(records);
-        self.positions = Column::new(mesh.positions().to_vec());
-        self.first_positions = Column::new(mesh.positions().to_vec());
+        self.vertices = Column::with_room(records.into_iter());
+        self.positions = Column::with_room(mesh.positions().iter().copied());
+        self.first_positions = Column::with_room(mesh.positions().iter().copied());
     }
 
     fn add_edges(&mut self, mesh: &Mesh) {
@@ -58,7 +58,7 @@ impl EditMesh {
             crease: 0.0,
             flags: ALIVE,
         };
-        self.edges = Column::new(ends.iter().map(record).collect());
+        self.edges = Column::with_room(ends.iter().map(record));
         self.slots.edges = Slots { free: NONE, alive: ends.len() as u32 };
         for edge in 0..ends.len() as u32 {
             self.link_at_vertex(edge, 0);
@@ -68,8 +68,8 @@ impl EditMesh {
 
     fn add_faces(&mut self, mesh: &Mesh) {
         let attributes = mesh.attributes();
-        let mut corners = Vec::with_capacity(mesh.corner_count());
-        let mut faces = Vec::with_capacity(mesh.face_count());
+        let mut corners = Vec::with_capacity(mesh.corner_count() + mesh.corner_count() / 8);
+        let mut faces = Vec::with_capacity(mesh.face_count() + mesh.face_count() / 8);
         for (face, range) in mesh.faces().enumerate() {
             let smooth = attributes.face_smooth.as_ref().is_some_and(|smooth| smooth[face]);
             faces.push(FaceRecord {
@@ -119,16 +119,16 @@ fn corner_layers(attributes: &Attributes, corners: usize) -> Vec<Layer> {
     let mut layers = Vec::new();
     let mut add = |kind, values| layers.push(Layer { kind, values });
     for set in &attributes.uv_sets {
-        add(LayerKind::Uv, LayerValues::Vec2(Column::new(set.clone())));
+        add(LayerKind::Uv, LayerValues::Vec2(Column::with_room(set.iter().copied())));
     }
     if let Some(colors) = &attributes.corner_colors {
-        add(LayerKind::Color, LayerValues::Vec4(Column::new(colors.clone())));
+        add(LayerKind::Color, LayerValues::Vec4(Column::with_room(colors.iter().copied())));
     }
     if let Some(normals) = &attributes.corner_normals {
-        add(LayerKind::Normal, LayerValues::Vec3(Column::new(normals.clone())));
+        add(LayerKind::Normal, LayerValues::Vec3(Column::with_room(normals.iter().copied())));
     }
     if let Some(tangents) = &attributes.corner_tangents {
-        add(LayerKind::Tangent, LayerValues::Vec4(Column::new(tangents.clone())));
+        add(LayerKind::Tangent, LayerValues::Vec4(Column::with_room(tangents.iter().copied())));
     }
     for (number, target) in (0u16..).zip(&attributes.morph_targets) {
         if !target.normals.is_empty() {
@@ -159,7 +159,7 @@ fn dense(deltas: &Deltas, count: usize) -> LayerValues {
     for (index, value) in deltas.iter() {
         values[index as usize] = value;
     }
-    LayerValues::Vec3(Column::new(values))
+    LayerValues::Vec3(Column::with_room(values.into_iter()))
 }
 
 fn influences(skin: &SkinWeights, left_out: &mut LeftOut) -> LayerValues {
@@ -174,5 +174,5 @@ fn influences(skin: &SkinWeights, left_out: &mut LeftOut) -> LayerValues {
         left_out.skinned_vertices += usize::from(all.len() > super::skin::MOST);
         Influences::heaviest(all)
     };
-    LayerValues::Influences(Column::new((0..skin.vertex_count()).map(of_vertex).collect()))
+    LayerValues::Influences(Column::with_room((0..skin.vertex_count()).map(of_vertex)))
 }

@@ -40,6 +40,10 @@ pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
 pub use marks::{EdgeMark, Marks, MarksError};
 pub use operations::*;
+pub use operations::{
+    CopiedElements, Dissolved, ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices, Inset,
+    InsetFaces, LimitedDissolve,
+};
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;

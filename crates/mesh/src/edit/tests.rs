@@ -255,3 +255,12 @@ fn the_hub_of_a_fan_does_not_make_edges_slow_to_find() {
     }
     mesh.remove_vertex(hub).expect("it is there");
 }
+
+#[test]
+fn a_difference_that_only_adds_is_not_empty() {
+    let mut mesh = EditMesh::from_mesh(&primitives::cube(2.0)).0;
+    let (_, added) = mesh.transaction(|mesh| mesh.add_vertex(Vec3::X)).expect("room");
+    assert!(!added.is_empty(), "there is a vertex more");
+    let ((), nothing) = mesh.transaction(|_| Ok::<(), Refusal>(())).expect("nothing is done");
+    assert!(nothing.is_empty(), "nothing was done");
+}

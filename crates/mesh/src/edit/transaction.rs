@@ -175,8 +175,14 @@ impl Difference {
 
     /// Whether both states are the same.
     pub fn is_empty(&self) -> bool {
-        let layers = [&self.vertex_layers, &self.corner_layers];
-        self.bytes() == 0 && layers.iter().all(|layers| layers.added.is_empty())
+        // What only added elements takes no memory until it is undone.
+        self.vertices.is_none()
+            && self.positions.is_none()
+            && self.first_positions.is_none()
+            && self.edges.is_none()
+            && self.corners.is_none()
+            && self.faces.is_none()
+            && [&self.vertex_layers, &self.corner_layers].iter().all(|layers| layers.is_empty())
     }
 
     /// The memory that it takes, in bytes.
@@ -205,6 +211,11 @@ impl LayersDifference {
         } else {
             layers.append(&mut self.added);
         }
+    }
+
+    fn is_empty(&self) -> bool {
+        let is_unchanged = |layer: &LayerDifference| matches!(layer, LayerDifference::Unchanged);
+        self.added.is_empty() && self.common.iter().all(is_unchanged)
     }
 
     fn bytes(&self) -> usize {

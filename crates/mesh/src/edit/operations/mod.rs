@@ -37,6 +37,7 @@ pub use mirror::Mirrored;
 pub use recalculate_normals::RecalculatedNormals;
 pub use symmetrize::Symmetrized;
 pub use transform::{Falloff, FalloffDistance, FalloffShape, MoveSession, Transform};
+mod dissolve;
 mod duplicate;
 mod extrude;
 mod frame;
@@ -49,6 +50,7 @@ mod split;
 mod tables;
 
 pub use copy::CopiedElements;
+pub use dissolve::{Dissolved, LimitedDissolve};
 pub use extrude::{ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices};
 pub use inset::{Inset, InsetFaces};
 pub use triangulate::Triangulated;

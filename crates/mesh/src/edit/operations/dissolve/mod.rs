@@ -1,0 +1,127 @@
+//! Dissolving: elements go, and the surface that they divided stays as larger faces.
+
+mod limited;
+mod merge;
+#[cfg(test)]
+mod tests;
+
+use super::super::edit_mesh::EditMesh;
+use super::super::ids::{EdgeId, FaceId, VertexId};
+use super::super::refusal::Refusal;
+use super::delete::require;
+use super::region::Region;
+use super::tables::IndexSet;
+use merge::OnRefusal;
+
+pub use limited::LimitedDissolve;
+
+/// What dissolving left in the place of what was dissolved.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Dissolved {
+    /// The faces that were united from several, in ascending order: each is the one with the lowest id.
+    pub faces: Vec<FaceId>,
+    /// How many vertices were removed.
+    pub removed_vertices: usize,
+}
+
+impl EditMesh {
+    /// Unites faces that are joined by edges to one polygon for each connected part. It keeps the id,
+    /// material and marks of the face with the lowest id, and every corner on its outline its values.
+    /// Vertices inside are removed.
+    ///
+    /// Faces are joined where exactly two meet at an edge and wind alike.
+    ///
+    /// # Errors
+    /// No face is given, or one does not exist; no two of them are joined; a part has a hole, is closed or has
+    /// fewer than three vertices on its outline.
+    pub fn dissolve_faces(&mut self, faces: &[FaceId]) -> Result<Dissolved, Refusal> {
+        let region = Region::new(self, faces, "dissolving faces")?;
+        let mut edges = Vec::new();
+        for &face in &region.faces {
+            edges.extend(self.face_edges(face));
+        }
+        let is_inside = |mesh: &Self, edge: EdgeId| mesh.edge_faces(edge).all(|face| region.contains(face));
+        edges.retain(|&edge| is_inside(self, edge));
+        let vertices = self.vertex_count();
+        self.whole(|mesh| {
+            let faces = mesh.merge_across(&edges, OnRefusal::Refuse)?;
+            if faces.is_empty() {
+                let reason = "no two of the faces are joined by an edge and wind alike";
+                return Err(Refusal::NotPossible { operation: "dissolving faces", reason });
+            }
+            Ok(Dissolved { faces, removed_vertices: vertices - mesh.vertex_count() })
+        })
+    }
+
+    /// Removes edges between two faces, which become one; vertices that are left between two edges are
+    /// removed, too, if they had more before, as in Blender.
+    ///
+    /// # Errors
+    /// No edge is given, or one does not exist, or is not between exactly two faces that wind alike; a united
+    /// face would have a hole, be closed or have fewer than three vertices.
+    pub fn dissolve_edges(&mut self, edges: &[EdgeId]) -> Result<Dissolved, Refusal> {
+        require(edges, "dissolving edges", "at least one edge")?;
+        edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
+        if edges.iter().any(|&edge| self.merging_pair(edge).is_none()) {
+            let reason = "an edge is not between exactly two faces that wind alike";
+            return Err(Refusal::NotPossible { operation: "dissolving edges", reason });
+        }
+        let mut ends: Vec<VertexId> = edges.iter().flat_map(|&edge| self.edge_vertices(edge)).collect();
+        ends.sort_unstable();
+        ends.dedup();
+        ends.retain(|&vertex| self.vertex_edges(vertex).nth(2).is_some());
+        let vertices = self.vertex_count();
+        self.whole(|mesh| {
+            let faces = mesh.merge_across(edges, OnRefusal::Refuse)?;
+            for vertex in ends {
+                if mesh.has_vertex(vertex) {
+                    // One that a face needs stays.
+                    mesh.join_edges(vertex).ok();
+                }
+            }
+            Ok(Dissolved { faces, removed_vertices: vertices - mesh.vertex_count() })
+        })
+    }
+
+    /// Removes vertices: the faces at each become one, and two edges at it become one. A vertex without faces
+    /// goes with its edges unless it has exactly two.
+    ///
+    /// # Errors
+    /// No vertex is given, or one does not exist; the faces at one cannot be united, since more than two
+    /// meet at an edge, they wind against each other, or the union would have a hole, be closed or have
+    /// fewer than three vertices.
+    pub fn dissolve_vertices(&mut self, vertices: &[VertexId]) -> Result<Dissolved, Refusal> {
+        require(vertices, "dissolving vertices", "at least one vertex")?;
+        vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;
+        let mut seen = IndexSet::new(self.vertex_capacity(), vertices.len());
+        let given: Vec<VertexId> = vertices.iter().copied().filter(|vertex| seen.insert(vertex.0)).collect();
+        let mut edges: Vec<EdgeId> = Vec::new();
+        // Between two edges there is nothing to unite.
+        for &vertex in given.iter().filter(|&&vertex| self.vertex_edges(vertex).nth(2).is_some()) {
+            edges.extend(self.vertex_edges(vertex).filter(|&edge| self.merging_pair(edge).is_some()));
+        }
+        let before = self.vertex_count();
+        self.whole(|mesh| {
+            let mut faces = mesh.merge_across(&edges, OnRefusal::Refuse)?;
+            for &vertex in given.iter().filter(|&&vertex| seen.contains(vertex.0)) {
+                if mesh.has_vertex(vertex) {
+                    mesh.dissolve_left_over(vertex)?;
+                }
+            }
+            faces.retain(|&face| mesh.has_face(face));
+            Ok(Dissolved { faces, removed_vertices: before - mesh.vertex_count() })
+        })
+    }
+
+    /// A vertex whose faces were united, and that is still there.
+    fn dissolve_left_over(&mut self, vertex: VertexId) -> Result<(), Refusal> {
+        if self.vertex_edges(vertex).count() == 2 {
+            return self.join_edges(vertex).map(drop);
+        }
+        if self.vertex_faces(vertex).next().is_some() {
+            let reason = "the faces at a vertex cannot be united to one";
+            return Err(Refusal::NotPossible { operation: "dissolving vertices", reason });
+        }
+        self.remove_vertex(vertex)
+    }
+}
