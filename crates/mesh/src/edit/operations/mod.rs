@@ -4,7 +4,9 @@
 //! proportional to what it changes, and returns what it made. Ids that are given twice count once.
 //! A refusal leaves the mesh as it was.
 
+mod bridge;
 mod catmull_clark;
+mod connect;
 mod delete;
 mod fill;
 mod merge;
@@ -15,6 +17,7 @@ mod subdivide;
 mod triangulate;
 mod tris_to_quads;
 
+pub use connect::Connected;
 pub use fill::Filled;
 pub use merge::MergedVertices;
 pub use subdivide::Subdivided;
