@@ -44,6 +44,7 @@ pub use operations::{
     CopiedElements, Dissolved, ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices, Inset,
     InsetFaces, LimitedDissolve,
 };
+pub use operations::{Connected, Filled, MergedVertices, QuadLimits, Subdivided, Triangulated};
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;

@@ -24,7 +24,7 @@ mod quad;
 
 use trigon_math::{DVec2, Vec3};
 
-pub(crate) use project::area_vector;
+pub(crate) use project::{area_vector, longest_axis, plane};
 
 use ears::EarCutter;
 

@@ -50,7 +50,7 @@ fn for_each_part(corners: impl IntoIterator<Item = DVec3>, mut part: impl FnMut(
 
 /// The other two coordinates, in the order that keeps the turning sense seen
 /// from the positive end of the axis, or the opposite order.
-pub(super) fn plane(point: DVec3, axis: usize, swap: bool) -> DVec2 {
+pub(crate) fn plane(point: DVec3, axis: usize, swap: bool) -> DVec2 {
     let [u, v] = match axis {
         0 => [point.y, point.z],
         1 => [point.z, point.x],
@@ -60,7 +60,7 @@ pub(super) fn plane(point: DVec3, axis: usize, swap: bool) -> DVec2 {
 }
 
 /// The first of the longest coordinates.
-pub(super) fn longest_axis(vector: DVec3) -> usize {
+pub(crate) fn longest_axis(vector: DVec3) -> usize {
     let [x, y, z] = vector.abs().to_array();
     match (x >= y, x >= z, y >= z) {
         (true, true, _) => 0,

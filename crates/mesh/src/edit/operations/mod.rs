@@ -7,6 +7,9 @@
 mod bevel;
 mod catmull_clark;
 mod copy;
+mod bridge;
+mod catmull_clark;
+mod connect;
 mod delete;
 mod fill;
 mod merge;
@@ -17,6 +20,7 @@ mod subdivide;
 mod triangulate;
 mod tris_to_quads;
 
+pub use connect::Connected;
 pub use fill::Filled;
 pub use merge::MergedVertices;
 pub use subdivide::Subdivided;
