@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use proptest::prelude::*;
 use trigon_math::{DVec3, Vec2, Vec3};
 
+use super::super::super::ids::CornerId;
 use super::super::super::tests::{keeps_affine_values, meshes, with_affine_values};
 use super::*;
 use crate::{Mesh, primitives};
