@@ -22,6 +22,15 @@ pub(super) struct CornerBlends {
 }
 
 impl CornerBlends {
+    /// With room for so many parts, sums and targets.
+    pub(super) fn with_capacity(parts: usize, sums: usize, targets: usize) -> Self {
+        Self {
+            parts: Vec::with_capacity(parts),
+            ends: Vec::with_capacity(sums),
+            targets: Vec::with_capacity(targets),
+        }
+    }
+
     /// Adds a sum, whose weights add up to 1; its number.
     pub(super) fn sum(&mut self, parts: impl IntoIterator<Item = (CornerId, f64)>) -> u32 {
         self.parts.extend(parts.into_iter().map(|(corner, weight)| (corner.0, weight)));

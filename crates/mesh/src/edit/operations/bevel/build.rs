@@ -6,7 +6,7 @@ use super::super::super::blends::CornerBlends;
 use super::super::super::edit_mesh::EditMesh;
 use super::super::super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
 use super::super::super::records::SEAM;
-use super::nodes::End;
+use super::laid::End;
 use super::shape::{Blueprint, NewCorner};
 
 impl EditMesh {

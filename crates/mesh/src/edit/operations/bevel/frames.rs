@@ -8,7 +8,7 @@ use trigon_math::DVec3;
 use super::super::super::blends::in_plane;
 use super::super::super::edit_mesh::EditMesh;
 use super::super::super::ids::{CornerId, FaceId};
-use super::nodes::Part;
+use super::laid::Part;
 
 /// Three corners of a face that lie far from one line, and its normal.
 #[derive(Debug, Clone, Copy)]

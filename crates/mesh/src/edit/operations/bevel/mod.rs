@@ -1,8 +1,8 @@
 //! Bevels: edges and vertices give way to flat or round faces.
 //!
-//! In four steps. `fans` walks round the vertices; `nodes` finds the places of the new rims,
-//! which move in proportion to the width, so that overlaps are found before any width is fixed;
-//! `shape` lays out all new vertices, faces and values (`profile` is the cross-section, `patch`
+//! In four steps. `chosen` finds what can be beveled, and the `fans` of faces round its vertices; `nodes`
+//! (with `sectors`, `places` and `frames`) finds the places of the new rims, which move in
+//! proportion to the width, so that overlaps are found before any width is fixed; `shape` lays out all new vertices, faces and values (`profile` is the cross-section, `patch`
 //! the grid where three or more bevels meet); `build` changes the mesh. Until then nothing is
 //! written, and a refusal costs nothing.
 //!
@@ -10,20 +10,24 @@
 //! are our own.
 
 mod build;
+mod chosen;
 mod fans;
 mod frames;
+mod laid;
 mod nodes;
 mod patch;
+mod places;
 mod profile;
+mod sectors;
 mod shape;
 #[cfg(test)]
 mod tests;
 
 use super::super::edit_mesh::EditMesh;
-use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
+use super::super::ids::{EdgeId, FaceId, VertexId};
 use super::super::refusal::Refusal;
 use super::delete::require;
-use fans::Fans;
+use laid::Laid;
 use nodes::Nodes;
 use profile::Profile;
 
@@ -150,7 +154,7 @@ impl EditMesh {
         if chosen.is_empty() {
             return Err(Refusal::NotPossible { operation: OPERATION, reason: left_out.reason() });
         }
-        let mut nodes = Nodes::new(self, marks, chosen.len());
+        let mut nodes = Nodes::new(self, marks, fans.fans.len(), chosen.len());
         for &fan in &fans.fans {
             nodes.add_edge_fan(fan, &fans.corners[fan.start..fan.end]);
         }
@@ -181,7 +185,7 @@ impl EditMesh {
             return Err(Refusal::NotPossible { operation: OPERATION, reason: left_out.reason() });
         }
         // The zeros cost nothing until they are touched.
-        let mut nodes = Nodes::new(self, vec![0; self.edge_capacity()], 0);
+        let mut nodes = Nodes::new(self, vec![0; self.edge_capacity()], fans.fans.len(), 0);
         for &fan in &fans.fans {
             nodes.add_vertex_fan(fan, &fans.corners[fan.start..fan.end]);
         }
@@ -190,124 +194,18 @@ impl EditMesh {
 
     fn run(
         &mut self,
-        nodes: nodes::Laid,
+        laid: Laid,
         edges: &[EdgeId],
         settings: &BevelSettings,
         left_out: BevelLeftOut,
     ) -> Result<Beveled, Refusal> {
-        let limit = if settings.clamp_overlap { nodes.limit } else { f64::INFINITY };
+        let limit = if settings.clamp_overlap { laid.limit } else { f64::INFINITY };
         let width = if limit < settings.width { limit } else { settings.width };
         let profile = Profile::new(settings.segments, settings.profile);
-        shape::check_size(self, &nodes, settings.segments)?;
-        let plan = shape::Plan::draw(self, nodes, &profile, width);
+        shape::check_size(self, &laid, settings.segments)?;
+        let plan = shape::Plan::draw(self, laid, &profile, width);
         let (faces, vertices) = self.build_bevel(plan, edges);
         Ok(Beveled { faces, vertices, width, left_out })
-    }
-
-    /// Which of some edges can be beveled, each once; the fans at their ends; and for each edge of the
-    /// mesh 1 + its number among these, or 0.
-    fn beveled_edges(&self, edges: &[EdgeId], left_out: &mut BevelLeftOut) -> (Vec<EdgeId>, Fans, Vec<u32>) {
-        // The zeros cost nothing until they are touched.
-        let mut marks: Vec<u32> = vec![0; self.edge_capacity()];
-        let mut chosen = Vec::with_capacity(edges.len());
-        for &edge in edges {
-            let mark = &mut marks[edge.0 as usize];
-            if *mark == 0 && self.has_two_sides(edge, left_out) {
-                chosen.push(edge);
-            }
-            // Also of those that are left out, so that they count once.
-            *mark = u32::MAX;
-        }
-        for &edge in edges {
-            marks[edge.0 as usize] = 0;
-        }
-        for (number, edge) in (1..).zip(&chosen) {
-            marks[edge.0 as usize] = number;
-        }
-        let fans = self.fans_of_edges(&chosen, &mut marks, left_out);
-        chosen.retain(|edge| marks[edge.0 as usize] != 0);
-        for (number, edge) in (1..).zip(&chosen) {
-            marks[edge.0 as usize] = number;
-        }
-        (chosen, fans, marks)
-    }
-
-    /// The fans at the ends of edges, each once; unmarks edges that end at one that is not simple.
-    fn fans_of_edges(&self, edges: &[EdgeId], marks: &mut [u32], left_out: &mut BevelLeftOut) -> Fans {
-        let mut fans = Fans::default();
-        let mut is_known = vec![[false; 2]; edges.len()];
-        let mut is_unclear = vec![false; edges.len()];
-        for (number, &edge) in edges.iter().enumerate() {
-            for side in self.edge_corners(edge) {
-                let vertex = self.corner_vertex(side);
-                if is_known[number][usize::from(self.edge_vertices(edge)[0] != vertex)] {
-                    continue;
-                }
-                let fan = fans.walk(self, side);
-                for &corner in &fans.corners[fan.start..fan.end] {
-                    let edge = self.corner_edge(corner);
-                    if marks[edge.0 as usize] != 0 {
-                        let other = marks[edge.0 as usize] as usize - 1;
-                        is_known[other][usize::from(self.edge_vertices(edge)[0] != vertex)] = true;
-                        is_unclear[other] |= !fan.is_simple;
-                    }
-                }
-            }
-        }
-        for (edge, is_unclear) in edges.iter().zip(is_unclear) {
-            if is_unclear {
-                marks[edge.0 as usize] = 0;
-                left_out.unclear += 1;
-            }
-        }
-        fans
-    }
-
-    /// Whether two faces meet at an edge that wind in the same way. Otherwise it is counted.
-    fn has_two_sides(&self, edge: EdgeId, left_out: &mut BevelLeftOut) -> bool {
-        let mut sides = self.edge_corners(edge);
-        let counter = match [sides.next(), sides.next(), sides.next()] {
-            [Some(a), Some(b), None] if self.corner_vertex(a) != self.corner_vertex(b) => return true,
-            [Some(_), Some(_), None] => &mut left_out.opposite,
-            [Some(_), Some(_), Some(_)] => &mut left_out.non_manifold,
-            [Some(_), ..] => &mut left_out.borders,
-            _ => &mut left_out.wires,
-        };
-        *counter += 1;
-        false
-    }
-
-    /// The fans at vertices that can be beveled, each vertex once.
-    fn fans_of_vertices(&self, vertices: &[VertexId], left_out: &mut BevelLeftOut) -> Fans {
-        let mut sorted = vertices.to_vec();
-        sorted.sort_unstable();
-        sorted.dedup();
-        let mut fans = Fans::default();
-        for vertex in sorted {
-            let (corners, known) = (fans.corners.len(), fans.fans.len());
-            let mut all: Vec<CornerId> = self.vertex_corners(vertex).collect();
-            all.sort_unstable();
-            let mut seen: Vec<bool> = vec![false; all.len()];
-            for i in 0..all.len() {
-                if seen[i] {
-                    continue;
-                }
-                let fan = fans.walk(self, all[i]);
-                for corner in &fans.corners[fan.start..fan.end] {
-                    if let Ok(index) = all.binary_search(corner) {
-                        seen[index] = true;
-                    }
-                }
-            }
-            let is_simple = fans.fans[known..].iter().all(|fan| fan.is_simple);
-            if !is_simple {
-                fans.corners.truncate(corners);
-                fans.fans.truncate(known);
-            }
-            left_out.unclear += usize::from(!is_simple);
-            left_out.wires += usize::from(all.is_empty());
-        }
-        fans
     }
 }
 

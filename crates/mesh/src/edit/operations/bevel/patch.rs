@@ -10,8 +10,8 @@
 use smallvec::SmallVec;
 use trigon_math::DVec3;
 
-use super::super::super::ids::CornerId;
-use super::nodes::{NONE, Round};
+use super::super::super::ids::{CornerId, NONE};
+use super::laid::Round;
 use super::profile::Profile;
 use super::shape::{NewCorner, Plan};
 

@@ -6,9 +6,9 @@ use trigon_math::DVec3;
 
 use super::super::super::blends::CornerBlends;
 use super::super::super::edit_mesh::EditMesh;
-use super::super::super::ids::{CornerId, FaceId};
+use super::super::super::ids::{CornerId, FaceId, NONE};
 use super::super::super::refusal::Refusal;
-use super::nodes::{End, Laid, NONE, Round, Stop};
+use super::laid::{End, Laid, Node, Round, Stop};
 use super::profile::Profile;
 
 /// Grids are laid where at most this many bevels meet: each of their points is a sum over all.
@@ -71,14 +71,16 @@ pub(super) fn check_size(mesh: &EditMesh, laid: &Laid, segments: usize) -> Resul
 
 impl<'m> Plan<'m> {
     pub(super) fn draw(mesh: &'m EditMesh, laid: Laid, profile: &Profile, width: f64) -> Blueprint {
-        let mut blends = CornerBlends::default();
+        // Each new face along an edge has four corners; polygons at vertices need fewer.
+        let targets = laid.moves.len() + 2 * laid.insertions.len() + 4 * laid.ends.len();
+        let mut blends = CornerBlends::with_capacity(laid.parts.len(), laid.sums.len(), targets);
         let mut start = 0;
         for &end in &laid.sums {
             let parts = &laid.parts[start as usize..end as usize];
             blends.sum(parts.iter().map(|part| (part.corner, part.base + part.slope * width)));
             start = end;
         }
-        let place = |node: &super::nodes::Node| mesh.point(node.vertex) + node.offset * width;
+        let place = |node: &Node| mesh.point(node.vertex) + node.offset * width;
         let mut plan = Self {
             mesh,
             out: Blueprint {

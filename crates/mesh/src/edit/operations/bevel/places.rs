@@ -1,0 +1,101 @@
+//! Where nodes are: on edges beside beveled ones, or where two rims meet in a face.
+
+use smallvec::{SmallVec, smallvec};
+use trigon_math::DVec3;
+
+use super::super::super::ids::{CornerId, VertexId};
+use super::laid::{Node, Part};
+use super::nodes::Nodes;
+
+/// The sine of an angle below which two edges count as one line. An edge beside a beveled one then
+/// leads almost along it, and would reach the distance of the rim far away or never.
+const STRAIGHT: f64 = 0.05;
+
+impl Nodes<'_> {
+    /// Adds a node on one of the two edges of a corner, at a distance times the width; its number.
+    pub(super) fn node_on_edge(
+        &mut self,
+        vertex: VertexId,
+        corner: CornerId,
+        is_out: bool,
+        distance: f64,
+    ) -> u32 {
+        let (direction, length) = self.way(corner, is_out);
+        let parts = self.parts_toward(corner, is_out, distance, length);
+        let sum = self.sum(&parts);
+        self.nodes.push(Node { vertex, offset: direction * distance, sum, home: corner });
+        self.nodes.len() as u32 - 1
+    }
+
+    /// The corner at the other end of one of the two edges of a corner.
+    fn far_corner(&self, corner: CornerId, is_out: bool) -> CornerId {
+        if is_out { self.mesh.next_corner(corner) } else { self.mesh.previous_corner(corner) }
+    }
+
+    /// Direction and length of the edge along which a corner is left, or by which it is entered. Both
+    /// are zero where there is no direction.
+    pub(super) fn way(&self, corner: CornerId, is_out: bool) -> (DVec3, f64) {
+        let point = |corner| self.mesh.point(self.mesh.corner_vertex(corner));
+        let way = point(self.far_corner(corner, is_out)) - point(corner);
+        let length = way.length();
+        if length > 0.0 && length.is_finite() { (way / length, length) } else { (DVec3::ZERO, 0.0) }
+    }
+
+    /// How far a rim has to be along one edge of a corner to have a distance of 1 from the other.
+    pub(super) fn rim_distance(&self, corner: CornerId) -> f64 {
+        let sine = self.way(corner, true).0.cross(self.way(corner, false).0).length();
+        if sine > STRAIGHT { 1.0 / sine } else { 1.0 }
+    }
+
+    /// Where the rims of two beveled edges meet in the one face between them.
+    pub(super) fn meeting(&mut self, corner: CornerId) -> (DVec3, SmallVec<[Part; 4]>) {
+        let (out, out_length) = self.way(corner, true);
+        let (into, into_length) = self.way(corner, false);
+        let cross = out.cross(into);
+        let sine = cross.length();
+        if sine > STRAIGHT {
+            // Both rims have distance 1; in a hollow corner they meet on the other side.
+            let is_hollow = self.frames.is_hollow(self.mesh, corner, cross);
+            let scale = if is_hollow { -1.0 } else { 1.0 } / sine;
+            let parts = smallvec![
+                self.toward(corner, true, scale / out_length),
+                self.toward(corner, false, scale / into_length),
+                Part { corner, base: 1.0, slope: -scale / out_length - scale / into_length },
+            ];
+            return ((out + into) * scale, parts);
+        }
+        if out.dot(into) < 0.0 {
+            // One straight line: the rim runs beside it, in the plane of the face.
+            return self.frames.beside(self.mesh, corner, (out - into).normalize_or_zero());
+        }
+        (out, self.parts_on_edge(corner, true, 1.0))
+    }
+
+    fn toward(&self, corner: CornerId, is_out: bool, slope: f64) -> Part {
+        Part { corner: self.far_corner(corner, is_out), base: 0.0, slope }
+    }
+
+    /// The parts of a place on an edge of a corner, at a distance times the width.
+    pub(super) fn parts_on_edge(&self, corner: CornerId, is_out: bool, distance: f64) -> SmallVec<[Part; 4]> {
+        let length = self.way(corner, is_out).1;
+        self.parts_toward(corner, is_out, distance, length)
+    }
+
+    /// The same where the edge's length is known.
+    fn parts_toward(
+        &self,
+        corner: CornerId,
+        is_out: bool,
+        distance: f64,
+        length: f64,
+    ) -> SmallVec<[Part; 4]> {
+        let slope = if length > 0.0 { distance / length } else { 0.0 };
+        smallvec![Part { corner, base: 1.0, slope: -slope }, self.toward(corner, is_out, slope)]
+    }
+
+    /// Adds the sum for a place on an edge of a corner.
+    pub(super) fn sum_on_edge(&mut self, corner: CornerId, is_out: bool, distance: f64) -> u32 {
+        let parts = self.parts_on_edge(corner, is_out, distance);
+        self.sum(&parts)
+    }
+}

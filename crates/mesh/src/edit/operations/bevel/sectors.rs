@@ -1,0 +1,186 @@
+//! Fills the parts of a fan between its beveled edges with nodes, and lays curves across the edges.
+
+use smallvec::SmallVec;
+use trigon_math::DVec3;
+
+use super::super::super::ids::NONE;
+use super::laid::{Arc, End, Insertion, Move, Node, Round, Stop};
+use super::nodes::{Layout, Nodes};
+
+impl Nodes<'_> {
+    /// Between two beveled edges, or an end of the fan and a beveled edge, where each other edge
+    /// gets a node of its own.
+    pub(super) fn fill_end(&mut self, round: &Round, layout: &mut Layout, from: usize, to: usize) {
+        let mut distances = SmallVec::<[f64; 8]>::new();
+        for i in from..=to {
+            distances.push(self.end_distance(layout, from, to, i));
+            if layout.stops[i].beveled == NONE {
+                let distance = distances[i - from];
+                let (corner, is_out) = layout.corner_at(i);
+                let node = self.node_on_edge(layout.vertex, corner, is_out, distance);
+                (layout.stops[i].left, layout.stops[i].right) = (node, node);
+                self.limit(layout.stops[i].edge, distance);
+            }
+        }
+        self.move_to_own_nodes(round, layout, [from, to], &distances);
+    }
+
+    /// Gives the corners between two stops the nodes of the edges beside them.
+    fn move_to_own_nodes(
+        &mut self,
+        round: &Round,
+        layout: &mut Layout,
+        [from, to]: [usize; 2],
+        distances: &[f64],
+    ) {
+        for i in from..to {
+            let corner = layout.corners[i];
+            let (here, next) = (layout.stops[i], layout.stops[i + 1]);
+            if here.beveled == NONE {
+                // The corner that leaves along an edge is its node's home.
+                layout.sums[i] = self.nodes[here.left as usize].sum;
+                self.moves.push(Move { corner, node: here.left, sum: layout.sums[i] });
+            } else {
+                layout.stops[i].left = next.right;
+            }
+            if next.beveled != NONE {
+                layout.stops[i + 1].right = here.left;
+                continue;
+            }
+            let sum = self.sum_on_edge(corner, false, distances[i + 1 - from]);
+            if here.beveled == NONE {
+                let (before, node) = (corner, next.left);
+                let is_continuous = round.is_continuous;
+                let (arc, is_reversed) = (NONE, true);
+                self.insertions.push(Insertion { before, node, sum, arc, is_reversed, is_continuous });
+            } else {
+                layout.sums[i] = sum;
+                self.moves.push(Move { corner, node: next.left, sum });
+            }
+        }
+    }
+
+    /// How far the node of an edge beside a beveled one is from the vertex, for a width of 1.
+    fn end_distance(&self, layout: &Layout, from: usize, to: usize, i: usize) -> f64 {
+        let is_beveled = |stop: usize| layout.stops[stop].beveled != NONE;
+        if is_beveled(i) {
+            return 0.0;
+        }
+        let after = (i > from && is_beveled(i - 1)).then(|| self.rim_distance(layout.corners[i - 1]));
+        let before = (i < to && is_beveled(i + 1)).then(|| self.rim_distance(layout.corners[i]));
+        match (after, before) {
+            (Some(one), Some(other)) => 0.5 * (one + other),
+            (Some(one), None) | (None, Some(one)) => one,
+            (None, None) => 1.0,
+        }
+    }
+
+    /// Between two beveled edges, where all faces get one node.
+    pub(super) fn fill_between(&mut self, layout: &mut Layout, from: usize, to: usize) {
+        let (offset, sums) = self.place_between(layout, from, to);
+        let node = self.nodes.len() as u32;
+        self.nodes.push(Node { vertex: layout.vertex, offset, sum: sums[0], home: layout.corners[from] });
+        layout.stops[from].left = node;
+        layout.stops[to].right = node;
+        for stop in &mut layout.stops[from + 1..to] {
+            (stop.left, stop.right) = (node, node);
+        }
+        for i in from..to {
+            let (corner, sum) = (layout.corners[i], sums[usize::from(i > from)]);
+            layout.sums[i] = sum;
+            self.moves.push(Move { corner, node, sum });
+        }
+    }
+
+    /// Where the node between two beveled edges is, and what it is worth in the first face there and in
+    /// the others.
+    fn place_between(&mut self, layout: &Layout, from: usize, to: usize) -> (DVec3, [u32; 2]) {
+        let (first, last) = (layout.corners[from], layout.corners[to - 1]);
+        match to - from {
+            1 => {
+                let (offset, parts) = self.meeting(first);
+                let sum = self.sum(&parts);
+                (offset, [sum, sum])
+            }
+            2 => {
+                // On the one edge between them, at the mean of the distances that both ask for.
+                let distance = 0.5 * (self.rim_distance(first) + self.rim_distance(last));
+                self.limit(layout.stops[from + 1].edge, distance);
+                let sums = [self.sum_on_edge(first, false, distance), self.sum_on_edge(last, true, distance)];
+                (self.way(last, true).0 * distance, sums)
+            }
+            _ => {
+                // In the middle of the places on the first and the last edge between them.
+                let (one, other) = (self.rim_distance(first), self.rim_distance(last));
+                self.limit(layout.stops[from + 1].edge, one);
+                self.limit(layout.stops[to - 1].edge, other);
+                let mut parts = self.parts_on_edge(first, false, one);
+                parts.extend(self.parts_on_edge(last, true, other));
+                for part in &mut parts {
+                    (part.base, part.slope) = (0.5 * part.base, 0.5 * part.slope);
+                }
+                let sum = self.sum(&parts);
+                (0.5 * (self.way(first, false).0 * one + self.way(last, true).0 * other), [sum, sum])
+            }
+        }
+    }
+
+    /// The curves across the beveled edges of a fan.
+    pub(super) fn add_arcs(&mut self, round: &Round, layout: &mut Layout, count: usize) {
+        // Where two beveled edges meet, their bevels meet in a plane through the vertex and share
+        // a curve.
+        let is_miter = count == 2 && round.fan.is_closed;
+        let mut is_second = false;
+        for i in 0..layout.stops.len() {
+            let stop = layout.stops[i];
+            if stop.beveled == NONE {
+                continue;
+            }
+            let before = if i == 0 { layout.corners.len() - 1 } else { i - 1 };
+            let (left_corner, right_corner) = (layout.corners[i], layout.corners[before]);
+            let direction = self.way(left_corner, true).0;
+            let along = [stop.left, stop.right].map(|node| self.nodes[node as usize].offset.dot(direction));
+            let control = if is_miter { 0.0 } else { 0.5 * (along[0] + along[1]) };
+            let control_sum = self.sum_on_edge(left_corner, true, control);
+            if !is_second {
+                let control = direction * control;
+                self.arcs.push(Arc { first: stop.left, last: stop.right, control, control_sum });
+            }
+            let arc = self.arcs.len() as u32 - 1;
+            // Round the vertex an edge's right comes first.
+            (layout.stops[i].arc, layout.stops[i].is_reversed) = (arc, !is_second);
+            self.add_end(
+                &stop,
+                along,
+                End {
+                    vertex: round.fan.vertex,
+                    left: stop.left,
+                    right: stop.right,
+                    arc,
+                    is_reversed: is_second,
+                    left_corner,
+                    right_corner,
+                    left_sum: layout.sums[i],
+                    right_sum: layout.sums[before],
+                    control_sum,
+                    is_continuous: round.is_continuous,
+                },
+            );
+            is_second = is_miter;
+        }
+        if count == 1 && round.fan.is_closed && layout.corners.len() == 3 {
+            // The face opposite the beveled edge is cut along the curve.
+            self.insertions.last_mut().expect("that face has two nodes").arc = self.arcs.len() as u32 - 1;
+        }
+    }
+
+    /// Notes one end of a beveled edge, and how far its nodes are along it on the left and right.
+    fn add_end(&mut self, stop: &Stop, along: [f64; 2], end: End) {
+        let which = usize::from(self.mesh.edge_vertices(stop.edge)[0] != end.vertex);
+        for (side, value) in along.into_iter().enumerate() {
+            // Seen from the edge's other end, left is right.
+            self.along[stop.beveled as usize][if which == 0 { side } else { 1 - side }] += value;
+        }
+        self.ends[stop.beveled as usize][which] = Some(end);
+    }
+}
