@@ -5,8 +5,8 @@
 //! [`Refusal`] that says why it did nothing. Run in [`EditMesh::transaction`], it can be
 //! undone to the last byte.
 //!
-//! From low to high: [`ids`], [`column`] (values with a record of changes), [`records`] and
-//! [`layers`] (what is stored), `edit_mesh` (all columns), `slots` and `rings` (the only places
+//! From low to high: `ids`, `column` (values with a record of changes), `records` and
+//! `layers` (what is stored), `edit_mesh` (all columns), `slots` and `rings` (the only places
 //! that write neighbours), `walk` (from element to element), `euler` (elementary changes), and the
 //! operations.
 
@@ -15,6 +15,7 @@ mod edit_mesh;
 mod euler;
 mod from_mesh;
 mod ids;
+mod inspect;
 mod layers;
 mod measure;
 mod operations;
@@ -36,9 +37,12 @@ pub use edit_mesh::EditMesh;
 pub use euler::{SplitEdge, SplitFace};
 pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
+pub use inspect::{
+    BoundaryLoop, DoubledFace, DoubledVertex, Inspection, InspectionSettings, NonPlanarFace, TouchingFaces,
+};
 pub use operations::{
-    Falloff, FalloffDistance, FalloffShape, Mirrored, MoveSession, RecalculatedNormals, Symmetrized,
-    Transform, VisibilityChange,
+    BoxProjection, Falloff, FalloffDistance, FalloffShape, Mirrored, MoveSession, PlanarProjection,
+    RecalculatedNormals, Symmetrized, Transform, VisibilityChange,
 };
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;

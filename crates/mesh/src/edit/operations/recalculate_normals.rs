@@ -273,8 +273,8 @@ mod tests {
     }
 
     proptest! {
-        /// Afterwards all two-sided edges run in opposite directions, but for the conflicts; a second time
-        /// turns nothing; undone, all is as it was.
+        /// Afterwards all two-sided edges run in opposite directions, but for the conflicts; where there
+        /// are none a second time turns nothing; undone, all is as it was.
         #[test]
         fn parts_look_one_way(start in meshes(), flips in prop::collection::vec(any::<bool>(), 40)) {
             let (mut mesh, faces) = editable(&start);
@@ -291,7 +291,7 @@ mod tests {
             }));
             prop_assert_eq!(conflicts.count(), result.conflicts);
             let again = mesh.clone().recalculate_normals(&faces).expect("they exist");
-            prop_assert_eq!(again.turned, vec![]);
+            prop_assert!(result.conflicts > 0 || again.turned.is_empty(), "{:?}", again.turned);
             difference.apply(&mut mesh);
             prop_assert!(mesh == before);
         }
