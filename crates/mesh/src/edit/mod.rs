@@ -5,8 +5,8 @@
 //! [`Refusal`] that says why it did nothing. Run in [`EditMesh::transaction`], it can be
 //! undone to the last byte.
 //!
-//! From low to high: [`ids`], [`column`] (values with a record of changes), [`records`] and
-//! [`layers`] (what is stored), `edit_mesh` (all columns), `slots` and `rings` (the only places
+//! From low to high: `ids`, `column` (values with a record of changes), `records` and
+//! `layers` (what is stored), `edit_mesh` (all columns), `slots` and `rings` (the only places
 //! that write neighbours), `walk` (from element to element), `euler` (elementary changes), and the
 //! operations.
 
@@ -16,6 +16,7 @@ mod edit_mesh;
 mod euler;
 mod from_mesh;
 mod ids;
+mod inspect;
 mod layers;
 mod marks;
 mod measure;
@@ -43,6 +44,12 @@ pub use operations::*;
 pub use operations::{
     CopiedElements, Dissolved, ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices, Inset,
     InsetFaces, LimitedDissolve,
+pub use inspect::{
+    BoundaryLoop, DoubledFace, DoubledVertex, Inspection, InspectionSettings, NonPlanarFace, TouchingFaces,
+};
+pub use operations::{
+    BoxProjection, Falloff, FalloffDistance, FalloffShape, Mirrored, MoveSession, PlanarProjection,
+    RecalculatedNormals, Symmetrized, Transform, VisibilityChange,
 };
 pub use operations::{Connected, Filled, MergedVertices, QuadLimits, Subdivided, Triangulated};
 pub use refusal::Refusal;

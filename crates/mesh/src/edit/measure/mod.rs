@@ -1,3 +1,5 @@
 //! Measures of what is edited: normals, areas, lengths, angles, bounds, volume.
 
 mod faces;
+mod lengths;
+mod solid;

@@ -50,23 +50,11 @@ impl EditMesh {
         let least_cosine = elementary::cos(angle) - COSINE_ROUNDING;
         let mut changed = 0;
         for &edge in edges {
-            if let Some(cosine) = self.fold_cosine(edge) {
-                changed += usize::from(self.change_sharp(edge, cosine < least_cosine));
+            if let Some([one, two]) = self.edge_normals(edge) {
+                changed += usize::from(self.change_sharp(edge, one.dot(two) < least_cosine));
             }
         }
         Ok(changed)
-    }
-
-    /// The cosine between the normals of the two faces that meet at an edge; `None` unless
-    /// there are two, in opposite directions, with areas.
-    fn fold_cosine(&self, edge: EdgeId) -> Option<f64> {
-        let [one, two] = self.edge_pair(edge)?;
-        if self.corner_vertex(one) == self.corner_vertex(two) {
-            return None;
-        }
-        let [one, two] = [one, two].map(|corner| self.face_normal(self.corner_face(corner)));
-        let has_areas = one.length_squared() > 0.0 && two.length_squared() > 0.0;
-        has_areas.then(|| one.dot(two))
     }
 
     fn change_sharp(&mut self, edge: EdgeId, is_sharp: bool) -> bool {

@@ -32,12 +32,14 @@ pub use loop_cut::{LoopCut, LoopCutSettings};
 mod hide;
 mod marks;
 mod mirror;
+mod project_uvs;
 mod recalculate_normals;
 mod symmetrize;
 mod transform;
 
 pub use hide::VisibilityChange;
 pub use mirror::Mirrored;
+pub use project_uvs::{BoxProjection, PlanarProjection};
 pub use recalculate_normals::RecalculatedNormals;
 pub use symmetrize::Symmetrized;
 pub use transform::{Falloff, FalloffDistance, FalloffShape, MoveSession, Transform};
