@@ -39,19 +39,11 @@ pub use edit_mesh::EditMesh;
 pub use euler::{SplitEdge, SplitFace};
 pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
-pub use marks::{EdgeMark, Marks, MarksError};
-pub use operations::*;
-pub use operations::{
-    CopiedElements, Dissolved, ExtrudeOffset, ExtrudedEdges, ExtrudedFaces, ExtrudedVertices, Inset,
-    InsetFaces, LimitedDissolve,
 pub use inspect::{
     BoundaryLoop, DoubledFace, DoubledVertex, Inspection, InspectionSettings, NonPlanarFace, TouchingFaces,
 };
-pub use operations::{
-    BoxProjection, Falloff, FalloffDistance, FalloffShape, Mirrored, MoveSession, PlanarProjection,
-    RecalculatedNormals, Symmetrized, Transform, VisibilityChange,
-};
-pub use operations::{Connected, Filled, MergedVertices, QuadLimits, Subdivided, Triangulated};
+pub use marks::{EdgeMark, Marks, MarksError};
+pub use operations::*;
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;
