@@ -1,8 +1,10 @@
 //! What every importer works on: one model on its way into a scene.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use trigon_scene::Scene;
+use trigon_mesh::edit::Marks;
+use trigon_scene::{MeshId, Scene};
 
 use crate::folder::Folder;
 use crate::gltf::SourceDraft;
@@ -21,4 +23,6 @@ pub(crate) struct Import<'a> {
     pub(crate) scene_names: Vec<String>,
     /// The file itself, where it is to be kept.
     pub(crate) source: Option<SourceDraft>,
+    /// Of the meshes of a native file that were being edited.
+    pub(crate) marks: BTreeMap<MeshId, Marks>,
 }

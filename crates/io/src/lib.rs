@@ -58,7 +58,9 @@ mod uri;
 mod warning;
 mod write;
 
-pub use self::gltf::GltfSource;
+pub use self::gltf::{
+    GlbOptions, GltfSource, Loss, NativeDocument, NativeFile, UpAxis, encode_glb, write_glb,
+};
 pub use capture::{Capture, Mismatch, PixelMismatch};
 pub use environment::load_environment;
 pub use error::{LoadError, LoadErrorKind, Place};

@@ -1,10 +1,12 @@
 //! The front door: a file or a stream in, a scene and warnings out.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use rayon::ThreadPoolBuilder;
-use trigon_scene::Scene;
+use trigon_mesh::edit::Marks;
+use trigon_scene::{MeshId, Scene};
 
 use crate::error::{LoadError, LoadErrorKind};
 use crate::folder::Folder;
@@ -32,6 +34,9 @@ pub struct Loaded {
     /// The file itself, to be written back; only of glTF and GLB, and only when
     /// [`LoadOptions::keep_source`] asks for it.
     pub source: Option<GltfSource>,
+    /// Marks and first positions of the meshes that were being edited when a native file was
+    /// saved; see [`NativeDocument`](crate::NativeDocument).
+    pub marks: BTreeMap<MeshId, Marks>,
 }
 
 /// Loads a model file and what it refers to, nothing outside its folder.
@@ -107,6 +112,7 @@ fn import(
         scene: Scene::new(),
         scene_names: Vec::new(),
         source: options.keep_source.then(SourceDraft::default),
+        marks: BTreeMap::new(),
     };
     match format {
         Format::Obj => crate::obj::import_obj(&mut import, bytes)?,
@@ -114,8 +120,8 @@ fn import(
         Format::Glb => crate::gltf::import_glb(&mut import, &bytes)?,
     }
     options.report(path, Stage::Textures, 1.0)?;
-    let Import { folder, warnings, scene, scene_names, source, .. } = import;
+    let Import { folder, warnings, scene, scene_names, source, marks, .. } = import;
     let (warnings, files) = (warnings.into_list(), folder.into_files());
     let source = source.and_then(SourceDraft::finish);
-    Ok(Loaded { scene, scene_names, warnings, files, format, source })
+    Ok(Loaded { scene, scene_names, warnings, files, format, source, marks })
 }

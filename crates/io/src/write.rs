@@ -33,6 +33,12 @@ pub enum WriteError {
         /// What does not fit.
         what: String,
     },
+    /// The format cannot count so many bytes.
+    #[error("the file would have {bytes} bytes and a GLB can have 4294967295; save fewer meshes in it")]
+    TooLarge {
+        /// How many bytes the file would have.
+        bytes: u64,
+    },
     /// The folder or the disk said no.
     #[error("{}: cannot be written ({source}); check that the folder exists, is writable and has room", path.display())]
     File {

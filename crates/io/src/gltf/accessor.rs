@@ -55,6 +55,18 @@ impl Doubts {
     }
 }
 
+/// What [`Accessors::tight_bytes`] finds.
+pub(crate) struct TightBytes {
+    pub(crate) bytes: Bytes,
+    pub(crate) component: ComponentType,
+    pub(crate) kind: Type,
+    pub(crate) normalized: bool,
+    pub(crate) count: usize,
+}
+
+const ALL_TYPES: &[Type] =
+    &[Type::Scalar, Type::Vec2, Type::Vec3, Type::Vec4, Type::Mat2, Type::Mat3, Type::Mat4];
+
 /// Where the elements of an accessor lie in the bytes of a view.
 #[derive(Clone, Copy)]
 struct Layout {
@@ -119,6 +131,22 @@ impl Accessors<'_, '_> {
             }
         }
         Ok(elements)
+    }
+
+    /// The bytes of an accessor whose elements follow each other without gaps; none of others,
+    /// and of those with sparse or no storage.
+    pub(crate) fn tight_bytes(&mut self, index: usize) -> Result<Option<TightBytes>, Unplaced> {
+        let accessor = &self.root.accessors[index];
+        if accessor.sparse.is_some() {
+            return Ok(None);
+        }
+        let (layout, bytes) = self.open(index, ALL_TYPES)?;
+        let size = layout.component.size() * layout.components;
+        let (Some((buffer, range)), Some(kind)) = (bytes, valid(&accessor.type_)) else { return Ok(None) };
+        let start = range.start + layout.start;
+        let Layout { count, component, normalized, .. } = layout;
+        let bytes = (buffer, start..start + count * size);
+        Ok((layout.stride == size).then_some(TightBytes { bytes, component, kind, normalized, count }))
     }
 
     /// Notes a stride in a view that may have none: glTF allows one for

@@ -7,8 +7,10 @@ use std::path::Path;
 use gltf::json::Root;
 use serde::Deserialize;
 use serde_json::Value;
+use serde_json::value::RawValue;
 
 use super::attribute_names::{ForeignAttribute, RawPrimitive, foreign_attributes};
+use super::native::{Extras, Header, MaterialExtras, NodeExtras};
 use super::preview::Preview;
 use crate::error::{LoadError, LoadErrorKind, Place};
 
@@ -28,6 +30,10 @@ pub(crate) struct Document {
     pub(crate) foreign_attributes: Vec<ForeignAttribute>,
     /// The extensions that any object of the document has.
     pub(crate) extensions: BTreeSet<String>,
+    /// What a native file says of each mesh.
+    pub(crate) native_meshes: Vec<Extras<Header>>,
+    /// What it says of each material.
+    pub(crate) native_materials: Vec<Extras<MaterialExtras>>,
 }
 
 /// A node's transform as the file has it.
@@ -38,6 +44,9 @@ pub(crate) struct RawTransform {
     pub(crate) translation: Option<[f64; 3]>,
     pub(crate) rotation: Option<[f64; 4]>,
     pub(crate) scale: Option<[f64; 3]>,
+    /// What a native file says of it.
+    #[serde(rename = "extras")]
+    pub(crate) native: Extras<NodeExtras>,
 }
 
 #[derive(Default, Deserialize)]
@@ -45,20 +54,38 @@ pub(crate) struct RawTransform {
 struct RawDocument {
     nodes: Vec<RawTransform>,
     meshes: Vec<RawMesh>,
+    materials: Vec<RawMaterial>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct RawMaterial {
+    extras: Extras<MaterialExtras>,
 }
 
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct RawMesh {
     /// Anything at all.
-    extras: Value,
+    extras: Option<Box<RawValue>>,
     primitives: Vec<RawPrimitive>,
 }
 
 impl RawMesh {
     fn target_names(&self) -> Vec<String> {
-        let names = self.extras.get("targetNames").and_then(Value::as_array);
-        names.into_iter().flatten().map(|name| name.as_str().unwrap_or_default().to_owned()).collect()
+        #[derive(Deserialize)]
+        struct Members {
+            #[serde(default, rename = "targetNames")]
+            names: Vec<Value>,
+        }
+        let members = self.extras.as_ref().and_then(|text| serde_json::from_str::<Members>(text.get()).ok());
+        let names = members.map(|members| members.names).unwrap_or_default();
+        names.into_iter().map(|name| name.as_str().unwrap_or_default().to_owned()).collect()
+    }
+
+    fn native(&self) -> Extras<Header> {
+        let extras = self.extras.as_ref().and_then(|text| serde_json::from_str(text.get()).ok());
+        extras.unwrap_or_default()
     }
 }
 
@@ -81,6 +108,8 @@ pub(crate) fn parse_document(path: &Path, json: &[u8]) -> Result<Document, LoadE
     };
     let raw: RawDocument = serde_json::from_slice(json).map_err(|error| json_error(path, &error))?;
     let target_names = raw.meshes.iter().map(RawMesh::target_names).collect();
+    let native_meshes = raw.meshes.iter().map(RawMesh::native).collect();
+    let native_materials = raw.materials.into_iter().map(|material| material.extras).collect();
     let primitives = raw.meshes.into_iter().map(|mesh| mesh.primitives).collect();
     let foreign_attributes = foreign_attributes(primitives);
     let (transforms, extensions) = (raw.nodes, preview.extensions);
@@ -92,6 +121,8 @@ pub(crate) fn parse_document(path: &Path, json: &[u8]) -> Result<Document, LoadE
         unbounded,
         foreign_attributes,
         extensions,
+        native_meshes,
+        native_materials,
     })
 }
 

@@ -20,6 +20,8 @@ pub(crate) struct Hierarchy {
     pub(crate) order: Vec<usize>,
     /// The nodes that the scene lists although they hang on others.
     pub(crate) listed_children: Vec<usize>,
+    /// The scene that is loaded, if the file has scenes.
+    pub(crate) scene: Option<usize>,
 }
 
 pub(crate) fn find_hierarchy(
@@ -60,7 +62,8 @@ pub(crate) fn find_hierarchy(
     for parent in &mut parents {
         *parent = parent.filter(|&parent| included[parent]);
     }
-    Ok(Hierarchy { included, parents, order, listed_children })
+    let scene = Some(scene).filter(|&scene| scene < root.scenes.len());
+    Ok(Hierarchy { included, parents, order, listed_children, scene })
 }
 
 fn links(root: &Root) -> impl Iterator<Item = (usize, usize)> {

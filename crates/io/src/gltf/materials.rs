@@ -12,7 +12,9 @@ use trigon_scene::{
 
 use super::accessor::valid;
 use super::buffers::Buffers;
+use super::document::Document;
 use super::images::{Images, convert_sampler};
+use super::native::{ExactShading, Extras, MaterialExtras};
 use super::slots::{Slot, SlotTexture, slot_textures};
 use crate::error::LoadError;
 use crate::import::Import;
@@ -20,17 +22,22 @@ use crate::import::Import;
 /// Converts the materials that are used, `None` being the format's default.
 pub(crate) fn add_materials(
     import: &mut Import<'_>,
-    root: &Root,
+    document: &Document,
     buffers: &mut Buffers<'_>,
     used: &[Option<usize>],
 ) -> Result<BTreeMap<Option<usize>, MaterialId>, LoadError> {
+    let root = &document.root;
     let of_material = |&material: &Option<usize>| slot_textures_of(root, material);
     let textures: Vec<SlotTexture> = used.iter().flat_map(of_material).collect();
     let images = Images::read(import, root, buffers, &textures)?;
     let mut ids = BTreeMap::new();
     for &index in used {
         let material = match index {
-            Some(index) => Converter { root, index, images: &images }.material(),
+            Some(index) => {
+                let plain = Converter { root, index, images: &images }.material();
+                let extras = document.native_materials.get(index).and_then(Extras::get);
+                Material { shading: extras.map_or(plain.shading, |own| exact_shading(own, &plain)), ..plain }
+            }
             None => default_material(),
         };
         ids.insert(index, import.scene.add_material(material));
@@ -128,6 +135,21 @@ impl Converter<'_> {
             transform: from.transform,
             sampler: convert_sampler(self.root, from.texture),
         })
+    }
+}
+
+/// The shading model that a native file names beside what comes near it.
+fn exact_shading(extras: &MaterialExtras, plain: &Material) -> Shading {
+    match (extras.shading, &plain.shading) {
+        (_, Shading::Unlit) => Shading::Unlit,
+        (ExactShading::Lambert, _) => Shading::Lambert,
+        (ExactShading::BlinnPhong { specular, shininess }, Shading::MetallicRoughness(model)) => {
+            let specular_texture = model.specular_color_texture;
+            Shading::BlinnPhong { specular: Vec3::from(specular), shininess, specular_texture }
+        }
+        (ExactShading::BlinnPhong { specular, shininess }, _) => {
+            Shading::blinn_phong(Vec3::from(specular), shininess)
+        }
     }
 }
 

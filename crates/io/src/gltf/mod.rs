@@ -17,6 +17,7 @@ mod contradictions;
 mod document;
 mod extensions;
 mod formats;
+mod hash;
 mod hierarchy;
 mod images;
 mod instances;
@@ -24,6 +25,7 @@ mod lights;
 mod materials;
 mod mesh;
 mod meshopt;
+mod native;
 mod nodes;
 mod preview;
 mod primitive;
@@ -32,24 +34,29 @@ mod references;
 mod skins;
 mod slots;
 mod source;
+mod triangle_hash;
+mod write;
 
 use std::collections::BTreeSet;
 
 use trigon_mesh::Mesh;
 
 use accessor::{Accessors, Doubts};
-use buffers::Buffers;
+use buffers::{Buffers, Unplaced};
 use document::Document;
 use hierarchy::Hierarchy;
 use mesh::{BuiltMesh, Needs};
+use native::Extras;
 use reader::Reader;
 
 pub use source::GltfSource;
 pub(crate) use source::SourceDraft;
+pub use write::{GlbOptions, Loss, NativeDocument, NativeFile, UpAxis, encode_glb, write_glb};
 
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::import::Import;
 use crate::options::Stage;
+use crate::warning::Warnings;
 
 /// Reads a binary glTF into the scene.
 pub(crate) fn import_glb(import: &mut Import<'_>, bytes: &[u8]) -> Result<(), LoadError> {
@@ -82,10 +89,11 @@ fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<&[u8]>) -> 
     let used: BTreeSet<Option<usize>> =
         meshes.iter().flatten().flat_map(|mesh| mesh.materials.iter().copied()).collect();
     let used: Vec<Option<usize>> = used.into_iter().collect();
-    let materials = materials::add_materials(import, root, &mut buffers, &used)?;
+    let materials = materials::add_materials(import, &document, &mut buffers, &used)?;
     let primitives = source::take_primitives(import, &mut meshes);
     let placed = nodes::add_nodes(import, &document, &hierarchy, meshes, &materials);
     source::keep_placed(import, &placed, primitives, &materials);
+    source::keep_scene(import, hierarchy.scene);
     let mut reader = Reader { root, buffers, spent };
     nodes::add_instances(import, &mut reader, &placed)?;
     skins::add_skins(import, &mut reader, &placed)?;
@@ -122,8 +130,14 @@ fn build_meshes(
         };
         let needs = |material| Needs::of(&materials::slot_textures_of(root, material));
         let names = document.target_names.get(index).map_or(&[][..], Vec::as_slice);
-        let built = mesh::build_mesh(&mut accessors, index, names, &needs, &mut import.warnings)
+        let extras = document.native_meshes.get(index).unwrap_or(&Extras::Absent);
+        let native = native_mesh(&mut accessors, index, extras, names, &mut import.warnings)
             .map_err(|unplaced| unplaced.into_error(import.path))?;
+        let built = match native {
+            Some(built) => built,
+            None => mesh::build_mesh(&mut accessors, index, names, &needs, &mut import.warnings)
+                .map_err(|unplaced| unplaced.into_error(import.path))?,
+        };
         accessors.doubts.tell(&mut import.warnings);
         let mesh = &built.mesh;
         if mesh.vertex_count() > limits.vertices {
@@ -138,6 +152,43 @@ fn build_meshes(
     }
     check_placed(import, root, hierarchy, &meshes)?;
     Ok(meshes)
+}
+
+/// A mesh of a native file as it was modelled; none of others, and none, with a warning, if
+/// its triangles are to be used instead.
+fn native_mesh(
+    accessors: &mut Accessors<'_, '_>,
+    index: usize,
+    extras: &Extras<native::Header>,
+    target_names: &[String],
+    warnings: &mut Warnings,
+) -> Result<Option<BuiltMesh>, Unplaced> {
+    let read = match extras {
+        Extras::Absent => return Ok(None),
+        Extras::Broken => Err("what describes its polygons cannot be understood".to_owned()),
+        Extras::Present(header) => native::read_native_mesh(accessors, index, header)?,
+    };
+    let native = match read {
+        Ok(native) => native,
+        Err(why) => {
+            let what = format!("{why}; they are read without polygons, marks and first positions");
+            warnings.push(
+                Place::Item("mesh", index),
+                what,
+                "open the file that trigon saved if you need these",
+            );
+            return Ok(None);
+        }
+    };
+    let native::NativeMesh { mut mesh, materials, marks } = native;
+    let mut attributes = mesh.attributes().clone();
+    for (target, name) in attributes.morph_targets.iter_mut().zip(target_names) {
+        target.name.clone_from(name);
+    }
+    if !attributes.morph_targets.is_empty() {
+        mesh.set_attributes(attributes).expect("only names are others");
+    }
+    Ok(Some(BuiltMesh { mesh, materials, primitives: Vec::new(), marks }))
 }
 
 /// Holds what the nodes place to the limit: many copies of one mesh take no

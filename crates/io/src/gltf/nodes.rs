@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use trigon_math::{DAffine3, DMat4, DQuat, DVec3};
-use trigon_scene::{MaterialId, MeshId, Node, NodeId, Transform};
+use trigon_scene::{Light, MaterialId, MeshId, Node, NodeId, Transform};
 
 use super::cameras::convert_camera;
 use super::document::{Document, RawTransform};
@@ -12,6 +12,7 @@ use super::hierarchy::Hierarchy;
 use super::instances::{has_instances, read_instances};
 use super::lights::convert_light;
 use super::mesh::{BuiltMesh, default_weights, sound_weights};
+use super::native::AmbientExtras;
 use super::reader::Reader;
 use crate::error::{LoadError, Place};
 use crate::import::Import;
@@ -54,7 +55,9 @@ pub(crate) fn add_nodes<'d>(
             let name = document.root.meshes[index].name.clone().unwrap_or_default();
             built.map(|built| {
                 let slots = built.materials.iter().map(|material| materials[material]).collect();
-                (import.scene.add_mesh(name, built.mesh), slots)
+                let id = import.scene.add_mesh(name, built.mesh);
+                import.marks.extend(built.marks.map(|marks| (id, marks)));
+                (id, slots)
             })
         })
         .collect();
@@ -128,8 +131,16 @@ fn convert_node(
     }
     node.light = convert_light(&document.root, from, &mut import.warnings);
     node.camera = convert_camera(&document.root, from, &mut import.warnings);
+    if let Some(extras) = raw.native.get() {
+        node.visible = !extras.hidden;
+        let ambient = |from: &AmbientExtras| Light::ambient(from.intensity).with_color(from.color.into());
+        node.light = extras.ambient.as_ref().map(ambient).or(node.light);
+    }
     node
 }
+
+/// How much the square of the length of a quaternion may be from 1 to be rounding of f64.
+const ROUNDING: f64 = 1e-15;
 
 /// How much the length of a quaternion may be from 1 before it is worth a
 /// warning: one of four bytes is off by as much.
@@ -169,6 +180,11 @@ fn convert_transform(raw: &RawTransform, index: usize, warnings: &mut Warnings) 
         );
     }
     let scale = raw.scale.map_or(DVec3::ONE, DVec3::from);
+    if (rotation.length_squared() - 1.0).abs() <= ROUNDING {
+        // Dividing by the length would only round once more: what was saved comes back.
+        let translation = raw.translation.map_or(DVec3::ZERO, DVec3::from);
+        return Transform::Decomposed { translation, rotation, scale };
+    }
     Transform::from_scale_rotation_translation(
         scale,
         rotation,

@@ -12,6 +12,7 @@ mod material;
 mod movement;
 mod obj;
 mod oracle;
+mod saving;
 mod source;
 mod statements;
 mod texture;

@@ -141,7 +141,7 @@ impl Draft {
         }
         (self.attributes.skin, self.attributes.morph_targets) = self.movements.finish();
         mesh.set_attributes(self.attributes).expect("one value per accepted vertex, corner and face");
-        BuiltMesh { mesh, materials: self.materials, primitives: Vec::new() }
+        BuiltMesh { mesh, materials: self.materials, primitives: Vec::new(), marks: None }
     }
 }
 

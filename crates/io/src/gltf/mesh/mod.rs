@@ -19,6 +19,7 @@ use std::ops::Range;
 
 use gltf::json::Root;
 use trigon_mesh::Mesh;
+use trigon_mesh::edit::Marks;
 
 use super::accessor::Accessors;
 use super::buffers::Unplaced;
@@ -36,6 +37,8 @@ pub(crate) struct BuiltMesh {
     pub(crate) materials: Vec<Option<usize>>,
     /// Which faces each primitive became.
     pub(crate) primitives: Vec<PrimitiveFaces>,
+    /// Of a native file, if the mesh was being edited.
+    pub(crate) marks: Option<Marks>,
 }
 
 /// What a material wants of the meshes that it covers.

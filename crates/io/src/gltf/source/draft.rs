@@ -108,6 +108,13 @@ pub(crate) fn keep_placed(
     }
 }
 
+/// Keeps which scene of the file was loaded.
+pub(crate) fn keep_scene(import: &mut Import<'_>, scene: Option<usize>) {
+    if let Some(draft) = &mut import.source {
+        draft.origins.scene = scene;
+    }
+}
+
 /// Keeps the text and all buffers and images, and which skins are where. What cannot be kept
 /// is a warning: the scene can be shown without it.
 pub(crate) fn keep_file(

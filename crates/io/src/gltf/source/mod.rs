@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 use trigon_scene::{MaterialId, MeshId, NodeId, SkinId, TextureId};
 
-pub(crate) use draft::{SourceDraft, keep_file, keep_placed, take_primitives};
+pub(crate) use draft::{SourceDraft, keep_file, keep_placed, keep_scene, take_primitives};
 use origins::Origins;
 pub(crate) use origins::PrimitiveFaces;
 use text::JsonText;
@@ -142,6 +142,11 @@ impl GltfSource {
     /// the scene are left out there.
     pub fn animation(&self, animation: usize) -> Option<usize> {
         self.origins.animations.get(animation).copied()
+    }
+
+    /// The index in `scenes` of the scene that was loaded; none if the file has no scenes.
+    pub fn scene(&self) -> Option<usize> {
+        self.origins.scene
     }
 
     /// The index in `cameras` of a node's camera.

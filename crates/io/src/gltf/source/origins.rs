@@ -16,6 +16,8 @@ pub(super) struct Origins {
     pub(super) animations: Vec<usize>,
     pub(super) cameras: BTreeMap<NodeId, usize>,
     pub(super) lights: BTreeMap<NodeId, usize>,
+    /// The scene that was loaded, if the file has scenes.
+    pub(super) scene: Option<usize>,
 }
 
 /// A mesh of the file.

@@ -1,0 +1,107 @@
+//! The document that a scene came from, as the start of the one that is written: whatever is
+//! not changed afterwards stays as it was, to the byte.
+//!
+//! Only what a file beside others cannot keep changes: buffers become one, and pictures in files
+//! of their own move into it.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+use serde_json::value::RawValue;
+
+use super::draft::Draft;
+use super::raw::{RawObject, raw};
+use super::textures::mime_type;
+use crate::GltfSource;
+
+/// Where the bytes of a buffer are now.
+#[derive(Clone, Copy)]
+struct Moved {
+    buffer: usize,
+    offset: usize,
+}
+
+/// A document that says what the file says.
+pub(super) fn draft_of(source: &GltfSource) -> Draft<'_> {
+    let mut draft = Draft::from_top(RawObject::parse(source.json()));
+    let places = join_buffers(&mut draft, source);
+    let views = std::mem::take(draft.list_mut("bufferViews"));
+    let moved = views.into_iter().map(|view| moved_view(view, &places));
+    *draft.list_mut("bufferViews") = moved.collect();
+    take_pictures_in(&mut draft, source);
+    draft
+}
+
+fn join_buffers<'a>(draft: &mut Draft<'a>, source: &'a GltfSource) -> Vec<Moved> {
+    let buffers = std::mem::take(draft.list_mut("buffers"));
+    let (mut first, mut others, mut places) = (None, Vec::new(), Vec::new());
+    for (index, buffer) in buffers.into_iter().enumerate() {
+        match source.buffer(index) {
+            Some(bytes) => {
+                first.get_or_insert(buffer);
+                places.push(Moved { buffer: 0, offset: draft.append(Cow::Borrowed(bytes)) });
+            }
+            // Stand-ins for compressed ones, and those that could not be read.
+            None => {
+                others.push(buffer);
+                places.push(Moved { buffer: others.len(), offset: 0 });
+            }
+        }
+    }
+    if first.is_some() || !others.is_empty() {
+        others.insert(0, first.unwrap_or_else(|| raw(&RawObject::default())));
+    }
+    *draft.list_mut("buffers") = others;
+    places
+}
+
+/// A view with its place in the new buffer; the same text if it stays where it was.
+fn moved_view(view: Box<RawValue>, places: &[Moved]) -> Box<RawValue> {
+    let is_still = |place: &Moved| place.buffer == 0 && place.offset == 0;
+    if places.first().is_none_or(is_still) && places.len() <= 1 {
+        return view;
+    }
+    let mut object = RawObject::parse(view.get());
+    let mut changed = move_within(&mut object, places);
+    let mut extensions = object.object("extensions");
+    for name in ["EXT_meshopt_compression", "KHR_meshopt_compression"] {
+        let mut compressed = extensions.object(name);
+        if move_within(&mut compressed, places) {
+            extensions.set(name, &compressed);
+            object.set("extensions", &extensions);
+            changed = true;
+        }
+    }
+    if changed { raw(&object) } else { view }
+}
+
+/// Moves what names a buffer and an offset in it; whether anything changed.
+fn move_within(object: &mut RawObject, places: &[Moved]) -> bool {
+    let Some(buffer) = object.index("buffer") else { return false };
+    let Some(place) = places.get(buffer).copied() else { return false };
+    if place.buffer != buffer {
+        object.set("buffer", &place.buffer);
+    }
+    if place.offset > 0 {
+        let offset = object.index("byteOffset").unwrap_or(0) + place.offset;
+        object.set("byteOffset", &offset);
+    }
+    place.buffer != buffer || place.offset > 0
+}
+
+/// Moves pictures that are files or URIs into the buffer.
+fn take_pictures_in<'a>(draft: &mut Draft<'a>, source: &'a GltfSource) {
+    let mut views: HashMap<(usize, usize), usize> = HashMap::new();
+    for index in 0..draft.list("images").len() {
+        let mut image = draft.object("images", index);
+        let Some(bytes) = source.image(index).filter(|_| image.get("uri").is_some()) else { continue };
+        let Some(kind) = mime_type(bytes) else { continue };
+        // Many images may be one file.
+        let place = (bytes.as_ptr().addr(), bytes.len());
+        let view = *views.entry(place).or_insert_with(|| draft.view(Cow::Borrowed(bytes), None));
+        image.remove("uri");
+        image.set("bufferView", &view);
+        image.set("mimeType", kind);
+        draft.set("images", index, &image);
+    }
+}

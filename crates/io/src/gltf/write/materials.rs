@@ -1,0 +1,269 @@
+//! Materials: only what differs from what the file says already is written, so that members
+//! that trigon does not know stay where they are.
+
+use serde_json::json;
+use trigon_math::{Vec3, Vec4};
+use trigon_scene::{AlphaMode, Material, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding};
+
+use super::draft::Draft;
+use super::raw::RawObject;
+use super::textures::Textures;
+use crate::gltf::native;
+
+/// What an empty material of a file is.
+pub(super) fn plain() -> Material {
+    let model = MetallicRoughness { metallic: 1.0, roughness: 1.0, ..MetallicRoughness::default() };
+    Material {
+        base_color: Vec4::ONE,
+        shading: Shading::MetallicRoughness(model),
+        double_sided: false,
+        ..Material::default()
+    }
+}
+
+/// Changes the object of a material from what it says to another material.
+pub(super) fn write_material<'a>(
+    draft: &mut Draft<'a>,
+    textures: &mut Textures<'a>,
+    object: &mut RawObject,
+    was: &Material,
+    now: &Material,
+) {
+    let mut writer = Writer { draft, textures, object };
+    if now.name != was.name {
+        writer.object.set("name", &now.name);
+    }
+    writer.base(was, now);
+    writer.surface(was, now);
+    writer.extensions(was, now);
+    writer.exact_shading(was, now);
+}
+
+struct Writer<'w, 'd, 'a> {
+    draft: &'w mut Draft<'a>,
+    textures: &'w mut Textures<'a>,
+    object: &'d mut RawObject,
+}
+
+impl Writer<'_, '_, '_> {
+    fn base(&mut self, was: &Material, now: &Material) {
+        let (old, new) = (model(was), model(now));
+        let mut pbr = self.object.object("pbrMetallicRoughness");
+        if now.base_color != was.base_color {
+            let color = now.base_color.to_array().map(|channel| share(channel, 1.0));
+            pbr.set("baseColorFactor", &color);
+        }
+        set_number(&mut pbr, "metallicFactor", old.metallic, share(new.metallic, 1.0));
+        set_number(&mut pbr, "roughnessFactor", old.roughness, share(new.roughness, 1.0));
+        self.texture(&mut pbr, "baseColorTexture", &was.base_color_texture, &now.base_color_texture);
+        self.texture(&mut pbr, "metallicRoughnessTexture", &old.texture, &new.texture);
+        self.object.set_object("pbrMetallicRoughness", &pbr);
+    }
+
+    fn surface(&mut self, was: &Material, now: &Material) {
+        if now.alpha_mode != was.alpha_mode {
+            let (mode, cutoff) = match now.alpha_mode {
+                AlphaMode::Opaque => ("OPAQUE", None),
+                AlphaMode::Mask { cutoff } => ("MASK", Some(amount(cutoff, 0.5))),
+                AlphaMode::Blend => ("BLEND", None),
+            };
+            self.object.set("alphaMode", mode);
+            self.object.set_or_remove("alphaCutoff", cutoff.as_ref());
+        }
+        if now.double_sided != was.double_sided {
+            self.object.set("doubleSided", &now.double_sided);
+        }
+        let mut object = std::mem::take(self.object);
+        self.texture(&mut object, "emissiveTexture", &was.emissive_texture, &now.emissive_texture);
+        self.normal_map(&mut object, was.normal_map, now.normal_map);
+        self.occlusion(&mut object, was.occlusion, now.occlusion);
+        *self.object = object;
+    }
+
+    fn normal_map(&mut self, object: &mut RawObject, was: Option<NormalMap>, now: Option<NormalMap>) {
+        if now == was {
+            return;
+        }
+        let binding = |map: NormalMap| map.binding;
+        self.texture(object, "normalTexture", &was.map(binding), &now.map(binding));
+        if let (Some(map), true) = (now, object.get("normalTexture").is_some()) {
+            let mut info = object.object("normalTexture");
+            info.set("scale", &(if map.scale.is_finite() { map.scale } else { 1.0 }));
+            object.set("normalTexture", &info);
+        }
+    }
+
+    fn occlusion(&mut self, object: &mut RawObject, was: Option<Occlusion>, now: Option<Occlusion>) {
+        if now == was {
+            return;
+        }
+        let binding = |map: Occlusion| map.binding;
+        self.texture(object, "occlusionTexture", &was.map(binding), &now.map(binding));
+        if let (Some(map), true) = (now, object.get("occlusionTexture").is_some()) {
+            let mut info = object.object("occlusionTexture");
+            info.set("strength", &share(map.strength, 1.0));
+            object.set("occlusionTexture", &info);
+        }
+    }
+
+    fn extensions(&mut self, was: &Material, now: &Material) {
+        let mut extensions = self.object.object("extensions");
+        let is_unlit = |material: &Material| material.shading == Shading::Unlit;
+        if is_unlit(now) != is_unlit(was) {
+            self.extension(&mut extensions, "KHR_materials_unlit", RawObject::default(), is_unlit(now));
+        }
+        if now.ior != was.ior {
+            let mut ior = extensions.object("KHR_materials_ior");
+            ior.set("ior", &amount(now.ior, 1.5));
+            self.extension(&mut extensions, "KHR_materials_ior", ior, now.ior != 1.5);
+        }
+        if now.emissive != was.emissive {
+            self.emission(&mut extensions, now.emissive);
+        }
+        self.specular(&mut extensions, &model(was), &model(now));
+        let transmission = |material: &Material| (material.transmission, material.transmission_texture);
+        if transmission(now) != transmission(was) {
+            const NAME: &str = "KHR_materials_transmission";
+            let mut object = extensions.object(NAME);
+            object.set("transmissionFactor", &share(now.transmission, 0.0));
+            let (old, new) = (&was.transmission_texture, &now.transmission_texture);
+            self.texture(&mut object, "transmissionTexture", old, new);
+            self.extension(&mut extensions, NAME, object, transmission(now) != (0.0, None));
+        }
+        self.object.set_object("extensions", &extensions);
+    }
+
+    fn specular(&mut self, extensions: &mut RawObject, was: &MetallicRoughness, now: &MetallicRoughness) {
+        const NAME: &str = "KHR_materials_specular";
+        let of = |model: &MetallicRoughness| MetallicRoughness {
+            metallic: 0.0,
+            roughness: 0.0,
+            texture: None,
+            ..*model
+        };
+        if of(was) == of(now) {
+            return;
+        }
+        let mut object = extensions.object(NAME);
+        set_number(&mut object, "specularFactor", was.specular, share(now.specular, 1.0));
+        if now.specular_color != was.specular_color {
+            let color = now.specular_color.to_array().map(|channel| amount(channel, 1.0));
+            object.set("specularColorFactor", &color);
+        }
+        self.texture(&mut object, "specularTexture", &was.specular_texture, &now.specular_texture);
+        let (old, new) = (&was.specular_color_texture, &now.specular_color_texture);
+        self.texture(&mut object, "specularColorTexture", old, new);
+        let plain = MetallicRoughness { metallic: 0.0, roughness: 0.0, ..MetallicRoughness::default() };
+        self.extension(extensions, NAME, object, of(now) != plain);
+    }
+
+    /// More than white needs a strength: a power of two, so that nothing is rounded.
+    fn emission(&mut self, extensions: &mut RawObject, emissive: Vec3) {
+        /// Beyond it, doubling would soon end at infinity.
+        const MOST: f32 = 1e30;
+        let emissive = emissive.to_array().map(|channel| amount(channel, 0.0).min(MOST));
+        let mut strength = 1.0f32;
+        while emissive.iter().any(|&channel| channel > strength) {
+            strength *= 2.0;
+        }
+        self.object.set("emissiveFactor", &emissive.map(|channel| channel / strength));
+        let mut object = extensions.object("KHR_materials_emissive_strength");
+        object.set("emissiveStrength", &strength);
+        self.extension(extensions, "KHR_materials_emissive_strength", object, strength > 1.0);
+    }
+
+    /// Sets an extension, or takes it away.
+    fn extension(
+        &mut self,
+        extensions: &mut RawObject,
+        name: &'static str,
+        object: RawObject,
+        is_there: bool,
+    ) {
+        if is_there {
+            self.draft.extensions.insert(name);
+            extensions.set(name, &object);
+        } else {
+            extensions.remove(name);
+        }
+    }
+
+    /// Sets or removes a texture that changed. What the file says besides stays only with
+    /// the same texture.
+    fn texture(
+        &mut self,
+        object: &mut RawObject,
+        name: &str,
+        was: &Option<TextureBinding>,
+        now: &Option<TextureBinding>,
+    ) {
+        if now == was {
+            return;
+        }
+        let info = now.as_ref().and_then(|binding| self.textures.info(self.draft, binding));
+        object.set_or_remove(name, info.as_ref());
+    }
+
+    /// Shading models that the format does not have are kept exactly beside what comes near.
+    fn exact_shading(&mut self, was: &Material, now: &Material) {
+        if now.shading == was.shading {
+            return;
+        }
+        let exact = match now.shading {
+            Shading::Unlit | Shading::MetallicRoughness(_) => None,
+            Shading::Lambert => Some(native::ExactShading::Lambert),
+            Shading::BlinnPhong { specular, shininess, .. } => {
+                Some(native::ExactShading::BlinnPhong { specular: specular.to_array(), shininess })
+            }
+        };
+        let mut extras = self.object.object("extras");
+        match exact {
+            Some(shading) => {
+                extras.set(native::MEMBER, &json!({"version": native::VERSION, "shading": shading}))
+            }
+            None => extras.remove(native::MEMBER),
+        }
+        self.object.set_object("extras", &extras);
+    }
+}
+
+fn set_number(object: &mut RawObject, name: &str, was: f32, now: f32) {
+    if now != was {
+        object.set(name, &now);
+    }
+}
+
+/// The model of a material, or what comes near it.
+fn model(material: &Material) -> MetallicRoughness {
+    match material.shading {
+        Shading::MetallicRoughness(model) => model,
+        Shading::Unlit => match plain().shading {
+            Shading::MetallicRoughness(model) => model,
+            _ => MetallicRoughness::default(),
+        },
+        Shading::Lambert => {
+            MetallicRoughness { roughness: 1.0, specular: 0.0, ..MetallicRoughness::default() }
+        }
+        // The highlight of GGX with α² = 2 / (n + 2) is as wide (Karis, "Specular BRDF
+        // Reference", 2013); α is the square of the roughness.
+        Shading::BlinnPhong { shininess, specular_texture, .. } => MetallicRoughness {
+            roughness: (2.0 / (amount(shininess, 0.0) + 2.0)).sqrt().sqrt(),
+            specular_color_texture: specular_texture,
+            ..MetallicRoughness::default()
+        },
+    }
+}
+
+/// A number from 0 to 1.
+fn share(value: f32, otherwise: f32) -> f32 {
+    if value.is_finite() { value.clamp(0.0, 1.0) } else { otherwise }
+}
+
+/// A number from 0.
+fn amount(value: f32, otherwise: f32) -> f32 {
+    match value.is_finite() {
+        true if value > 0.0 => value,
+        true => 0.0,
+        false => otherwise,
+    }
+}

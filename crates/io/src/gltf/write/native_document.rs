@@ -1,0 +1,165 @@
+//! The editor's own file: a GLB that every program reads, with all that is edited beside the
+//! triangles.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use trigon_mesh::edit::EditMesh;
+use trigon_scene::{MeshId, Scene};
+
+use super::draft::GlbFile;
+use super::scene::{Input, write_scene};
+use super::{KeptFile, Loss};
+use crate::error::{LoadError, Place};
+use crate::load::{Loaded, load, load_from_slice};
+use crate::options::LoadOptions;
+use crate::warning::{Warning, Warnings};
+use crate::write::{WriteError, write_atomically};
+
+/// A scene with the meshes that are being edited, and the glTF file that it came from.
+///
+/// Saving writes one GLB. Polygons, first positions, marks and all values of meshes are in it
+/// beside their triangles, and come back to the bit; if another program changed the triangles of
+/// a mesh in the meantime, they count, and a warning says so. What was loaded from a glTF and
+/// not changed (also what trigon does not know: extensions, `extras`, other scenes) is
+/// written back as it was read; what cannot be is named before anything is written.
+///
+/// ```
+/// use trigon_io::{LoadOptions, NativeDocument};
+/// use trigon_mesh::edit::EditMesh;
+/// use trigon_mesh::math::Vec3;
+/// use trigon_mesh::primitives;
+/// use trigon_scene::{Material, Scene};
+///
+/// let mut scene = Scene::new();
+/// scene.add_object("cube", primitives::cube(2.0), Material::default());
+/// let mut document = NativeDocument::new(scene);
+/// let (id, asset) = document.scene.meshes().iter().next().expect("one was added");
+/// let (mut cube, _) = EditMesh::from_mesh(asset.mesh());
+/// let corner = cube.vertices().next().expect("a cube has eight");
+/// cube.set_position(corner, Vec3::ONE * 3.0);
+/// document.edited.insert(id, cube.clone());
+///
+/// let file = document.encode()?;
+/// assert!(file.what_would_be_lost().is_empty());
+/// let bytes = file.to_bytes();
+///
+/// let (again, warnings) = NativeDocument::load_from_slice("cube.glb", &bytes, &LoadOptions::default())?;
+/// assert!(warnings.is_empty());
+/// let (_, again) = again.edited.iter().next().expect("it is still being edited");
+/// assert!(*again == cube, "also where the corner was before");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Default)]
+pub struct NativeDocument {
+    /// What there is. A mesh that is being edited may be an older one here.
+    pub scene: Scene,
+    /// The meshes that are being edited: these are saved in place of the scene's.
+    pub edited: BTreeMap<MeshId, EditMesh>,
+    kept: Option<KeptFile>,
+}
+
+impl NativeDocument {
+    /// A document that came from no file.
+    pub fn new(scene: Scene) -> Self {
+        Self { scene, edited: BTreeMap::new(), kept: None }
+    }
+
+    /// Loads a file of any format that can be read. A glTF is kept, to be written back.
+    ///
+    /// # Errors
+    /// As [`load`].
+    pub fn load(
+        path: impl AsRef<Path>,
+        options: &LoadOptions<'_>,
+    ) -> Result<(Self, Vec<Warning>), LoadError> {
+        let path = path.as_ref();
+        Ok(Self::from_loaded(path, load(path, &keeping(options))?))
+    }
+
+    /// Loads a file from memory. `name` stands for it in messages.
+    ///
+    /// # Errors
+    /// As [`load_from_slice`].
+    pub fn load_from_slice(
+        name: impl AsRef<Path>,
+        bytes: &[u8],
+        options: &LoadOptions<'_>,
+    ) -> Result<(Self, Vec<Warning>), LoadError> {
+        let name = name.as_ref();
+        Ok(Self::from_loaded(name, load_from_slice(name, bytes, &keeping(options))?))
+    }
+
+    fn from_loaded(name: &Path, loaded: Loaded) -> (Self, Vec<Warning>) {
+        let Loaded { scene, marks, source, mut warnings, .. } = loaded;
+        let mut edited = BTreeMap::new();
+        let mut about = Warnings::about(name);
+        for (&id, marks) in &marks {
+            let Some(asset) = scene.meshes().get(id) else { continue };
+            match EditMesh::from_mesh_and_marks(asset.mesh(), marks) {
+                Ok((mesh, _)) => drop(edited.insert(id, mesh)),
+                Err(error) => {
+                    let place = Place::Named(format!("mesh \"{}\"", asset.name));
+                    let what = format!("marks and first positions are left out: {error}");
+                    about.push(place, what, "open an older copy of the file if you need them");
+                }
+            }
+        }
+        warnings.extend(about.into_list());
+        let kept = source.map(|source| KeptFile { source, scene: scene.clone(), marks });
+        (Self { scene, edited, kept }, warnings)
+    }
+
+    /// The document as a file, not written yet, so that one can ask first if anything would
+    /// be lost.
+    ///
+    /// # Errors
+    /// When the file would have 4 GiB or more.
+    pub fn encode(&self) -> Result<NativeFile<'_>, WriteError> {
+        let written = write_scene(&Input {
+            scene: &self.scene,
+            edited: Some(&self.edited),
+            kept: self.kept.as_ref(),
+            pictures: self.kept.as_ref().map(|kept| &kept.source),
+            nodes: None,
+            root: None,
+        })?;
+        Ok(NativeFile { file: written.file, losses: written.losses })
+    }
+}
+
+fn keeping<'a>(options: &LoadOptions<'a>) -> LoadOptions<'a> {
+    LoadOptions { keep_source: true, ..options.clone() }
+}
+
+/// A document that is ready to be written.
+pub struct NativeFile<'a> {
+    file: GlbFile<'a>,
+    losses: Vec<Loss>,
+}
+
+impl NativeFile<'_> {
+    /// What the file that was loaded holds, or the scene, and this one does not.
+    pub fn what_would_be_lost(&self) -> &[Loss] {
+        &self.losses
+    }
+
+    /// The bytes of the file.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        self.file.to_bytes()
+    }
+
+    /// Writes the file; an old one of that name is replaced at once or not at all.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), WriteError> {
+        write_atomically(path.as_ref(), |file| self.file.write_to(file))
+    }
+}
+
+impl std::fmt::Debug for NativeFile<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("NativeFile").field("losses", &self.losses).finish_non_exhaustive()
+    }
+}

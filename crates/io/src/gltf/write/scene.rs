@@ -1,0 +1,525 @@
+//! A scene into a document, part by part.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde_json::json;
+use trigon_math::DAffine3;
+use trigon_mesh::edit::EditMesh;
+use trigon_scene::{Animation, Material, MaterialId, MeshId, Node, NodeId, Scene, Skin, SkinId};
+
+use super::draft::{Draft, GlbFile};
+use super::freed::Replaced;
+use super::kept::draft_of;
+use super::materials::{plain, write_material};
+use super::meshes::{Shape, Written, losses};
+use super::movement::{write_animation, write_skin};
+use super::nodes::{camera, matrix, write_node};
+use super::raw::RawObject;
+use super::textures::Textures;
+use super::{KeptFile, Loss};
+use crate::error::Place;
+use crate::gltf::source::GltfSource;
+use crate::write::WriteError;
+
+/// What is to be written.
+pub(super) struct Input<'a> {
+    pub(super) scene: &'a Scene,
+    /// With it, the file is trigon's own: these meshes are saved in place of the scene's.
+    pub(super) edited: Option<&'a BTreeMap<MeshId, EditMesh>>,
+    /// The file that the scene came from, if it is to be written back.
+    pub(super) kept: Option<&'a KeptFile>,
+    /// Where encoded pictures are.
+    pub(super) pictures: Option<&'a GltfSource>,
+    /// Those to write; all unless given.
+    pub(super) nodes: Option<&'a [NodeId]>,
+    /// A map of everything.
+    pub(super) root: Option<DAffine3>,
+}
+
+/// What came of it.
+pub(super) struct WrittenScene<'a> {
+    pub(super) file: GlbFile<'a>,
+    pub(super) losses: Vec<Loss>,
+}
+
+/// Writes a scene.
+///
+/// # Errors
+/// The file would have more bytes than the format can count.
+pub(super) fn write_scene<'a>(input: &Input<'a>) -> Result<WrittenScene<'a>, WriteError> {
+    let draft = input.kept.map_or_else(Draft::new, |kept| draft_of(&kept.source));
+    let mut writer = SceneWriter {
+        scene: input.scene,
+        edited: input.edited,
+        kept: input.kept,
+        textures: Textures::new(input.scene, input.pictures, input.kept.is_some()),
+        draft,
+        choice: Choice::new(input.scene, input.nodes),
+        copies: input.kept.map_or_else(BTreeMap::new, |kept| unchanged_copies(input.scene, kept)),
+        indices: BTreeMap::new(),
+        materials: BTreeMap::new(),
+        stand_in: None,
+        gone: None,
+        losses: Vec::new(),
+        replaced: Replaced::default(),
+    };
+    writer.number_nodes();
+    let meshes = writer.write_meshes();
+    let skins = writer.write_skins();
+    writer.write_nodes(&meshes, &skins);
+    writer.strip_removed();
+    writer.write_animations();
+    writer.write_roots(input.root);
+    std::mem::take(&mut writer.replaced).free(&mut writer.draft);
+    let SceneWriter { draft, losses, .. } = writer;
+    Ok(WrittenScene { file: draft.finish()?, losses })
+}
+
+/// Which nodes are written.
+struct Choice {
+    /// All of them, or none if that is everything.
+    chosen: Option<BTreeSet<NodeId>>,
+    /// Those that only hold others: what these hang on, and joints.
+    bare: BTreeSet<NodeId>,
+}
+
+impl Choice {
+    fn new(scene: &Scene, nodes: Option<&[NodeId]>) -> Self {
+        let Some(nodes) = nodes else { return Self { chosen: None, bare: BTreeSet::new() } };
+        let chosen: BTreeSet<NodeId> = nodes.iter().copied().filter(|&id| scene.node(id).is_some()).collect();
+        let skins = chosen.iter().filter_map(|&id| scene.skins.get(scene.node(id)?.skin?));
+        let joints: Vec<NodeId> = skins.flat_map(|skin| skin.joints.iter().copied()).collect();
+        let mut bare = BTreeSet::new();
+        for &id in chosen.iter().chain(&joints) {
+            // What is known has been followed to its root.
+            let above = scene.ancestors(id).take_while(|above| *above == id || !bare.contains(above));
+            let above: Vec<NodeId> = above.filter(|&above| scene.node(above).is_some()).collect();
+            bare.extend(above);
+        }
+        bare.retain(|id| !chosen.contains(id));
+        Self { chosen: Some(chosen), bare }
+    }
+
+    fn has(&self, id: NodeId) -> bool {
+        self.chosen.as_ref().is_none_or(|chosen| chosen.contains(&id) || self.bare.contains(&id))
+    }
+}
+
+/// The nodes that EXT_mesh_gpu_instancing made when a file was read, if all that hang on one
+/// node are as they were: the file need not name them. By that node.
+fn unchanged_copies(scene: &Scene, kept: &KeptFile) -> BTreeMap<NodeId, Vec<NodeId>> {
+    let mut copies: BTreeMap<NodeId, Vec<NodeId>> = BTreeMap::new();
+    for (id, node) in kept.scene.nodes().iter() {
+        if let (None, Some(parent)) = (kept.source.node(id), node.parent()) {
+            copies.entry(parent).or_default().push(id);
+        }
+    }
+    copies.retain(|&parent, copies| {
+        let holder = scene.node(parent).is_some_and(|node| node.mesh.is_none());
+        let is_same = |&id: &NodeId| match (scene.node(id), kept.scene.node(id)) {
+            (Some(now), Some(was)) => same_node(now, was) && now.materials == was.materials,
+            _ => false,
+        };
+        holder && copies.iter().all(is_same)
+    });
+    copies
+}
+
+fn same_node(now: &Node, was: &Node) -> bool {
+    now.parent() == was.parent()
+        && now.children() == was.children()
+        && (&now.name, now.transform, now.mesh, now.skin, now.visible)
+            == (&was.name, was.transform, was.mesh, was.skin, was.visible)
+        && (&now.morph_weights, now.light, now.camera) == (&was.morph_weights, was.light, was.camera)
+}
+
+/// A mesh, and the material of each of its slots in the file.
+type Use = (MeshId, Vec<Option<usize>>);
+
+struct SceneWriter<'a> {
+    scene: &'a Scene,
+    edited: Option<&'a BTreeMap<MeshId, EditMesh>>,
+    kept: Option<&'a KeptFile>,
+    textures: Textures<'a>,
+    draft: Draft<'a>,
+    choice: Choice,
+    /// See [`unchanged_copies`].
+    copies: BTreeMap<NodeId, Vec<NodeId>>,
+    indices: BTreeMap<NodeId, usize>,
+    /// None for the format's default.
+    materials: BTreeMap<MaterialId, Option<usize>>,
+    /// The material of slots that have none.
+    stand_in: Option<usize>,
+    /// A node in place of joints that were removed.
+    gone: Option<usize>,
+    losses: Vec<Loss>,
+    replaced: Replaced,
+}
+
+impl<'a> SceneWriter<'a> {
+    /// The nodes to write: those that copies of others need no place.
+    fn nodes(&self) -> Vec<(NodeId, &'a Node)> {
+        let copies: BTreeSet<NodeId> = self.copies.values().flatten().copied().collect();
+        let is_written = |id: &NodeId| self.choice.has(*id) && !copies.contains(id);
+        self.scene.nodes().iter().filter(|(id, _)| is_written(id)).collect()
+    }
+
+    /// The node as the file has it.
+    fn loaded(&self, id: NodeId) -> Option<(usize, &'a Node)> {
+        let kept = self.kept?;
+        Some((kept.source.node(id)?, kept.scene.node(id)?))
+    }
+
+    fn number_nodes(&mut self) {
+        for (id, _) in self.nodes() {
+            let index = match self.loaded(id) {
+                Some((index, _)) => index,
+                None => self.draft.push("nodes", &RawObject::default()),
+            };
+            self.indices.insert(id, index);
+        }
+    }
+
+    /// The index of a material; none for the format's default.
+    fn material(&mut self, id: MaterialId) -> Option<usize> {
+        if let Some(&known) = self.materials.get(&id) {
+            return known;
+        }
+        let index = match self.scene.materials.get(id) {
+            Some(now) => self.write_material(id, now),
+            None => Some(self.stand_in()),
+        };
+        self.materials.insert(id, index);
+        index
+    }
+
+    fn write_material(&mut self, id: MaterialId, now: &Material) -> Option<usize> {
+        let loaded =
+            self.kept.and_then(|kept| Some((kept.source.material(id), kept.scene.materials.get(id)?)));
+        if let Some((index, was)) = loaded
+            && was == now
+        {
+            return index;
+        }
+        let known = loaded.and_then(|(index, was)| Some((index?, was)));
+        let mut object = known.map(|(index, _)| self.draft.object("materials", index)).unwrap_or_default();
+        let fresh = plain();
+        let was = known.map_or(&fresh, |(_, was)| was);
+        write_material(&mut self.draft, &mut self.textures, &mut object, was, now);
+        Some(match known {
+            Some((index, _)) => {
+                self.draft.update("materials", index, &object);
+                index
+            }
+            None => self.draft.push("materials", &object),
+        })
+    }
+
+    fn stand_in(&mut self) -> usize {
+        if let Some(known) = self.stand_in {
+            return known;
+        }
+        let mut object = RawObject::default();
+        write_material(&mut self.draft, &mut self.textures, &mut object, &plain(), &Material::default());
+        *self.stand_in.insert(self.draft.push("materials", &object))
+    }
+
+    /// The meshes of the file that each node shows, and that all copies of a node show.
+    fn write_meshes(&mut self) -> BTreeMap<NodeId, usize> {
+        let mut users: BTreeMap<MeshId, Vec<(NodeId, &'a Node)>> = BTreeMap::new();
+        let holders: Vec<(NodeId, NodeId)> =
+            self.copies.iter().filter_map(|(&holder, copies)| Some((holder, *copies.first()?))).collect();
+        let copies = holders.iter().filter_map(|&(holder, copy)| Some((holder, self.scene.node(copy)?)));
+        let bare = &self.choice.bare;
+        for (id, node) in self.nodes().into_iter().filter(|(id, _)| !bare.contains(id)).chain(copies) {
+            if let Some(mesh) = node.mesh {
+                users.entry(mesh).or_default().push((id, node));
+            }
+        }
+        let mut found = BTreeMap::new();
+        for (mesh, users) in users {
+            self.write_mesh(mesh, &users, &mut found);
+        }
+        found
+    }
+
+    fn write_mesh(&mut self, id: MeshId, users: &[(NodeId, &'a Node)], found: &mut BTreeMap<NodeId, usize>) {
+        let Some(asset) = self.scene.meshes().get(id) else { return };
+        let edited = self.edited.and_then(|edited| edited.get(&id));
+        let shape = Shape::new(asset, edited);
+        let origin = self.kept.and_then(|kept| kept.source.mesh(id));
+        let mut object = origin.map(|index| self.draft.object("meshes", index)).unwrap_or_default();
+        let was = self.kept.and_then(|kept| kept.scene.meshes().get(id)).map_or("", |asset| &asset.name);
+        if asset.name != was {
+            object.set_or_remove("name", Some(&asset.name).filter(|name| !name.is_empty()));
+        }
+        let unchanged =
+            origin.is_some() && self.kept.is_some_and(|kept| shape.is_unchanged(id, kept, edited));
+        let written = match unchanged {
+            true => Some(Written::kept(object.clone())),
+            false => {
+                if let Some(index) = origin {
+                    self.replaced.note(&object);
+                    self.losses.extend(losses(&object, index, &shape.mesh));
+                }
+                Written::new(&mut self.draft, object.clone(), &shape, self.edited.is_some())
+            }
+        };
+        let Some(written) = written else {
+            self.lose(users, "its mesh, which has no vertices");
+            return;
+        };
+        let materials = shape.mesh.attributes().face_materials.as_deref();
+        let slots =
+            materials.and_then(|materials| materials.iter().max()).map_or(1, |&last| last as usize + 1);
+        let uses: Vec<Use> = users.iter().map(|(_, node)| (id, self.slot_materials(node, slots))).collect();
+        let mut known: BTreeMap<&Use, usize> = BTreeMap::new();
+        // Who shows the mesh as the file has it keeps it; else the first takes its place.
+        let keeper = uses.iter().position(|(_, materials)| written.has_materials(materials)).unwrap_or(0);
+        if let Some(index) = origin {
+            known.insert(&uses[keeper], index);
+            if unchanged && written.has_materials(&uses[keeper].1) {
+                self.draft.update("meshes", index, &object);
+            } else {
+                self.draft.set("meshes", index, &written.in_materials(&uses[keeper].1));
+            }
+        }
+        for ((node, _), of_node) in users.iter().zip(&uses) {
+            let draft = &mut self.draft;
+            let write = || draft.push("meshes", &written.in_materials(&of_node.1));
+            found.insert(*node, *known.entry(of_node).or_insert_with(write));
+        }
+    }
+
+    fn lose(&mut self, users: &[(NodeId, &Node)], what: &str) {
+        for (_, node) in users {
+            let place = Place::Named(format!("node \"{}\"", node.name));
+            self.losses.push(Loss { place, what: what.to_owned() });
+        }
+    }
+
+    /// The material of each slot of a node's mesh.
+    fn slot_materials(&mut self, node: &Node, slots: usize) -> Vec<Option<usize>> {
+        // A face may name any slot: those beyond the list are all the same.
+        let listed = node.materials.iter().map(|&id| self.material(id)).collect::<Vec<_>>();
+        /// More than any file has in use; what lies beyond is drawn in the format's default.
+        const MOST_SLOTS: usize = 1 << 16;
+        let slots = slots.min(MOST_SLOTS);
+        let mut materials = listed;
+        if materials.len() < slots {
+            let stand_in = Some(self.stand_in());
+            materials.resize(slots, stand_in);
+        }
+        materials
+    }
+
+    fn write_skins(&mut self) -> BTreeMap<SkinId, usize> {
+        let bare = &self.choice.bare;
+        let used: BTreeSet<SkinId> = self
+            .nodes()
+            .iter()
+            .filter(|(id, _)| !bare.contains(id))
+            .filter_map(|(_, node)| node.skin)
+            .collect();
+        let mut skins = BTreeMap::new();
+        for id in used {
+            let Some(now) = self.scene.skins.get(id).filter(|skin| !skin.joints.is_empty()) else { continue };
+            let loaded = self.kept.and_then(|kept| Some((kept.source.skin(id)?, kept.scene.skins.get(id)?)));
+            if let Some((index, _)) = loaded.filter(|(_, was)| same_skin(was, now)) {
+                skins.insert(id, index);
+                continue;
+            }
+            if now.joints.iter().any(|joint| !self.indices.contains_key(joint)) {
+                let name = json!({"name": "removed joint"});
+                self.gone = self.gone.or_else(|| Some(self.draft.push("nodes", &name)));
+            }
+            let mut object = loaded.map(|(index, _)| self.draft.object("skins", index)).unwrap_or_default();
+            let (indices, gone) = (&self.indices, self.gone.unwrap_or(0));
+            let joint = |id| indices.get(&id).copied().unwrap_or(gone);
+            write_skin(&mut self.draft, &mut object, now, joint);
+            let index = match loaded {
+                Some((index, _)) => {
+                    self.draft.update("skins", index, &object);
+                    index
+                }
+                None => self.draft.push("skins", &object),
+            };
+            skins.insert(id, index);
+        }
+        skins
+    }
+
+    fn write_nodes(&mut self, meshes: &BTreeMap<NodeId, usize>, skins: &BTreeMap<SkinId, usize>) {
+        let channels = self.scene.animations.iter().flat_map(|animation| &animation.channels);
+        let animated: BTreeSet<NodeId> = channels.map(|channel| channel.node).collect();
+        let empty = Node::default();
+        for (id, now) in self.nodes() {
+            let index = self.indices[&id];
+            let mut object = self.draft.object("nodes", index);
+            let loaded = self.loaded(id).map(|(_, was)| was);
+            let was = loaded.unwrap_or(&empty);
+            let mut holder = Node::default();
+            let now = if self.choice.bare.contains(&id) {
+                (holder.name, holder.transform) = (now.name.clone(), now.transform);
+                &holder
+            } else {
+                now
+            };
+            write_node(&mut self.draft, &mut object, was, now, animated.contains(&id));
+            if now.camera != was.camera && now.camera.is_some_and(|projection| camera(&projection).is_none())
+            {
+                self.lose(&[(id, now)], "its camera, which is of a kind that glTF does not have");
+            }
+            let is_holder = self.copies.contains_key(&id);
+            if !is_holder && object.object("extensions").get(INSTANCING).is_some() {
+                self.dissolve(id, &mut object);
+            }
+            if now.mesh.is_some() || was.mesh.is_some() || is_holder {
+                object.set_or_remove("mesh", meshes.get(&id));
+            }
+            if now.skin != was.skin {
+                object.set_or_remove("skin", now.skin.and_then(|skin| skins.get(&skin)));
+            }
+            self.write_children(id, loaded, &mut object);
+            self.draft.update("nodes", index, &object);
+        }
+    }
+
+    /// Takes the extension off a node whose copies have become nodes of their own.
+    fn dissolve(&self, id: NodeId, object: &mut RawObject) {
+        let is_copy = |id: &NodeId| self.kept.is_some_and(|kept| kept.source.node(*id).is_none());
+        let was = self.kept.and_then(|kept| kept.scene.node(id));
+        if was.is_some_and(|was| was.children().iter().any(is_copy)) {
+            let mut extensions = object.object("extensions");
+            extensions.remove(INSTANCING);
+            object.set_object("extensions", &extensions);
+            object.remove("mesh");
+        }
+    }
+
+    fn write_children(&self, id: NodeId, was: Option<&Node>, object: &mut RawObject) {
+        let now = self.scene.node(id).map_or(&[][..], Node::children);
+        let now: Vec<usize> = now.iter().filter_map(|child| self.indices.get(child).copied()).collect();
+        let in_file = |child: &NodeId| self.kept.and_then(|kept| kept.source.node(*child));
+        let was: Vec<usize> = was.map_or(&[][..], Node::children).iter().filter_map(in_file).collect();
+        if was != now {
+            object.set_or_remove("children", Some(&now).filter(|now| !now.is_empty()));
+        }
+    }
+
+    /// What is left of nodes of the file that are not in the scene any more: a number, for those
+    /// that refer to later ones.
+    fn strip_removed(&mut self) {
+        let Some(kept) = self.kept else { return };
+        for (id, _) in kept.scene.nodes().iter() {
+            let Some(index) = kept.source.node(id).filter(|_| self.scene.node(id).is_none()) else {
+                continue;
+            };
+            let mut object = RawObject::default();
+            if let Some(name) = self.draft.object("nodes", index).get("name") {
+                object = RawObject::parse(&format!("{{\"name\":{name}}}"));
+            }
+            self.draft.set("nodes", index, &object);
+        }
+    }
+
+    /// Animations that are in the file stay; others are written, and those that were removed go.
+    fn write_animations(&mut self) {
+        let was: &[Animation] = self.kept.map_or(&[], |kept| &kept.scene.animations);
+        let now = &self.scene.animations;
+        if self.kept.is_some() && was == now {
+            return;
+        }
+        let kept = self.kept;
+        let origin = |place: usize| kept.and_then(|kept| kept.source.animation(place));
+        let same_place: Vec<Option<usize>> = (0..now.len()).map(|place| place_of(was, now, place)).collect();
+        let taken: BTreeSet<usize> = same_place.iter().flatten().copied().collect();
+        let removed: BTreeSet<usize> =
+            (0..was.len()).filter(|place| !taken.contains(place)).filter_map(origin).collect();
+        for (animation, place) in now.iter().zip(&same_place) {
+            if place.is_some_and(|place| was[place] == *animation && origin(place).is_some()) {
+                continue;
+            }
+            let indices = &self.indices;
+            let Some(written) = write_animation(&mut self.draft, animation, |id| indices.get(&id).copied())
+            else {
+                continue;
+            };
+            match place.and_then(origin) {
+                Some(index) => self.change_animation(index, &written),
+                None => drop(self.draft.push("animations", &written)),
+            }
+        }
+        if !removed.is_empty() {
+            let mut index = 0;
+            self.draft.list_mut("animations").retain(|_| {
+                index += 1;
+                !removed.contains(&(index - 1))
+            });
+        }
+    }
+
+    fn change_animation(&mut self, index: usize, written: &RawObject) {
+        let mut object = self.draft.object("animations", index);
+        let channels = object.list("channels");
+        let foreign = channels
+            .iter()
+            .filter(|channel| RawObject::parse(channel.get()).object("target").get("node").is_none());
+        if foreign.count() > 0 {
+            let what = "its channels that move something other than nodes".to_owned();
+            self.losses.push(Loss { place: Place::Item("animation", index), what });
+        }
+        for name in ["name", "channels", "samplers"] {
+            let text =
+                written.get(name).map(|text| serde_json::value::RawValue::from_string(text.to_owned()));
+            let text = text.and_then(Result::ok);
+            object.set_or_remove(name, text.as_ref());
+        }
+        self.draft.update("animations", index, &object);
+    }
+
+    /// The scene and its roots.
+    fn write_roots(&mut self, map: Option<DAffine3>) {
+        let roots = |scene: &Scene| -> Vec<NodeId> {
+            scene.nodes().iter().filter(|(_, node)| node.parent().is_none()).map(|(id, _)| id).collect()
+        };
+        let now = roots(self.scene);
+        let is_same = self.kept.is_some_and(|kept| roots(&kept.scene) == now);
+        if is_same && self.gone.is_none() {
+            return;
+        }
+        let mut list: Vec<usize> = now.iter().filter_map(|id| self.indices.get(id).copied()).collect();
+        list.extend(self.gone);
+        if let Some(map) = map.filter(|_| !list.is_empty()) {
+            let root = json!({"name": "trigon", "matrix": matrix(&map), "children": list});
+            list = vec![self.draft.push("nodes", &root)];
+        }
+        let list = Some(&list).filter(|list| !list.is_empty());
+        match self.kept.and_then(|kept| kept.source.scene()) {
+            Some(index) => {
+                let mut scene = self.draft.object("scenes", index);
+                scene.set_or_remove("nodes", list);
+                self.draft.update("scenes", index, &scene);
+            }
+            None => {
+                let mut scene = RawObject::default();
+                scene.set_or_remove("nodes", list);
+                let index = self.draft.push("scenes", &scene);
+                self.draft.top.set("scene", &index);
+            }
+        }
+    }
+}
+
+const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+
+fn same_skin(a: &Skin, b: &Skin) -> bool {
+    (&a.name, &a.joints, &a.inverse_bind_matrices) == (&b.name, &b.joints, &b.inverse_bind_matrices)
+}
+
+/// Where an animation was: the place of an equal one, or its own if the one there has no equal.
+fn place_of(was: &[Animation], now: &[Animation], place: usize) -> Option<usize> {
+    let equal = was.iter().position(|animation| *animation == now[place]);
+    let has_equal = |animation: &Animation| now.contains(animation);
+    equal.or_else(|| was.get(place).filter(|animation| !has_equal(animation)).map(|_| place))
+}
