@@ -18,13 +18,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     let mut document = open(arguments)?;
     run_script(&script, &mut document, arguments.quiet)?;
     let file = document.encode().map_err(|error| error.to_string())?;
-    if !file.losses.is_empty() {
-        file.losses.iter().for_each(|loss| report("warning", &format!("would be lost: {loss}")));
+    let losses = file.what_would_be_lost();
+    if !losses.is_empty() {
+        losses.iter().for_each(|loss| report("warning", &format!("would be lost: {loss}")));
         if !arguments.accept_losses {
             return Err("nothing is written; --accept-losses writes the file all the same".into());
         }
     }
-    save(&mut Disk, output, &file.bytes).map_err(|error| error.to_string())
+    save(&mut Disk, output, &file.to_bytes()).map_err(|error| error.to_string())
 }
 
 fn read_script(path: &Path) -> Result<Script, String> {

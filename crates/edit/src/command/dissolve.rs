@@ -48,10 +48,14 @@ impl Action for DissolveFlat {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let limits = LimitedDissolve { angle: self.angle.to_radians() };
         let mut removed = 0;
-        change.edit_selected_faces("dissolving what is flat", "at least one selected face", |mesh, faces| {
-            removed += mesh.dissolve_limited(faces, limits)?.removed_vertices;
-            Ok(())
-        })?;
+        change.edit_selected_faces(
+            "dissolving what is flat",
+            "at least one selected face",
+            |mesh, faces| {
+                removed += mesh.dissolve_limited(faces, limits)?.removed_vertices;
+                Ok(())
+            },
+        )?;
         Ok(Outcome::counted("removed", removed, ["vertex", "vertices"]))
     }
 }

@@ -19,12 +19,15 @@ mod objects;
 mod outcome;
 mod parts;
 mod reference;
+mod repair;
 mod scene;
 mod select;
 mod select_property;
 mod select_related;
+mod select_within;
 mod surface;
 mod transform;
+mod uvs;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -35,6 +38,7 @@ use crate::error::EditError;
 pub use bevel::Bevel;
 pub use cut::{LoopCut, SlideEdges, Subdivide};
 pub use delete::{Delete, DeleteObjects, Deleted};
+pub use dissolve::{Dissolve, DissolveFlat};
 pub use extrude::{Extrude, Inset, InsetMode};
 pub use marks::{AssignMaterial, Crease, Hide, MarkSeam, MarkSharp, Reveal, Shade};
 pub use merge::{Merge, MergeAt};
@@ -43,9 +47,9 @@ pub use mode::{EditObjects, LeaveEditMode, SetElementKind};
 pub use normals::{FlipNormals, RecalculateNormals};
 pub use objects::ObjectName;
 pub use outcome::Outcome;
-pub use dissolve::{Dissolve, DissolveFlat};
 pub use parts::{Duplicate, JoinObjects, Separate, SplitOff};
 pub use reference::command_reference;
+pub use repair::Repair;
 pub use scene::{
     AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, SetParent, Shape, ShowObjects,
 };
@@ -54,11 +58,13 @@ pub use select_property::{
     SelectBorder, SelectByMaterial, SelectByNormal, SelectNonManifold, SelectSharp, SelectSimilar,
 };
 pub use select_related::{SelectLess, SelectLinked, SelectLoop, SelectMore, SelectPath, SelectRing};
-pub use surface::{CatmullClark, Fill, Triangulate, TrisToQuads};
+pub use select_within::SelectWithin;
+pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, Triangulate, TrisToQuads};
 pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Rotate, Scale, Shear, ShrinkFatten, ToSphere,
     Translate,
 };
+pub use uvs::{ProjectUvs, ProjectUvsOnBox};
 
 /// What a command does to a document.
 pub(crate) trait Action {
@@ -150,6 +156,8 @@ commands! {
     SelectByMaterial("Select by Material", true),
     /// Selects what has something in common with the selected.
     SelectSimilar("Select Similar", true),
+    /// Selects by place.
+    SelectWithin("Select Within", true),
     /// Deletes what is selected of meshes.
     Delete("Delete", false),
     /// Deletes the selected objects and what hangs on them.
@@ -226,6 +234,16 @@ commands! {
     Mirror("Mirror", false),
     /// Makes faces symmetric.
     Symmetrize("Symmetrize", false),
+    /// Joins two loops of edges by faces.
+    Bridge("Bridge Edge Loops", false),
+    /// Joins vertices by edges through faces.
+    ConnectVertices("Connect Vertices", false),
+    /// Projects a picture from one side.
+    ProjectUvs("Project from View", false),
+    /// Projects a picture from the sides of a box.
+    ProjectUvsOnBox("Box Projection", false),
+    /// Repairs what an inspection finds.
+    Repair("Repair", false),
     /// Adds a standard object.
     AddObject("Add Object", false),
     /// Adds a light.

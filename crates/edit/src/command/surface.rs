@@ -126,3 +126,33 @@ impl Action for Fill {
         Ok(Outcome::silent())
     }
 }
+
+/// Joins two selected loops or chains of edges by a band of faces.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Bridge {}
+
+impl Action for Bridge {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        change.edit_selected("bridging", "two loops of edges", |mesh, selection| {
+            let made = mesh.bridge_edges(&selection.edges(mesh, kind))?;
+            Ok(AfterEdit::Select(Elements::Faces(made.faces)))
+        })?;
+        Ok(Outcome::silent())
+    }
+}
+
+/// Joins the selected vertices by edges, through the faces between them.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ConnectVertices {}
+
+impl Action for ConnectVertices {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        change.edit_selected_vertices("connecting", "at least two selected vertices", |mesh, vertices| {
+            mesh.connect_vertices(vertices).map(drop)
+        })?;
+        Ok(Outcome::silent())
+    }
+}

@@ -28,16 +28,16 @@ pub(crate) enum AfterEdit {
 
 impl Change<'_> {
     pub(crate) fn scene(&self) -> &Scene {
-        &self.document.scene
+        &self.document.file.scene
     }
 
     /// The scene with its nodes and materials to be changed. Meshes may be added, but not replaced: use
     /// [`Self::edit`].
     pub(crate) fn scene_mut(&mut self) -> &mut Scene {
         if self.parts.is_none() {
-            self.parts = Some(Box::new(self.document.scene.parts()));
+            self.parts = Some(Box::new(self.document.file.scene.parts()));
         }
-        &mut self.document.scene
+        &mut self.document.file.scene
     }
 
     pub(crate) fn selection(&self) -> &Selection {
@@ -50,17 +50,17 @@ impl Change<'_> {
 
     /// What is selected, to be changed, and the meshes to look at.
     pub(crate) fn selection_and_meshes(&mut self) -> (&mut Selection, &BTreeMap<MeshId, EditMesh>) {
-        (&mut self.document.selection, &self.document.meshes)
+        (&mut self.document.selection, &self.document.file.edited)
     }
 
     /// A mesh with its neighbours, made from the scene's at the first call.
     pub(crate) fn mesh(&mut self, id: MeshId) -> Option<&EditMesh> {
-        if !self.document.meshes.contains_key(&id) {
-            let asset = self.document.scene.meshes().get(id)?;
+        if !self.document.file.edited.contains_key(&id) {
+            let asset = self.document.file.scene.meshes().get(id)?;
             let (mesh, _) = EditMesh::from_mesh(asset.mesh());
-            self.document.meshes.insert(id, mesh);
+            self.document.file.edited.insert(id, mesh);
         }
-        self.document.meshes.get(&id)
+        self.document.file.edited.get(&id)
     }
 
     /// Changes a mesh. A refusal leaves that mesh as it was.
@@ -70,7 +70,7 @@ impl Change<'_> {
         change: impl FnOnce(&mut EditMesh) -> Result<T, EditError>,
     ) -> Result<T, EditError> {
         self.mesh(id);
-        let Some(mesh) = self.document.meshes.get_mut(&id) else {
+        let Some(mesh) = self.document.file.edited.get_mut(&id) else {
             return Err(SceneError::NoSuchMesh(id).into());
         };
         let (result, difference) = mesh.transaction(change)?;
@@ -83,13 +83,13 @@ impl Change<'_> {
 
     /// A copy of a mesh as it is now, for another object.
     pub(crate) fn copy_mesh(&mut self, id: MeshId) -> Option<MeshId> {
-        let asset = self.document.scene.meshes().get(id)?;
+        let asset = self.document.file.scene.meshes().get(id)?;
         let (name, mesh) = (asset.name.clone(), asset.mesh().clone());
-        let edited = self.document.meshes.get(&id).cloned();
+        let edited = self.document.file.edited.get(&id).cloned();
         // Meshes are only ever added, so this needs no record: an undone copy stays unused.
-        let copy = self.document.scene.add_mesh(name, mesh);
+        let copy = self.document.file.scene.add_mesh(name, mesh);
         if let Some(edited) = edited {
-            self.document.meshes.insert(copy, edited);
+            self.document.file.edited.insert(copy, edited);
             self.document.stale.insert(copy);
         }
         Some(copy)
@@ -106,8 +106,8 @@ impl Change<'_> {
             .collect();
         for (part, (_, owner)) in parts.into_iter().zip(owners) {
             let (mesh, _) = part.to_mesh();
-            let mesh = self.document.scene.add_mesh(owner.name.clone(), mesh);
-            self.document.meshes.insert(mesh, part);
+            let mesh = self.document.file.scene.add_mesh(owner.name.clone(), mesh);
+            self.document.file.edited.insert(mesh, part);
             self.document.stale.insert(mesh);
             let parent = owner.parent();
             let mut node = owner;
@@ -124,7 +124,7 @@ impl Change<'_> {
     pub(crate) fn meshes_of(&self, objects: impl IntoIterator<Item = NodeId>) -> Vec<MeshId> {
         let mut meshes = Vec::new();
         for object in objects {
-            let mesh = self.document.scene.node(object).and_then(|node| node.mesh);
+            let mesh = self.document.file.scene.node(object).and_then(|node| node.mesh);
             meshes.extend(mesh.filter(|mesh| !meshes.contains(mesh)));
         }
         meshes

@@ -3,7 +3,9 @@
 mod change;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
+use trigon_io::{LoadError, LoadOptions, NativeDocument, NativeFile, Warning, WriteError};
 use trigon_mesh::edit::{EditMesh, ElementMap};
 use trigon_scene::{MeshId, Scene};
 
@@ -35,10 +37,10 @@ pub(crate) use change::{AfterEdit, Change};
 /// assert_eq!(document.scene().nodes().len(), before);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 pub struct Document {
-    scene: Scene,
-    meshes: BTreeMap<MeshId, EditMesh>,
+    /// The scene, its meshes while they are edited, and what is kept of the file.
+    file: NativeDocument,
     selection: Selection,
     history: History,
     /// Edited meshes that the scene does not show as they are yet.
@@ -53,34 +55,69 @@ impl Document {
     /// Opens a scene. Nothing is selected.
     #[must_use]
     pub fn new(scene: Scene) -> Self {
-        Self { scene, ..Self::default() }
+        Self::from_file(NativeDocument::new(scene))
+    }
+
+    /// Opens a file of any format that can be read, with what there is to say about it.
+    ///
+    /// # Errors
+    /// As [`NativeDocument::load`].
+    pub fn open(path: &Path, options: &LoadOptions<'_>) -> Result<(Self, Vec<Warning>), LoadError> {
+        let (file, warnings) = NativeDocument::load(path, options)?;
+        Ok((Self::from_file(file), warnings))
+    }
+
+    /// Opens a file from memory: the base of a recovery file. `name` stands for it in messages.
+    ///
+    /// # Errors
+    /// As [`NativeDocument::load_from_slice`].
+    pub fn open_bytes(
+        name: &Path,
+        bytes: &[u8],
+        options: &LoadOptions<'_>,
+    ) -> Result<(Self, Vec<Warning>), LoadError> {
+        let (file, warnings) = NativeDocument::load_from_slice(name, bytes, options)?;
+        Ok((Self::from_file(file), warnings))
+    }
+
+    fn from_file(file: NativeDocument) -> Self {
+        Self { file, ..Self::default() }
+    }
+
+    /// The document as a native file, not written yet: [`save`](crate::save) writes it once
+    /// nobody minds what would be lost.
+    ///
+    /// # Errors
+    /// When the file would have 4 GiB or more.
+    pub fn encode(&self) -> Result<NativeFile<'_>, WriteError> {
+        self.file.encode()
     }
 
     /// The scene as it is now, to be drawn. Meshes that were edited since the last call are made anew
     /// in it.
     pub fn scene(&mut self) -> &Scene {
         for id in std::mem::take(&mut self.stale) {
-            let Some(edited) = self.meshes.get(&id) else { continue };
+            let Some(edited) = self.file.edited.get(&id) else { continue };
             let (mesh, map) = edited.to_mesh();
             // A mesh is never taken out of the scene, so that an undone object finds it again.
-            if self.scene.replace_mesh(id, mesh).is_some() {
+            if self.file.scene.replace_mesh(id, mesh).is_some() {
                 self.shown.insert(id, map);
             }
         }
-        &self.scene
+        &self.file.scene
     }
 
     /// The nodes and materials as they are now, and meshes as they were when [`Self::scene`] was called
     /// last.
     #[must_use]
     pub fn nodes(&self) -> &Scene {
-        &self.scene
+        &self.file.scene
     }
 
     /// A mesh with its neighbours, if it is or was edited.
     #[must_use]
     pub fn mesh(&self, id: MeshId) -> Option<&EditMesh> {
-        self.meshes.get(&id)
+        self.file.edited.get(&id)
     }
 
     /// Which elements of an edited mesh those of the scene's mesh are, as of the last
@@ -211,14 +248,14 @@ impl Document {
     fn exchange(&mut self, entry: &mut Entry) {
         // A command may change a mesh several times: backwards in time, and the next time forwards.
         for (id, difference) in entry.meshes.iter_mut().rev() {
-            if let Some(mesh) = self.meshes.get_mut(id) {
+            if let Some(mesh) = self.file.edited.get_mut(id) {
                 difference.apply(mesh);
                 self.stale.insert(*id);
             }
         }
         entry.meshes.reverse();
         if let Some(parts) = &mut entry.parts {
-            self.scene.swap_parts(parts);
+            self.file.scene.swap_parts(parts);
         }
         std::mem::swap(&mut self.selection, &mut entry.selection);
     }

@@ -93,7 +93,7 @@ pub fn similar(mesh: &EditMesh, given: &Elements, what: Similarity, tolerance: f
         Elements::Edges(edges) => {
             let value = |edge: EdgeId| match what {
                 Similarity::Faces => mesh.edge_faces(edge).count() as f64,
-                _ => edge_length(mesh, edge),
+                _ => mesh.edge_length(edge),
             };
             let known = sorted(edges.iter().map(|&edge| value(edge)).collect());
             Elements::Edges(mesh.edges().filter(|&edge| near(&known, value(edge))).collect())
@@ -113,7 +113,7 @@ pub fn similar(mesh: &EditMesh, given: &Elements, what: Similarity, tolerance: f
         Elements::Faces(faces) => {
             let value = |face: FaceId| match what {
                 Similarity::Material => f64::from(mesh.material(face)),
-                Similarity::Area => area_vector(mesh, face).length(),
+                Similarity::Area => mesh.face_area(face),
                 _ => mesh.face_size(face) as f64,
             };
             let known = sorted(faces.iter().map(|&face| value(face)).collect());
@@ -122,25 +122,6 @@ pub fn similar(mesh: &EditMesh, given: &Elements, what: Similarity, tolerance: f
     }
 }
 
-fn edge_length(mesh: &EditMesh, edge: EdgeId) -> f64 {
-    let [a, b] = mesh.edge_vertices(edge).map(|vertex| mesh.position(vertex).as_dvec3());
-    (b - a).length()
-}
-
 fn face_direction(mesh: &EditMesh, face: FaceId) -> DVec3 {
-    area_vector(mesh, face).normalize_or_zero()
-}
-
-/// Its direction is the face's, its length the area.
-fn area_vector(mesh: &EditMesh, face: FaceId) -> DVec3 {
-    let mut vertices = mesh.face_vertices(face).map(|vertex| mesh.position(vertex).as_dvec3());
-    let origin = vertices.next().expect("a face has corners");
-    let mut sum = DVec3::ZERO;
-    let mut last = DVec3::ZERO;
-    for vertex in vertices {
-        let here = vertex - origin;
-        sum += last.cross(here);
-        last = here;
-    }
-    sum * 0.5
+    mesh.face_area_vector(face).normalize_or_zero()
 }

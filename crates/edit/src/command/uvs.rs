@@ -1,0 +1,86 @@
+//! Laying out texture coordinates.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trigon_mesh::edit::{BoxProjection, PlanarProjection};
+use trigon_mesh::math::DVec3;
+
+use super::{Action, Outcome};
+use crate::document::Change;
+use crate::error::EditError;
+
+const FACES: &str = "at least one selected face";
+
+/// Projects a picture onto the selected faces, from one side.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ProjectUvs {
+    /// Which set of texture coordinates, from 0; the next one is made if there is none.
+    pub uv_set: u32,
+    /// What is in the middle of the picture, in metres.
+    pub center: [f64; 3],
+    /// Towards the viewer.
+    pub normal: [f64; 3],
+    /// Up in the picture.
+    pub up: [f64; 3],
+    /// The height of the picture, in metres.
+    pub height: f64,
+    /// Its width by its height.
+    pub aspect: f64,
+}
+
+impl Default for ProjectUvs {
+    fn default() -> Self {
+        let PlanarProjection { center, normal, up, height, aspect } = PlanarProjection::default();
+        Self { uv_set: 0, center: center.into(), normal: normal.into(), up: up.into(), height, aspect }
+    }
+}
+
+impl Action for ProjectUvs {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let projection = PlanarProjection {
+            center: DVec3::from(self.center),
+            normal: DVec3::from(self.normal),
+            up: DVec3::from(self.up),
+            height: self.height,
+            aspect: self.aspect,
+        };
+        change.edit_selected_faces("projecting a picture", FACES, |mesh, faces| {
+            mesh.project_uvs(faces, self.uv_set as usize, &projection)
+        })?;
+        Ok(Outcome::silent())
+    }
+}
+
+/// Projects a picture onto the selected faces from the six sides of a box, each face from that which it faces
+/// most.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ProjectUvsOnBox {
+    /// Which set of texture coordinates, from 0; the next one is made if there is none.
+    pub uv_set: u32,
+    /// What is in the middle of each picture, in metres.
+    pub center: [f64; 3],
+    /// The height of the picture, in metres.
+    pub height: f64,
+    /// Its width by its height.
+    pub aspect: f64,
+}
+
+impl Default for ProjectUvsOnBox {
+    fn default() -> Self {
+        let BoxProjection { center, height, aspect } = BoxProjection::default();
+        Self { uv_set: 0, center: center.into(), height, aspect }
+    }
+}
+
+impl Action for ProjectUvsOnBox {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let (center, height, aspect) = (DVec3::from(self.center), self.height, self.aspect);
+        let projection = BoxProjection { center, height, aspect };
+        change.edit_selected_faces("projecting a picture", FACES, |mesh, faces| {
+            mesh.project_uvs_on_box(faces, self.uv_set as usize, &projection)
+        })?;
+        Ok(Outcome::silent())
+    }
+}
