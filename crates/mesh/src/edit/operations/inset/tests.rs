@@ -158,6 +158,37 @@ fn faces_with_a_hole_and_faces_without_area_get_their_rim() {
     assert!(mesh.vertices().all(|vertex| mesh.position(vertex).is_finite()), "no corner is lost");
 }
 
+/// In quadratic time these would not end.
+#[test]
+fn large_polygons_and_hubs_take_linear_time() {
+    const COUNT: u32 = 50_000;
+    let mut mesh = EditMesh::new();
+    let at = |i: u32| {
+        let angle = f64::from(i) / f64::from(COUNT) * std::f64::consts::TAU;
+        let (sin, cos) = trigon_math::elementary::sin_cos(angle);
+        Vec3::new(cos as f32, sin as f32, 0.0) * 1000.0
+    };
+    let hub = mesh.add_vertex(Vec3::ZERO).expect("room");
+    let rim: Vec<VertexId> = (0..COUNT).map(|i| mesh.add_vertex(at(i)).expect("room")).collect();
+    let fan: Vec<FaceId> =
+        rim.windows(2).map(|pair| mesh.add_face(&[hub, pair[0], pair[1]]).expect("a triangle")).collect();
+    let backwards: Vec<VertexId> = rim.iter().rev().copied().collect();
+    let polygon = mesh.add_face(&backwards).expect("a polygon");
+    let half = &fan[..fan.len() / 2];
+    mesh.inset_individual(&[polygon], thickness(0.001)).expect("a polygon");
+    mesh.inset_region(&[polygon], thickness(0.001)).expect("a polygon");
+    mesh.outset_region(half, thickness(0.001)).expect("triangles");
+    mesh.inset_region(half, thickness(0.001)).expect("triangles");
+    mesh.extrude_region(half, crate::edit::ExtrudeOffset::Along(1.0)).expect("triangles");
+    mesh.split_off(half).expect("triangles");
+    let united = mesh.dissolve_vertices(&[hub]).expect("half of the triangles").faces;
+    assert_eq!(
+        (united.len(), mesh.face_size(united[0])),
+        (1, half.len() + 1),
+        "all around the hub, without it"
+    );
+}
+
 #[test]
 fn what_cannot_be_inset_is_refused() {
     let start = primitives::cube(2.0);
