@@ -63,7 +63,7 @@ impl EditMesh {
             let number = index - numbers.vertices;
             if number < numbers.edges.count() {
                 let ends = self.edges[numbers.edges.index(number)].vertices;
-                return mean(ends.into_iter().map(|vertex| old[vertex as usize]));
+                return T::blend(&ends.map(|vertex| (old[vertex as usize], 0.5)));
             }
             let face = FaceId(numbers.faces.index(number - numbers.edges.count()));
             mean(self.face_vertices(face).map(|vertex| old[vertex.0 as usize]))
@@ -117,8 +117,8 @@ impl EditMesh {
             mend(mean(corners.map(|corner| old[corner.0 as usize])), first)
         });
         let on_side = |from: u32, to: u32| {
-            let ends = [old[from as usize], old[to as usize]];
-            mend(mean(ends), ends[0])
+            let [first, second] = [old[from as usize], old[to as usize]];
+            mend(T::blend(&[(first, 0.5), (second, 0.5)]), first)
         };
         fill(numbers.corner_total(), |index| {
             if index < numbers.corners.capacity() {

@@ -97,7 +97,7 @@ fn all_edges_of_a_cube_make_four_quads_of_each_face() {
         let faces = 6 * pieces * pieces;
         assert_eq!(counts(&mesh), [faces + 2, 2 * faces, faces], "closed, of quads");
         assert_eq!((made.vertices.len(), made.edges.len()), (faces + 2 - 8, 2 * faces), "all is told");
-        let expected = (2.0 / pieces as f64).powi(2);
+        let expected = 4.0 / (pieces * pieces) as f64;
         assert!(
             mesh.faces().all(|face| (area(&mesh, face) - expected).abs() < 1e-6),
             "equal but for rounding"
