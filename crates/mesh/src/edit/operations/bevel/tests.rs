@@ -56,12 +56,12 @@ fn check_convex(mesh: &EditMesh) {
     }
 }
 
-/// Vertices in the grid at a corner of a cube, and its faces.
-fn corner_counts(segments: usize) -> [usize; 2] {
+/// Vertices in the grid where some bevels meet, and its faces.
+fn grid_counts(edges: usize, segments: usize) -> [usize; 2] {
     let half = segments / 2;
     match segments % 2 {
-        0 => [3 * half * (half + 1) + 1, 3 * half * half],
-        _ => [3 * (half + 1) * (half + 1), 3 * half * (half + 1) + 1],
+        0 => [edges * half * (half + 1) + 1, edges * half * half],
+        _ => [edges * (half + 1) * (half + 1), edges * half * (half + 1) + 1],
     }
 }
 
@@ -72,7 +72,7 @@ fn a_cube_with_all_edges_beveled_is_closed_convex_and_has_the_counts_of_its_grid
             let mut mesh = edit(primitives::cube(2.0));
             let made = mesh.bevel_edges(&all_edges(&mesh), &settings(0.25, segments, profile));
             let made = made.expect("a cube has twelve edges");
-            let [vertices, faces] = corner_counts(segments);
+            let [vertices, faces] = grid_counts(3, segments);
             let faces = 6 + 12 * segments + 8 * faces;
             assert_eq!(counts(&mesh), [8 * vertices, 8 * vertices + faces - 2, faces], "genus 0");
             assert_eq!((made.faces.len(), made.vertices.len()), (faces - 6, 8 * vertices), "all are told");
@@ -107,6 +107,29 @@ fn a_round_bevel_of_a_cube_is_symmetric_and_its_corners_are_parts_of_spheres() {
         for vertex in mesh.vertices() {
             let outside = (mesh.point(vertex).abs() - DVec3::splat(0.75)).max(DVec3::ZERO);
             assert!((outside.length() - 0.25).abs() < 1e-6, "{vertex} is a quarter from the inner cube");
+        }
+    }
+}
+
+#[test]
+fn where_more_than_three_bevels_meet_the_grid_is_closed_and_convex() {
+    for (solid, corners, edges) in
+        [(primitives::octahedron(1.0), 6, 4), (primitives::icosahedron(1.0), 12, 5)]
+    {
+        for segments in 1..=6 {
+            let mut mesh = edit(solid.clone());
+            let [_, all, sides] = counts(&mesh);
+            mesh.bevel_edges(&all_edges(&mesh), &settings(0.1, segments, 0.5)).expect("all");
+            let [vertices, faces] = grid_counts(edges, segments);
+            let faces = sides + all * segments + corners * faces;
+            let vertices = corners * vertices;
+            assert_eq!(
+                counts(&mesh),
+                [vertices, vertices + faces - 2, faces],
+                "{edges} edges, {segments} segments"
+            );
+            keeps_affine_values(&mesh).expect("interpolated");
+            check_convex(&mesh);
         }
     }
 }
@@ -303,7 +326,7 @@ fn a_cube_with_beveled_vertices_is_a_truncated_cube() {
     for segments in 2..6 {
         let mut mesh = edit(primitives::cube(2.0));
         mesh.bevel_vertices(&vertices(&mesh), &settings(0.5, segments, 0.5)).expect("eight vertices");
-        let [inner, faces] = corner_counts(segments);
+        let [inner, faces] = grid_counts(3, segments);
         let faces = 6 + 8 * faces;
         assert_eq!(counts(&mesh), [8 * inner, 8 * inner + faces - 2, faces], "genus 0");
         keeps_affine_values(&mesh).expect("interpolated");
