@@ -409,6 +409,15 @@ fn a_hub_with_many_beveled_edges_takes_linear_time() {
     assert!(other.bevel_vertices(&[hub], &settings(0.1, 1, 0.5)).is_err(), "a vertex alone");
 }
 
+/// Euler's characteristic, if each edge is between two faces and each vertex has at least three edges.
+fn closed_characteristic(mesh: &EditMesh) -> Option<isize> {
+    let is_closed = mesh.edges().all(|edge| mesh.edge_pair(edge).is_some())
+        && mesh.vertices().all(|vertex| mesh.vertex_edges(vertex).take(3).count() == 3);
+    let [vertices, edges, faces] =
+        [mesh.vertex_count(), mesh.edge_count(), mesh.face_count()].map(|count| count as isize);
+    is_closed.then_some(vertices - edges + faces)
+}
+
 /// Numbers that choose elements.
 fn some() -> impl Strategy<Value = Vec<u32>> {
     prop_oneof![prop::collection::vec(any::<u32>(), 1..6), Just((0..200).collect())]
@@ -464,5 +473,53 @@ proptest! {
         let edges: Vec<EdgeId> = chosen.iter().map(|&edge| EdgeId(edge % 60)).collect();
         mesh.bevel_edges(&edges, &settings(0.1, 3, 0.5)).expect("all can be beveled");
         prop_assert_eq!(mesh.check_structure(), Ok(()));
+    }
+
+    /// Bevels, loop cuts and slides one after the other: each sees what the others leave, free slots and
+    /// polygons included.
+    #[test]
+    fn operations_in_any_order_keep_the_structure_and_the_genus(
+        start in meshes(),
+        cut_open in any::<bool>(),
+        steps in prop::collection::vec((0u8..4, some(), 1usize..4, 0.0f64..=1.0), 1..5),
+    ) {
+        let (mut mesh, _) = EditMesh::from_mesh(&start);
+        // Some slots are free.
+        if cut_open {
+            drop(mesh.delete_only_faces(&[FaceId(0)]));
+        }
+        let first = mesh.clone();
+        let mut differences = Vec::new();
+        for (kind, chosen, segments, t) in steps {
+            let edges: Vec<EdgeId> = mesh.edges().collect();
+            let vertices: Vec<VertexId> = mesh.vertices().collect();
+            let pick = |count: usize| chosen.iter().map(move |&i| i as usize % count.max(1));
+            let chosen_edges: Vec<EdgeId> =
+                pick(edges.len()).filter_map(|i| edges.get(i).copied()).take(40).collect();
+            let chosen_vertices: Vec<VertexId> =
+                pick(vertices.len()).filter_map(|i| vertices.get(i).copied()).take(40).collect();
+            let settings = settings(0.1, segments, t);
+            let kept = closed_characteristic(&mesh);
+            let done = mesh.transaction(|mesh| match (kind, chosen_edges.first()) {
+                (0, _) => mesh.bevel_edges(&chosen_edges, &settings).map(drop),
+                (1, _) => mesh.bevel_vertices(&chosen_vertices, &settings).map(drop),
+                (2, Some(&edge)) => {
+                    let cut = crate::edit::LoopCutSettings { cuts: segments, position: t };
+                    mesh.loop_cut(edge, &cut).map(drop)
+                }
+                _ => mesh.slide_edges(&chosen_edges, t).map(drop),
+            });
+            prop_assert_eq!(mesh.check_structure(), Ok(()));
+            if let Ok(((), difference)) = done {
+                differences.push(difference);
+                if kept.is_some() {
+                    prop_assert_eq!(closed_characteristic(&mesh), kept);
+                }
+            }
+        }
+        for difference in differences.iter_mut().rev() {
+            difference.apply(&mut mesh);
+        }
+        prop_assert!(mesh == first, "undone");
     }
 }
