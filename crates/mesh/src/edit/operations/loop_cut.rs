@@ -101,13 +101,13 @@ impl EditMesh {
             let (parameter, range) = ("the position of a loop cut", "-1 to 1");
             return Err(Refusal::OutOfRange { parameter, value: position, range });
         }
-        let ring = self.edge_ring(edge)?;
+        let ring = self.ring_of_quads(edge)?;
         let places: Vec<f64> = (1..=cuts).map(|k| (k as f64 + position) / (cuts + 1) as f64).collect();
-        self.whole(|mesh| mesh.cut_ring(&ring, &places))
+        self.whole(|mesh| mesh.cut_ring_of_quads(&ring, &places))
     }
 
     /// The ring of an edge that exists.
-    fn edge_ring(&self, edge: EdgeId) -> Result<EdgeRing, Refusal> {
+    fn ring_of_quads(&self, edge: EdgeId) -> Result<EdgeRing, Refusal> {
         let refused = |reason| Err(Refusal::NotPossible { operation: "a loop cut", reason });
         let sides: SmallVec<[CornerId; 2]> = self.edge_corners(edge).take(3).collect();
         if sides.len() > 2 {
@@ -121,7 +121,7 @@ impl EditMesh {
             // What was found on the one side is turned around, to be continued on the other.
             ring.rungs.reverse();
             ring.crossings.reverse();
-            self.follow_ring(side, start, &mut ring, &mut visited);
+            self.follow_quads(side, start, &mut ring, &mut visited);
             if ring.is_closed {
                 break;
             }
@@ -133,9 +133,10 @@ impl EditMesh {
     }
 
     /// Goes on from a corner that leaves along the ring's last edge.
-    fn follow_ring(&self, side: CornerId, start: Rung, ring: &mut EdgeRing, visited: &mut FixedBitSet) {
+    fn follow_quads(&self, side: CornerId, start: Rung, ring: &mut EdgeRing, visited: &mut FixedBitSet) {
         let (mut enter, mut rung) = (side, start);
-        while self.can_cross(self.corner_face(enter)) && !visited.put(self.corner_face(enter).0 as usize) {
+        while self.can_cut_across(self.corner_face(enter)) && !visited.put(self.corner_face(enter).0 as usize)
+        {
             let leave = self.next_corner(self.next_corner(enter));
             let edge = self.corner_edge(leave);
             ring.crossings.push(Crossing { enter, leave });
@@ -162,7 +163,7 @@ impl EditMesh {
     }
 
     /// Whether a ring goes through a face: a quad with four different vertices that is shown.
-    fn can_cross(&self, face: FaceId) -> bool {
+    fn can_cut_across(&self, face: FaceId) -> bool {
         if self.face_size(face) != 4 || self.faces[face.0].flags & HIDDEN != 0 {
             return false;
         }
@@ -170,10 +171,10 @@ impl EditMesh {
         vertices[0] != vertices[2] && vertices[1] != vertices[3]
     }
 
-    fn cut_ring(&mut self, ring: &EdgeRing, places: &[f64]) -> Result<LoopCut, Refusal> {
+    fn cut_ring_of_quads(&mut self, ring: &EdgeRing, places: &[f64]) -> Result<LoopCut, Refusal> {
         let mut vertices = Vec::with_capacity(ring.rungs.len() * places.len());
         for rung in &ring.rungs {
-            vertices.extend(self.cut_edge(rung.edge, rung.from, places)?);
+            vertices.extend(self.cut_rung(rung.edge, rung.from, places)?);
         }
         let mut edges = Vec::with_capacity(ring.crossings.len() * places.len());
         for crossing in &ring.crossings {
@@ -183,7 +184,7 @@ impl EditMesh {
     }
 
     /// Puts vertices on an edge, at growing parts of the way from one of its ends to the other.
-    fn cut_edge(&mut self, edge: EdgeId, from: VertexId, places: &[f64]) -> Result<Vertices, Refusal> {
+    fn cut_rung(&mut self, edge: EdgeId, from: VertexId, places: &[f64]) -> Result<Vertices, Refusal> {
         let [first, second] = self.edge_vertices(edge);
         let mut places: SmallVec<[f64; 8]> = places.into();
         if from != first {
@@ -209,7 +210,7 @@ impl EditMesh {
                 self.blend_vertex(&[(first, 1.0 - t), (second, t)], vertex);
             }
             for (&side, &end) in sides.iter().zip(&ends) {
-                self.blend_along(side, end, &vertices, &places);
+                self.blend_rung(side, end, &vertices, &places);
             }
         }
         if from != first {
@@ -220,7 +221,7 @@ impl EditMesh {
 
     /// Gives the corners between two corners of a face values at parts of the way between
     /// the edge's first and second vertex.
-    fn blend_along(&mut self, side: CornerId, end: CornerId, vertices: &[VertexId], places: &[f64]) {
+    fn blend_rung(&mut self, side: CornerId, end: CornerId, vertices: &[VertexId], places: &[f64]) {
         let mut corner = self.next_corner(side);
         let is_forward = self.corner_vertex(corner) == vertices[0];
         for i in 0..places.len() {

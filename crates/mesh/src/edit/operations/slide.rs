@@ -73,9 +73,9 @@ impl EditMesh {
         sorted.dedup();
         for &edge in &sorted {
             self.check_edge(edge)?;
-            self.check_sides(edge)?;
+            self.check_slide_sides(edge)?;
         }
-        let links = self.links(&sorted)?;
+        let links = self.slide_links(&sorted)?;
         let mut at_vertices: Vec<(VertexId, Link)> =
             links.iter().flat_map(|&link| [(link.from, link), (link.to, link)]).collect();
         at_vertices.sort_unstable_by_key(|&(vertex, link)| (vertex, link.edge));
@@ -88,7 +88,7 @@ impl EditMesh {
             let reason = "no edge is beside them on that side; slide to the other side";
             return Err(Refusal::NotPossible { operation: EDGE_SLIDE, reason });
         }
-        Ok(self.slide(&courses, factor.abs()))
+        Ok(self.slide_along(&courses, factor.abs()))
     }
 
     /// Slides vertices, each along one of its edges by `factor` of its length: 0 to 1 toward the
@@ -121,11 +121,11 @@ impl EditMesh {
         }
         let courses: Vec<Course> =
             sorted.iter().map(|&(vertex, edge)| self.course_along(vertex, edge)).collect();
-        Ok(self.slide(&courses, factor))
+        Ok(self.slide_along(&courses, factor))
     }
 
     /// An edge that slides has at most two faces, which wind in the same way.
-    fn check_sides(&self, edge: EdgeId) -> Result<(), Refusal> {
+    fn check_slide_sides(&self, edge: EdgeId) -> Result<(), Refusal> {
         let refused = |reason| Err(Refusal::NotPossible { operation: EDGE_SLIDE, reason });
         let sides: SmallVec<[CornerId; 4]> = self.edge_corners(edge).take(3).collect();
         match sides[..] {
@@ -138,7 +138,7 @@ impl EditMesh {
     }
 
     /// Gives each of some sorted edges the direction of its loop.
-    fn links(&self, edges: &[EdgeId]) -> Result<Vec<Link>, Refusal> {
+    fn slide_links(&self, edges: &[EdgeId]) -> Result<Vec<Link>, Refusal> {
         let mut ends: Vec<(VertexId, usize)> = Vec::with_capacity(2 * edges.len());
         for (i, &edge) in edges.iter().enumerate() {
             ends.extend(self.edge_vertices(edge).map(|vertex| (vertex, i)));
@@ -186,7 +186,7 @@ impl EditMesh {
             return self.course_within(vertex, corner);
         }
         let edges: SmallVec<[EdgeId; 2]> =
-            corners.iter().map(|&(corner, edge)| self.other_edge(corner, edge)).collect();
+            corners.iter().map(|&(corner, edge)| self.other_edge_at(corner, edge)).collect();
         match edges[..] {
             [] => None,
             [edge] => Some(self.course_along(vertex, edge)),
@@ -198,7 +198,7 @@ impl EditMesh {
                     change.push((corner, -0.5));
                 }
                 let at = corners.iter().map(|&(corner, _)| corner).collect();
-                Some(self.course(vertex, None, smallvec![Chart { at, change }]))
+                Some(self.slide_course(vertex, None, smallvec![Chart { at, change }]))
             }
         }
     }
@@ -212,7 +212,7 @@ impl EditMesh {
     }
 
     /// The other one of the two edges at a corner.
-    fn other_edge(&self, corner: CornerId, edge: EdgeId) -> EdgeId {
+    fn other_edge_at(&self, corner: CornerId, edge: EdgeId) -> EdgeId {
         let out = self.corner_edge(corner);
         if out == edge { self.corner_edge(self.previous_corner(corner)) } else { out }
     }
@@ -234,7 +234,7 @@ impl EditMesh {
                 smallvec![(after, 1.0), (next, -1.0), (before, 1.0), (previous, -1.0)]
             }
         };
-        Some(self.course(vertex, None, smallvec![Chart { at: smallvec![corner], change }]))
+        Some(self.slide_course(vertex, None, smallvec![Chart { at: smallvec![corner], change }]))
     }
 
     /// Where a vertex slides along an edge.
@@ -244,19 +244,19 @@ impl EditMesh {
             let (at, end) = if self.corner_vertex(side) == vertex { (side, next) } else { (next, side) };
             Chart { at: smallvec![at], change: smallvec![(end, 1.0), (at, -1.0)] }
         });
-        let mut course = self.course(vertex, Some(edge), charts.collect());
+        let mut course = self.slide_course(vertex, Some(edge), charts.collect());
         course.way = self.point(self.other_vertex(edge, vertex)) - self.point(vertex);
         course
     }
 
-    fn course(&self, vertex: VertexId, edge: Option<EdgeId>, charts: SmallVec<[Chart; 2]>) -> Course {
+    fn slide_course(&self, vertex: VertexId, edge: Option<EdgeId>, charts: SmallVec<[Chart; 2]>) -> Course {
         let part = |&(corner, weight): &(CornerId, f64)| self.point(self.corner_vertex(corner)) * weight;
         let way = charts.first().map_or(DVec3::ZERO, |chart| chart.change.iter().map(part).sum());
         Course { vertex, way, edge, charts }
     }
 
     /// Moves vertices by a part of their ways. All is computed from the state before.
-    fn slide(&mut self, courses: &[Course], part: f64) -> Vec<VertexId> {
+    fn slide_along(&mut self, courses: &[Course], part: f64) -> Vec<VertexId> {
         let mut blends = CornerBlends::default();
         let mut positions = Vec::with_capacity(courses.len());
         for course in courses {

@@ -16,8 +16,8 @@ impl EditMesh {
         mut plan: Blueprint,
         edges: &[EdgeId],
     ) -> (Vec<FaceId>, Vec<VertexId>) {
-        let vertices = self.add_points(&plan);
-        self.move_edges(&plan, edges, &vertices);
+        let vertices = self.add_bevel_points(&plan);
+        self.move_beveled_edges(&plan, edges, &vertices);
         for moved in &plan.laid.moves {
             self.corners.write(moved.corner.0).vertex = vertices[moved.node as usize].0;
             plan.blends.assign(moved.sum, moved.corner);
@@ -25,9 +25,29 @@ impl EditMesh {
         let mut start = 0;
         for insertion in &plan.insertions {
             let new = &plan.corners[start..insertion.end];
-            self.insert_corners(new, insertion.of, &vertices, &mut plan.blends);
+            self.insert_bevel_corners(new, insertion.of, &vertices, &mut plan.blends);
             start = insertion.end;
         }
+        let faces = self.add_bevel_faces(&mut plan, start, &vertices);
+        self.mark_bevel_seams(&plan, edges, &vertices);
+        self.blend_corners(&plan.blends);
+        for round in &plan.laid.rounds {
+            // Wires and faces of other fans may still be there.
+            let vertex = round.fan.vertex;
+            if self.has_vertex(vertex) && self.vertices[vertex.0].edge == NONE {
+                self.free_vertex(vertex.0);
+            }
+        }
+        (faces, vertices)
+    }
+
+    /// Makes the new faces, whose corners begin at `start`.
+    fn add_bevel_faces(
+        &mut self,
+        plan: &mut Blueprint,
+        mut start: usize,
+        vertices: &[VertexId],
+    ) -> Vec<FaceId> {
         let mut faces = Vec::with_capacity(plan.faces.len());
         let mut outline = SmallVec::<[VertexId; 8]>::new();
         for face in &plan.faces {
@@ -44,19 +64,10 @@ impl EditMesh {
             }
             faces.push(id);
         }
-        self.move_seams(&plan, edges, &vertices);
-        self.blend_corners(&plan.blends);
-        for round in &plan.laid.rounds {
-            // Wires and faces of other fans may still be there.
-            let vertex = round.fan.vertex;
-            if self.has_vertex(vertex) && self.vertices[vertex.0].edge == NONE {
-                self.free_vertex(vertex.0);
-            }
-        }
-        (faces, vertices)
+        faces
     }
 
-    fn add_points(&mut self, plan: &Blueprint) -> Vec<VertexId> {
+    fn add_bevel_points(&mut self, plan: &Blueprint) -> Vec<VertexId> {
         let mut vertices = Vec::with_capacity(plan.positions.len());
         let mut parts = SmallVec::<[(VertexId, f64); 16]>::new();
         for (&position, &sum) in plan.positions.iter().zip(&plan.point_sums) {
@@ -72,18 +83,18 @@ impl EditMesh {
 
     /// Lets the edges round each vertex end at the new ones, and makes each beveled edge the rim on its
     /// left, beside a new one on its right.
-    fn move_edges(&mut self, plan: &Blueprint, edges: &[EdgeId], vertices: &[VertexId]) {
+    fn move_beveled_edges(&mut self, plan: &Blueprint, edges: &[EdgeId], vertices: &[VertexId]) {
         for round in &plan.laid.rounds {
             for stop in &plan.laid.stops[round.stops[0]..round.stops[1]] {
                 if stop.beveled == NONE {
-                    self.move_end(stop.edge, round.fan.vertex, vertices[stop.left as usize]);
+                    self.move_beveled_end(stop.edge, round.fan.vertex, vertices[stop.left as usize]);
                 }
             }
         }
         for (&edge, [start, end]) in edges.iter().zip(&plan.laid.ends) {
             // Seen from its other end, right is left.
-            self.move_end(edge, start.vertex, vertices[start.left as usize]);
-            self.move_end(edge, end.vertex, vertices[end.right as usize]);
+            self.move_beveled_end(edge, start.vertex, vertices[start.left as usize]);
+            self.move_beveled_end(edge, end.vertex, vertices[end.right as usize]);
             let right = self.join(vertices[start.right as usize], vertices[end.left as usize]);
             if right != edge {
                 self.unlink_at_edge(end.left_corner.0);
@@ -95,7 +106,7 @@ impl EditMesh {
     }
 
     /// Lets an edge end at another vertex.
-    fn move_end(&mut self, edge: EdgeId, from: VertexId, to: VertexId) {
+    fn move_beveled_end(&mut self, edge: EdgeId, from: VertexId, to: VertexId) {
         let end = self.edges[edge.0].end(from.0);
         self.unlink_at_vertex(edge.0, end);
         self.edges.write(edge.0).vertices[end] = to.0;
@@ -103,7 +114,7 @@ impl EditMesh {
     }
 
     /// Puts new corners before an old one in its face.
-    fn insert_corners(
+    fn insert_bevel_corners(
         &mut self,
         new: &[NewCorner],
         before: CornerId,
@@ -128,7 +139,7 @@ impl EditMesh {
     }
 
     /// Moves seams from beveled edges to where their two sides meet now.
-    fn move_seams(&mut self, plan: &Blueprint, edges: &[EdgeId], vertices: &[VertexId]) {
+    fn mark_bevel_seams(&mut self, plan: &Blueprint, edges: &[EdgeId], vertices: &[VertexId]) {
         for (&edge, ends) in edges.iter().zip(&plan.laid.ends) {
             if self.edges[edge.0].flags & SEAM == 0 {
                 continue;

@@ -18,7 +18,7 @@ impl EditMesh {
         let mut chosen = Vec::with_capacity(edges.len());
         for &edge in edges {
             let mark = &mut marks[edge.0 as usize];
-            if *mark == 0 && self.has_two_sides(edge, left_out) {
+            if *mark == 0 && self.can_bevel(edge, left_out) {
                 chosen.push(edge);
             }
             // Also of those that are left out, so that they count once.
@@ -30,7 +30,7 @@ impl EditMesh {
         for (number, edge) in (1..).zip(&chosen) {
             marks[edge.0 as usize] = number;
         }
-        let fans = self.fans_of_edges(&chosen, &mut marks, left_out);
+        let fans = self.bevel_fans_of_edges(&chosen, &mut marks, left_out);
         chosen.retain(|edge| marks[edge.0 as usize] != 0);
         for (number, edge) in (1..).zip(&chosen) {
             marks[edge.0 as usize] = number;
@@ -39,7 +39,7 @@ impl EditMesh {
     }
 
     /// The fans at the ends of edges, each once; unmarks edges that end at one that is not simple.
-    fn fans_of_edges(&self, edges: &[EdgeId], marks: &mut [u32], left_out: &mut BevelLeftOut) -> Fans {
+    fn bevel_fans_of_edges(&self, edges: &[EdgeId], marks: &mut [u32], left_out: &mut BevelLeftOut) -> Fans {
         let mut fans = Fans::default();
         let mut is_known = vec![[false; 2]; edges.len()];
         let mut is_unclear = vec![false; edges.len()];
@@ -70,7 +70,7 @@ impl EditMesh {
     }
 
     /// Whether two faces meet at an edge that wind in the same way. Otherwise it is counted.
-    fn has_two_sides(&self, edge: EdgeId, left_out: &mut BevelLeftOut) -> bool {
+    fn can_bevel(&self, edge: EdgeId, left_out: &mut BevelLeftOut) -> bool {
         let mut sides = self.edge_corners(edge);
         let counter = match [sides.next(), sides.next(), sides.next()] {
             [Some(a), Some(b), None] if self.corner_vertex(a) != self.corner_vertex(b) => return true,
@@ -84,7 +84,7 @@ impl EditMesh {
     }
 
     /// The fans at vertices that can be beveled, each vertex once.
-    pub(super) fn fans_of_vertices(&self, vertices: &[VertexId], left_out: &mut BevelLeftOut) -> Fans {
+    pub(super) fn bevel_fans_of_vertices(&self, vertices: &[VertexId], left_out: &mut BevelLeftOut) -> Fans {
         let mut sorted = vertices.to_vec();
         sorted.sort_unstable();
         sorted.dedup();

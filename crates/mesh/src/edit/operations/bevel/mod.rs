@@ -158,7 +158,7 @@ impl EditMesh {
         for &fan in &fans.fans {
             nodes.add_edge_fan(fan, &fans.corners[fan.start..fan.end]);
         }
-        self.run(nodes.finish(&chosen), &chosen, settings, left_out)
+        self.run_bevel(nodes.finish(&chosen), &chosen, settings, left_out)
     }
 
     /// Replaces vertices by faces: the corner is cut off, flat or round.
@@ -180,7 +180,7 @@ impl EditMesh {
         vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;
         settings.check()?;
         let mut left_out = BevelLeftOut::default();
-        let fans = self.fans_of_vertices(vertices, &mut left_out);
+        let fans = self.bevel_fans_of_vertices(vertices, &mut left_out);
         if fans.fans.is_empty() {
             return Err(Refusal::NotPossible { operation: OPERATION, reason: left_out.reason() });
         }
@@ -189,10 +189,10 @@ impl EditMesh {
         for &fan in &fans.fans {
             nodes.add_vertex_fan(fan, &fans.corners[fan.start..fan.end]);
         }
-        self.run(nodes.finish(&[]), &[], settings, left_out)
+        self.run_bevel(nodes.finish(&[]), &[], settings, left_out)
     }
 
-    fn run(
+    fn run_bevel(
         &mut self,
         laid: Laid,
         edges: &[EdgeId],

@@ -237,6 +237,25 @@ impl<'m> Nodes<'m> {
 }
 
 impl Layout {
+    /// The end of a beveled edge whose curve is known.
+    pub(super) fn end(&self, stop: usize, is_continuous: bool, control_sum: u32) -> End {
+        let before = if stop == 0 { self.corners.len() - 1 } else { stop - 1 };
+        let here = &self.stops[stop];
+        End {
+            vertex: self.vertex,
+            left: here.left,
+            right: here.right,
+            arc: here.arc,
+            is_reversed: !here.is_reversed,
+            left_corner: self.corners[stop],
+            right_corner: self.corners[before],
+            left_sum: self.sums[stop],
+            right_sum: self.sums[before],
+            control_sum,
+            is_continuous,
+        }
+    }
+
     /// A corner at an edge, and whether it leaves along it.
     pub(super) fn corner_at(&self, stop: usize) -> (CornerId, bool) {
         if stop < self.corners.len() { (self.corners[stop], true) } else { (self.corners[stop - 1], false) }

@@ -39,18 +39,7 @@ struct Grid {
 
 impl Plan<'_> {
     pub(super) fn add_grid(&mut self, round: &Round, profile: &Profile, width: f64) {
-        let mut sides = SmallVec::<[Side; 8]>::new();
-        for stop in self.stops(round) {
-            if stop.arc != NONE {
-                sides.push(Side {
-                    node: stop.right,
-                    home: self.out.laid.nodes[stop.right as usize].home,
-                    arc: stop.arc,
-                    is_reversed: stop.is_reversed,
-                    control: self.control(stop.arc, width),
-                });
-            }
-        }
+        let sides = self.sides(round, width);
         let grid = self.grid_points(sides, profile);
         for side in 0..grid.sides.len() {
             for b in 0..grid.half {
@@ -77,6 +66,22 @@ impl Plan<'_> {
                 .collect();
             self.add_grid_face(round, &grid, 0, &center);
         }
+    }
+
+    fn sides(&self, round: &Round, width: f64) -> SmallVec<[Side; 8]> {
+        let mut sides = SmallVec::<[Side; 8]>::new();
+        for stop in self.stops(round) {
+            if stop.arc != NONE {
+                sides.push(Side {
+                    node: stop.right,
+                    home: self.out.laid.nodes[stop.right as usize].home,
+                    arc: stop.arc,
+                    is_reversed: stop.is_reversed,
+                    control: self.control(stop.arc, width),
+                });
+            }
+        }
+        sides
     }
 
     fn add_grid_face(&mut self, round: &Round, grid: &Grid, side: usize, points: &[u32]) {

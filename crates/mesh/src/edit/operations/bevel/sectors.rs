@@ -132,40 +132,22 @@ impl Nodes<'_> {
         let is_miter = count == 2 && round.fan.is_closed;
         let mut is_second = false;
         for i in 0..layout.stops.len() {
-            let stop = layout.stops[i];
-            if stop.beveled == NONE {
+            if layout.stops[i].beveled == NONE {
                 continue;
             }
-            let before = if i == 0 { layout.corners.len() - 1 } else { i - 1 };
-            let (left_corner, right_corner) = (layout.corners[i], layout.corners[before]);
-            let direction = self.way(left_corner, true).0;
+            let (left, stop) = (layout.corners[i], layout.stops[i]);
+            let direction = self.way(left, true).0;
             let along = [stop.left, stop.right].map(|node| self.nodes[node as usize].offset.dot(direction));
             let control = if is_miter { 0.0 } else { 0.5 * (along[0] + along[1]) };
-            let control_sum = self.sum_on_edge(left_corner, true, control);
+            let control_sum = self.sum_on_edge(left, true, control);
             if !is_second {
                 let control = direction * control;
                 self.arcs.push(Arc { first: stop.left, last: stop.right, control, control_sum });
             }
-            let arc = self.arcs.len() as u32 - 1;
             // Round the vertex an edge's right comes first.
-            (layout.stops[i].arc, layout.stops[i].is_reversed) = (arc, !is_second);
-            self.add_end(
-                &stop,
-                along,
-                End {
-                    vertex: round.fan.vertex,
-                    left: stop.left,
-                    right: stop.right,
-                    arc,
-                    is_reversed: is_second,
-                    left_corner,
-                    right_corner,
-                    left_sum: layout.sums[i],
-                    right_sum: layout.sums[before],
-                    control_sum,
-                    is_continuous: round.is_continuous,
-                },
-            );
+            (layout.stops[i].arc, layout.stops[i].is_reversed) = (self.arcs.len() as u32 - 1, !is_second);
+            let end = layout.end(i, round.is_continuous, control_sum);
+            self.add_end(&stop, along, end);
             is_second = is_miter;
         }
         if count == 1 && round.fan.is_closed && layout.corners.len() == 3 {

@@ -56,12 +56,12 @@ fn check_convex(mesh: &EditMesh) {
     }
 }
 
-/// Vertices in the grid at a corner of a cube, and its faces.
-fn corner_counts(segments: usize) -> [usize; 2] {
+/// Vertices in the grid where some bevels meet, and its faces.
+fn grid_counts(edges: usize, segments: usize) -> [usize; 2] {
     let half = segments / 2;
     match segments % 2 {
-        0 => [3 * half * (half + 1) + 1, 3 * half * half],
-        _ => [3 * (half + 1) * (half + 1), 3 * half * (half + 1) + 1],
+        0 => [edges * half * (half + 1) + 1, edges * half * half],
+        _ => [edges * (half + 1) * (half + 1), edges * half * (half + 1) + 1],
     }
 }
 
@@ -72,7 +72,7 @@ fn a_cube_with_all_edges_beveled_is_closed_convex_and_has_the_counts_of_its_grid
             let mut mesh = edit(primitives::cube(2.0));
             let made = mesh.bevel_edges(&all_edges(&mesh), &settings(0.25, segments, profile));
             let made = made.expect("a cube has twelve edges");
-            let [vertices, faces] = corner_counts(segments);
+            let [vertices, faces] = grid_counts(3, segments);
             let faces = 6 + 12 * segments + 8 * faces;
             assert_eq!(counts(&mesh), [8 * vertices, 8 * vertices + faces - 2, faces], "genus 0");
             assert_eq!((made.faces.len(), made.vertices.len()), (faces - 6, 8 * vertices), "all are told");
@@ -107,6 +107,29 @@ fn a_round_bevel_of_a_cube_is_symmetric_and_its_corners_are_parts_of_spheres() {
         for vertex in mesh.vertices() {
             let outside = (mesh.point(vertex).abs() - DVec3::splat(0.75)).max(DVec3::ZERO);
             assert!((outside.length() - 0.25).abs() < 1e-6, "{vertex} is a quarter from the inner cube");
+        }
+    }
+}
+
+#[test]
+fn where_more_than_three_bevels_meet_the_grid_is_closed_and_convex() {
+    for (solid, corners, edges) in
+        [(primitives::octahedron(1.0), 6, 4), (primitives::icosahedron(1.0), 12, 5)]
+    {
+        for segments in 1..=6 {
+            let mut mesh = edit(solid.clone());
+            let [_, all, sides] = counts(&mesh);
+            mesh.bevel_edges(&all_edges(&mesh), &settings(0.1, segments, 0.5)).expect("all");
+            let [vertices, faces] = grid_counts(edges, segments);
+            let faces = sides + all * segments + corners * faces;
+            let vertices = corners * vertices;
+            assert_eq!(
+                counts(&mesh),
+                [vertices, vertices + faces - 2, faces],
+                "{edges} edges, {segments} segments"
+            );
+            keeps_affine_values(&mesh).expect("interpolated");
+            check_convex(&mesh);
         }
     }
 }
@@ -303,7 +326,7 @@ fn a_cube_with_beveled_vertices_is_a_truncated_cube() {
     for segments in 2..6 {
         let mut mesh = edit(primitives::cube(2.0));
         mesh.bevel_vertices(&vertices(&mesh), &settings(0.5, segments, 0.5)).expect("eight vertices");
-        let [inner, faces] = corner_counts(segments);
+        let [inner, faces] = grid_counts(3, segments);
         let faces = 6 + 8 * faces;
         assert_eq!(counts(&mesh), [8 * inner, 8 * inner + faces - 2, faces], "genus 0");
         keeps_affine_values(&mesh).expect("interpolated");
@@ -386,6 +409,15 @@ fn a_hub_with_many_beveled_edges_takes_linear_time() {
     assert!(other.bevel_vertices(&[hub], &settings(0.1, 1, 0.5)).is_err(), "a vertex alone");
 }
 
+/// Euler's characteristic, if each edge is between two faces and each vertex has at least three edges.
+fn closed_characteristic(mesh: &EditMesh) -> Option<isize> {
+    let is_closed = mesh.edges().all(|edge| mesh.edge_pair(edge).is_some())
+        && mesh.vertices().all(|vertex| mesh.vertex_edges(vertex).take(3).count() == 3);
+    let [vertices, edges, faces] =
+        [mesh.vertex_count(), mesh.edge_count(), mesh.face_count()].map(|count| count as isize);
+    is_closed.then_some(vertices - edges + faces)
+}
+
 /// Numbers that choose elements.
 fn some() -> impl Strategy<Value = Vec<u32>> {
     prop_oneof![prop::collection::vec(any::<u32>(), 1..6), Just((0..200).collect())]
@@ -441,5 +473,53 @@ proptest! {
         let edges: Vec<EdgeId> = chosen.iter().map(|&edge| EdgeId(edge % 60)).collect();
         mesh.bevel_edges(&edges, &settings(0.1, 3, 0.5)).expect("all can be beveled");
         prop_assert_eq!(mesh.check_structure(), Ok(()));
+    }
+
+    /// Bevels, loop cuts and slides one after the other: each sees what the others leave, free slots and
+    /// polygons included.
+    #[test]
+    fn operations_in_any_order_keep_the_structure_and_the_genus(
+        start in meshes(),
+        cut_open in any::<bool>(),
+        steps in prop::collection::vec((0u8..4, some(), 1usize..4, 0.0f64..=1.0), 1..5),
+    ) {
+        let (mut mesh, _) = EditMesh::from_mesh(&start);
+        // Some slots are free.
+        if cut_open {
+            drop(mesh.delete_only_faces(&[FaceId(0)]));
+        }
+        let first = mesh.clone();
+        let mut differences = Vec::new();
+        for (kind, chosen, segments, t) in steps {
+            let edges: Vec<EdgeId> = mesh.edges().collect();
+            let vertices: Vec<VertexId> = mesh.vertices().collect();
+            let pick = |count: usize| chosen.iter().map(move |&i| i as usize % count.max(1));
+            let chosen_edges: Vec<EdgeId> =
+                pick(edges.len()).filter_map(|i| edges.get(i).copied()).take(40).collect();
+            let chosen_vertices: Vec<VertexId> =
+                pick(vertices.len()).filter_map(|i| vertices.get(i).copied()).take(40).collect();
+            let settings = settings(0.1, segments, t);
+            let kept = closed_characteristic(&mesh);
+            let done = mesh.transaction(|mesh| match (kind, chosen_edges.first()) {
+                (0, _) => mesh.bevel_edges(&chosen_edges, &settings).map(drop),
+                (1, _) => mesh.bevel_vertices(&chosen_vertices, &settings).map(drop),
+                (2, Some(&edge)) => {
+                    let cut = crate::edit::LoopCutSettings { cuts: segments, position: t };
+                    mesh.loop_cut(edge, &cut).map(drop)
+                }
+                _ => mesh.slide_edges(&chosen_edges, t).map(drop),
+            });
+            prop_assert_eq!(mesh.check_structure(), Ok(()));
+            if let Ok(((), difference)) = done {
+                differences.push(difference);
+                if kept.is_some() {
+                    prop_assert_eq!(closed_characteristic(&mesh), kept);
+                }
+            }
+        }
+        for difference in differences.iter_mut().rev() {
+            difference.apply(&mut mesh);
+        }
+        prop_assert!(mesh == first, "undone");
     }
 }
