@@ -26,6 +26,19 @@ impl EditMesh {
         record.previous[end] = last;
     }
 
+    /// Makes some edges that end at a vertex its ring, in their order. It has none yet.
+    pub(super) fn link_all_at_vertex(&mut self, vertex: u32, edges: &[u32]) {
+        for (i, &edge) in edges.iter().enumerate() {
+            let next = if i + 1 == edges.len() { edges[0] } else { edges[i + 1] };
+            let previous = if i == 0 { edges[edges.len() - 1] } else { edges[i - 1] };
+            let record = self.edges.write(edge);
+            let end = record.end(vertex);
+            record.next[end] = next;
+            record.previous[end] = previous;
+        }
+        self.vertices.write(vertex).edge = edges[0];
+    }
+
     /// Takes an edge out of the ring of the vertex at one of its ends.
     pub(super) fn unlink_at_vertex(&mut self, edge: u32, end: usize) {
         let record = self.edges[edge];

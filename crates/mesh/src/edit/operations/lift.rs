@@ -153,7 +153,8 @@ impl EditMesh {
     }
 
     /// Lifts one face that visits each of its vertices once: the face gets new vertices at the given
-    /// places, one for each corner, the rest keeps the old ones.
+    /// places, one for each corner, the rest keeps the old ones. The corners of the walls have no values
+    /// yet.
     pub(super) fn lift_face(&mut self, face: FaceId, places: &[DVec3], lifted: &mut LiftedFaces) {
         let LiftedFaces { walls, vertices, corners, old, new_edges, hinges } = lifted;
         corners.clear();
@@ -169,10 +170,12 @@ impl EditMesh {
         }
         let caps = &vertices[first..];
         hinges.clear();
-        hinges.extend(old.iter().zip(caps).map(|(&(vertex, _), &cap)| self.fresh_edge(vertex, cap)));
         new_edges.clear();
         for i in 0..count {
-            let edge = self.fresh_edge(caps[i], caps[(i + 1) % count]);
+            let hinge = self.new_edge([old[i].0.0, caps[i].0]);
+            self.link_at_vertex(hinge, 0);
+            hinges.push(EdgeId(hinge));
+            let edge = EdgeId(self.new_edge([caps[i].0, caps[(i + 1) % count].0]));
             self.copy_edge(old[i].1, edge);
             self.unlink_at_edge(corners[i].0);
             self.corners.write(corners[i].0).vertex = caps[i].0;
@@ -180,13 +183,28 @@ impl EditMesh {
             new_edges.push(edge);
         }
         for i in 0..count {
+            let before = new_edges[(i + count - 1) % count];
+            self.link_all_at_vertex(caps[i].0, &[hinges[i].0, before.0, new_edges[i].0]);
+        }
+        for i in 0..count {
             let next = (i + 1) % count;
-            let bottom = [(old[i].0, old[i].1), (old[next].0, hinges[next])];
-            let top = [(caps[next], new_edges[i]), (caps[i], hinges[i])];
-            let wall = self.face_along(&[bottom[0], bottom[1], top[0], top[1]]);
+            let wall = self.face_along(&[
+                old[i],
+                (old[next].0, hinges[next]),
+                (caps[next], new_edges[i]),
+                (caps[i], hinges[i]),
+            ]);
             self.copy_face(face, wall);
-            self.dress_wall(wall, corners[i], corners[next]);
             walls.push(wall);
+        }
+    }
+
+    /// Gives the walls of the face that was lifted last the values of its corners.
+    pub(super) fn dress_walls(&mut self, lifted: &LiftedFaces) {
+        let count = lifted.corners.len();
+        let walls = &lifted.walls[lifted.walls.len() - count..];
+        for (i, &wall) in walls.iter().enumerate() {
+            self.dress_wall(wall, lifted.corners[i], lifted.corners[(i + 1) % count]);
         }
     }
 

@@ -129,6 +129,7 @@ impl EditMesh {
                 places.clear();
                 places.extend(self.face_vertices(face).map(|vertex| self.point(vertex) + by));
                 self.lift_face(face, &places, &mut lifted);
+                self.dress_walls(&lifted);
             } else {
                 let alone = Region::new(self, &[face], "extruding")?;
                 let border = alone.border(self);
