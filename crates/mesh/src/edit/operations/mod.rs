@@ -9,6 +9,8 @@ mod hide;
 mod marks;
 mod mirror;
 mod project_uvs;
+#[cfg(test)]
+mod random_tests;
 mod recalculate_normals;
 mod symmetrize;
 mod transform;
