@@ -4,12 +4,12 @@
 //! sharp, the corners there get normals of their own, one for each fan of smooth faces between
 //! sharp edges. Only these corners: all others keep the zero that stands for "computed".
 
-use fixedbitset::FixedBitSet;
 use smallvec::SmallVec;
 use trigon_math::{DVec3, Vec3};
 
 use super::edit_mesh::EditMesh;
-use super::ids::{CornerId, EdgeId, FaceId, VertexId};
+use super::ids::{CornerId, EdgeId, VertexId};
+use super::measure::FaceNormals;
 use crate::normals::{or_if_zero, unit_or_zero};
 
 impl EditMesh {
@@ -61,9 +61,7 @@ impl EditMesh {
 struct Fans<'a> {
     mesh: &'a EditMesh,
     normals: Vec<Vec3>,
-    /// By face, once it is known: a face with many corners is measured once.
-    face_normals: Vec<Vec3>,
-    is_known: FixedBitSet,
+    face_normals: FaceNormals,
     /// The corners at the vertex in ascending order, and which of them stands for each one's fan.
     corners: Vec<CornerId>,
     fans: Vec<u32>,
@@ -75,8 +73,7 @@ impl<'a> Fans<'a> {
         Self {
             mesh,
             normals: vec![Vec3::ZERO; mesh.corner_capacity()],
-            face_normals: vec![Vec3::ZERO; mesh.face_capacity()],
-            is_known: FixedBitSet::with_capacity(mesh.face_capacity()),
+            face_normals: FaceNormals::default(),
             corners: Vec::new(),
             fans: Vec::new(),
             sums: Vec::new(),
@@ -95,14 +92,14 @@ impl<'a> Fans<'a> {
         self.sums.resize(self.corners.len(), DVec3::ZERO);
         for place in 0..self.corners.len() {
             let corner = self.corners[place];
-            let normal = self.face_normal(mesh.corner_face(corner));
+            let normal = self.face_normals.of(mesh, mesh.corner_face(corner)).as_vec3();
             let fan = self.fan(place as u32);
             self.sums[fan as usize] += normal.as_dvec3() * mesh.corner_angle(corner);
         }
         for place in 0..self.corners.len() {
             let fan = self.fan(place as u32);
             let corner = self.corners[place];
-            let of_face = self.face_normal(mesh.corner_face(corner));
+            let of_face = self.face_normals.of(mesh, mesh.corner_face(corner)).as_vec3();
             let of_fan = unit_or_zero(self.sums[fan as usize]).as_vec3();
             self.normals[corner.0 as usize] = or_if_zero(of_fan, of_face);
         }
@@ -136,20 +133,13 @@ impl<'a> Fans<'a> {
         }
         place
     }
-
-    fn face_normal(&mut self, face: FaceId) -> Vec3 {
-        let index = face.0 as usize;
-        if !self.is_known.put(index) {
-            self.face_normals[index] = self.mesh.face_normal(face).as_vec3();
-        }
-        self.face_normals[index]
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use std::f64::consts::PI;
 
+    use super::super::ids::FaceId;
     use super::*;
     use crate::{Mesh, primitives};
 
@@ -241,6 +231,33 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn lids_with_50_000_corners_do_not_make_marks_and_normals_slow() {
+        let around = 50_000u32;
+        let mut builder = crate::MeshBuilder::new();
+        for i in 0..2 * around {
+            let turn = f64::from(i / 2) / f64::from(around) * 2.0 * PI;
+            let (sin, cos) = trigon_math::elementary::sin_cos(turn);
+            builder.push_vertex(DVec3::new(cos, f64::from(i % 2), -sin).as_vec3());
+        }
+        let rim = |lid: u32| (0..around).map(move |i| 2 * i + lid);
+        builder.push_face(&rim(1).collect::<Vec<u32>>()).expect("a lid");
+        builder.push_face(&rim(0).rev().collect::<Vec<u32>>()).expect("a lid");
+        for i in 0..around {
+            let next = (i + 1) % around;
+            builder.push_face(&[2 * i, 2 * next, 2 * next + 1, 2 * i + 1]).expect("a wall");
+        }
+        let mut tube = builder.build();
+        tube.smooth_by_angle(PI);
+        let (mut tube, _) = EditMesh::from_mesh(&tube);
+        let edges: Vec<EdgeId> = tube.edges().collect();
+        // In quadratic time this would not end.
+        assert_eq!(tube.mark_sharp_by_angle(&edges, 1.0), Ok(100_000), "both rims");
+        let normals = tube.to_mesh().0.shading_normals();
+        let upright = normals.iter().filter(|normal| normal.y.abs() == 1.0).count();
+        assert_eq!(upright, 100_000, "the corners of the lids");
     }
 
     #[test]

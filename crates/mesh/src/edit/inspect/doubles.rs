@@ -31,7 +31,7 @@ impl EditMesh {
     /// The vertices that are no farther than `within` metres (from 0 on) from one with a smaller
     /// id that is no double itself. Places that are not finite are not compared.
     pub fn doubled_vertices(&self, within: f64) -> Vec<DoubledVertex> {
-        let mut kept = KeptPlaces::new(within);
+        let mut kept = KeptPlaces::new(within, self.vertex_count());
         let mut doubles = Vec::new();
         for vertex in self.vertices() {
             let place = self.position(vertex);
@@ -73,8 +73,8 @@ struct KeptPlaces {
 }
 
 impl KeptPlaces {
-    fn new(within: f64) -> Self {
-        Self { within: within.max(0.0), cells: HashMap::new() }
+    fn new(within: f64, expected: usize) -> Self {
+        Self { within: within.max(0.0), cells: HashMap::with_capacity(expected) }
     }
 
     /// The smallest vertex that was kept near a place, else keeps this one.

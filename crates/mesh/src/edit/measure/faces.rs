@@ -1,5 +1,7 @@
 //! Normals, areas and centres of faces, and normals of vertices.
 
+use std::collections::BTreeMap;
+
 use fixedbitset::FixedBitSet;
 use trigon_math::DVec3;
 
@@ -7,6 +9,25 @@ use super::super::edit_mesh::EditMesh;
 use super::super::ids::{CornerId, FaceId, VertexId};
 use crate::normals::{angle, unit_or_zero};
 use crate::triangulate::area_vector;
+
+/// Normals of faces that are asked for again and again, once for each of their edges or corners: those
+/// of large faces are kept, so that time stays proportional to the corners.
+#[derive(Debug, Default)]
+pub(in super::super) struct FaceNormals {
+    large: BTreeMap<FaceId, DVec3>,
+}
+
+impl FaceNormals {
+    /// [`EditMesh::face_normal`], computed once for a large face.
+    pub(in super::super) fn of(&mut self, mesh: &EditMesh, face: FaceId) -> DVec3 {
+        /// Up to here computing a normal costs about as much as looking for it.
+        const SMALL: usize = 16;
+        if mesh.face_size(face) <= SMALL {
+            return mesh.face_normal(face);
+        }
+        *self.large.entry(face).or_insert_with(|| mesh.face_normal(face))
+    }
+}
 
 impl EditMesh {
     /// The area vector of a face: its direction is the face's normal, its length the area in

@@ -4,6 +4,7 @@ use trigon_math::DVec3;
 
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{EdgeId, FaceId};
+use super::FaceNormals;
 use crate::normals::angle;
 
 impl EditMesh {
@@ -17,17 +18,21 @@ impl EditMesh {
     /// (flat) to π (folded back), within 10⁻⁷ away from these. `None` unless exactly two faces with
     /// areas meet there that run in opposite directions.
     pub fn edge_angle(&self, edge: EdgeId) -> Option<f64> {
-        self.edge_normals(edge).map(|[one, two]| angle(one, two))
+        self.edge_normals(edge, &mut FaceNormals::default()).map(|[one, two]| angle(one, two))
     }
 
     /// The normals of the two faces at an edge: `None` unless exactly two with areas meet there that
     /// run in opposite directions.
-    pub(in super::super) fn edge_normals(&self, edge: EdgeId) -> Option<[DVec3; 2]> {
+    pub(in super::super) fn edge_normals(
+        &self,
+        edge: EdgeId,
+        normals: &mut FaceNormals,
+    ) -> Option<[DVec3; 2]> {
         let [one, two] = self.edge_pair(edge)?;
         if self.corner_vertex(one) == self.corner_vertex(two) {
             return None;
         }
-        let normals = [one, two].map(|corner| self.face_normal(self.corner_face(corner)));
+        let normals = [one, two].map(|corner| normals.of(self, self.corner_face(corner)));
         normals.iter().all(|&normal| normal != DVec3::ZERO).then_some(normals)
     }
 

@@ -3,3 +3,5 @@
 mod faces;
 mod lengths;
 mod solid;
+
+pub(super) use faces::FaceNormals;

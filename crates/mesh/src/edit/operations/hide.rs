@@ -86,11 +86,10 @@ impl EditMesh {
     }
 
     fn hide_edge(&mut self, edge: EdgeId, change: &mut VisibilityChange) {
-        if self.is_edge_hidden(edge) {
-            return;
+        if !self.is_edge_hidden(edge) {
+            self.set_edge_hidden(edge, true);
+            change.edges.push(edge);
         }
-        self.set_edge_hidden(edge, true);
-        change.edges.push(edge);
         let faces: smallvec::SmallVec<[FaceId; 4]> = self.edge_faces(edge).collect();
         faces.into_iter().for_each(|face| self.hide_face(face, change));
     }

@@ -9,6 +9,7 @@ use trigon_math::elementary;
 
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{EdgeId, FaceId};
+use super::super::measure::FaceNormals;
 use super::super::refusal::Refusal;
 use super::delete::require;
 
@@ -23,7 +24,7 @@ impl EditMesh {
     /// None is given, or one does not exist.
     pub fn mark_sharp(&mut self, edges: &[EdgeId]) -> Result<usize, Refusal> {
         self.check_edges(edges, "marking edges sharp")?;
-        Ok(edges.iter().filter(|&&edge| self.change_sharp(edge, true)).count())
+        Ok(self.change_sharp(edges, |_, _| Some(true)))
     }
 
     /// Lets smooth shading blend over edges again. Normals that were given for the corners at their ends
@@ -33,7 +34,7 @@ impl EditMesh {
     /// None is given, or one does not exist.
     pub fn clear_sharp(&mut self, edges: &[EdgeId]) -> Result<usize, Refusal> {
         self.check_edges(edges, "clearing sharp edges")?;
-        Ok(edges.iter().filter(|&&edge| self.change_sharp(edge, false)).count())
+        Ok(self.change_sharp(edges, |_, _| Some(false)))
     }
 
     /// Of the edges at which exactly two faces meet in opposite directions, marks those sharp at
@@ -48,24 +49,32 @@ impl EditMesh {
             return Err(Refusal::OutOfRange { parameter: "the angle", value: angle, range: "0 to π" });
         }
         let least_cosine = elementary::cos(angle) - COSINE_ROUNDING;
-        let mut changed = 0;
-        for &edge in edges {
-            if let Some([one, two]) = self.edge_normals(edge) {
-                changed += usize::from(self.change_sharp(edge, one.dot(two) < least_cosine));
-            }
-        }
-        Ok(changed)
+        let mut normals = FaceNormals::default();
+        Ok(self.change_sharp(edges, |mesh, edge| {
+            mesh.edge_normals(edge, &mut normals).map(|[one, two]| one.dot(two) < least_cosine)
+        }))
     }
 
-    fn change_sharp(&mut self, edge: EdgeId, is_sharp: bool) -> bool {
-        let changes = self.is_sharp(edge) != is_sharp;
-        if changes {
+    /// Marks edges sharp or not as a function says, which leaves those alone of which it says
+    /// nothing. How many changed.
+    fn change_sharp(
+        &mut self,
+        edges: &[EdgeId],
+        mut is_sharp: impl FnMut(&Self, EdgeId) -> Option<bool>,
+    ) -> usize {
+        let mut changed = 0;
+        let mut ends = Vec::new();
+        for &edge in edges {
+            let Some(is_sharp) = is_sharp(self, edge).filter(|&is_sharp| is_sharp != self.is_sharp(edge))
+            else {
+                continue;
+            };
             self.set_sharp(edge, is_sharp);
-            for vertex in self.edge_vertices(edge) {
-                self.clear_custom_normals_at(vertex);
-            }
+            ends.extend(self.edge_vertices(edge));
+            changed += 1;
         }
-        changes
+        self.clear_custom_normals_at(&ends);
+        changed
     }
 
     /// Makes edges seams, at which texture coordinates are cut when they are laid out.

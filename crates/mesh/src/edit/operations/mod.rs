@@ -27,6 +27,8 @@ pub(super) mod numbering;
 mod outlines;
 mod parts;
 mod project_uvs;
+#[cfg(test)]
+mod random_tests;
 mod recalculate_normals;
 mod region;
 mod separate;

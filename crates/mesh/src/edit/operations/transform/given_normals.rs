@@ -123,10 +123,12 @@ impl EditMesh {
 
     /// Whether a face that is not marked smooth is shown so by the normals that were given for it.
     fn is_smooth_by_normals(&self, face: FaceId) -> bool {
+        if self.is_smooth(face) || !self.has_given_directions() {
+            return false;
+        }
         let normal = self.face_normal(face);
         let bends = |normal_of_corner: Vec3| normal_of_corner.as_dvec3().dot(normal) < 1.0 - FLAT;
-        !self.is_smooth(face)
-            && self.face_corners(face).filter_map(|corner| self.custom_normal(corner)).any(bends)
+        self.face_corners(face).filter_map(|corner| self.custom_normal(corner)).any(bends)
     }
 
     /// Clears the normals that were given for a face's corners, so that computed ones show; a
@@ -135,27 +137,28 @@ impl EditMesh {
         let given = |mesh: &Self, corner| mesh.custom_normal(corner).is_some();
         let corners: SmallVec<[CornerId; 8]> =
             self.face_corners(face).filter(|&corner| given(self, corner)).collect();
-        self.clear_custom_normals_of(&corners);
+        if self.is_smooth_by_normals(face) {
+            self.set_smooth(face, true);
+        }
+        corners.iter().for_each(|&corner| self.set_custom_normal(corner, Vec3::ZERO));
         !corners.is_empty()
     }
 
-    /// Clears the normals that were given for the corners at a vertex; faces that they showed as
+    /// Clears the normals that were given for the corners at vertices; faces that they showed as
     /// smooth are marked so.
-    pub(in super::super) fn clear_custom_normals_at(&mut self, vertex: VertexId) {
-        let corners: SmallVec<[CornerId; 8]> = self.vertex_corners(vertex).collect();
-        self.clear_custom_normals_of(&corners);
-    }
-
-    fn clear_custom_normals_of(&mut self, corners: &[CornerId]) {
+    pub(in super::super) fn clear_custom_normals_at(&mut self, vertices: &[VertexId]) {
         if !self.has_given_directions() {
             return;
         }
-        for &corner in corners {
-            if self.is_smooth_by_normals(self.corner_face(corner)) {
-                self.set_smooth(self.corner_face(corner), true);
-            }
-            self.set_custom_normal(corner, Vec3::ZERO);
-        }
+        let corners = vertices.iter().flat_map(|&vertex| self.vertex_corners(vertex));
+        let corners: Vec<CornerId> = corners.filter(|&corner| self.custom_normal(corner).is_some()).collect();
+        let mut faces: Vec<FaceId> = corners.iter().map(|&corner| self.corner_face(corner)).collect();
+        // Each face is judged once: it may have very many corners.
+        faces.sort_unstable();
+        faces.dedup();
+        faces.retain(|&face| self.is_smooth_by_normals(face));
+        faces.iter().for_each(|&face| self.set_smooth(face, true));
+        corners.iter().for_each(|&corner| self.set_custom_normal(corner, Vec3::ZERO));
     }
 
     /// The tangent that was given for a corner; zero without one.

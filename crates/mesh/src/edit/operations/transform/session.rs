@@ -70,8 +70,9 @@ impl Weights {
     }
 }
 
-/// Vertices in a piece of work: enough to hide what handing one to a thread costs.
-const PIECE: usize = 1 << 12;
+/// Vertices in a piece of work: enough to hide what handing one to a thread costs. A movement of no
+/// more than these stays on its thread.
+const PIECE: usize = 1 << 15;
 
 impl MoveSession {
     /// Vertices that all move wholly.
