@@ -520,7 +520,10 @@ fn one_mesh_in_several_materials_shares_its_numbers() {
 #[test]
 fn loose_edges_points_and_empty_meshes_are_written() {
     let mut scene = Scene::new();
-    let wires = primitives::polyline(&[Vec3::ZERO, Vec3::X, Vec3::ONE]);
+    let mut wires = primitives::polyline(&[Vec3::ZERO, Vec3::X, Vec3::ONE]);
+    let values =
+        Attributes { corner_colors: Some(Vec::new()), uv_sets: vec![Vec::new()], ..Attributes::default() };
+    wires.set_attributes(values).expect("there are no corners");
     scene.add_object("wires", wires.clone(), Material::default());
     scene.add_object("nothing", Mesh::default(), Material::default());
     let again = loaded("a.glb", &glb(&scene));

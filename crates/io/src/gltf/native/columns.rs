@@ -3,6 +3,8 @@
 //! Writer and reader visit the columns in the same order, and both hash what they visit: a file
 //! whose views are not those that were written is found out.
 
+use std::collections::BTreeSet;
+
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::edit::{EdgeMark, Marks};
 use trigon_mesh::{Attributes, Deltas, Mesh, MeshColumns, MorphTarget, SkinWeights};
@@ -116,9 +118,23 @@ pub(in crate::gltf) fn columns_of_mesh(mesh: &Mesh, marks: Option<&Marks>) -> (C
         joints_per_vertex: attributes.skin.as_ref().map(SkinWeights::per_vertex),
         targets: attributes.morph_targets.len(),
         edited: marks.is_some(),
+        empty: if mesh.face_count() == 0 { optional_columns(attributes) } else { BTreeSet::new() },
         ..Header::default()
     };
     (writer, header)
+}
+
+/// The columns of faces and corners that a mesh has: all empty, if it has no faces.
+fn optional_columns(attributes: &Attributes) -> BTreeSet<String> {
+    let known = [
+        ("faceMaterials", attributes.face_materials.is_some()),
+        ("faceSmooth", attributes.face_smooth.is_some()),
+        ("cornerNormals", attributes.corner_normals.is_some()),
+        ("cornerTangents", attributes.corner_tangents.is_some()),
+        ("cornerColors", attributes.corner_colors.is_some()),
+    ];
+    let named = known.into_iter().filter(|(_, is_there)| *is_there).map(|(name, _)| name.to_owned());
+    named.chain((0..attributes.uv_sets.len()).map(|set| format!("uv{set}"))).collect()
 }
 
 fn deltas_of(target: &MorphTarget) -> [(&'static str, &Deltas); 3] {
@@ -140,14 +156,16 @@ fn write_marks(writer: &mut ColumnWriter, marks: &Marks) {
 
 /// Finds the bytes of columns by their names, and hashes what is asked for.
 pub(in crate::gltf) struct ColumnReader<'b> {
+    /// Columns that are there, without values.
+    empty: &'b BTreeSet<String>,
     /// The bytes of each column, by its name.
     find: &'b dyn Fn(&str) -> Option<&'b [u8]>,
     hashed: Vec<u8>,
 }
 
 impl<'b> ColumnReader<'b> {
-    pub(in crate::gltf) fn new(find: &'b dyn Fn(&str) -> Option<&'b [u8]>) -> Self {
-        Self { find, hashed: Vec::new() }
+    pub(in crate::gltf) fn new(header: &'b Header, find: &'b dyn Fn(&str) -> Option<&'b [u8]>) -> Self {
+        Self { empty: &header.empty, find, hashed: Vec::new() }
     }
 
     pub(in crate::gltf) fn hash(&self) -> String {
@@ -163,7 +181,8 @@ impl<'b> ColumnReader<'b> {
 
     /// A column that need not be there.
     fn optional(&mut self, name: &str) -> Option<&'b [u8]> {
-        (self.find)(name).is_some().then(|| self.column(name))
+        let is_there = (self.find)(name).is_some() || self.empty.contains(name);
+        is_there.then(|| self.column(name))
     }
 
     fn words(&mut self, name: &str) -> Result<Vec<u32>, String> {

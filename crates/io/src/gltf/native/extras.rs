@@ -1,6 +1,6 @@
 //! `extras.trigon`, as text and as structs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::de::{DeserializeOwned, Deserializer};
 use serde::{Deserialize, Serialize};
@@ -62,6 +62,9 @@ pub(in crate::gltf) struct Header {
     /// How many morph targets there are.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub(in crate::gltf) targets: usize,
+    /// Columns that are there, without values: views have at least one byte.
+    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    pub(in crate::gltf) empty: BTreeSet<String>,
     /// Whether the mesh was being edited, so that there are marks.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(in crate::gltf) edited: bool,

@@ -140,7 +140,7 @@ fn fetch_columns(
 
 fn build(header: &Header, columns: &BTreeMap<String, Bytes>) -> Result<(Mesh, Option<Marks>), String> {
     let find = |name: &str| columns.get(name).map(|(buffer, range)| &buffer[range.clone()]);
-    let mut reader = ColumnReader::new(&find);
+    let mut reader = ColumnReader::new(header, &find);
     let built = mesh_from_columns(&mut reader, header)?;
     // Also what is whole may be another mesh's: views were numbered anew.
     if reader.hash() == header.data {

@@ -1,14 +1,13 @@
 //! Materials: only what differs from what the file says already is written, so that members
 //! that trigon does not know stay where they are.
 
-use serde_json::json;
 use trigon_math::{Vec3, Vec4};
 use trigon_scene::{AlphaMode, Material, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding};
 
 use super::draft::Draft;
 use super::raw::RawObject;
 use super::textures::Textures;
-use crate::gltf::native;
+use crate::gltf::native::{self, ExactShading, MaterialExtras};
 
 /// What an empty material of a file is.
 pub(super) fn plain() -> Material {
@@ -211,18 +210,14 @@ impl Writer<'_, '_, '_> {
         }
         let exact = match now.shading {
             Shading::Unlit | Shading::MetallicRoughness(_) => None,
-            Shading::Lambert => Some(native::ExactShading::Lambert),
+            Shading::Lambert => Some(ExactShading::Lambert),
             Shading::BlinnPhong { specular, shininess, .. } => {
-                Some(native::ExactShading::BlinnPhong { specular: specular.to_array(), shininess })
+                Some(ExactShading::BlinnPhong { specular: specular.to_array(), shininess })
             }
         };
         let mut extras = self.object.object("extras");
-        match exact {
-            Some(shading) => {
-                extras.set(native::MEMBER, &json!({"version": native::VERSION, "shading": shading}))
-            }
-            None => extras.remove(native::MEMBER),
-        }
+        let own = exact.map(|shading| MaterialExtras { version: native::VERSION, shading });
+        extras.set_or_remove(native::MEMBER, own.as_ref());
         self.object.set_object("extras", &extras);
     }
 }

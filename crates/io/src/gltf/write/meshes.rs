@@ -215,21 +215,17 @@ const LAST_MODE: usize = 6;
 /// The slots of primitives as they are given when a file is read: a new one for each material,
 /// none for what is not read.
 fn slots_of(primitives: &[Box<RawValue>]) -> Vec<Option<u32>> {
-    let mut known: Vec<Option<usize>> = Vec::new();
-    let mut slot = |text: &Box<RawValue>| {
+    let mut known: BTreeMap<Option<usize>, u32> = BTreeMap::new();
+    let mut slot = |text: &RawValue| {
         let primitive = RawObject::parse(text.get());
         primitive.object("attributes").get("POSITION")?;
         if primitive.index("mode").is_some_and(|mode| mode > LAST_MODE) {
             return None;
         }
-        let material = primitive.index("material");
-        let known_as = known.iter().position(|other| *other == material);
-        Some(known_as.unwrap_or_else(|| {
-            known.push(material);
-            known.len() - 1
-        }) as u32)
+        let next = known.len() as u32;
+        Some(*known.entry(primitive.index("material")).or_insert(next))
     };
-    primitives.iter().map(&mut slot).collect()
+    primitives.iter().map(|text| slot(text)).collect()
 }
 
 /// The names of morph targets, where the file has others.

@@ -129,6 +129,9 @@ fn punctual(light: &Light) -> Option<RawObject> {
         object.set("range", &light.range);
     }
     if let LightKind::Spot { inner, outer } = light.kind {
+        // The extension wants a rim that is not hard.
+        let outer = outer.max(f32::MIN_POSITIVE);
+        let inner = inner.min(outer.next_down());
         let mut spot = RawObject::default();
         spot.set("innerConeAngle", &inner);
         spot.set("outerConeAngle", &outer);

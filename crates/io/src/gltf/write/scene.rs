@@ -432,7 +432,7 @@ impl<'a> SceneWriter<'a> {
         }
         let kept = self.kept;
         let origin = |place: usize| kept.and_then(|kept| kept.source.animation(place));
-        let same_place: Vec<Option<usize>> = (0..now.len()).map(|place| place_of(was, now, place)).collect();
+        let same_place = places_of(was, now);
         let taken: BTreeSet<usize> = same_place.iter().flatten().copied().collect();
         let removed: BTreeSet<usize> =
             (0..was.len()).filter(|place| !taken.contains(place)).filter_map(origin).collect();
@@ -517,9 +517,18 @@ fn same_skin(a: &Skin, b: &Skin) -> bool {
     (&a.name, &a.joints, &a.inverse_bind_matrices) == (&b.name, &b.joints, &b.inverse_bind_matrices)
 }
 
-/// Where an animation was: the place of an equal one, or its own if the one there has no equal.
-fn place_of(was: &[Animation], now: &[Animation], place: usize) -> Option<usize> {
-    let equal = was.iter().position(|animation| *animation == now[place]);
-    let has_equal = |animation: &Animation| now.contains(animation);
-    equal.or_else(|| was.get(place).filter(|animation| !has_equal(animation)).map(|_| place))
+/// Where each animation was: the place of an equal one, else its own place if no other was there.
+/// No two were at one place.
+fn places_of(was: &[Animation], now: &[Animation]) -> Vec<Option<usize>> {
+    let mut places: Vec<Option<usize>> =
+        (0..now.len()).map(|place| (was.get(place) == Some(&now[place])).then_some(place)).collect();
+    let mut taken: BTreeSet<usize> = places.iter().flatten().copied().collect();
+    for (place, found) in places.iter_mut().enumerate().filter(|(_, found)| found.is_none()) {
+        *found = (0..was.len()).find(|other| !taken.contains(other) && was[*other] == now[place]);
+        taken.extend(*found);
+    }
+    for (place, found) in places.iter_mut().enumerate().filter(|(_, found)| found.is_none()) {
+        *found = Some(place).filter(|place| *place < was.len() && !taken.contains(place));
+    }
+    places
 }
