@@ -5,8 +5,8 @@
 //! [`Refusal`] that says why it did nothing. Run in [`EditMesh::transaction`], it can be
 //! undone to the last byte.
 //!
-//! From low to high: [`ids`], [`column`] (values with a record of changes), [`records`] and
-//! [`layers`] (what is stored), `edit_mesh` (all columns), `slots` and `rings` (the only places
+//! From low to high: `ids`, `column` (values with a record of changes), `records` and
+//! `layers` (what is stored), `edit_mesh` (all columns), `slots` and `rings` (the only places
 //! that write neighbours), `walk` (from element to element), `euler` (elementary changes), and the
 //! operations.
 
