@@ -97,35 +97,22 @@ impl EditMesh {
     }
 
     fn add_copies(&mut self, other: &Self, elements: &Elements, layers: &LayerPairs) -> CopiedElements {
-        let mut copied = CopiedElements::default();
         let mut vertices = IndexTable::new(other.vertex_capacity(), elements.vertices.len());
-        for &vertex in &elements.vertices {
-            let new = VertexId(self.new_vertex(other.position(vertex)));
-            *self.first_positions.write(new.0) = other.first_position(vertex);
-            self.vertices.write(new.0).flags = other.vertices[vertex.0].flags;
-            copy_values(
-                &mut self.vertex_layers,
-                &other.vertex_layers,
-                &layers.of_vertices,
-                [vertex.0, new.0],
-            );
+        let copied_vertices = elements.vertices.iter().map(|&vertex| {
+            let new = self.copy_of_vertex(other, vertex, layers);
             vertices.insert(vertex.0, new.0);
-            copied.vertices.push(new);
-        }
+            new
+        });
+        let copied_vertices = copied_vertices.collect();
         let mut edges = IndexTable::new(other.edge_capacity(), elements.edges.len());
-        for &edge in &elements.edges {
-            let new_end =
-                |vertex: VertexId| VertexId(vertices.get(vertex.0).expect("edges have their ends along"));
-            let [a, b] = other.edge_vertices(edge).map(new_end);
-            let new = self.fresh_edge(a, b);
-            let record = self.edges.write(new.0);
-            record.flags = other.edges[edge.0].flags;
-            record.crease = other.edges[edge.0].crease;
+        let copied_edges = elements.edges.iter().map(|&edge| {
+            let new = self.copy_of_edge(other, edge, &vertices);
             edges.insert(edge.0, new.0);
-            copied.edges.push(new);
-        }
+            new
+        });
+        let copied_edges = copied_edges.collect();
         let mut outline = Vec::new();
-        for &face in &elements.faces {
+        let copied_faces = elements.faces.iter().map(|&face| {
             outline.clear();
             outline.extend(other.face_corners(face).map(|corner| {
                 let vertex = vertices.get(other.corner_vertex(corner).0);
@@ -133,23 +120,48 @@ impl EditMesh {
                 let (vertex, edge) = vertex.zip(edge).expect("faces have their parts along");
                 (VertexId(vertex), EdgeId(edge))
             }));
-            let new = self.face_along(&outline);
-            let record = self.faces.write(new.0);
-            record.material = other.faces[face.0].material;
-            record.flags = other.faces[face.0].flags;
-            let mut corner = CornerId(self.faces[new.0].corner);
-            for from in other.face_corners(face) {
-                copy_values(
-                    &mut self.corner_layers,
-                    &other.corner_layers,
-                    &layers.of_corners,
-                    [from.0, corner.0],
-                );
-                corner = self.next_corner(corner);
-            }
-            copied.faces.push(new);
+            self.copy_of_face(other, face, &outline, layers)
+        });
+        let copied_faces = copied_faces.collect();
+        CopiedElements { vertices: copied_vertices, edges: copied_edges, faces: copied_faces }
+    }
+
+    fn copy_of_vertex(&mut self, other: &Self, vertex: VertexId, layers: &LayerPairs) -> VertexId {
+        let new = VertexId(self.new_vertex(other.position(vertex)));
+        *self.first_positions.write(new.0) = other.first_position(vertex);
+        self.vertices.write(new.0).flags = other.vertices[vertex.0].flags;
+        copy_values(&mut self.vertex_layers, &other.vertex_layers, &layers.of_vertices, [vertex.0, new.0]);
+        new
+    }
+
+    fn copy_of_edge(&mut self, other: &Self, edge: EdgeId, vertices: &IndexTable) -> EdgeId {
+        let new_end = |end: VertexId| VertexId(vertices.get(end.0).expect("edges have their ends along"));
+        let [a, b] = other.edge_vertices(edge).map(new_end);
+        let new = self.fresh_edge(a, b);
+        let record = self.edges.write(new.0);
+        record.flags = other.edges[edge.0].flags;
+        record.crease = other.edges[edge.0].crease;
+        new
+    }
+
+    fn copy_of_face(
+        &mut self,
+        other: &Self,
+        face: FaceId,
+        outline: &[(VertexId, EdgeId)],
+        layers: &LayerPairs,
+    ) -> FaceId {
+        let new = self.face_along(outline);
+        let record = self.faces.write(new.0);
+        record.material = other.faces[face.0].material;
+        record.flags = other.faces[face.0].flags;
+        let mut corner = CornerId(self.faces[new.0].corner);
+        for from in other.face_corners(face) {
+            let pair = [from.0, corner.0];
+            copy_values(&mut self.corner_layers, &other.corner_layers, &layers.of_corners, pair);
+            corner = self.next_corner(corner);
         }
-        copied
+        new
     }
 }
 

@@ -67,6 +67,34 @@ fn a_face_of_a_cube_that_is_extruded_makes_it_longer() {
 }
 
 #[test]
+fn walls_have_no_normals_of_the_cap_and_bottoms_the_opposite_ones() {
+    let mut start = squares(2, 1);
+    let normals = Some(vec![Vec3::Z; start.corner_count()]);
+    let attributes = crate::Attributes {
+        corner_normals: normals,
+        face_materials: Some(vec![3, 5]),
+        face_smooth: Some(vec![true, false]),
+        ..start.attributes().clone()
+    };
+    start.set_attributes(attributes).expect("one for each");
+    let all = all_faces(&start);
+    let extrude = |mesh: &mut EditMesh| mesh.extrude_region(&all, ExtrudeOffset::Zero);
+    let (mesh, extruded) = check_change(&start, extrude).expect("all");
+    let normals = |face| mesh.face_corners(face).map(|corner| mesh.custom_normal(corner));
+    assert!(extruded.walls.iter().all(|&wall| normals(wall).all(|normal| normal.is_none())), "none");
+    let down = |face| normals(face).all(|normal| normal == Some(-Vec3::Z));
+    assert!(extruded.bottoms.iter().all(|&bottom| down(bottom)), "turned over");
+    let materials: Vec<u32> = extruded.bottoms.iter().map(|&bottom| mesh.material(bottom)).collect();
+    assert_eq!(materials, [3, 5], "of the faces above");
+    let mut of_walls = [0; 2];
+    for &wall in &extruded.walls {
+        of_walls[usize::from(mesh.material(wall) == 5)] += 1;
+        assert_eq!(mesh.is_smooth(wall), mesh.material(wall) == 3, "as the face on which it stands");
+    }
+    assert_eq!(of_walls, [3, 3], "three walls on each square");
+}
+
+#[test]
 fn a_sheet_becomes_a_closed_box() {
     let start = squares(3, 2);
     let all = all_faces(&start);

@@ -7,7 +7,7 @@ use super::super::region::tests::{check_change, chosen_faces, counts, open_edges
 use super::*;
 use crate::edit::VertexId;
 use crate::edit::tests::{keeps_affine_values, meshes, with_affine_values};
-use crate::{Mesh, primitives};
+use crate::{Attributes, Deltas, Mesh, MorphTarget, primitives};
 
 fn area(mesh: &EditMesh, faces: &[FaceId]) -> f64 {
     let of_face = |&face: &FaceId| {
@@ -187,6 +187,42 @@ fn large_polygons_and_hubs_take_linear_time() {
         (1, half.len() + 1),
         "all around the hub, without it"
     );
+}
+
+/// Morph targets and normals that were given are values of vertices and corners like others.
+#[test]
+fn vertices_move_along_in_morph_targets() {
+    let mut start = primitives::grid(4.0, 4.0, 4, 4);
+    let delta =
+        |position: Vec3| Vec3::new(0.5 * position.x + 0.25 * position.z, 1.0 + position.x, -position.z);
+    let deltas = Deltas::from_dense(start.positions().iter().map(|&position| delta(position)));
+    let attributes = Attributes {
+        corner_normals: Some(vec![Vec3::Y; start.corner_count()]),
+        morph_targets: vec![MorphTarget { positions: deltas, ..MorphTarget::default() }],
+        ..Attributes::default()
+    };
+    start.set_attributes(attributes).expect("one for each corner");
+    let faces = [FaceId(5), FaceId(6), FaceId(9)];
+    let thin = thickness(0.25);
+    let results = [
+        check_change(&start, |mesh| mesh.inset_individual(&faces, thin)),
+        check_change(&start, |mesh| mesh.inset_region(&faces, thin)),
+        check_change(&start, |mesh| mesh.outset_region(&faces, thin)),
+    ];
+    for result in results {
+        let (mesh, _) = result.expect("three faces").0.to_mesh();
+        let attributes = mesh.attributes();
+        let mut moved = vec![Vec3::ZERO; mesh.vertex_count()];
+        for (vertex, value) in attributes.morph_targets[0].positions.iter() {
+            moved[vertex as usize] = value;
+        }
+        for (&position, moved) in mesh.positions().iter().zip(moved) {
+            // One rounding of each, at most at 3.
+            assert!(moved.abs_diff_eq(delta(position), 1e-6), "{moved} at {position}");
+        }
+        let normals = attributes.corner_normals.as_ref().expect("given");
+        assert!(normals.iter().all(|&normal| normal == Vec3::Y), "all corners lie in the plane");
+    }
 }
 
 #[test]
