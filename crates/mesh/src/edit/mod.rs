@@ -34,7 +34,7 @@ pub use edit_mesh::EditMesh;
 pub use euler::{SplitEdge, SplitFace};
 pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
-pub use operations::{Connected, Filled, MergedVertices, QuadLimits, Subdivided, Triangulated};
+pub use operations::{Connected, Filled, GridSides, MergedVertices, QuadLimits, Subdivided, Triangulated};
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;

@@ -9,6 +9,7 @@ mod catmull_clark;
 mod connect;
 mod delete;
 mod fill;
+mod grid_fill;
 mod merge;
 pub(super) mod numbering;
 mod outlines;
@@ -19,6 +20,7 @@ mod tris_to_quads;
 
 pub use connect::Connected;
 pub use fill::Filled;
+pub use grid_fill::GridSides;
 pub use merge::MergedVertices;
 pub use subdivide::Subdivided;
 pub use triangulate::Triangulated;
