@@ -9,7 +9,6 @@ use super::super::refusal::Refusal;
 use super::delete::require;
 use super::numbering::{Numbering, sorted_once};
 use super::outlines::Chain;
-use crate::triangulate::area_vector;
 
 /// What was filled in.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -18,6 +17,8 @@ pub struct Filled {
     pub faces: Vec<FaceId>,
     /// The new edges.
     pub edges: Vec<EdgeId>,
+    /// The new vertices, within a grid.
+    pub vertices: Vec<VertexId>,
 }
 
 const FILLING: &str = "filling";
@@ -60,7 +61,7 @@ impl EditMesh {
         match vertices[..] {
             [_] => refused("at least two vertices are needed"),
             [a, b] if self.find_edge(a, b).is_some() => refused("there is an edge already"),
-            [a, b] => Ok(Filled { edges: vec![self.add_edge(a, b)?], faces: Vec::new() }),
+            [a, b] => Ok(Filled { edges: vec![self.add_edge(a, b)?], ..Filled::default() }),
             _ => {
                 let chain = self.outline_of(&vertices)?;
                 self.whole(|mesh| {
@@ -115,11 +116,7 @@ impl EditMesh {
         if self.has_face_over(&chain.vertices) {
             return refused("there is a face with these vertices already");
         }
-        let votes = self.winding_votes(chain.steps());
-        let normal = area_vector(chain.vertices.iter().map(|&vertex| self.point(vertex)));
-        let longest =
-            normal.to_array().into_iter().fold(0.0f64, |a, b| if b.abs() > a.abs() { b } else { a });
-        if votes < 0 || (votes == 0 && longest < 0.0) {
+        if self.is_wound_against(&chain) {
             chain.vertices.reverse();
         }
         let sources = self.corners_beside(&chain);
@@ -159,6 +156,7 @@ mod tests {
     use super::super::super::tests::{check_operation, keeps_affine_values, meshes, with_affine_values};
     use super::*;
     use crate::primitives;
+    use crate::triangulate::area_vector;
 
     fn editable(mesh: crate::Mesh) -> EditMesh {
         EditMesh::from_mesh(&with_affine_values(mesh)).0

@@ -29,7 +29,7 @@ impl EditMesh {
     /// merged yet takes the place of all later ones within the distance that are not merged
     /// yet, and stays where it is. So no vertex is moved farther than the distance, and a chain of near
     /// vertices does not collapse as a whole; two vertices that stay are always farther apart.
-    /// The order in which vertices are given does not matter. Blender follows the same rule.
+    /// The order in which vertices are given does not matter.
     ///
     /// Corners keep their values. A vertex whose place is not finite is near no other. What becomes
     /// of edges and faces: see [`Self::merge_vertices`].

@@ -72,8 +72,7 @@ impl EditMesh {
     ///
     /// A face that visits a vertex twice stays whole, too, where these parts could not be faces. The
     /// pieces of an edge have its marks, the parts of a face its material. Edge and face keep their
-    /// ids as one of the parts. Blender has the same patterns for triangles and quads, but for the
-    /// second row, where it leaves the quad at the uncut side to chance.
+    /// ids as one of the parts.
     ///
     /// # Errors
     /// No edge is given, one does not exist, there are not 1 to 1000 cuts, or the mesh would have
