@@ -28,7 +28,9 @@ fn run_all(document: &mut Document, commands: &[serde_json::Value]) {
 /// All that a user could tell apart.
 fn state(document: &Document) -> (Vec<EditMesh>, Selection, String) {
     let scene = document.nodes();
-    let meshes = scene.meshes().iter().filter_map(|(id, _)| document.mesh(id).cloned()).collect();
+    // Meshes that no object shows stay in the scene, so that an undone object finds its own again.
+    let shown = scene.nodes().iter().filter_map(|(_, node)| node.mesh);
+    let meshes = shown.filter_map(|id| document.mesh(id).cloned()).collect();
     let nodes: Vec<_> = scene.nodes().iter().map(|(id, node)| format!("{id:?} {node:?}")).collect();
     (meshes, document.selection().clone(), nodes.join("\n"))
 }

@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
-use trigon_edit::mesh::edit::EditMesh;
+use trigon_edit::mesh::edit::{EdgeId, EditMesh, FaceId};
 use trigon_edit::mesh::math::Vec3;
 use trigon_edit::mesh::{Attributes, Mesh, MeshBuilder, primitives};
 use trigon_edit::scene::{Material, MeshId, Scene};
@@ -88,52 +88,101 @@ enum Needs {
 struct Operation {
     name: &'static str,
     needs: Needs,
-    parameters: fn(&mut Random) -> Value,
+    parameters: fn(&mut Random, &Chosen<'_>) -> Value,
 }
 
-/// All commands that change meshes. A command that is added belongs here: see the last test.
+/// What is selected.
+struct Chosen<'s> {
+    mesh: &'s EditMesh,
+    first: Option<u32>,
+}
+
+impl Chosen<'_> {
+    /// Whether the first selected edge has a mark.
+    fn edge(&self, has: fn(&EditMesh, EdgeId) -> bool) -> bool {
+        self.first.is_some_and(|edge| has(self.mesh, EdgeId::new(edge)))
+    }
+
+    /// Whether the first selected face has a mark.
+    fn face(&self, has: fn(&EditMesh, FaceId) -> bool) -> bool {
+        self.first.is_some_and(|face| has(self.mesh, FaceId::new(face)))
+    }
+}
+
+/// All commands that change meshes.
 fn operations() -> Vec<Operation> {
     use Needs::Some;
     let operation = |name, needs, parameters| Operation { name, needs, parameters };
     vec![
-        operation("translate", Some("vertex", 5), |r| json!({ "offset": r.vector() })),
-        operation("rotate", Some("face", 3), |r| json!({ "angle": r.share() * 90.0, "axis": r.vector() })),
-        operation("scale", Some("edge", 4), |r| json!({ "factors": r.vector().map(|x| 1.0 + 0.5 * x) })),
-        operation("shear", Some("vertex", 5), |r| json!({ "factor": r.share() })),
-        operation("to_sphere", Some("face", 4), |r| json!({ "factor": r.share() })),
-        operation("shrink_fatten", Some("face", 4), |r| json!({ "distance": 0.2 * r.share() })),
-        operation("push_pull", Some("vertex", 4), |r| json!({ "distance": 0.2 * r.share() })),
-        operation("reset_vertices", Some("vertex", 1000), |_| json!({})),
-        operation("subdivide", Some("edge", 6), |r| json!({ "cuts": 1 + r.below(3) })),
+        operation("translate", Some("vertex", 5), |r, _| json!({ "offset": r.vector() })),
+        operation("rotate", Some("face", 3), |r, _| json!({ "angle": r.share() * 90.0, "axis": r.vector() })),
+        operation("scale", Some("edge", 4), |r, _| json!({ "factors": r.vector().map(|x| 1.0 + 0.5 * x) })),
+        operation("shear", Some("vertex", 5), |r, _| json!({ "factor": r.share() })),
+        operation("to_sphere", Some("face", 4), |r, _| json!({ "factor": r.share() })),
+        operation("shrink_fatten", Some("face", 4), |r, _| json!({ "distance": 0.2 * r.share() })),
+        operation("push_pull", Some("vertex", 4), |r, _| json!({ "distance": 0.2 * r.share() })),
+        operation("reset_vertices", Some("vertex", 1000), |_, _| json!({})),
+        operation("subdivide", Some("edge", 6), |r, _| json!({ "cuts": 1 + r.below(3) })),
         operation(
             "loop_cut",
             Some("edge", 1),
-            |r| json!({ "cuts": 1 + r.below(2), "position": r.share() * 0.5 }),
+            |r, _| json!({ "cuts": 1 + r.below(2), "position": r.share() * 0.5 }),
         ),
-        operation("slide_edges", Some("edge", 1), |r| json!({ "factor": 0.5 * r.share() })),
-        operation("merge", Some("vertex", 3), |r| {
+        operation("slide_edges", Some("edge", 1), |r, _| json!({ "factor": 0.5 * r.share() })),
+        operation("merge", Some("vertex", 3), |r, _| {
             let at = ["center", "first", "last", "collapse", "distance"][r.below(5)];
             json!({ "at": at, "distance": 0.5 })
         }),
-        operation("mark_sharp", Some("edge", 4), |r| json!({ "sharp": r.below(4) > 0 })),
-        operation("mark_seam", Some("edge", 4), |r| json!({ "seam": r.below(4) > 0 })),
-        operation("crease", Some("edge", 4), |r| json!({ "crease": (r.share() + 1.0) / 2.0 })),
-        operation("shade", Some("face", 4), |r| json!({ "smooth": r.below(2) == 0 })),
-        operation("assign_material", Some("face", 4), |r| json!({ "material": r.below(50) })),
-        operation("hide", Some("face", 2), |_| json!({})),
-        operation("reveal", Some("face", 1), |_| json!({})),
-        operation("flip_normals", Some("face", 3), |_| json!({})),
-        operation("recalculate_normals", Some("face", 1000), |r| json!({ "inside": r.below(2) == 0 })),
+        operation("mark_sharp", Some("edge", 4), |_, at| json!({ "sharp": (!at.edge(EditMesh::is_sharp)) })),
+        operation("mark_seam", Some("edge", 4), |_, at| json!({ "seam": (!at.edge(EditMesh::is_seam)) })),
+        operation("crease", Some("edge", 4), |r, _| json!({ "crease": (r.share() + 1.0) / 2.0 })),
+        operation("shade", Some("face", 4), |_, at| json!({ "smooth": (!at.face(EditMesh::is_smooth)) })),
+        operation("assign_material", Some("face", 4), |r, _| json!({ "material": r.below(50) })),
+        operation("hide", Some("face", 2), |_, _| json!({})),
+        operation("reveal", Some("face", 1), |_, _| json!({})),
+        operation("flip_normals", Some("face", 3), |_, _| json!({})),
+        operation("recalculate_normals", Some("face", 1000), |r, _| json!({ "inside": r.below(2) == 0 })),
         operation(
             "mirror",
             Some("face", 4),
-            |r| json!({ "plane": { "normal": r.vector() }, "copy": r.below(2) == 0, "merge_distance": 0.01 }),
+            |r, _| json!({ "plane": { "normal": r.vector() }, "copy": r.below(2) == 0, "merge_distance": 0.01 }),
         ),
-        operation("symmetrize", Some("face", 1000), |r| json!({ "plane": { "normal": r.vector() } })),
+        operation("symmetrize", Some("face", 1000), |r, _| json!({ "plane": { "normal": r.vector() } })),
+        operation(
+            "extrude",
+            Some("face", 3),
+            |r, _| json!({ "distance": (0.3 * r.share()), "individual": (r.below(3) == 0) }),
+        ),
+        operation("inset", Some("face", 3), |r, _| {
+            let mode = ["region", "individual", "outset"][r.below(3)];
+            json!({ "thickness": 0.05, "depth": (0.1 * r.share()), "mode": mode })
+        }),
+        operation(
+            "bevel",
+            Some("edge", 3),
+            |r, _| json!({ "width": 0.05, "segments": (1 + r.below(3)), "vertices": (r.below(4) == 0) }),
+        ),
+        operation("duplicate", Some("face", 3), |r, _| json!({ "offset": (r.vector()) })),
+        operation("split_off", Some("face", 2), |_, _| json!({})),
+        operation("dissolve", Some("edge", 1), |_, _| json!({})),
+        operation("dissolve_flat", Some("face", 1000), |_, _| json!({ "angle": 40 })),
+        operation("catmull_clark", Some("face", 1), |_, _| json!({})),
+        operation("triangulate", Some("face", 3), |_, _| json!({})),
+        operation(
+            "tris_to_quads",
+            Some("face", 1000),
+            |_, _| json!({ "face_angle": 180, "shape_angle": 180 }),
+        ),
+        operation("connect_vertices", Some("vertex", 4), |_, _| json!({})),
+        operation("fill", Some("edge", 3), |_, _| json!({})),
+        operation("bridge", Some("edge", 2), |_, _| json!({})),
+        operation("project_uvs", Some("face", 3), |r, _| json!({ "normal": (r.vector()) })),
+        operation("project_uvs_on_box", Some("face", 3), |r, _| json!({ "center": (r.vector()) })),
+        operation("repair", Some("face", 1), |_, _| json!({ "zero_length": 0.3, "zero_area": 0.05 })),
         operation(
             "delete",
             Some("face", 2),
-            |r| json!({ "what": (["vertices", "edges", "faces", "only_faces"][r.below(4)]) }),
+            |r, _| json!({ "what": (["vertices", "edges", "faces", "only_faces"][r.below(4)]) }),
         ),
     ]
 }
@@ -236,9 +285,26 @@ fn ten_thousand_random_operations_keep_meshes_whole() {
             } else {
                 operations.iter().min_by_key(fewest).expect("there are some")
             };
+            // So that there is something to do.
+            let prepare = match operation.name {
+                "recalculate_normals" => Some(("face", 2, "flip_normals")),
+                "tris_to_quads" | "dissolve_flat" => Some(("face", 2, "triangulate")),
+                "triangulate" => Some(("edge", 1, "dissolve")),
+                "reveal" => Some(("face", 2, "hide")),
+                // A loose edge.
+                "repair" => Some(("vertex", 1, "extrude")),
+                _ => None,
+            };
+            if let Some((kind, count, prepare)) = prepare {
+                session.select(Needs::Some(kind, count), &mut random);
+                // Where nothing can be prepared, the operation counts all the same.
+                drop(session.document.run(command(prepare, json!({}))));
+            }
             session.select(operation.needs, &mut random);
             let before = session.mesh().clone();
-            let parameters = (operation.parameters)(&mut random);
+            let selection = session.document.selection().of(session.mesh).expect("it is edited");
+            let chosen = Chosen { mesh: session.mesh(), first: selection.indices().next() };
+            let parameters = (operation.parameters)(&mut random, &chosen);
             let said = parameters.to_string();
             let result = session.document.run(command(operation.name, parameters));
             total += 1;
@@ -263,6 +329,8 @@ fn ten_thousand_random_operations_keep_meshes_whole() {
     println!("{:24} {:>6} {:>8} {:>8}", "operation", "done", "changed", "refused");
     for (name, count) in &counts {
         println!("{name:24} {:>6} {:>8} {:>8}", count.done, count.changed, count.refused);
+    }
+    for (name, count) in &counts {
         let share = count.changed as f64 / count.done as f64;
         assert!(share >= 0.8, "{name} changed only {} of {} meshes", count.changed, count.done);
     }

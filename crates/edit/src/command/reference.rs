@@ -80,9 +80,12 @@ fn choices(definition: &Value) -> String {
 
 /// The parameters of a command or of a type.
 fn table(value: &Value, definitions: &Value) -> String {
-    let Some(properties) = value["properties"].as_object().filter(|properties| !properties.is_empty()) else {
+    // The name of a command is its heading.
+    let properties = value["properties"].as_object().into_iter().flatten().filter(|(name, _)| *name != "op");
+    let properties: Vec<_> = properties.collect();
+    if properties.is_empty() {
         return String::new();
-    };
+    }
     let mut table = String::from("\n| parameter | type | default | |\n|---|---|---|---|\n");
     for (name, property) in properties {
         let default = match &property["default"] {

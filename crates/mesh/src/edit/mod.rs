@@ -44,7 +44,6 @@ pub use inspect::{
 };
 pub use marks::{EdgeMark, Marks, MarksError};
 pub use operations::*;
-pub use operations::{Connected, Filled, GridSides, MergedVertices, QuadLimits, Subdivided, Triangulated};
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;
