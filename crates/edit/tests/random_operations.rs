@@ -291,6 +291,7 @@ fn ten_thousand_random_operations_keep_meshes_whole() {
                 "tris_to_quads" | "dissolve_flat" => Some(("face", 2, "triangulate")),
                 "triangulate" => Some(("edge", 1, "dissolve")),
                 "reveal" => Some(("face", 2, "hide")),
+                "reset_vertices" => Some(("vertex", 5, "to_sphere")),
                 // A loose edge.
                 "repair" => Some(("vertex", 1, "extrude")),
                 _ => None,
