@@ -106,7 +106,9 @@ pub(crate) fn parse_document(path: &Path, json: &[u8]) -> Result<Document, LoadE
         // The first error has the line; the second try has legal oddities mended.
         Err(error) => parse_mended(json).ok_or_else(|| json_error(path, &error))?,
     };
-    let raw: RawDocument = serde_json::from_slice(json).map_err(|error| json_error(path, &error))?;
+    // `extras` are first read as text. Bytes that are not UTF-8 can only be in strings.
+    let text = String::from_utf8_lossy(json);
+    let raw: RawDocument = serde_json::from_str(&text).map_err(|error| json_error(path, &error))?;
     let target_names = raw.meshes.iter().map(RawMesh::target_names).collect();
     let native_meshes = raw.meshes.iter().map(RawMesh::native).collect();
     let native_materials = raw.materials.into_iter().map(|material| material.extras).collect();

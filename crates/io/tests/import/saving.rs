@@ -460,6 +460,40 @@ fn removed_nodes_and_animations_are_gone_and_the_rest_moves_as_before() {
     assert_eq!(second.scene.animations, [], "none");
 }
 
+#[test]
+fn a_changed_animation_keeps_its_place_and_names_what_it_cannot_hold() {
+    let mut doc = animated();
+    doc.json["animations"][0]["extras"] = json!("kept");
+    let pointer = json!({"sampler": 0, "target": {"path": "pointer"}});
+    push(&mut doc.json["animations"][0]["channels"], pointer);
+    let (mut first, _) = document("a.glb", &doc.glb());
+    assert_eq!(first.encode().expect("small").what_would_be_lost(), [], "as long as it stays");
+    let again = first.scene.animations[0].clone();
+    first.scene.animations.push(again);
+    first.scene.animations[0].name = "renamed".to_owned();
+    let file = first.encode().expect("small");
+    let lost: Vec<String> = file.what_would_be_lost().iter().map(ToString::to_string).collect();
+    let saved = file.to_bytes();
+    let (second, _) = document("a.glb", &saved);
+    let names = |document: &NativeDocument| -> Vec<String> {
+        document.scene.animations.iter().map(|animation| animation.name.clone()).collect()
+    };
+    let sorted = |mut names: Vec<String>| {
+        names.sort();
+        names
+    };
+    assert_eq!(sorted(names(&second)), sorted(names(&first)), "both are there");
+    let json = json_of(&saved);
+    assert_eq!(json["animations"][0]["extras"], json!("kept"), "in its place");
+    // The copy takes the place of the one that it equals, and the other is new.
+    assert_eq!(lost, [""; 0], "the channel is still in the copy");
+    first.scene.animations.pop();
+    let file = first.encode().expect("small");
+    let lost = file.what_would_be_lost();
+    let what = "animation 0: its channels that move something other than nodes";
+    assert_eq!(lost.iter().map(ToString::to_string).collect::<Vec<_>>(), [what], "now it is gone");
+}
+
 /// A file must not grow by a mesh each time that it is opened, edited and saved.
 #[test]
 fn a_mesh_that_is_written_anew_leaves_nothing_behind() {

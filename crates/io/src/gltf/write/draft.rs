@@ -2,13 +2,13 @@
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{self, Write};
 use std::ops::Range;
 
 use gltf::json::accessor::{ComponentType, Type};
 use serde::Serialize;
 use serde_json::value::RawValue;
 
+use super::glb_file::GlbFile;
 use super::raw::{RawObject, raw};
 use crate::gltf::hash::xxh64;
 use crate::gltf::triangle_hash::accessor_hash;
@@ -367,42 +367,4 @@ fn bounds<const N: usize>(values: &[[f32; N]]) -> ([f32; N], [f32; N]) {
         }
         (min, max)
     })
-}
-
-/// A GLB in parts.
-pub(super) struct GlbFile<'a> {
-    json: Vec<u8>,
-    segments: Vec<Cow<'a, [u8]>>,
-    binary: usize,
-}
-
-impl GlbFile<'_> {
-    /// Of the file and its two chunks.
-    const HEADERS: usize = 12 + 8 + 8;
-
-    pub(super) fn write_to(&self, writer: &mut dyn Write) -> io::Result<()> {
-        let has_binary = self.binary > 0;
-        let without = if has_binary { 0 } else { 8 };
-        let length = Self::HEADERS - without + self.json.len() + self.binary;
-        let word = |value: usize| (value as u32).to_le_bytes();
-        writer.write_all(b"glTF\x02\0\0\0")?;
-        writer.write_all(&word(length))?;
-        writer.write_all(&word(self.json.len()))?;
-        writer.write_all(b"JSON")?;
-        writer.write_all(&self.json)?;
-        if has_binary {
-            writer.write_all(&word(self.binary))?;
-            writer.write_all(b"BIN\0")?;
-            for segment in &self.segments {
-                writer.write_all(segment)?;
-            }
-        }
-        Ok(())
-    }
-
-    pub(super) fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes = Vec::with_capacity(Self::HEADERS + self.json.len() + self.binary);
-        self.write_to(&mut bytes).expect("memory takes every byte");
-        bytes
-    }
 }

@@ -9,6 +9,7 @@
 mod draft;
 mod freed;
 mod geometry;
+mod glb_file;
 mod kept;
 mod materials;
 mod meshes;

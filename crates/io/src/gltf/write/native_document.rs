@@ -7,7 +7,7 @@ use std::path::Path;
 use trigon_mesh::edit::EditMesh;
 use trigon_scene::{MeshId, Scene};
 
-use super::draft::GlbFile;
+use super::glb_file::GlbFile;
 use super::scene::{Input, write_scene};
 use super::{KeptFile, Loss};
 use crate::error::{LoadError, Place};

@@ -1,18 +1,22 @@
 //! A scene into a document, part by part.
 
+mod animations;
+mod choice;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::json;
 use trigon_math::DAffine3;
 use trigon_mesh::edit::EditMesh;
-use trigon_scene::{Animation, Material, MaterialId, MeshId, Node, NodeId, Scene, Skin, SkinId};
+use trigon_scene::{Material, MaterialId, MeshAsset, MeshId, Node, NodeId, Scene, Skin, SkinId};
 
-use super::draft::{Draft, GlbFile};
+use super::draft::Draft;
 use super::freed::Replaced;
+use super::glb_file::GlbFile;
 use super::kept::draft_of;
 use super::materials::{plain, write_material};
 use super::meshes::{Shape, Written, losses};
-use super::movement::{write_animation, write_skin};
+use super::movement::write_skin;
 use super::nodes::{camera, matrix, write_node};
 use super::raw::RawObject;
 use super::textures::Textures;
@@ -20,6 +24,7 @@ use super::{KeptFile, Loss};
 use crate::error::Place;
 use crate::gltf::source::GltfSource;
 use crate::write::WriteError;
+use choice::{Choice, unchanged_copies};
 
 /// What is to be written.
 pub(super) struct Input<'a> {
@@ -73,64 +78,6 @@ pub(super) fn write_scene<'a>(input: &Input<'a>) -> Result<WrittenScene<'a>, Wri
     std::mem::take(&mut writer.replaced).free(&mut writer.draft);
     let SceneWriter { draft, losses, .. } = writer;
     Ok(WrittenScene { file: draft.finish()?, losses })
-}
-
-/// Which nodes are written.
-struct Choice {
-    /// All of them, or none if that is everything.
-    chosen: Option<BTreeSet<NodeId>>,
-    /// Those that only hold others: what these hang on, and joints.
-    bare: BTreeSet<NodeId>,
-}
-
-impl Choice {
-    fn new(scene: &Scene, nodes: Option<&[NodeId]>) -> Self {
-        let Some(nodes) = nodes else { return Self { chosen: None, bare: BTreeSet::new() } };
-        let chosen: BTreeSet<NodeId> = nodes.iter().copied().filter(|&id| scene.node(id).is_some()).collect();
-        let skins = chosen.iter().filter_map(|&id| scene.skins.get(scene.node(id)?.skin?));
-        let joints: Vec<NodeId> = skins.flat_map(|skin| skin.joints.iter().copied()).collect();
-        let mut bare = BTreeSet::new();
-        for &id in chosen.iter().chain(&joints) {
-            // What is known has been followed to its root.
-            let above = scene.ancestors(id).take_while(|above| *above == id || !bare.contains(above));
-            let above: Vec<NodeId> = above.filter(|&above| scene.node(above).is_some()).collect();
-            bare.extend(above);
-        }
-        bare.retain(|id| !chosen.contains(id));
-        Self { chosen: Some(chosen), bare }
-    }
-
-    fn has(&self, id: NodeId) -> bool {
-        self.chosen.as_ref().is_none_or(|chosen| chosen.contains(&id) || self.bare.contains(&id))
-    }
-}
-
-/// The nodes that EXT_mesh_gpu_instancing made when a file was read, if all that hang on one
-/// node are as they were: the file need not name them. By that node.
-fn unchanged_copies(scene: &Scene, kept: &KeptFile) -> BTreeMap<NodeId, Vec<NodeId>> {
-    let mut copies: BTreeMap<NodeId, Vec<NodeId>> = BTreeMap::new();
-    for (id, node) in kept.scene.nodes().iter() {
-        if let (None, Some(parent)) = (kept.source.node(id), node.parent()) {
-            copies.entry(parent).or_default().push(id);
-        }
-    }
-    copies.retain(|&parent, copies| {
-        let holder = scene.node(parent).is_some_and(|node| node.mesh.is_none());
-        let is_same = |&id: &NodeId| match (scene.node(id), kept.scene.node(id)) {
-            (Some(now), Some(was)) => same_node(now, was) && now.materials == was.materials,
-            _ => false,
-        };
-        holder && copies.iter().all(is_same)
-    });
-    copies
-}
-
-fn same_node(now: &Node, was: &Node) -> bool {
-    now.parent() == was.parent()
-        && now.children() == was.children()
-        && (&now.name, now.transform, now.mesh, now.skin, now.visible)
-            == (&was.name, was.transform, was.mesh, was.skin, was.visible)
-        && (&now.morph_weights, now.light, now.camera) == (&was.morph_weights, was.light, was.camera)
 }
 
 /// A mesh, and the material of each of its slots in the file.
@@ -248,22 +195,12 @@ impl<'a> SceneWriter<'a> {
         let edited = self.edited.and_then(|edited| edited.get(&id));
         let shape = Shape::new(asset, edited);
         let origin = self.kept.and_then(|kept| kept.source.mesh(id));
-        let mut object = origin.map(|index| self.draft.object("meshes", index)).unwrap_or_default();
-        let was = self.kept.and_then(|kept| kept.scene.meshes().get(id)).map_or("", |asset| &asset.name);
-        if asset.name != was {
-            object.set_or_remove("name", Some(&asset.name).filter(|name| !name.is_empty()));
-        }
+        let object = self.mesh_object(id, asset, origin);
         let unchanged =
             origin.is_some() && self.kept.is_some_and(|kept| shape.is_unchanged(id, kept, edited));
         let written = match unchanged {
             true => Some(Written::kept(object.clone())),
-            false => {
-                if let Some(index) = origin {
-                    self.replaced.note(&object);
-                    self.losses.extend(losses(&object, index, &shape.mesh));
-                }
-                Written::new(&mut self.draft, object.clone(), &shape, self.edited.is_some())
-            }
+            false => self.write_shape(&object, origin, &shape),
         };
         let Some(written) = written else {
             self.lose(users, "its mesh, which has no vertices");
@@ -278,10 +215,9 @@ impl<'a> SceneWriter<'a> {
         let keeper = uses.iter().position(|(_, materials)| written.has_materials(materials)).unwrap_or(0);
         if let Some(index) = origin {
             known.insert(&uses[keeper], index);
-            if unchanged && written.has_materials(&uses[keeper].1) {
-                self.draft.update("meshes", index, &object);
-            } else {
-                self.draft.set("meshes", index, &written.in_materials(&uses[keeper].1));
+            match unchanged && written.has_materials(&uses[keeper].1) {
+                true => self.draft.update("meshes", index, &object),
+                false => self.draft.set("meshes", index, &written.in_materials(&uses[keeper].1)),
             }
         }
         for ((node, _), of_node) in users.iter().zip(&uses) {
@@ -289,6 +225,30 @@ impl<'a> SceneWriter<'a> {
             let write = || draft.push("meshes", &written.in_materials(&of_node.1));
             found.insert(*node, *known.entry(of_node).or_insert_with(write));
         }
+    }
+
+    /// What the file says of a mesh, with its name.
+    fn mesh_object(&self, id: MeshId, asset: &MeshAsset, origin: Option<usize>) -> RawObject {
+        let mut object = origin.map(|index| self.draft.object("meshes", index)).unwrap_or_default();
+        let was = self.kept.and_then(|kept| kept.scene.meshes().get(id)).map_or("", |asset| &asset.name);
+        if asset.name != was {
+            object.set_or_remove("name", Some(&asset.name).filter(|name| !name.is_empty()));
+        }
+        object
+    }
+
+    /// Writes the accessors of a mesh that is not in the file, or not as it is there.
+    fn write_shape(
+        &mut self,
+        object: &RawObject,
+        origin: Option<usize>,
+        shape: &Shape<'_>,
+    ) -> Option<Written> {
+        if let Some(index) = origin {
+            self.replaced.note(object);
+            self.losses.extend(losses(object, index, &shape.mesh));
+        }
+        Written::new(&mut self.draft, object.clone(), shape, self.edited.is_some())
     }
 
     fn lose(&mut self, users: &[(NodeId, &Node)], what: &str) {
@@ -300,12 +260,11 @@ impl<'a> SceneWriter<'a> {
 
     /// The material of each slot of a node's mesh.
     fn slot_materials(&mut self, node: &Node, slots: usize) -> Vec<Option<usize>> {
-        // A face may name any slot: those beyond the list are all the same.
-        let listed = node.materials.iter().map(|&id| self.material(id)).collect::<Vec<_>>();
         /// More than any file has in use; what lies beyond is drawn in the format's default.
         const MOST_SLOTS: usize = 1 << 16;
+        let mut materials: Vec<Option<usize>> = node.materials.iter().map(|&id| self.material(id)).collect();
+        // A face may name any slot: those beyond the list are all the same.
         let slots = slots.min(MOST_SLOTS);
-        let mut materials = listed;
         if materials.len() < slots {
             let stand_in = Some(self.stand_in());
             materials.resize(slots, stand_in);
@@ -423,61 +382,6 @@ impl<'a> SceneWriter<'a> {
         }
     }
 
-    /// Animations that are in the file stay; others are written, and those that were removed go.
-    fn write_animations(&mut self) {
-        let was: &[Animation] = self.kept.map_or(&[], |kept| &kept.scene.animations);
-        let now = &self.scene.animations;
-        if self.kept.is_some() && was == now {
-            return;
-        }
-        let kept = self.kept;
-        let origin = |place: usize| kept.and_then(|kept| kept.source.animation(place));
-        let same_place = places_of(was, now);
-        let taken: BTreeSet<usize> = same_place.iter().flatten().copied().collect();
-        let removed: BTreeSet<usize> =
-            (0..was.len()).filter(|place| !taken.contains(place)).filter_map(origin).collect();
-        for (animation, place) in now.iter().zip(&same_place) {
-            if place.is_some_and(|place| was[place] == *animation && origin(place).is_some()) {
-                continue;
-            }
-            let indices = &self.indices;
-            let Some(written) = write_animation(&mut self.draft, animation, |id| indices.get(&id).copied())
-            else {
-                continue;
-            };
-            match place.and_then(origin) {
-                Some(index) => self.change_animation(index, &written),
-                None => drop(self.draft.push("animations", &written)),
-            }
-        }
-        if !removed.is_empty() {
-            let mut index = 0;
-            self.draft.list_mut("animations").retain(|_| {
-                index += 1;
-                !removed.contains(&(index - 1))
-            });
-        }
-    }
-
-    fn change_animation(&mut self, index: usize, written: &RawObject) {
-        let mut object = self.draft.object("animations", index);
-        let channels = object.list("channels");
-        let foreign = channels
-            .iter()
-            .filter(|channel| RawObject::parse(channel.get()).object("target").get("node").is_none());
-        if foreign.count() > 0 {
-            let what = "its channels that move something other than nodes".to_owned();
-            self.losses.push(Loss { place: Place::Item("animation", index), what });
-        }
-        for name in ["name", "channels", "samplers"] {
-            let text =
-                written.get(name).map(|text| serde_json::value::RawValue::from_string(text.to_owned()));
-            let text = text.and_then(Result::ok);
-            object.set_or_remove(name, text.as_ref());
-        }
-        self.draft.update("animations", index, &object);
-    }
-
     /// The scene and its roots.
     fn write_roots(&mut self, map: Option<DAffine3>) {
         let roots = |scene: &Scene| -> Vec<NodeId> {
@@ -515,20 +419,4 @@ const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 
 fn same_skin(a: &Skin, b: &Skin) -> bool {
     (&a.name, &a.joints, &a.inverse_bind_matrices) == (&b.name, &b.joints, &b.inverse_bind_matrices)
-}
-
-/// Where each animation was: the place of an equal one, else its own place if no other was there.
-/// No two were at one place.
-fn places_of(was: &[Animation], now: &[Animation]) -> Vec<Option<usize>> {
-    let mut places: Vec<Option<usize>> =
-        (0..now.len()).map(|place| (was.get(place) == Some(&now[place])).then_some(place)).collect();
-    let mut taken: BTreeSet<usize> = places.iter().flatten().copied().collect();
-    for (place, found) in places.iter_mut().enumerate().filter(|(_, found)| found.is_none()) {
-        *found = (0..was.len()).find(|other| !taken.contains(other) && was[*other] == now[place]);
-        taken.extend(*found);
-    }
-    for (place, found) in places.iter_mut().enumerate().filter(|(_, found)| found.is_none()) {
-        *found = Some(place).filter(|place| *place < was.len() && !taken.contains(place));
-    }
-    places
 }

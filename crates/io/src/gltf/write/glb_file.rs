@@ -1,0 +1,45 @@
+//! The GLB container: a header, the JSON, and the bytes of the buffer (glTF 2.0 specification,
+//! section 4.4).
+
+use std::borrow::Cow;
+use std::io::{self, Write};
+
+/// A GLB in parts.
+pub(super) struct GlbFile<'a> {
+    /// Padded to whole words.
+    pub(super) json: Vec<u8>,
+    pub(super) segments: Vec<Cow<'a, [u8]>>,
+    /// How many bytes the segments have in all.
+    pub(super) binary: usize,
+}
+
+impl GlbFile<'_> {
+    /// Of the file and its two chunks.
+    pub(super) const HEADERS: usize = 12 + 8 + 8;
+
+    pub(super) fn write_to(&self, writer: &mut dyn Write) -> io::Result<()> {
+        let has_binary = self.binary > 0;
+        let without = if has_binary { 0 } else { 8 };
+        let length = Self::HEADERS - without + self.json.len() + self.binary;
+        let word = |value: usize| (value as u32).to_le_bytes();
+        writer.write_all(b"glTF\x02\0\0\0")?;
+        writer.write_all(&word(length))?;
+        writer.write_all(&word(self.json.len()))?;
+        writer.write_all(b"JSON")?;
+        writer.write_all(&self.json)?;
+        if has_binary {
+            writer.write_all(&word(self.binary))?;
+            writer.write_all(b"BIN\0")?;
+            for segment in &self.segments {
+                writer.write_all(segment)?;
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(Self::HEADERS + self.json.len() + self.binary);
+        self.write_to(&mut bytes).expect("memory takes every byte");
+        bytes
+    }
+}
