@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use trigon_edit::mesh::Mesh;
+use trigon_edit::mesh::math::elementary;
 use trigon_edit::{Document, Script};
 
 fn modelled(script: &str) -> Mesh {
@@ -23,7 +24,7 @@ fn the_mug_is_closed_has_a_handle_and_the_volume_of_its_drawing() {
     let inner: f64 = radius - wall;
     let body = PI * radius * radius * height - PI * inner * inner * (height - floor);
     // Four sides of the cylinder wide.
-    let width = 2.0 * radius * (PI / 16.0).sin();
+    let width = 2.0 * radius * elementary::sin(PI / 16.0);
     let arms = 2.0 * width * 0.01 * 0.03;
     let grip = width * 0.01 * 0.04;
     let drawn = body + arms + grip;

@@ -62,7 +62,9 @@ pub use material::{AlphaMode, Material, MetallicRoughness, NormalMap, Occlusion,
 pub use node::Node;
 pub use pick::{ElementSet, Nearest, Pick, Picker, Reach, Region};
 pub use render::{RenderError, Renderer, RendererBuilder, render};
-pub use scene::{MaterialId, MeshAsset, MeshId, NodeId, Scene, SceneError, SceneParts, SkinId, TextureAsset, TextureId};
+pub use scene::{
+    MaterialId, MeshAsset, MeshId, NodeId, Scene, SceneError, SceneParts, SkinId, TextureAsset, TextureId,
+};
 pub use settings::{Lighting, MAX_SIZE, Outputs, Reflection, RenderSettings, ShadingModel, Style};
 pub use showcase::showcase;
 pub use skin::{Skin, SkinPose};

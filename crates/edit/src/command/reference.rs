@@ -16,14 +16,14 @@ pub fn command_reference() -> String {
         let Some(name) = variant["properties"]["op"]["const"].as_str() else { continue };
         let parameters = resolve(variant, definitions);
         page.push_str(&format!("\n## `{name}`\n\n{}\n", described(parameters)));
-        page.push_str(&table(parameters, definitions));
+        page.push_str(&table(parameters));
     }
     let mut shared = String::new();
     for (name, definition) in definitions.as_object().into_iter().flatten() {
         if !is_command(name, &schema) {
             shared.push_str(&format!("\n### {name}\n\n{}\n", described(definition)));
             shared.push_str(&choices(definition));
-            shared.push_str(&table(definition, definitions));
+            shared.push_str(&table(definition));
         }
     }
     page.push_str("\n## Types\n");
@@ -79,7 +79,7 @@ fn choices(definition: &Value) -> String {
 }
 
 /// The parameters of a command or of a type.
-fn table(value: &Value, definitions: &Value) -> String {
+fn table(value: &Value) -> String {
     // The name of a command is its heading.
     let properties = value["properties"].as_object().into_iter().flatten().filter(|(name, _)| *name != "op");
     let properties: Vec<_> = properties.collect();
@@ -93,7 +93,7 @@ fn table(value: &Value, definitions: &Value) -> String {
             default => format!("`{default}`"),
         };
         let text = format!("{}{}", described(property), range(property));
-        table.push_str(&format!("| `{name}` | {} | {default} | {text} |\n", type_of(property, definitions)));
+        table.push_str(&format!("| `{name}` | {} | {default} | {text} |\n", type_of(property)));
     }
     table
 }
@@ -107,18 +107,18 @@ fn range(property: &Value) -> String {
     }
 }
 
-fn type_of(property: &Value, definitions: &Value) -> String {
+fn type_of(property: &Value) -> String {
     if let Some(path) = property["$ref"].as_str() {
         let name = path.rsplit('/').next().unwrap_or(path);
         return format!("[{name}](#{})", name.to_lowercase());
     }
     if let Some(any) = property["anyOf"].as_array() {
         let types = any.iter().filter(|one| one["type"] != "null");
-        return types.map(|one| type_of(one, definitions)).collect::<Vec<_>>().join(" or ");
+        return types.map(type_of).collect::<Vec<_>>().join(" or ");
     }
     let simple = |name: &str| match name {
         "array" if !property["items"].is_null() => {
-            let of = type_of(&property["items"], definitions);
+            let of = type_of(&property["items"]);
             match property["maxItems"].as_u64() {
                 Some(count) => format!("{count} × {of}"),
                 None => format!("list of {of}"),
