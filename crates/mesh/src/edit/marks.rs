@@ -8,7 +8,8 @@ use trigon_math::Vec3;
 use super::column::Column;
 use super::edit_mesh::EditMesh;
 use super::from_mesh::LeftOut;
-use super::ids::{FaceId, VertexId};
+use super::ids::{CornerId, FaceId, VertexId};
+use super::layers::LayerKind;
 use super::records::{HIDDEN, SEAM, SHARP};
 use super::to_mesh::ElementMap;
 use crate::Mesh;
@@ -24,6 +25,8 @@ pub struct Marks {
     pub hidden_vertices: Vec<u32>,
     /// Faces that are hidden from the user.
     pub hidden_faces: Vec<u32>,
+    /// Corners whose normal in the mesh was not given: sharp edges make it, and it follows them.
+    pub sharp_corners: Vec<u32>,
 }
 
 /// The marks of one edge.
@@ -62,6 +65,9 @@ pub enum MarksError {
     /// There is no such face.
     #[error("face {0} is hidden and does not exist")]
     NoSuchFace(u32),
+    /// There is no such corner.
+    #[error("corner {0} has a normal made by sharp edges and does not exist")]
+    NoSuchCorner(u32),
 }
 
 impl EditMesh {
@@ -81,7 +87,32 @@ impl EditMesh {
             edges: self.edge_marks(map),
             hidden_vertices: hidden_vertices.map(|(index, _)| index).collect(),
             hidden_faces: hidden_faces.map(|(index, _)| index).collect(),
+            sharp_corners: self.sharp_corners(map),
         }
+    }
+
+    /// The corners of the mesh of [`EditMesh::to_mesh`] whose normals sharp edges make.
+    fn sharp_corners(&self, map: &ElementMap) -> Vec<u32> {
+        let Some(of_fans) = self.sharp_normals() else { return Vec::new() };
+        let is_made = |corner: CornerId| {
+            of_fans[corner.0 as usize] != Vec3::ZERO && self.custom_normal(corner).is_none()
+        };
+        (0u32..).zip(&map.corners).filter(|(_, corner)| is_made(**corner)).map(|(index, _)| index).collect()
+    }
+
+    /// Takes away normals that were not given, and all of them if none was.
+    fn clear_sharp_corners(&mut self, corners: &[u32]) -> Result<(), MarksError> {
+        for &index in corners {
+            let corner = CornerId(index);
+            if !self.has_corner(corner) {
+                return Err(MarksError::NoSuchCorner(index));
+            }
+            self.set_custom_normal(corner, Vec3::ZERO);
+        }
+        if !corners.is_empty() && self.corners().all(|corner| self.custom_normal(corner).is_none()) {
+            self.corner_layers.retain(|layer| layer.kind != LayerKind::Normal);
+        }
+        Ok(())
     }
 
     fn edge_marks(&self, map: &ElementMap) -> Vec<EdgeMark> {
@@ -153,6 +184,7 @@ impl EditMesh {
             editable.check_face(face).map_err(|_| MarksError::NoSuchFace(index))?;
             editable.set_face_hidden(face, true);
         }
+        editable.clear_sharp_corners(&marks.sharp_corners)?;
         Ok((editable, left_out))
     }
 
@@ -177,6 +209,19 @@ mod tests {
     use super::super::tests::meshes;
     use super::*;
     use crate::primitives;
+
+    #[test]
+    fn normals_that_sharp_edges_make_are_not_frozen() {
+        let (mut cube, _) = EditMesh::from_mesh(&primitives::cube(2.0));
+        let faces: Vec<FaceId> = cube.faces().collect();
+        let edges: Vec<EdgeId> = cube.edges().collect();
+        cube.shade_smooth(&faces).expect("a cube has faces");
+        cube.mark_sharp(&edges[..5]).expect("a cube has edges");
+        let (mesh, map) = cube.to_mesh();
+        assert!(mesh.attributes().corner_normals.is_some(), "they are shown");
+        let (again, _) = EditMesh::from_mesh_and_marks(&mesh, &cube.marks(&map)).expect("its own");
+        assert!(again == cube, "and not given");
+    }
 
     /// Marks elements by their indices and a number.
     fn marked(mesh: &Mesh, seed: u32) -> EditMesh {

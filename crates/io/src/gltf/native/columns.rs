@@ -152,6 +152,7 @@ fn write_marks(writer: &mut ColumnWriter, marks: &Marks) {
     writer.words("edgeMarks", edges.as_flattened().iter().copied());
     writer.words("hiddenVertices", marks.hidden_vertices.iter().copied());
     writer.words("hiddenFaces", marks.hidden_faces.iter().copied());
+    writer.words("sharpCorners", marks.sharp_corners.iter().copied());
 }
 
 /// Finds the bytes of columns by their names, and hashes what is asked for.
@@ -311,5 +312,6 @@ fn read_marks(reader: &mut ColumnReader<'_>) -> Result<Marks, String> {
         edges: edges.iter().map(edge).collect(),
         hidden_vertices: reader.words("hiddenVertices")?,
         hidden_faces: reader.words("hiddenFaces")?,
+        sharp_corners: reader.words("sharpCorners")?,
     })
 }
