@@ -55,6 +55,11 @@ pub(crate) struct FrameView<'f> {
 }
 
 impl<'f> FrameView<'f> {
+    /// Whether edges of faces are painted.
+    pub(crate) fn paints_lines(&self) -> bool {
+        self.ink.as_ref().is_some_and(Ink::has_lines)
+    }
+
     /// The rectangle that a tile sees.
     pub(crate) fn area(&self, tile: u32) -> TileArea {
         let Grid { viewport, size, apron, columns, .. } = self.grid;

@@ -5,6 +5,7 @@ use super::{FrameView, Plan, Wants};
 use crate::bin::{Chunk, Grid};
 use crate::clip;
 use crate::clock::Clock;
+use crate::geometry::Geometry;
 use crate::geometry::Shape;
 use crate::ink::Ink;
 use crate::line::LineStyle;
@@ -84,7 +85,7 @@ pub(crate) fn prepare<'f>(
     let viewport = Viewport { width: target.width() * axis, height: target.height() * axis };
     let wants = wants(target);
     let ink = if wants.color || how.finds_colors { ink(pass, axis) } else { None };
-    let apron = ink.map_or(0, |ink| ink.reach().next_multiple_of(axis));
+    let apron = ink.as_ref().map_or(0, |ink| ink.reach().next_multiple_of(axis));
     let tile_pixels = (own_side(how.tile_size, apron) / axis).max(1);
     let grid = Grid::new(viewport, target.pattern(), tile_pixels * axis).with_apron(apron);
     let Arena { plan, places, varyings, chunks, .. } = arena;
@@ -116,10 +117,12 @@ pub(crate) fn prepare<'f>(
     }
 }
 
-/// What paints edges, if there are any.
+/// What paints edges and marks, if there are any.
 fn ink(pass: &Pass<'_>, axis: u32) -> Option<Ink> {
-    let has_edges = pass.draws.iter().any(|draw| draw.geometry.shows_edges());
-    has_edges.then(|| Ink::new(&pass.edges?, axis)).flatten()
+    let any = |has: fn(&Geometry<'_>) -> bool| pass.draws.iter().any(|draw| has(&draw.geometry));
+    let edges = pass.edges.as_ref().filter(|_| any(|geometry| geometry.shows_edges()));
+    let marks = pass.marks.as_ref().filter(|_| any(|geometry| geometry.marks().is_some()));
+    Ink::new(edges, marks, axis)
 }
 
 /// The side of a tile without what it sees of its neighbours. With that it is as large as

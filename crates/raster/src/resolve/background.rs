@@ -23,7 +23,7 @@ impl FrameView<'_> {
     pub(crate) fn lined_background_at(&self, area: &TileArea, at: [usize; 2], outer: &OuterInk) -> Vec4 {
         let color = self.background_at(area, at);
         match (&self.ink, outer.at(TileArea::index_of(at))) {
-            (Some(ink), share) if share > 0.0 => ink.over(color, share),
+            (Some(ink), overlap) if overlap.share > 0.0 => ink.over(color, overlap),
             _ => color,
         }
     }

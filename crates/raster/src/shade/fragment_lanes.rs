@@ -2,7 +2,6 @@
 
 use super::ShadeContext;
 use super::columns::Columns;
-use super::lines_over::LinesOver;
 use super::records::{Records, Tag, cold, flag};
 use super::task::Vector;
 use super::weights::Weights;
@@ -151,14 +150,6 @@ impl<S: Simd> FragmentLanes<'_, S> {
             },
         );
         F32::simd_from(self.simd, nearest)
-    }
-
-    /// The colours with the edges that are painted over them.
-    #[inline(always)]
-    pub(super) fn with_lines(&self, color: [F32<S>; 4]) -> [F32<S>; 4] {
-        let Some(ink) = &self.context.frame.ink else { return color };
-        let over = LinesOver { ink, context: self.context, records: self.records, columns: self.columns };
-        over.lay(self.simd, self.vector.spots, color)
     }
 
     /// Calls `visit` with each active lane as a fragment of its own.

@@ -21,7 +21,6 @@ mod search;
 #[cfg(test)]
 mod tests;
 
-pub use elements::ElementSet;
 pub use nearest::Nearest;
 pub use picker::{Pick, Picker, Reach};
 pub use region::Region;

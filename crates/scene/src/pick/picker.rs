@@ -9,13 +9,14 @@ use trigon_math::DVec2;
 use trigon_mesh::Mesh;
 
 use super::covering::Centers;
-use super::elements::{ElementSet, Sets};
+use super::elements::Sets;
 use super::kind::Kind;
 use super::nearest::{Best, Nearest};
 use super::object::Object;
 use super::region::{Region, center};
 use super::screen::Screen;
 use super::search::for_each_pixel;
+use crate::elements::ElementSet;
 use crate::frame::{Frame, Hit};
 use crate::scene::{NodeId, Scene};
 

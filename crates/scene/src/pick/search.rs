@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use trigon_math::DVec2;
 
 use super::covering::Centers;
-use super::elements::{ElementSet, Sets};
+use super::elements::Sets;
 use super::hiding::{Candidate, Hiding};
 use super::kind::Kind;
 use super::nearest::Best;
@@ -15,6 +15,7 @@ use super::object::{Object, objects};
 use super::outline::Outline;
 use super::picker::{Picker, Reach};
 use super::region::{Area, Region, center};
+use crate::elements::ElementSet;
 use crate::frame::Hit;
 
 /// Elements whose points are found at a time. An edge may have as many points as the

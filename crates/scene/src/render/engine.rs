@@ -78,25 +78,21 @@ impl Engine {
         (rasterizer, counts): (&mut Rasterizer, &mut Counts),
     ) -> Result<(), RenderError> {
         let scenery = self.kept.scenery(stage, plan, rasterizer)?;
-        let (scene, settings) = (stage.scene, stage.settings);
-        let composer =
-            Composer::new(scene, camera, settings, (&stage.shapes, &scenery, &stage.eye, &stage.backdrop));
-        let draws = composer.draws(counts);
-        let behind = |pixel| stage.backdrop.at(pixel);
-        let mut pass = Pass::new();
-        pass.background(match stage.backdrop {
-            Backdrop::Color(color) => Background::Color(color),
-            Backdrop::Rows(..) | Backdrop::Environment(_) => Background::PerPixel(&behind),
-        });
-        if matches!(settings.style, Style::SurfaceWithEdges | Style::HiddenLine) {
-            pass.edges(settings.face_edges());
+        let settings = stage.settings;
+        if settings.share_through_faces().is_some() {
+            let wires = RenderSettings { style: Style::Wireframe, ..settings.clone() };
+            let target = blank(settings)?;
+            self.stats += record(stage, (camera, &scenery, &wires), &mut Counts::default(), |pass, _| {
+                self.kept.draw_beneath(pass, settings, target, rasterizer)
+            })?;
         }
-        draws.iter().for_each(|draw| draw.record(&mut pass));
         let needed = if apart { Needed::default() } else { Needed::of(&settings.outputs) };
         // Depth that has a pass of its own is not to be written twice.
         let depth = if apart { frame.depth.take() } else { None };
         let target = (blank(settings)?, &mut *frame, needed);
-        self.stats = self.kept.draw(&pass, (settings, plan), target, (rasterizer, counts))?;
+        self.stats += record(stage, (camera, &scenery, settings), counts, |pass, counts| {
+            self.kept.draw(pass, (settings, plan), target, (rasterizer, counts))
+        })?;
         if apart {
             frame.depth = depth;
         }
@@ -155,6 +151,32 @@ impl Engine {
             None => Rasterizer::new(how)?,
         })
     }
+}
+
+/// Records the colours of a stage as these settings have them, and does something with that.
+fn record<T>(
+    stage: &Stage<'_>,
+    (camera, scenery, settings): (&Camera, &Scenery, &RenderSettings),
+    counts: &mut Counts,
+    draw: impl FnOnce(&Pass<'_>, &mut Counts) -> T,
+) -> T {
+    let around = (&stage.shapes, scenery, &stage.eye, &stage.backdrop);
+    let composer = Composer::new(stage.scene, camera, settings, around);
+    let draws = composer.draws(counts);
+    let behind = |pixel| stage.backdrop.at(pixel);
+    let mut pass = Pass::new();
+    pass.background(match stage.backdrop {
+        Backdrop::Color(color) => Background::Color(color),
+        Backdrop::Rows(..) | Backdrop::Environment(_) => Background::PerPixel(&behind),
+    });
+    if matches!(settings.style, Style::SurfaceWithEdges | Style::HiddenLine) {
+        pass.edges(settings.face_edges());
+    }
+    if !settings.marks.is_plain() {
+        pass.marks(settings.marks.colors());
+    }
+    draws.iter().for_each(|draw| draw.record(&mut pass));
+    draw(&pass, counts)
 }
 
 /// A target of the right size and samples that keeps nothing.

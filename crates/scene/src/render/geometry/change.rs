@@ -12,6 +12,7 @@ use std::sync::{Arc, OnceLock};
 use trigon_mesh::{ChangedElements, Mesh, RenderMesh, RenderUpdate};
 
 use super::edge_flags::flags_of_face;
+use super::side_edges::sides_of_triangle;
 use super::{Geometry, GeometryState, places_for};
 
 impl Geometry {
@@ -47,6 +48,7 @@ impl Geometry {
             state: GeometryState::default(),
             bounds: OnceLock::new(),
             edge_flags: self.edge_flags.clone(),
+            side_edges: self.side_edges.clone(),
             rest: None,
             tangential: Vec::new(),
             pose: None,
@@ -80,6 +82,12 @@ impl Geometry {
             let vertex_of_corner = self.links.as_ref()?.vertex_of_corner();
             for (index, &corners) in place.clone().zip(triangles) {
                 self.triangles[index] = corners.map(|corner| vertex_of_corner[corner as usize]);
+            }
+            if let Some(sides) = self.side_edges.get_mut() {
+                let sides = &mut Arc::make_mut(sides)[place.clone()];
+                for (sides, triangle) in sides.iter_mut().zip(triangles) {
+                    *sides = sides_of_triangle(mesh, face, triangle);
+                }
             }
             if let Some(flags) = self.edge_flags.get_mut() {
                 let mut places = flags[place].iter_mut();
