@@ -89,7 +89,8 @@ impl<'a> Pass<'a> {
     ///
     /// Edges that meet in a pixel: the one that covers most of it gives the colour, of equal
     /// ones that with the greater mark. Where a face is too small for single edges, it is the
-    /// greatest mark of its triangle's.
+    /// greatest mark of its triangle's. Which of two marks covers more is not doubted by
+    /// [`Rasterizer::certify`](crate::Rasterizer::certify).
     pub fn marks(&mut self, marks: MarkColors) -> &mut Self {
         self.marks = Some(marks);
         self

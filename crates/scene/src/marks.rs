@@ -35,7 +35,7 @@ pub struct Mark {
     pub elements: Arc<ElementSet>,
     /// Linear RGB.
     pub color: Vec3,
-    /// From 0, as if there were no mark but nothing below it either, to 1. Lines of
+    /// From 0 to 1; at 0 edges are not painted, in no other colour either. Lines of
     /// [`Style::Wireframe`](crate::Style::Wireframe) and vertices are always opaque.
     pub opacity: f32,
 }
