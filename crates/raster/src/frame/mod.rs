@@ -11,6 +11,7 @@ use crate::bin::{Chunk, Grid, Place, TileRange};
 use crate::ink::Ink;
 use crate::paint2d::Rect;
 use crate::pass::{Background, Recorded};
+use crate::resolve::BackgroundRow;
 use crate::setup::SetupTriangle;
 use crate::shade::{AnyPipeline, Encoding};
 use crate::simd::{Each, Token};
@@ -34,6 +35,8 @@ pub(crate) struct Wants {
 pub(crate) struct FrameView<'f> {
     pub(crate) pass: &'f [Recorded<'f>],
     pub(crate) background: Background<'f>,
+    /// The background's rows, if each has one colour of its own.
+    pub(crate) background_rows: &'f [BackgroundRow],
     pub(crate) plan: &'f Plan,
     pub(crate) places: &'f [ScreenVertex],
     pub(crate) varyings: &'f [f32],

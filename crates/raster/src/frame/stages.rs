@@ -11,7 +11,7 @@ use crate::line::LineStyle;
 use crate::pass::{Pass, Recorded};
 use crate::point::PointStyle;
 use crate::pool::Workers;
-use crate::resolve::Strip;
+use crate::resolve::{BackgroundRow, Strip};
 use crate::setup::Setup;
 use crate::shade::Encoding;
 use crate::simd::{Simd, Token, at_level};
@@ -34,6 +34,7 @@ pub(crate) struct Arena {
     places: Vec<ScreenVertex>,
     varyings: Vec<f32>,
     chunks: Vec<Chunk>,
+    background_rows: Vec<BackgroundRow>,
     scratches: Vec<Scratch>,
 }
 
@@ -87,7 +88,8 @@ pub(crate) fn prepare<'f>(
     let apron = ink.map_or(0, |ink| ink.reach().next_multiple_of(axis));
     let tile_pixels = (own_side(how.tile_size, apron) / axis).max(1);
     let grid = Grid::new(viewport, target.pattern(), tile_pixels * axis).with_apron(apron);
-    let Arena { plan, places, varyings, chunks, .. } = arena;
+    let Arena { plan, places, varyings, chunks, background_rows, .. } = arena;
+    BackgroundRow::list(pass.background, target.height(), wants.bytes, background_rows);
     let used = plan.make(&pass.draws, chunks, how.workers.count());
     let chunks = &mut chunks[..used];
     places.resize(plan.places, ScreenVertex::MISSING);
@@ -100,6 +102,7 @@ pub(crate) fn prepare<'f>(
     FrameView {
         pass: &pass.draws,
         background: pass.background,
+        background_rows,
         plan,
         places,
         varyings,

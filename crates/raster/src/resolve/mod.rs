@@ -6,6 +6,7 @@ mod edges;
 mod mean;
 mod strip;
 
+pub(crate) use background::BackgroundRow;
 pub(crate) use mean::{mean, saturated};
 pub(crate) use strip::Strip;
 

@@ -2,6 +2,7 @@
 //! the order of the steps that make one.
 
 use trigon_camera::Camera;
+use trigon_math::UVec2;
 use trigon_raster::{Background, Cancel, ExecuteSettings, Pass, Rasterizer, Stats, Target, TargetError};
 
 use super::RenderError;
@@ -83,10 +84,12 @@ impl Engine {
             Composer::new(scene, camera, settings, (&stage.shapes, &scenery, &stage.eye, &stage.backdrop));
         let draws = composer.draws(counts);
         let behind = |pixel| stage.backdrop.at(pixel);
+        let behind_row = |y| stage.backdrop.at(UVec2::new(0, y));
         let mut pass = Pass::new();
         pass.background(match stage.backdrop {
             Backdrop::Color(color) => Background::Color(color),
-            Backdrop::Rows(..) | Backdrop::Environment(_) => Background::PerPixel(&behind),
+            Backdrop::Rows(..) => Background::PerRow(&behind_row),
+            Backdrop::Environment(_) => Background::PerPixel(&behind),
         });
         if matches!(settings.style, Style::SurfaceWithEdges | Style::HiddenLine) {
             pass.edges(settings.face_edges());
