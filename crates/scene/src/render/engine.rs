@@ -63,7 +63,7 @@ impl Engine {
             return Err(RenderError::Cancelled);
         }
         self.kept.seen.hand_over(frame);
-        measure_depth(frame, camera, settings);
+        measure_depth(frame, camera, settings, &rasterizer);
         counts.of(Effect::Poses).bytes = stage.shapes.posed_bytes() as u64;
         (self.counts, self.plan) = (counts, Some(plan));
         self.rasterizer = Some(rasterizer);
@@ -167,9 +167,16 @@ fn blank<'a>(settings: &RenderSettings) -> Result<Target<'a>, TargetError> {
 }
 
 /// From stored depths to metres.
-fn measure_depth(frame: &mut Frame, camera: &Camera, settings: &RenderSettings) {
+fn measure_depth(frame: &mut Frame, camera: &Camera, settings: &RenderSettings, rasterizer: &Rasterizer) {
+    /// Pixels that a thread takes at a time.
+    const PIECE: usize = 1 << 16;
+    let Some(depths) = &mut frame.depth else { return };
     let distance = DepthToDistance::new(&camera.projection, settings.aspect());
-    for depth in frame.depth.iter_mut().flatten() {
-        *depth = distance.at(*depth);
+    let measure = |depths: &mut [f32]| depths.iter_mut().for_each(|depth| *depth = distance.at(*depth));
+    // Waking others costs more than a small picture takes.
+    if depths.len() <= PIECE {
+        measure(depths);
+    } else {
+        rasterizer.share(depths.chunks_mut(PIECE), measure);
     }
 }
