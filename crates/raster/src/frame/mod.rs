@@ -1,10 +1,13 @@
 //! A frame on its way: what the stages leave for the tiles.
 
+mod change;
 mod plan;
 mod stages;
+mod touched;
 
+pub use change::{DrawChange, Redraw};
 pub(crate) use plan::{DrawPlan, Plan};
-pub(crate) use stages::{Arena, How, draw, prepare};
+pub(crate) use stages::{Arena, How, draw, prepare, redraw};
 
 use crate::StageTimes;
 use crate::bin::{Chunk, Grid, Place, TileRange};
@@ -21,7 +24,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 /// What a frame is to leave behind.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Wants {
     pub(crate) color: bool,
     pub(crate) depth: bool,
@@ -101,6 +104,17 @@ impl<'f> FrameView<'f> {
             let within = |end: i32| ((end - first).max(0) as usize).min(side);
             within(self.drawn.min[i])..within(self.drawn.max[i])
         })
+    }
+
+    /// The pixels of the target that a tile draws.
+    fn drawn_rect(&self, tile: u32) -> Rect {
+        let area = self.area(tile);
+        let (first, drawn) = (area.own_origin(), self.drawn_part(&area));
+        let end = |axis: usize, at: usize| first[axis] / self.supersampling as i32 + at as i32;
+        Rect::new(
+            [0, 1].map(|axis| end(axis, drawn[axis].start)),
+            [0, 1].map(|axis| end(axis, drawn[axis].end)),
+        )
     }
 
     pub(crate) fn is_multisampled(&self) -> bool {

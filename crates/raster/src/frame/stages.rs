@@ -1,7 +1,9 @@
 //! The stages of a frame: plan, vertices, set-up with binning, tiles. Each is
 //! worked off by all workers together.
 
-use super::{FrameView, Plan, Wants};
+use super::change::{DirtyTiles, Signature, can_follow};
+use super::touched::Touched;
+use super::{DrawChange, FrameView, Plan, Redraw, Wants};
 use crate::bin::{Chunk, Grid};
 use crate::clip;
 use crate::clock::Clock;
@@ -25,7 +27,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// How many vertices a worker runs at a time.
-const VERTICES: usize = 2048;
+pub(super) const VERTICES: usize = 2048;
 
 /// What is kept from frame to frame, so that a warm frame allocates nothing.
 #[derive(Default)]
@@ -36,6 +38,9 @@ pub(crate) struct Arena {
     chunks: Vec<Chunk>,
     background_rows: Vec<BackgroundRow>,
     scratches: Vec<Scratch>,
+    /// What the last frame was, if the next one may follow it.
+    followed: Option<Signature>,
+    touched: Touched,
 }
 
 /// How a frame is drawn.
@@ -53,7 +58,7 @@ pub(crate) struct How<'w> {
 
 impl How<'_> {
     /// Whether no more work is to be begun.
-    fn is_cancelled(self) -> bool {
+    pub(super) fn is_cancelled(self) -> bool {
         self.cancel.is_some_and(Cancel::is_cancelled)
     }
 }
@@ -62,16 +67,80 @@ impl How<'_> {
 pub(crate) fn draw(arena: &mut Arena, pass: &Pass<'_>, target: &mut Target<'_>, how: How<'_>) -> Stats {
     let mut scratches = std::mem::take(&mut arena.scratches);
     let view = prepare(arena, pass, target, how);
+    let stats = finish(&view, (None, target), how, &mut scratches);
+    arena.scratches = scratches;
+    stats
+}
+
+/// Draws a pass of which the target holds an earlier frame, and those tiles alone that may
+/// differ, if the changes tell how it differs from the last pass that was drawn so.
+pub(crate) fn redraw(
+    arena: &mut Arena,
+    pass: &Pass<'_>,
+    (target, changes): (&mut Target<'_>, Option<&[DrawChange<'_>]>),
+    how: How<'_>,
+) -> Redraw {
+    let layout = Layout::new(pass, target, how);
+    let signature = Signature::new(pass, &layout, how.workers.count());
+    let is_last = arena.followed.take().is_some_and(|last| last == signature);
+    let changes = changes.filter(|changes| is_last && can_follow(&arena.plan, pass, changes));
+    let mut scratches = std::mem::take(&mut arena.scratches);
+    let (view, tiles) = match changes {
+        Some(changes) => {
+            let (view, tiles) = follow(arena, pass, (layout, target), changes, how);
+            (view, Some(tiles))
+        }
+        None => (prepare(arena, pass, target, how), None),
+    };
+    let parts = match &tiles {
+        Some(tiles) => tiles.iter().map(|&tile| view.drawn_rect(tile)).collect(),
+        None => vec![view.drawn],
+    };
+    let stats = finish(&view, (tiles.as_deref(), target), how, &mut scratches);
+    arena.scratches = scratches;
+    // What was cancelled may be half done.
+    arena.followed = (!how.is_cancelled()).then_some(signature);
+    Redraw { stats, parts }
+}
+
+/// Draws the tiles, or some of them, of a frame that is prepared.
+fn finish(
+    view: &FrameView<'_>,
+    (tiles, target): (Option<&[u32]>, &mut Target<'_>),
+    how: How<'_>,
+    scratches: &mut Vec<Scratch>,
+) -> Stats {
     let mut stats = Stats { times: view.times, ..count(view.plan, view.chunks) };
     let bands = Bands::new(target, view.grid.size / view.supersampling);
     // Those of workers that rest in this frame are kept.
     scratches.resize_with(how.workers.count().max(scratches.len()), Scratch::new);
-    draw_tiles(&view, &bands, how, &mut scratches);
-    for scratch in &mut scratches {
+    draw_tiles(view, tiles, &bands, how, scratches);
+    for scratch in scratches {
         stats += std::mem::take(&mut scratch.stats);
     }
-    arena.scratches = scratches;
     stats
+}
+
+/// How a target is cut into tiles, and what is wanted of it.
+#[derive(Clone, Copy)]
+pub(super) struct Layout {
+    pub(super) axis: u32,
+    pub(super) wants: Wants,
+    pub(super) ink: Option<Ink>,
+    pub(super) grid: Grid,
+}
+
+impl Layout {
+    fn new(pass: &Pass<'_>, target: &Target<'_>, how: How<'_>) -> Self {
+        let axis = target.samples_per_axis();
+        let viewport = Viewport { width: target.width() * axis, height: target.height() * axis };
+        let wants = wants(target);
+        let ink = if wants.color || how.finds_colors { ink(pass, axis) } else { None };
+        let apron = ink.map_or(0, |ink| ink.reach().next_multiple_of(axis));
+        let tile_pixels = (own_side(how.tile_size, apron) / axis).max(1);
+        let grid = Grid::new(viewport, target.pattern(), tile_pixels * axis).with_apron(apron);
+        Self { axis, wants, ink, grid }
+    }
 }
 
 /// Everything up to the tiles: vertices run, triangles set up and binned.
@@ -81,41 +150,91 @@ pub(crate) fn prepare<'f>(
     target: &Target<'_>,
     how: How<'_>,
 ) -> FrameView<'f> {
-    let axis = target.samples_per_axis();
-    let viewport = Viewport { width: target.width() * axis, height: target.height() * axis };
-    let wants = wants(target);
-    let ink = if wants.color || how.finds_colors { ink(pass, axis) } else { None };
-    let apron = ink.map_or(0, |ink| ink.reach().next_multiple_of(axis));
-    let tile_pixels = (own_side(how.tile_size, apron) / axis).max(1);
-    let grid = Grid::new(viewport, target.pattern(), tile_pixels * axis).with_apron(apron);
-    let Arena { plan, places, varyings, chunks, background_rows, .. } = arena;
-    BackgroundRow::list(pass.background, target.height(), wants.bytes, background_rows);
+    let layout = Layout::new(pass, target, how);
+    let Layout { axis, grid, .. } = layout;
+    arena.followed = None;
+    let Arena { plan, places, varyings, chunks, .. } = arena;
     let used = plan.make(&pass.draws, chunks, how.workers.count());
     let chunks = &mut chunks[..used];
     places.resize(plan.places, ScreenVertex::MISSING);
     varyings.resize(plan.varyings, 0.0);
     let mut clock = Clock::new(how.timed);
-    run_vertices(&pass.draws, plan, viewport, how, (places, varyings));
+    run_vertices(&pass.draws, plan, grid.viewport, how, (places, varyings));
     let vertices = clock.lap();
     set_up(&pass.draws, plan, places, (&grid, axis), how, chunks);
     let times = StageTimes { vertices, set_up: clock.lap(), ..StageTimes::default() };
-    FrameView {
-        pass: &pass.draws,
-        background: pass.background,
-        background_rows,
-        plan,
-        places,
-        varyings,
-        chunks,
-        grid,
-        drawn: pass.drawn_pixels(target),
-        supersampling: axis,
-        wants,
-        ink,
-        token: how.token,
-        hierarchical: how.hierarchical,
-        timed: how.timed,
-        times,
+    arena.view((pass, target), layout, how, used, times)
+}
+
+/// The same for a pass that differs little from the last one, and the tiles that may
+/// differ.
+fn follow<'f>(
+    arena: &'f mut Arena,
+    pass: &'f Pass<'_>,
+    (layout, target): (Layout, &Target<'_>),
+    changes: &[DrawChange<'_>],
+    how: How<'_>,
+) -> (FrameView<'f>, Vec<u32>) {
+    let Layout { axis, grid, ink, .. } = layout;
+    let Arena { plan, places, varyings, chunks, touched, .. } = arena;
+    let used = chunks.len().min(plan.chunks);
+    let mut clock = Clock::new(how.timed);
+    touched.mark(plan, changes);
+    touched.run_vertices(&pass.draws, plan, grid.viewport, how, (places, varyings));
+    let vertices = clock.lap();
+    let tiles = DirtyTiles::new(&grid);
+    let rest = Mutex::new(chunks[..used].iter_mut());
+    let next = || rest.lock().unwrap_or_else(PoisonError::into_inner).next();
+    let many = used > 1;
+    how.workers.run(many, |_| {
+        let mut flags = Vec::new();
+        while let Some(chunk) = next()
+            && !how.is_cancelled()
+        {
+            let found = touched.triangles(&pass.draws, plan, (changes, ink.is_some()), chunk, &mut flags);
+            if found.any {
+                tiles.add(&grid, chunk, &flags);
+            }
+            if found.moved {
+                chunk.reset(chunk.ordinals.clone(), chunk.surface);
+                set_up_chunk(&pass.draws, plan, places, (&grid, axis), how.token, chunk);
+                tiles.add(&grid, chunk, &flags);
+            }
+        }
+    });
+    let times = StageTimes { vertices, set_up: clock.lap(), ..StageTimes::default() };
+    (arena.view((pass, target), layout, how, used, times), tiles.listed())
+}
+
+impl Arena {
+    /// What tiles read when all before them is done.
+    fn view<'f>(
+        &'f mut self,
+        (pass, target): (&'f Pass<'_>, &Target<'_>),
+        Layout { axis, wants, ink, grid }: Layout,
+        how: How<'_>,
+        used: usize,
+        times: StageTimes,
+    ) -> FrameView<'f> {
+        BackgroundRow::list(pass.background, target.height(), wants.bytes, &mut self.background_rows);
+        FrameView {
+            pass: &pass.draws,
+            background: pass.background,
+            background_rows: &self.background_rows,
+            plan: &self.plan,
+            places: &self.places,
+            varyings: &self.varyings,
+            chunks: &self.chunks[..used],
+            grid,
+            drawn: pass.drawn_pixels(target),
+            supersampling: axis,
+            wants,
+            ink,
+            token: how.token,
+            hierarchical: how.hierarchical,
+            timed: how.timed,
+            times,
+        }
     }
 }
 
@@ -212,27 +331,39 @@ fn set_up(
         while let Some(chunk) = next()
             && !how.is_cancelled()
         {
-            for (draw, range) in plan.parts(chunk.ordinals.clone()) {
-                let recorded = &pass[draw.draw];
-                let vertices = DrawVertices {
-                    slots: plan.slots(draw),
-                    places: &places[draw.places.clone()],
-                    pipeline: recorded.pipeline,
-                    token: how.token,
-                };
-                let setup = Setup {
-                    grid,
-                    volume: &clip::volume(grid.viewport),
-                    vertices,
-                    first: draw.ordinals.start,
-                    culling: Culling::None,
-                    chunk,
-                };
-                set_up_part(setup, &recorded.geometry.shape, axis, how.token, range);
-            }
-            chunk.sort();
+            set_up_chunk(pass, plan, places, (grid, axis), how.token, chunk);
         }
     });
+}
+
+/// Sets up the primitives of a chunk that is empty.
+fn set_up_chunk(
+    pass: &[Recorded<'_>],
+    plan: &Plan,
+    places: &[ScreenVertex],
+    (grid, axis): (&Grid, u32),
+    token: Token,
+    chunk: &mut Chunk,
+) {
+    for (draw, range) in plan.parts(chunk.ordinals.clone()) {
+        let recorded = &pass[draw.draw];
+        let vertices = DrawVertices {
+            slots: plan.slots(draw),
+            places: &places[draw.places.clone()],
+            pipeline: recorded.pipeline,
+            token,
+        };
+        let setup = Setup {
+            grid,
+            volume: &clip::volume(grid.viewport),
+            vertices,
+            first: draw.ordinals.start,
+            culling: Culling::None,
+            chunk,
+        };
+        set_up_part(setup, &recorded.geometry.shape, axis, token, range);
+    }
+    chunk.sort();
 }
 
 /// Sets up some primitives of one draw.
@@ -266,14 +397,25 @@ fn set_up_triangles<S: Simd>(simd: S, setup: &mut Setup<'_>, first: u32, triangl
     }
 }
 
-/// The tiles: every worker takes the next ones until there are none.
-fn draw_tiles(view: &FrameView<'_>, bands: &Bands<'_>, how: How<'_>, scratches: &mut [Scratch]) {
+/// The tiles, or some of them: every worker takes the next ones until there are none.
+fn draw_tiles(
+    view: &FrameView<'_>,
+    some: Option<&[u32]>,
+    bands: &Bands<'_>,
+    how: How<'_>,
+    scratches: &mut [Scratch],
+) {
     let tiles = view.tiles();
+    let count = some.map_or(tiles.len(), <[u32]>::len);
+    let index_of = |number: u32| match some {
+        Some(some) => some.get(number as usize).copied(),
+        None => tiles.get(number).map(|[column, row]| row * view.grid.columns + column),
+    };
     let next = AtomicU32::new(0);
     // Neighbours, which are written together; towards the end fewer, so that nobody waits long.
     let shares = 4 * how.workers.count();
     let end = |start: u32| {
-        let left = tiles.len().saturating_sub(start as usize);
+        let left = count.saturating_sub(start as usize);
         start + (left / shares).clamp(1, Strip::MOST) as u32
     };
     let take = || {
@@ -282,15 +424,15 @@ fn draw_tiles(view: &FrameView<'_>, bands: &Bands<'_>, how: How<'_>, scratches: 
         start..end(start)
     };
     let free = Mutex::new(scratches.iter_mut());
-    how.workers.run(tiles.len() > 1, |_| {
+    how.workers.run(count > 1, |_| {
         let Some(scratch) = free.lock().unwrap_or_else(PoisonError::into_inner).next() else {
             return;
         };
         let mut own = take();
-        while let Some([column, row]) = tiles.get(own.start)
+        while let Some(index) = index_of(own.start)
             && !how.is_cancelled()
         {
-            draw_tile(view, scratch, bands, row * view.grid.columns + column);
+            draw_tile(view, scratch, bands, index);
             own.start += 1;
             if own.is_empty() {
                 own = take();

@@ -44,7 +44,7 @@ pub(super) struct LinedFace {
 }
 
 /// The most triangles of the face that are looked at before this one, and after it.
-const MOST_PARTS: u32 = 32;
+pub(crate) const MOST_PARTS: u32 = 32;
 
 impl Segment {
     fn between(from: ScreenVertex, to: ScreenVertex) -> Self {

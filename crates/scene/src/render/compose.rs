@@ -233,8 +233,9 @@ impl<'s> Composer<'s> {
         let flags = shows_edges.then(|| &self.edge_flags(object)[run.triangles.clone()]);
         Box::new(Triangles {
             pipeline,
-            triangles,
-            faces: &geometry.faces[run.triangles.clone()],
+            geometry,
+            range: run.triangles.clone(),
+            place: object.place,
             edge_flags: flags,
             object: object.index,
             culling: if material.double_sided { Culling::None } else { object.place.cull_back },
@@ -258,8 +259,9 @@ impl<'s> Composer<'s> {
             HiddenLine { columns: &geometry.columns, place: object.place, backdrop: self.backdrop };
         Box::new(Triangles {
             pipeline,
-            triangles: &geometry.triangles,
-            faces: &geometry.faces,
+            geometry,
+            range: 0..geometry.triangles.len(),
+            place: object.place,
             edge_flags: Some(self.edge_flags(object)),
             object: object.index,
             culling: Culling::None,
@@ -277,19 +279,21 @@ impl<'s> Composer<'s> {
         segments: &'s [[u32; 2]],
         color: Vec3,
     ) -> Option<Box<dyn Record + 'c>> {
-        let (pipeline, object, width) = (self.wire(object, color), object.index, self.settings.line_width);
+        let (pipeline, geometry) = (self.wire(object, color), object.geometry);
+        let (object, width) = (object.index, self.settings.line_width);
         let no_face = vec![u32::MAX; segments.len()];
-        (!segments.is_empty())
-            .then(|| Box::new(Segments { pipeline, segments, no_face, object, width }) as Box<dyn Record>)
+        (!segments.is_empty()).then(|| {
+            Box::new(Segments { pipeline, geometry, segments, no_face, object, width }) as Box<dyn Record>
+        })
     }
 
     fn points<'c>(&'c self, object: &Object<'s>, color: Vec3) -> Option<Box<dyn Record + 'c>> {
         let points = object.asset.mesh().loose_points();
         let size = self.settings.line_width * POINT_TO_LINE;
-        let (pipeline, object) = (self.wire(object, color), object.index);
+        let (pipeline, geometry, object) = (self.wire(object, color), object.geometry, object.index);
         let no_face = vec![u32::MAX; points.len()];
         (!points.is_empty())
-            .then(|| Box::new(Dots { pipeline, points, no_face, object, size }) as Box<dyn Record>)
+            .then(|| Box::new(Dots { pipeline, geometry, points, no_face, object, size }) as Box<dyn Record>)
     }
 }
 

@@ -8,6 +8,7 @@ use trigon_raster::{Background, Cancel, ExecuteSettings, Pass, Rasterizer, Stats
 use super::RenderError;
 use super::backdrop::Backdrop;
 use super::compose::Composer;
+use super::last_picture::{LastPicture, Step};
 use super::placement::DepthToDistance;
 use super::stage::{Kept, Stage};
 use crate::effects::{Counts, Effect, EffectCounts, EffectPlan, Scenery};
@@ -21,6 +22,7 @@ use crate::settings::{RenderSettings, Style};
 pub(super) struct Engine {
     rasterizer: Option<Rasterizer>,
     kept: Kept,
+    last: LastPicture,
     plan: Option<EffectPlan>,
     counts: Counts,
     stats: Stats,
@@ -45,11 +47,12 @@ impl Engine {
         let mut counts = Counts::default();
         let apart = settings.outputs.need_own_pass(plan.is_on(Effect::Transparency));
         self.stats = Stats::default();
+        let mut is_kept = false;
         if settings.outputs.of_light() {
             let drawn =
                 self.draw_colors(&stage, camera, (&plan, frame, apart), (&mut rasterizer, &mut counts));
             // It may have been cancelled, too: its shadow maps may not be whole.
-            drawn.inspect_err(|_| self.kept.forget_unfinished())?;
+            is_kept = drawn.inspect_err(|_| self.kept.forget_unfinished())?;
         }
         if apart {
             self.draw_seen(&stage, camera, frame, &mut rasterizer)?;
@@ -62,22 +65,26 @@ impl Engine {
             self.rasterizer = Some(rasterizer);
             return Err(RenderError::Cancelled);
         }
-        self.kept.seen.hand_over(frame);
-        measure_depth(frame, camera, settings, &rasterizer);
+        self.last.set_whole(is_kept);
+        if !is_kept {
+            self.kept.seen.hand_over(frame);
+            measure_depth(frame, camera, settings, &rasterizer);
+        }
         counts.of(Effect::Poses).bytes = stage.shapes.posed_bytes() as u64;
         (self.counts, self.plan) = (counts, Some(plan));
         self.rasterizer = Some(rasterizer);
         Ok(())
     }
 
-    /// Draws colours; and what is seen, too, unless that has a pass of its own.
+    /// Draws colours; and what is seen, too, unless that has a pass of its own. Whether the
+    /// picture is one that is kept: then the frame is finished.
     fn draw_colors(
         &mut self,
         stage: &Stage<'_>,
         camera: &Camera,
         (plan, frame, apart): (&EffectPlan, &mut Frame, bool),
         (rasterizer, counts): (&mut Rasterizer, &mut Counts),
-    ) -> Result<(), RenderError> {
+    ) -> Result<bool, RenderError> {
         let scenery = self.kept.scenery(stage, plan, rasterizer)?;
         let (scene, settings) = (stage.scene, stage.settings);
         let composer =
@@ -95,6 +102,13 @@ impl Engine {
             pass.edges(settings.face_edges());
         }
         draws.iter().for_each(|draw| draw.record(&mut pass));
+        let step = if apart { Step::Apart } else { self.last.step((stage, camera, plan), &draws) };
+        if !matches!(step, Step::Apart) {
+            let target = (blank(settings)?, frame);
+            self.stats = self.last.draw(&pass, (settings, camera), target, (rasterizer, &step))?;
+            self.kept.count(&scenery, plan, counts);
+            return Ok(true);
+        }
         let needed = if apart { Needed::default() } else { Needed::of(&settings.outputs) };
         // Depth that has a pass of its own is not to be written twice.
         let depth = if apart { frame.depth.take() } else { None };
@@ -104,7 +118,7 @@ impl Engine {
             frame.depth = depth;
         }
         self.kept.count(&scenery, plan, counts);
-        Ok(())
+        Ok(false)
     }
 
     /// Draws nothing but what is seen.

@@ -1,0 +1,247 @@
+//! The vertices of a pass that have other values than in the last frame: they are run again,
+//! and the triangles are found that look different by them.
+
+use super::Plan;
+use super::change::DrawChange;
+use super::stages::{How, VERTICES};
+use crate::bin::Chunk;
+use crate::geometry::{Geometry, Shape};
+use crate::ink::MOST_PARTS;
+use crate::pass::Recorded;
+use crate::simd::Token;
+use crate::vertex::{ScreenVertex, Slots};
+use crate::viewport::Viewport;
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
+
+/// Vertices with other values, a bit for each slot of each draw.
+#[derive(Default)]
+pub(super) struct Touched {
+    /// Where the words of each planned draw begin, and the end.
+    starts: Vec<usize>,
+    /// Those that may have other values.
+    changed: Vec<u64>,
+    /// Those of them that have another place, or none.
+    moved: Vec<u64>,
+}
+
+/// What was found of a chunk's triangles.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Found {
+    /// Whether any of them looks different.
+    pub(super) any: bool,
+    /// Whether any of them lies elsewhere.
+    pub(super) moved: bool,
+}
+
+impl Touched {
+    /// Takes the vertices of a pass that have changed.
+    pub(super) fn mark(&mut self, plan: &Plan, changes: &[DrawChange<'_>]) {
+        self.starts.clear();
+        let mut words = 0;
+        for draw in &plan.draws {
+            self.starts.push(words);
+            words += draw.used.len().div_ceil(64);
+        }
+        self.starts.push(words);
+        for bits in [&mut self.changed, &mut self.moved] {
+            bits.clear();
+            bits.resize(words, 0);
+        }
+        for (draw, &start) in plan.draws.iter().zip(&self.starts) {
+            let slots = plan.slots(draw);
+            for &vertex in changes[draw.draw].vertices {
+                let slot = slots.of(vertex);
+                if slot < draw.used.len() {
+                    self.changed[start + slot / 64] |= 1 << (slot % 64);
+                }
+            }
+        }
+    }
+
+    /// Runs them again, and those beside them, and finds out which of them have moved.
+    pub(super) fn run_vertices(
+        &mut self,
+        pass: &[Recorded<'_>],
+        plan: &Plan,
+        viewport: Viewport,
+        how: How<'_>,
+        (mut places, mut varyings): (&mut [ScreenVertex], &mut [f32]),
+    ) {
+        let mut pieces = Vec::new();
+        let (mut changed, mut moved) = (self.changed.as_slice(), self.moved.as_mut_slice());
+        for draw in &plan.draws {
+            let stride = pass[draw.draw].pipeline.stride();
+            let mut slot = 0;
+            while slot < draw.used.len() {
+                let slots = slot..draw.used.len().min(slot + VERTICES);
+                slot = slots.end;
+                let piece = Piece {
+                    recorded: &pass[draw.draw],
+                    used: plan.slots(draw),
+                    changed: split(&mut changed, slots.len().div_ceil(64)),
+                    moved: split_mut(&mut moved, slots.len().div_ceil(64)),
+                    places: split_mut(&mut places, slots.len()),
+                    varyings: split_mut(&mut varyings, slots.len() * stride),
+                    slots,
+                };
+                if piece.changed.iter().any(|&word| word != 0) {
+                    pieces.push(piece);
+                }
+            }
+            // The place of vertices that do not exist.
+            split_mut(&mut places, 1);
+        }
+        let shared = pieces.len() > 1;
+        let rest = Mutex::new(pieces.into_iter());
+        let next = || rest.lock().unwrap_or_else(PoisonError::into_inner).next();
+        how.workers.run(shared, |_| {
+            while let Some(piece) = next()
+                && !how.is_cancelled()
+            {
+                piece.run(how.token, viewport);
+            }
+        });
+    }
+
+    /// Flags the primitives of a chunk that may look different.
+    pub(super) fn triangles(
+        &self,
+        pass: &[Recorded<'_>],
+        plan: &Plan,
+        (changes, has_edges): (&[DrawChange<'_>], bool),
+        chunk: &Chunk,
+        flags: &mut Vec<bool>,
+    ) -> Found {
+        flags.clear();
+        flags.resize(chunk.ordinals.len(), false);
+        let mut found = Found::default();
+        for (draw, range) in plan.parts(chunk.ordinals.clone()) {
+            let (change, geometry) = (&changes[draw.draw], &pass[draw.draw].geometry);
+            let Shape::Triangles { triangles, .. } = geometry.shape else { continue };
+            if change.vertices.is_empty() && change.triangles.is_empty() {
+                continue;
+            }
+            let number = plan.draws.partition_point(|other| other.ordinals.start < draw.ordinals.start);
+            let words = self.starts[number]..self.starts[number + 1];
+            let [changed, moved] = [&self.changed, &self.moved].map(|bits| &bits[words.clone()]);
+            let first = (draw.ordinals.start + range.start - chunk.ordinals.start) as usize;
+            let flags = &mut flags[first..first + range.len()];
+            let has = |bits: &[u64], [a, b, c]: [u32; 3]| {
+                let is_set = |vertex| is_set(bits, plan.slots(draw).of(vertex));
+                is_set(a) | is_set(b) | is_set(c)
+            };
+            for (flag, &corners) in flags.iter_mut().zip(&triangles[range.start as usize..range.end as usize])
+            {
+                *flag = has(changed, corners);
+                found.moved |= *flag && has(moved, corners);
+            }
+            let listed = |at: u32| change.triangles.partition_point(|&triangle| triangle < at);
+            for &triangle in &change.triangles[listed(range.start)..listed(range.end)] {
+                flags[(triangle - range.start) as usize] = true;
+                found.moved = true;
+            }
+            if has_edges {
+                let is_other = |triangle: u32| {
+                    has(changed, triangles[triangle as usize])
+                        || change.triangles.binary_search(&triangle).is_ok()
+                };
+                spread_over_faces(geometry, range, flags, is_other);
+            }
+            found.any |= flags.contains(&true);
+        }
+        found
+    }
+}
+
+/// Flags all triangles of faces of which one is flagged. A face may go on beyond the range:
+/// there `is_other` is asked.
+fn spread_over_faces(
+    geometry: &Geometry<'_>,
+    range: Range<u32>,
+    flags: &mut [bool],
+    is_other: impl Fn(u32) -> bool,
+) {
+    let mut start = range.start;
+    while start < range.end {
+        let face = geometry.face(start);
+        let belongs = |triangle: &u32| geometry.face(*triangle) == face;
+        let end = (start..range.end).find(|triangle| !belongs(triangle)).unwrap_or(range.end);
+        let own = &mut flags[(start - range.start) as usize..(end - range.start) as usize];
+        let mut any = own.contains(&true);
+        if !any && start == range.start {
+            let before = start.saturating_sub(MOST_PARTS)..start;
+            any = before.rev().take_while(belongs).any(&is_other);
+        }
+        if !any && end == range.end {
+            let after = end..(geometry.len() as u32).min(end + MOST_PARTS);
+            any = after.take_while(|triangle| belongs(triangle)).any(&is_other);
+        }
+        if any {
+            own.fill(true);
+        }
+        start = end;
+    }
+}
+
+/// Some consecutive slots of a draw.
+struct Piece<'a> {
+    recorded: &'a Recorded<'a>,
+    used: Slots<'a>,
+    slots: Range<usize>,
+    changed: &'a [u64],
+    moved: &'a mut [u64],
+    places: &'a mut [ScreenVertex],
+    varyings: &'a mut [f32],
+}
+
+impl Piece<'_> {
+    /// Runs every eight vertices of which one has changed.
+    fn run(self, token: Token, viewport: Viewport) {
+        let pipeline = self.recorded.pipeline;
+        let stride = pipeline.stride();
+        for (word, (&changed, moved)) in self.changed.iter().zip(self.moved).enumerate() {
+            let mut byte = 0;
+            while byte < 8 {
+                let ahead = |byte: usize| changed >> (8 * byte) & 0xff != 0;
+                if !ahead(byte) {
+                    byte += 1;
+                    continue;
+                }
+                let first = word * 64 + byte * 8;
+                while byte < 8 && ahead(byte) {
+                    byte += 1;
+                }
+                let end = self.places.len().min(word * 64 + byte * 8);
+                let places = &mut self.places[first..end];
+                let mut before = [ScreenVertex::default(); 64];
+                before[..places.len()].copy_from_slice(places);
+                let slots = self.slots.start + first..self.slots.start + end;
+                let varyings = &mut self.varyings[first * stride..end * stride];
+                pipeline.run_vertices(token, self.used, slots, viewport, (places, varyings));
+                for ((bit, after), before) in (first % 64..).zip(&*places).zip(before) {
+                    // Where one without a place lies is asked of the pipeline once more.
+                    let differs = after.0 != before.0 || !after.has_place();
+                    *moved |= changed & (u64::from(differs) << bit);
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn is_set(bits: &[u64], slot: usize) -> bool {
+    bits.get(slot / 64).is_some_and(|word| word >> (slot % 64) & 1 != 0)
+}
+
+fn split<'a, T>(list: &mut &'a [T], count: usize) -> &'a [T] {
+    let (first, rest) = list.split_at(count);
+    *list = rest;
+    first
+}
+
+fn split_mut<'a, T>(list: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+    let (first, rest) = std::mem::take(list).split_at_mut(count);
+    *list = rest;
+    first
+}
