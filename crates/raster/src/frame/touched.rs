@@ -6,7 +6,7 @@ use super::change::DrawChange;
 use super::stages::{How, VERTICES};
 use crate::bin::Chunk;
 use crate::geometry::{Geometry, Shape};
-use crate::ink::MOST_PARTS;
+use crate::ink::parts;
 use crate::pass::Recorded;
 use crate::simd::Token;
 use crate::vertex::{ScreenVertex, Slots};
@@ -19,6 +19,8 @@ use std::sync::{Mutex, PoisonError};
 pub(super) struct Touched {
     /// Where the words of each planned draw begin, and the end.
     starts: Vec<usize>,
+    /// The least and the greatest of each draw's vertices that may have other values.
+    reaches: Vec<[u32; 2]>,
     /// Those that may have other values.
     changed: Vec<u64>,
     /// Those of them that have another place, or none.
@@ -38,8 +40,12 @@ impl Touched {
     /// Takes the vertices of a pass that have changed.
     pub(super) fn mark(&mut self, plan: &Plan, changes: &[DrawChange<'_>]) {
         self.starts.clear();
+        self.reaches.clear();
         let mut words = 0;
         for draw in &plan.draws {
+            let vertices = changes[draw.draw].vertices.iter().copied();
+            let least = vertices.clone().min().unwrap_or(u32::MAX);
+            self.reaches.push([least, vertices.max().unwrap_or(0)]);
             self.starts.push(words);
             words += draw.used.len().div_ceil(64);
         }
@@ -117,70 +123,99 @@ impl Touched {
         flags.resize(chunk.ordinals.len(), false);
         let mut found = Found::default();
         for (draw, range) in plan.parts(chunk.ordinals.clone()) {
-            let (change, geometry) = (&changes[draw.draw], &pass[draw.draw].geometry);
-            let Shape::Triangles { triangles, .. } = geometry.shape else { continue };
-            if change.vertices.is_empty() && change.triangles.is_empty() {
-                continue;
-            }
+            let Shape::Triangles { triangles, .. } = pass[draw.draw].geometry.shape else { continue };
             let number = plan.draws.partition_point(|other| other.ordinals.start < draw.ordinals.start);
             let words = self.starts[number]..self.starts[number + 1];
-            let [changed, moved] = [&self.changed, &self.moved].map(|bits| &bits[words.clone()]);
+            let search = Search {
+                slots: plan.slots(draw),
+                geometry: &pass[draw.draw].geometry,
+                triangles,
+                listed: changes[draw.draw].triangles,
+                reach: self.reaches[number],
+                changed: &self.changed[words.clone()],
+                moved: &self.moved[words],
+            };
             let first = (draw.ordinals.start + range.start - chunk.ordinals.start) as usize;
             let flags = &mut flags[first..first + range.len()];
-            let has = |bits: &[u64], [a, b, c]: [u32; 3]| {
-                let is_set = |vertex| is_set(bits, plan.slots(draw).of(vertex));
-                is_set(a) | is_set(b) | is_set(c)
-            };
-            for (flag, &corners) in flags.iter_mut().zip(&triangles[range.start as usize..range.end as usize])
-            {
-                *flag = has(changed, corners);
-                found.moved |= *flag && has(moved, corners);
-            }
-            let listed = |at: u32| change.triangles.partition_point(|&triangle| triangle < at);
-            for &triangle in &change.triangles[listed(range.start)..listed(range.end)] {
-                flags[(triangle - range.start) as usize] = true;
-                found.moved = true;
-            }
-            if has_edges {
-                let is_other = |triangle: u32| {
-                    has(changed, triangles[triangle as usize])
-                        || change.triangles.binary_search(&triangle).is_ok()
-                };
-                spread_over_faces(geometry, range, flags, is_other);
-            }
-            found.any |= flags.contains(&true);
+            let of_draw = search.flag(range, has_edges, flags);
+            found = Found { any: found.any || of_draw.any, moved: found.moved || of_draw.moved };
         }
         found
     }
 }
 
-/// Flags all triangles of faces of which one is flagged. A face may go on beyond the range:
-/// there `is_other` is asked.
-fn spread_over_faces(
-    geometry: &Geometry<'_>,
-    range: Range<u32>,
-    flags: &mut [bool],
-    is_other: impl Fn(u32) -> bool,
-) {
-    let mut start = range.start;
-    while start < range.end {
-        let face = geometry.face(start);
-        let belongs = |triangle: &u32| geometry.face(*triangle) == face;
-        let end = (start..range.end).find(|triangle| !belongs(triangle)).unwrap_or(range.end);
-        let own = &mut flags[(start - range.start) as usize..(end - range.start) as usize];
-        let mut any = own.contains(&true);
-        if !any && start == range.start {
-            let before = start.saturating_sub(MOST_PARTS)..start;
-            any = before.rev().take_while(belongs).any(&is_other);
+/// Looks for the triangles of a draw that look different.
+struct Search<'a> {
+    slots: Slots<'a>,
+    geometry: &'a Geometry<'a>,
+    triangles: &'a [[u32; 3]],
+    /// Those that are known to.
+    listed: &'a [u32],
+    /// Between which vertices those lie that may have other values.
+    reach: [u32; 2],
+    changed: &'a [u64],
+    moved: &'a [u64],
+}
+
+impl Search<'_> {
+    /// Flags some of the triangles, and the others of their faces if it has edges.
+    fn flag(&self, range: Range<u32>, has_edges: bool, flags: &mut [bool]) -> Found {
+        /// Triangles that are left out together.
+        const BLOCK: usize = 64;
+        let (mut seeds, mut found) = (Vec::new(), Found::default());
+        let blocks = self.triangles[range.start as usize..range.end as usize].chunks(BLOCK);
+        for (block, start) in blocks.zip((range.start..).step_by(BLOCK)) {
+            if self.reaches(block.as_flattened()) {
+                for (&corners, triangle) in block.iter().zip(start..) {
+                    if self.has(self.changed, corners) {
+                        found.moved |= self.has(self.moved, corners);
+                        seeds.push(triangle);
+                    }
+                }
+            }
         }
-        if !any && end == range.end {
-            let after = end..(geometry.len() as u32).min(end + MOST_PARTS);
-            any = after.take_while(|triangle| belongs(triangle)).any(&is_other);
+        let at = |at: u32| self.listed.partition_point(|&triangle| triangle < at);
+        let listed = &self.listed[at(range.start)..at(range.end)];
+        found.moved |= !listed.is_empty();
+        seeds.extend(listed);
+        if has_edges {
+            self.add_beside(&range, &mut seeds);
         }
-        if any {
-            own.fill(true);
+        let place = |triangle: u32| range.contains(&triangle).then(|| (triangle - range.start) as usize);
+        for seed in seeds {
+            found.any = true;
+            place(seed).into_iter().for_each(|place| flags[place] = true);
+            if has_edges {
+                parts(self.geometry, seed).filter_map(place).for_each(|place| flags[place] = true);
+            }
         }
-        start = end;
+        found
+    }
+
+    /// Adds triangles beside the range that belong to faces in it, and look different.
+    fn add_beside(&self, range: &Range<u32>, seeds: &mut Vec<u32>) {
+        let ends = [range.start, range.end - 1].map(|end| parts(self.geometry, end));
+        let is_beside = |triangle: &u32| {
+            let corners = self.triangles[*triangle as usize];
+            !range.contains(triangle)
+                && (self.has(self.changed, corners) || self.listed.binary_search(triangle).is_ok())
+        };
+        seeds.extend(ends.into_iter().flatten().filter(is_beside));
+    }
+
+    /// Whether any of some vertices may have other values, asked in a way that takes several
+    /// of them at once.
+    fn reaches(&self, vertices: &[u32]) -> bool {
+        let [least, greatest] = self.reach;
+        let within = |any: bool, &vertex: &u32| any | (vertex >= least) & (vertex <= greatest);
+        vertices.iter().fold(false, within)
+    }
+
+    /// Whether the bit of a corner is set.
+    #[inline(always)]
+    fn has(&self, bits: &[u64], [a, b, c]: [u32; 3]) -> bool {
+        let is_set = |vertex| is_set(bits, self.slots.of(vertex));
+        is_set(a) | is_set(b) | is_set(c)
     }
 }
 

@@ -19,7 +19,7 @@ mod rule;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use lined::MOST_PARTS;
+pub(crate) use lined::parts;
 pub(crate) use outer::{Footprint, OuterInk};
 pub(crate) use rule::{FaceLine, LineColumns};
 

@@ -55,11 +55,11 @@ pub(super) struct LastPicture {
 struct Origin {
     /// Without the environment, which takes long to compare.
     settings: RenderSettings,
-    environment: Option<Arc<Environment>>,
+    environment: Option<Same<Environment>>,
     camera: Camera,
     nodes: Arena<Node>,
     materials: Arena<Material>,
-    textures: Vec<(TextureId, Arc<Texture>)>,
+    textures: Vec<(TextureId, Same<Texture>)>,
     effects: [bool; Effect::ALL.len()],
     draws: Vec<DrawOrigin>,
 }
@@ -186,21 +186,35 @@ impl LastPicture {
     fn copy_to(&self, frame: &mut Frame, rasterizer: &Rasterizer) {
         /// Bytes and numbers that a thread copies at a time.
         const PIECE: usize = 1 << 18;
-        let colors = frame.color.chunks_mut(4 * PIECE).zip(self.color.chunks(4 * PIECE));
-        rasterizer.share(colors, |(to, from)| to.copy_from_slice(from));
+        copy(&mut frame.color, &self.color, 4 * PIECE, rasterizer);
         if let (Some(to), Some(from)) = (&mut frame.depth, &self.depth) {
-            rasterizer
-                .share(to.chunks_mut(PIECE).zip(from.chunks(PIECE)), |(to, from)| to.copy_from_slice(from));
+            copy(to, from, PIECE, rasterizer);
         }
-        for (to, from) in
-            [(&mut frame.object_ids, &self.seen.objects), (&mut frame.face_ids, &self.seen.faces)]
-        {
-            if let Some(to) = to {
-                rasterizer.share(to.chunks_mut(PIECE).zip(from.chunks(PIECE)), |(to, from)| {
-                    to.copy_from_slice(from)
-                });
-            }
+        let ids = [(&mut frame.object_ids, &self.seen.objects), (&mut frame.face_ids, &self.seen.faces)];
+        for (to, from) in ids {
+            to.iter_mut().for_each(|to| copy(to, from, PIECE, rasterizer));
         }
+    }
+}
+
+/// Copies a list, so many items of it at a time by each thread.
+fn copy<T: Copy + Send + Sync>(to: &mut [T], from: &[T], piece: usize, rasterizer: &Rasterizer) {
+    rasterizer.share(to.chunks_mut(piece).zip(from.chunks(piece)), |(to, from)| to.copy_from_slice(from));
+}
+
+/// Something shared that equals nothing but itself: whoever changes what others hold makes a
+/// copy.
+struct Same<T>(Arc<T>);
+
+impl<T> PartialEq for Same<T> {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl<T> Clone for Same<T> {
+    fn clone(&self) -> Self {
+        Self(Arc::clone(&self.0))
     }
 }
 
@@ -209,7 +223,7 @@ impl Origin {
         let scene = stage.scene;
         Self {
             settings: without_environment(stage.settings),
-            environment: stage.settings.effects.environment.clone(),
+            environment: environment_of(stage),
             camera: *camera,
             nodes: scene.nodes().clone(),
             materials: scene.materials.clone(),
@@ -221,29 +235,17 @@ impl Origin {
 
     /// Becomes that of another picture, but for its draws; whether it stays the same.
     fn update(&mut self, (stage, camera, plan): (&Stage<'_>, &Camera, &EffectPlan)) -> bool {
-        let scene = stage.scene;
-        let environment = &stage.settings.effects.environment;
-        let has_same_environment = match (&self.environment, environment) {
-            (Some(own), Some(other)) => Arc::ptr_eq(own, other),
-            (own, other) => own.is_none() && other.is_none(),
-        };
-        self.environment.clone_from(environment);
-        let textures = textures_of(stage);
-        let is_same = |(own, other): (&(TextureId, Arc<Texture>), &(TextureId, Arc<Texture>))| {
-            own.0 == other.0 && Arc::ptr_eq(&own.1, &other.1)
-        };
-        let has_same_textures =
-            textures.len() == self.textures.len() && self.textures.iter().zip(&textures).all(is_same);
-        self.textures = textures;
         // Each of them is brought up to date.
-        let others = [
+        let are_same = [
             keep(&mut self.settings, &without_environment(stage.settings)),
+            keep(&mut self.environment, &environment_of(stage)),
             keep(&mut self.camera, camera),
-            keep(&mut self.nodes, scene.nodes()),
-            keep(&mut self.materials, &scene.materials),
+            keep(&mut self.nodes, stage.scene.nodes()),
+            keep(&mut self.materials, &stage.scene.materials),
+            keep(&mut self.textures, &textures_of(stage)),
             keep(&mut self.effects, &Effect::ALL.map(|effect| plan.is_on(effect))),
         ];
-        has_same_environment && has_same_textures && !others.contains(&false)
+        !are_same.contains(&false)
     }
 
     /// Takes the draws of another picture; how they differ, if that is known.
@@ -317,8 +319,12 @@ fn without_environment(settings: &RenderSettings) -> RenderSettings {
     settings
 }
 
-fn textures_of(stage: &Stage<'_>) -> Vec<(TextureId, Arc<Texture>)> {
-    stage.scene.textures.iter().map(|(id, asset)| (id, Arc::clone(&asset.texture))).collect()
+fn environment_of(stage: &Stage<'_>) -> Option<Same<Environment>> {
+    stage.settings.effects.environment.clone().map(Same)
+}
+
+fn textures_of(stage: &Stage<'_>) -> Vec<(TextureId, Same<Texture>)> {
+    stage.scene.textures.iter().map(|(id, asset)| (id, Same(Arc::clone(&asset.texture)))).collect()
 }
 
 #[cfg(test)]
