@@ -124,7 +124,11 @@ impl Touched {
         let mut found = Found::default();
         for (draw, range) in plan.parts(chunk.ordinals.clone()) {
             let Shape::Triangles { triangles, .. } = pass[draw.draw].geometry.shape else { continue };
-            let number = plan.draws.partition_point(|other| other.ordinals.start < draw.ordinals.start);
+            if range.is_empty() {
+                continue;
+            }
+            // Draws without triangles end where they begin.
+            let number = plan.draws.partition_point(|other| other.ordinals.end <= draw.ordinals.start);
             let words = self.starts[number]..self.starts[number + 1];
             let search = Search {
                 slots: plan.slots(draw),

@@ -197,6 +197,8 @@ impl View {
         for (object, model) in (0..).zip(models) {
             model.record(object, &mut pass);
         }
+        // Between others: its ordinals begin and end where theirs do.
+        pass.triangles(Draw::new(&models[2], &[]));
         let lines = Lines::new(&models[2], &[[0, 11], [11, 30]]);
         pass.lines(Lines { object: 9, width: 3.0, ..lines });
         if let Some(width) = self.edges {
@@ -229,7 +231,7 @@ fn check(view: &View, mut models: Vec<Model>, deltas: &[Delta]) -> Result<(), Te
     rasterizer.redraw(&view.pass(&models), &mut target, None);
     for delta in deltas {
         let [vertices, triangles] = delta.apply(&mut models[delta.model]);
-        let mut changes = [DrawChange::default(); 4];
+        let mut changes = [DrawChange::default(); 5];
         changes[delta.model] = DrawChange { vertices: &vertices, triangles: &triangles };
         rasterizer.redraw(&view.pass(&models), &mut target, Some(&changes));
         let fresh = view.fresh(&models);
@@ -295,7 +297,7 @@ fn only_tiles_around_what_moved_are_drawn() {
     let mut target = view.target();
     let first = rasterizer.redraw(&view.pass(&models), &mut target, None);
     assert_eq!(share(&view, &first.parts), 1.0, "nothing was there");
-    let unchanged = [DrawChange::default(); 4];
+    let unchanged = [DrawChange::default(); 5];
     let same = rasterizer.redraw(&view.pass(&models), &mut target, Some(&unchanged));
     assert!(same.parts.is_empty(), "nothing differs");
     let [vertices, _] = one_vertex().apply(&mut models[0]);
@@ -311,7 +313,7 @@ fn only_tiles_around_what_moved_are_drawn() {
 #[test]
 fn after_anything_else_everything_is_drawn() {
     let (view, models) = (plain(&[Output::Srgb8]), models([Surface::Opaque; 2]));
-    let unchanged = [DrawChange::default(); 4];
+    let unchanged = [DrawChange::default(); 5];
     let spoil: [fn(&mut Rasterizer, &View, &[Model]); 4] = [
         |rasterizer, view, models| {
             let _: Stats = rasterizer.draw(&view.pass(models), &mut view.target());
