@@ -129,6 +129,7 @@ pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,
 };
 pub use fragment::{EdgeFlags, Fragment};
+pub use frame::{DrawChange, Redraw};
 pub use ink::{FaceEdges, MarkColors, Marks};
 pub use paint2d::Rect;
 pub use pass::{Background, Pass};

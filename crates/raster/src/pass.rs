@@ -11,6 +11,9 @@ use trigon_math::{UVec2, Vec4};
 pub enum Background<'a> {
     /// One colour, linear light, premultiplied.
     Color(Vec4),
+    /// A colour for each row of the target, linear light, premultiplied. Called once for
+    /// each row of a frame.
+    PerRow(&'a (dyn Fn(u32) -> Vec4 + Sync)),
     /// A colour for each pixel, linear light, premultiplied. Called on any
     /// thread, for those pixels that show it.
     PerPixel(&'a (dyn Fn(UVec2) -> Vec4 + Sync)),

@@ -164,8 +164,9 @@ fn identity(vertex: &ScreenVertex) -> [i32; 3] {
     [vertex.0[0], vertex.0[1], vertex.0[2]]
 }
 
-/// The other triangles of a face: those around one of them that have its number.
-fn parts(geometry: &Geometry<'_>, primitive: u32) -> impl Iterator<Item = u32> {
+/// The other triangles of a face: those around one of them that have its number. Each of
+/// them finds this one, too.
+pub(crate) fn parts(geometry: &Geometry<'_>, primitive: u32) -> impl Iterator<Item = u32> {
     let face = geometry.face(primitive);
     let end = (geometry.len() as u32).min(primitive + 1 + MOST_PARTS);
     let is_part = move |part: &u32| geometry.face(*part) == face;

@@ -20,6 +20,7 @@ mod rule;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use lined::parts;
 pub(crate) use marks::Overlap;
 pub use marks::{MarkColors, Marks};
 pub(crate) use outer::{Footprint, OuterInk};

@@ -277,8 +277,9 @@ impl<'s> Composer<'s> {
         let flags = shows_edges.then(|| &self.edge_flags(object)[run.triangles.clone()]);
         Box::new(Triangles {
             pipeline,
-            triangles,
-            faces: &geometry.faces[run.triangles.clone()],
+            geometry,
+            range: run.triangles.clone(),
+            place: object.place,
             edge_flags: flags,
             marks: self.marks_of(object, &run.triangles),
             object: object.index,
@@ -303,8 +304,9 @@ impl<'s> Composer<'s> {
             HiddenLine { columns: &geometry.columns, place: object.place, backdrop: self.backdrop };
         Box::new(Triangles {
             pipeline,
-            triangles: &geometry.triangles,
-            faces: &geometry.faces,
+            geometry,
+            range: 0..geometry.triangles.len(),
+            place: object.place,
             edge_flags: Some(self.edge_flags(object)),
             marks: self.marks_of(object, &(0..geometry.triangles.len())),
             object: object.index,
@@ -328,17 +330,19 @@ impl<'s> Composer<'s> {
         let mut numbers = marks::numbers(edges, object.id);
         numbers.drain(..first.min(numbers.len()));
         let marks = WireMarks { numbers, colors: marks::colors(edges) };
-        let (pipeline, object, width) =
-            (self.wire(object, color, marks), object.index, self.settings.line_width);
+        let (pipeline, geometry) = (self.wire(object, color, marks), object.geometry);
+        let (object, width) = (object.index, self.settings.line_width);
         let no_face = vec![u32::MAX; segments.len()];
-        (!segments.is_empty())
-            .then(|| Box::new(Segments { pipeline, segments, no_face, object, width }) as Box<dyn Record>)
+        (!segments.is_empty()).then(|| {
+            Box::new(Segments { pipeline, geometry, segments, no_face, object, width }) as Box<dyn Record>
+        })
     }
 
     fn points<'c>(&'c self, object: &Object<'s>, color: Vec3) -> Option<Box<dyn Record + 'c>> {
         let points = object.asset.mesh().loose_points();
         let dots = || Dots {
             pipeline: self.wire(object, color, WireMarks::default()),
+            geometry: object.geometry,
             points: Cow::Borrowed(points),
             no_face: vec![u32::MAX; points.len()],
             object: object.index,
@@ -365,6 +369,7 @@ impl<'s> Composer<'s> {
         let marks = WireMarks { numbers, colors: marks::colors(listed) };
         Some(Box::new(Dots {
             pipeline: self.wire(object, shown.color, marks),
+            geometry: object.geometry,
             no_face: vec![u32::MAX; points.len()],
             points: Cow::Owned(points),
             object: object.index,

@@ -51,6 +51,18 @@ pub(crate) struct Geometry {
     pose: Option<Pose>,
     /// How it follows changes of the mesh; `None` until there was one.
     links: Option<RenderLinks>,
+    /// What the last change has written.
+    pub(crate) change: Option<GeometryChange>,
+}
+
+/// What differs between geometry and what it was before a change.
+#[derive(Debug)]
+pub(crate) struct GeometryChange {
+    pub(crate) before: GeometryState,
+    /// Vertices with other values.
+    pub(crate) vertices: Vec<u32>,
+    /// Triangles that may have other corners or other flags of their edges; increasing.
+    pub(crate) triangles: Vec<u32>,
 }
 
 /// Names geometry as it is at some moment. What is made of geometry is kept with its
@@ -109,6 +121,7 @@ impl Geometry {
             side_edges: OnceLock::new(),
             pose: None,
             links: None,
+            change: None,
         }
     }
 
@@ -138,6 +151,7 @@ impl Geometry {
             tangential: places_for(&self.columns),
             pose: None,
             links: None,
+            change: None,
         })
     }
 

@@ -19,7 +19,7 @@ struct Contents {
     faces: Vec<u32>,
     runs: Vec<super::super::Run>,
     order: Option<Vec<u32>>,
-    edge_flags: Vec<trigon_raster::EdgeFlags>,
+    edge_flags: Vec<EdgeFlags>,
     side_edges: Vec<[u32; 3]>,
     bounds: [[u64; 6]; 2],
 }
