@@ -229,7 +229,9 @@ fn main() {
         let segments = segments(&lengths);
         let wire = Wire::new(segments.as_flattened());
         let indices: Vec<_> = (0..COUNT as u32).map(|i| [2 * i, 2 * i + 1]).collect();
-        for (outline, width) in [Outline::Sharp, Outline::AntiAliased].into_iter().flat_map(|o| [(o, 1), (o, 3)]) {
+        for (outline, width) in
+            [Outline::Sharp, Outline::AntiAliased].into_iter().flat_map(|o| [(o, 1), (o, 3)])
+        {
             let name = format!("{}lines of {what} px, width {width}", prefix(outline));
             if !is_picked(&name) {
                 continue;

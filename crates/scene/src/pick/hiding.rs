@@ -5,6 +5,7 @@
 //! screen and behind it. Each triangle is read once, and a triangle as small as a pixel asks
 //! few points, so that the time grows with triangles and points, not with their product. All
 //! of it is decided at the points themselves, in f64: no pixel's centre is taken for them.
+//! What need not be decided so exactly is left out before (`occluders`).
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,6 +15,7 @@ use trigon_math::DVec2;
 
 use super::nearby::{Nearby, NearbyTriangles};
 use super::object::{Facing, Object};
+use super::occluders::{Group, Occluder, Pixels, Probe};
 use super::region::Area;
 use super::screen::{Screen, Spot};
 use crate::frame::Frame;
@@ -28,22 +30,14 @@ const BAND: u32 = 16;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
     pub(super) spot: Spot,
-    /// Faces hide it that are nearer than this.
-    hiding_depth: f64,
     /// The index of the node.
     pub(super) object: u32,
     pub(super) element: u32,
 }
 
-impl Candidate {
-    /// The element of this number of the node with this index.
-    pub(super) fn new(screen: &Screen, spot: Spot, [object, element]: [u32; 2]) -> Self {
-        Self { spot, hiding_depth: screen.hiding_depth(spot.depth), object, element }
-    }
-}
-
 /// The points of elements, sorted by the pixels that they lie in.
 pub(super) struct Hiding<'p> {
+    screen: &'p Screen,
     frame: &'p Frame,
     columns: Range<u32>,
     rows: Range<u32>,
@@ -55,30 +49,33 @@ struct Band {
     /// For each pixel where its points begin, and the end of the last one's.
     starts: Vec<u32>,
     points: Vec<Candidate>,
+    probes: Vec<Probe>,
     hidden: Vec<AtomicBool>,
 }
 
 impl<'p> Hiding<'p> {
     /// The candidates, in any number of lists, have to lie in the area. There have to be
     /// fewer than `u32::MAX` of them.
-    pub(super) fn new(frame: &'p Frame, area: &Area<'_>, lists: &[Vec<Candidate>]) -> Self {
+    pub(super) fn new(
+        (screen, frame): (&'p Screen, &'p Frame),
+        area: &Area<'_>,
+        lists: &[Vec<Candidate>],
+    ) -> Self {
         let (columns, rows) = (area.columns.clone(), area.rows.clone());
         let band = |candidate: &Candidate| (candidate.spot.at.y as u32 - rows.start) / BAND;
         let band_count = rows.len().div_ceil(BAND as usize);
-        let sorted: Vec<Sorted> = lists
-            .par_iter()
-            .map(|list| Sorted::new(band_count, list.iter().map(band).collect()))
-            .collect();
+        let sorted: Vec<Sorted> =
+            lists.par_iter().map(|list| Sorted::new(band_count, list.iter().map(band).collect())).collect();
         let points_of = |band: usize| -> Vec<&Candidate> {
             let parts = lists.iter().zip(&sorted);
             parts.flat_map(|(list, sorted)| sorted.of(band).iter().map(|&at| &list[at as usize])).collect()
         };
         let bands = (0..band_count as u32).into_par_iter().map(|band| {
             let first = rows.start + band * BAND;
-            Band::new([columns.start, first], columns.len(), &points_of(band as usize))
+            Band::new(screen, [columns.start, first], columns.len(), &points_of(band as usize))
         });
         let bands = bands.collect();
-        Self { frame, columns, rows, bands }
+        Self { screen, frame, columns, rows, bands }
     }
 
     /// Lets the faces of an object hide points. `is_own` tells whether a candidate
@@ -86,11 +83,12 @@ impl<'p> Hiding<'p> {
     pub(super) fn hide(&self, nearby: &Nearby<'_>, is_own: impl Fn(u32, &Candidate) -> bool + Sync) {
         let Some(triangles) = nearby.triangles() else { return };
         for (facing, run) in triangles.drawn.runs() {
-            let wins =
-                |face: u32, at: DVec2| facing.is_opaque || self.wins(nearby.object, face, at);
+            let wins = |face: u32, at: DVec2| facing.is_opaque || self.wins(nearby.object, face, at);
             let hides = |face: u32, point: &Candidate| wins(face, point.spot.at) && !is_own(face, point);
-            run.into_par_iter().with_min_len(TRIANGLES).for_each(|triangle| {
-                self.visit(&triangles, facing, triangle, &hides);
+            let starts: Vec<usize> = run.clone().step_by(TRIANGLES).collect();
+            starts.into_par_iter().for_each(|start| {
+                let share = start..run.end.min(start + TRIANGLES);
+                self.visit_all(&triangles, facing, share, &hides);
             });
         }
     }
@@ -109,57 +107,78 @@ impl<'p> Hiding<'p> {
             && id(&self.frame.face_ids) == Some(face)
     }
 
-    fn visit(
+    fn visit_all(
         &self,
         triangles: &NearbyTriangles<'_>,
         facing: Facing,
-        triangle: usize,
+        share: Range<usize>,
         hides: &impl Fn(u32, &Candidate) -> bool,
     ) {
-        triangles.pieces(triangle, |piece| {
-            let [a, b, c] = piece.map(|spot| spot.at);
-            if !facing.draws((b - a).perp_dot(c - a)) {
-                return;
-            }
-            let Some((columns, rows)) = self.pixels(piece) else { return };
-            let nearest = piece.iter().fold(f64::NEG_INFINITY, |nearest, spot| nearest.max(spot.depth));
-            for row in rows {
-                let row = row - self.rows.start;
-                let band = &self.bands[(row / BAND) as usize];
-                for number in band.points_of(row % BAND, &columns, self.columns.len()) {
-                    let point = &band.points[number];
-                    if nearest > point.hiding_depth
-                        && !band.hidden[number].load(Ordering::Relaxed)
-                        && depth_at(piece, point.spot.at).is_some_and(|depth| depth > point.hiding_depth)
-                        && hides(triangles.drawn.face(triangle), point)
-                    {
-                        band.hidden[number].store(true, Ordering::Relaxed);
-                    }
+        let mut group = Group::default();
+        for triangle in share {
+            triangles.pieces(triangle, |piece| {
+                let [a, b, c] = piece.map(|spot| spot.at);
+                if !facing.draws((b - a).perp_dot(c - a)) {
+                    return;
                 }
-            }
-        });
+                let Some(pixels) = self.pixels(piece) else { return };
+                let occluder = Occluder::new(piece, triangles.drawn.face(triangle));
+                if !group.takes(&pixels) {
+                    self.visit(&group, hides);
+                    group.clear();
+                }
+                group.push(occluder, pixels);
+            });
+        }
+        self.visit(&group, hides);
     }
 
-    /// The pixels around a triangle, columns counted from the area's first; `None` where it
-    /// lies beside the area.
-    fn pixels(&self, piece: &[Spot; 3]) -> Option<(Range<u32>, Range<u32>)> {
+    /// Lets the triangles of a group hide the points in the pixels around them.
+    fn visit(&self, group: &Group, hides: &impl Fn(u32, &Candidate) -> bool) {
+        let Some(around) = group.around() else { return };
+        for row in around.pixels.rows.clone() {
+            let band = &self.bands[(row / BAND) as usize];
+            let numbers = band.points_of(row % BAND, &around.pixels.columns, self.columns.len());
+            for (number, probe) in numbers.clone().zip(&band.probes[numbers]) {
+                if !around.extent.may_hide(probe) || band.hidden[number].load(Ordering::Relaxed) {
+                    continue;
+                }
+                let point = &band.points[number];
+                let hiding_depth = || self.screen.hiding_depth(point.spot.depth);
+                let is_hidden = group.occluders().iter().any(|occluder| {
+                    occluder.extent.may_hide(probe)
+                        && depth_at(&occluder.piece, point.spot.at)
+                            .is_some_and(|depth| depth > hiding_depth())
+                        && hides(occluder.face, point)
+                });
+                if is_hidden {
+                    band.hidden[number].store(true, Ordering::Relaxed);
+                }
+            }
+        }
+    }
+
+    /// The pixels around a triangle, counted from the area's first; `None` where it lies
+    /// beside the area.
+    fn pixels(&self, piece: &[Spot; 3]) -> Option<Pixels> {
         let [a, b, c] = piece.map(|spot| spot.at);
         let (min, max) = (a.min(b).min(c), a.max(b).max(c));
         let within = |min: f64, max: f64, pixels: &Range<u32>| {
             // The casts saturate.
             let (start, end) =
                 ((min as u32).max(pixels.start), (max as u32).saturating_add(1).min(pixels.end));
-            (max >= 0.0 && start < end).then_some(start..end)
+            (max >= 0.0 && start < end).then(|| start - pixels.start..end - pixels.start)
         };
-        let columns = within(min.x, max.x, &self.columns)?;
-        let columns = columns.start - self.columns.start..columns.end - self.columns.start;
-        Some((columns, within(min.y, max.y, &self.rows)?))
+        Some(Pixels {
+            columns: within(min.x, max.x, &self.columns)?,
+            rows: within(min.y, max.y, &self.rows)?,
+        })
     }
 }
 
 impl Band {
-    /// `origin` is its first pixel.
-    fn new([left, top]: [u32; 2], columns: usize, points: &[&Candidate]) -> Self {
+    /// `left` and `top` are its first pixel.
+    fn new(screen: &Screen, [left, top]: [u32; 2], columns: usize, points: &[&Candidate]) -> Self {
         let pixel = |point: &&Candidate| {
             let [x, y] = point.spot.at.to_array().map(|at| at as u32);
             (y - top) * columns as u32 + (x - left)
@@ -167,8 +186,9 @@ impl Band {
         let Sorted { starts, order } =
             Sorted::new(columns * BAND as usize, points.iter().map(pixel).collect());
         let points: Vec<Candidate> = order.iter().map(|&number| *points[number as usize]).collect();
+        let probes = points.iter().map(|point| Probe::new(screen, &point.spot)).collect();
         let hidden = points.iter().map(|_| AtomicBool::new(false)).collect();
-        Self { starts, points, hidden }
+        Self { starts, points, probes, hidden }
     }
 
     /// The points of some pixels of a row, both counted from the first.

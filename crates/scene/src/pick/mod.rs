@@ -3,8 +3,8 @@
 //!
 //! The rule of what is hit stands at [`Picker`]. Faces that are seen are read from the ids of a
 //! picture (`search`); all else is decided in f64: `screen` and `object` tell where points of
-//! elements are, `nearby` what may lie in a region (`region`, `lasso`), `kind` what does, `hiding` which
-//! of that a face hides, and `covering` which pixels' centres a face covers.
+//! elements are, `nearby` what may lie in a region (`region`, `lasso`), `kind` what does, `hiding` (with
+//! `occluders`) which of that a face hides, and `covering` which pixels' centres a face covers.
 
 mod covering;
 mod elements;
@@ -14,6 +14,7 @@ mod lasso;
 mod nearby;
 mod nearest;
 mod object;
+mod occluders;
 mod outline;
 mod picker;
 mod region;

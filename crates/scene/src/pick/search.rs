@@ -94,7 +94,9 @@ impl<'p> Picker<'p> {
             |point: &Candidate| best.offer(point.spot.at, point.spot.depth, point.object, point.element);
         match reach {
             Reach::Visible => self.seen(kind, nearby, offer),
-            Reach::Through => self.candidates(kind, nearby, |lists| lists.iter().flatten().for_each(&mut offer)),
+            Reach::Through => {
+                self.candidates(kind, nearby, |lists| lists.iter().flatten().for_each(&mut offer))
+            }
         }
         best
     }
@@ -103,7 +105,7 @@ impl<'p> Picker<'p> {
     fn seen(&self, kind: Kind, nearby: &[Nearby<'_>], mut found: impl FnMut(&Candidate)) {
         self.candidates(kind, nearby, |lists| {
             let [first, ..] = nearby else { return };
-            let hiding = Hiding::new(self.frame, first.area, lists);
+            let hiding = Hiding::new((&self.screen, self.frame), first.area, lists);
             for nearby in nearby {
                 let object = nearby.object;
                 let index = object.node.index() as u32;
@@ -125,7 +127,7 @@ impl<'p> Picker<'p> {
         while !waiting.is_empty() {
             let round: Vec<_> = waiting.drain(..waiting.len().min(SHARES)).collect();
             let found = round.into_par_iter().map(|(nearby, share)| {
-                let (points, rest) = self.share(kind, nearby, share);
+                let (points, rest) = points(kind, nearby, share);
                 (points, (nearby, rest))
             });
             for (points, rest) in found.collect::<Vec<_>>() {
@@ -142,20 +144,6 @@ impl<'p> Picker<'p> {
         if count > 0 {
             decide(&lists);
         }
-    }
-
-    /// The points of some elements, and what is left of these for later.
-    fn share(&self, kind: Kind, nearby: &Nearby<'_>, share: Range<usize>) -> (Vec<Candidate>, Range<usize>) {
-        let (mut points, object) = (Vec::new(), nearby.object.node.index() as u32);
-        for element in share.clone() {
-            kind.points(nearby, element, |spot| {
-                points.push(Candidate::new(&self.screen, spot, [object, element as u32]));
-            });
-            if points.len() >= SHARE_POINTS {
-                return (points, element + 1..share.end);
-            }
-        }
-        (points, share.end..share.end)
     }
 
     /// The place of a pixel in the lists of a frame.
@@ -278,6 +266,20 @@ struct Visit<N, K, A, M> {
 /// So many elements in parts.
 fn shares(count: usize) -> Vec<Range<usize>> {
     (0..count).step_by(SHARE).map(|start| start..count.min(start + SHARE)).collect()
+}
+
+/// The points of some elements, and what is left of these for later.
+fn points(kind: Kind, nearby: &Nearby<'_>, share: Range<usize>) -> (Vec<Candidate>, Range<usize>) {
+    let (mut points, object) = (Vec::new(), nearby.object.node.index() as u32);
+    for element in share.clone() {
+        kind.points(nearby, element, |spot| {
+            points.push(Candidate { spot, object, element: element as u32 });
+        });
+        if points.len() >= SHARE_POINTS {
+            return (points, element + 1..share.end);
+        }
+    }
+    (points, share.end..share.end)
 }
 
 /// Those of some elements that have a point in an area.

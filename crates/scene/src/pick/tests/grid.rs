@@ -149,8 +149,13 @@ impl GridTriangle {
     /// The mean of the corners' depths by the areas opposite to them.
     fn distance(&self, lens: &Lens, weights: [f64; 3]) -> f64 {
         let sum: f64 = weights.iter().sum();
-        let mean = |values: [f64; 3]| values.iter().zip(weights).map(|(value, by)| value * by).sum::<f64>() / sum;
-        if lens.parallel { mean(self.distances) } else { 1.0 / mean(self.distances.map(|distance| 1.0 / distance)) }
+        let mean =
+            |values: [f64; 3]| values.iter().zip(weights).map(|(value, by)| value * by).sum::<f64>() / sum;
+        if lens.parallel {
+            mean(self.distances)
+        } else {
+            1.0 / mean(self.distances.map(|distance| 1.0 / distance))
+        }
     }
 }
 

@@ -68,7 +68,8 @@ fn pixel(oracle: &Oracle, [x, y]: [u32; 2]) -> Pixel {
         if covers != Answer::No {
             pixel.covering.push((object, face, covers));
         }
-        if let Some(Rendered { answer, distances: [near, far], side }) = target.rendered(&oracle.lens, [x, y]) {
+        if let Some(Rendered { answer, distances: [near, far], side }) = target.rendered(&oracle.lens, [x, y])
+        {
             met.push(Met { object, face, seen: answer, near, far, side });
         }
     }
@@ -173,7 +174,6 @@ fn check_scene(seed: u64, tallies: &mut [[Tally; 3]; 2]) {
 fn regions_hit_what_rays_say() {
     let mut tallies = [[Tally::default(); 3]; 2];
     (0..SCENES).for_each(|seed| check_scene(seed, &mut tallies));
-    eprintln!("{tallies:#?}");
     for tallies in tallies {
         assert!(
             tallies.iter().all(|tally| tally.hit > 500 && tally.missed > 500),

@@ -148,7 +148,6 @@ fn is_sliver(lens: &Lens, corners: [DVec3; 3]) -> bool {
     (b - a).perp_dot(c - a).abs() <= 4.0 * SNAPPING * longest
 }
 
-
 impl Target {
     /// Whether it may be met in a pixel at all.
     pub(super) fn is_near(&self, at: DVec2) -> bool {
