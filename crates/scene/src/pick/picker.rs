@@ -153,13 +153,9 @@ impl<'p> Picker<'p> {
             let (object, element) = best.element()?;
             Some((self.scene.nodes().id_at(object as usize)?, element))
         };
-        let [vertex, edge] = [Kind::Vertex, Kind::Edge].map(|kind| {
-            let mut best = Best::new(point);
-            self.points(kind, &area, reach, |point| {
-                best.offer(point.spot.at, point.spot.depth, point.object, point.element);
-            });
-            element(best)
-        });
+        let nearby = self.nearby(&area);
+        let [vertex, edge] = [Kind::Vertex, Kind::Edge]
+            .map(|kind| element(self.nearest_element((kind, point), &nearby, reach)));
         Nearest { vertex, edge, face: element(self.nearest_face(point, &area, reach)) }
     }
 
