@@ -58,8 +58,9 @@ pub enum Reach {
 /// in f64 at the points themselves: no pixel's centre is taken for them.
 ///
 /// # What it costs
-/// It finds out where all vertices are on the screen when a question first needs that, and
-/// keeps it: ask one picker for as long as scene and camera stay.
+/// It finds out where all vertices are on the screen when a question about a large region
+/// first needs that, and keeps it: ask one picker for as long as scene and camera stay. For a small
+/// region, such as around a cursor, it keeps only which vertices are used.
 ///
 /// ```
 /// use trigon_scene::math::DVec2;

@@ -96,7 +96,7 @@ impl<'p> Picker<'p> {
         match reach {
             Reach::Visible => self.seen(kind, nearby, offer),
             Reach::Through => {
-                self.candidates(kind, nearby, |lists| lists.iter().flatten().for_each(&mut offer))
+                self.candidates(kind, nearby, |lists| lists.iter().flatten().for_each(&mut offer));
             }
         }
         best
