@@ -4,7 +4,7 @@
 use crate::simd::SimdLevel;
 use crate::{
     Background, Cancel, Culling, Draw, DrawChange, EdgeFlags, ExecuteSettings, FaceEdges, Fragment, Lines,
-    Output, Pass, Pipeline, Rasterizer, Stats, Surface, Target, TileSize, VertexOutput,
+    MarkColors, Marks, Output, Pass, Pipeline, Rasterizer, Stats, Surface, Target, TileSize, VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
@@ -17,6 +17,10 @@ struct Model {
     triangles: Vec<[u32; 3]>,
     faces: Vec<u32>,
     flags: Vec<EdgeFlags>,
+    /// The numbers of the edges that the triangles' sides are.
+    sides: Vec<[u32; 3]>,
+    edge_marks: Vec<u8>,
+    face_marks: Vec<u8>,
     surface: Surface,
 }
 
@@ -57,9 +61,19 @@ impl Model {
         let quads = (0..QUADS * QUADS).map(|quad| quad / QUADS * side + quad % QUADS);
         let halves = |at: u32| [[at, at + 1, at + side + 1], [at, at + side + 1, at + side]];
         let flags = [[true, true, false], [false, true, true]].map(EdgeFlags::new);
+        let triangles: Vec<_> = quads.flat_map(halves).collect();
+        // One edge to the right and one downwards from each vertex.
+        let edge = |from: u32, to: u32| match from.abs_diff(to) {
+            1 => from.min(to),
+            across if across == side => side * side + from.min(to),
+            _ => u32::MAX,
+        };
         Self {
             vertices: (0..side * side).map(vertex).collect(),
-            triangles: quads.flat_map(halves).collect(),
+            sides: triangles.iter().map(|&[a, b, c]| [edge(a, b), edge(b, c), edge(c, a)]).collect(),
+            edge_marks: (0..2 * side * side).map(|edge| (edge % 3) as u8).collect(),
+            face_marks: (0..QUADS * QUADS).map(|face| (face % 5 / 3) as u8).collect(),
+            triangles,
             faces: (0..2 * QUADS * QUADS).map(|triangle| triangle / 2).collect(),
             flags: (0..QUADS * QUADS).flat_map(|_| flags).collect(),
             surface,
@@ -70,6 +84,7 @@ impl Model {
         pass.triangles(Draw {
             faces: Some(&self.faces),
             edge_flags: Some(&self.flags),
+            marks: Some(Marks { sides: &self.sides, edges: &self.edge_marks, faces: &self.face_marks }),
             object,
             culling: Culling::None,
             surface: self.surface,
@@ -88,6 +103,8 @@ struct Delta {
     painted: Vec<(u32, Vec4)>,
     /// Triangles whose corners are turned on, and whose flags are others.
     turned: Vec<u32>,
+    /// Edges and faces with other marks.
+    marked: [Vec<(u32, u8)>; 2],
 }
 
 impl Delta {
@@ -104,10 +121,26 @@ impl Delta {
         turned.dedup();
         for &triangle in &turned {
             model.triangles[triangle as usize].rotate_left(1);
+            model.sides[triangle as usize].rotate_left(1);
             model.flags[triangle as usize] = EdgeFlags::new([triangle % 2 == 0, true, triangle % 3 == 0]);
         }
         let painted = self.painted.iter().map(|&(vertex, _)| vertex);
-        [self.moved.iter().map(|&(vertex, _)| vertex).chain(painted).collect(), turned]
+        let vertices = self.moved.iter().map(|&(vertex, _)| vertex).chain(painted).collect();
+        let marked = self.mark(model);
+        let is_listed = |triangle: &u32| turned.contains(triangle) || marked.contains(triangle);
+        [vertices, (0..model.triangles.len() as u32).filter(is_listed).collect()]
+    }
+
+    /// Changes marks; the triangles that have them.
+    fn mark(&self, model: &mut Model) -> Vec<u32> {
+        let [edges, faces] = &self.marked;
+        edges.iter().for_each(|&(edge, mark)| model.edge_marks[edge as usize] = mark);
+        faces.iter().for_each(|&(face, mark)| model.face_marks[face as usize] = mark);
+        let has_marked = |&triangle: &u32| {
+            let (sides, own) = (model.sides[triangle as usize], model.faces[triangle as usize]);
+            edges.iter().any(|(edge, _)| sides.contains(edge)) || faces.iter().any(|(face, _)| *face == own)
+        };
+        (0..model.triangles.len() as u32).filter(has_marked).collect()
     }
 }
 
@@ -124,11 +157,14 @@ fn delta() -> impl Strategy<Value = Delta> {
     let moved = prop::collection::vec((vertex.clone(), way), 0..5);
     let painted = prop::collection::vec((vertex, color), 0..4);
     let turned = prop::collection::vec(0..2 * QUADS * QUADS, 0..3);
-    (0..2_usize, moved, painted, turned).prop_map(|(model, moved, painted, turned)| Delta {
+    let marked = [2 * (QUADS + 1) * (QUADS + 1), QUADS * QUADS]
+        .map(|elements| prop::collection::vec((0..elements, 0..4_u8), 0..3));
+    (0..2_usize, moved, painted, turned, marked).prop_map(|(model, moved, painted, turned, marked)| Delta {
         model,
         moved,
         painted,
         turned,
+        marked,
     })
 }
 
@@ -139,6 +175,7 @@ struct View {
     samples: [u32; 2],
     outputs: Vec<Output>,
     edges: Option<f32>,
+    has_marks: bool,
     background: usize,
     settings: ExecuteSettings,
 }
@@ -164,16 +201,27 @@ fn view() -> impl Strategy<Value = View> {
             ExecuteSettings { threads, simd, tile_size, ..ExecuteSettings::default() }
         });
     let edges = prop_oneof![Just(None), (0.5_f32..5.0).prop_map(Some)];
-    ([1_u32..130, 1_u32..100], samples, outputs, edges, 0..3_usize, settings).prop_map(
-        |(size, samples, outputs, edges, background, settings)| View {
+    ([1_u32..130, 1_u32..100], samples, outputs, edges, any::<bool>(), 0..3_usize, settings).prop_map(
+        |(size, samples, outputs, edges, has_marks, background, settings)| View {
             size,
             samples,
             outputs,
             edges,
+            has_marks,
             background,
             settings,
         },
     )
+}
+
+/// Three marks with colours of their own; the others cannot be seen.
+fn mark_colors() -> MarkColors {
+    let mut colors = MarkColors::NONE;
+    for (mark, color) in [Vec3::X, Vec3::Y, Vec3::Z].into_iter().enumerate() {
+        colors.edges[mark + 1] = color.extend(0.9);
+        colors.faces[mark + 1] = color.extend(0.4);
+    }
+    colors
 }
 
 fn row(y: u32) -> Vec4 {
@@ -203,6 +251,9 @@ impl View {
         pass.lines(Lines { object: 9, width: 3.0, ..lines });
         if let Some(width) = self.edges {
             pass.edges(FaceEdges { width, color: Vec3::X, opacity: 0.7 });
+        }
+        if self.has_marks {
+            pass.marks(mark_colors());
         }
         pass
     }
@@ -274,13 +325,20 @@ fn plain(outputs: &[Output]) -> View {
         samples: [1, 1],
         outputs: outputs.to_vec(),
         edges: Some(1.0),
+        has_marks: false,
         background: 1,
         settings: ExecuteSettings::default(),
     }
 }
 
 fn one_vertex() -> Delta {
-    Delta { model: 0, moved: vec![(34, [0.05, 0.0, 0.0, 0.0])], painted: Vec::new(), turned: Vec::new() }
+    Delta {
+        model: 0,
+        moved: vec![(34, [0.05, 0.0, 0.0, 0.0])],
+        painted: Vec::new(),
+        turned: Vec::new(),
+        marked: [Vec::new(), Vec::new()],
+    }
 }
 
 /// The share of the target that was drawn again.
@@ -307,6 +365,60 @@ fn only_tiles_around_what_moved_are_drawn() {
     let drawn = share(&view, &moved.parts);
     assert!(drawn > 0.0 && drawn < 0.3, "four quads of {}: {drawn}", QUADS * QUADS);
     assert!(target.srgb8() == view.fresh(&models).srgb8(), "the bytes of a fresh picture");
+}
+
+#[test]
+fn only_tiles_around_other_marks_are_drawn() {
+    let view = View { has_marks: true, ..plain(&[Output::Srgb8]) };
+    let mut models = models([Surface::Opaque; 2]);
+    let mut rasterizer = Rasterizer::default();
+    let mut target = view.target();
+    rasterizer.redraw(&view.pass(&models), &mut target, None);
+    let before = target.srgb8().map(<[_]>::to_vec);
+    let marked = [vec![(44, 3)], vec![(40, 3)]];
+    let [_, triangles] = Delta { moved: Vec::new(), marked, ..one_vertex() }.apply(&mut models[0]);
+    let mut changes = [DrawChange::default(); 5];
+    changes[0].triangles = &triangles;
+    let redraw = rasterizer.redraw(&view.pass(&models), &mut target, Some(&changes));
+    let drawn = share(&view, &redraw.parts);
+    assert!(drawn > 0.0 && drawn < 0.3, "three quads of {}: {drawn}", QUADS * QUADS);
+    assert!(target.srgb8() != before.as_deref(), "other marks look different");
+    assert!(target.srgb8() == view.fresh(&models).srgb8(), "the bytes of a fresh picture");
+}
+
+/// Ordinals of a draw without triangles begin where those of the next draw do: a redraw took
+/// the changed vertices of the one for those of the other, and asked an empty range for its
+/// last triangle.
+#[test]
+fn draws_without_triangles_broke_the_redraws_look_up_of_draws() {
+    let view = plain(&[Output::Srgb8]);
+    let mut sheet = Model::sheet(Surface::Opaque, 0.0);
+    let before = sheet.clone();
+    let [vertices, _] = one_vertex().apply(&mut sheet);
+    for empty in 0..3 {
+        let record = |sheet| {
+            let mut pass = Pass::new();
+            pass.edges(FaceEdges { width: 1.0, color: Vec3::X, opacity: 0.7 });
+            for draw in 0..3 {
+                if draw == empty {
+                    pass.triangles(Draw::new(&before, &[]));
+                } else {
+                    Model::record(sheet, draw, &mut pass);
+                }
+            }
+            pass
+        };
+        let changes = [0, 1, 2].map(|draw| {
+            let vertices = if draw == empty { &[] } else { vertices.as_slice() };
+            DrawChange { vertices, triangles: &[] }
+        });
+        let (mut rasterizer, mut target, mut fresh) = (Rasterizer::default(), view.target(), view.target());
+        rasterizer.redraw(&record(&before), &mut target, None);
+        let redraw = rasterizer.redraw(&record(&sheet), &mut target, Some(&changes));
+        Rasterizer::default().draw(&record(&sheet), &mut fresh);
+        assert!(share(&view, &redraw.parts) < 0.3, "draw {empty} is empty, and the others follow");
+        assert!(target.srgb8() == fresh.srgb8(), "draw {empty} is empty");
+    }
 }
 
 /// Whatever else the rasterizer has done in between: it tells nothing of the changes.
