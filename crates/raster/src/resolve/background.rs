@@ -226,3 +226,6 @@ fn bits(mut lanes: u32) -> impl Iterator<Item = usize> {
         Some(lane)
     })
 }
+
+#[cfg(test)]
+mod tests;
