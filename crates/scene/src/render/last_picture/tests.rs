@@ -11,9 +11,9 @@ use trigon_raster::simd::SimdLevel;
 use trigon_raster::{Cancel, Texture, TextureFormat};
 
 use crate::{
-    AlphaMode, AmbientOcclusion, Background, EffectSettings, Environment, Fog, Frame, Light, Material,
-    MeshId, Node, NodeId, Outline, Outputs, RenderSettings, Renderer, Scene, Shadows, Style, TextureBinding,
-    ToneMapping, render,
+    AlphaMode, AmbientOcclusion, Background, EffectSettings, ElementSet, Environment, FixedBitSet, Fog,
+    Frame, Light, Mark, Marks, Material, MeshId, Node, NodeId, Outline, Outputs, RenderSettings, Renderer,
+    Scene, Shadows, Style, TextureBinding, ToneMapping, VertexPoints, render,
 };
 
 /// A scene, and what is changed in it.
@@ -92,6 +92,10 @@ enum Event {
     /// The frame's user writes into it.
     FrameUsed,
     Settings(usize),
+    /// Elements of a mesh are marked in a colour of this level: edges, faces or vertices.
+    Marked(usize, usize, Vec<u8>, f32),
+    VerticesShown(Option<f32>),
+    XRay(f32),
 }
 
 fn event() -> impl Strategy<Value = Event> {
@@ -110,11 +114,15 @@ fn event() -> impl Strategy<Value = Event> {
         1 => Just(Event::Cancelled),
         1 => Just(Event::FrameUsed),
         2 => (0..SETTINGS.len()).prop_map(Event::Settings),
+        2 => (0..3_usize, 0..4_usize, prop::collection::vec(any::<u8>(), 0..6), 0.0_f32..1.0)
+            .prop_map(|(kind, node, elements, level)| Event::Marked(kind, node, elements, level)),
+        1 => prop::option::of(0.5_f32..6.0).prop_map(Event::VerticesShown),
+        1 => prop_oneof![Just(0.0), 0.0_f32..1.0].prop_map(Event::XRay),
     ]
 }
 
 /// What becomes of the settings; those of the effects begin from none.
-const SETTINGS: [fn(&mut RenderSettings, &Model); 17] = [
+const SETTINGS: [fn(&mut RenderSettings, &Model); 20] = [
     |settings, _| settings.effects = EffectSettings::default(),
     |settings, _| settings.effects.shadows = Shadows::Maps { resolution: 32 },
     |settings, _| settings.effects.shadows = Shadows::Rays,
@@ -135,7 +143,19 @@ const SETTINGS: [fn(&mut RenderSettings, &Model); 17] = [
     |settings, _| settings.samples = 4,
     |settings, _| settings.outputs = Outputs { depth: true, ids: true, ..settings.outputs },
     |settings, _| settings.outputs = Outputs { radiance: true, triangle_ids: true, ..settings.outputs },
+    |settings, _| (settings.style, settings.x_ray) = (Style::SurfaceWithEdges, 0.4),
+    |settings, _| settings.style = Style::SurfaceWithEdges,
+    |settings, _| settings.marks = Marks::default(),
 ];
+
+/// Some elements of a node in a colour of this level.
+fn mark(node: NodeId, elements: &[u8], level: f32) -> Mark {
+    let mut bits = FixedBitSet::new();
+    elements.iter().for_each(|&element| bits.grow_and_insert(usize::from(element)));
+    let mut set = ElementSet::default();
+    set.add(node, bits);
+    Mark { elements: Arc::new(set), color: Vec3::new(1.0, level, 0.0), opacity: 0.5 + 0.5 * level }
+}
 
 /// A renderer that has drawn what was before.
 struct Sequence {
@@ -201,6 +221,16 @@ impl Sequence {
                 frame.face_ids = None;
             }
             Event::Settings(number) => SETTINGS[*number](renderer.settings_mut(), model),
+            Event::Marked(kind, node, elements, level) => {
+                let Marks { edges, faces, vertices } = &mut renderer.settings_mut().marks;
+                let list = [edges, faces, vertices].into_iter().nth(*kind).expect("one of three");
+                list.insert(0, mark(model.nodes[*node], elements, *level));
+            }
+            Event::VerticesShown(size) => {
+                let points = |size| VertexPoints { size, ..VertexPoints::default() };
+                renderer.settings_mut().vertices = size.map(points);
+            }
+            Event::XRay(share) => renderer.settings_mut().x_ray = *share,
         }
     }
 
@@ -282,7 +312,7 @@ fn from_the_third_picture_on_only_what_changes_is_drawn() {
 #[test]
 fn effects_that_reach_over_tiles_draw_everything() {
     let settings = RenderSettings { samples_per_axis: 1, ..RenderSettings::new(320, 240) };
-    for number in [1, 2, 3, 5, 6, 7] {
+    for number in [1, 2, 3, 5, 6, 7, 17] {
         let mut sequence = Sequence::new(model(AlphaMode::Opaque), settings.clone());
         sequence.apply(&Event::Settings(number));
         sequence.draw();
@@ -292,5 +322,40 @@ fn effects_that_reach_over_tiles_draw_everything() {
             sequence.draw();
             assert_eq!(tiles(&sequence), all, "settings {number}");
         }
+    }
+}
+
+#[test]
+fn what_is_marked_follows_and_other_marks_draw_everything() {
+    let settings = RenderSettings {
+        samples_per_axis: 1,
+        style: Style::SurfaceWithEdges,
+        ..RenderSettings::new(640, 480)
+    };
+    let mut sequence = Sequence::new(model(AlphaMode::Opaque), settings);
+    // Enough of 320 edges and 160 faces for some on the side that is seen.
+    sequence.apply(&Event::Marked(0, 0, (0..250).step_by(9).collect(), 0.2));
+    sequence.apply(&Event::Marked(1, 0, (0..160).step_by(7).collect(), 0.7));
+    sequence.draw();
+    let all = tiles(&sequence);
+    sequence.draw();
+    for vertex in [3, 40, 41] {
+        sequence.apply(&moved(vertex));
+        sequence.draw();
+        assert!((1..all / 2).contains(&tiles(&sequence)), "{} of {all} tiles", tiles(&sequence));
+        assert!(sequence.frame == sequence.fresh(), "the bytes of a fresh picture");
+    }
+    let others: [fn(&mut RenderSettings); 3] = [
+        |settings| Arc::make_mut(&mut settings.marks.faces[0].elements).clone_from(&ElementSet::default()),
+        |settings| settings.marks.edges[0].color = Vec3::Z,
+        |settings| settings.vertices = Some(VertexPoints::default()),
+    ];
+    for (number, change) in others.into_iter().enumerate() {
+        let before = sequence.frame.color.clone();
+        change(sequence.renderer.settings_mut());
+        sequence.draw();
+        assert!(tiles(&sequence) > all / 2, "change {number}: {} of {all} tiles", tiles(&sequence));
+        assert!(sequence.frame.color != before, "change {number} is seen");
+        assert!(sequence.frame == sequence.fresh(), "change {number}: the bytes of a fresh picture");
     }
 }
