@@ -1,6 +1,7 @@
-//! 100,000 opaque lines and as many points against the plainest loops that draw as much: the
+//! 100,000 lines and as many points against the plainest loops that draw as much: the
 //! algorithm of Bresenham, and squares and discs pixel by pixel, each with a depth test, a
-//! depth, an id and a colour written to each pixel.
+//! depth, an id and a colour written to each pixel. Anti-aliased lines and points blend two to
+//! three times as many pixels; their times, too, are for each pixel of the plain loops.
 //!
 //! Both take turns, and the shortest times are compared, so that what else the machine does
 //! matters little. A name on the command line picks the rows that contain it, `--quick` takes
@@ -14,8 +15,8 @@ use std::time::{Duration, Instant};
 use trigon_math::Vec4;
 use trigon_raster::simd::{F32, Simd, SimdLevel, prelude::*};
 use trigon_raster::{
-    ExecuteSettings, FragmentLanes, LanePipeline, Lines, Output, Pass, PointShape, Points, Rasterizer,
-    Target, VertexLanes,
+    ExecuteSettings, FragmentLanes, LanePipeline, Lines, Outline, Output, Pass, PointShape, Points,
+    Rasterizer, Target, VertexLanes,
 };
 
 const SIZE: [usize; 2] = [1920, 1080];
@@ -199,9 +200,16 @@ fn measure(row: Row<'_>, rasterizer: &mut Rasterizer, turns: usize) {
     }
     let of_pixel = |time: Duration| time.as_nanos() as f64 / buffers.pixels as f64;
     let [a, b] = [of_pixel(ours), of_pixel(theirs)];
-    println!("{name:34} {:9} {a:8.2} {b:8.2} {:7.2}", buffers.pixels, a / b);
+    println!("{name:40} {:9} {a:8.2} {b:8.2} {:7.2}", buffers.pixels, a / b);
     if rasterizer.settings().timed {
         println!("    {stages:?}");
+    }
+}
+
+fn prefix(outline: Outline) -> &'static str {
+    match outline {
+        Outline::Sharp => "",
+        Outline::AntiAliased => "smooth ",
     }
 }
 
@@ -214,20 +222,22 @@ fn main() {
     let mut rasterizer = Rasterizer::new(settings).expect("the level is supported");
     let picked: Vec<_> = arguments.iter().filter(|argument| !argument.starts_with("--")).collect();
     let is_picked = |name: &str| picked.is_empty() || picked.iter().any(|part| name.contains(*part));
-    println!("{:34} {:>9} {:>8} {:>8} {:>7}", "ns per pixel", "pixels", "trigon", "plain", "ratio");
+    println!("{:40} {:>9} {:>8} {:>8} {:>7}", "ns per pixel", "pixels", "trigon", "plain", "ratio");
     for (lengths, what) in
         [(vec![5.0], "5"), (vec![20.0], "20"), (vec![100.0], "100"), (vec![5.0, 20.0, 100.0], "5, 20, 100")]
     {
         let segments = segments(&lengths);
         let wire = Wire::new(segments.as_flattened());
         let indices: Vec<_> = (0..COUNT as u32).map(|i| [2 * i, 2 * i + 1]).collect();
-        for width in [1, 3] {
-            let name = format!("lines of {what} px, width {width}");
+        for (outline, width) in
+            [Outline::Sharp, Outline::AntiAliased].into_iter().flat_map(|o| [(o, 1), (o, 3)])
+        {
+            let name = format!("{}lines of {what} px, width {width}", prefix(outline));
             if !is_picked(&name) {
                 continue;
             }
             let mut pass = Pass::new();
-            pass.lines(Lines { width: width as f32, ..Lines::new(&wire, &indices) });
+            pass.lines(Lines { width: width as f32, outline, ..Lines::new(&wire, &indices) });
             let plain = Box::new(|plain: &mut Plain| {
                 segments.iter().zip(0..).for_each(|(&ends, id)| plain.line(ends, width, id));
             });
@@ -237,14 +247,19 @@ fn main() {
     let segments = segments(&[1.0]);
     let vertices: Vec<_> = segments.iter().map(|[vertex, _]| *vertex).collect();
     let (wire, indices) = (Wire::new(&vertices), (0..COUNT as u32).collect::<Vec<_>>());
-    for (shape, what) in [(PointShape::Square, "square"), (PointShape::Round, "round")] {
+    let shapes = [
+        (PointShape::Square, Outline::Sharp, "square"),
+        (PointShape::Round, Outline::Sharp, "round"),
+        (PointShape::Round, Outline::AntiAliased, "round"),
+    ];
+    for (shape, outline, what) in shapes {
         for size in [1.0, 3.0, 5.0] {
-            let name = format!("{what} points of {size} px");
+            let name = format!("{}{what} points of {size} px", prefix(outline));
             if !is_picked(&name) {
                 continue;
             }
             let mut pass = Pass::new();
-            pass.points(Points { shape, ..Points::new(&wire, &indices, size) });
+            pass.points(Points { shape, outline, ..Points::new(&wire, &indices, size) });
             let plain = Box::new(|plain: &mut Plain| {
                 vertices.iter().zip(0..).for_each(|(&vertex, id)| plain.point(vertex, size, shape, id));
             });

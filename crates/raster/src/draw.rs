@@ -1,6 +1,6 @@
 //! What a pass records: triangles, lines and points, each with its pipeline.
 
-use crate::EdgeFlags;
+use crate::{EdgeFlags, Marks};
 use fixedbitset::FixedBitSet;
 
 /// Which triangles are dropped by the side that they show.
@@ -55,6 +55,9 @@ pub struct Draw<'a, P> {
     /// (or beyond its end) all are; but a pass that paints edges
     /// ([`Pass::edges`](crate::Pass::edges)) paints only those of draws that list them.
     pub edge_flags: Option<&'a [EdgeFlags]>,
+    /// Edges and faces in colours of their own, as [`Pass::marks`](crate::Pass::marks) tells
+    /// them. Edges have to be painted at all for that.
+    pub marks: Option<Marks<'a>>,
     /// The object id; `u32::MAX` means background and should not be used.
     pub object: u32,
     /// Which sides are dropped.
@@ -71,6 +74,7 @@ impl<'a, P> Draw<'a, P> {
             triangles,
             faces: None,
             edge_flags: None,
+            marks: None,
             object: 0,
             culling: Culling::default(),
             surface: Surface::default(),

@@ -51,20 +51,14 @@ impl<V> Fragment<V> {
     /// wireframe that can never fight with its own surface.
     #[inline]
     pub fn nearest_edge(&self) -> f32 {
-        nearest_edge(self.edge_distances, self.edge_flags)
-    }
-}
-
-/// The least of the distances that are flagged; infinite if none is.
-#[inline]
-pub(crate) fn nearest_edge(distances: [f32; 3], flags: EdgeFlags) -> f32 {
-    let mut nearest = f32::INFINITY;
-    for (i, distance) in distances.into_iter().enumerate() {
-        if flags.contains(i) && distance < nearest {
-            nearest = distance;
+        let mut nearest = f32::INFINITY;
+        for (edge, distance) in self.edge_distances.into_iter().enumerate() {
+            if self.edge_flags.contains(edge) && distance < nearest {
+                nearest = distance;
+            }
         }
+        nearest
     }
-    nearest
 }
 
 /// Which edges of a triangle are edges of the face that it belongs to, and

@@ -1,13 +1,29 @@
 //! What was recorded, without the pipeline: indices and ids.
 
 use crate::simd::{Each, LANES};
-use crate::{Culling, EdgeFlags, MarkedPoints, Outline, PointShape, Surface};
+use crate::{Culling, EdgeFlags, MarkedPoints, Marks, Outline, PointShape, Surface};
 
 /// The primitives of one draw.
 pub(crate) enum Shape<'a> {
-    Triangles { triangles: &'a [[u32; 3]], edge_flags: Option<&'a [EdgeFlags]>, culling: Culling },
-    Lines { segments: &'a [[u32; 2]], width: f32, outline: Outline, toward_eye: f32 },
-    Points { points: &'a [u32], sizes: PointSizes<'a>, shape: PointShape, outline: Outline, toward_eye: f32 },
+    Triangles {
+        triangles: &'a [[u32; 3]],
+        edge_flags: Option<&'a [EdgeFlags]>,
+        marks: Option<Marks<'a>>,
+        culling: Culling,
+    },
+    Lines {
+        segments: &'a [[u32; 2]],
+        width: f32,
+        outline: Outline,
+        toward_eye: f32,
+    },
+    Points {
+        points: &'a [u32],
+        sizes: PointSizes<'a>,
+        shape: PointShape,
+        outline: Outline,
+        toward_eye: f32,
+    },
 }
 
 /// The sizes of a draw's points.
@@ -112,6 +128,21 @@ impl Geometry<'_> {
             }
             Shape::Lines { .. } | Shape::Points { .. } => EdgeFlags::NONE,
         }
+    }
+
+    /// What is marked of triangles, if anything is.
+    #[inline]
+    pub(crate) fn marks(&self) -> Option<&Marks<'_>> {
+        match &self.shape {
+            Shape::Triangles { marks, .. } => marks.as_ref(),
+            Shape::Lines { .. } | Shape::Points { .. } => None,
+        }
+    }
+
+    /// The marks of a triangle's sides.
+    #[inline]
+    pub(crate) fn side_marks(&self, primitive: u32) -> [u8; 3] {
+        self.marks().map_or([0; 3], |marks| marks.of_sides(primitive))
     }
 
     /// The indices of all corners, in order.

@@ -129,7 +129,8 @@ pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,
 };
 pub use fragment::{EdgeFlags, Fragment};
-pub use ink::FaceEdges;
+pub use frame::{DrawChange, Redraw};
+pub use ink::{FaceEdges, MarkColors, Marks};
 pub use paint2d::Rect;
 pub use pass::{Background, Pass};
 #[doc(hidden)]

@@ -3,7 +3,7 @@
 use crate::geometry::{Geometry, PointSizes, Shape};
 use crate::paint2d::Rect;
 use crate::shade::AnyPipeline;
-use crate::{Draw, FaceEdges, LanePipeline, Lines, Points, Target};
+use crate::{Draw, FaceEdges, LanePipeline, Lines, MarkColors, Points, Target};
 use trigon_math::{UVec2, Vec4};
 
 /// What a pass is drawn on.
@@ -11,6 +11,9 @@ use trigon_math::{UVec2, Vec4};
 pub enum Background<'a> {
     /// One colour, linear light, premultiplied.
     Color(Vec4),
+    /// A colour for each row of the target, linear light, premultiplied. Called once for
+    /// each row of a frame.
+    PerRow(&'a (dyn Fn(u32) -> Vec4 + Sync)),
     /// A colour for each pixel, linear light, premultiplied. Called on any
     /// thread, for those pixels that show it.
     PerPixel(&'a (dyn Fn(UVec2) -> Vec4 + Sync)),
@@ -31,6 +34,7 @@ pub struct Pass<'a> {
     pub(crate) draws: Vec<Recorded<'a>>,
     pub(crate) scissor: Option<Rect>,
     pub(crate) edges: Option<FaceEdges>,
+    pub(crate) marks: Option<MarkColors>,
 }
 
 impl Default for Pass<'_> {
@@ -42,7 +46,13 @@ impl Default for Pass<'_> {
 impl<'a> Pass<'a> {
     /// An empty pass on transparent black.
     pub fn new() -> Self {
-        Self { background: Background::Color(Vec4::ZERO), draws: Vec::new(), scissor: None, edges: None }
+        Self {
+            background: Background::Color(Vec4::ZERO),
+            draws: Vec::new(),
+            scissor: None,
+            edges: None,
+            marks: None,
+        }
     }
 
     /// Draws on `background` instead.
@@ -76,10 +86,23 @@ impl<'a> Pass<'a> {
         self
     }
 
+    /// Gives the marks of draws ([`Draw::marks`](crate::Draw::marks)) their colours: those of
+    /// faces are mixed into what their pipelines give, those of edges take the place of the
+    /// colour and opacity of [`edges`](Self::edges), which has to give them a width.
+    ///
+    /// Edges that meet in a pixel: the one that covers most of it gives the colour, of equal
+    /// ones that with the greater mark. Where a face is too small for single edges, it is the
+    /// greatest mark of its triangle's. Which of two marks covers more is not doubted by
+    /// [`Rasterizer::certify`](crate::Rasterizer::certify).
+    pub fn marks(&mut self, marks: MarkColors) -> &mut Self {
+        self.marks = Some(marks);
+        self
+    }
+
     /// Records triangles.
     pub fn triangles<P: LanePipeline>(&mut self, draw: Draw<'a, P>) -> &mut Self {
-        let Draw { pipeline, triangles, faces, edge_flags, object, culling, surface } = draw;
-        let shape = Shape::Triangles { triangles, edge_flags, culling };
+        let Draw { pipeline, triangles, faces, edge_flags, marks, object, culling, surface } = draw;
+        let shape = Shape::Triangles { triangles, edge_flags, marks, culling };
         self.record(pipeline, Geometry { shape, faces, object, surface })
     }
 

@@ -1,6 +1,6 @@
 //! The object that draws passes and keeps what can be used again.
 
-use crate::frame::{Arena, FrameView, How, draw, prepare};
+use crate::frame::{Arena, DrawChange, FrameView, How, Redraw, draw, prepare, redraw};
 use crate::pool::Workers;
 use crate::simd::{SimdLevel, SimdLevelError, Token};
 use crate::{Cancel, ExecuteSettings, Pass, Stats, Target};
@@ -68,14 +68,63 @@ impl Rasterizer {
     /// The result is a function of the pass and the target's size, samples and
     /// outputs alone: the settings change no byte.
     pub fn draw(&mut self, pass: &Pass<'_>, target: &mut Target<'_>) -> Stats {
-        let tile_size = self.settings.tile_size.pixels(target.samples());
-        let workers = if pass.is_worth_sharing(target) { &self.workers } else { &Workers::ALONE };
-        let hierarchical = self.settings.depth_test == crate::DepthTest::Hierarchical;
-        let timed = self.settings.timed;
-        let cancel = self.cancel.as_ref();
-        let finds_colors = false;
-        let how = How { token: self.token, workers, tile_size, hierarchical, timed, finds_colors, cancel };
-        draw(&mut self.arena, pass, target, how)
+        let Self { settings, token, workers, cancel, arena } = self;
+        draw(arena, pass, target, how((settings, *token, workers), cancel.as_ref(), pass, target))
+    }
+
+    /// As [`draw`](Self::draw), for passes that are drawn again and again with few vertices
+    /// moved: it runs these vertices alone, and draws the tiles alone that their triangles
+    /// lie in, or lay in.
+    ///
+    /// `changes` tell, draw by draw in the order of recording, how the pass differs from the
+    /// one of the last call. Everything else has to be the same: the background, how edges are
+    /// painted and the colours of marks, the numbers of draws, vertices and triangles, and
+    /// whatever else pipelines answer by. And the target has to hold the pictures that the last
+    /// call has left in its target. Where that is not so the picture is a mixture of both
+    /// passes; nothing worse happens. With `None` all is drawn. So it is in a target of another size or with other outputs, with a
+    /// [`scissor`](Pass::scissor), after a call of any other function, and after a drawing
+    /// that was cancelled.
+    ///
+    /// ```
+    /// # use trigon_raster::{*, math::Vec4};
+    /// struct Triangle([[f32; 2]; 3]);
+    /// impl Pipeline for Triangle {
+    ///     type Varyings = ();
+    ///     fn vertex_count(&self) -> usize { 3 }
+    ///     fn vertex(&self, index: usize) -> VertexOutput<()> {
+    ///         let [x, y] = self.0[index];
+    ///         VertexOutput { position: Vec4::new(x, y, 0.5, 1.0), varyings: () }
+    ///     }
+    ///     fn fragment(&self, _: &Fragment<()>) -> Vec4 { Vec4::ONE }
+    /// }
+    /// let mut rasterizer = Rasterizer::default();
+    /// let mut target = Target::new(500, 400, &[Output::Srgb8])?;
+    /// let before = Triangle([[-0.9, -0.9], [-0.8, -0.9], [-0.8, -0.8]]);
+    /// let mut pass = Pass::new();
+    /// pass.triangles(Draw::new(&before, &[[0, 1, 2]]));
+    /// rasterizer.redraw(&pass, &mut target, None);
+    ///
+    /// let after = Triangle([[-0.9, -0.9], [-0.7, -0.9], [-0.8, -0.8]]);
+    /// let mut pass = Pass::new();
+    /// pass.triangles(Draw::new(&after, &[[0, 1, 2]]));
+    /// let changes = [DrawChange { vertices: &[1], triangles: &[] }];
+    /// let redraw = rasterizer.redraw(&pass, &mut target, Some(&changes));
+    /// assert!(redraw.parts.iter().all(|part| part.max[0] < 200), "the left part alone");
+    ///
+    /// let mut fresh = Target::new(500, 400, &[Output::Srgb8])?;
+    /// Rasterizer::default().draw(&pass, &mut fresh);
+    /// assert_eq!(target.srgb8(), fresh.srgb8());
+    /// # Ok::<(), TargetError>(())
+    /// ```
+    pub fn redraw(
+        &mut self,
+        pass: &Pass<'_>,
+        target: &mut Target<'_>,
+        changes: Option<&[DrawChange<'_>]>,
+    ) -> Redraw {
+        let Self { settings, token, workers, cancel, arena } = self;
+        let how = how((settings, *token, workers), cancel.as_ref(), pass, target);
+        redraw(arena, pass, (target, changes), how)
     }
 
     /// Works through items of any kind on the threads that draw, each item taken by the
@@ -86,6 +135,24 @@ impl Rasterizer {
         I: Iterator + Send,
     {
         self.workers.share(items, work);
+    }
+}
+
+/// How a pass is drawn.
+fn how<'w>(
+    (settings, token, workers): (&ExecuteSettings, Token, &'w Workers),
+    cancel: Option<&'w Cancel>,
+    pass: &Pass<'_>,
+    target: &Target<'_>,
+) -> How<'w> {
+    How {
+        token,
+        workers: if pass.is_worth_sharing(target) { workers } else { &Workers::ALONE },
+        tile_size: settings.tile_size.pixels(target.samples()),
+        hierarchical: settings.depth_test == crate::DepthTest::Hierarchical,
+        timed: settings.timed,
+        finds_colors: false,
+        cancel,
     }
 }
 

@@ -57,7 +57,7 @@ impl<T> fmt::Debug for Id<T> {
     }
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 struct Slot<T> {
     generation: u32,
     item: Option<T>,
@@ -65,7 +65,7 @@ struct Slot<T> {
 
 /// Items with stable indices. The place of a removed item is used again by a
 /// later one, under a new generation.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Arena<T> {
     slots: Vec<Slot<T>>,
     free: Vec<u32>,

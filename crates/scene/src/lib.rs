@@ -32,8 +32,10 @@ mod animation;
 mod arena;
 mod background;
 mod effects;
+mod elements;
 mod frame;
 mod light;
+mod marks;
 mod material;
 mod node;
 mod outputs;
@@ -54,13 +56,15 @@ pub use effects::{
     Absence, AmbientOcclusion, Cause, Decision, Effect, EffectCounts, EffectPlan, EffectSettings,
     Environment, EnvironmentError, Fog, MetalReflection, Named, Outline, Shadows, Sky, ToneMapping,
 };
+pub use elements::ElementSet;
 /// Of [`ElementSet`].
 pub use fixedbitset::FixedBitSet;
 pub use frame::{Frame, Hit};
 pub use light::{Light, LightKind};
+pub use marks::{Mark, Marks, VertexPoints};
 pub use material::{AlphaMode, Material, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding};
 pub use node::Node;
-pub use pick::{ElementSet, Nearest, Pick, Picker, Reach, Region};
+pub use pick::{Nearest, Pick, Picker, Reach, Region};
 pub use render::{RenderError, Renderer, RendererBuilder, render};
 pub use scene::{
     MaterialId, MeshAsset, MeshId, NodeId, Scene, SceneError, SceneParts, SkinId, TextureAsset, TextureId,

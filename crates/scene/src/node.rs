@@ -9,7 +9,7 @@ use crate::transform::Transform;
 
 /// A place in the scene. What it holds moves, turns and scales with it, and so
 /// do its children.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Node {
     /// For people; need not be unique.
     pub name: String,

@@ -111,7 +111,9 @@ impl Scene {
     /// are, to the byte, those of a scene that was made with the changed mesh.
     ///
     /// This takes a time proportional to the change, and so does what the next picture finds
-    /// out anew about the mesh. The first change is the exception: after it the next picture
+    /// out anew about the mesh. A [`Renderer`](crate::Renderer) whose last two pictures differ
+    /// in nothing but such changes draws only those parts of the next one that may look
+    /// different, unless effects reach over the picture, such as shadows. The first change is the exception: after it the next picture
     /// takes as long as after [`replace_mesh`](Self::replace_mesh). An editor can make an
     /// empty change beforehand, so that nobody waits for that while dragging. These are
     /// made anew after every change: the whole mesh if a pose can bend it or if a polygon of

@@ -8,6 +8,7 @@ use trigon_math::{DVec3, Vec3};
 
 use crate::background::Background;
 use crate::effects::EffectSettings;
+use crate::marks::{Marks, VertexPoints};
 
 /// The largest width or height of a picture, in pixels.
 pub const MAX_SIZE: u32 = 16384;
@@ -191,6 +192,14 @@ pub struct RenderSettings {
     /// How much of what lies below them edges hide in [`Style::SurfaceWithEdges`] and
     /// [`Style::HiddenLine`], 0 to 1.
     pub edge_opacity: f32,
+    /// How much faces let show through them in the same two styles, 0 to 1: the edges and
+    /// vertices that they hide, and the background (X-ray). What is not hidden stays as it
+    /// is. Above 0 the picture is drawn twice, once as a wireframe.
+    pub x_ray: f32,
+    /// Elements in colours of their own.
+    pub marks: Marks,
+    /// How the vertices of meshes are shown, if they are, where no face hides them.
+    pub vertices: Option<VertexPoints>,
     /// Which lights.
     pub lighting: Lighting,
     /// Factor for every light, the studio's too; 1 leaves them as they are.
@@ -224,6 +233,9 @@ impl RenderSettings {
             line_width: 1.0,
             edge_color: Vec3::splat(0.02),
             edge_opacity: 1.0,
+            x_ray: 0.0,
+            marks: Marks::default(),
+            vertices: None,
             lighting: Lighting::default(),
             light_intensity: 1.0,
             shading: ShadingModel::default(),
@@ -238,6 +250,12 @@ impl RenderSettings {
     /// How the edges of faces are painted, in styles that paint them.
     pub(crate) fn face_edges(&self) -> FaceEdges {
         FaceEdges { width: self.line_width, color: self.edge_color, opacity: self.edge_opacity }
+    }
+
+    /// What shows through faces, if anything does.
+    pub(crate) fn share_through_faces(&self) -> Option<f32> {
+        let shows_edges = matches!(self.style, Style::SurfaceWithEdges | Style::HiddenLine);
+        (shows_edges && self.x_ray > 0.0).then(|| self.x_ray.min(1.0))
     }
 
     /// The factor for every light.

@@ -57,7 +57,7 @@ impl Engine {
         let segments: Vec<[u32; 2]> =
             (0..ends.positions.len() as u32 / 2).map(|i| [2 * i, 2 * i + 1]).collect();
         let mut pass = Pass::new();
-        pass.lines(Lines { outline, surface: Surface::Translucent, ..Lines::new(ends, &segments) });
+        pass.lines(Lines { outline, ..Lines::new(ends, &segments) });
         self.rasterizer.draw(&pass, target);
     }
 

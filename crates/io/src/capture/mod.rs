@@ -22,6 +22,7 @@ mod forest;
 mod hash;
 mod ids;
 mod looks;
+mod marks;
 mod mesh;
 mod mismatch;
 mod scene;
@@ -51,7 +52,7 @@ use stream::{Damage, Reader, Writer};
 const MAGIC: [u8; 8] = *b"\x93TRIGON\n";
 
 /// The version of the format.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// A scene, a camera, settings and the picture that they made.
 ///

@@ -68,6 +68,10 @@ impl Stored for RenderSettings {
         let Self { edge_color, edge_opacity, lighting, light_intensity, .. } = self;
         edge_color.write(to);
         edge_opacity.write(to);
+        let Self { x_ray, marks, vertices, .. } = self;
+        x_ray.write(to);
+        marks.write(to);
+        vertices.write(to);
         lighting.write(to);
         light_intensity.write(to);
         let Self { shading, reflection, effects, .. } = self;
@@ -88,6 +92,9 @@ impl Stored for RenderSettings {
             line_width: Stored::read(from)?,
             edge_color: Stored::read(from)?,
             edge_opacity: Stored::read(from)?,
+            x_ray: Stored::read(from)?,
+            marks: Stored::read(from)?,
+            vertices: Stored::read(from)?,
             lighting: Stored::read(from)?,
             light_intensity: Stored::read(from)?,
             shading: Stored::read(from)?,

@@ -1,32 +1,26 @@
 //! Shading normals of the corners at one vertex: the bits of
 //! [`Mesh::shading_normals`], without the rest of the mesh.
 
-use std::ops::Range;
-
 use trigon_math::{DVec3, Vec3};
 
 use super::corner_faces::CornerFaces;
+use super::face_normals::FaceNormals;
 use crate::Mesh;
-use crate::normals::{corner_angle, or_if_zero, unit_keeping, unit_or_zero};
-
-/// A face, and its corners.
-pub(super) type Around = (usize, Range<usize>);
+use crate::normals::{or_if_zero, unit_keeping, unit_or_zero};
 
 /// What the normals at a vertex are made of.
 pub(super) struct LocalNormals<'a> {
-    mesh: &'a Mesh,
     faces: CornerFaces<'a>,
     given: Option<&'a [Vec3]>,
     smooth: Option<&'a [bool]>,
     /// Of every face; none where all corners have normals of their own.
-    face_normals: &'a [Vec3],
+    face_normals: &'a FaceNormals,
 }
 
 impl<'a> LocalNormals<'a> {
-    pub(super) fn new(mesh: &'a Mesh, face_normals: &'a [Vec3]) -> Self {
+    pub(super) fn new(mesh: &'a Mesh, face_normals: &'a FaceNormals) -> Self {
         let attributes = mesh.attributes();
         Self {
-            mesh,
             faces: CornerFaces::new(mesh),
             given: attributes.corner_normals.as_deref(),
             smooth: attributes.face_smooth.as_deref(),
@@ -36,7 +30,7 @@ impl<'a> LocalNormals<'a> {
 
     /// The normals of all corners at one vertex; the corners increase. `around` is room
     /// for their faces.
-    pub(super) fn at_corners(&self, corners: &[u32], around: &mut Vec<Around>, normals: &mut Vec<Vec3>) {
+    pub(super) fn at_corners(&self, corners: &[u32], around: &mut Vec<usize>, normals: &mut Vec<Vec3>) {
         normals.clear();
         let given = |&corner: &u32| match self.given {
             Some(given) => unit_keeping(given[corner as usize]),
@@ -47,12 +41,10 @@ impl<'a> LocalNormals<'a> {
             return;
         }
         around.clear();
-        around.extend(corners.iter().map(|&corner| self.faces.of(corner)));
+        around.extend(corners.iter().map(|&corner| self.faces.of(corner).0));
         let mut of_vertex = None;
-        for (normal, &(face, _)) in
-            normals.iter_mut().zip(&*around).filter(|(normal, _)| **normal == Vec3::ZERO)
-        {
-            let of_face = or_if_zero(self.face_normals[face], Vec3::Y);
+        for (normal, &face) in normals.iter_mut().zip(&*around).filter(|(normal, _)| **normal == Vec3::ZERO) {
+            let of_face = or_if_zero(self.face_normals.normal(face), Vec3::Y);
             *normal = if self.is_smooth(face) {
                 or_if_zero(*of_vertex.get_or_insert_with(|| self.mean(corners, around)), of_face)
             } else {
@@ -67,14 +59,12 @@ impl<'a> LocalNormals<'a> {
 
     /// The mean over the smooth faces at a vertex, added up in the order of their corners
     /// as for a whole mesh.
-    fn mean(&self, corners: &[u32], around: &[Around]) -> Vec3 {
-        let vertices = self.mesh.corner_vertices();
+    fn mean(&self, corners: &[u32], around: &[usize]) -> Vec3 {
         let mut sum = DVec3::ZERO;
-        for (&corner, (face, of_face)) in corners.iter().zip(around) {
-            let normal = self.face_normals[*face].as_dvec3();
-            if self.is_smooth(*face) && normal != DVec3::ZERO {
-                let index = corner as usize - of_face.start;
-                sum += normal * corner_angle(self.mesh, &vertices[of_face.clone()], index);
+        for (&corner, &face) in corners.iter().zip(around) {
+            let normal = self.face_normals.normal(face).as_dvec3();
+            if self.is_smooth(face) && normal != DVec3::ZERO {
+                sum += normal * self.face_normals.angle(corner);
             }
         }
         unit_or_zero(sum).as_vec3()

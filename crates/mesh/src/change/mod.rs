@@ -9,6 +9,7 @@
 
 mod changed_elements;
 mod corner_faces;
+mod face_normals;
 mod local_normals;
 mod marks;
 mod mesh_change;

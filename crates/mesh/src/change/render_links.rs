@@ -8,6 +8,7 @@ use trigon_math::Vec3;
 
 use super::ChangedElements;
 use super::corner_faces::CornerFaces;
+use super::face_normals::FaceNormals;
 use super::marks::Marks;
 use super::render_update::{RenderUpdate, UpdatedVertex};
 use super::vertex_values::{Shown, SplitOff, VertexValues};
@@ -18,7 +19,7 @@ use crate::weld::Welded;
 
 /// Faces or vertices that a thread takes at a time: about a tenth of a millisecond's work,
 /// a few times what it takes to wake a thread.
-const PIECE: usize = 1024;
+pub(super) const PIECE: usize = 1024;
 
 /// How the vertices of a [`RenderMesh`](crate::RenderMesh) come from its mesh. Made by
 /// [`RenderMesh::with_links`](crate::RenderMesh::with_links).
@@ -35,7 +36,7 @@ pub struct RenderLinks {
     /// The corners at each vertex of the mesh, increasing. No change alters them.
     corners_at: Arc<Groups<u32>>,
     /// The normals of all faces, as soon as a corner takes its normal from them.
-    face_normals: Option<Vec<Vec3>>,
+    face_normals: Option<FaceNormals>,
 }
 
 impl RenderLinks {
@@ -47,7 +48,7 @@ impl RenderLinks {
             vertex_count: welded.corner_of_vertex.len() as u32,
             vertex_of_corner: welded.vertex_of_corner,
             corners_at: Arc::new(Groups::new(mesh.vertex_count(), corners)),
-            face_normals: follows.then(|| mesh.face_normals()),
+            face_normals: follows.then(|| FaceNormals::new(mesh)),
         }
     }
 
@@ -91,15 +92,11 @@ impl RenderLinks {
     /// Brings the normals of faces up to date whose corners moved.
     fn update_face_normals(&mut self, mesh: &Mesh, faces: &[u32], corners: &[u32]) {
         if let Some(normals) = &mut self.face_normals {
-            let made = faces.par_iter().with_min_len(PIECE).map(|&face| mesh.face_normal(face as usize));
-            for (&face, normal) in faces.iter().zip(made.collect::<Vec<_>>()) {
-                normals[face as usize] = normal;
-            }
-            return;
+            return normals.update(mesh, faces);
         }
         let given = mesh.attributes().corner_normals.as_deref().unwrap_or_default();
         if corners.iter().any(|&corner| given.get(corner as usize).is_some_and(|&n| has_no_direction(n))) {
-            self.face_normals = Some(mesh.face_normals());
+            self.face_normals = Some(FaceNormals::new(mesh));
         }
     }
 
@@ -119,7 +116,8 @@ impl RenderLinks {
     /// Updates what the corners at some vertices show; `changed` are those with other
     /// attributes.
     fn update_vertices(&mut self, mesh: &Mesh, vertices: &[u32], changed: &[u32], update: &mut RenderUpdate) {
-        let face_normals = self.face_normals.as_deref().unwrap_or_default();
+        let none = FaceNormals::default();
+        let face_normals = self.face_normals.as_ref().unwrap_or(&none);
         let values = VertexValues::new(mesh, &self.vertex_of_corner, &self.corners_at, face_normals, changed);
         let shown: Vec<Shown> = vertices.par_chunks(PIECE).map(|piece| values.at(piece)).collect();
         update.vertices.reserve(vertices.len());

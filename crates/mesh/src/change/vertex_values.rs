@@ -2,6 +2,7 @@
 
 use trigon_math::Vec3;
 
+use super::face_normals::FaceNormals;
 use super::local_normals::LocalNormals;
 use super::render_update::UpdatedVertex;
 use crate::Mesh;
@@ -49,7 +50,7 @@ impl<'a> VertexValues<'a> {
         mesh: &'a Mesh,
         vertex_of_corner: &'a [u32],
         corners_at: &'a Groups<u32>,
-        face_normals: &'a [Vec3],
+        face_normals: &'a FaceNormals,
         changed: &[u32],
     ) -> Self {
         Self {

@@ -250,6 +250,28 @@ impl Chunk {
         }
     }
 
+    /// Visits the tiles that list primitives of some kind, told by the place in the chunk;
+    /// some tiles more than once.
+    pub(crate) fn for_each_tile_of(
+        &self,
+        grid: &Grid,
+        is_one: impl Fn(u32) -> bool,
+        mut visit: impl FnMut(u32),
+    ) {
+        for (&tile, &entry) in self.tiles.iter().zip(&self.pushed) {
+            if is_one(self.primitive(entry)) {
+                visit(tile);
+            }
+        }
+        for Large { tiles, .. } in self.large.iter().filter(|large| is_one(self.primitive(large.entry))) {
+            let columns = tiles.columns.clone();
+            tiles
+                .rows
+                .clone()
+                .for_each(|row| columns.clone().for_each(|column| visit(row * grid.columns + column)));
+        }
+    }
+
     /// All triangles that any tile lists, in the order of the primitives.
     pub(crate) fn all(&self) -> Vec<Place> {
         let mut entries: Vec<_> =

@@ -29,7 +29,7 @@ pub(crate) use joints::leaves;
 
 use crate::frame::FrameView;
 use crate::resolve::saturated;
-use crate::shade::{ShadeOutput, Shading, shade_jobs};
+use crate::shade::{Shading, shade_jobs};
 use crate::simd::LANES;
 use crate::tile::{Blocks, Scratch, TileArea, TileView};
 use gather::Beside;
@@ -160,7 +160,7 @@ impl Layers {
             colors.resize(fragments.len(), [0.0; 4]);
         }
         let jobs = (tile.places, fragments.jobs.as_slice(), fragments.work.as_slice());
-        shade_jobs(tile.frame, tile.area, shading, jobs, &mut ShadeOutput::Colors(colors));
+        shade_jobs(tile.frame, tile.area, shading, jobs, colors);
     }
 
     /// Lays the layers of a round; the blocks in which more are waiting, and the

@@ -62,7 +62,7 @@ impl Certificate {
         let axis = frame.supersampling as usize;
         let [left, top] = area.own_origin().map(|v| v as usize / axis);
         let margin = area.margin;
-        let reach = frame.ink.map_or(0, |ink| ink.reach() as usize);
+        let reach = frame.ink.as_ref().map_or(0, |ink| ink.reach() as usize);
         let [columns, rows] = frame.drawn_part(area);
         for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
             let index = (top + y) * self.size[0] as usize + left + x;

@@ -3,7 +3,7 @@
 use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::ink::OuterInk;
-use crate::shade::{Job, ShadeOutput, Shading, Work, mask_jobs, shade_jobs_with};
+use crate::shade::{Job, Shading, Work, mask_jobs, shade_jobs_with};
 use crate::tile::TileArea;
 use trigon_math::Vec4;
 
@@ -39,7 +39,6 @@ pub(super) fn color(frame: &FrameView<'_>, pixel: PixelInTile, place: Place, out
     let (job, work) = pixel.alone(frame);
     let mut colors = [[0.0; 4]];
     let list: (&[_], &[_], &[_]) = (&[place], &[job], &[work]);
-    let mut output = ShadeOutput::Colors(&mut colors);
-    shade_jobs_with(frame, &pixel.area, &mut Shading::new(), list, (&mut output, outer.coverage()));
+    shade_jobs_with(frame, &pixel.area, &mut Shading::new(), list, (&mut colors, outer.covered()));
     Vec4::from_array(colors[0])
 }

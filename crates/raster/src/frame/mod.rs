@@ -1,9 +1,16 @@
 //! A frame on its way: what the stages leave for the tiles.
 
+mod change;
+mod layout;
 mod plan;
+mod redraw;
+mod set_up;
 mod stages;
+mod touched;
 
+pub use change::{DrawChange, Redraw};
 pub(crate) use plan::{DrawPlan, Plan};
+pub(crate) use redraw::redraw;
 pub(crate) use stages::{Arena, How, draw, prepare};
 
 use crate::StageTimes;
@@ -11,6 +18,7 @@ use crate::bin::{Chunk, Grid, Place, TileRange};
 use crate::ink::Ink;
 use crate::paint2d::Rect;
 use crate::pass::{Background, Recorded};
+use crate::resolve::BackgroundRow;
 use crate::setup::SetupTriangle;
 use crate::shade::{AnyPipeline, Encoding};
 use crate::simd::{Each, Token};
@@ -20,7 +28,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 /// What a frame is to leave behind.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Wants {
     pub(crate) color: bool,
     pub(crate) depth: bool,
@@ -34,6 +42,8 @@ pub(crate) struct Wants {
 pub(crate) struct FrameView<'f> {
     pub(crate) pass: &'f [Recorded<'f>],
     pub(crate) background: Background<'f>,
+    /// The background's rows, if each has one colour of its own.
+    pub(crate) background_rows: &'f [BackgroundRow],
     pub(crate) plan: &'f Plan,
     pub(crate) places: &'f [ScreenVertex],
     pub(crate) varyings: &'f [f32],
@@ -55,6 +65,11 @@ pub(crate) struct FrameView<'f> {
 }
 
 impl<'f> FrameView<'f> {
+    /// Whether edges of faces are painted.
+    pub(crate) fn paints_lines(&self) -> bool {
+        self.ink.as_ref().is_some_and(Ink::has_lines)
+    }
+
     /// The rectangle that a tile sees.
     pub(crate) fn area(&self, tile: u32) -> TileArea {
         let Grid { viewport, size, apron, columns, .. } = self.grid;
@@ -98,6 +113,17 @@ impl<'f> FrameView<'f> {
             let within = |end: i32| ((end - first).max(0) as usize).min(side);
             within(self.drawn.min[i])..within(self.drawn.max[i])
         })
+    }
+
+    /// The pixels of the target that a tile draws.
+    fn drawn_rect(&self, tile: u32) -> Rect {
+        let area = self.area(tile);
+        let (first, drawn) = (area.own_origin(), self.drawn_part(&area));
+        let end = |axis: usize, at: usize| first[axis] / self.supersampling as i32 + at as i32;
+        Rect::new(
+            [0, 1].map(|axis| end(axis, drawn[axis].start)),
+            [0, 1].map(|axis| end(axis, drawn[axis].end)),
+        )
     }
 
     pub(crate) fn is_multisampled(&self) -> bool {

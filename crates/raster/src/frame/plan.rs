@@ -43,6 +43,8 @@ pub(crate) struct Plan {
     pub(crate) vertices: usize,
     pub(crate) places: usize,
     pub(crate) varyings: usize,
+    /// How many chunks its primitives are cut into.
+    pub(crate) chunks: usize,
     /// Whether the order of ordinals is the order of (object, face) throughout
     /// the opaque draws.
     pub(crate) ordinals_are_keys: bool,
@@ -84,7 +86,8 @@ impl Plan {
         }
         self.ordinals_are_keys = self.are_keys(recorded);
         let size = (ordinal / (SHARES * workers as u32)).clamp(LEAST, MOST);
-        self.cut(recorded, chunks, size)
+        self.chunks = self.cut(recorded, chunks, size);
+        self.chunks
     }
 
     /// Whether equal depths can be decided by the ordinal among opaque draws.

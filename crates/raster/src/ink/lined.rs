@@ -19,6 +19,8 @@ struct Segment {
     /// The depth at the beginning, and how much more it is at the end.
     depth: f64,
     rise: f64,
+    /// See [`Marks`](crate::Marks).
+    mark: u8,
 }
 
 /// The point of an edge that is nearest to another point.
@@ -29,6 +31,7 @@ pub(super) struct EdgePoint {
     /// In 1/256 pixel.
     point: [f64; 2],
     depth: f64,
+    pub(super) mark: u8,
 }
 
 /// A visible triangle and the edges of the face that it belongs to: slivers beside it may
@@ -47,13 +50,13 @@ pub(super) struct LinedFace {
 const MOST_PARTS: u32 = 32;
 
 impl Segment {
-    fn between(from: ScreenVertex, to: ScreenVertex) -> Self {
+    fn between(from: ScreenVertex, to: ScreenVertex, mark: u8) -> Self {
         let (start, end) = (from.raw(), to.raw());
         let way = [0, 1].map(|axis| f64::from(end[axis] - start[axis]));
         let length = way[0] * way[0] + way[1] * way[1];
         let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
         let (depth, other) = (f64::from(from.depth()), f64::from(to.depth()));
-        Self { from: start.map(f64::from), way, inverse, depth, rise: other - depth }
+        Self { from: start.map(f64::from), way, inverse, depth, rise: other - depth, mark }
     }
 
     fn nearest(&self, point: [f64; 2]) -> EdgePoint {
@@ -66,6 +69,7 @@ impl Segment {
             distance: (dx * dx + dy * dy).sqrt() / 256.0,
             point: [point[0] - dx, point[1] - dy],
             depth: self.depth + self.rise * share,
+            mark: self.mark,
         }
     }
 }
@@ -86,12 +90,14 @@ impl LinedFace {
             return;
         }
         let primitive = place.ordinal - plan.ordinals.start;
-        let flags = geometry.edge_flags(primitive);
+        let (flags, marks) = (geometry.edge_flags(primitive), geometry.side_marks(primitive));
         for (from, to) in [(0, 1), (1, 2), (2, 0)] {
             // The corner that the side does not meet; none for a side that a cut made.
             let opposite = opposite_corner(frame, place, &triangle, [from, to]);
-            if opposite.is_some_and(|corner| flags.contains((corner + 1) % 3)) {
-                self.segments.push(Segment::between(triangle.vertices[from], triangle.vertices[to]));
+            let side = opposite.map(|corner| (corner + 1) % 3);
+            if let Some(side) = side.filter(|&side| flags.contains(side)) {
+                let [from, to] = [from, to].map(|vertex| triangle.vertices[vertex]);
+                self.segments.push(Segment::between(from, to, marks[side]));
             }
         }
         for part in parts(geometry, primitive) {
@@ -111,9 +117,9 @@ impl LinedFace {
                 self.vertices.push(corner);
             }
         }
-        let flags = geometry.edge_flags(primitive);
+        let (flags, marks) = (geometry.edge_flags(primitive), geometry.side_marks(primitive));
         for edge in (0..3).filter(|&edge| flags.contains(edge)) {
-            self.segments.push(Segment::between(corners[edge], corners[(edge + 1) % 3]));
+            self.segments.push(Segment::between(corners[edge], corners[(edge + 1) % 3], marks[edge]));
         }
     }
 
@@ -158,8 +164,9 @@ fn identity(vertex: &ScreenVertex) -> [i32; 3] {
     [vertex.0[0], vertex.0[1], vertex.0[2]]
 }
 
-/// The other triangles of a face: those around one of them that have its number.
-fn parts(geometry: &Geometry<'_>, primitive: u32) -> impl Iterator<Item = u32> {
+/// The other triangles of a face: those around one of them that have its number. Each of
+/// them finds this one, too.
+pub(crate) fn parts(geometry: &Geometry<'_>, primitive: u32) -> impl Iterator<Item = u32> {
     let face = geometry.face(primitive);
     let end = (geometry.len() as u32).min(primitive + 1 + MOST_PARTS);
     let is_part = move |part: &u32| geometry.face(*part) == face;

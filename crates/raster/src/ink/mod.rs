@@ -13,16 +13,20 @@
 //! line of width w, `min(w, 1, w/2 + 1/2 - d)` of a pixel. A pixel shows the larger one.
 
 mod lined;
+mod marks;
 mod outer;
 mod rows;
 mod rule;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use lined::parts;
+pub(crate) use marks::Overlap;
+pub use marks::{MarkColors, Marks};
 pub(crate) use outer::{Footprint, OuterInk};
 pub(crate) use rule::{FaceLine, LineColumns};
 
-use crate::simd::{Each, F32, Simd};
+use crate::simd::{Each, F32, LANES, Simd, U32, prelude::*};
 use trigon_math::{Vec3, Vec4};
 
 /// How a pass paints the edges of faces: see [`Pass::edges`](crate::Pass::edges).
@@ -67,52 +71,131 @@ impl FaceEdges {
 /// The greatest width in pixels of the finer grid: its reach leaves half of a tile's side.
 const MAX_INNER_WIDTH: f32 = 31.0;
 
-/// [`FaceEdges`] on the finer grid, in its pixels.
-#[derive(Clone, Copy, Debug)]
+/// [`FaceEdges`] on the finer grid, in its pixels, and [`MarkColors`].
+#[derive(Clone, Debug)]
 pub(crate) struct Ink {
+    /// 0 if no edges are painted, only faces.
     half_width: f32,
     /// Pixels of the finer grid for one of the target.
     scale: f32,
-    /// Premultiplied by the opacity.
-    color: [f32; 4],
+    /// Of edges by their marks, premultiplied by the opacity.
+    colors: [[f32; 4]; MarkColors::COUNT],
+    /// Of faces, likewise.
+    tints: [[f32; 4]; MarkColors::COUNT],
+    has_marks: bool,
 }
 
 impl Ink {
     /// `None` if there is nothing to be painted.
-    pub(crate) fn new(edges: &FaceEdges, samples_per_axis: u32) -> Option<Self> {
-        let FaceEdges { width, color, opacity } = *edges;
-        let is_seen = width > 0.0 && opacity > 0.0 && color.is_finite();
+    pub(crate) fn new(
+        edges: Option<&FaceEdges>,
+        marks: Option<&MarkColors>,
+        samples_per_axis: u32,
+    ) -> Option<Self> {
         let scale = samples_per_axis as f32;
+        let width = edges.map_or(0.0, |edges| edges.width);
+        let mut colors = marks.map_or([[0.0; 4]; MarkColors::COUNT], |marks| marks.edges.map(premultiplied));
+        colors[0] = edges.map_or([0.0; 4], |edges| premultiplied(edges.color.extend(edges.opacity)));
+        let tints = marks.map_or([[0.0; 4]; MarkColors::COUNT], |marks| marks.faces.map(premultiplied));
+        let is_seen = |colors: &[[f32; 4]]| colors.iter().any(|color| color[3] > 0.0);
+        // Not where the width is no number, either.
+        let has_lines = width > 0.0 && is_seen(&colors);
         let width = (width.min(FaceEdges::MAX_WIDTH) * scale).min(MAX_INNER_WIDTH);
-        let color = (color.extend(1.0) * opacity.min(1.0)).to_array();
-        is_seen.then_some(Self { half_width: width * 0.5, scale, color })
+        let half_width = if has_lines { width * 0.5 } else { 0.0 };
+        let is_painted = has_lines || is_seen(&tints[1..]);
+        is_painted.then_some(Self { half_width, scale, colors, tints, has_marks: marks.is_some() })
+    }
+
+    /// Whether edges are painted.
+    pub(crate) fn has_lines(&self) -> bool {
+        self.half_width > 0.0
+    }
+
+    /// Whether some edges or faces have other colours than the rest.
+    #[inline(always)]
+    pub(crate) fn has_marks(&self) -> bool {
+        self.has_marks
     }
 
     /// How far from an edge it may cover a part of a pixel, in whole pixels.
     pub(crate) fn reach(&self) -> u32 {
-        (self.half_width + 0.5).ceil() as u32
+        if self.has_lines() { (self.half_width + 0.5).ceil() as u32 } else { 0 }
     }
 
     /// Laid over a colour with a share of 0 to 1.
     #[inline(always)]
-    pub(crate) fn over(&self, color: Vec4, share: f32) -> Vec4 {
-        let color = color.to_array();
-        let rest = 1.0 - self.color[3] * share;
+    pub(crate) fn over(&self, color: Vec4, Overlap { share, mark }: Overlap) -> Vec4 {
+        let (color, ink) = (color.to_array(), self.colors[usize::from(mark)]);
+        let rest = 1.0 - ink[3] * share;
         Vec4::from_array([0, 1, 2, 3].each(
             #[inline(always)]
-            |channel| color[channel] * rest + self.color[channel] * share,
+            |channel| color[channel] * rest + ink[channel] * share,
         ))
     }
 
-    /// [`over`](Self::over), for lanes.
+    /// [`over`](Self::over), for lanes without marks.
     #[inline(always)]
     pub(crate) fn over_lanes<S: Simd>(&self, color: [F32<S>; 4], share: F32<S>) -> [F32<S>; 4] {
-        let rest = 1.0 - share * self.color[3];
+        let ink = self.colors[0];
+        let rest = 1.0 - share * ink[3];
         [0, 1, 2, 3].each(
             #[inline(always)]
-            |channel| color[channel] * rest + share * self.color[channel],
+            |channel| color[channel] * rest + share * ink[channel],
         )
     }
+
+    /// [`over`](Self::over), for lanes with marks.
+    #[inline(always)]
+    pub(crate) fn over_marked<S: Simd>(
+        &self,
+        color: [F32<S>; 4],
+        share: F32<S>,
+        marks: U32<S>,
+    ) -> [F32<S>; 4] {
+        let ink = channels(&self.colors, marks);
+        let rest = 1.0 - share * ink[3];
+        [0, 1, 2, 3].each(
+            #[inline(always)]
+            |channel| color[channel] * rest + share * ink[channel],
+        )
+    }
+
+    /// The colours of faces with these marks. Their alpha stays.
+    #[inline(always)]
+    pub(crate) fn tinted<S: Simd>(&self, color: [F32<S>; 4], marks: U32<S>) -> [F32<S>; 4] {
+        let tint = channels(&self.tints, marks);
+        let rest = 1.0 - tint[3];
+        let [r, g, b] = [0, 1, 2].each(
+            #[inline(always)]
+            |channel| color[channel] * rest + color[3] * tint[channel],
+        );
+        [r, g, b, color[3]]
+    }
+}
+
+/// Linear RGB and opacity, held to 0 to 1, multiplied; nothing of what is not finite.
+fn premultiplied(color: Vec4) -> [f32; 4] {
+    if !color.is_finite() || color.w <= 0.0 {
+        return [0.0; 4];
+    }
+    (color.truncate().extend(1.0) * color.w.min(1.0)).to_array()
+}
+
+/// The colours of lanes, channel by channel.
+#[inline(always)]
+fn channels<S: Simd>(colors: &[[f32; 4]; MarkColors::COUNT], marks: U32<S>) -> [F32<S>; 4] {
+    let simd = marks.token();
+    let marks: [u32; LANES] = marks.into();
+    [0, 1, 2, 3].each(
+        #[inline(always)]
+        |channel| {
+            let values = marks.each(
+                #[inline(always)]
+                |mark| colors[mark as usize % MarkColors::COUNT][channel],
+            );
+            F32::simd_from(simd, values)
+        },
+    )
 }
 
 #[cfg(test)]
@@ -122,7 +205,7 @@ mod limits {
     #[test]
     fn what_cannot_be_seen_is_no_ink() {
         let plain = FaceEdges { width: 1.0, color: Vec3::ZERO, opacity: 1.0 };
-        assert!(Ink::new(&plain, 1).is_some(), "black lines");
+        assert!(Ink::new(Some(&plain), None, 1).is_some(), "black lines");
         let nothing = [
             FaceEdges { width: 0.0, ..plain },
             FaceEdges { width: f32::NAN, ..plain },
@@ -131,7 +214,7 @@ mod limits {
             FaceEdges { color: Vec3::splat(f32::INFINITY), ..plain },
         ];
         for edges in nothing {
-            assert!(Ink::new(&edges, 1).is_none(), "{edges:?}");
+            assert!(Ink::new(Some(&edges), None, 1).is_none(), "{edges:?}");
         }
     }
 
@@ -139,9 +222,9 @@ mod limits {
     fn no_line_reaches_farther_than_a_tile_can_see() {
         for samples_per_axis in 1..=4 {
             let wide = FaceEdges { width: f32::INFINITY, color: Vec3::ZERO, opacity: 2.0 };
-            let ink = Ink::new(&wide, samples_per_axis).unwrap();
+            let ink = Ink::new(Some(&wide), None, samples_per_axis).unwrap();
             assert!(ink.reach() <= 16, "{} with {samples_per_axis} per axis", ink.reach());
-            assert_eq!(ink.over(Vec4::ONE, 1.0), Vec4::W, "no more than opaque");
+            assert_eq!(ink.over(Vec4::ONE, Overlap { share: 1.0, mark: 0 }), Vec4::W, "no more than opaque");
         }
     }
 }

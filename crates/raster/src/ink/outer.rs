@@ -17,7 +17,7 @@
 
 use super::lined::LinedFace;
 use super::rows::{Rows, beside_large, in_front};
-use super::{FaceLine, Ink};
+use super::{FaceLine, Ink, Overlap};
 use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::simd::{LANES, Simd, at_level};
@@ -47,7 +47,7 @@ impl Footprint {
 #[derive(Default)]
 pub(crate) struct OuterInk {
     /// By the number of the pixel.
-    coverage: Vec<f32>,
+    covered: Vec<Overlap>,
     /// The pixels that something covers.
     touched: Vec<u32>,
     /// Of the tile's triangles, and of nobody.
@@ -71,9 +71,9 @@ struct Ready(Vec<(u32, LinedFace)>);
 impl OuterInk {
     /// Forgets the last tile; this one has so many triangles.
     pub(crate) fn begin(&mut self, places: usize) {
-        self.coverage.resize(PIXELS, 0.0);
+        self.covered.resize(PIXELS, Overlap::default());
         for pixel in self.touched.drain(..) {
-            self.coverage[pixel as usize] = 0.0;
+            self.covered[pixel as usize] = Overlap::default();
         }
         (self.has_lines, self.has_large) = (false, false);
         // What is not seen is not asked for.
@@ -119,14 +119,14 @@ impl OuterInk {
     }
 
     /// What is covered, by the number of the pixel; `None` if nothing is.
-    pub(crate) fn coverage(&self) -> Option<&[f32]> {
-        (!self.is_empty()).then_some(&self.coverage)
+    pub(crate) fn covered(&self) -> Option<&[Overlap]> {
+        (!self.is_empty()).then_some(&self.covered)
     }
 
     /// What is covered of a pixel by its number.
     #[inline(always)]
-    pub(crate) fn at(&self, pixel: usize) -> f32 {
-        if self.is_empty() { 0.0 } else { self.coverage[pixel] }
+    pub(crate) fn at(&self, pixel: usize) -> Overlap {
+        if self.is_empty() { Overlap::default() } else { self.covered[pixel] }
     }
 
     /// Finds what lines cover beyond their triangles, all of which have been noted.
@@ -224,28 +224,34 @@ impl OuterInk {
                 }
                 last = other;
                 let covered = self.cover_by(frame, places, [other, own], point);
-                most = greatest(covered, most);
+                most = most.or(covered);
             }
         }
-        if most > 0.0 {
+        if most.share > 0.0 {
             let pixel = TileArea::index_of([x, y]);
-            self.coverage[pixel] = most;
+            self.covered[pixel] = most;
             self.touched.push(pixel as u32);
         }
     }
 
     /// What lines of its face cover of a pixel, beside those of the triangle that it sees:
     /// if that is large, as for other triangles.
-    fn cover_by_own(&mut self, frame: &FrameView<'_>, places: &[Place], own: u32, point: [i32; 2]) -> f32 {
+    fn cover_by_own(
+        &mut self,
+        frame: &FrameView<'_>,
+        places: &[Place],
+        own: u32,
+        point: [i32; 2],
+    ) -> Overlap {
         if own == NOBODY || self.lines[own as usize].radius < LARGE {
-            return 0.0;
+            return Overlap::default();
         }
         let line = self.lines[own as usize];
         let ground = self.ready[1].face(frame, places, own);
         if !ground.has_parts() {
-            return 0.0;
+            return Overlap::default();
         }
-        ground.nearest(point).map(|edge| line.coverage(edge.distance)).fold(0.0, greatest)
+        ground.nearest(point).map(|edge| line.overlap(&edge)).fold(Overlap::default(), Overlap::or)
     }
 
     /// What lines of a triangle cover of a pixel that sees another one.
@@ -255,22 +261,22 @@ impl OuterInk {
         places: &[Place],
         [other, own]: [u32; 2],
         point: [i32; 2],
-    ) -> f32 {
+    ) -> Overlap {
         let index = |place: u32| (place as usize).min(places.len());
         let [ours, theirs] = [own, other].map(|place| self.lines[index(place)]);
         let least = self.footprints[index(other)].least;
         let is_before = least > self.footprints[index(own)].greatest;
         let is_large = ours.radius >= LARGE || theirs.radius >= LARGE;
         if !(is_before || (is_large && least > f32::NEG_INFINITY)) {
-            return 0.0;
+            return Overlap::default();
         }
         let [others, grounds] = &mut self.ready;
         let lined = others.face(frame, places, other);
         let ground = (own != NOBODY).then(|| grounds.face(frame, places, own));
         let are_joined = ground.is_some_and(|ground| ground.shares_a_vertex(lined));
         let line = if are_joined { theirs.narrower(ours) } else { theirs };
-        lined.nearest(point).fold(0.0, |most, edge| {
-            let covered = line.coverage(edge.distance);
+        lined.nearest(point).fold(Overlap::default(), |most, edge| {
+            let covered = line.overlap(&edge);
             let is_seen = || {
                 ground.is_none_or(
                     |ground| {
@@ -278,7 +284,7 @@ impl OuterInk {
                     },
                 )
             };
-            if covered > most && is_seen() { covered } else { most }
+            if covered.is_above(most) && is_seen() { covered } else { most }
         })
     }
 }
@@ -299,11 +305,6 @@ impl Ready {
         }
         face
     }
-}
-
-/// The larger of two.
-fn greatest(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
 }
 
 /// The nearest and the farthest triangle that the samples of a pixel see.

@@ -1,6 +1,7 @@
 //! How wide the lines on a face are: the rule of [`FaceEdges`](crate::FaceEdges).
 
-use super::Ink;
+use super::lined::EdgePoint;
+use super::{Ink, Overlap};
 use crate::simd::{F32, Simd, greater, lesser, prelude::*};
 
 /// The most of its inner radius that half a line takes of a face.
@@ -57,6 +58,11 @@ pub(crate) struct FaceLine {
 }
 
 impl FaceLine {
+    /// What it covers of a pixel along an edge.
+    pub(super) fn overlap(self, edge: &EdgePoint) -> Overlap {
+        Overlap { share: self.coverage(edge.distance), mark: edge.mark }
+    }
+
     /// Of a triangle that belongs to no face with edges: it narrows no line of others.
     pub(crate) const UNLINED: Self = Self { half: f32::INFINITY, weight: 1.0, radius: 0.0 };
 
@@ -66,8 +72,8 @@ impl FaceLine {
         Self { half: least(self.half, other.half), weight: least(self.weight, other.weight), ..self }
     }
 
-    /// What it covers of a pixel at a distance.
-    pub(crate) fn coverage(self, distance: f64) -> f32 {
+    /// What it covers of a pixel with an edge at a distance.
+    fn coverage(self, distance: f64) -> f32 {
         let most = if self.half < 0.5 { 2.0 * self.half } else { 1.0 };
         let overlap = self.half + 0.5 - distance as f32;
         let overlap = if overlap < most { overlap } else { most };
@@ -84,7 +90,7 @@ mod tests {
 
     /// Half widths, weights and floors.
     fn lines(width: f32, scale: u32, radii: [f32; LANES]) -> [[f32; LANES]; 3] {
-        let ink = Ink::new(&FaceEdges { width, color: Vec3::ZERO, opacity: 1.0 }, scale).unwrap();
+        let ink = Ink::new(Some(&FaceEdges { width, color: Vec3::ZERO, opacity: 1.0 }), None, scale).unwrap();
         let token = SimdLevel::best().token().expect("the best level is there");
         at_level!(token, simd => {
             let LineColumns { half, weight, floor, .. } = LineColumns::new(simd, &ink, F32::simd_from(simd, radii));

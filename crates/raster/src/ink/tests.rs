@@ -1,5 +1,7 @@
 //! Pictures of faces with edges: white faces, black lines, on white.
 
+mod marks;
+
 use crate::simd::SimdLevel;
 use crate::{
     Background, Certainty, Culling, Draw, EdgeFlags, ExecuteSettings, FaceEdges, Fragment, Output, Pass,

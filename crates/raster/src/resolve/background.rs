@@ -10,6 +10,37 @@ use crate::tile::TileArea;
 use std::ops::Range;
 use trigon_math::{UVec2, Vec4};
 
+/// A row of a background that has one colour in each row.
+#[derive(Clone, Copy)]
+pub(crate) struct BackgroundRow {
+    color: Vec4,
+    /// The colour as bytes, in frames that keep bytes of one kind and nothing else of colour.
+    code: u32,
+}
+
+impl BackgroundRow {
+    /// Lists the rows of a target of this height; none if the background has none.
+    pub(crate) fn list(
+        background: Background<'_>,
+        height: u32,
+        bytes: Option<Encoding>,
+        rows: &mut Vec<Self>,
+    ) {
+        rows.clear();
+        if let Background::PerRow(function) = background {
+            rows.extend((0..height).map(|y| {
+                let color = finite(function(y));
+                let code = bytes.map_or(0, |encoding| u32::from_le_bytes(encoding.encode(color)));
+                Self { color, code }
+            }));
+        }
+    }
+}
+
+fn finite(color: Vec4) -> Vec4 {
+    if color.is_finite() { color } else { Vec4::ZERO }
+}
+
 impl FrameView<'_> {
     /// The background at a pixel of the tile.
     #[inline]
@@ -23,18 +54,20 @@ impl FrameView<'_> {
     pub(crate) fn lined_background_at(&self, area: &TileArea, at: [usize; 2], outer: &OuterInk) -> Vec4 {
         let color = self.background_at(area, at);
         match (&self.ink, outer.at(TileArea::index_of(at))) {
-            (Some(ink), share) if share > 0.0 => ink.over(color, share),
+            (Some(ink), overlap) if overlap.share > 0.0 => ink.over(color, overlap),
             _ => color,
         }
     }
 
     /// The background at a pixel of the target.
     fn background_of(&self, pixel: UVec2) -> Vec4 {
-        let value = match self.background {
-            Background::Color(color) => color,
-            Background::PerPixel(function) => function(pixel),
-        };
-        if value.is_finite() { value } else { Vec4::ZERO }
+        match self.background {
+            Background::Color(color) => finite(color),
+            Background::PerRow(_) => {
+                self.background_rows.get(pixel.y as usize).map_or(Vec4::ZERO, |row| row.color)
+            }
+            Background::PerPixel(function) => finite(function(pixel)),
+        }
     }
 }
 
@@ -58,6 +91,7 @@ pub(super) fn fill_background(frame: &FrameView<'_>, [first, last]: [TileArea; 2
             part.fill(band.unorm8, Encoding::Unorm8.encode(color));
             part.fill(band.linear, color);
         }
+        Background::PerRow(_) => part.paint_rows(band, |y| frame.background_of(UVec2::new(0, corner[1] + y))),
         Background::PerPixel(_) => part.paint(band, |at| frame.background_of(UVec2::from(corner) + at)),
     }
 }
@@ -75,13 +109,26 @@ struct Part {
 impl Part {
     /// Fills a plane, if there is one.
     fn fill<T: Copy>(&self, plane: &mut [T], value: T) {
-        if plane.is_empty() {
-            return;
+        for y in self.drawn[1].clone() {
+            self.fill_row(plane, y, value);
         }
-        let [columns, rows] = &self.drawn;
-        for y in rows.clone() {
-            let start = self.first + y * self.width;
+    }
+
+    /// Fills a row of a plane, if there is one.
+    fn fill_row<T: Copy>(&self, plane: &mut [T], y: usize, value: T) {
+        if !plane.is_empty() {
+            let (start, columns) = (self.first + y * self.width, &self.drawn[0]);
             plane[start + columns.start..start + columns.end].fill(value);
+        }
+    }
+
+    /// Gives each row a colour of its own.
+    fn paint_rows(&self, band: &mut Band<'_>, color_at: impl Fn(u32) -> Vec4) {
+        for y in self.drawn[1].clone() {
+            let color = color_at(y as u32);
+            self.fill_row(band.srgb8, y, Encoding::Srgb8.encode(color));
+            self.fill_row(band.unorm8, y, Encoding::Unorm8.encode(color));
+            self.fill_row(band.linear, y, color);
         }
     }
 
@@ -107,22 +154,48 @@ impl Part {
 /// Puts the background's bytes into all pixels that see it.
 pub(super) fn lay_codes(frame: &FrameView<'_>, area: &TileArea, shading: &mut Shading, encoding: Encoding) {
     let encode = |color| u32::from_le_bytes(encoding.encode(color));
-    let constant = match frame.background {
-        Background::Color(_) if shading.outer.is_empty() => Some(encode(frame.background_of(UVec2::ZERO))),
-        Background::Color(_) | Background::PerPixel(_) => None,
-    };
     let Shading { empty_groups, codes, outer, .. } = shading;
+    let one_code = match frame.background {
+        Background::Color(color) => encode(finite(color)),
+        Background::PerRow(_) | Background::PerPixel(_) => 0,
+    };
     for &EmptyGroup { number, lanes } in empty_groups.iter() {
         let codes = &mut codes[number as usize * LANES..][..LANES];
-        match constant {
-            Some(code) if lanes == 0xff => codes.fill(code),
-            Some(code) => bits(lanes).for_each(|lane| codes[lane] = code),
-            None => {
+        match frame.background {
+            Background::Color(_) => lay_rows(codes, lanes, [one_code; 2]),
+            Background::PerRow(_) => lay_rows(codes, lanes, row_codes(frame, area, number)),
+            Background::PerPixel(_) => {
                 for (lane, at) in within(area, number, lanes) {
+                    codes[lane] = encode(frame.lined_background_at(area, at, outer));
+                }
+                continue;
+            }
+        }
+        if !outer.is_empty() {
+            for (lane, at) in within(area, number, lanes) {
+                if outer.at(TileArea::index_of(at)).share > 0.0 {
                     codes[lane] = encode(frame.lined_background_at(area, at, outer));
                 }
             }
         }
+    }
+}
+
+/// The bytes of the background in the two rows of a group; anything for rows below the picture.
+fn row_codes(frame: &FrameView<'_>, area: &TileArea, group: u32) -> [u32; 2] {
+    let [_, top] = TileArea::pixel_at(group as usize * LANES);
+    let first = area.origin[1] as usize + top;
+    [first, first + 1].map(|row| frame.background_rows.get(row).map_or(0, |row| row.code))
+}
+
+/// Gives lanes of a group the bytes of their rows.
+fn lay_rows(codes: &mut [u32], lanes: u32, rows: [u32; 2]) {
+    if lanes == 0xff {
+        let (upper, lower) = codes.split_at_mut(LANES / 2);
+        upper.fill(rows[0]);
+        lower.fill(rows[1]);
+    } else {
+        bits(lanes).for_each(|lane| codes[lane] = rows[lane / (LANES / 2)]);
     }
 }
 
@@ -153,3 +226,6 @@ fn bits(mut lanes: u32) -> impl Iterator<Item = usize> {
         Some(lane)
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -44,7 +44,7 @@ fn for_each_group<S: Simd>(
     mut visit: impl FnMut(EdgeGroup, &[[f32; 4]; LANES], &mut [u32], &mut [[f32; 4]]),
 ) {
     let Shading { edges, codes, colors, outer, .. } = shading;
-    let varies = matches!(frame.background, Background::PerPixel(_)) || !outer.is_empty();
+    let varies = !matches!(frame.background, Background::Color(_)) || !outer.is_empty();
     colors[BEHIND] = frame.background_at(area, [0, 0]).to_array();
     let mut means = [[0.0; 4]; LANES];
     for (group, names) in edges.iter() {

@@ -6,6 +6,7 @@ mod edges;
 mod mean;
 mod strip;
 
+pub(crate) use background::BackgroundRow;
 pub(crate) use mean::{mean, saturated};
 pub(crate) use strip::Strip;
 
@@ -79,27 +80,54 @@ fn store_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands
     });
 }
 
-/// Writes depth and ids, each from one sample of the pixel.
+/// Writes depth and ids, each from one sample of the pixel, row by row.
 fn store_visibility(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: &Bands<'_>) {
     let axis = frame.supersampling as usize;
-    for_each_drawn(frame, area, bands, |band, index, [x, y]| {
-        let pixel = TileArea::index_of([x * axis + axis / 2, y * axis + axis / 2]);
-        let sample = scratch.buffer.index(pixel, 0);
-        if let Some(depth) = band.depth.get_mut(index) {
-            let seen = scratch.buffer.depth[sample];
-            // The background is behind 0; and -0 becomes 0.
-            *depth = if seen > 0.0 { seen } else { 0.0 };
-        }
-        if frame.wants.ids {
-            let ids = frame.ids(scratch, sample);
-            for (plane, id) in [&mut band.objects, &mut band.faces, &mut band.triangles].into_iter().zip(ids)
-            {
-                if let Some(place) = plane.get_mut(index) {
-                    *place = id;
-                }
+    let (mut band, first) = bands.lock(area.own_origin().map(|v| v as u32 / frame.supersampling));
+    let band = &mut *band;
+    let [columns, rows] = frame.drawn_part(area);
+    let [left, top] = area.margin.map(|side| side / axis);
+    for y in rows {
+        let start = first + y * bands.width();
+        let row = start + columns.start..start + columns.end;
+        let middle = |v: usize| v * axis + axis / 2;
+        let sample_in =
+            |x: usize| scratch.buffer.index(TileArea::index_of([middle(left + x), middle(top + y)]), 0);
+        let samples = columns.clone().map(sample_in);
+        if frame.wants.depth {
+            for (depth, sample) in band.depth[row.clone()].iter_mut().zip(samples.clone()) {
+                let seen = scratch.buffer.depth[sample];
+                // The background is behind 0; and -0 becomes 0.
+                *depth = if seen > 0.0 { seen } else { 0.0 };
             }
         }
-    });
+        if frame.wants.ids {
+            store_ids(frame, scratch, band, row.zip(samples));
+        }
+    }
+}
+
+/// Writes the ids of pixels, given by their index in the band and their sample.
+fn store_ids(
+    frame: &FrameView<'_>,
+    scratch: &Scratch,
+    band: &mut Band<'_>,
+    pixels: impl Iterator<Item = (usize, usize)>,
+) {
+    let mut last = (NOBODY, [u32::MAX; 3]);
+    for (index, sample) in pixels {
+        let winner = scratch.buffer.winner[sample];
+        // Neighbours often see the same triangle.
+        if winner != last.0 {
+            last = (winner, frame.ids(scratch, winner));
+        }
+        let planes = [&mut band.objects, &mut band.faces, &mut band.triangles];
+        for (plane, id) in planes.into_iter().zip(last.1) {
+            if let Some(place) = plane.get_mut(index) {
+                *place = id;
+            }
+        }
+    }
 }
 
 /// Visits the target's pixels that a tile draws: their band, their index in it, and
@@ -122,9 +150,9 @@ fn for_each_drawn(
 }
 
 impl FrameView<'_> {
-    /// The object, face and primitive that a sample of the buffer sees.
-    fn ids(&self, scratch: &Scratch, sample: usize) -> [u32; 3] {
-        match scratch.buffer.winner[sample] {
+    /// The object, face and primitive of a winner.
+    fn ids(&self, scratch: &Scratch, winner: u32) -> [u32; 3] {
+        match winner {
             NOBODY => [u32::MAX; 3],
             winner => {
                 let place = scratch.places[winner as usize];

@@ -58,7 +58,7 @@ impl<S: Simd> Seen<S> {
 }
 
 /// Rows for the longest record, in whole records' rows.
-const ROWS: usize = (hot::COUNT + 3 * MAX_VARYINGS + lined::COUNT).next_multiple_of(LANES);
+const ROWS: usize = (hot::COUNT + 3 * MAX_VARYINGS + lined::COUNT + 1).next_multiple_of(LANES);
 
 /// Where a row begins, a line of the cache does, or a half: none lies in two.
 #[repr(align(64))]
@@ -131,6 +131,12 @@ impl Columns {
     #[inline(always)]
     pub(super) fn lines(&self, shape: RecordShape) -> Option<&[Row; lined::COUNT]> {
         self.rows.0[shape.lines?..].first_chunk()
+    }
+
+    /// The column of marks, of a draw that has any.
+    #[inline(always)]
+    pub(super) fn marks(&self, shape: RecordShape) -> Option<&Row> {
+        Some(&self.rows.0[shape.marks?])
     }
 
     /// What is special, if a triangle is wide or cut.

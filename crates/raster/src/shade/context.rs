@@ -4,7 +4,7 @@ use crate::Surface;
 use crate::bin::Place;
 use crate::frame::{DrawPlan, FrameView};
 use crate::geometry::{Geometry, Shape};
-use crate::ink::Ink;
+use crate::ink::{Ink, Marks, Overlap};
 use crate::simd::{I32, Mask, Simd, U32, prelude::*};
 use crate::tile::TileArea;
 use crate::vertex::{DrawVertices, Slots};
@@ -20,7 +20,7 @@ pub(crate) struct ShadeContext<'f> {
     /// Index of the draw among the frame's plans.
     pub(crate) draw: usize,
     /// What edges of other faces cover, by the number of the pixel, if anything.
-    pub(crate) outer: Option<&'f [f32]>,
+    pub(crate) outer: Option<&'f [Overlap]>,
 }
 
 impl<'f> ShadeContext<'f> {
@@ -37,7 +37,21 @@ impl<'f> ShadeContext<'f> {
     /// What paints the edges of the draw's faces, if anything does.
     #[inline(always)]
     pub(crate) fn ink(&self) -> Option<&'f Ink> {
-        self.frame.ink.as_ref().filter(|_| self.geometry().shows_edges())
+        self.frame.ink.as_ref().filter(|ink| ink.has_lines() && self.geometry().shows_edges())
+    }
+
+    /// What is marked of the draw's triangles, if marks are painted.
+    #[inline(always)]
+    pub(crate) fn marks(&self) -> Option<&'f Marks<'f>> {
+        let is_painted = self.frame.ink.as_ref().is_some_and(Ink::has_marks);
+        if is_painted { self.geometry().marks() } else { None }
+    }
+
+    /// What paints over the draw's colours: edges, its own or those of others, or marks.
+    #[inline(always)]
+    pub(crate) fn ink_over(&self) -> Option<&'f Ink> {
+        let ink = self.frame.ink.as_ref();
+        ink.filter(|_| self.ink().is_some() || self.outer.is_some() || self.marks().is_some())
     }
 
     #[inline(always)]

@@ -2,12 +2,10 @@
 
 use super::ShadeContext;
 use super::columns::Columns;
-use super::lines_over::LinesOver;
 use super::records::{Records, Tag, cold, flag};
 use super::task::Vector;
 use super::weights::Weights;
-use crate::fragment::nearest_edge;
-use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, lanes_of, lesser, prelude::*};
+use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, lesser, prelude::*};
 use crate::{Fragment, Varyings};
 use trigon_math::{UVec2, Vec2};
 
@@ -133,32 +131,6 @@ impl<S: Simd> FragmentLanes<'_, S> {
             |tag| tag.flags,
         );
         (I32::simd_from(self.simd, flags) & flag::BACK).simd_eq(I32::splat(self.simd, 0))
-    }
-
-    /// The distance in pixels to the nearest edge of the face; see
-    /// [`Fragment::nearest_edge`].
-    #[inline(always)]
-    pub fn nearest_edge(&self) -> F32<S> {
-        let supersampling = self.context.frame.supersampling as f32;
-        let opposite: [[f32; LANES]; 3] = self.place.distances.each(Into::into);
-        let (geometry, tags) = (self.context.geometry(), self.tags());
-        let nearest = lanes_of(
-            #[inline(always)]
-            |lane| {
-                let distances = opposite.map(|distance| distance[lane] / supersampling);
-                let Tag { primitive, flags } = tags[lane];
-                nearest_edge(edge_distances(flags, distances), geometry.edge_flags(primitive))
-            },
-        );
-        F32::simd_from(self.simd, nearest)
-    }
-
-    /// The colours with the edges that are painted over them.
-    #[inline(always)]
-    pub(super) fn with_lines(&self, color: [F32<S>; 4]) -> [F32<S>; 4] {
-        let Some(ink) = &self.context.frame.ink else { return color };
-        let over = LinesOver { ink, context: self.context, records: self.records, columns: self.columns };
-        over.lay(self.simd, self.vector.spots, color)
     }
 
     /// Calls `visit` with each active lane as a fragment of its own.

@@ -4,6 +4,7 @@ use super::task::Task;
 use super::{Job, ShadeContext, ShadeOutput, Shading, Work};
 use crate::bin::Place;
 use crate::frame::FrameView;
+use crate::ink::Overlap;
 use crate::tile::TileArea;
 
 /// So many triangles at most are ready at a time, to bound memory.
@@ -15,10 +16,10 @@ pub(crate) fn shade_jobs(
     area: &TileArea,
     shading: &mut Shading,
     (places, jobs, work): (&[Place], &[Job], &[Work]),
-    output: &mut ShadeOutput<'_>,
+    colors: &mut [[f32; 4]],
 ) {
     // Over translucent faces no edges of others are laid.
-    shade_jobs_with(frame, area, shading, (places, jobs, work), (output, None));
+    shade_jobs_with(frame, area, shading, (places, jobs, work), (colors, None));
 }
 
 /// [`shade_jobs`], with what edges of other faces cover.
@@ -27,13 +28,14 @@ pub(crate) fn shade_jobs_with(
     area: &TileArea,
     shading: &mut Shading,
     (places, jobs, work): (&[Place], &[Job], &[Work]),
-    (output, outer): (&mut ShadeOutput<'_>, Option<&[f32]>),
+    (colors, outer): (&mut [[f32; 4]], Option<&[Overlap]>),
 ) {
     for_each_part(frame, area, shading, (places, jobs, work), |context, shading| {
         let context = &ShadeContext { outer, ..*context };
         let Shading { records, columns, fragments, .. } = shading;
         let task = Task::of_fragments(records, 0, fragments.all());
-        frame.pipeline(context.draw).shade(frame.token, context, (&task, columns), output);
+        let mut output = ShadeOutput::colors(colors).with_ink(context.ink_over());
+        frame.pipeline(context.draw).shade(frame.token, context, (&task, columns), &mut output);
     });
 }
 

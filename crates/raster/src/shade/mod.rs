@@ -30,7 +30,7 @@ pub(crate) use encode::Encoding;
 pub(crate) use erased::{AnyPipeline, stride};
 pub use fragment_lanes::{FragmentLanes, MAX_VARYINGS, RawFragment};
 pub(crate) use list::{mask_jobs, shade_jobs, shade_jobs_with};
-pub(crate) use output::ShadeOutput;
+use output::ShadeOutput;
 use records::Records;
 pub(crate) use shading::{EmptyGroup, Shading};
 pub(crate) use surface::{list_visible, shade_tile};

@@ -1,48 +1,124 @@
 //! Where colours go.
 
-use super::Encoding;
+use super::lines_over::LinesOver;
+use super::run::finite;
 use super::task::Destination;
+use super::{Encoding, FragmentLanes};
+use crate::ink::Ink;
 use crate::simd::{F32, LANES, Simd, colors_of, prelude::*};
 
 /// The colours of a tile's pixels or fragments.
+///
+/// The variant stands in a byte of its own: hidden in the values of a field it takes six
+/// instructions to find, for each vector.
+#[repr(u8)]
 pub(crate) enum ShadeOutput<'a> {
-    /// As bytes at once; and edge pixels of groups in linear light.
-    Codes(&'a mut [u32], Encoding, &'a mut [[f32; 4]]),
-    /// In linear light.
-    Colors(&'a mut [[f32; 4]]),
+    Codes(Codes<'a>),
+    Colors(Colors<'a>),
+    /// With edges and marks laid over the colours first. A kind of its own: so the loops of
+    /// pipelines ask once where colours go, and need not ask whether there are edges.
+    Inked(Inked<'a>),
 }
 
-impl ShadeOutput<'_> {
-    /// Writes up to eight colours, each to its place.
+/// Where colours go with what paints over them.
+pub(crate) struct Inked<'a> {
+    ink: &'a Ink,
+    to: Plain<'a>,
+}
+
+enum Plain<'a> {
+    Codes(Codes<'a>),
+    Colors(Colors<'a>),
+}
+
+/// As bytes at once; and edge pixels of groups in linear light.
+pub(crate) struct Codes<'a> {
+    pub(super) codes: &'a mut [u32],
+    pub(super) encoding: Encoding,
+    pub(super) colors: &'a mut [[f32; 4]],
+}
+
+/// In linear light.
+pub(crate) struct Colors<'a>(pub(crate) &'a mut [[f32; 4]]);
+
+impl<'a> ShadeOutput<'a> {
+    /// In linear light.
+    pub(crate) fn colors(colors: &'a mut [[f32; 4]]) -> Self {
+        Self::Colors(Colors(colors))
+    }
+
+    /// The same with edges and marks over the colours, if there is something that paints them.
+    pub(crate) fn with_ink(self, ink: Option<&'a Ink>) -> Self {
+        match (self, ink) {
+            (Self::Codes(codes), Some(ink)) => Self::Inked(Inked { ink, to: Plain::Codes(codes) }),
+            (Self::Colors(colors), Some(ink)) => Self::Inked(Inked { ink, to: Plain::Colors(colors) }),
+            (inked @ Self::Inked(_), _) | (inked, None) => inked,
+        }
+    }
+
+    /// Writes the colours of up to eight fragments, each to its place.
     #[inline(always)]
-    pub(super) fn write<S: Simd>(&mut self, simd: S, color: [F32<S>; 4], to: Destination<'_>) {
+    pub(super) fn write<S: Simd>(&mut self, fragments: &FragmentLanes<'_, S>, color: [F32<S>; 4]) {
+        let FragmentLanes { simd, context, records, columns, vector, .. } = *fragments;
         match self {
-            Self::Codes(codes, encoding, colors) => {
-                let encoded = encoding.encode_lanes(simd, color);
-                match to {
-                    Destination::Group(first, has_edges) => {
-                        encoded.store_slice(&mut codes[first..first + LANES]);
-                        if has_edges {
-                            colors[first..first + LANES].copy_from_slice(&colors_of(simd, color));
-                        }
-                    }
-                    Destination::Listed(outputs) => {
-                        let encoded: [u32; LANES] = encoded.into();
-                        for (&output, code) in outputs.iter().zip(encoded) {
-                            codes[output as usize] = code;
-                        }
-                    }
+            Self::Codes(codes) => codes.write(simd, color, vector.destination),
+            Self::Colors(colors) => colors.write(simd, color, vector.destination),
+            Self::Inked(inked) => {
+                let over = LinesOver { ink: inked.ink, context, records, columns };
+                let (spots, to) = (vector.spots, vector.destination);
+                // Apart, so that it is compiled once and takes no registers of a frame
+                // without edges; and nothing is lent to it that others would have to keep
+                // in memory for that.
+                simd.vectorize(
+                    #[inline(always)]
+                    move || inked.write(finite(simd, over.lay(simd, spots, color)), to),
+                );
+            }
+        }
+    }
+}
+
+impl Inked<'_> {
+    #[inline(always)]
+    fn write<S: Simd>(&mut self, color: [F32<S>; 4], to: Destination<'_>) {
+        let simd = color[0].token();
+        match &mut self.to {
+            Plain::Codes(codes) => codes.write(simd, color, to),
+            Plain::Colors(colors) => colors.write(simd, color, to),
+        }
+    }
+}
+
+impl Codes<'_> {
+    #[inline(always)]
+    fn write<S: Simd>(&mut self, simd: S, color: [F32<S>; 4], to: Destination<'_>) {
+        let encoded = self.encoding.encode_lanes(simd, color);
+        match to {
+            Destination::Group(first, has_edges) => {
+                encoded.store_slice(&mut self.codes[first..first + LANES]);
+                if has_edges {
+                    self.colors[first..first + LANES].copy_from_slice(&colors_of(simd, color));
                 }
             }
-            Self::Colors(colors) => {
-                let rows = colors_of(simd, color);
-                match to {
-                    Destination::Group(first, _) => colors[first..first + LANES].copy_from_slice(&rows),
-                    Destination::Listed(outputs) => {
-                        for (&output, color) in outputs.iter().zip(rows) {
-                            colors[output as usize] = color;
-                        }
-                    }
+            Destination::Listed(outputs) => {
+                let encoded: [u32; LANES] = encoded.into();
+                for (&output, code) in outputs.iter().zip(encoded) {
+                    self.codes[output as usize] = code;
+                }
+            }
+        }
+    }
+}
+
+impl Colors<'_> {
+    #[inline(always)]
+    fn write<S: Simd>(&mut self, simd: S, color: [F32<S>; 4], to: Destination<'_>) {
+        let rows = colors_of(simd, color);
+        match to {
+            Destination::Group(first, _) => self.0[first..first + LANES].copy_from_slice(&rows),
+            Destination::Listed(outputs) => {
+                for (&output, color) in outputs.iter().zip(rows) {
+                    self.0[output as usize] = color;
                 }
             }
         }

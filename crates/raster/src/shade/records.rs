@@ -5,7 +5,7 @@ use super::ShadeContext;
 use super::lines::Lines;
 use super::sorted::Sorted;
 use crate::bin::Place;
-use crate::ink::OuterInk;
+use crate::ink::{Marks, OuterInk};
 use crate::simd::{Each, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
 
 /// The columns that every vector loads before those of varyings.
@@ -103,6 +103,9 @@ pub(super) struct RecordShape {
     pub(super) varyings: usize,
     /// The first column of [`lined`], where edges are painted.
     pub(super) lines: Option<usize>,
+    /// The column of the marks, where there are any: of the sides opposite the corners and of
+    /// the face, a byte each from the lowest on.
+    pub(super) marks: Option<usize>,
 }
 
 impl Records {
@@ -268,10 +271,12 @@ impl RecordShape {
         let varyings = context.varying_count();
         let lines = context.ink().map(|_| hot::COUNT + 3 * varyings);
         let columns = lines.map_or(hot::COUNT + 3 * varyings, |first| first + lined::COUNT);
+        let marks = context.marks().map(|_| columns);
+        let columns = columns + usize::from(marks.is_some());
         let loaded = columns.div_ceil(LANES);
         let is_asked_all = context.frame.pipeline(context.draw).asks_all();
         let size = loaded + if is_asked_all { cold::COUNT / LANES } else { 0 };
-        Self { first: [0; 2], size, loaded, varyings, lines }
+        Self { first: [0; 2], size, loaded, varyings, lines, marks }
     }
 }
 
@@ -340,6 +345,9 @@ fn eight<S: Simd>(
             },
         );
     }
+    if let (Some(marks), Some(column)) = (context.marks(), shape.marks) {
+        store_marks(context, marks, (&mut *rows, shape.size, column), (&primitives, &sorted.corners));
+    }
     let corners = lanes_of(
         #[inline(always)]
         |lane| {
@@ -360,6 +368,23 @@ fn eight<S: Simd>(
         6 => copy_varyings::<6>(context, records),
         8 => copy_varyings::<8>(context, records),
         _ => copy_many_varyings(context, records),
+    }
+}
+
+/// Puts the marks of triangles and of their sides into records.
+#[cold]
+fn store_marks(
+    context: &ShadeContext<'_>,
+    marks: &Marks<'_>,
+    (rows, size, column): (&mut [Row], usize, usize),
+    (primitives, corners): (&[u32; LANES], &[Row; 3]),
+) {
+    for (lane, (record, &primitive)) in rows.chunks_exact_mut(size).zip(primitives).enumerate() {
+        let sides = marks.of_sides(primitive);
+        // Opposite corner k lies the side from k + 1 to k + 2.
+        let [a, b, c] = corners.map(|corner| sides[(corner[lane] as usize + 1) % 3]);
+        let packed = [a, b, c, marks.of_face(context.geometry().face(primitive))];
+        record.as_flattened_mut()[column] = i32::from_le_bytes(packed);
     }
 }
 

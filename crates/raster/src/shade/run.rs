@@ -22,10 +22,7 @@ pub(super) fn shade<S: Simd, P: LanePipeline>(
         context,
         (task, columns),
         #[inline(always)]
-        |fragments, vector| {
-            let color = finite(simd, fragments.with_lines(pipeline.fragments(simd, fragments)));
-            output.write(simd, color, vector.destination);
-        },
+        |fragments, _| output.write(fragments, finite(simd, pipeline.fragments(simd, fragments))),
     );
 }
 

@@ -32,7 +32,7 @@ fn shade_lanes<S: Simd>(
         context,
         list,
         #[inline(always)]
-        |fragments, vector| {
+        |fragments, _| {
             let mut colors = [[0.0; LANES]; 4];
             fragments.for_each(|lane, fragment| {
                 for (column, value) in colors.iter_mut().zip(pipeline.run_fragment(&fragment)) {
@@ -43,7 +43,7 @@ fn shade_lanes<S: Simd>(
                 #[inline(always)]
                 |column| F32::simd_from(simd, column),
             );
-            output.write(simd, finite(simd, fragments.with_lines(color)), vector.destination);
+            output.write(fragments, finite(simd, color));
         },
     );
 }

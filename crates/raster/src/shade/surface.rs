@@ -1,6 +1,7 @@
 //! Shades every visible triangle of a tile once at every pixel that sees it.
 
 use super::fragments::FragmentSlice;
+use super::output::Codes;
 use super::shading::{Run, Shading};
 use super::task::Task;
 use super::visible::{divide, list};
@@ -23,13 +24,13 @@ pub(crate) fn shade_tile(
     let runs = std::mem::take(&mut shading.runs);
     let outer = std::mem::take(&mut shading.outer);
     for run in &runs {
-        let context = ShadeContext { frame, area: *area, places, draw: run.draw, outer: outer.coverage() };
+        let context = ShadeContext { frame, area: *area, places, draw: run.draw, outer: outer.covered() };
         match run.records {
             Some(shape) => shading.records.select(shape),
             None => shading.records.fill(frame.token, &context, &shading.seen[run.slots.clone()]),
         }
         let winners = (buffer.winners(), LANES * buffer.samples);
-        // Lines make no triangle flat.
+        // With lines on it no triangle is flat.
         if frame.pipeline(run.draw).is_flat() && frame.ink.is_none() {
             shade_flat(&context, shading, (run, winners), encoding);
         } else {
@@ -48,10 +49,11 @@ pub(crate) fn list_visible(
     shading: &mut Shading,
 ) -> usize {
     let mut outer = std::mem::take(&mut shading.outer);
-    let own = frame.ink.is_some().then(|| outer.own_lanes(frame, area));
+    let ink = frame.ink.as_ref().filter(|ink| ink.has_lines());
+    let own = ink.map(|_| outer.own_lanes(frame, area));
     let count = at_level!(frame.token, simd => list(simd, buffer, (places.len(), own), shading));
     divide(frame, buffer, places, shading);
-    if let Some(ink) = &frame.ink {
+    if let Some(ink) = ink {
         outer.begin(places.len());
         let Shading { runs, records, seen, .. } = shading;
         records.clear();
@@ -88,14 +90,15 @@ fn shade_run(
         slots,
         fragments: fragments.part(run.fragments.clone()),
     };
-    let mut output = match encoding {
-        Some(encoding) => ShadeOutput::Codes(codes, encoding, colors),
-        None => ShadeOutput::Colors(colors),
+    let output = match encoding {
+        Some(encoding) => ShadeOutput::Codes(Codes { codes, encoding, colors }),
+        None => ShadeOutput::colors(colors),
     };
+    let mut output = output.with_ink(context.ink_over());
     pipeline.shade(context.frame.token, context, (&task, columns), &mut output);
     if !run.parts.is_empty() {
         let task = Task::of_fragments(records, base, parts.part(run.parts.clone()));
-        let mut output = ShadeOutput::Colors(colors);
+        let mut output = ShadeOutput::colors(colors).with_ink(context.ink_over());
         pipeline.shade(context.frame.token, context, (&task, columns), &mut output);
     }
 }
@@ -172,7 +175,7 @@ fn shade_triangles(
     }
     let frame = context.frame;
     let task = Task::of_fragments(records, 0, flat.all());
-    let mut output = ShadeOutput::Colors(flat_colors);
+    let mut output = ShadeOutput::colors(flat_colors);
     frame.pipeline(context.draw).shade(frame.token, context, (&task, columns), &mut output);
     if let Some(encoding) = encoding {
         at_level!(frame.token, simd => encoding.encode_all(simd, &flat_colors[..whole], flat_codes));

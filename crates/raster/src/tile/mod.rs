@@ -80,7 +80,7 @@ pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
 /// What edges cover beyond their faces in a tile that is looked at by itself.
 pub(crate) fn outer_ink(frame: &FrameView<'_>, index: u32) -> OuterInk {
     let mut scratch = Scratch::new();
-    if frame.ink.is_some() {
+    if frame.paints_lines() {
         let area = frame.area(index);
         let surfaces = collect(frame, &mut scratch, index);
         scratch.buffer.clear(&area, frame.grid.pattern.count());

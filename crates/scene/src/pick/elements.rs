@@ -1,66 +1,11 @@
-//! Sets of vertices, edges or faces of several nodes.
-
-use std::collections::BTreeMap;
+//! Sets of elements that grow one by one.
 
 use fixedbitset::FixedBitSet;
 
 use trigon_mesh::Mesh;
 
 use super::object::Object;
-use crate::scene::NodeId;
-
-/// Elements of one kind (vertices, edges or faces) of nodes, as one bit for each element
-/// of a node's mesh. Nodes of which there is none are left out.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ElementSet {
-    nodes: BTreeMap<NodeId, FixedBitSet>,
-}
-
-impl ElementSet {
-    /// How many elements there are, of all nodes.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.nodes.values().map(|bits| bits.count_ones(..)).sum()
-    }
-
-    /// Whether there is none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.nodes.is_empty()
-    }
-
-    /// Whether an element of a node is in the set.
-    #[must_use]
-    pub fn contains(&self, node: NodeId, element: u32) -> bool {
-        self.of(node).is_some_and(|bits| bits.contains(element as usize))
-    }
-
-    /// The elements of a node, one bit for each that its mesh has; `None` without any.
-    #[must_use]
-    pub fn of(&self, node: NodeId) -> Option<&FixedBitSet> {
-        self.nodes.get(&node)
-    }
-
-    /// The nodes with their elements, in their order.
-    pub fn nodes(&self) -> impl Iterator<Item = (NodeId, &FixedBitSet)> {
-        self.nodes.iter().map(|(&node, bits)| (node, bits))
-    }
-
-    /// All elements with their nodes, in the order of nodes and of elements.
-    pub fn iter(&self) -> impl Iterator<Item = (NodeId, u32)> + '_ {
-        self.nodes().flat_map(|(node, bits)| bits.ones().map(move |element| (node, element as u32)))
-    }
-
-    /// Adds the elements of a node.
-    pub(super) fn add(&mut self, node: NodeId, bits: FixedBitSet) {
-        if !bits.is_clear() {
-            match self.nodes.get_mut(&node) {
-                Some(known) => known.union_with(&bits),
-                None => drop(self.nodes.insert(node, bits)),
-            }
-        }
-    }
-}
+use crate::elements::ElementSet;
 
 /// A set that grows element by element.
 pub(super) struct Sets<'o, 's, C> {

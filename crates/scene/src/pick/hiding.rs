@@ -5,6 +5,7 @@
 //! screen and behind it. Each triangle is read once, and a triangle as small as a pixel asks
 //! few points, so that the time grows with triangles and points, not with their product. All
 //! of it is decided at the points themselves, in f64: no pixel's centre is taken for them.
+//! What need not be decided so exactly is left out before (`occluders`).
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,13 +13,18 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 use trigon_math::DVec2;
 
-use super::object::{Drawn, Facing, Object};
+use super::nearby::{Nearby, NearbyTriangles};
+use super::object::{Facing, Object};
+use super::occluders::{Group, Occluder, Pixels, Probe};
 use super::region::Area;
 use super::screen::{Screen, Spot};
 use crate::frame::Frame;
 
 /// Triangles that a thread takes at a time.
 const TRIANGLES: usize = 4096;
+
+/// Rows of pixels whose points a thread sorts at a time.
+const BAND: u32 = 16;
 
 /// A point of an element that lies in a region.
 #[derive(Clone, Copy, Debug)]
@@ -35,75 +41,62 @@ pub(super) struct Hiding<'p> {
     frame: &'p Frame,
     columns: Range<u32>,
     rows: Range<u32>,
+    bands: Vec<Band>,
+}
+
+/// The points in some rows of pixels.
+struct Band {
     /// For each pixel where its points begin, and the end of the last one's.
     starts: Vec<u32>,
-    points: Vec<Point>,
+    points: Vec<Candidate>,
+    probes: Vec<Probe>,
     hidden: Vec<AtomicBool>,
 }
 
-/// A candidate in its pixel.
-#[derive(Clone, Copy)]
-struct Point {
-    at: DVec2,
-    /// Faces hide it that are nearer than this.
-    depth: f64,
-    candidate: u32,
-}
-
 impl<'p> Hiding<'p> {
-    /// The candidates have to lie in the area. There have to be fewer than `u32::MAX`.
+    /// The candidates, in any number of lists, have to lie in the area. There have to be
+    /// fewer than `u32::MAX` of them.
     pub(super) fn new(
         (screen, frame): (&'p Screen, &'p Frame),
         area: &Area<'_>,
-        candidates: &[Candidate],
+        lists: &[Vec<Candidate>],
     ) -> Self {
         let (columns, rows) = (area.columns.clone(), area.rows.clone());
-        let pixel = |candidate: &Candidate| {
-            let at = candidate.spot.at;
-            let [column, row] = [at.x as u32 - columns.start, at.y as u32 - rows.start];
-            row as usize * columns.len() + column as usize
+        let band = |candidate: &Candidate| (candidate.spot.at.y as u32 - rows.start) / BAND;
+        let band_count = rows.len().div_ceil(BAND as usize);
+        let sorted: Vec<Sorted> =
+            lists.par_iter().map(|list| Sorted::new(band_count, list.iter().map(band).collect())).collect();
+        let points_of = |band: usize| -> Vec<&Candidate> {
+            let parts = lists.iter().zip(&sorted);
+            parts.flat_map(|(list, sorted)| sorted.of(band).iter().map(|&at| &list[at as usize])).collect()
         };
-        let mut starts = vec![0_u32; columns.len() * rows.len() + 1];
-        candidates.iter().for_each(|candidate| starts[pixel(candidate)] += 1);
-        let mut end = 0;
-        for start in &mut starts {
-            end += *start;
-            *start = end;
-        }
-        // Now each is where the next pixel's points begin; they are put in from the back.
-        let nothing = Point { at: DVec2::ZERO, depth: 0.0, candidate: 0 };
-        let mut points = vec![nothing; candidates.len()];
-        for (number, candidate) in candidates.iter().enumerate().rev() {
-            let start = &mut starts[pixel(candidate)];
-            *start -= 1;
-            let Spot { at, depth } = candidate.spot;
-            let depth = screen.hiding_depth(depth);
-            points[*start as usize] = Point { at, depth, candidate: number as u32 };
-        }
-        let hidden = points.iter().map(|_| AtomicBool::new(false)).collect();
-        Self { screen, frame, columns, rows, starts, points, hidden }
+        let bands = (0..band_count as u32).into_par_iter().map(|band| {
+            let first = rows.start + band * BAND;
+            Band::new(screen, [columns.start, first], columns.len(), &points_of(band as usize))
+        });
+        let bands = bands.collect();
+        Self { screen, frame, columns, rows, bands }
     }
 
     /// Lets the faces of an object hide points. `is_own` tells whether a candidate
     /// belongs to a face of that object.
-    pub(super) fn hide(&self, object: &Object<'_>, is_own: impl Fn(u32, u32) -> bool + Sync) {
-        let Some(drawn) = object.drawn() else { return };
-        let corners = drawn.corners(self.screen);
-        for (facing, triangles) in drawn.runs() {
-            let wins = |face: u32, at: DVec2| facing.is_opaque || self.wins(object, face, at);
-            let hides = |face: u32, point: &Point| wins(face, point.at) && !is_own(face, point.candidate);
-            triangles.into_par_iter().with_min_len(TRIANGLES).for_each(|triangle| {
-                self.visit((drawn, facing), corners, triangle, &hides);
+    pub(super) fn hide(&self, nearby: &Nearby<'_>, is_own: impl Fn(u32, &Candidate) -> bool + Sync) {
+        let Some(triangles) = nearby.triangles() else { return };
+        for (facing, run) in triangles.drawn.runs() {
+            let wins = |face: u32, at: DVec2| facing.is_opaque || self.wins(nearby.object, face, at);
+            let hides = |face: u32, point: &Candidate| wins(face, point.spot.at) && !is_own(face, point);
+            let starts: Vec<usize> = run.clone().step_by(TRIANGLES).collect();
+            starts.into_par_iter().for_each(|start| {
+                let share = start..run.end.min(start + TRIANGLES);
+                self.visit_all(&triangles, facing, share, &hides);
             });
         }
     }
 
-    /// The candidates that nothing hides, by their numbers.
-    pub(super) fn seen(&self) -> impl Iterator<Item = usize> + '_ {
-        let points = self.points.iter().zip(&self.hidden);
-        points
-            .filter(|(_, hidden)| !hidden.load(Ordering::Relaxed))
-            .map(|(point, _)| point.candidate as usize)
+    /// The candidates that nothing hides.
+    pub(super) fn seen(&self) -> impl Iterator<Item = &Candidate> + '_ {
+        let points = self.bands.iter().flat_map(|band| band.points.iter().zip(&band.hidden));
+        points.filter(|(_, hidden)| !hidden.load(Ordering::Relaxed)).map(|(point, _)| point)
     }
 
     /// Whether the picture shows a face in the pixel of a point.
@@ -114,55 +107,129 @@ impl<'p> Hiding<'p> {
             && id(&self.frame.face_ids) == Some(face)
     }
 
-    fn visit(
+    fn visit_all(
         &self,
-        (drawn, facing): (&Drawn, Facing),
-        corners: &[Spot],
-        triangle: usize,
-        hides: &impl Fn(u32, &Point) -> bool,
+        triangles: &NearbyTriangles<'_>,
+        facing: Facing,
+        share: Range<usize>,
+        hides: &impl Fn(u32, &Candidate) -> bool,
     ) {
-        drawn.pieces((self.screen, corners), triangle, |piece| {
-            let Some((columns, rows)) = self.pixels(piece) else { return };
-            let [a, b, c] = piece.map(|spot| spot.at);
-            let area = (b - a).perp_dot(c - a);
-            if !facing.draws(area) {
-                return;
-            }
-            let nearest = piece.iter().fold(f64::NEG_INFINITY, |nearest, spot| nearest.max(spot.depth));
-            for row in rows {
-                for number in self.points_of(row, &columns) {
-                    let point = &self.points[number];
-                    if nearest > point.depth
-                        && !self.hidden[number].load(Ordering::Relaxed)
-                        && depth_at(piece, point.at).is_some_and(|depth| depth > point.depth)
-                        && hides(drawn.face(triangle), point)
-                    {
-                        self.hidden[number].store(true, Ordering::Relaxed);
-                    }
+        let mut group = Group::default();
+        for triangle in share {
+            triangles.pieces(triangle, |piece| {
+                let [a, b, c] = piece.map(|spot| spot.at);
+                if !facing.draws((b - a).perp_dot(c - a)) {
+                    return;
                 }
-            }
-        });
+                let Some(pixels) = self.pixels(piece) else { return };
+                let occluder = Occluder::new(piece, triangles.drawn.face(triangle));
+                if !group.takes(&pixels) {
+                    self.visit(&group, hides);
+                    group.clear();
+                }
+                group.push(occluder, pixels);
+            });
+        }
+        self.visit(&group, hides);
     }
 
-    /// The pixels around a triangle; `None` where it lies beside the area.
-    fn pixels(&self, piece: &[Spot; 3]) -> Option<(Range<u32>, Range<u32>)> {
+    /// Lets the triangles of a group hide the points in the pixels around them.
+    fn visit(&self, group: &Group, hides: &impl Fn(u32, &Candidate) -> bool) {
+        let Some(around) = group.around() else { return };
+        for row in around.pixels.rows.clone() {
+            let band = &self.bands[(row / BAND) as usize];
+            let numbers = band.points_of(row % BAND, &around.pixels.columns, self.columns.len());
+            for (number, probe) in numbers.clone().zip(&band.probes[numbers]) {
+                if !around.extent.may_hide(probe) || band.hidden[number].load(Ordering::Relaxed) {
+                    continue;
+                }
+                let point = &band.points[number];
+                let hiding_depth = || self.screen.hiding_depth(point.spot.depth);
+                let is_hidden = group.occluders().iter().any(|occluder| {
+                    occluder.extent.may_hide(probe)
+                        && depth_at(&occluder.piece, point.spot.at)
+                            .is_some_and(|depth| depth > hiding_depth())
+                        && hides(occluder.face, point)
+                });
+                if is_hidden {
+                    band.hidden[number].store(true, Ordering::Relaxed);
+                }
+            }
+        }
+    }
+
+    /// The pixels around a triangle, counted from the area's first; `None` where it lies
+    /// beside the area.
+    fn pixels(&self, piece: &[Spot; 3]) -> Option<Pixels> {
         let [a, b, c] = piece.map(|spot| spot.at);
         let (min, max) = (a.min(b).min(c), a.max(b).max(c));
         let within = |min: f64, max: f64, pixels: &Range<u32>| {
             // The casts saturate.
             let (start, end) =
                 ((min as u32).max(pixels.start), (max as u32).saturating_add(1).min(pixels.end));
-            (max >= 0.0 && start < end).then_some(start..end)
+            (max >= 0.0 && start < end).then(|| start - pixels.start..end - pixels.start)
         };
-        Some((within(min.x, max.x, &self.columns)?, within(min.y, max.y, &self.rows)?))
+        Some(Pixels {
+            columns: within(min.x, max.x, &self.columns)?,
+            rows: within(min.y, max.y, &self.rows)?,
+        })
+    }
+}
+
+impl Band {
+    /// `left` and `top` are its first pixel.
+    fn new(screen: &Screen, [left, top]: [u32; 2], columns: usize, points: &[&Candidate]) -> Self {
+        let pixel = |point: &&Candidate| {
+            let [x, y] = point.spot.at.to_array().map(|at| at as u32);
+            (y - top) * columns as u32 + (x - left)
+        };
+        let Sorted { starts, order } =
+            Sorted::new(columns * BAND as usize, points.iter().map(pixel).collect());
+        let points: Vec<Candidate> = order.iter().map(|&number| *points[number as usize]).collect();
+        let probes = points.iter().map(|point| Probe::new(screen, &point.spot)).collect();
+        let hidden = points.iter().map(|_| AtomicBool::new(false)).collect();
+        Self { starts, points, probes, hidden }
     }
 
-    /// The points of some pixels of a row.
-    fn points_of(&self, row: u32, columns: &Range<u32>) -> Range<usize> {
-        let first = (row - self.rows.start) as usize * self.columns.len();
-        let [start, end] = [columns.start, columns.end]
-            .map(|column| self.starts[first + (column - self.columns.start) as usize] as usize);
+    /// The points of some pixels of a row, both counted from the first.
+    #[inline]
+    fn points_of(&self, row: u32, pixels: &Range<u32>, columns: usize) -> Range<usize> {
+        let first = row as usize * columns;
+        let [start, end] =
+            [pixels.start, pixels.end].map(|pixel| self.starts[first + pixel as usize] as usize);
         start..end
+    }
+}
+
+/// Numbers of things, sorted by their keys; of equal keys in their order.
+struct Sorted {
+    /// For each key where its things begin, and the end of the last one's.
+    starts: Vec<u32>,
+    order: Vec<u32>,
+}
+
+impl Sorted {
+    /// `keys` has the key of each thing, less than `count`.
+    fn new(count: usize, keys: Vec<u32>) -> Self {
+        let mut starts = vec![0_u32; count + 1];
+        keys.iter().for_each(|&key| starts[key as usize] += 1);
+        let mut end = 0;
+        for start in &mut starts {
+            end += *start;
+            *start = end;
+        }
+        // Now each is where the next key's things begin; they are put in from the back.
+        let mut order = vec![0; keys.len()];
+        for (number, &key) in keys.iter().enumerate().rev() {
+            let start = &mut starts[key as usize];
+            *start -= 1;
+            order[*start as usize] = number as u32;
+        }
+        Self { starts, order }
+    }
+
+    fn of(&self, key: usize) -> &[u32] {
+        &self.order[self.starts[key] as usize..self.starts[key + 1] as usize]
     }
 }
 

@@ -3,16 +3,18 @@
 //!
 //! The rule of what is hit stands at [`Picker`]. Faces that are seen are read from the ids of a
 //! picture (`search`); all else is decided in f64: `screen` and `object` tell where points of
-//! elements are, `kind` which of them lie in a region (`region`, `lasso`), `hiding` which of those a
-//! face hides, and `covering` which pixels' centres a face covers.
+//! elements are, `nearby` what may lie in a region (`region`, `lasso`), `kind` what does, `hiding` (with
+//! `occluders`) which of that a face hides, and `covering` which pixels' centres a face covers.
 
 mod covering;
 mod elements;
 mod hiding;
 mod kind;
 mod lasso;
+mod nearby;
 mod nearest;
 mod object;
+mod occluders;
 mod outline;
 mod picker;
 mod region;
@@ -21,7 +23,6 @@ mod search;
 #[cfg(test)]
 mod tests;
 
-pub use elements::ElementSet;
 pub use nearest::Nearest;
 pub use picker::{Pick, Picker, Reach};
 pub use region::Region;

@@ -2,6 +2,7 @@
 //! points are on the screen. All of it is found when it is first asked for.
 
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 use trigon_math::{DMat4, DVec3, Vec3};
@@ -12,8 +13,8 @@ use crate::material::AlphaMode;
 use crate::render::{Onlookers, Run, Shape, Shapes};
 use crate::scene::{NodeId, PlacedMesh, Scene};
 
-/// Points that a thread projects at a time.
-const POINTS: usize = 4096;
+/// Points that a thread takes at a time.
+pub(super) const POINTS: usize = 4096;
 
 /// A visible node with a mesh.
 pub(super) struct Object<'s> {
@@ -23,8 +24,9 @@ pub(super) struct Object<'s> {
     drawn: Option<Drawn>,
     /// Where vertices are.
     map: DMat4,
+    /// The same for all of them, once that is kept.
     vertices: OnceLock<Vec<Spot>>,
-    used: OnceLock<Vec<bool>>,
+    used: OnceLock<Vec<AtomicBool>>,
 }
 
 /// The triangles of an object.
@@ -33,6 +35,7 @@ pub(super) struct Drawn {
     map: DMat4,
     /// For each run how its material shows faces.
     facings: Vec<Facing>,
+    /// Where all corners are, once that is kept.
     corners: OnceLock<Vec<Spot>>,
 }
 
@@ -78,17 +81,36 @@ impl<'s> Object<'s> {
         self.drawn.as_ref()
     }
 
-    /// Where each vertex is.
-    pub(super) fn vertices(&self, screen: &Screen) -> &[Spot] {
-        self.vertices.get_or_init(|| {
+    /// Finds where all vertices are, and keeps it.
+    pub(super) fn keep_vertices(&self, screen: &Screen) {
+        keep(&self.vertices, || {
             let positions = self.placed.positions().par_iter().with_min_len(POINTS);
             positions.map(|position| screen.spot(&self.map, position.as_dvec3())).collect()
-        })
+        });
+    }
+
+    /// Where a vertex is.
+    pub(super) fn vertices<'v>(&'v self, screen: &'v Screen) -> impl Fn(usize) -> Spot + Sync + 'v {
+        let (kept, positions) = (self.vertices.get(), self.placed.positions());
+        move |vertex| match kept {
+            Some(spots) => spots[vertex],
+            None => screen.spot(&self.map, positions[vertex].as_dvec3()),
+        }
     }
 
     /// Which vertices belong to a face, an edge or a point.
-    pub(super) fn used(&self) -> &[bool] {
-        self.used.get_or_init(|| self.mesh().used_vertices())
+    pub(super) fn used(&self) -> &[AtomicBool] {
+        keep(&self.used, || {
+            let mesh = self.mesh();
+            let used: Vec<_> = (0..mesh.vertex_count()).map(|_| AtomicBool::new(false)).collect();
+            let lists = [mesh.corner_vertices(), mesh.loose_edges().as_flattened(), mesh.loose_points()];
+            for list in lists {
+                // Threads may write the same vertex, but all of them write the same.
+                let vertices = list.par_iter().with_min_len(POINTS);
+                vertices.for_each(|&vertex| used[vertex as usize].store(true, Ordering::Relaxed));
+            }
+            used
+        })
     }
 
     /// What the near plane leaves of the line between two vertices.
@@ -130,29 +152,43 @@ impl Drawn {
         self.shape.geometry.faces[triangle]
     }
 
-    /// Where each corner of a triangle is that lies beyond the near plane.
-    pub(super) fn corners(&self, screen: &Screen) -> &[Spot] {
-        self.corners.get_or_init(|| {
-            let count = self.shape.geometry.columns.vertex_count();
-            let points = (0..count).into_par_iter().with_min_len(POINTS);
+    /// The corners of a triangle.
+    #[inline]
+    pub(super) fn triangle(&self, triangle: usize) -> [usize; 3] {
+        self.shape.geometry.triangles[triangle].map(|corner| corner as usize)
+    }
+
+    /// How many corners all triangles have; neighbours may share them.
+    pub(super) fn corner_count(&self) -> usize {
+        self.shape.geometry.columns.vertex_count()
+    }
+
+    /// Finds where all corners are, and keeps it.
+    pub(super) fn keep_corners(&self, screen: &Screen) {
+        keep(&self.corners, || {
+            let points = (0..self.corner_count()).into_par_iter().with_min_len(POINTS);
             points.map(|corner| screen.spot(&self.map, self.position(corner))).collect()
-        })
+        });
+    }
+
+    /// Where a corner is.
+    pub(super) fn corners<'d>(&'d self, screen: &'d Screen) -> impl Fn(usize) -> Spot + Sync + 'd {
+        let kept = self.corners.get();
+        move |corner| match kept {
+            Some(spots) => spots[corner],
+            None => screen.spot(&self.map, self.position(corner)),
+        }
     }
 
     /// Calls `visit` with the triangle, or with those that the near plane leaves of it.
     #[inline]
-    pub(super) fn pieces(
-        &self,
-        (screen, corners): (&Screen, &[Spot]),
-        triangle: usize,
-        mut visit: impl FnMut(&[Spot; 3]),
-    ) {
-        let numbers = self.shape.geometry.triangles[triangle].map(|corner| corner as usize);
-        let spots = numbers.map(|corner| corners[corner]);
+    pub(super) fn pieces(&self, screen: &Screen, triangle: usize, mut visit: impl FnMut(&[Spot; 3])) {
+        let corners = self.triangle(triangle);
+        let spots = corners.map(self.corners(screen));
         if spots.iter().all(Spot::is_somewhere) {
             visit(&spots);
         } else if spots.iter().any(Spot::is_somewhere) {
-            let points = numbers.map(|corner| self.position(corner));
+            let points = corners.map(|corner| self.position(corner));
             screen.cut_triangle(&self.map, points).triangles().for_each(|piece| visit(&piece));
         }
     }
@@ -168,4 +204,14 @@ impl Facing {
     pub(super) fn draws(&self, area: f64) -> bool {
         area != 0.0 && (self.double_sided || (area < 0.0) != self.is_mirrored)
     }
+}
+
+/// What is kept, or found now and kept. It is found without a lock: a thread that waits for others
+/// to find a part may be given work that asks for the same.
+fn keep<T>(kept: &OnceLock<Vec<T>>, find: impl FnOnce() -> Vec<T>) -> &[T] {
+    if kept.get().is_none() {
+        // Another thread may have been quicker, and has found the same.
+        let _ = kept.set(find());
+    }
+    kept.get().expect("it was just set")
 }

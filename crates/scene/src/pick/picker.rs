@@ -9,13 +9,14 @@ use trigon_math::DVec2;
 use trigon_mesh::Mesh;
 
 use super::covering::Centers;
-use super::elements::{ElementSet, Sets};
+use super::elements::Sets;
 use super::kind::Kind;
 use super::nearest::{Best, Nearest};
 use super::object::Object;
 use super::region::{Region, center};
 use super::screen::Screen;
 use super::search::for_each_pixel;
+use crate::elements::ElementSet;
 use crate::frame::{Frame, Hit};
 use crate::scene::{NodeId, Scene};
 
@@ -57,8 +58,9 @@ pub enum Reach {
 /// in f64 at the points themselves: no pixel's centre is taken for them.
 ///
 /// # What it costs
-/// It finds out where all vertices are on the screen when a question first needs that, and
-/// keeps it: ask one picker for as long as scene and camera stay.
+/// It finds out where all vertices are on the screen when a question about a large region
+/// first needs that, and keeps it: ask one picker for as long as scene and camera stay. For a small
+/// region, such as around a cursor, it keeps only which vertices are used.
 ///
 /// ```
 /// use trigon_scene::math::DVec2;
@@ -152,13 +154,9 @@ impl<'p> Picker<'p> {
             let (object, element) = best.element()?;
             Some((self.scene.nodes().id_at(object as usize)?, element))
         };
-        let [vertex, edge] = [Kind::Vertex, Kind::Edge].map(|kind| {
-            let mut best = Best::new(point);
-            self.points(kind, &area, reach, |point| {
-                best.offer(point.spot.at, point.spot.depth, point.object, point.element);
-            });
-            element(best)
-        });
+        let nearby = self.nearby(&area);
+        let [vertex, edge] = [Kind::Vertex, Kind::Edge]
+            .map(|kind| element(self.nearest_element((kind, point), &nearby, reach)));
         Nearest { vertex, edge, face: element(self.nearest_face(point, &area, reach)) }
     }
 

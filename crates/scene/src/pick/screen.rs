@@ -76,6 +76,12 @@ impl Screen {
         }
     }
 
+    /// How many pixels the picture has.
+    pub(super) fn pixel_count(&self) -> usize {
+        let size = self.half_size * 2.0;
+        size.x as usize * size.y as usize
+    }
+
     /// The map of an object's points to clip space.
     pub(super) fn map(&self, world: &DAffine3) -> DMat4 {
         self.projection * DMat4::from(self.eye.to_camera(world))

@@ -1,5 +1,6 @@
 //! How a picker goes through pixels, triangles and points.
 
+use std::collections::VecDeque;
 use std::ops::{ControlFlow, Range};
 
 use fixedbitset::FixedBitSet;
@@ -7,24 +8,30 @@ use rayon::prelude::*;
 use trigon_math::DVec2;
 
 use super::covering::Centers;
-use super::elements::{ElementSet, Sets};
+use super::elements::Sets;
 use super::hiding::{Candidate, Hiding};
 use super::kind::Kind;
+use super::nearby::Nearby;
 use super::nearest::Best;
 use super::object::{Object, objects};
 use super::outline::Outline;
 use super::picker::{Picker, Reach};
 use super::region::{Area, Region, center};
+use crate::elements::ElementSet;
 use crate::frame::Hit;
 
-/// Elements whose points are found at a time. An edge may have as many points as the
-/// picture has columns, and those of these are held in memory.
-const ELEMENTS: usize = 1 << 14;
+/// Elements that a thread takes at a time.
+const SHARE: usize = 1 << 13;
 
-/// Of those, elements that a thread takes at a time.
-const SHARE: usize = 1 << 11;
+/// Shares that are taken before it is looked how many points there are.
+const SHARES: usize = 64;
 
-/// Once there are so many points, it is decided which of them are hidden: 128 MB.
+/// Points after which a thread leaves the rest of its share for later: an edge may have
+/// as many as the picture has columns.
+const SHARE_POINTS: usize = 1 << 14;
+
+/// Once there are so many points, it is decided which of them are hidden: with those of a last
+/// round about 250 MB.
 const POINTS: usize = 1 << 22;
 
 /// Triangles that a thread takes at a time.
@@ -47,60 +54,97 @@ impl<'p> Picker<'p> {
         Some(Outline::new(object.mesh(), face, &self.projector, |vertex| object.place(vertex)))
     }
 
-    /// The vertices or edges that are hit in a region.
-    pub(super) fn elements(&self, kind: Kind, region: &Region, reach: Reach) -> ElementSet {
-        let mut sets = Sets::new(self.objects(), move |mesh| kind.count(mesh));
-        self.points(kind, &self.area(region), reach, |point| sets.insert(point.object, point.element));
-        sets.finish()
+    /// The objects beside an area; none if that is empty.
+    pub(super) fn nearby<'q>(&'q self, area: &'q Area<'q>) -> Vec<Nearby<'q>> {
+        let objects = self.objects().iter().flatten().filter(|_| !area.is_empty());
+        objects.map(|object| Nearby::new(object, &self.screen, area)).collect()
     }
 
-    /// Calls `found` with the points of elements that are hit in an area.
-    pub(super) fn points(
-        &self,
-        kind: Kind,
-        area: &Area<'_>,
-        reach: Reach,
-        mut found: impl FnMut(&Candidate),
-    ) {
-        let mut points = Vec::new();
-        let mut decide = |points: &mut Vec<Candidate>| {
-            match reach {
-                Reach::Through => points.iter().for_each(&mut found),
-                Reach::Visible => self.visible(kind, area, points, &mut found),
+    /// The vertices or edges that are hit in a region.
+    pub(super) fn elements(&self, kind: Kind, region: &Region, reach: Reach) -> ElementSet {
+        let area = self.area(region);
+        let nearby = self.nearby(&area);
+        let mut sets = Sets::new(self.objects(), move |mesh| kind.count(mesh));
+        match reach {
+            Reach::Visible => {
+                self.seen(kind, &nearby, |point| sets.insert(point.object, point.element));
             }
-            points.clear();
-        };
-        for object in self.objects().iter().flatten().filter(|_| !area.is_empty()) {
-            let count = kind.count(object.mesh());
-            for start in (0..count).step_by(ELEMENTS) {
-                let part = start..count.min(start + ELEMENTS);
-                let shares: Vec<Vec<Candidate>> = shares(part)
-                    .into_par_iter()
-                    .map(|share| kind.candidates(object, &self.screen, area, share))
-                    .collect();
-                points.extend(shares.into_iter().flatten());
-                if points.len() >= POINTS {
-                    decide(&mut points);
+            Reach::Through => {
+                for nearby in &nearby {
+                    let found: Vec<Vec<u32>> = shares(kind.count(nearby.object.mesh()))
+                        .into_par_iter()
+                        .map(|share| with_points(kind, nearby, share))
+                        .collect();
+                    let object = nearby.object.node.index() as u32;
+                    found.into_iter().flatten().for_each(|element| sets.insert(object, element));
                 }
             }
         }
-        decide(&mut points);
+        sets.finish()
     }
 
-    /// Those of some points that no face hides but their own.
-    fn visible(&self, kind: Kind, area: &Area<'_>, points: &[Candidate], found: &mut impl FnMut(&Candidate)) {
-        if points.is_empty() {
-            return;
+    /// The element of whose points one is nearest to a point.
+    pub(super) fn nearest_element(
+        &self,
+        (kind, target): (Kind, DVec2),
+        nearby: &[Nearby<'_>],
+        reach: Reach,
+    ) -> Best {
+        let mut best = Best::new(target);
+        let mut offer =
+            |point: &Candidate| best.offer(point.spot.at, point.spot.depth, point.object, point.element);
+        match reach {
+            Reach::Visible => self.seen(kind, nearby, offer),
+            Reach::Through => {
+                self.candidates(kind, nearby, |lists| lists.iter().flatten().for_each(&mut offer));
+            }
         }
-        let hiding = Hiding::new((&self.screen, self.frame), area, points);
-        for object in self.objects().iter().flatten() {
-            let index = object.node.index() as u32;
-            hiding.hide(object, |face, number| {
-                let point = &points[number as usize];
-                point.object == index && kind.belongs(object.mesh(), face, point.element)
+        best
+    }
+
+    /// Calls `found` with the points of elements that are seen in an area.
+    fn seen(&self, kind: Kind, nearby: &[Nearby<'_>], mut found: impl FnMut(&Candidate)) {
+        self.candidates(kind, nearby, |lists| {
+            let [first, ..] = nearby else { return };
+            let hiding = Hiding::new((&self.screen, self.frame), first.area, lists);
+            for nearby in nearby {
+                let object = nearby.object;
+                let index = object.node.index() as u32;
+                hiding.hide(nearby, |face, point| {
+                    point.object == index && kind.belongs(object.mesh(), face, point.element)
+                });
+            }
+            hiding.seen().for_each(&mut found);
+        });
+    }
+
+    /// Calls `decide` with all points of elements in an area, many at a time.
+    fn candidates(&self, kind: Kind, nearby: &[Nearby<'_>], mut decide: impl FnMut(&[Vec<Candidate>])) {
+        let shares = nearby.iter().flat_map(|nearby| {
+            shares(kind.count(nearby.object.mesh())).into_iter().map(move |share| (nearby, share))
+        });
+        let mut waiting: VecDeque<(&Nearby<'_>, Range<usize>)> = shares.collect();
+        let (mut lists, mut count) = (Vec::new(), 0);
+        while !waiting.is_empty() {
+            let round: Vec<_> = waiting.drain(..waiting.len().min(SHARES)).collect();
+            let found = round.into_par_iter().map(|(nearby, share)| {
+                let (points, rest) = points(kind, nearby, share);
+                (points, (nearby, rest))
             });
+            for (points, rest) in found.collect::<Vec<_>>() {
+                count += points.len();
+                lists.extend(Some(points).filter(|points| !points.is_empty()));
+                waiting.extend(Some(rest).filter(|(_, rest)| !rest.is_empty()));
+            }
+            if count >= POINTS {
+                decide(&lists);
+                lists.clear();
+                count = 0;
+            }
         }
-        hiding.seen().for_each(|number| found(&points[number]));
+        if count > 0 {
+            decide(&lists);
+        }
     }
 
     /// The place of a pixel in the lists of a frame.
@@ -194,12 +238,12 @@ impl<'p> Picker<'p> {
     ) -> T {
         let Visit { none, known, add, merged } = visit;
         let Some(drawn) = object.drawn().filter(|_| !centers.is_empty()) else { return none() };
-        let corners = drawn.corners(&self.screen);
+        drawn.keep_corners(&self.screen);
         let triangles = (0..drawn.triangle_count()).into_par_iter().with_min_len(TRIANGLES);
         let visited = triangles.fold(&none, |mut found, triangle| {
             let face = drawn.face(triangle);
             if !known(&found, face) {
-                drawn.pieces((&self.screen, corners), triangle, |piece| {
+                drawn.pieces(&self.screen, triangle, |piece| {
                     let _ = centers.covered(piece, |pixel, depth| add(&mut found, face, pixel, depth));
                 });
             }
@@ -220,10 +264,34 @@ struct Visit<N, K, A, M> {
     merged: M,
 }
 
-/// A range in parts.
-fn shares(range: Range<usize>) -> Vec<Range<usize>> {
-    let end = range.end;
-    range.step_by(SHARE).map(|start| start..end.min(start + SHARE)).collect()
+/// So many elements in parts.
+fn shares(count: usize) -> Vec<Range<usize>> {
+    (0..count).step_by(SHARE).map(|start| start..count.min(start + SHARE)).collect()
+}
+
+/// The points of some elements, and what is left of these for later.
+fn points(kind: Kind, nearby: &Nearby<'_>, share: Range<usize>) -> (Vec<Candidate>, Range<usize>) {
+    let (mut points, object) = (Vec::new(), nearby.object.node.index() as u32);
+    for element in share.clone() {
+        kind.points(nearby, element, |spot| {
+            points.push(Candidate { spot, object, element: element as u32 });
+        });
+        if points.len() >= SHARE_POINTS {
+            return (points, element + 1..share.end);
+        }
+    }
+    (points, share.end..share.end)
+}
+
+/// Those of some elements that have a point in an area.
+fn with_points(kind: Kind, nearby: &Nearby<'_>, elements: Range<usize>) -> Vec<u32> {
+    let mut found = Vec::new();
+    for element in elements {
+        let mut is_there = false;
+        kind.points(nearby, element, |_| is_there = true);
+        found.extend(is_there.then_some(element as u32));
+    }
+    found
 }
 
 /// Calls `visit` with each pixel whose centre lies in an area.

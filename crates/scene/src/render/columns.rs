@@ -1,6 +1,7 @@
 //! The values of a mesh's vertices, column by column: what a vertex stage in
 //! vectors reads.
 
+use rayon::prelude::*;
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Deformed, Mesh, RenderMesh, UpdatedVertex};
 
@@ -70,18 +71,34 @@ impl Columns {
     }
 }
 
+/// Writes the columns of one attribute. Of many vertices each thread takes whole columns.
 fn write<const N: usize>(
     columns: &mut [Vec<f32>; N],
     vertices: &[UpdatedVertex],
-    value: impl Fn(&UpdatedVertex) -> [f32; N],
+    value: impl Fn(&UpdatedVertex) -> [f32; N] + Send + Sync,
 ) {
-    for vertex in vertices {
-        let index = vertex.vertex as usize;
-        for (column, entry) in columns.iter_mut().zip(value(vertex)) {
-            match column.get_mut(index) {
-                Some(place) => *place = entry,
-                None => column.push(entry),
-            }
+    /// Fewer are written sooner than another thread is woken.
+    const MANY: usize = 4096;
+    if vertices.len() < MANY {
+        for (axis, column) in columns.iter_mut().enumerate() {
+            write_column(column, vertices.iter().map(|vertex| (vertex.vertex, value(vertex)[axis])));
+        }
+        return;
+    }
+    let values: Vec<[f32; N]> = vertices.par_iter().with_min_len(MANY / 4).map(value).collect();
+    columns.par_iter_mut().enumerate().for_each(|(axis, column)| {
+        write_column(
+            column,
+            vertices.iter().zip(&values).map(|(vertex, value)| (vertex.vertex, value[axis])),
+        );
+    });
+}
+
+fn write_column(column: &mut Vec<f32>, entries: impl Iterator<Item = (u32, f32)>) {
+    for (index, entry) in entries {
+        match column.get_mut(index as usize) {
+            Some(place) => *place = entry,
+            None => column.push(entry),
         }
     }
 }

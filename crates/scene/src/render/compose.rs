@@ -1,25 +1,36 @@
 //! Which draws a picture needs, each with the pipeline that its material and
 //! mesh call for and no more.
 
+use std::borrow::Cow;
+use std::ops::Range;
+use std::sync::Arc;
+
+use fixedbitset::FixedBitSet;
 use trigon_camera::Camera;
 use trigon_math::Vec3;
-use trigon_raster::{Culling, EdgeFlags};
+use trigon_raster::{Culling, EdgeFlags, Outline};
 
 use super::backdrop::Backdrop;
 use super::geometry::{Geometry, Run};
 use super::placement::{Eye, Placement};
-use super::record::{Dots, Record, Segments, Triangles};
+use super::record::{Dots, MarkNumbers, ObjectMarks, Record, Segments, Triangles};
 use super::shapes::{Shape, Shapes};
 use super::surface::{Dressed, Occasion, Rays, Surface};
-use super::wire::{HiddenLine, Wire};
+use super::wire::{HiddenLine, Wire, WireMarks};
 use crate::effects::{Counts, Effect, Scenery};
+use crate::marks;
 use crate::material::{AlphaMode, Material, Shading};
 use crate::node::Node;
-use crate::scene::{MeshAsset, Scene};
+use crate::scene::{MeshAsset, NodeId, Scene};
 use crate::settings::{RenderSettings, Style};
 
 /// Size of loose points, in line widths.
 const POINT_TO_LINE: f32 = 3.0;
+
+/// The share of their distance by which points of vertices are drawn nearer, so that faces
+/// that slope towards the eye around a vertex do not cut its point. What is hidden by more
+/// than that stays hidden.
+const VERTEX_TOWARD_EYE: f32 = 1.0 / 256.0;
 
 /// Everything that all draws of a picture share.
 pub(super) struct Composer<'s> {
@@ -48,11 +59,14 @@ enum Purpose {
 
 /// One mesh at one node.
 struct Object<'s> {
+    id: NodeId,
     index: u32,
     node: &'s Node,
     asset: &'s MeshAsset,
     geometry: &'s Geometry,
     place: Placement,
+    /// Of faces, and of edges on faces.
+    marks: Option<Arc<MarkNumbers>>,
 }
 
 impl<'s> Composer<'s> {
@@ -102,10 +116,9 @@ impl<'s> Composer<'s> {
                 false => shape.geometry.bounds().union(asset.bounds()),
             };
             let (index, place) = (id.index() as u32, self.eye.place(&shape.place, &bounds));
-            self.object(
-                &Object { index, node, asset, geometry: &shape.geometry, place },
-                (&mut draws, counts),
-            );
+            let (geometry, marks) = (&shape.geometry, self.marks(id));
+            let object = Object { id, index, node, asset, geometry, place, marks };
+            self.object(&object, (&mut draws, counts));
         }
         draws
     }
@@ -117,6 +130,7 @@ impl<'s> Composer<'s> {
         let wires = !mesh.loose_edges().is_empty() || !mesh.loose_points().is_empty();
         wires
             || self.settings.style == Style::Wireframe
+            || self.settings.vertices.is_some()
             || self.eye.may_see(&shape.geometry.bounds(), &shape.place.world)
     }
 
@@ -140,15 +154,45 @@ impl<'s> Composer<'s> {
             Style::Wireframe => {
                 let edges = &object.asset.mesh().edges()[..object.asset.mesh().face_edge_count()];
                 counts.of(Effect::Edges).bytes += size_of_val(edges) as u64;
-                draws.extend(self.segments(object, edges, self.settings.edge_color));
+                draws.extend(self.segments(object, (0, edges), self.settings.edge_color));
             }
         }
         if self.shows_edges() {
             counts.of(Effect::Edges).bytes += size_of_val(self.edge_flags(object)) as u64;
         }
-        let color = self.material(object, 0).base_color.truncate();
-        draws.extend(self.segments(object, object.asset.mesh().loose_edges(), color));
+        if let Some(marks) = &object.marks {
+            let sides = size_of_val(self.sides(object, marks)) as u64;
+            counts.of(Effect::Edges).bytes += sides + (marks.edges.len() + marks.faces.len()) as u64;
+        }
+        let (mesh, color) = (object.asset.mesh(), self.material(object, 0).base_color.truncate());
+        draws.extend(self.segments(object, (mesh.face_edge_count(), mesh.loose_edges()), color));
         draws.extend(self.points(object, color));
+        draws.extend(self.vertices(object));
+    }
+
+    /// What is marked of a node's faces, and of the edges on them.
+    fn marks(&self, node: NodeId) -> Option<Arc<MarkNumbers>> {
+        let RenderSettings { marks, style, .. } = self.settings;
+        if self.purpose != Purpose::Colors || marks.is_plain() {
+            return None;
+        }
+        let paints_edges = matches!(style, Style::SurfaceWithEdges | Style::HiddenLine);
+        let edges = if paints_edges { marks::numbers(&marks.edges, node) } else { Vec::new() };
+        let faces = marks::numbers(&marks.faces, node);
+        let is_marked = !edges.is_empty() || !faces.is_empty();
+        is_marked.then(|| Arc::new(MarkNumbers { edges, faces }))
+    }
+
+    /// The edges that the sides of triangles are, if some of them are marked.
+    fn sides(&self, object: &Object<'s>, marks: &MarkNumbers) -> &'s [[u32; 3]] {
+        if marks.edges.is_empty() { &[] } else { object.geometry.side_edges(object.asset.mesh()) }
+    }
+
+    /// The marks of some triangles.
+    fn marks_of(&self, object: &Object<'s>, triangles: &Range<usize>) -> Option<ObjectMarks<'s>> {
+        let numbers = Arc::clone(object.marks.as_ref()?);
+        let sides = self.sides(object, &numbers).get(triangles.clone()).unwrap_or_default();
+        Some(ObjectMarks { sides, numbers })
     }
 
     /// The material of a slot; the default where there is none.
@@ -233,9 +277,11 @@ impl<'s> Composer<'s> {
         let flags = shows_edges.then(|| &self.edge_flags(object)[run.triangles.clone()]);
         Box::new(Triangles {
             pipeline,
-            triangles,
-            faces: &geometry.faces[run.triangles.clone()],
+            geometry,
+            range: run.triangles.clone(),
+            place: object.place,
             edge_flags: flags,
+            marks: self.marks_of(object, &run.triangles),
             object: object.index,
             culling: if material.double_sided { Culling::None } else { object.place.cull_back },
             surface: surface_of(material.alpha_mode),
@@ -258,38 +304,80 @@ impl<'s> Composer<'s> {
             HiddenLine { columns: &geometry.columns, place: object.place, backdrop: self.backdrop };
         Box::new(Triangles {
             pipeline,
-            triangles: &geometry.triangles,
-            faces: &geometry.faces,
+            geometry,
+            range: 0..geometry.triangles.len(),
+            place: object.place,
             edge_flags: Some(self.edge_flags(object)),
+            marks: self.marks_of(object, &(0..geometry.triangles.len())),
             object: object.index,
             culling: Culling::None,
             surface: trigon_raster::Surface::Opaque,
         })
     }
 
-    fn wire(&self, object: &Object<'s>, color: Vec3) -> Wire<'s> {
-        Wire { positions: object.asset.mesh().positions(), place: object.place, color }
+    fn wire(&self, object: &Object<'s>, color: Vec3, marks: WireMarks) -> Wire<'s> {
+        Wire { positions: object.asset.mesh().positions(), place: object.place, color, marks }
     }
 
+    /// Lines along edges of a mesh, from the first of them on.
     fn segments<'c>(
         &'c self,
         object: &Object<'s>,
-        segments: &'s [[u32; 2]],
+        (first, segments): (usize, &'s [[u32; 2]]),
         color: Vec3,
     ) -> Option<Box<dyn Record + 'c>> {
-        let (pipeline, object, width) = (self.wire(object, color), object.index, self.settings.line_width);
+        let edges = &self.settings.marks.edges;
+        let mut numbers = marks::numbers(edges, object.id);
+        numbers.drain(..first.min(numbers.len()));
+        let marks = WireMarks { numbers, colors: marks::colors(edges) };
+        let (pipeline, geometry) = (self.wire(object, color, marks), object.geometry);
+        let (object, width) = (object.index, self.settings.line_width);
         let no_face = vec![u32::MAX; segments.len()];
-        (!segments.is_empty())
-            .then(|| Box::new(Segments { pipeline, segments, no_face, object, width }) as Box<dyn Record>)
+        (!segments.is_empty()).then(|| {
+            Box::new(Segments { pipeline, geometry, segments, no_face, object, width }) as Box<dyn Record>
+        })
     }
 
     fn points<'c>(&'c self, object: &Object<'s>, color: Vec3) -> Option<Box<dyn Record + 'c>> {
         let points = object.asset.mesh().loose_points();
-        let size = self.settings.line_width * POINT_TO_LINE;
-        let (pipeline, object) = (self.wire(object, color), object.index);
-        let no_face = vec![u32::MAX; points.len()];
-        (!points.is_empty())
-            .then(|| Box::new(Dots { pipeline, points, no_face, object, size }) as Box<dyn Record>)
+        let dots = || Dots {
+            pipeline: self.wire(object, color, WireMarks::default()),
+            geometry: object.geometry,
+            points: Cow::Borrowed(points),
+            no_face: vec![u32::MAX; points.len()],
+            object: object.index,
+            size: self.settings.line_width * POINT_TO_LINE,
+            marked: None,
+            outline: Outline::Sharp,
+            toward_eye: 0.0,
+        };
+        (!points.is_empty()).then(|| Box::new(dots()) as Box<dyn Record>)
+    }
+
+    /// The vertices of faces, edges and points. Smoothed, they write neither depth nor ids:
+    /// what is seen below them can be picked.
+    fn vertices<'c>(&'c self, object: &Object<'s>) -> Option<Box<dyn Record + 'c>> {
+        let shown = self.settings.vertices.filter(|_| self.purpose == Purpose::Colors)?;
+        let used = object.asset.used_vertices();
+        let points: Vec<u32> = (0..used.len() as u32).filter(|&vertex| used[vertex as usize]).collect();
+        let listed = &self.settings.marks.vertices;
+        let of_vertices = marks::numbers(listed, object.id);
+        let number = |&vertex: &u32| of_vertices.get(vertex as usize).copied().unwrap_or(0);
+        let numbers: Vec<u8> = points.iter().map(number).collect();
+        let mut marked = FixedBitSet::with_capacity(points.len());
+        marked.extend((0..points.len()).filter(|&point| numbers[point] != 0));
+        let marks = WireMarks { numbers, colors: marks::colors(listed) };
+        Some(Box::new(Dots {
+            pipeline: self.wire(object, shown.color, marks),
+            geometry: object.geometry,
+            no_face: vec![u32::MAX; points.len()],
+            points: Cow::Owned(points),
+            object: object.index,
+            size: shown.size,
+            marked: Some((marked, shown.marked_size)),
+            outline: Outline::AntiAliased,
+            toward_eye: VERTEX_TOWARD_EYE,
+        }))
     }
 }
 

@@ -2,12 +2,15 @@
 //! the order of the steps that make one.
 
 use trigon_camera::Camera;
+use trigon_math::UVec2;
 use trigon_raster::{Background, Cancel, ExecuteSettings, Pass, Rasterizer, Stats, Target, TargetError};
 
 use super::RenderError;
 use super::backdrop::Backdrop;
 use super::compose::Composer;
+use super::last_picture::{LastPicture, Step};
 use super::placement::DepthToDistance;
+use super::record::Record;
 use super::stage::{Kept, Stage};
 use crate::effects::{Counts, Effect, EffectCounts, EffectPlan, Scenery};
 use crate::frame::Frame;
@@ -20,6 +23,7 @@ use crate::settings::{RenderSettings, Style};
 pub(super) struct Engine {
     rasterizer: Option<Rasterizer>,
     kept: Kept,
+    last: LastPicture,
     plan: Option<EffectPlan>,
     counts: Counts,
     stats: Stats,
@@ -44,11 +48,12 @@ impl Engine {
         let mut counts = Counts::default();
         let apart = settings.outputs.need_own_pass(plan.is_on(Effect::Transparency));
         self.stats = Stats::default();
+        let mut is_kept = false;
         if settings.outputs.of_light() {
             let drawn =
                 self.draw_colors(&stage, camera, (&plan, frame, apart), (&mut rasterizer, &mut counts));
             // It may have been cancelled, too: its shadow maps may not be whole.
-            drawn.inspect_err(|_| self.kept.forget_unfinished())?;
+            is_kept = drawn.inspect_err(|_| self.kept.forget_unfinished())?;
         }
         if apart {
             self.draw_seen(&stage, camera, frame, &mut rasterizer)?;
@@ -61,47 +66,57 @@ impl Engine {
             self.rasterizer = Some(rasterizer);
             return Err(RenderError::Cancelled);
         }
-        self.kept.seen.hand_over(frame);
-        measure_depth(frame, camera, settings);
+        self.last.set_whole(is_kept);
+        if !is_kept {
+            self.kept.seen.hand_over(frame);
+            measure_depth(frame, camera, settings, &rasterizer);
+        }
         counts.of(Effect::Poses).bytes = stage.shapes.posed_bytes() as u64;
         (self.counts, self.plan) = (counts, Some(plan));
         self.rasterizer = Some(rasterizer);
         Ok(())
     }
 
-    /// Draws colours; and what is seen, too, unless that has a pass of its own.
+    /// Draws colours; and what is seen, too, unless that has a pass of its own. Whether the
+    /// picture is one that is kept: then the frame is finished.
     fn draw_colors(
         &mut self,
         stage: &Stage<'_>,
         camera: &Camera,
         (plan, frame, apart): (&EffectPlan, &mut Frame, bool),
         (rasterizer, counts): (&mut Rasterizer, &mut Counts),
-    ) -> Result<(), RenderError> {
+    ) -> Result<bool, RenderError> {
         let scenery = self.kept.scenery(stage, plan, rasterizer)?;
-        let (scene, settings) = (stage.scene, stage.settings);
-        let composer =
-            Composer::new(scene, camera, settings, (&stage.shapes, &scenery, &stage.eye, &stage.backdrop));
-        let draws = composer.draws(counts);
-        let behind = |pixel| stage.backdrop.at(pixel);
-        let mut pass = Pass::new();
-        pass.background(match stage.backdrop {
-            Backdrop::Color(color) => Background::Color(color),
-            Backdrop::Rows(..) | Backdrop::Environment(_) => Background::PerPixel(&behind),
-        });
-        if matches!(settings.style, Style::SurfaceWithEdges | Style::HiddenLine) {
-            pass.edges(settings.face_edges());
+        let settings = stage.settings;
+        if settings.share_through_faces().is_some() {
+            let wires = RenderSettings { style: Style::Wireframe, ..settings.clone() };
+            let target = blank(settings)?;
+            self.stats += record(stage, (camera, &scenery, &wires), &mut Counts::default(), |pass, _, _| {
+                self.kept.draw_beneath(pass, settings, target, rasterizer)
+            })?;
         }
-        draws.iter().for_each(|draw| draw.record(&mut pass));
         let needed = if apart { Needed::default() } else { Needed::of(&settings.outputs) };
         // Depth that has a pass of its own is not to be written twice.
         let depth = if apart { frame.depth.take() } else { None };
-        let target = (blank(settings)?, &mut *frame, needed);
-        self.stats = self.kept.draw(&pass, (settings, plan), target, (rasterizer, counts))?;
+        let target = blank(settings)?;
+        let (stats, is_kept) = record(stage, (camera, &scenery, settings), counts, |pass, draws, counts| {
+            let step = if apart { Step::Apart } else { self.last.step((stage, camera, plan), draws) };
+            let is_kept = !matches!(step, Step::Apart);
+            let stats = if is_kept {
+                let target = (target, &mut *frame);
+                self.last.draw(pass, (settings, camera), target, (rasterizer, &step))
+            } else {
+                let target = (target, &mut *frame, needed);
+                self.kept.draw(pass, (settings, plan), target, (rasterizer, counts))
+            };
+            stats.map(|stats| (stats, is_kept))
+        })?;
+        self.stats += stats;
         if apart {
             frame.depth = depth;
         }
         self.kept.count(&scenery, plan, counts);
-        Ok(())
+        Ok(is_kept)
     }
 
     /// Draws nothing but what is seen.
@@ -157,6 +172,34 @@ impl Engine {
     }
 }
 
+/// Records the colours of a stage as these settings have them, and does something with that.
+fn record<T>(
+    stage: &Stage<'_>,
+    (camera, scenery, settings): (&Camera, &Scenery, &RenderSettings),
+    counts: &mut Counts,
+    draw: impl FnOnce(&Pass<'_>, &[Box<dyn Record + '_>], &mut Counts) -> T,
+) -> T {
+    let around = (&stage.shapes, scenery, &stage.eye, &stage.backdrop);
+    let composer = Composer::new(stage.scene, camera, settings, around);
+    let draws = composer.draws(counts);
+    let behind = |pixel| stage.backdrop.at(pixel);
+    let behind_row = |y| stage.backdrop.at(UVec2::new(0, y));
+    let mut pass = Pass::new();
+    pass.background(match stage.backdrop {
+        Backdrop::Color(color) => Background::Color(color),
+        Backdrop::Rows(..) => Background::PerRow(&behind_row),
+        Backdrop::Environment(_) => Background::PerPixel(&behind),
+    });
+    if matches!(settings.style, Style::SurfaceWithEdges | Style::HiddenLine) {
+        pass.edges(settings.face_edges());
+    }
+    if !settings.marks.is_plain() {
+        pass.marks(settings.marks.colors());
+    }
+    draws.iter().for_each(|draw| draw.record(&mut pass));
+    draw(&pass, &draws, counts)
+}
+
 /// A target of the right size and samples that keeps nothing.
 fn blank<'a>(settings: &RenderSettings) -> Result<Target<'a>, TargetError> {
     let target = Target::new(settings.width, settings.height, &[])?;
@@ -164,9 +207,16 @@ fn blank<'a>(settings: &RenderSettings) -> Result<Target<'a>, TargetError> {
 }
 
 /// From stored depths to metres.
-fn measure_depth(frame: &mut Frame, camera: &Camera, settings: &RenderSettings) {
+fn measure_depth(frame: &mut Frame, camera: &Camera, settings: &RenderSettings, rasterizer: &Rasterizer) {
+    /// Pixels that a thread takes at a time.
+    const PIECE: usize = 1 << 16;
+    let Some(depths) = &mut frame.depth else { return };
     let distance = DepthToDistance::new(&camera.projection, settings.aspect());
-    for depth in frame.depth.iter_mut().flatten() {
-        *depth = distance.at(*depth);
+    let measure = |depths: &mut [f32]| depths.iter_mut().for_each(|depth| *depth = distance.at(*depth));
+    // Waking others costs more than a small picture takes.
+    if depths.len() <= PIECE {
+        measure(depths);
+    } else {
+        rasterizer.share(depths.chunks_mut(PIECE), measure);
     }
 }

@@ -5,6 +5,7 @@
 
 mod change;
 mod edge_flags;
+mod side_edges;
 
 use std::mem::take;
 use std::ops::Range;
@@ -17,6 +18,7 @@ use trigon_raster::EdgeFlags;
 
 use super::columns::Columns;
 use edge_flags::flags_of_mesh;
+use side_edges::sides_of_mesh;
 
 /// The UV sets for which tangents are made: as many as the glTF reader takes. Each set
 /// with a normal map takes as much memory as the mesh, and a file may have thousands.
@@ -38,6 +40,8 @@ pub(crate) struct Geometry {
     pub(crate) state: GeometryState,
     bounds: OnceLock<Bounds3>,
     edge_flags: OnceLock<Vec<EdgeFlags>>,
+    /// Poses share it.
+    side_edges: OnceLock<Arc<Vec<[u32; 3]>>>,
     /// The mesh at rest, if a pose can change it.
     rest: Option<Box<RenderMesh>>,
     /// For each of the first UV sets the same with its tangents, made when a normal map
@@ -47,6 +51,18 @@ pub(crate) struct Geometry {
     pose: Option<Pose>,
     /// How it follows changes of the mesh; `None` until there was one.
     links: Option<RenderLinks>,
+    /// What the last change has written.
+    pub(crate) change: Option<GeometryChange>,
+}
+
+/// What differs between geometry and what it was before a change.
+#[derive(Debug)]
+pub(crate) struct GeometryChange {
+    pub(crate) before: GeometryState,
+    /// Vertices with other values.
+    pub(crate) vertices: Vec<u32>,
+    /// Triangles that may have other corners or other flags of their edges; increasing.
+    pub(crate) triangles: Vec<u32>,
 }
 
 /// Names geometry as it is at some moment. What is made of geometry is kept with its
@@ -102,8 +118,10 @@ impl Geometry {
             state: GeometryState::default(),
             bounds: OnceLock::new(),
             edge_flags: OnceLock::new(),
+            side_edges: OnceLock::new(),
             pose: None,
             links: None,
+            change: None,
         }
     }
 
@@ -128,10 +146,12 @@ impl Geometry {
             state: GeometryState::default(),
             bounds: OnceLock::new(),
             edge_flags: self.edge_flags.clone(),
+            side_edges: self.side_edges.clone(),
             rest: None,
             tangential: places_for(&self.columns),
             pose: None,
             links: None,
+            change: None,
         })
     }
 
@@ -179,6 +199,18 @@ impl Geometry {
                 permute(&mut flags, order);
             }
             flags
+        })
+    }
+
+    /// For each triangle the edges of the mesh that its sides are; `u32::MAX` for diagonals.
+    /// Only pictures with marked edges ask for it: it takes 12 bytes for each triangle.
+    pub(crate) fn side_edges(&self, source: &Mesh) -> &[[u32; 3]] {
+        self.side_edges.get_or_init(|| {
+            let mut sides = sides_of_mesh(source);
+            if let Some(order) = &self.order {
+                permute(&mut sides, order);
+            }
+            Arc::new(sides)
         })
     }
 }

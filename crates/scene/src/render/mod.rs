@@ -10,6 +10,7 @@ mod compose;
 mod engine;
 mod geometry;
 pub(crate) mod lanes;
+mod last_picture;
 pub(crate) mod lighting;
 pub(crate) mod placement;
 mod record;

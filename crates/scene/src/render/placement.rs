@@ -10,7 +10,7 @@ use super::surface::Side;
 use crate::scene::Place;
 
 /// The maps of one node, ready for the vertex stage.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Placement {
     /// What positions are counted from, in the mesh's space: the origin, or where the
     /// eye is within a mesh that is large beside its distance.

@@ -1,41 +1,86 @@
 //! Draws that own their pipelines, until they are recorded in a pass.
 
-use trigon_raster::{Culling, Draw, EdgeFlags, LanePipeline, Lines, Pass, Points, Surface};
+use std::borrow::Cow;
+use std::ops::Range;
+use std::sync::Arc;
 
+use fixedbitset::FixedBitSet;
+use trigon_raster::{
+    Culling, Draw, EdgeFlags, LanePipeline, Lines, MarkedPoints, Marks, Outline, Pass, Points, Surface,
+};
+
+use super::geometry::Geometry;
+use super::placement::Placement;
 use super::wire::Wire;
 
 /// A draw that owns its pipeline, and can be recorded whatever that is.
 pub(super) trait Record {
     fn record<'a>(&'a self, pass: &mut Pass<'a>);
+
+    /// What it draws.
+    fn source(&self) -> Source<'_>;
+}
+
+/// What a draw is made from, beside its look.
+pub(super) struct Source<'s> {
+    pub(super) geometry: &'s Geometry,
+    /// Those of the geometry's triangles that are drawn; none of lines and points.
+    pub(super) triangles: Range<usize>,
+    pub(super) place: Placement,
 }
 
 /// Triangles of one mesh.
 pub(super) struct Triangles<'s, P> {
     pub(super) pipeline: P,
-    pub(super) triangles: &'s [[u32; 3]],
-    pub(super) faces: &'s [u32],
+    pub(super) geometry: &'s Geometry,
+    /// Those of the geometry's triangles that are drawn.
+    pub(super) range: Range<usize>,
+    pub(super) place: Placement,
     pub(super) edge_flags: Option<&'s [EdgeFlags]>,
+    pub(super) marks: Option<ObjectMarks<'s>>,
     pub(super) object: u32,
     pub(super) culling: Culling,
     pub(super) surface: Surface,
 }
 
+/// The marks of an object's edges and faces, for some of its triangles.
+pub(super) struct ObjectMarks<'s> {
+    pub(super) sides: &'s [[u32; 3]],
+    pub(super) numbers: Arc<MarkNumbers>,
+}
+
+/// The marks of edges and of faces, as [`Marks`] has them.
+pub(super) struct MarkNumbers {
+    pub(super) edges: Vec<u8>,
+    pub(super) faces: Vec<u8>,
+}
+
 impl<P: LanePipeline> Record for Triangles<'_, P> {
     fn record<'a>(&'a self, pass: &mut Pass<'a>) {
         pass.triangles(Draw {
-            faces: Some(self.faces),
+            faces: Some(&self.geometry.faces[self.range.clone()]),
             edge_flags: self.edge_flags,
+            marks: self.marks.as_ref().map(|marks| Marks {
+                sides: marks.sides,
+                edges: &marks.numbers.edges,
+                faces: &marks.numbers.faces,
+            }),
             object: self.object,
             culling: self.culling,
             surface: self.surface,
-            ..Draw::new(&self.pipeline, self.triangles)
+            ..Draw::new(&self.pipeline, &self.geometry.triangles[self.range.clone()])
         });
+    }
+
+    fn source(&self) -> Source<'_> {
+        Source { geometry: self.geometry, triangles: self.range.clone(), place: self.place }
     }
 }
 
 /// Edges and loose lines of one mesh. They belong to no face.
 pub(super) struct Segments<'s> {
     pub(super) pipeline: Wire<'s>,
+    pub(super) geometry: &'s Geometry,
     pub(super) segments: &'s [[u32; 2]],
     pub(super) no_face: Vec<u32>,
     pub(super) object: u32,
@@ -47,20 +92,41 @@ impl Record for Segments<'_> {
         let lines = Lines::new(&self.pipeline, self.segments);
         pass.lines(Lines { ids: Some(&self.no_face), object: self.object, width: self.width, ..lines });
     }
+
+    fn source(&self) -> Source<'_> {
+        Source { geometry: self.geometry, triangles: 0..0, place: self.pipeline.place }
+    }
 }
 
-/// Loose points of one mesh. They belong to no face.
+/// Vertices of one mesh as points. They belong to no face.
 pub(super) struct Dots<'s> {
     pub(super) pipeline: Wire<'s>,
-    pub(super) points: &'s [u32],
+    pub(super) geometry: &'s Geometry,
+    pub(super) points: Cow<'s, [u32]>,
     pub(super) no_face: Vec<u32>,
     pub(super) object: u32,
     pub(super) size: f32,
+    /// Those of another size.
+    pub(super) marked: Option<(FixedBitSet, f32)>,
+    pub(super) outline: Outline,
+    /// See [`Points::toward_eye`].
+    pub(super) toward_eye: f32,
 }
 
 impl Record for Dots<'_> {
     fn record<'a>(&'a self, pass: &mut Pass<'a>) {
-        let points = Points::new(&self.pipeline, self.points, self.size);
-        pass.points(Points { ids: Some(&self.no_face), object: self.object, ..points });
+        let marked = self.marked.as_ref().map(|(set, size)| MarkedPoints { set, size: *size });
+        pass.points(Points {
+            ids: Some(&self.no_face),
+            object: self.object,
+            marked,
+            outline: self.outline,
+            toward_eye: self.toward_eye,
+            ..Points::new(&self.pipeline, &self.points, self.size)
+        });
+    }
+
+    fn source(&self) -> Source<'_> {
+        Source { geometry: self.geometry, triangles: 0..0, place: self.pipeline.place }
     }
 }

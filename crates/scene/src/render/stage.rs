@@ -38,6 +38,8 @@ pub(super) struct Kept {
     rays: RayCache,
     /// The picture before its tones are mapped.
     linear: Vec<Vec4>,
+    /// What shows through its faces, likewise.
+    beneath: Vec<Vec4>,
     /// What each pixel sees, as far as outputs and outlines need it.
     pub(super) seen: Seen,
 }
@@ -201,9 +203,12 @@ impl Kept {
         let mut seen = std::mem::take(&mut self.seen);
         let target = seen.with(blank, depth.as_mut())?;
         let pictures = (colors, radiance.as_mut());
-        let stats = if plan.is_on(Effect::ToneMapping) {
+        let is_mapped = plan.is_on(Effect::ToneMapping);
+        if is_mapped {
             counts.of(Effect::ToneMapping).passes = 1;
             counts.of(Effect::ToneMapping).bytes = (pixels * size_of::<Vec4>()) as u64;
+        }
+        let stats = if is_mapped || settings.share_through_faces().is_some() {
             self.draw_mapped(pass, settings, (target, pictures), rasterizer)?
         } else {
             draw_directly(pass, (target, pictures), rasterizer)?
@@ -231,7 +236,21 @@ impl Kept {
         Ok(rasterizer.draw(pass, &mut self.seen.with(blank, frame.depth.as_mut())?))
     }
 
-    /// Draws linear light, and maps its tones into the picture.
+    /// Draws what shows through the faces of the next picture.
+    pub(super) fn draw_beneath(
+        &mut self,
+        pass: &Pass<'_>,
+        settings: &RenderSettings,
+        blank: Target<'_>,
+        rasterizer: &mut Rasterizer,
+    ) -> Result<Stats, TargetError> {
+        let RenderSettings { width, height, .. } = *settings;
+        let pixels = width as usize * height as usize;
+        resize(&mut self.beneath, pixels, Vec4::ZERO).ok_or(TargetError::Memory { width, height })?;
+        Ok(rasterizer.draw(pass, &mut blank.with_linear(&mut self.beneath)?))
+    }
+
+    /// Draws linear light, lets show what is beneath, and maps the tones into the picture.
     fn draw_mapped(
         &mut self,
         pass: &Pass<'_>,
@@ -244,6 +263,11 @@ impl Kept {
         let pixels = width as usize * height as usize;
         resize(linear, pixels, Vec4::ZERO).ok_or(TargetError::Memory { width, height })?;
         let stats = rasterizer.draw(pass, &mut target.with_linear(linear)?);
+        if let Some(share) = settings.share_through_faces() {
+            for (light, beneath) in linear.iter_mut().zip(&self.beneath) {
+                *light = *light * (1.0 - share) + *beneath * share;
+            }
+        }
         map_picture(linear, settings, colors, rasterizer);
         if is_asked_for {
             lay_on_background(linear, settings);

@@ -1,5 +1,7 @@
 //! Edges on surfaces: black on white, unlit, before white.
 
+mod marks;
+
 use trigon_camera::{Camera, Projection};
 use trigon_math::{DVec3, Vec3, Vec4};
 use trigon_mesh::{Mesh, MeshBuilder, primitives};

@@ -3,7 +3,7 @@
 
 use trigon_math::{UVec2, Vec3, Vec4};
 use trigon_raster::simd::{Each, F32, LANES, Simd, lanes_of, prelude::*};
-use trigon_raster::{Fragment, FragmentLanes, LanePipeline, Pipeline, VertexLanes, VertexOutput};
+use trigon_raster::{Fragment, FragmentLanes, LanePipeline, MarkColors, Pipeline, VertexLanes, VertexOutput};
 
 use super::backdrop::Backdrop;
 use super::columns::Columns;
@@ -15,6 +15,23 @@ pub(super) struct Wire<'a> {
     pub(super) place: Placement,
     /// Linear RGB.
     pub(super) color: Vec3,
+    /// Lines or points in other colours.
+    pub(super) marks: WireMarks,
+}
+
+/// The marks of a draw's lines or points.
+#[derive(Default)]
+pub(super) struct WireMarks {
+    /// By the index of the line or point; without a mark beyond the end.
+    pub(super) numbers: Vec<u8>,
+    /// By their numbers.
+    pub(super) colors: [Vec4; MarkColors::COUNT],
+}
+
+impl WireMarks {
+    fn of(&self, index: u32) -> usize {
+        self.numbers.get(index as usize).map_or(0, |&number| usize::from(number))
+    }
 }
 
 impl Pipeline for Wire<'_> {
@@ -30,8 +47,12 @@ impl Pipeline for Wire<'_> {
         VertexOutput { position: self.place.to_clip * place.extend(1.0), varyings: () }
     }
 
-    fn fragment(&self, _: &Fragment<()>) -> Vec4 {
-        self.color.extend(1.0)
+    fn fragment(&self, fragment: &Fragment<()>) -> Vec4 {
+        let color = match self.marks.of(fragment.triangle) {
+            0 => self.color,
+            mark => self.marks.colors[mark].truncate(),
+        };
+        color.extend(1.0)
     }
 }
 

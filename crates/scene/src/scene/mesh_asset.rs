@@ -79,7 +79,7 @@ impl MeshAsset {
     }
 
     /// Which vertices faces, edges or points use.
-    pub(super) fn used_vertices(&self) -> &Arc<Vec<bool>> {
+    pub(crate) fn used_vertices(&self) -> &Arc<Vec<bool>> {
         self.derived.used.get_or_init(|| Arc::new(self.mesh.used_vertices()))
     }
 

@@ -1,27 +1,18 @@
 //! The rule of regions by rays: its own projection, each ray against every triangle, nothing
 //! cut, no pixels for points. Where a rounding could decide otherwise, the answer is open.
-//!
-//! A ray through the screen at (x, y) meets a triangle where three volumes have one sign: each
-//! is spanned by the ray and two corners, and is linear in x and y. So what holds in a
-//! little square around a point, too, is told by the value in its middle and the slopes.
 
 use trigon_camera::{Camera, Projection};
-use trigon_math::{DVec2, DVec3};
+use trigon_math::{DAffine3, DVec2, DVec3};
 use trigon_mesh::Mesh;
 
 use super::super::Region;
+use super::grid::Vertex;
+use super::target::Target;
 use crate::{NodeId, Scene};
 
 /// What a rounding in f64 moves points by, in pixels: coordinates up to thousands of pixels,
 /// rounded in their 53rd bit a few dozen times.
 pub(super) const ROUNDING: f64 = 1e-9;
-
-/// What the renderer moves vertices by: half a step of 1/256 pixel, and the rounding of their
-/// coordinates to f32 before.
-pub(super) const SNAPPING: f64 = 0.5 / 256.0 + 1e-4;
-
-/// How much nearer one of two depths in f32 has to be for certain, as a share of the distance.
-const DEPTHS: f64 = 1e-5;
 
 /// Whether something is so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,7 +31,7 @@ impl Answer {
     }
 
     /// Of a number: whether it is above 0, for sure where it is beyond a margin.
-    fn of(value: f64, margin: f64) -> Self {
+    pub(super) fn of(value: f64, margin: f64) -> Self {
         if value > margin {
             Yes
         } else if value < -margin {
@@ -55,12 +46,12 @@ impl Answer {
 pub(super) struct Lens {
     eye: DVec3,
     axes: [DVec3; 3],
-    size: DVec2,
+    pub(super) size: DVec2,
     /// Pixels to a metre, at a distance of one metre in a perspective.
-    scale: f64,
-    parallel: bool,
-    near: f64,
-    far: f64,
+    pub(super) scale: f64,
+    pub(super) parallel: bool,
+    pub(super) near: f64,
+    pub(super) far: f64,
 }
 
 /// A point on the screen, and how far from the eye's plane.
@@ -89,7 +80,17 @@ impl Lens {
         DVec3::from_array(self.axes.map(|axis| axis.dot(world - self.eye)))
     }
 
-    fn seen(&self, local: DVec3) -> Seen {
+    /// A vertex of an object that is placed so.
+    fn vertex(&self, world: &DAffine3, position: DVec3) -> Vertex {
+        let magnitudes = |axis: DVec3| {
+            let map = world.matrix3.transpose() * axis;
+            (map * position).abs().element_sum() + axis.dot(world.translation - self.eye).abs()
+        };
+        let terms = DVec3::from_array(self.axes.map(magnitudes));
+        Vertex { local: self.local(world.transform_point3(position)), terms }
+    }
+
+    pub(super) fn seen(&self, local: DVec3) -> Seen {
         let share = self.scale / if self.parallel { 1.0 } else { local.z };
         let at = DVec2::new(self.size.x / 2.0 + local.x * share, self.size.y / 2.0 - local.y * share);
         Seen { at, distance: local.z }
@@ -101,114 +102,11 @@ impl Lens {
     }
 
     /// Whether a distance lies between the planes, where points are moved by so many pixels.
-    fn in_range(&self, distance: f64, reach: f64) -> Answer {
+    pub(super) fn in_range(&self, distance: f64, reach: f64) -> Answer {
         // A tenth of that in depth: 1e-10 of the distance in f64, 2e-4 in the renderer's f32.
         let margin = 0.1 * reach * distance.abs().max(1.0);
         Answer::of(distance - self.near, margin).min(Answer::of(self.far - distance, margin))
     }
-}
-
-/// A triangle as rays meet it.
-pub(super) struct Target {
-    pub(super) object: usize,
-    pub(super) face: u32,
-    /// Whether it is drawn as seen from here.
-    drawn: Answer,
-    /// The same for the renderer, which may turn a sliver over by moving its corners, and
-    /// draws only the first of two equal triangles.
-    snapped: Answer,
-    corners: [DVec3; 3],
-    is_front: bool,
-    /// For each corner the volume opposite to it, as (by x, by y, constant); positive within
-    /// the triangle.
-    volumes: [DVec3; 3],
-    /// The volume that the triangle spans with the eye, or its corners' distances.
-    span: Span,
-}
-
-enum Span {
-    /// Distance is this by the sum of the volumes.
-    Eye(f64),
-    /// Distance is the mean of these by the volumes.
-    Corners([f64; 3]),
-}
-
-impl Target {
-    fn new(lens: &Lens, corners: [DVec3; 3], (object, face): (usize, u32), double_sided: bool) -> Self {
-        // As rays see them: in a parallel projection all at one distance.
-        let [a, b, c] =
-            corners.map(|corner| if lens.parallel { corner.truncate().extend(1.0) } else { corner });
-        let volume = a.dot(b.cross(c));
-        let size = (b - a).length() * (c - a).length() * a.length().max(1.0);
-        // Across, upwards and forwards are left-handed axes: the volumes of fronts are positive.
-        let faces = Answer::of(volume, 1e-12 * size);
-        let drawn = if double_sided { Answer::of(volume.abs(), 1e-12 * size).max(Open) } else { faces };
-        // The ray through (x, y): across (x - w/2)/scale, upwards (h/2 - y)/scale, forwards 1.
-        let linear = |normal: DVec3| {
-            let (x, y) = (normal.x / lens.scale, -normal.y / lens.scale);
-            DVec3::new(x, y, normal.z - x * lens.size.x / 2.0 - y * lens.size.y / 2.0) * volume.signum()
-        };
-        let span = if lens.parallel {
-            Span::Corners(corners.map(|corner| corner.z))
-        } else {
-            Span::Eye(volume.abs())
-        };
-        let snapped = if is_sliver(lens, corners) { Open } else { drawn };
-        let is_front = volume > 0.0;
-        Self {
-            object,
-            face,
-            drawn,
-            snapped,
-            corners,
-            is_front,
-            volumes: [b.cross(c), c.cross(a), a.cross(b)].map(linear),
-            span,
-        }
-    }
-
-    /// Whether the ray meets it beyond the near and before the far plane, wherever in a square
-    /// of twice this side it is, and between which distances.
-    pub(super) fn meets(&self, lens: &Lens, at: DVec2, reach: f64) -> (Answer, [f64; 2]) {
-        let value = |volume: DVec3| volume.x * at.x + volume.y * at.y + volume.z;
-        let slope = |volume: DVec3| reach * (volume.x.abs() + volume.y.abs());
-        let covered = self.volumes.map(|volume| self.covered(volume, at, reach));
-        let covered = covered.into_iter().min().expect("three");
-        if covered == No {
-            return (No, [0.0; 2]);
-        }
-        let sum = self.volumes.iter().sum::<DVec3>();
-        let distances = match self.span {
-            Span::Eye(volume) => {
-                let (sum, slope) = (value(sum), slope(sum));
-                [volume / (sum + slope), if sum > slope { volume / (sum - slope) } else { f64::INFINITY }]
-            }
-            Span::Corners(corners) => {
-                // The distance is linear, too.
-                let weighted: DVec3 =
-                    self.volumes.iter().zip(corners).map(|(&volume, corner)| volume * corner).sum();
-                let (middle, change) = (value(weighted) / value(sum), slope(weighted) / value(sum));
-                [middle - change, middle + change]
-            }
-        };
-        let range = distances.map(|distance| lens.in_range(distance, reach));
-        let in_range = match range {
-            [Yes, Yes] => Yes,
-            [No, No] if (distances[0] < lens.near) == (distances[1] < lens.near) => No,
-            _ => Open,
-        };
-        (covered.min(in_range), distances)
-    }
-}
-
-/// Whether the renderer's steps may turn a triangle over that lies before the eye.
-fn is_sliver(lens: &Lens, corners: [DVec3; 3]) -> bool {
-    if corners.iter().any(|corner| corner.z < lens.near) {
-        return false;
-    }
-    let [a, b, c] = corners.map(|corner| lens.seen(corner).at);
-    let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-    (b - a).perp_dot(c - a).abs() <= 4.0 * SNAPPING * longest
 }
 
 /// A point of a vertex or an edge, whether it is where it seems to be, and whether no other
@@ -249,11 +147,9 @@ impl Oracle {
                 let mesh = scene.meshes().get(node.mesh.expect("an object")).expect("its mesh").mesh();
                 let material = scene.materials.get(node.materials[0]).expect("its material");
                 let world = scene.world_transform(id);
-                let points: Vec<DVec3> = mesh
-                    .positions()
-                    .iter()
-                    .map(|point| oracle.lens.local(world.transform_point3(point.as_dvec3())))
-                    .collect();
+                let positions = mesh.positions().iter();
+                let points: Vec<Vertex> =
+                    positions.map(|point| oracle.lens.vertex(&world, point.as_dvec3())).collect();
                 let mirrored = world.matrix3.determinant() < 0.0;
                 (id, mesh, points, material.double_sided, mirrored)
             })
@@ -268,27 +164,27 @@ impl Oracle {
                 if *mirrored {
                     corners.swap(1, 2);
                 }
-                oracle.targets.push(Target::new(&oracle.lens, corners, (object, face), *double_sided));
+                oracle.targets.push(Target::new(&oracle.lens, &corners, (object, face), *double_sided));
             }
         }
         for later in 1..oracle.targets.len() {
             let (before, rest) = oracle.targets.split_at_mut(later);
             let of = |target: &Target| (target.object, target.corners.map(|corner| corner.to_array()));
             if before.iter().any(|earlier| of(earlier) == of(&rest[0])) {
-                rest[0].snapped = No;
+                rest[0].is_repeated = true;
             }
         }
         for (object, (node, mesh, points, ..)) in objects.iter().enumerate() {
             let used = mesh.used_vertices();
-            for (vertex, &local) in points.iter().enumerate().filter(|&(vertex, _)| used[vertex]) {
+            for (vertex, point) in points.iter().enumerate().filter(|&(vertex, _)| used[vertex]) {
                 let own = |face: u32| mesh.face_vertices(face as usize).contains(&(vertex as u32));
-                let seen = oracle.lens.seen(local);
+                let seen = oracle.lens.seen(point.local);
                 let point = oracle.own_point(seen, Yes, (object, &own));
                 oracle.vertices.push(Element { node: *node, index: vertex as u32, points: vec![point] });
             }
             for (edge, ends) in mesh.edges().iter().enumerate() {
                 let own = |face: u32| has_side(mesh, face, *ends);
-                let line = oracle.line(ends.map(|end| points[end as usize]));
+                let line = oracle.line(ends.map(|end| points[end as usize].local));
                 let points =
                     line.into_iter().map(|(seen, exists)| oracle.own_point(seen, exists, (object, &own)));
                 let points = points.collect();
@@ -413,36 +309,4 @@ pub(super) fn contains(region: &Region, size: DVec2, point: DVec2) -> Answer {
 
 fn within_picture(size: DVec2, point: DVec2) -> Answer {
     Answer::of(point.min(size - point).min_element(), ROUNDING)
-}
-
-impl Target {
-    /// Its side, counter-clockwise on the screen, if nothing but that leaves open whether the
-    /// renderer finds it at a pixel's centre: then a triangle on the other side of it is there
-    /// if this one is not, since both have the same corners after those were moved.
-    pub(super) fn open_side(&self, lens: &Lens, at: DVec2) -> Option<[DVec3; 2]> {
-        let covered = self.volumes.map(|volume| self.covered(volume, at, SNAPPING));
-        let (met, distances) = self.meets(lens, at, SNAPPING);
-        let in_range = distances.iter().all(|&distance| lens.in_range(distance, SNAPPING) == Yes);
-        let open = covered.iter().position(|&answer| answer == Open)?;
-        let alone = covered.iter().filter(|&&answer| answer == Open).count() == 1;
-        if met == No || self.snapped != Yes || !in_range || !alone {
-            return None;
-        }
-        let [from, to] = [self.corners[(open + 1) % 3], self.corners[(open + 2) % 3]];
-        Some(if self.is_front { [from, to] } else { [to, from] })
-    }
-
-    /// Whether the ray passes a side of it on the inside.
-    fn covered(&self, volume: DVec3, at: DVec2, reach: f64) -> Answer {
-        let value = volume.x * at.x + volume.y * at.y + volume.z;
-        Answer::of(value, reach * (volume.x.abs() + volume.y.abs()))
-    }
-
-    /// How it is met at a pixel's centre after the renderer has moved its vertices, and
-    /// whether it is drawn; `None` where it is nowhere near.
-    pub(super) fn snapped(&self, lens: &Lens, at: DVec2) -> Option<(Answer, [f64; 2])> {
-        let (met, [near, far]) = self.meets(lens, at, SNAPPING);
-        let depths = [near - DEPTHS * near.abs(), far + DEPTHS * far.abs()];
-        (met != No).then_some((met.min(self.snapped), depths))
-    }
 }

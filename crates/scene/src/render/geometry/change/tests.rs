@@ -8,8 +8,8 @@ use trigon_raster::{Texture, TextureFormat};
 
 use super::*;
 use crate::{
-    Light, Material, MeshAsset, MeshId, Node, NormalMap, Outputs, RenderSettings, Renderer, Scene, Style,
-    TextureBinding, render,
+    ElementSet, FixedBitSet, Light, Mark, Marks, Material, MeshAsset, MeshId, Node, NormalMap, Outputs,
+    RenderSettings, Renderer, Scene, Style, TextureBinding, render,
 };
 
 /// Everything that pictures are made of, triangle by triangle, as bits.
@@ -19,7 +19,8 @@ struct Contents {
     faces: Vec<u32>,
     runs: Vec<super::super::Run>,
     order: Option<Vec<u32>>,
-    edge_flags: Vec<trigon_raster::EdgeFlags>,
+    edge_flags: Vec<EdgeFlags>,
+    side_edges: Vec<[u32; 3]>,
     bounds: [[u64; 6]; 2],
 }
 
@@ -37,6 +38,7 @@ impl Contents {
             runs: geometry.runs.clone(),
             order: geometry.order.clone(),
             edge_flags: geometry.edge_flags(asset.mesh()).to_vec(),
+            side_edges: geometry.side_edges(asset.mesh()).to_vec(),
             bounds: [asset.bounds(), geometry.bounds()].map(|bounds| {
                 let ends = bounds.min.to_array().into_iter().chain(bounds.max.to_array());
                 ends.map(f64::to_bits).collect::<Vec<_>>().try_into().expect("six numbers")
@@ -259,7 +261,9 @@ proptest! {
         let mut scene = scene_of(mesh);
         let camera = scene_of(primitives::cube(3.0)).overview(1.0);
         let outputs = Outputs { depth: true, ids: true, normals: true, triangle_ids: true, ..Outputs::default() };
-        let settings = RenderSettings { samples_per_axis: 1, style, outputs, ..RenderSettings::new(20, 20) };
+        let marks = every_other_edge(&scene);
+        let settings =
+            RenderSettings { samples_per_axis: 1, style, marks, outputs, ..RenderSettings::new(20, 20) };
         let mut warm = Renderer::new(settings.clone());
         warm.render(&scene, &camera).expect("drawn");
         for edits in steps {
@@ -270,6 +274,17 @@ proptest! {
             prop_assert!(kept == render(&fresh(&scene), &camera, &settings).expect("drawn"), "{:?}", change);
         }
     }
+}
+
+/// Every other edge of a scene in a colour of its own.
+fn every_other_edge(scene: &Scene) -> Marks {
+    let (node, _) = scene.nodes().iter().find(|(_, node)| node.mesh.is_some()).expect("there is a mesh");
+    let mut bits = FixedBitSet::new();
+    (0..asset(scene).1.mesh().edge_count()).step_by(2).for_each(|edge| bits.grow_and_insert(edge));
+    let mut set = ElementSet::default();
+    set.add(node, bits);
+    let mark = Mark { elements: set.into(), color: Vec3::X, opacity: 1.0 };
+    Marks { edges: vec![mark], ..Marks::default() }
 }
 
 /// Whether geometry is where it was before a change.

@@ -1,0 +1,120 @@
+//! What follows from few vertices of a pass having other values than in the last frame:
+//! which vertices are run again, which chunks are set up again, and which tiles may look
+//! different.
+//!
+//! A tile is a function of the triangles that it lists, in their order, and of the other
+//! triangles of their faces, whose edges it may paint. So it keeps its picture if no triangle
+//! that it lists, or listed, has a vertex with other values, nor has one of its face.
+
+use super::layout::Layout;
+use super::{Plan, Wants};
+use crate::bin::{Chunk, Grid};
+use crate::geometry::Shape;
+use crate::paint2d::Rect;
+use crate::pass::{Pass, Recorded};
+use crate::vertex::UsedVertices;
+use crate::{Stats, Surface};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// What of a draw differs from the one in the same place of the last pass.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DrawChange<'a> {
+    /// Vertices for which the pipeline may answer otherwise, in any order.
+    pub vertices: &'a [u32],
+    /// Triangles that may have other corners, [`edge_flags`](crate::Draw::edge_flags) or
+    /// [`marks`](crate::Draw::marks), increasing. Lines and points cannot change.
+    pub triangles: &'a [u32],
+}
+
+/// What [`Rasterizer::redraw`](crate::Rasterizer::redraw) has done.
+#[derive(Clone, Debug)]
+pub struct Redraw {
+    /// As of a whole frame up to the tiles; what happens in tiles counts in those that were
+    /// drawn.
+    pub stats: Stats,
+    /// The parts of the target that were drawn; they do not overlap.
+    pub parts: Vec<Rect>,
+}
+
+/// What has to be the same in two frames for one to follow from the other.
+#[derive(PartialEq)]
+pub(super) struct Signature {
+    wants: Wants,
+    samples_per_axis: u32,
+    samples: usize,
+    /// Of the viewport, a tile, and its apron.
+    sizes: [u32; 4],
+    workers: usize,
+    draws: Vec<DrawSignature>,
+}
+
+/// The same for a draw.
+#[derive(PartialEq)]
+struct DrawSignature {
+    primitives: usize,
+    vertices: usize,
+    varyings: usize,
+    object: u32,
+    surface: Surface,
+}
+
+impl Signature {
+    pub(super) fn new(pass: &Pass<'_>, layout: &Layout, workers: usize) -> Self {
+        let Layout { axis, wants, ref grid, .. } = *layout;
+        let of_draw = |recorded: &Recorded<'_>| DrawSignature {
+            primitives: recorded.geometry.len(),
+            vertices: recorded.pipeline.vertex_count(),
+            varyings: recorded.pipeline.varyings(),
+            object: recorded.geometry.object,
+            surface: recorded.geometry.surface,
+        };
+        Self {
+            wants,
+            samples_per_axis: axis,
+            samples: grid.pattern.count(),
+            sizes: [grid.viewport.width, grid.viewport.height, grid.size, grid.apron],
+            workers,
+            draws: pass.draws.iter().map(of_draw).collect(),
+        }
+    }
+}
+
+/// Whether the changes of a pass that has the last one's signature are of a kind that the
+/// plan outlasts.
+pub(super) fn can_follow(plan: &Plan, pass: &Pass<'_>, changes: &[DrawChange<'_>]) -> bool {
+    pass.scissor.is_none()
+        && changes.len() == pass.draws.len()
+        && plan.draws.iter().all(|draw| {
+            let DrawChange { vertices, triangles } = changes[draw.draw];
+            let Recorded { geometry, pipeline } = &pass.draws[draw.draw];
+            let is_mesh = matches!(geometry.shape, Shape::Triangles { .. });
+            // Other corners could use other vertices.
+            let uses_all = draw.used == UsedVertices::Range(0..pipeline.vertex_count());
+            triangles.is_empty() && (vertices.is_empty() || is_mesh) || is_mesh && uses_all
+        })
+}
+
+/// Tiles that may look different.
+pub(super) struct DirtyTiles(Vec<AtomicBool>);
+
+impl DirtyTiles {
+    /// None of a grid.
+    pub(super) fn new(grid: &Grid) -> Self {
+        let count = grid.columns * grid.viewport.height.div_ceil(grid.size);
+        Self((0..count).map(|_| AtomicBool::new(false)).collect())
+    }
+
+    /// Adds those that list flagged primitives of a chunk.
+    pub(super) fn add(&self, grid: &Grid, chunk: &Chunk, flags: &[bool]) {
+        let is_flagged = |primitive: u32| flags[primitive as usize];
+        chunk.for_each_tile_of(grid, is_flagged, |tile| self.0[tile as usize].store(true, Ordering::Relaxed));
+    }
+
+    /// Their numbers, increasing.
+    pub(super) fn listed(self) -> Vec<u32> {
+        (0..).zip(self.0).filter_map(|(tile, is_dirty)| is_dirty.into_inner().then_some(tile)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,455 @@
+//! Pictures that follow from the last one, beside those of another rasterizer that draws
+//! everything.
+
+use crate::simd::SimdLevel;
+use crate::{
+    Background, Cancel, Culling, Draw, DrawChange, EdgeFlags, ExecuteSettings, FaceEdges, Fragment, Lines,
+    MarkColors, Marks, Output, Pass, Pipeline, Rasterizer, Stats, Surface, Target, TileSize, VertexOutput,
+};
+use proptest::prelude::*;
+use std::num::NonZeroUsize;
+use trigon_math::{Vec3, Vec4};
+
+/// A surface of quads and a line beside it, whose vertices have colours.
+#[derive(Clone, Debug)]
+struct Model {
+    vertices: Vec<(Vec4, Vec4)>,
+    triangles: Vec<[u32; 3]>,
+    faces: Vec<u32>,
+    flags: Vec<EdgeFlags>,
+    /// The numbers of the edges that the triangles' sides are.
+    sides: Vec<[u32; 3]>,
+    edge_marks: Vec<u8>,
+    face_marks: Vec<u8>,
+    surface: Surface,
+}
+
+impl Pipeline for Model {
+    type Varyings = Vec4;
+
+    fn vertex_count(&self) -> usize {
+        self.vertices.len()
+    }
+
+    fn vertex(&self, index: usize) -> VertexOutput<Vec4> {
+        let (position, varyings) = self.vertices[index];
+        VertexOutput { position, varyings }
+    }
+
+    fn fragment(&self, fragment: &Fragment<Vec4>) -> Vec4 {
+        let color = fragment.varyings;
+        (color.truncate() * color.w).extend(color.w)
+    }
+
+    fn mask(&self, fragment: &Fragment<Vec4>) -> bool {
+        fragment.varyings.x < 0.7
+    }
+}
+
+const QUADS: u32 = 9;
+
+impl Model {
+    /// A wavy sheet in front of the camera, `shift` deep.
+    fn sheet(surface: Surface, shift: f32) -> Self {
+        let side = QUADS + 1;
+        let vertex = |index: u32| {
+            let [x, y] = [index % side, index / side].map(|v| v as f32 / QUADS as f32);
+            let w = 1.0 + 0.5 * x + shift;
+            let position = Vec4::new((2.2 * x - 1.1) * w, (2.2 * y - 1.1) * w, 0.3, w);
+            (position, Vec4::new(x, y, 0.5, 0.6))
+        };
+        let quads = (0..QUADS * QUADS).map(|quad| quad / QUADS * side + quad % QUADS);
+        let halves = |at: u32| [[at, at + 1, at + side + 1], [at, at + side + 1, at + side]];
+        let flags = [[true, true, false], [false, true, true]].map(EdgeFlags::new);
+        let triangles: Vec<_> = quads.flat_map(halves).collect();
+        // One edge to the right and one downwards from each vertex.
+        let edge = |from: u32, to: u32| match from.abs_diff(to) {
+            1 => from.min(to),
+            across if across == side => side * side + from.min(to),
+            _ => u32::MAX,
+        };
+        Self {
+            vertices: (0..side * side).map(vertex).collect(),
+            sides: triangles.iter().map(|&[a, b, c]| [edge(a, b), edge(b, c), edge(c, a)]).collect(),
+            edge_marks: (0..2 * side * side).map(|edge| (edge % 3) as u8).collect(),
+            face_marks: (0..QUADS * QUADS).map(|face| (face % 5 / 3) as u8).collect(),
+            triangles,
+            faces: (0..2 * QUADS * QUADS).map(|triangle| triangle / 2).collect(),
+            flags: (0..QUADS * QUADS).flat_map(|_| flags).collect(),
+            surface,
+        }
+    }
+
+    fn record<'a>(&'a self, object: u32, pass: &mut Pass<'a>) {
+        pass.triangles(Draw {
+            faces: Some(&self.faces),
+            edge_flags: Some(&self.flags),
+            marks: Some(Marks { sides: &self.sides, edges: &self.edge_marks, faces: &self.face_marks }),
+            object,
+            culling: Culling::None,
+            surface: self.surface,
+            ..Draw::new(self, &self.triangles)
+        });
+    }
+}
+
+/// What becomes of a model.
+#[derive(Clone, Debug)]
+struct Delta {
+    model: usize,
+    /// Vertices with how far they move in clip space.
+    moved: Vec<(u32, [f32; 4])>,
+    /// Vertices with other colours.
+    painted: Vec<(u32, Vec4)>,
+    /// Triangles whose corners are turned on, and whose flags are others.
+    turned: Vec<u32>,
+    /// Edges and faces with other marks.
+    marked: [Vec<(u32, u8)>; 2],
+}
+
+impl Delta {
+    /// Changes the model; what is to be told of it.
+    fn apply(&self, model: &mut Model) -> [Vec<u32>; 2] {
+        for &(vertex, way) in &self.moved {
+            model.vertices[vertex as usize].0 += Vec4::from_array(way);
+        }
+        for &(vertex, color) in &self.painted {
+            model.vertices[vertex as usize].1 = color;
+        }
+        let mut turned = self.turned.clone();
+        turned.sort_unstable();
+        turned.dedup();
+        for &triangle in &turned {
+            model.triangles[triangle as usize].rotate_left(1);
+            model.sides[triangle as usize].rotate_left(1);
+            model.flags[triangle as usize] = EdgeFlags::new([triangle % 2 == 0, true, triangle % 3 == 0]);
+        }
+        let painted = self.painted.iter().map(|&(vertex, _)| vertex);
+        let vertices = self.moved.iter().map(|&(vertex, _)| vertex).chain(painted).collect();
+        let marked = self.mark(model);
+        let is_listed = |triangle: &u32| turned.contains(triangle) || marked.contains(triangle);
+        [vertices, (0..model.triangles.len() as u32).filter(is_listed).collect()]
+    }
+
+    /// Changes marks; the triangles that have them.
+    fn mark(&self, model: &mut Model) -> Vec<u32> {
+        let [edges, faces] = &self.marked;
+        edges.iter().for_each(|&(edge, mark)| model.edge_marks[edge as usize] = mark);
+        faces.iter().for_each(|&(face, mark)| model.face_marks[face as usize] = mark);
+        let has_marked = |&triangle: &u32| {
+            let (sides, own) = (model.sides[triangle as usize], model.faces[triangle as usize]);
+            edges.iter().any(|(edge, _)| sides.contains(edge)) || faces.iter().any(|(face, _)| *face == own)
+        };
+        (0..model.triangles.len() as u32).filter(has_marked).collect()
+    }
+}
+
+fn delta() -> impl Strategy<Value = Delta> {
+    let vertex = 0..(QUADS + 1) * (QUADS + 1);
+    let small = -0.2_f32..0.2;
+    // Some go behind the eye, far away, or nowhere.
+    let large = prop_oneof![-3.0_f32..3.0, Just(1e9), Just(f32::NAN)];
+    let way = prop_oneof![
+        6 => prop::array::uniform4(small),
+        1 => prop::array::uniform4(large),
+    ];
+    let color = prop::array::uniform4(0.0_f32..1.0).prop_map(Vec4::from_array);
+    let moved = prop::collection::vec((vertex.clone(), way), 0..5);
+    let painted = prop::collection::vec((vertex, color), 0..4);
+    let turned = prop::collection::vec(0..2 * QUADS * QUADS, 0..3);
+    let marked = [2 * (QUADS + 1) * (QUADS + 1), QUADS * QUADS]
+        .map(|elements| prop::collection::vec((0..elements, 0..4_u8), 0..3));
+    (0..2_usize, moved, painted, turned, marked).prop_map(|(model, moved, painted, turned, marked)| Delta {
+        model,
+        moved,
+        painted,
+        turned,
+        marked,
+    })
+}
+
+/// How the pictures are drawn.
+#[derive(Clone, Debug)]
+struct View {
+    size: [u32; 2],
+    samples: [u32; 2],
+    outputs: Vec<Output>,
+    edges: Option<f32>,
+    has_marks: bool,
+    background: usize,
+    settings: ExecuteSettings,
+}
+
+fn view() -> impl Strategy<Value = View> {
+    use Output::{Depth, Face, Linear, Object, Srgb8, Triangle, Unorm8};
+    let samples = prop::sample::select(vec![[1, 1], [1, 1], [1, 4], [1, 8], [2, 1], [3, 2]]);
+    let outputs = prop_oneof![
+        Just(vec![Srgb8]),
+        Just(vec![Srgb8, Unorm8, Linear, Depth, Object, Face, Triangle]),
+        prop::sample::subsequence(vec![Srgb8, Unorm8, Linear, Depth, Object, Face, Triangle], 1..7),
+    ];
+    let tile_size = prop::sample::select(vec![
+        TileSize::Automatic,
+        TileSize::Pixels8,
+        TileSize::Pixels16,
+        TileSize::Pixels32,
+    ]);
+    let levels: Vec<_> = SimdLevel::ALL.into_iter().filter(|level| level.token().is_some()).collect();
+    let settings =
+        (1..4_usize, tile_size, prop::sample::select(levels)).prop_map(|(threads, tile_size, level)| {
+            let (threads, simd) = (NonZeroUsize::new(threads), Some(level));
+            ExecuteSettings { threads, simd, tile_size, ..ExecuteSettings::default() }
+        });
+    let edges = prop_oneof![Just(None), (0.5_f32..5.0).prop_map(Some)];
+    ([1_u32..130, 1_u32..100], samples, outputs, edges, any::<bool>(), 0..3_usize, settings).prop_map(
+        |(size, samples, outputs, edges, has_marks, background, settings)| View {
+            size,
+            samples,
+            outputs,
+            edges,
+            has_marks,
+            background,
+            settings,
+        },
+    )
+}
+
+/// Three marks with colours of their own; the others cannot be seen.
+fn mark_colors() -> MarkColors {
+    let mut colors = MarkColors::NONE;
+    for (mark, color) in [Vec3::X, Vec3::Y, Vec3::Z].into_iter().enumerate() {
+        colors.edges[mark + 1] = color.extend(0.9);
+        colors.faces[mark + 1] = color.extend(0.4);
+    }
+    colors
+}
+
+fn row(y: u32) -> Vec4 {
+    Vec3::new(0.1, (y % 50) as f32 / 50.0, 0.4).extend(1.0)
+}
+
+impl View {
+    fn target(&self) -> Target<'static> {
+        let target = Target::new(self.size[0], self.size[1], &self.outputs).expect("a size");
+        let target = target.with_samples_per_axis(self.samples[0]).expect("a number of samples");
+        target.with_samples(self.samples[1]).expect("a number of samples")
+    }
+
+    fn pass<'a>(&self, models: &'a [Model]) -> Pass<'a> {
+        let mut pass = Pass::new();
+        pass.background(match self.background {
+            0 => Background::Color(Vec4::new(0.2, 0.3, 0.4, 1.0)),
+            1 => Background::PerRow(&row),
+            _ => Background::PerPixel(&|pixel| row(pixel.y + pixel.x)),
+        });
+        for (object, model) in (0..).zip(models) {
+            model.record(object, &mut pass);
+        }
+        // Between others: its ordinals begin and end where theirs do.
+        pass.triangles(Draw::new(&models[2], &[]));
+        let lines = Lines::new(&models[2], &[[0, 11], [11, 30]]);
+        pass.lines(Lines { object: 9, width: 3.0, ..lines });
+        if let Some(width) = self.edges {
+            pass.edges(FaceEdges { width, color: Vec3::X, opacity: 0.7 });
+        }
+        if self.has_marks {
+            pass.marks(mark_colors());
+        }
+        pass
+    }
+
+    fn fresh(&self, models: &[Model]) -> Target<'static> {
+        let mut target = self.target();
+        let one = ExecuteSettings { threads: NonZeroUsize::new(1), ..ExecuteSettings::default() };
+        Rasterizer::new(one).expect("the best level").draw(&self.pass(models), &mut target);
+        target
+    }
+}
+
+fn models(surfaces: [Surface; 2]) -> Vec<Model> {
+    let [front, back] =
+        [(surfaces[0], 0.0), (surfaces[1], 0.5)].map(|(surface, shift)| Model::sheet(surface, shift));
+    // No part of it is ever changed.
+    let still = Model::sheet(Surface::Opaque, 0.2);
+    vec![front, back, Model { triangles: still.triangles[..7].to_vec(), ..still }]
+}
+
+/// Redraws after each change of the models. Both kinds of draws come in the pass's order, and
+/// the lines last.
+fn check(view: &View, mut models: Vec<Model>, deltas: &[Delta]) -> Result<(), TestCaseError> {
+    let mut rasterizer = Rasterizer::new(view.settings).expect("a level that there is");
+    let mut target = view.target();
+    rasterizer.redraw(&view.pass(&models), &mut target, None);
+    for delta in deltas {
+        let [vertices, triangles] = delta.apply(&mut models[delta.model]);
+        let mut changes = [DrawChange::default(); 5];
+        changes[delta.model] = DrawChange { vertices: &vertices, triangles: &triangles };
+        rasterizer.redraw(&view.pass(&models), &mut target, Some(&changes));
+        let fresh = view.fresh(&models);
+        prop_assert!(target.srgb8() == fresh.srgb8(), "bytes after {delta:?}");
+        prop_assert!(target.unorm8() == fresh.unorm8(), "linear bytes after {delta:?}");
+        prop_assert!(target.linear() == fresh.linear(), "light after {delta:?}");
+        prop_assert!(target.depth() == fresh.depth(), "depth after {delta:?}");
+        prop_assert!(target.objects() == fresh.objects(), "objects after {delta:?}");
+        prop_assert!(target.faces() == fresh.faces(), "faces after {delta:?}");
+        prop_assert!(target.triangles() == fresh.triangles(), "triangles after {delta:?}");
+    }
+    Ok(())
+}
+
+fn surface() -> impl Strategy<Value = Surface> {
+    prop::sample::select(vec![
+        Surface::Opaque,
+        Surface::Masked,
+        Surface::MaskedPerSample,
+        Surface::Translucent,
+    ])
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_picture_that_follows_is_a_fresh_one(
+        view in view(),
+        surfaces in [surface(), surface()],
+        deltas in prop::collection::vec(delta(), 1..4),
+    ) {
+        check(&view, models(surfaces), &deltas)?;
+    }
+}
+
+fn plain(outputs: &[Output]) -> View {
+    View {
+        size: [600, 500],
+        samples: [1, 1],
+        outputs: outputs.to_vec(),
+        edges: Some(1.0),
+        has_marks: false,
+        background: 1,
+        settings: ExecuteSettings::default(),
+    }
+}
+
+fn one_vertex() -> Delta {
+    Delta {
+        model: 0,
+        moved: vec![(34, [0.05, 0.0, 0.0, 0.0])],
+        painted: Vec::new(),
+        turned: Vec::new(),
+        marked: [Vec::new(), Vec::new()],
+    }
+}
+
+/// The share of the target that was drawn again.
+fn share(view: &View, parts: &[crate::Rect]) -> f64 {
+    let area =
+        |part: &crate::Rect| f64::from(part.max[0] - part.min[0]) * f64::from(part.max[1] - part.min[1]);
+    parts.iter().map(area).sum::<f64>() / f64::from(view.size[0] * view.size[1])
+}
+
+#[test]
+fn only_tiles_around_what_moved_are_drawn() {
+    let (view, mut models) = (plain(&[Output::Srgb8]), models([Surface::Opaque; 2]));
+    let mut rasterizer = Rasterizer::default();
+    let mut target = view.target();
+    let first = rasterizer.redraw(&view.pass(&models), &mut target, None);
+    assert_eq!(share(&view, &first.parts), 1.0, "nothing was there");
+    let unchanged = [DrawChange::default(); 5];
+    let same = rasterizer.redraw(&view.pass(&models), &mut target, Some(&unchanged));
+    assert!(same.parts.is_empty(), "nothing differs");
+    let [vertices, _] = one_vertex().apply(&mut models[0]);
+    let mut changes = unchanged;
+    changes[0].vertices = &vertices;
+    let moved = rasterizer.redraw(&view.pass(&models), &mut target, Some(&changes));
+    let drawn = share(&view, &moved.parts);
+    assert!(drawn > 0.0 && drawn < 0.3, "four quads of {}: {drawn}", QUADS * QUADS);
+    assert!(target.srgb8() == view.fresh(&models).srgb8(), "the bytes of a fresh picture");
+}
+
+#[test]
+fn only_tiles_around_other_marks_are_drawn() {
+    let view = View { has_marks: true, ..plain(&[Output::Srgb8]) };
+    let mut models = models([Surface::Opaque; 2]);
+    let mut rasterizer = Rasterizer::default();
+    let mut target = view.target();
+    rasterizer.redraw(&view.pass(&models), &mut target, None);
+    let before = target.srgb8().map(<[_]>::to_vec);
+    let marked = [vec![(44, 3)], vec![(40, 3)]];
+    let [_, triangles] = Delta { moved: Vec::new(), marked, ..one_vertex() }.apply(&mut models[0]);
+    let mut changes = [DrawChange::default(); 5];
+    changes[0].triangles = &triangles;
+    let redraw = rasterizer.redraw(&view.pass(&models), &mut target, Some(&changes));
+    let drawn = share(&view, &redraw.parts);
+    assert!(drawn > 0.0 && drawn < 0.3, "three quads of {}: {drawn}", QUADS * QUADS);
+    assert!(target.srgb8() != before.as_deref(), "other marks look different");
+    assert!(target.srgb8() == view.fresh(&models).srgb8(), "the bytes of a fresh picture");
+}
+
+/// Ordinals of a draw without triangles begin where those of the next draw do: a redraw took
+/// the changed vertices of the one for those of the other, and asked an empty range for its
+/// last triangle.
+#[test]
+fn draws_without_triangles_broke_the_redraws_look_up_of_draws() {
+    let view = plain(&[Output::Srgb8]);
+    let mut sheet = Model::sheet(Surface::Opaque, 0.0);
+    let before = sheet.clone();
+    let [vertices, _] = one_vertex().apply(&mut sheet);
+    for empty in 0..3 {
+        let record = |sheet| {
+            let mut pass = Pass::new();
+            pass.edges(FaceEdges { width: 1.0, color: Vec3::X, opacity: 0.7 });
+            for draw in 0..3 {
+                if draw == empty {
+                    pass.triangles(Draw::new(&before, &[]));
+                } else {
+                    Model::record(sheet, draw, &mut pass);
+                }
+            }
+            pass
+        };
+        let changes = [0, 1, 2].map(|draw| {
+            let vertices = if draw == empty { &[] } else { vertices.as_slice() };
+            DrawChange { vertices, triangles: &[] }
+        });
+        let (mut rasterizer, mut target, mut fresh) = (Rasterizer::default(), view.target(), view.target());
+        rasterizer.redraw(&record(&before), &mut target, None);
+        let redraw = rasterizer.redraw(&record(&sheet), &mut target, Some(&changes));
+        Rasterizer::default().draw(&record(&sheet), &mut fresh);
+        assert!(share(&view, &redraw.parts) < 0.3, "draw {empty} is empty, and the others follow");
+        assert!(target.srgb8() == fresh.srgb8(), "draw {empty} is empty");
+    }
+}
+
+/// Whatever else the rasterizer has done in between: it tells nothing of the changes.
+#[test]
+fn after_anything_else_everything_is_drawn() {
+    let (view, models) = (plain(&[Output::Srgb8]), models([Surface::Opaque; 2]));
+    let unchanged = [DrawChange::default(); 5];
+    let spoil: [fn(&mut Rasterizer, &View, &[Model]); 4] = [
+        |rasterizer, view, models| {
+            let _: Stats = rasterizer.draw(&view.pass(models), &mut view.target());
+        },
+        |rasterizer, view, models| {
+            rasterizer.explain_pixel(&view.pass(models), &view.target(), 0, 0);
+        },
+        |rasterizer, view, models| {
+            let cancel = Cancel::default();
+            cancel.cancel();
+            rasterizer.set_cancel(Some(cancel));
+            rasterizer.redraw(&view.pass(models), &mut view.target(), None);
+            rasterizer.set_cancel(None);
+        },
+        |rasterizer, view, models| {
+            let other = View { outputs: vec![Output::Srgb8, Output::Depth], ..view.clone() };
+            rasterizer.redraw(&view.pass(models), &mut other.target(), None);
+        },
+    ];
+    for (number, spoil) in spoil.into_iter().enumerate() {
+        let (mut rasterizer, mut target) = (Rasterizer::default(), view.target());
+        rasterizer.redraw(&view.pass(&models), &mut target, None);
+        spoil(&mut rasterizer, &view, &models);
+        let redraw = rasterizer.redraw(&view.pass(&models), &mut target, Some(&unchanged));
+        assert_eq!(share(&view, &redraw.parts), 1.0, "number {number}");
+    }
+}

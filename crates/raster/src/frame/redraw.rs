@@ -1,0 +1,84 @@
+//! Frames that follow from the last one: few vertices are run again, and few tiles drawn.
+
+use super::change::{DirtyTiles, Signature, can_follow};
+use super::layout::Layout;
+use super::set_up::set_up_chunk;
+use super::stages::{Arena, How, finish, prepare};
+use super::{DrawChange, FrameView, Redraw};
+use crate::clock::Clock;
+use crate::ink::Ink;
+use crate::pass::Pass;
+use crate::{StageTimes, Target};
+use std::sync::{Mutex, PoisonError};
+
+/// Draws a pass of which the target holds an earlier frame, and those tiles alone that may
+/// differ, if the changes tell how it differs from the last pass that was drawn so.
+pub(crate) fn redraw(
+    arena: &mut Arena,
+    pass: &Pass<'_>,
+    (target, changes): (&mut Target<'_>, Option<&[DrawChange<'_>]>),
+    how: How<'_>,
+) -> Redraw {
+    let layout = Layout::new(pass, target, how);
+    let signature = Signature::new(pass, &layout, how.workers.count());
+    let is_last = arena.followed.take().is_some_and(|last| last == signature);
+    let changes = changes.filter(|changes| is_last && can_follow(&arena.plan, pass, changes));
+    let mut scratches = std::mem::take(&mut arena.scratches);
+    let (view, tiles) = match changes {
+        Some(changes) => {
+            let (view, tiles) = follow(arena, pass, (layout, target), changes, how);
+            (view, Some(tiles))
+        }
+        None => (prepare(arena, pass, target, how), None),
+    };
+    let parts = match &tiles {
+        Some(tiles) => tiles.iter().map(|&tile| view.drawn_rect(tile)).collect(),
+        None => vec![view.drawn],
+    };
+    let stats = finish(&view, (tiles.as_deref(), target), how, &mut scratches);
+    arena.scratches = scratches;
+    // What was cancelled may be half done.
+    arena.followed = (!how.is_cancelled()).then_some(signature);
+    Redraw { stats, parts }
+}
+
+/// The same for a pass that differs little from the last one, and the tiles that may
+/// differ.
+fn follow<'f>(
+    arena: &'f mut Arena,
+    pass: &'f Pass<'_>,
+    (layout, target): (Layout, &Target<'_>),
+    changes: &[DrawChange<'_>],
+    how: How<'_>,
+) -> (FrameView<'f>, Vec<u32>) {
+    let (axis, grid) = (layout.axis, layout.grid);
+    let has_lines = layout.ink.as_ref().is_some_and(Ink::has_lines);
+    let Arena { plan, places, varyings, chunks, touched, .. } = arena;
+    let used = chunks.len().min(plan.chunks);
+    let mut clock = Clock::new(how.timed);
+    touched.mark(plan, changes);
+    touched.run_vertices(&pass.draws, plan, grid.viewport, how, (places, varyings));
+    let vertices = clock.lap();
+    let tiles = DirtyTiles::new(&grid);
+    let rest = Mutex::new(chunks[..used].iter_mut());
+    let next = || rest.lock().unwrap_or_else(PoisonError::into_inner).next();
+    let many = used > 1;
+    how.workers.run(many, |_| {
+        let mut flags = Vec::new();
+        while let Some(chunk) = next()
+            && !how.is_cancelled()
+        {
+            let found = touched.triangles(&pass.draws, plan, (changes, has_lines), chunk, &mut flags);
+            if found.any {
+                tiles.add(&grid, chunk, &flags);
+            }
+            if found.moved {
+                chunk.reset(chunk.ordinals.clone(), chunk.surface);
+                set_up_chunk(&pass.draws, plan, places, (&grid, axis), how.token, chunk);
+                tiles.add(&grid, chunk, &flags);
+            }
+        }
+    });
+    let times = StageTimes { vertices, set_up: clock.lap(), ..StageTimes::default() };
+    (arena.view((pass, target), layout, how, used, times), tiles.listed())
+}

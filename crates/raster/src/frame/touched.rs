@@ -1,0 +1,286 @@
+//! The vertices of a pass that have other values than in the last frame: they are run again,
+//! and the triangles are found that look different by them.
+
+use super::Plan;
+use super::change::DrawChange;
+use super::stages::{How, VERTICES};
+use crate::bin::Chunk;
+use crate::geometry::{Geometry, Shape};
+use crate::ink::parts;
+use crate::pass::Recorded;
+use crate::simd::Token;
+use crate::vertex::{ScreenVertex, Slots};
+use crate::viewport::Viewport;
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
+
+/// Vertices with other values, a bit for each slot of each draw.
+#[derive(Default)]
+pub(super) struct Touched {
+    /// Where the words of each planned draw begin, and the end.
+    starts: Vec<usize>,
+    /// The least and the greatest of each draw's vertices that may have other values.
+    reaches: Vec<[u32; 2]>,
+    /// Those that may have other values.
+    changed: Vec<u64>,
+    /// Those of them that have another place, or none.
+    moved: Vec<u64>,
+}
+
+/// What was found of a chunk's triangles.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Found {
+    /// Whether any of them looks different.
+    pub(super) any: bool,
+    /// Whether any of them lies elsewhere.
+    pub(super) moved: bool,
+}
+
+impl Touched {
+    /// Takes the vertices of a pass that have changed.
+    pub(super) fn mark(&mut self, plan: &Plan, changes: &[DrawChange<'_>]) {
+        self.starts.clear();
+        self.reaches.clear();
+        let mut words = 0;
+        for draw in &plan.draws {
+            let vertices = changes[draw.draw].vertices.iter().copied();
+            let least = vertices.clone().min().unwrap_or(u32::MAX);
+            self.reaches.push([least, vertices.max().unwrap_or(0)]);
+            self.starts.push(words);
+            words += draw.used.len().div_ceil(64);
+        }
+        self.starts.push(words);
+        for bits in [&mut self.changed, &mut self.moved] {
+            bits.clear();
+            bits.resize(words, 0);
+        }
+        for (draw, &start) in plan.draws.iter().zip(&self.starts) {
+            let slots = plan.slots(draw);
+            for &vertex in changes[draw.draw].vertices {
+                let slot = slots.of(vertex);
+                if slot < draw.used.len() {
+                    self.changed[start + slot / 64] |= 1 << (slot % 64);
+                }
+            }
+        }
+    }
+
+    /// Runs them again, and those beside them, and finds out which of them have moved.
+    pub(super) fn run_vertices(
+        &mut self,
+        pass: &[Recorded<'_>],
+        plan: &Plan,
+        viewport: Viewport,
+        how: How<'_>,
+        (mut places, mut varyings): (&mut [ScreenVertex], &mut [f32]),
+    ) {
+        let mut pieces = Vec::new();
+        let (mut changed, mut moved) = (self.changed.as_slice(), self.moved.as_mut_slice());
+        for draw in &plan.draws {
+            let stride = pass[draw.draw].pipeline.stride();
+            let mut slot = 0;
+            while slot < draw.used.len() {
+                let slots = slot..draw.used.len().min(slot + VERTICES);
+                slot = slots.end;
+                let piece = Piece {
+                    recorded: &pass[draw.draw],
+                    used: plan.slots(draw),
+                    changed: split(&mut changed, slots.len().div_ceil(64)),
+                    moved: split_mut(&mut moved, slots.len().div_ceil(64)),
+                    places: split_mut(&mut places, slots.len()),
+                    varyings: split_mut(&mut varyings, slots.len() * stride),
+                    slots,
+                };
+                if piece.changed.iter().any(|&word| word != 0) {
+                    pieces.push(piece);
+                }
+            }
+            // The place of vertices that do not exist.
+            split_mut(&mut places, 1);
+        }
+        let shared = pieces.len() > 1;
+        let rest = Mutex::new(pieces.into_iter());
+        let next = || rest.lock().unwrap_or_else(PoisonError::into_inner).next();
+        how.workers.run(shared, |_| {
+            while let Some(piece) = next()
+                && !how.is_cancelled()
+            {
+                piece.run(how.token, viewport);
+            }
+        });
+    }
+
+    /// Flags the primitives of a chunk that may look different.
+    pub(super) fn triangles(
+        &self,
+        pass: &[Recorded<'_>],
+        plan: &Plan,
+        (changes, has_edges): (&[DrawChange<'_>], bool),
+        chunk: &Chunk,
+        flags: &mut Vec<bool>,
+    ) -> Found {
+        flags.clear();
+        flags.resize(chunk.ordinals.len(), false);
+        let mut found = Found::default();
+        for (draw, range) in plan.parts(chunk.ordinals.clone()) {
+            let Shape::Triangles { triangles, .. } = pass[draw.draw].geometry.shape else { continue };
+            if range.is_empty() {
+                continue;
+            }
+            // Draws without triangles end where they begin.
+            let number = plan.draws.partition_point(|other| other.ordinals.end <= draw.ordinals.start);
+            let words = self.starts[number]..self.starts[number + 1];
+            let search = Search {
+                slots: plan.slots(draw),
+                geometry: &pass[draw.draw].geometry,
+                triangles,
+                listed: changes[draw.draw].triangles,
+                reach: self.reaches[number],
+                changed: &self.changed[words.clone()],
+                moved: &self.moved[words],
+            };
+            let first = (draw.ordinals.start + range.start - chunk.ordinals.start) as usize;
+            let flags = &mut flags[first..first + range.len()];
+            let of_draw = search.flag(range, has_edges, flags);
+            found = Found { any: found.any || of_draw.any, moved: found.moved || of_draw.moved };
+        }
+        found
+    }
+}
+
+/// Looks for the triangles of a draw that look different.
+struct Search<'a> {
+    slots: Slots<'a>,
+    geometry: &'a Geometry<'a>,
+    triangles: &'a [[u32; 3]],
+    /// Those that are known to.
+    listed: &'a [u32],
+    /// Between which vertices those lie that may have other values.
+    reach: [u32; 2],
+    changed: &'a [u64],
+    moved: &'a [u64],
+}
+
+impl Search<'_> {
+    /// Flags some of the triangles, and the others of their faces if it has edges.
+    fn flag(&self, range: Range<u32>, has_edges: bool, flags: &mut [bool]) -> Found {
+        /// Triangles that are left out together.
+        const BLOCK: usize = 64;
+        let (mut seeds, mut found) = (Vec::new(), Found::default());
+        let blocks = self.triangles[range.start as usize..range.end as usize].chunks(BLOCK);
+        for (block, start) in blocks.zip((range.start..).step_by(BLOCK)) {
+            if self.reaches(block.as_flattened()) {
+                for (&corners, triangle) in block.iter().zip(start..) {
+                    if self.has(self.changed, corners) {
+                        found.moved |= self.has(self.moved, corners);
+                        seeds.push(triangle);
+                    }
+                }
+            }
+        }
+        let at = |at: u32| self.listed.partition_point(|&triangle| triangle < at);
+        let listed = &self.listed[at(range.start)..at(range.end)];
+        found.moved |= !listed.is_empty();
+        seeds.extend(listed);
+        if has_edges {
+            self.add_beside(&range, &mut seeds);
+        }
+        let place = |triangle: u32| range.contains(&triangle).then(|| (triangle - range.start) as usize);
+        for seed in seeds {
+            found.any = true;
+            place(seed).into_iter().for_each(|place| flags[place] = true);
+            if has_edges {
+                parts(self.geometry, seed).filter_map(place).for_each(|place| flags[place] = true);
+            }
+        }
+        found
+    }
+
+    /// Adds triangles beside the range that belong to faces in it, and look different.
+    fn add_beside(&self, range: &Range<u32>, seeds: &mut Vec<u32>) {
+        let ends = [range.start, range.end - 1].map(|end| parts(self.geometry, end));
+        let is_beside = |triangle: &u32| {
+            let corners = self.triangles[*triangle as usize];
+            !range.contains(triangle)
+                && (self.has(self.changed, corners) || self.listed.binary_search(triangle).is_ok())
+        };
+        seeds.extend(ends.into_iter().flatten().filter(is_beside));
+    }
+
+    /// Whether any of some vertices may have other values, asked in a way that takes several
+    /// of them at once.
+    fn reaches(&self, vertices: &[u32]) -> bool {
+        let [least, greatest] = self.reach;
+        let within = |any: bool, &vertex: &u32| any | (vertex >= least) & (vertex <= greatest);
+        vertices.iter().fold(false, within)
+    }
+
+    /// Whether the bit of a corner is set.
+    #[inline(always)]
+    fn has(&self, bits: &[u64], [a, b, c]: [u32; 3]) -> bool {
+        let is_set = |vertex| is_set(bits, self.slots.of(vertex));
+        is_set(a) | is_set(b) | is_set(c)
+    }
+}
+
+/// Some consecutive slots of a draw.
+struct Piece<'a> {
+    recorded: &'a Recorded<'a>,
+    used: Slots<'a>,
+    slots: Range<usize>,
+    changed: &'a [u64],
+    moved: &'a mut [u64],
+    places: &'a mut [ScreenVertex],
+    varyings: &'a mut [f32],
+}
+
+impl Piece<'_> {
+    /// Runs every eight vertices of which one has changed.
+    fn run(self, token: Token, viewport: Viewport) {
+        let pipeline = self.recorded.pipeline;
+        let stride = pipeline.stride();
+        for (word, (&changed, moved)) in self.changed.iter().zip(self.moved).enumerate() {
+            let mut byte = 0;
+            while byte < 8 {
+                let ahead = |byte: usize| changed >> (8 * byte) & 0xff != 0;
+                if !ahead(byte) {
+                    byte += 1;
+                    continue;
+                }
+                let first = word * 64 + byte * 8;
+                while byte < 8 && ahead(byte) {
+                    byte += 1;
+                }
+                let end = self.places.len().min(word * 64 + byte * 8);
+                let places = &mut self.places[first..end];
+                let mut before = [ScreenVertex::default(); 64];
+                before[..places.len()].copy_from_slice(places);
+                let slots = self.slots.start + first..self.slots.start + end;
+                let varyings = &mut self.varyings[first * stride..end * stride];
+                pipeline.run_vertices(token, self.used, slots, viewport, (places, varyings));
+                for ((bit, after), before) in (first % 64..).zip(&*places).zip(before) {
+                    // Where one without a place lies is asked of the pipeline once more.
+                    let differs = after.0 != before.0 || !after.has_place();
+                    *moved |= changed & (u64::from(differs) << bit);
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn is_set(bits: &[u64], slot: usize) -> bool {
+    bits.get(slot / 64).is_some_and(|word| word >> (slot % 64) & 1 != 0)
+}
+
+fn split<'a, T>(list: &mut &'a [T], count: usize) -> &'a [T] {
+    let (first, rest) = list.split_at(count);
+    *list = rest;
+    first
+}
+
+fn split_mut<'a, T>(list: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+    let (first, rest) = std::mem::take(list).split_at_mut(count);
+    *list = rest;
+    first
+}

@@ -1,0 +1,133 @@
+//! Elements that a picture shows in colours of their own: what is selected, seams, creases.
+
+use std::sync::Arc;
+
+use trigon_math::{Vec3, Vec4};
+use trigon_raster::MarkColors;
+
+use crate::elements::ElementSet;
+use crate::scene::NodeId;
+
+/// Vertices, edges and faces in colours of their own.
+///
+/// Each list is in the order of priority: an element that is in several sets has the colour
+/// of the first of them. An editor would list the selected edges first, then sharp ones, seams
+/// and creases. Only the first [`MOST`](Self::MOST) of each list are shown.
+///
+/// They cost no vertex and no geometry is made anew for them: sets are looked up for what is
+/// seen. For other marks hand over other sets.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Marks {
+    /// Edges, by their numbers in the mesh: see [`Mesh::edges`](trigon_mesh::Mesh::edges).
+    /// They have the width of all edges, and are shown in the styles that show edges.
+    pub edges: Vec<Mark>,
+    /// Faces, whose colours are mixed with the mark's.
+    pub faces: Vec<Mark>,
+    /// Vertices, where [`RenderSettings::vertices`](crate::RenderSettings::vertices) shows
+    /// them.
+    pub vertices: Vec<Mark>,
+}
+
+/// Elements of one kind with their colour.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    /// Shared with whoever selected them: nothing of it is copied for a picture.
+    pub elements: Arc<ElementSet>,
+    /// Linear RGB.
+    pub color: Vec3,
+    /// From 0 to 1; at 0 edges are not painted, in no other colour either. Lines of
+    /// [`Style::Wireframe`](crate::Style::Wireframe) and vertices are always opaque.
+    pub opacity: f32,
+}
+
+/// How vertices are shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VertexPoints {
+    /// Diameter in pixels.
+    pub size: f32,
+    /// The same of marked vertices.
+    pub marked_size: f32,
+    /// Linear RGB of vertices without a mark.
+    pub color: Vec3,
+}
+
+impl Default for VertexPoints {
+    /// Small and black, marked ones larger.
+    fn default() -> Self {
+        Self { size: 3.0, marked_size: 5.0, color: Vec3::ZERO }
+    }
+}
+
+impl Marks {
+    /// The most that a list may have.
+    pub const MOST: usize = MarkColors::COUNT - 1;
+
+    /// Whether no edge and no face has a mark.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.edges.is_empty() && self.faces.is_empty()
+    }
+
+    /// The colours of edges and faces.
+    pub(crate) fn colors(&self) -> MarkColors {
+        MarkColors { edges: colors(&self.edges), faces: colors(&self.faces) }
+    }
+}
+
+/// The colours of marks by their numbers: the first of a list has the greatest.
+pub(crate) fn colors(marks: &[Mark]) -> [Vec4; MarkColors::COUNT] {
+    let mut colors = [Vec4::ZERO; MarkColors::COUNT];
+    for (mark, color) in marks.iter().zip(colors[1..].iter_mut().rev()) {
+        *color = mark.color.extend(mark.opacity);
+    }
+    colors
+}
+
+/// The number of each element of a node, 0 without a mark, up to the last that may have one.
+pub(crate) fn numbers(marks: &[Mark], node: NodeId) -> Vec<u8> {
+    let marks = &marks[..marks.len().min(Marks::MOST)];
+    let sets = || marks.iter().enumerate().filter_map(|(index, mark)| Some((index, mark.elements.of(node)?)));
+    let count = sets().map(|(_, bits)| bits.len()).max().unwrap_or(0);
+    let mut numbers = vec![0; count];
+    // The first, which counts most, at last.
+    for (index, bits) in sets().collect::<Vec<_>>().into_iter().rev() {
+        for element in bits.ones() {
+            numbers[element] = (Marks::MOST - index) as u8;
+        }
+    }
+    numbers
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{FixedBitSet, Node, Scene};
+
+    fn mark(node: NodeId, elements: &[usize], red: f32) -> Mark {
+        let mut bits = FixedBitSet::with_capacity(8);
+        bits.extend(elements.iter().copied());
+        let mut set = ElementSet::default();
+        set.add(node, bits);
+        Mark { elements: Arc::new(set), color: Vec3::new(red, 0.0, 0.0), opacity: 1.0 }
+    }
+
+    #[test]
+    fn the_first_mark_of_an_element_gives_its_colour() {
+        let mut scene = Scene::default();
+        let [node, other] = [0, 1].map(|_| scene.add(Node::default()));
+        let marks: Vec<_> =
+            [mark(node, &[1, 2], 0.1), mark(node, &[2, 3], 0.2), mark(other, &[5], 0.3)].into();
+        let (numbers, colors) = (numbers(&marks, node), colors(&marks));
+        let reds: Vec<_> = numbers.iter().map(|&number| colors[usize::from(number)].x).collect();
+        assert_eq!(reds, [0.0, 0.1, 0.1, 0.2, 0.0, 0.0, 0.0, 0.0], "the others have none");
+    }
+
+    #[test]
+    fn marks_beyond_the_last_are_not_shown() {
+        let mut scene = Scene::default();
+        let node = scene.add(Node::default());
+        let marks: Vec<_> = (0..40).map(|element| mark(node, &[element % 8], 1.0)).collect();
+        assert_eq!(numbers(&marks, node), [15, 14, 13, 12, 11, 10, 9, 8], "the first of each");
+        assert_eq!(colors(&marks)[0], Vec4::ZERO, "without a mark");
+        assert!(numbers(&marks[..0], node).is_empty(), "nothing to be looked up");
+    }
+}

@@ -1,0 +1,333 @@
+//! The last picture, kept so that the next one may follow from it: where few vertices of a
+//! mesh have moved since, and everything else is as it was, most of the picture is.
+//!
+//! A picture that is kept is drawn here and copied to the frame, as frames are their users':
+//! nobody knows what they hold when they come back. So it takes its memory twice. Pictures of
+//! meshes that were never changed keep nothing, nor do those from a camera that moves.
+
+use std::sync::Arc;
+
+use trigon_camera::Camera;
+use trigon_raster::{DrawChange, Pass, Rasterizer, Rect, Stats, Target, TargetError, Texture};
+
+use super::geometry::GeometryState;
+use super::placement::{DepthToDistance, Placement};
+use super::record::{Record, Source};
+use super::stage::Stage;
+use crate::arena::Arena;
+use crate::effects::{Effect, EffectPlan, Environment};
+use crate::frame::{Frame, resize};
+use crate::material::Material;
+use crate::node::Node;
+use crate::outputs::{Needed, Seen};
+use crate::scene::TextureId;
+use crate::settings::RenderSettings;
+
+/// Effects with which what a tile shows may depend on what others do, on geometry out of
+/// view, or on another pass. Pictures with them do not follow.
+const COUPLING: [Effect; 8] = [
+    Effect::Poses,
+    Effect::ShadowMaps,
+    Effect::ShadowRays,
+    Effect::AmbientOcclusion,
+    Effect::Reflection,
+    Effect::Refraction,
+    Effect::ToneMapping,
+    Effect::Outline,
+];
+
+/// Rows of a picture that a thread copies at a time.
+const ROWS: usize = 32;
+
+/// The last picture, and what it was made from.
+#[derive(Default)]
+pub(super) struct LastPicture {
+    origin: Option<Box<Origin>>,
+    /// Whether the pictures below are of that origin, and whole.
+    is_whole: bool,
+    color: Vec<u8>,
+    /// In metres.
+    depth: Option<Vec<f32>>,
+    seen: Seen,
+}
+
+/// Everything that a picture is made from, but for the values of meshes.
+struct Origin {
+    /// Without the environment, which takes long to compare.
+    settings: RenderSettings,
+    environment: Option<Same<Environment>>,
+    camera: Camera,
+    nodes: Arena<Node>,
+    materials: Arena<Material>,
+    textures: Vec<(TextureId, Same<Texture>)>,
+    effects: [bool; Effect::ALL.len()],
+    draws: Vec<DrawOrigin>,
+}
+
+/// The same of a draw.
+#[derive(PartialEq)]
+struct DrawOrigin {
+    state: GeometryState,
+    first_triangle: usize,
+    triangle_count: usize,
+    place: Placement,
+}
+
+/// How a picture comes from the last one.
+pub(super) enum Step {
+    /// It does not. It is drawn as if nothing were kept.
+    Apart,
+    /// It is to be kept, and all of it is drawn.
+    Whole,
+    /// It differs in this of each draw.
+    Changed(Vec<ChangedDraw>),
+}
+
+/// What of a draw is other than in the last picture.
+#[derive(Default)]
+pub(super) struct ChangedDraw {
+    vertices: Vec<u32>,
+    triangles: Vec<u32>,
+}
+
+impl LastPicture {
+    /// How the picture of a stage comes from the last one, of which it takes the place.
+    pub(super) fn step(
+        &mut self,
+        (stage, camera, plan): (&Stage<'_>, &Camera, &EffectPlan),
+        draws: &[Box<dyn Record + '_>],
+    ) -> Step {
+        let outputs = &stage.settings.outputs;
+        let is_plain = outputs.color && !outputs.radiance && !outputs.of_triangles();
+        // What shows through faces is a pass of its own, too.
+        let is_coupled = COUPLING.into_iter().any(|effect| plan.is_on(effect))
+            || stage.settings.share_through_faces().is_some();
+        let sources: Vec<Source<'_>> = draws.iter().map(|draw| draw.source()).collect();
+        let was_changed = sources.iter().any(|source| source.geometry.can_follow());
+        if !is_plain || is_coupled || !was_changed {
+            *self = Self::default();
+            return Step::Apart;
+        }
+        let is_whole = std::mem::take(&mut self.is_whole);
+        let Some(origin) = &mut self.origin else {
+            self.origin = Some(Box::new(Origin::new((stage, camera, plan), &sources)));
+            return Step::Apart;
+        };
+        let is_same = origin.update((stage, camera, plan));
+        let changes = origin.replace_draws(&sources);
+        match changes {
+            _ if !is_same => Step::Apart,
+            Some(changes) if is_whole => Step::Changed(changes),
+            _ => Step::Whole,
+        }
+    }
+
+    /// Draws a picture that is kept, and copies it to the frame.
+    pub(super) fn draw(
+        &mut self,
+        pass: &Pass<'_>,
+        (settings, camera): (&RenderSettings, &Camera),
+        (blank, frame): (Target<'_>, &mut Frame),
+        (rasterizer, step): (&mut Rasterizer, &Step),
+    ) -> Result<Stats, TargetError> {
+        self.make_room(settings, frame)?;
+        let changes: Option<Vec<DrawChange<'_>>> = match step {
+            Step::Apart | Step::Whole => None,
+            Step::Changed(draws) => Some(draws.iter().map(DrawChange::from).collect()),
+        };
+        let target = self.seen.with(blank, self.depth.as_mut())?;
+        let mut target = target.with_srgb8(self.color.as_chunks_mut().0)?;
+        let redraw = rasterizer.redraw(pass, &mut target, changes.as_deref());
+        self.measure_depth(settings, camera, (&redraw.parts, rasterizer));
+        self.copy_to(frame, rasterizer);
+        Ok(redraw.stats)
+    }
+
+    /// Whether the picture that was drawn can be used.
+    pub(super) fn set_whole(&mut self, is_whole: bool) {
+        self.is_whole = is_whole;
+    }
+
+    fn make_room(&mut self, settings: &RenderSettings, frame: &Frame) -> Result<(), TargetError> {
+        let RenderSettings { width, height, outputs, .. } = settings;
+        let full = TargetError::Memory { width: *width, height: *height };
+        let pixels = *width as usize * *height as usize;
+        resize(&mut self.color, 4 * pixels, 0).ok_or(full)?;
+        self.seen.make_room(pixels, Needed::of(outputs)).ok_or(full)?;
+        match frame.depth {
+            Some(_) => resize(self.depth.get_or_insert_default(), pixels, 0.0).ok_or(full),
+            None => {
+                self.depth = None;
+                Ok(())
+            }
+        }
+    }
+
+    /// From stored depths to metres, in the parts that were drawn.
+    fn measure_depth(
+        &mut self,
+        settings: &RenderSettings,
+        camera: &Camera,
+        (parts, rasterizer): (&[Rect], &Rasterizer),
+    ) {
+        let Some(depths) = &mut self.depth else { return };
+        let distance = DepthToDistance::new(&camera.projection, settings.aspect());
+        let width = settings.width as usize;
+        let bands = depths.chunks_mut(width * ROWS).zip((0..).step_by(ROWS));
+        rasterizer.share(bands, |(band, top)| {
+            for (row, y) in band.chunks_mut(width).zip(top..) {
+                for part in parts.iter().filter(|part| (part.min[1]..part.max[1]).contains(&y)) {
+                    let columns = part.min[0] as usize..part.max[0] as usize;
+                    row[columns].iter_mut().for_each(|depth| *depth = distance.at(*depth));
+                }
+            }
+        });
+    }
+
+    /// Copies what the frame is to hold.
+    fn copy_to(&self, frame: &mut Frame, rasterizer: &Rasterizer) {
+        /// Bytes and numbers that a thread copies at a time.
+        const PIECE: usize = 1 << 18;
+        copy(&mut frame.color, &self.color, 4 * PIECE, rasterizer);
+        if let (Some(to), Some(from)) = (&mut frame.depth, &self.depth) {
+            copy(to, from, PIECE, rasterizer);
+        }
+        let ids = [(&mut frame.object_ids, &self.seen.objects), (&mut frame.face_ids, &self.seen.faces)];
+        for (to, from) in ids {
+            to.iter_mut().for_each(|to| copy(to, from, PIECE, rasterizer));
+        }
+    }
+}
+
+/// Copies a list, so many items of it at a time by each thread.
+fn copy<T: Copy + Send + Sync>(to: &mut [T], from: &[T], piece: usize, rasterizer: &Rasterizer) {
+    rasterizer.share(to.chunks_mut(piece).zip(from.chunks(piece)), |(to, from)| to.copy_from_slice(from));
+}
+
+/// Something shared that equals nothing but itself: whoever changes what others hold makes a
+/// copy.
+struct Same<T>(Arc<T>);
+
+impl<T> PartialEq for Same<T> {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl<T> Clone for Same<T> {
+    fn clone(&self) -> Self {
+        Self(Arc::clone(&self.0))
+    }
+}
+
+impl Origin {
+    fn new((stage, camera, plan): (&Stage<'_>, &Camera, &EffectPlan), sources: &[Source<'_>]) -> Self {
+        let scene = stage.scene;
+        Self {
+            settings: without_environment(stage.settings),
+            environment: environment_of(stage),
+            camera: *camera,
+            nodes: scene.nodes().clone(),
+            materials: scene.materials.clone(),
+            textures: textures_of(stage),
+            effects: Effect::ALL.map(|effect| plan.is_on(effect)),
+            draws: sources.iter().map(DrawOrigin::new).collect(),
+        }
+    }
+
+    /// Becomes that of another picture, but for its draws; whether it stays the same.
+    fn update(&mut self, (stage, camera, plan): (&Stage<'_>, &Camera, &EffectPlan)) -> bool {
+        // Each of them is brought up to date.
+        let are_same = [
+            keep(&mut self.settings, &without_environment(stage.settings)),
+            keep(&mut self.environment, &environment_of(stage)),
+            keep(&mut self.camera, camera),
+            keep(&mut self.nodes, stage.scene.nodes()),
+            keep(&mut self.materials, &stage.scene.materials),
+            keep(&mut self.textures, &textures_of(stage)),
+            keep(&mut self.effects, &Effect::ALL.map(|effect| plan.is_on(effect))),
+        ];
+        !are_same.contains(&false)
+    }
+
+    /// Takes the draws of another picture; how they differ, if that is known.
+    fn replace_draws(&mut self, sources: &[Source<'_>]) -> Option<Vec<ChangedDraw>> {
+        let before = std::mem::replace(&mut self.draws, sources.iter().map(DrawOrigin::new).collect());
+        if before.len() != sources.len() {
+            return None;
+        }
+        before
+            .iter()
+            .zip(&self.draws)
+            .zip(sources)
+            .map(|((before, now), source)| before.change(now, source))
+            .collect()
+    }
+}
+
+impl<'a> From<&'a ChangedDraw> for DrawChange<'a> {
+    fn from(ChangedDraw { vertices, triangles }: &'a ChangedDraw) -> Self {
+        Self { vertices, triangles }
+    }
+}
+
+impl DrawOrigin {
+    fn new(source: &Source<'_>) -> Self {
+        let Source { geometry, triangles, place } = source;
+        Self {
+            state: geometry.state.clone(),
+            first_triangle: triangles.start,
+            triangle_count: triangles.len(),
+            place: *place,
+        }
+    }
+
+    /// The vertices and triangles in which the draw differs from another one; `None` if that
+    /// is not known.
+    fn change(&self, now: &Self, source: &Source<'_>) -> Option<ChangedDraw> {
+        if self == now {
+            return Some(ChangedDraw::default());
+        }
+        let Self { first_triangle, triangle_count, place, .. } = self;
+        let is_alike =
+            (first_triangle, triangle_count, place) == (&now.first_triangle, &now.triangle_count, &now.place);
+        let change = source.geometry.change.as_ref().filter(|change| change.before == self.state)?;
+        // Lines and points have vertices that the geometry does not know.
+        if !is_alike || *triangle_count == 0 {
+            return None;
+        }
+        let first = *first_triangle as u32;
+        let at = |triangle: u32| change.triangles.partition_point(|&other| other < triangle);
+        let own = &change.triangles[at(first)..at(first + *triangle_count as u32)];
+        Some(ChangedDraw {
+            vertices: change.vertices.clone(),
+            triangles: own.iter().map(|triangle| triangle - first).collect(),
+        })
+    }
+}
+
+/// Gives a value another one; whether they are equal.
+fn keep<T: PartialEq + Clone>(own: &mut T, other: &T) -> bool {
+    let is_same = own == other;
+    if !is_same {
+        own.clone_from(other);
+    }
+    is_same
+}
+
+fn without_environment(settings: &RenderSettings) -> RenderSettings {
+    let mut settings = settings.clone();
+    settings.effects.environment = None;
+    settings
+}
+
+fn environment_of(stage: &Stage<'_>) -> Option<Same<Environment>> {
+    stage.settings.effects.environment.clone().map(Same)
+}
+
+fn textures_of(stage: &Stage<'_>) -> Vec<(TextureId, Same<Texture>)> {
+    stage.scene.textures.iter().map(|(id, asset)| (id, Same(Arc::clone(&asset.texture)))).collect()
+}
+
+#[cfg(test)]
+mod tests;
