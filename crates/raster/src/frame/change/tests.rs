@@ -392,32 +392,31 @@ fn only_tiles_around_other_marks_are_drawn() {
 #[test]
 fn draws_without_triangles_broke_the_redraws_look_up_of_draws() {
     let view = plain(&[Output::Srgb8]);
-    let mut sheet = Model::sheet(Surface::Opaque, 0.0);
-    let before = sheet.clone();
-    let [vertices, _] = one_vertex().apply(&mut sheet);
-    for empty in 0..3 {
+    let mut after = Model::sheet(Surface::Opaque, 0.0);
+    let (before, behind) = (after.clone(), Model::sheet(Surface::Opaque, 0.5));
+    let [vertices, _] = one_vertex().apply(&mut after);
+    // The changed sheet lies before the third one, which stays as it is.
+    for [empty, changed] in [[0, 1], [0, 2], [1, 0], [1, 2], [2, 0], [2, 1]] {
         let record = |sheet| {
             let mut pass = Pass::new();
             pass.edges(FaceEdges { width: 1.0, color: Vec3::X, opacity: 0.7 });
             for draw in 0..3 {
                 if draw == empty {
-                    pass.triangles(Draw::new(&before, &[]));
+                    pass.triangles(Draw::new(&behind, &[]));
                 } else {
-                    Model::record(sheet, draw, &mut pass);
+                    Model::record(if draw == changed { sheet } else { &behind }, draw, &mut pass);
                 }
             }
             pass
         };
-        let changes = [0, 1, 2].map(|draw| {
-            let vertices = if draw == empty { &[] } else { vertices.as_slice() };
-            DrawChange { vertices, triangles: &[] }
-        });
+        let mut changes = [DrawChange::default(); 3];
+        changes[changed as usize].vertices = &vertices;
         let (mut rasterizer, mut target, mut fresh) = (Rasterizer::default(), view.target(), view.target());
         rasterizer.redraw(&record(&before), &mut target, None);
-        let redraw = rasterizer.redraw(&record(&sheet), &mut target, Some(&changes));
-        Rasterizer::default().draw(&record(&sheet), &mut fresh);
-        assert!(share(&view, &redraw.parts) < 0.3, "draw {empty} is empty, and the others follow");
-        assert!(target.srgb8() == fresh.srgb8(), "draw {empty} is empty");
+        let redraw = rasterizer.redraw(&record(&after), &mut target, Some(&changes));
+        Rasterizer::default().draw(&record(&after), &mut fresh);
+        assert!(share(&view, &redraw.parts) < 0.3, "draw {empty} is empty, and {changed} follows");
+        assert!(target.srgb8() == fresh.srgb8(), "draw {empty} is empty, and {changed} moves");
     }
 }
 
