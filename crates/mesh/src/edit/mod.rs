@@ -35,7 +35,7 @@ pub use edit_mesh::EditMesh;
 pub use euler::{SplitEdge, SplitFace};
 pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
-pub use operations::{BevelLeftOut, BevelSettings, Beveled, LoopCut, LoopCutSettings};
+pub use operations::{BevelLeftOut, BevelSettings, Beveled, KnifeCut, KnifePoint, LoopCut, LoopCutSettings};
 pub use refusal::Refusal;
 pub use to_mesh::ElementMap;
 pub use transaction::Difference;

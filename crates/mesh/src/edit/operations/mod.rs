@@ -6,8 +6,10 @@
 
 mod bevel;
 mod delete;
+mod knife;
 mod loop_cut;
 mod slide;
 
 pub use bevel::{BevelLeftOut, BevelSettings, Beveled};
+pub use knife::{KnifeCut, KnifePoint};
 pub use loop_cut::{LoopCut, LoopCutSettings};
