@@ -19,8 +19,11 @@ pub(super) struct Influences {
 
 impl Influences {
     /// From any number of joints, each at most once: the heaviest [`MOST`], so scaled that they
-    /// sum to 1. Weights that do so already, but for rounding, keep their bits.
+    /// sum to 1. Weights that do so already, but for rounding, keep their bits. Joints with a negative
+    /// weight are left out: beyond the vertices between which values are blended, the joint of the far one
+    /// would push.
     pub(super) fn heaviest(mut all: Vec<(u16, f64)>) -> Self {
+        all.retain(|&(_, weight)| weight > 0.0);
         all.sort_by(|a, b| b.1.partial_cmp(&a.1).unwrap_or(Ordering::Equal).then(a.0.cmp(&b.0)));
         all.truncate(MOST);
         let sum: f64 = all.iter().map(|(_, weight)| weight).sum();
@@ -63,6 +66,15 @@ mod tests {
         let half = Influences::blend(&[(of(3), 0.5), (of(1), 0.5)]);
         assert_eq!((&half.joints[..2], &half.weights[..3]), (&[1, 3][..], &[0.5, 0.5, 0.0][..]), "joints");
         assert_eq!(Influences::blend(&[(half, 1.0)]), half, "nothing is lost");
+    }
+
+    #[test]
+    fn beyond_a_vertex_no_joint_pushes() {
+        let of = |joint| Influences::heaviest(vec![(joint, 1.0)]);
+        let beyond = Influences::blend(&[(of(3), 1.5), (of(1), -0.5)]);
+        assert_eq!(beyond, of(3), "as at the vertex itself");
+        let mixed = Influences::heaviest(vec![(1, 0.5), (3, 0.5)]);
+        assert_eq!(Influences::blend(&[(mixed, 2.0), (of(1), -1.0)]), of(3), "one joint is gone");
     }
 
     #[test]

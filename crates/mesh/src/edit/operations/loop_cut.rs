@@ -8,8 +8,8 @@ use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
 use super::super::records::HIDDEN;
 use super::super::refusal::Refusal;
 
-/// Ids that two quads' corners and cuts need at most: few rings have more cuts.
-type Vertices = SmallVec<[VertexId; 8]>;
+/// The vertices on an edge: few rings have more cuts.
+pub(super) type Vertices = SmallVec<[VertexId; 8]>;
 
 /// How [`EditMesh::loop_cut`] cuts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -184,7 +184,12 @@ impl EditMesh {
     }
 
     /// Puts vertices on an edge, at growing parts of the way from one of its ends to the other.
-    fn cut_rung(&mut self, edge: EdgeId, from: VertexId, places: &[f64]) -> Result<Vertices, Refusal> {
+    pub(super) fn cut_rung(
+        &mut self,
+        edge: EdgeId,
+        from: VertexId,
+        places: &[f64],
+    ) -> Result<Vertices, Refusal> {
         let [first, second] = self.edge_vertices(edge);
         let mut places: SmallVec<[f64; 8]> = places.into();
         if from != first {
