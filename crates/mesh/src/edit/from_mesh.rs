@@ -19,6 +19,23 @@ pub struct LeftOut {
     pub skinned_vertices: usize,
 }
 
+impl LeftOut {
+    /// What a user should know, for a mesh of this name: a line for each kind.
+    pub fn warnings(&self, mesh: &str) -> impl Iterator<Item = String> {
+        let corners = (self.repeated_corners > 0).then(|| {
+            let count = self.repeated_corners;
+            format!("{mesh}: corners at the same vertex as the next one are left out: {count}")
+        });
+        let skinned = (self.skinned_vertices > 0).then(|| {
+            let count = self.skinned_vertices;
+            format!(
+                "{mesh}: of more than eight joints at a vertex the lightest are left out, at {count} vertices"
+            )
+        });
+        corners.into_iter().chain(skinned)
+    }
+}
+
 impl EditMesh {
     /// Makes a mesh editable. Vertices, edges, faces and corners keep their numbers as indices,
     /// and each vertex can be reset to where it is now.

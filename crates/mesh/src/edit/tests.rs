@@ -79,6 +79,20 @@ pub(super) fn meshes() -> impl Strategy<Value = Mesh> {
     prop_oneof![4 => closed, 1 => open, 2 => soup()].prop_map(with_affine_values)
 }
 
+/// Undoing all changes of a mesh gives the first bytes, redoing all the last.
+pub(super) fn check_undo_and_redo(
+    mut mesh: EditMesh,
+    first: &EditMesh,
+    differences: &mut [Difference],
+) -> Result<(), TestCaseError> {
+    let last = mesh.clone();
+    differences.iter_mut().rev().for_each(|difference| difference.apply(&mut mesh));
+    prop_assert!(mesh == *first, "undone");
+    differences.iter_mut().for_each(|difference| difference.apply(&mut mesh));
+    prop_assert!(mesh == last, "redone");
+    Ok(())
+}
+
 /// Runs an operation on a copy of a mesh and checks what holds for each: the structure is whole
 /// afterwards, a refusal changes nothing, undoing gives the first bytes and redoing the last. The
 /// mesh afterwards and what the operation returned; `None` if it was refused.
@@ -175,15 +189,7 @@ proptest! {
                 prop_assert!(was.is_err() || keeps_affine_values(&mesh).is_ok(), "after {:?}", s);
             }
         }
-        let last = mesh.clone();
-        for difference in differences.iter_mut().rev() {
-            difference.apply(&mut mesh);
-        }
-        prop_assert!(mesh == first, "undone");
-        for difference in &mut differences {
-            difference.apply(&mut mesh);
-        }
-        prop_assert!(mesh == last, "redone");
+        check_undo_and_redo(mesh, &first, &mut differences)?;
     }
 
     #[test]

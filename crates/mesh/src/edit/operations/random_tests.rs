@@ -4,7 +4,7 @@
 use proptest::prelude::*;
 use trigon_math::{DVec3, Plane};
 
-use super::super::tests::{keeps_affine_values, meshes};
+use super::super::tests::{check_undo_and_redo, keeps_affine_values, meshes};
 use super::*;
 use crate::edit::{EdgeId, EditMesh, FaceId, Refusal, VertexId};
 
@@ -88,14 +88,6 @@ proptest! {
         let (shown, _) = mesh.to_mesh();
         let normals = shown.shading_normals();
         prop_assert!(normals.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-5), "directions");
-        let last = mesh.clone();
-        for difference in differences.iter_mut().rev() {
-            difference.apply(&mut mesh);
-        }
-        prop_assert!(mesh == first, "undone");
-        for difference in &mut differences {
-            difference.apply(&mut mesh);
-        }
-        prop_assert!(mesh == last, "redone");
+        check_undo_and_redo(mesh, &first, &mut differences)?;
     }
 }
