@@ -137,8 +137,12 @@ impl Geometry {
         let rest = self.rest.as_ref()?;
         let mut deformed = Deformed::default();
         rest.deform(weights, palette, &mut deformed);
-        Some(Self {
-            columns: self.columns.deformed(&deformed),
+        Some(self.with_columns(self.columns.deformed(&deformed)))
+    }
+
+    /// The same triangles over other values of vertices.
+    fn with_columns(&self, columns: Columns) -> Self {
+        Self {
             triangles: self.triangles.clone(),
             faces: self.faces.clone(),
             runs: self.runs.clone(),
@@ -148,11 +152,12 @@ impl Geometry {
             edge_flags: self.edge_flags.clone(),
             side_edges: self.side_edges.clone(),
             rest: None,
-            tangential: places_for(&self.columns),
+            tangential: places_for(&columns),
+            columns,
             pose: None,
             links: None,
             change: None,
-        })
+        }
     }
 
     /// The index in the mesh's triangulation of a triangle of this list.

@@ -45,22 +45,7 @@ impl Geometry {
 
     /// All that follows changes.
     fn copied(&self) -> Self {
-        Self {
-            columns: self.columns.clone(),
-            triangles: self.triangles.clone(),
-            faces: self.faces.clone(),
-            runs: self.runs.clone(),
-            order: self.order.clone(),
-            state: GeometryState::default(),
-            bounds: OnceLock::new(),
-            edge_flags: self.edge_flags.clone(),
-            side_edges: self.side_edges.clone(),
-            rest: None,
-            tangential: Vec::new(),
-            pose: None,
-            links: self.links.clone(),
-            change: None,
-        }
+        Self { links: self.links.clone(), ..self.with_columns(self.columns.clone()) }
     }
 
     /// The vertices and triangles that are written. `None` if it cannot follow, and then it
