@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use trigon_edit::{Disk, Document, Script, save};
+use trigon_edit::{Disk, Document, Outcome, Script, save};
 use trigon_io::LoadOptions;
 
 use crate::arguments::Arguments;
@@ -54,5 +54,20 @@ fn run_script(script: &Script, document: &mut Document, quiet: bool) -> Result<(
         bar.set_message(progress.command.name());
     });
     bar.finish_and_clear();
-    result.map_err(|error| error.to_string())
+    let outcomes = result.map_err(|error| error.to_string())?;
+    if !quiet {
+        tell(script, &outcomes);
+    }
+    Ok(())
+}
+
+/// What the commands told, each with its place in the script.
+fn tell(script: &Script, outcomes: &[Outcome]) {
+    for (index, (command, outcome)) in script.commands.iter().zip(outcomes).enumerate() {
+        let place = format!("command {} ({})", index + 1, command.name());
+        if !outcome.message.is_empty() {
+            report(&place, &outcome.message);
+        }
+        outcome.warnings.iter().for_each(|warning| report("warning", &format!("{place}: {warning}")));
+    }
 }

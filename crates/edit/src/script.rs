@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::command::Command;
+use crate::command::{Command, Outcome};
 use crate::document::Document;
 use crate::error::EditError;
 
@@ -80,7 +80,7 @@ impl Script {
         format!("{{ \"version\": {}, \"commands\": [\n{}\n] }}\n", self.version, lines.join(",\n"))
     }
 
-    /// Runs all commands. `progress` is called before each.
+    /// Runs all commands, and returns what each told. `progress` is called before each.
     ///
     /// # Errors
     /// A command was refused: the error tells which. Those before it stay done.
@@ -88,15 +88,17 @@ impl Script {
         &self,
         document: &mut Document,
         mut progress: impl FnMut(ScriptProgress<'_>),
-    ) -> Result<(), EditError> {
+    ) -> Result<Vec<Outcome>, EditError> {
         let count = self.commands.len();
+        let mut outcomes = Vec::with_capacity(count);
         for (index, command) in self.commands.iter().enumerate() {
             progress(ScriptProgress { index, count, command });
-            document.run(command.clone()).map_err(|error| EditError::Script {
+            let outcome = document.run(command.clone()).map_err(|error| EditError::Script {
                 place: format!("command {} of {count} ({})", index + 1, command.name()),
                 what: error.to_string(),
             })?;
+            outcomes.push(outcome);
         }
-        Ok(())
+        Ok(outcomes)
     }
 }

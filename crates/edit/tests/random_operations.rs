@@ -82,6 +82,8 @@ fn mesh(random: &mut Random) -> Mesh {
 enum Needs {
     /// Of this kind ("vertex" …), about so many elements in one place.
     Some(&'static str, usize),
+    /// The edges of one face, of an even number if there is one.
+    Outline,
 }
 
 /// An operation: its name, what it needs, and its parameters.
@@ -101,6 +103,14 @@ impl Chosen<'_> {
     /// Whether the first selected edge has a mark.
     fn edge(&self, has: fn(&EditMesh, EdgeId) -> bool) -> bool {
         self.first.is_some_and(|edge| has(self.mesh, EdgeId::new(edge)))
+    }
+
+    /// A cut across the first selected face, from one of its edges to another.
+    fn across(&self) -> Value {
+        let Some(face) = self.first else { return json!([]) };
+        let edges: Vec<EdgeId> = self.mesh.face_edges(FaceId::new(face)).collect();
+        let on = |edge: EdgeId, position: f64| json!({ "at": "edge", "edge": (edge.index()), "position": position });
+        json!([on(edges[0], 0.5), on(edges[edges.len() / 2], 0.25)])
     }
 
     /// Whether the first selected face has a mark.
@@ -175,6 +185,8 @@ fn operations() -> Vec<Operation> {
         ),
         operation("connect_vertices", Some("vertex", 4), |_, _| json!({})),
         operation("fill", Some("edge", 3), |_, _| json!({})),
+        operation("grid_fill", Needs::Outline, |r, _| json!({ "offset": r.below(4) })),
+        operation("knife", Some("face", 1), |_, at| json!({ "path": at.across() })),
         operation("bridge", Some("edge", 2), |_, _| json!({})),
         operation("project_uvs", Some("face", 3), |r, _| json!({ "normal": (r.vector()) })),
         operation("project_uvs_on_box", Some("face", 3), |r, _| json!({ "center": (r.vector()) })),
@@ -219,7 +231,10 @@ impl Session {
 
     /// Selects about as many elements as are needed, one beside the other.
     fn select(&mut self, needs: Needs, random: &mut Random) {
-        let Needs::Some(kind, count) = needs;
+        let (kind, count) = match needs {
+            Needs::Some(kind, count) => (kind, count),
+            Needs::Outline => ("edge", 0),
+        };
         self.run("set_element_kind", json!({ "kind": kind }));
         let mesh = self.mesh();
         let all: Vec<u32> = match kind {
@@ -229,6 +244,15 @@ impl Session {
         };
         if all.is_empty() {
             return;
+        }
+        if count == 0 {
+            let faces: Vec<FaceId> = mesh.faces().filter(|&face| !mesh.is_face_hidden(face)).collect();
+            let even: Vec<FaceId> =
+                faces.into_iter().filter(|&face| mesh.face_size(face).is_multiple_of(2)).collect();
+            let face = even.get(random.below(even.len())).copied();
+            let outline = face.into_iter().flat_map(|face| mesh.face_edges(face));
+            let outline: Vec<u32> = outline.map(EdgeId::index).collect();
+            return self.run("select", json!({ "elements": outline }));
         }
         if count >= 1000 {
             return self.run("select_all", json!({}));

@@ -10,6 +10,9 @@ mod cut;
 mod delete;
 mod dissolve;
 mod extrude;
+mod grid_fill;
+mod join;
+mod knife;
 mod marks;
 mod merge;
 mod mirror;
@@ -40,6 +43,9 @@ pub use cut::{LoopCut, SlideEdges, Subdivide};
 pub use delete::{Delete, DeleteObjects, Deleted};
 pub use dissolve::{Dissolve, DissolveFlat};
 pub use extrude::{Extrude, Inset, InsetMode};
+pub use grid_fill::GridFill;
+pub use join::JoinObjects;
+pub use knife::{Knife, PathPoint};
 pub use marks::{AssignMaterial, Crease, Hide, MarkSeam, MarkSharp, Reveal, Shade};
 pub use merge::{Merge, MergeAt};
 pub use mirror::{Mirror, MirrorPlane, Symmetrize};
@@ -47,7 +53,7 @@ pub use mode::{EditObjects, LeaveEditMode, SetElementKind};
 pub use normals::{FlipNormals, RecalculateNormals};
 pub use objects::ObjectName;
 pub use outcome::Outcome;
-pub use parts::{Duplicate, JoinObjects, Separate, SplitOff};
+pub use parts::{Duplicate, Separate, SplitOff};
 pub use reference::command_reference;
 pub use repair::Repair;
 pub use scene::{
@@ -200,6 +206,8 @@ commands! {
     TrisToQuads("Tris to Quads", false),
     /// Makes faces where there are none.
     Fill("Fill", false),
+    /// Fills a loop with a grid.
+    GridFill("Grid Fill", false),
     /// Removes elements, and leaves the surface.
     Dissolve("Dissolve", false),
     /// Unites what lies flat.
@@ -210,6 +218,8 @@ commands! {
     LoopCut("Loop Cut", false),
     /// Slides loops of edges.
     SlideEdges("Slide Edges", false),
+    /// Cuts faces along a path.
+    Knife("Knife", false),
     /// Merges the selected vertices.
     Merge("Merge", false),
     /// Marks edges sharp.

@@ -5,6 +5,8 @@
 pub struct Outcome {
     /// A line for the status bar, as "merged 12 vertices"; empty where the picture says it all.
     pub message: String,
+    /// What a user should know, as "cube: 2 corners …".
+    pub warnings: Vec<String>,
 }
 
 impl Outcome {
@@ -19,6 +21,6 @@ impl Outcome {
     }
 
     pub(crate) fn with_message(message: impl Into<String>) -> Self {
-        Self { message: message.into() }
+        Self { message: message.into(), warnings: Vec::new() }
     }
 }

@@ -1,4 +1,4 @@
-//! Copies and parts of meshes: duplicate, split off, separate, join.
+//! Copies and parts of meshes: duplicate, split off, separate.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -62,58 +62,13 @@ impl Action for Separate {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let kind = change.selection().kind();
         let mut parts = Vec::new();
-        change.edit_selected("separating", FACES, |mesh, selection| {
+        let meshes = change.edit_selected("separating", FACES, |mesh, selection| {
             parts.push(mesh.separate(&selection.faces(mesh, kind))?);
             Ok(AfterEdit::Clear)
         })?;
-        let count = parts.len();
-        change.add_parts(parts);
-        Ok(Outcome::counted("made", count, ["object", "objects"]))
-    }
-}
-
-/// Puts the meshes of the selected objects into that of the active one, each where it is. The others are
-/// removed.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct JoinObjects {}
-
-impl Action for JoinObjects {
-    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        if change.selection().is_editing() {
-            return Err(EditError::Editing("joining objects"));
+        for (mesh, part) in meshes.iter().zip(parts) {
+            change.add_part(*mesh, part);
         }
-        let needed = "two objects with meshes, one of them active";
-        let refused = EditError::NothingSelected { command: "joining objects", needed };
-        let Some(active) = change.selection().active else { return Err(refused) };
-        let Some(into) = change.scene().node(active).and_then(|node| node.mesh) else { return Err(refused) };
-        let to_active = change.scene().world_transform(active).inverse();
-        let others: Vec<_> = change.selection().objects.iter().copied().filter(|&id| id != active).collect();
-        let mut joined = 0;
-        for id in others {
-            let Some(node) = change.scene().node(id) else { continue };
-            let Some(mesh) = node.mesh else { continue };
-            let materials = node.materials.clone();
-            let transform = to_active * change.scene().world_transform(id);
-            let Some(mut other) = change.mesh(mesh).cloned() else { continue };
-            // The other's slots come after those of the active object.
-            let known = change.scene().node(active).map_or(0, |node| node.materials.len()) as u32;
-            let faces: Vec<_> = other.faces().collect();
-            for face in faces {
-                other.set_material(face, known + other.material(face));
-            }
-            change.edit(into, |mesh| Ok(mesh.join_mesh(&other, &transform)?))?;
-            let scene = change.scene_mut();
-            scene.remove(id);
-            if let Some(node) = scene.node_mut(active) {
-                node.materials.extend(materials);
-            }
-            joined += 1;
-        }
-        if joined == 0 {
-            return Err(refused);
-        }
-        change.selection_mut().objects = [active].into();
-        Ok(Outcome::counted("joined", joined, ["object", "objects"]))
+        Ok(Outcome::counted("made", meshes.len(), ["object", "objects"]))
     }
 }

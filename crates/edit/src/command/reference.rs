@@ -121,11 +121,12 @@ fn type_of(property: &Value) -> String {
             let of = type_of(&property["items"]);
             match property["maxItems"].as_u64() {
                 Some(count) => format!("{count} × {of}"),
-                None => format!("list of {of}"),
+                // A name with a link has no plural.
+                None if of.ends_with(')') => format!("list of {of}"),
+                None => format!("list of {of}s"),
             }
         }
         "boolean" => "true or false".to_owned(),
-        "integer" => "whole number".to_owned(),
         "string" => "text".to_owned(),
         other => other.to_owned(),
     };

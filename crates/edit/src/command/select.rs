@@ -1,10 +1,10 @@
 //! Selecting objects and elements by number or name, all, none, and the rest.
 
-use fixedbitset::FixedBitSet;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_mesh::edit::EditMesh;
 
+use super::select_related::change_selections;
 use super::{Action, ObjectName, Outcome};
 use crate::document::Change;
 use crate::error::EditError;
@@ -59,14 +59,7 @@ impl Action for Select {
             }
             return Ok(Outcome::silent());
         }
-        let mut meshes = change.meshes_of(objects);
-        if meshes.is_empty() {
-            meshes = change.selection().meshes().map(|(mesh, _)| mesh).collect();
-        }
-        let &[id] = &meshes[..] else {
-            let needed = "one object whose elements are meant";
-            return Err(EditError::NothingSelected { command: "selecting elements", needed });
-        };
+        let id = change.only_edited_mesh(objects, "selecting elements")?;
         let kind = change.selection().kind();
         let (selection, meshes) = change.selection_and_meshes();
         if self.action == SelectAction::Replace {
@@ -78,14 +71,11 @@ impl Action for Select {
         let (Some(mesh), Some(selection)) = (meshes.get(&id), selection.of_mut(id)) else {
             return Err(EditError::NotEditing("selecting elements of an object"));
         };
-        for &element in &self.elements {
-            check_element(mesh, kind, element)?;
-            if self.selects(selection.contains(element)) {
-                selection.insert(element);
-            } else {
-                selection.remove(element);
-            }
-        }
+        self.elements.iter().try_for_each(|&element| check_element(mesh, kind, element))?;
+        let is_selected = |&element: &u32| self.selects(selection.contains(element));
+        let (in_it, out_of_it): (Vec<u32>, Vec<u32>) = self.elements.iter().partition(|e| is_selected(e));
+        selection.remove(&out_of_it);
+        selection.insert(&in_it);
         Ok(Outcome::silent())
     }
 }
@@ -108,6 +98,10 @@ fn check_element(mesh: &EditMesh, kind: ElementKind, index: u32) -> Result<(), E
         ElementKind::Vertex if !mesh.has_vertex(vertex) => Err(Refusal::NoSuchVertex(vertex).into()),
         ElementKind::Edge if !mesh.has_edge(edge) => Err(Refusal::NoSuchEdge(edge).into()),
         ElementKind::Face if !mesh.has_face(face) => Err(Refusal::NoSuchFace(face).into()),
+        _ if !kind.is_selectable(mesh, index) => {
+            let reason = "it is hidden: reveal it first";
+            Err(Refusal::NotPossible { operation: "selecting an element", reason }.into())
+        }
         _ => Ok(()),
     }
 }
@@ -124,7 +118,10 @@ impl Action for SelectAll {
             change.selection_mut().objects = all;
             return Ok(Outcome::silent());
         }
-        for_each_mesh(change, |mesh, kind, _| visible(mesh, kind))
+        change_selections(change, "select all", |mesh, kind, selection| {
+            selection.set(kind.visible(mesh));
+            Ok(())
+        })
     }
 }
 
@@ -139,7 +136,10 @@ impl Action for SelectNone {
             change.selection_mut().objects.clear();
             return Ok(Outcome::silent());
         }
-        for_each_mesh(change, |_, _, _| FixedBitSet::new())
+        change_selections(change, "select none", |_, _, selection| {
+            selection.clear();
+            Ok(())
+        })
     }
 }
 
@@ -156,51 +156,11 @@ impl Action for SelectInverse {
             change.selection_mut().objects = rest;
             return Ok(Outcome::silent());
         }
-        for_each_mesh(change, |mesh, kind, selected| {
-            let mut rest = visible(mesh, kind);
-            rest.difference_with(selected);
-            rest
+        change_selections(change, "invert selection", |mesh, kind, selection| {
+            let mut rest = kind.visible(mesh);
+            rest.difference_with(selection.bits());
+            selection.set(rest);
+            Ok(())
         })
     }
-}
-
-/// All elements of a kind that are not hidden.
-fn visible(mesh: &EditMesh, kind: ElementKind) -> FixedBitSet {
-    match kind {
-        ElementKind::Vertex => bits(
-            mesh.vertex_capacity(),
-            mesh.vertices().filter(|&vertex| !mesh.is_vertex_hidden(vertex)).map(|vertex| vertex.index()),
-        ),
-        ElementKind::Edge => bits(
-            mesh.edge_capacity(),
-            mesh.edges().filter(|&edge| !mesh.is_edge_hidden(edge)).map(|edge| edge.index()),
-        ),
-        ElementKind::Face => bits(
-            mesh.face_capacity(),
-            mesh.faces().filter(|&face| !mesh.is_face_hidden(face)).map(|face| face.index()),
-        ),
-    }
-}
-
-fn bits(capacity: usize, indices: impl Iterator<Item = u32>) -> FixedBitSet {
-    let mut bits = FixedBitSet::with_capacity(capacity);
-    indices.for_each(|index| bits.insert(index as usize));
-    bits
-}
-
-/// Selects other elements of each mesh that is edited.
-fn for_each_mesh(
-    change: &mut Change<'_>,
-    select: impl Fn(&EditMesh, ElementKind, &FixedBitSet) -> FixedBitSet,
-) -> Result<Outcome, EditError> {
-    let kind = change.selection().kind();
-    let ids: Vec<_> = change.selection().meshes().map(|(id, _)| id).collect();
-    let (selection, meshes) = change.selection_and_meshes();
-    for id in ids {
-        if let (Some(mesh), Some(selection)) = (meshes.get(&id), selection.of_mut(id)) {
-            let chosen = select(mesh, kind, selection.bits());
-            selection.set(chosen);
-        }
-    }
-    Ok(Outcome::silent())
 }

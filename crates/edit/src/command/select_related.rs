@@ -144,7 +144,7 @@ impl Action for SelectPath {
                 operation: "selecting a path",
                 reason: "both are in different parts of the mesh",
             })?;
-            path.into_iter().for_each(|element| selection.insert(element));
+            selection.insert(&path);
             found = true;
             Ok(())
         })?;

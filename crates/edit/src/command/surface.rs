@@ -43,6 +43,12 @@ impl Action for CatmullClark {
                 mesh.catmull_clark(self.levels)?;
                 Ok(mesh.face_count())
             })?;
+            let kind = change.selection().kind();
+            let selection = change.selection_mut().of_mut(id);
+            if let Some(selection) = selection.filter(|_| kind != ElementKind::Vertex) {
+                // All edges and faces are new ones, whatever their numbers.
+                selection.clear();
+            }
         }
         Ok(Outcome::counted("made", faces, ["face", "faces"]))
     }

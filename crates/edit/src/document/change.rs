@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use trigon_mesh::edit::{Difference, EdgeId, EditMesh, FaceId, Refusal, VertexId};
-use trigon_scene::{MeshId, Node, NodeId, Scene, SceneError, SceneParts};
+use trigon_scene::{MeshId, NodeId, Scene, SceneError, SceneParts};
 
 use super::Document;
 use crate::error::EditError;
@@ -57,7 +57,8 @@ impl Change<'_> {
     pub(crate) fn mesh(&mut self, id: MeshId) -> Option<&EditMesh> {
         if !self.document.file.edited.contains_key(&id) {
             let asset = self.document.file.scene.meshes().get(id)?;
-            let (mesh, _) = EditMesh::from_mesh(asset.mesh());
+            let (mesh, left_out) = EditMesh::from_mesh(asset.mesh());
+            self.document.untold.extend(left_out.warnings(&asset.name));
             self.document.file.edited.insert(id, mesh);
         }
         self.document.file.edited.get(&id)
@@ -77,6 +78,9 @@ impl Change<'_> {
         if !difference.is_empty() {
             self.meshes.push((id, difference));
             self.document.stale.insert(id);
+            if let Some(mesh) = self.document.file.edited.get(&id) {
+                self.document.selection.keep_selectable(id, mesh);
+            }
         }
         Ok(result)
     }
@@ -95,28 +99,19 @@ impl Change<'_> {
         Some(copy)
     }
 
-    /// Makes parts of meshes objects of their own, beside the objects that they come from: those that are
-    /// edited, in their order.
-    pub(crate) fn add_parts(&mut self, parts: Vec<EditMesh>) {
-        let owners: Vec<(NodeId, Node)> = self
-            .selection()
-            .meshes()
-            .filter_map(|(mesh, _)| self.scene().nodes().iter().find(|(_, node)| node.mesh == Some(mesh)))
-            .map(|(id, node)| (id, node.clone()))
-            .collect();
-        for (part, (_, owner)) in parts.into_iter().zip(owners) {
-            let (mesh, _) = part.to_mesh();
-            let mesh = self.document.file.scene.add_mesh(owner.name.clone(), mesh);
-            self.document.file.edited.insert(mesh, part);
-            self.document.stale.insert(mesh);
-            let parent = owner.parent();
-            let mut node = owner;
-            node.mesh = Some(mesh);
-            let scene = self.scene_mut();
-            match parent {
-                Some(parent) => drop(scene.add_child(parent, node)),
-                None => drop(scene.add(node)),
-            }
+    /// Makes a part of a mesh an object of its own, beside the first object that shows the mesh.
+    pub(crate) fn add_part(&mut self, of: MeshId, part: EditMesh) {
+        let owner = self.scene().nodes().iter().find(|(_, node)| node.mesh == Some(of));
+        let mut node = owner.map(|(_, node)| node.clone()).unwrap_or_default();
+        let (mesh, _) = part.to_mesh();
+        let mesh = self.document.file.scene.add_mesh(node.name.clone(), mesh);
+        self.document.file.edited.insert(mesh, part);
+        self.document.stale.insert(mesh);
+        node.mesh = Some(mesh);
+        let scene = self.scene_mut();
+        match node.parent() {
+            Some(parent) => drop(scene.add_child(parent, node)),
+            None => drop(scene.add(node)),
         }
     }
 
@@ -130,15 +125,33 @@ impl Change<'_> {
         meshes
     }
 
+    /// The mesh of these objects, or the only one that is edited if none is given.
+    pub(crate) fn only_edited_mesh(
+        &self,
+        objects: impl IntoIterator<Item = NodeId>,
+        command: &'static str,
+    ) -> Result<MeshId, EditError> {
+        let mut meshes = self.meshes_of(objects);
+        if meshes.is_empty() {
+            meshes = self.selection().meshes().map(|(mesh, _)| mesh).collect();
+        }
+        match meshes[..] {
+            [] => Err(EditError::NotEditing(command)),
+            [id] if self.selection().of(id).is_none() => Err(EditError::NotEditing(command)),
+            [id] => Ok(id),
+            _ => Err(EditError::NothingSelected { command, needed: "one object whose elements are meant" }),
+        }
+    }
+
     /// Changes each mesh that is edited and of which something is selected; the change is given what
     /// is selected, and tells what is to be selected afterwards. A mesh
-    /// that refuses is passed over if another does not.
+    /// that refuses is passed over if another does not. Tells which meshes were changed.
     pub(crate) fn edit_selected(
         &mut self,
         command: &'static str,
         needed: &'static str,
         mut operation: impl FnMut(&mut EditMesh, &MeshSelection) -> Result<AfterEdit, Refusal>,
-    ) -> Result<usize, EditError> {
+    ) -> Result<Vec<MeshId>, EditError> {
         if !self.selection().is_editing() {
             return Err(EditError::NotEditing(command));
         }
@@ -148,11 +161,11 @@ impl Change<'_> {
         };
         let meshes: Vec<_> = self.selection().meshes().filter_map(selected).collect();
         let mut refused = None;
-        let mut count = 0;
+        let mut changed = Vec::new();
         for (id, selection) in meshes {
             match self.edit(id, |mesh| operation(mesh, &selection).map_err(EditError::from)) {
                 Ok(result) => {
-                    count += 1;
+                    changed.push(id);
                     let (selections, meshes) = self.selection_and_meshes();
                     if let (Some(selection), Some(mesh)) = (selections.of_mut(id), meshes.get(&id)) {
                         match result {
@@ -165,10 +178,10 @@ impl Change<'_> {
                 Err(refusal) => refused = Some(refusal),
             }
         }
-        match (count, refused) {
-            (0, Some(refusal)) => Err(refusal),
-            (0, None) => Err(EditError::NothingSelected { command, needed }),
-            _ => Ok(count),
+        match refused {
+            Some(refusal) if changed.is_empty() => Err(refusal),
+            None if changed.is_empty() => Err(EditError::NothingSelected { command, needed }),
+            _ => Ok(changed),
         }
     }
 
@@ -178,7 +191,7 @@ impl Change<'_> {
         command: &'static str,
         needed: &'static str,
         mut operation: impl FnMut(&mut EditMesh, &[VertexId]) -> Result<(), Refusal>,
-    ) -> Result<usize, EditError> {
+    ) -> Result<Vec<MeshId>, EditError> {
         let kind = self.selection().kind();
         self.edit_selected(command, needed, |mesh, selection| {
             operation(mesh, &selection.vertices(mesh, kind))?;
@@ -192,7 +205,7 @@ impl Change<'_> {
         command: &'static str,
         needed: &'static str,
         mut operation: impl FnMut(&mut EditMesh, &[EdgeId]) -> Result<(), Refusal>,
-    ) -> Result<usize, EditError> {
+    ) -> Result<Vec<MeshId>, EditError> {
         let kind = self.selection().kind();
         self.edit_selected(command, needed, |mesh, selection| {
             operation(mesh, &selection.edges(mesh, kind))?;
@@ -206,7 +219,7 @@ impl Change<'_> {
         command: &'static str,
         needed: &'static str,
         mut operation: impl FnMut(&mut EditMesh, &[FaceId]) -> Result<(), Refusal>,
-    ) -> Result<usize, EditError> {
+    ) -> Result<Vec<MeshId>, EditError> {
         let kind = self.selection().kind();
         self.edit_selected(command, needed, |mesh, selection| {
             operation(mesh, &selection.faces(mesh, kind))?;

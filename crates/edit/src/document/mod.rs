@@ -47,6 +47,8 @@ pub struct Document {
     stale: BTreeSet<MeshId>,
     /// Which elements the scene's meshes show.
     shown: BTreeMap<MeshId, ElementMap>,
+    /// What was left out of meshes when they were made editable and no outcome has told yet.
+    untold: Vec<String>,
     /// What was done since the last time that somebody asked; `None` until somebody asks.
     events: Option<Vec<Event>>,
 }
@@ -155,7 +157,8 @@ impl Document {
         let Change { meshes, parts, .. } = change;
         let mut entry = Entry { command, meshes, parts, selection };
         match result {
-            Ok(outcome) => {
+            Ok(mut outcome) => {
+                outcome.warnings.append(&mut self.untold);
                 self.note(|| Event::Run(Box::new(entry.command.clone())));
                 self.history.push(entry);
                 Ok(outcome)

@@ -2,8 +2,7 @@
 
 use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
 
-use super::grow::bits;
-use super::{ElementKind, Elements, MeshSelection};
+use super::{ElementKind, Elements, MeshSelection, bits};
 
 impl MeshSelection {
     /// The selected vertices that exist and are not hidden, increasing. It takes time
@@ -84,8 +83,8 @@ impl MeshSelection {
         self.select(mesh, to, &elements);
     }
 
-    /// Selects elements and no others. Those of another kind than the selection's are
-    /// represented by what they consist of, or by what consists of them alone.
+    /// Selects elements and no others, as far as they are not hidden. Those of another kind than the
+    /// selection's are represented by what they consist of, or by what consists of them alone.
     pub fn select(&mut self, mesh: &EditMesh, kind: ElementKind, elements: &Elements) {
         let own = match elements {
             Elements::Vertices(vertices) => bits(mesh.vertex_capacity(), vertices.iter().map(|v| v.index())),
@@ -98,6 +97,7 @@ impl MeshSelection {
             Elements::Faces(_) => ElementKind::Face,
         };
         self.set(own);
+        self.retain(|index| given.is_selectable(mesh, index));
         if given != kind {
             self.convert(mesh, given, kind);
         }

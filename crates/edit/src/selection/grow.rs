@@ -3,7 +3,7 @@
 use fixedbitset::FixedBitSet;
 use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
 
-use super::{ElementKind, MeshSelection};
+use super::{ElementKind, MeshSelection, bits};
 
 impl MeshSelection {
     /// Selects all that hangs together with what is selected, by edges.
@@ -99,10 +99,4 @@ impl MeshSelection {
 fn around(mesh: &EditMesh, vertex: VertexId) -> impl Iterator<Item = VertexId> + '_ {
     let by_faces = mesh.vertex_faces(vertex).flat_map(|face| mesh.face_vertices(face));
     by_faces.chain(mesh.vertex_neighbors(vertex))
-}
-
-pub(super) fn bits(capacity: usize, indices: impl Iterator<Item = u32>) -> FixedBitSet {
-    let mut bits = FixedBitSet::with_capacity(capacity);
-    indices.for_each(|index| bits.insert(index as usize));
-    bits
 }

@@ -12,6 +12,7 @@ use fixedbitset::FixedBitSet;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
+use trigon_mesh::math::DVec3;
 use trigon_scene::{MeshId, NodeId};
 
 pub use loops::{edge_loop, edge_ring, face_loop};
@@ -44,7 +45,8 @@ pub struct Selection {
     elements: BTreeMap<MeshId, MeshSelection>,
 }
 
-/// The selected elements of one mesh, of the kind that its [`Selection`] tells.
+/// The selected elements of one mesh, of the kind that its [`Selection`] tells. In a document all of
+/// them exist and none is hidden.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MeshSelection {
     bits: FixedBitSet,
@@ -79,6 +81,15 @@ impl Selection {
     #[must_use]
     pub fn is_editing(&self) -> bool {
         !self.elements.is_empty()
+    }
+
+    /// Selects elements of a mesh no more that do not exist any more, or are hidden. Their numbers may be
+    /// given to other elements later, which nobody selected.
+    pub(crate) fn keep_selectable(&mut self, id: MeshId, mesh: &EditMesh) {
+        let kind = self.kind;
+        if let Some(selection) = self.elements.get_mut(&id) {
+            selection.retain(|index| kind.is_selectable(mesh, index));
+        }
     }
 
     /// Starts to select elements of a mesh, or goes on to.
@@ -116,8 +127,7 @@ impl MeshSelection {
         self.bits.contains(index as usize)
     }
 
-    /// The indices of selected elements, increasing. Some may have been removed from the mesh by
-    /// now.
+    /// The indices of selected elements, increasing.
     pub fn indices(&self) -> impl Iterator<Item = u32> + '_ {
         self.bits.ones().map(|index| index as u32)
     }
@@ -140,19 +150,36 @@ impl MeshSelection {
         &self.order
     }
 
-    /// Selects one more element.
-    pub fn insert(&mut self, index: u32) {
-        self.bits.grow(index as usize + 1);
-        self.bits.insert(index as usize);
-        self.order.retain(|&other| other != index);
-        self.order.push(index);
+    /// Selects more elements one by one.
+    pub fn insert(&mut self, indices: &[u32]) {
+        self.forget_order(indices);
+        for &index in indices {
+            self.bits.grow(index as usize + 1);
+            if !self.bits.put(index as usize) {
+                self.order.push(index);
+            }
+        }
     }
 
-    /// Selects an element no more.
-    pub fn remove(&mut self, index: u32) {
-        if self.contains(index) {
-            self.bits.remove(index as usize);
-            self.order.retain(|&other| other != index);
+    /// Selects elements no more.
+    pub fn remove(&mut self, indices: &[u32]) {
+        self.forget_order(indices);
+    }
+
+    /// Takes elements out of the bits and out of the order.
+    fn forget_order(&mut self, indices: &[u32]) {
+        let length = self.bits.len();
+        for index in indices.iter().map(|&index| index as usize).filter(|&index| index < length) {
+            self.bits.remove(index);
+        }
+        self.order.retain(|&index| self.bits.contains(index as usize));
+    }
+
+    /// Keeps only the selected elements that `stays` is true for.
+    fn retain(&mut self, stays: impl Fn(u32) -> bool) {
+        let gone: Vec<u32> = self.indices().filter(|&index| !stays(index)).collect();
+        if !gone.is_empty() {
+            self.remove(&gone);
         }
     }
 
@@ -173,6 +200,59 @@ impl MeshSelection {
     pub fn bits(&self) -> &FixedBitSet {
         &self.bits
     }
+}
+
+impl ElementKind {
+    /// Whether a mesh has an element of this kind and index that is not hidden.
+    pub(crate) fn is_selectable(self, mesh: &EditMesh, index: u32) -> bool {
+        let (vertex, edge, face) = (VertexId::new(index), EdgeId::new(index), FaceId::new(index));
+        match self {
+            Self::Vertex => mesh.has_vertex(vertex) && !mesh.is_vertex_hidden(vertex),
+            Self::Edge => mesh.has_edge(edge) && !mesh.is_edge_hidden(edge),
+            Self::Face => mesh.has_face(face) && !mesh.is_face_hidden(face),
+        }
+    }
+
+    /// The mean of the positions of an element's vertices. The element has to exist.
+    pub(crate) fn middle_of(self, mesh: &EditMesh, index: u32) -> DVec3 {
+        let mean = |vertices: &mut dyn Iterator<Item = VertexId>| {
+            let (sum, count) = vertices.fold((DVec3::ZERO, 0u32), |(sum, count), vertex| {
+                (sum + mesh.position(vertex).as_dvec3(), count + 1)
+            });
+            sum / f64::from(count)
+        };
+        match self {
+            Self::Vertex => mesh.position(VertexId::new(index)).as_dvec3(),
+            Self::Edge => mean(&mut mesh.edge_vertices(EdgeId::new(index)).into_iter()),
+            Self::Face => mean(&mut mesh.face_vertices(FaceId::new(index))),
+        }
+    }
+
+    /// The elements of this kind that are not hidden, as bits by index.
+    pub(crate) fn visible(self, mesh: &EditMesh) -> FixedBitSet {
+        let all: Box<dyn Iterator<Item = u32>> = match self {
+            Self::Vertex => Box::new(mesh.vertices().map(VertexId::index)),
+            Self::Edge => Box::new(mesh.edges().map(EdgeId::index)),
+            Self::Face => Box::new(mesh.faces().map(FaceId::index)),
+        };
+        bits(self.capacity(mesh), all.filter(|&index| self.is_selectable(mesh, index)))
+    }
+
+    /// How many indices elements of this kind may have.
+    pub(crate) fn capacity(self, mesh: &EditMesh) -> usize {
+        match self {
+            Self::Vertex => mesh.vertex_capacity(),
+            Self::Edge => mesh.edge_capacity(),
+            Self::Face => mesh.face_capacity(),
+        }
+    }
+}
+
+/// Elements as bits by index.
+fn bits(capacity: usize, indices: impl Iterator<Item = u32>) -> FixedBitSet {
+    let mut bits = FixedBitSet::with_capacity(capacity);
+    indices.for_each(|index| bits.insert(index as usize));
+    bits
 }
 
 /// A set of elements of one mesh of any kind: what an operation made.

@@ -4,21 +4,16 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
-use trigon_mesh::math::DVec3;
 
 use super::ElementKind;
 
 /// The elements on the shortest path between two, both included, in order; `None` where none leads
 /// there. Vertices are joined by edges, and lengths are those of edges; edges and faces are joined by
 /// common vertices and common edges, and lengths are those between their middles. Of several
-/// shortest paths the one with the smaller indices is taken.
+/// shortest paths the one with the smaller indices is taken. Both elements have to exist.
 #[must_use]
 pub fn shortest_path(mesh: &EditMesh, kind: ElementKind, from: u32, to: u32) -> Option<Vec<u32>> {
-    let capacity = match kind {
-        ElementKind::Vertex => mesh.vertex_capacity(),
-        ElementKind::Edge => mesh.edge_capacity(),
-        ElementKind::Face => mesh.face_capacity(),
-    };
+    let capacity = kind.capacity(mesh);
     let mut search = Search { before: vec![u32::MAX; capacity], lengths: vec![f64::INFINITY; capacity] };
     search.run(mesh, kind, from, to)
 }
@@ -60,13 +55,14 @@ impl Search {
                 continue;
             }
             neighbors_of(mesh, kind, here, &mut neighbors);
-            let middle = middle_of(mesh, kind, here);
+            let middle = kind.middle_of(mesh, here);
             for &next in &neighbors {
-                let step = (middle_of(mesh, kind, next) - middle).length();
+                let step = (kind.middle_of(mesh, next) - middle).length();
                 // A place that is not finite is as far away as can be.
                 let sum = if step.is_finite() { length + step } else { f64::MAX };
                 let known = &mut self.lengths[next as usize];
-                let is_equal_but_smaller = sum == *known && here < self.before[next as usize];
+                // Only along steps that lead on: others could make the way back a circle.
+                let is_equal_but_smaller = sum == *known && length < sum && here < self.before[next as usize];
                 if sum < *known {
                     *known = sum;
                     self.before[next as usize] = here;
@@ -111,20 +107,6 @@ fn neighbors_of(mesh: &EditMesh, kind: ElementKind, index: u32, neighbors: &mut 
     neighbors.retain(|&other| other != index);
 }
 
-fn middle_of(mesh: &EditMesh, kind: ElementKind, index: u32) -> DVec3 {
-    let mean = |vertices: &mut dyn Iterator<Item = VertexId>| {
-        let (sum, count) = vertices.fold((DVec3::ZERO, 0u32), |(sum, count), vertex| {
-            (sum + mesh.position(vertex).as_dvec3(), count + 1)
-        });
-        sum / f64::from(count)
-    };
-    match kind {
-        ElementKind::Vertex => mesh.position(VertexId::new(index)).as_dvec3(),
-        ElementKind::Edge => mean(&mut mesh.edge_vertices(EdgeId::new(index)).into_iter()),
-        ElementKind::Face => mean(&mut mesh.face_vertices(FaceId::new(index))),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -149,6 +131,20 @@ mod tests {
         let faces = shortest_path(&grid, ElementKind::Face, 0, 11).expect("connected");
         assert_eq!(faces.len(), 6, "two to the side and three along, and the first");
         assert_eq!(shortest_path(&grid, ElementKind::Edge, 3, 3), Some(vec![3]), "to itself");
+    }
+
+    #[test]
+    fn vertices_at_one_place_do_not_make_a_path_a_circle() {
+        let mut mesh = EditMesh::new();
+        // The last two are at one place, and the first of them is joined to both others.
+        let places = [0.0, 3.0, 1.0, 3.0].map(|x| trigon_mesh::math::Vec3::new(x, 0.0, 0.0));
+        let vertices = places.map(|place| mesh.add_vertex(place).expect("room"));
+        let [start, low, middle, high] = vertices;
+        for [a, b] in [[start, middle], [middle, high], [high, low]] {
+            mesh.add_edge(a, b).expect("room");
+        }
+        let way = shortest_path(&mesh, ElementKind::Vertex, start.index(), low.index());
+        assert_eq!(way, Some([start, middle, high, low].map(VertexId::index).to_vec()));
     }
 
     #[test]

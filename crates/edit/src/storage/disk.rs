@@ -2,7 +2,7 @@
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::Storage;
 
@@ -17,6 +17,26 @@ impl Storage for Disk {
 
     fn exists(&self, path: &Path) -> bool {
         path.exists()
+    }
+
+    fn resolve(&self, path: &Path) -> PathBuf {
+        /// As many links as Linux follows.
+        const MOST_LINKS: usize = 40;
+        let mut path = path.to_owned();
+        for _ in 0..MOST_LINKS {
+            // A link may lead to where no file is yet.
+            let Ok(target) = fs::read_link(&path) else { break };
+            path = path.parent().map_or_else(|| target.clone(), |folder| folder.join(&target));
+        }
+        path
+    }
+
+    fn keep_permissions(&mut self, old: &Path, new: &Path) -> io::Result<()> {
+        let permissions = fs::metadata(old)?.permissions();
+        if permissions.readonly() {
+            return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is read-only"));
+        }
+        fs::set_permissions(new, permissions)
     }
 
     fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()> {

@@ -7,7 +7,7 @@ pub(crate) mod failing;
 mod save;
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub use disk::Disk;
 pub(crate) use save::replace;
@@ -24,6 +24,21 @@ pub trait Storage {
 
     /// Whether there is such a file.
     fn exists(&self, path: &Path) -> bool;
+
+    /// Where a path leads in the end: to itself where there are no symbolic links.
+    fn resolve(&self, path: &Path) -> PathBuf {
+        path.to_owned()
+    }
+
+    /// Gives a new file the permissions of the one that it is to replace. Does nothing where files have
+    /// none.
+    ///
+    /// # Errors
+    /// The old file is not to be written ([`io::ErrorKind::PermissionDenied`]), or what the system says.
+    fn keep_permissions(&mut self, old: &Path, new: &Path) -> io::Result<()> {
+        let _ = (old, new);
+        Ok(())
+    }
 
     /// Writes a file; what it held before is gone.
     ///

@@ -28,7 +28,8 @@ pub fn backup_path(path: &Path) -> PathBuf {
 }
 
 /// Saves a file: writes and syncs a new one beside it, keeps the old one as a backup, gives the new one
-/// the name, and syncs the folder. A symbolic link is followed: its target is replaced.
+/// the name, and syncs the folder. A symbolic link is followed: its target is replaced. The new file has
+/// the permissions of the old one; one that is read-only is not replaced.
 /// Wherever this is interrupted, the path leads to the old or to the new contents, whole; what is left
 /// over beside it ends in `.part`.
 ///
@@ -49,9 +50,12 @@ pub fn backup_path(path: &Path) -> PathBuf {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn save(storage: &mut dyn Storage, path: &Path, bytes: &[u8]) -> Result<(), SaveError> {
-    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let target = storage.resolve(path);
     let new = write_new(storage, &target, bytes)?;
     if storage.exists(&target) {
+        let kept = storage.keep_permissions(&target, &new);
+        remove_on_failure(storage, &new, kept)
+            .map_err(failed(path, "taking over the old file's permissions"))?;
         keep_backup(storage, &target).map_err(failed(path, "keeping the old file as a backup"))?;
     }
     give_name(storage, &new, &target)
@@ -71,12 +75,13 @@ fn failed(path: &Path, step: &'static str) -> impl FnOnce(io::Error) -> SaveErro
 fn write_new(storage: &mut dyn Storage, path: &Path, bytes: &[u8]) -> Result<PathBuf, SaveError> {
     let new = part_path(path, "new");
     let written = storage.write(&new, bytes).and_then(|()| storage.sync(&new));
-    if let Err(source) = written {
-        // What was written of it is of no use; if it cannot be removed either, it does no harm.
-        drop(storage.remove(&new));
-        return Err(failed(path, "writing the new file")(source));
-    }
+    remove_on_failure(storage, &new, written).map_err(failed(path, "writing the new file"))?;
     Ok(new)
+}
+
+/// Removes a new file that a step failed for. If it cannot be removed either, it does no harm.
+fn remove_on_failure(storage: &mut dyn Storage, new: &Path, step: io::Result<()>) -> io::Result<()> {
+    step.inspect_err(|_| drop(storage.remove(new)))
 }
 
 fn give_name(storage: &mut dyn Storage, new: &Path, path: &Path) -> Result<(), SaveError> {
@@ -118,6 +123,7 @@ fn folder_of(path: &Path) -> &Path {
 mod tests {
     use proptest::prelude::*;
 
+    use super::super::Disk;
     use super::super::failing::{FailingDisk, crashes};
     use super::*;
 
@@ -185,6 +191,30 @@ mod tests {
             }
         }
         assert!(failures >= 5, "{failures} steps can fail");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn permissions_stay_and_read_only_files_are_not_replaced() {
+        use std::fs::{self, Permissions};
+        use std::os::unix::fs::{PermissionsExt, symlink};
+
+        let folder = std::env::temp_dir().join(format!("trigon-permissions-{}", std::process::id()));
+        fs::create_dir_all(&folder).expect("a folder");
+        let (path, link) = (folder.join("chair.glb"), folder.join("link.glb"));
+        symlink("chair.glb", &link).expect("a link");
+        save(&mut Disk, &link, b"first").expect("a link may lead to where no file is yet");
+        fs::set_permissions(&path, Permissions::from_mode(0o640)).expect("it exists");
+        save(&mut Disk, &link, b"second").expect("through the link");
+        assert_eq!(fs::read(&path).expect("saved"), b"second");
+        assert!(fs::symlink_metadata(&link).expect("there").is_symlink(), "the link stays one");
+        assert_eq!(fs::metadata(&path).expect("saved").permissions().mode() & 0o777, 0o640);
+        fs::set_permissions(&path, Permissions::from_mode(0o440)).expect("it exists");
+        let refused = save(&mut Disk, &path, b"third").expect_err("it is read-only");
+        assert_eq!(refused.source.kind(), io::ErrorKind::PermissionDenied);
+        assert_eq!(fs::read(&path).expect("still there"), b"second");
+        assert_eq!(fs::read_dir(&folder).expect("there").count(), 3, "no new file is left over");
+        fs::remove_dir_all(&folder).expect("ours");
     }
 
     proptest! {

@@ -1,0 +1,36 @@
+//! A loop of edges is filled with a grid of quads.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trigon_mesh::edit::GridSides;
+
+use super::{Action, Outcome};
+use crate::document::{AfterEdit, Change};
+use crate::error::EditError;
+use crate::selection::Elements;
+
+/// Fills the selected loop of an even number of edges with a grid of quads.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct GridFill {
+    /// How many edges the first side of the grid has: 1 to half of all less 1. As square as can be if it is
+    /// not given.
+    #[schemars(range(min = 1))]
+    pub span: Option<u32>,
+    /// By how many edges the first corner is shifted along the loop.
+    pub offset: u32,
+}
+
+impl Action for GridFill {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let kind = change.selection().kind();
+        let sides = GridSides { span: self.span.map(|span| span as usize), offset: self.offset as usize };
+        let mut count = 0;
+        change.edit_selected("filling with a grid", "one loop of edges", |mesh, selection| {
+            let made = mesh.grid_fill(&selection.edges(mesh, kind), sides)?;
+            count += made.faces.len();
+            Ok(AfterEdit::Select(Elements::Faces(made.faces)))
+        })?;
+        Ok(Outcome::counted("made", count, ["face", "faces"]))
+    }
+}
