@@ -121,6 +121,85 @@ proptest! {
     }
 }
 
+/// What is not seen in [`state`]: the history and the events.
+fn record(document: &mut Document, events: &mut Vec<Event>) -> (Vec<Command>, usize, Vec<Event>) {
+    events.extend(document.take_events());
+    (document.script(), document.history().undone().len(), events.clone())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// Against documents that only ever ran whole commands.
+    #[test]
+    fn previews_leave_no_trace_until_they_are_confirmed(
+        start in prop::collection::vec(any_command(), 0..8),
+        previews in prop::collection::vec(any_command(), 1..12),
+        confirms in any::<bool>(),
+    ) {
+        let mut document = document();
+        let mut events = document.take_events();
+        run_all(&mut document, &[json!({ "op": "edit_objects", "objects": [0, 1] })]);
+        for json in start {
+            drop(document.run(command(json)));
+        }
+        let (first, first_record) = (state(&document), record(&mut document, &mut events));
+        let script = document.script();
+        let mut last = None;
+        for json in previews {
+            let tried = document.preview(command(json.clone()));
+            let mut other = self::document();
+            script.iter().for_each(|command| drop(other.run(command.clone())));
+            match (tried, other.run(command(json.clone()))) {
+                (Ok(outcome), Ok(expected)) => {
+                    prop_assert_eq!(outcome, expected);
+                    last = Some((command(json), other));
+                }
+                (Err(refusal), Err(expected)) => prop_assert_eq!(refusal, expected),
+                (tried, expected) => prop_assert!(false, "{json}: {tried:?}, not {expected:?}"),
+            }
+            let expected = last.as_ref().map_or_else(|| first.clone(), |(_, other)| state(other));
+            prop_assert!(state(&document) == expected, "as if it were the only one");
+            prop_assert_eq!(document.previewed(), last.as_ref().map(|(command, _)| command));
+            prop_assert_eq!(record(&mut document, &mut events), first_record.clone());
+        }
+        if confirms && let Some((command, other)) = last {
+            prop_assert!(document.confirm() && !document.confirm(), "once");
+            prop_assert!(state(&document) == state(&other), "it stays");
+            prop_assert_eq!(document.script(), other.script());
+            prop_assert_eq!(document.take_events(), vec![Event::Run(Box::new(command))]);
+            document.undo().expect("one entry");
+        } else {
+            document.cancel();
+            prop_assert_eq!(record(&mut document, &mut events), first_record);
+            prop_assert!(!document.cancel(), "there is none left");
+        }
+        prop_assert!(state(&document) == first, "the first bytes");
+    }
+}
+
+#[test]
+fn what_changes_a_document_confirms_its_preview_first() {
+    let add = || command(json!({ "op": "add_light", "light": "spot" }));
+    let mut document = document();
+    let objects = |document: &Document| document.nodes().nodes().len();
+    document.preview(add()).expect("a light");
+    document.run(add()).expect("another");
+    assert_eq!((objects(&document), document.history().done().len()), (4, 2), "both are done");
+    document.preview(add()).expect("a third");
+    document.undo().expect("the preview");
+    assert_eq!((objects(&document), document.history().undone().len()), (4, 1), "it can be done again");
+    document.redo().expect("it");
+    document.preview(add()).expect("a fourth");
+    assert_eq!(document.redo(), Err(EditError::Nothing("do again")), "after something else was done");
+    assert_eq!((objects(&document), document.history().done().len()), (6, 4), "but the fourth stays");
+    document.preview(add()).expect("a fifth");
+    document.repeat_last().expect("a sixth");
+    document.preview(add()).expect("a seventh");
+    document.adjust_last(add()).expect("the seventh");
+    assert_eq!((objects(&document), document.history().done().len()), (9, 7), "seven lights");
+}
+
 #[test]
 fn the_last_command_is_adjusted_in_place() {
     let mut document = document();

@@ -18,6 +18,7 @@ mod normals;
 mod objects;
 mod outcome;
 mod parts;
+mod place;
 mod reference;
 mod repair;
 mod scene;
@@ -25,6 +26,7 @@ mod select;
 mod select_property;
 mod select_related;
 mod select_within;
+mod space;
 mod surface;
 mod transform;
 mod uvs;
@@ -48,6 +50,7 @@ pub use normals::{FlipNormals, RecalculateNormals};
 pub use objects::ObjectName;
 pub use outcome::Outcome;
 pub use parts::{Duplicate, JoinObjects, Separate, SplitOff};
+pub use place::{Rotate, Scale, Translate};
 pub use reference::command_reference;
 pub use repair::Repair;
 pub use scene::{
@@ -59,10 +62,10 @@ pub use select_property::{
 };
 pub use select_related::{SelectLess, SelectLinked, SelectLoop, SelectMore, SelectPath, SelectRing};
 pub use select_within::SelectWithin;
+pub use space::TransformSpace;
 pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, Triangulate, TrisToQuads};
 pub use transform::{
-    Proportional, ProportionalShape, PushPull, ResetVertices, Rotate, Scale, Shear, ShrinkFatten, ToSphere,
-    Translate,
+    Proportional, ProportionalShape, PushPull, ResetVertices, Shear, ShrinkFatten, ToSphere,
 };
 pub use uvs::{ProjectUvs, ProjectUvsOnBox};
 

@@ -27,6 +27,10 @@ pub(crate) enum AfterEdit {
 }
 
 impl Change<'_> {
+    pub(crate) fn document(&self) -> &Document {
+        self.document
+    }
+
     pub(crate) fn scene(&self) -> &Scene {
         &self.document.file.scene
     }
@@ -139,6 +143,16 @@ impl Change<'_> {
         needed: &'static str,
         mut operation: impl FnMut(&mut EditMesh, &MeshSelection) -> Result<AfterEdit, Refusal>,
     ) -> Result<usize, EditError> {
+        self.edit_selected_meshes(command, needed, |_, mesh, selection| operation(mesh, selection))
+    }
+
+    /// The same for a change that has to know which mesh it is.
+    pub(crate) fn edit_selected_meshes(
+        &mut self,
+        command: &'static str,
+        needed: &'static str,
+        mut operation: impl FnMut(MeshId, &mut EditMesh, &MeshSelection) -> Result<AfterEdit, Refusal>,
+    ) -> Result<usize, EditError> {
         if !self.selection().is_editing() {
             return Err(EditError::NotEditing(command));
         }
@@ -150,7 +164,7 @@ impl Change<'_> {
         let mut refused = None;
         let mut count = 0;
         for (id, selection) in meshes {
-            match self.edit(id, |mesh| operation(mesh, &selection).map_err(EditError::from)) {
+            match self.edit(id, |mesh| operation(id, mesh, &selection).map_err(EditError::from)) {
                 Ok(result) => {
                     count += 1;
                     let (selections, meshes) = self.selection_and_meshes();
