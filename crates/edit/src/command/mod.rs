@@ -38,7 +38,7 @@ use crate::document::Change;
 use crate::error::EditError;
 
 pub use bevel::Bevel;
-pub use cut::{LoopCut, SlideEdges, Subdivide};
+pub use cut::{LoopCut, SlideEdges, SlideVertices, Subdivide, edge_towards};
 pub use delete::{Delete, DeleteObjects, Deleted};
 pub use dissolve::{Dissolve, DissolveFlat};
 pub use extrude::{Extrude, Inset, InsetMode};
@@ -213,6 +213,8 @@ commands! {
     LoopCut("Loop Cut", false),
     /// Slides loops of edges.
     SlideEdges("Slide Edges", false),
+    /// Slides vertices along their edges.
+    SlideVertices("Slide Vertices", false),
     /// Merges the selected vertices.
     Merge("Merge", false),
     /// Marks edges sharp.
