@@ -6,7 +6,7 @@
 mod arguments;
 mod run;
 #[cfg(feature = "window")]
-#[allow(dead_code, unused_imports, reason = "the window that starts the tools is merged after them")]
+#[expect(dead_code, unused_imports, reason = "the window that starts the tools is merged after them")]
 mod tool;
 
 use std::process::ExitCode;

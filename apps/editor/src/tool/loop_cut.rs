@@ -82,8 +82,9 @@ impl LoopCutTool {
             }
             return ToolState::Running;
         };
-        // The whole way from end to end is from −1 to 1.
-        let dragged = 2.0 * self.modal.pointer.way().dot(way) / way.length_squared();
+        // One cut has half of the edge on either side, two have a third, and so on.
+        let share = f64::from(self.cuts + 1);
+        let dragged = share * self.modal.pointer.way().dot(way) / way.length_squared();
         let dragged = if dragged.is_finite() { dragged } else { 0.0 };
         let snaps = self.modal.inverts_snapping();
         let dragged = if snaps { rounded(dragged, self.snap_step) } else { dragged };

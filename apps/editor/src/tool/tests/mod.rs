@@ -94,6 +94,7 @@ impl Session {
                 '<' => Key::Backspace,
                 '!' => Key::Enter,
                 '?' => Key::Escape,
+                ' ' => Key::Space,
                 character => Key::Character(character.to_ascii_lowercase()),
             };
             let held = self.hands.modifiers;

@@ -18,7 +18,7 @@ fn turns_are_about_the_line_of_sight_or_the_locked_axis() {
         let mut session = Session::editing("cube", "vertex", &[]);
         let before = session.positions();
         let mut tool = session.transform(TransformKind::Rotate, settings());
-        session.keys(&mut tool, &keys.replace(' ', ""));
+        session.keys(&mut tool, keys);
         session.moved(&before, expected);
     }
 }
