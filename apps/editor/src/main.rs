@@ -5,6 +5,9 @@
 
 mod arguments;
 mod run;
+#[cfg(feature = "window")]
+#[expect(dead_code, unused_imports, reason = "the window that starts the tools is merged after them")]
+mod tool;
 
 use std::process::ExitCode;
 

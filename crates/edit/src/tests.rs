@@ -1,9 +1,10 @@
 //! Random commands on documents: what is undone is undone to the same bytes.
 
+mod parts;
+
 use proptest::prelude::*;
 use serde_json::json;
 use trigon_mesh::edit::EditMesh;
-use trigon_mesh::math::DVec3;
 use trigon_mesh::primitives;
 use trigon_scene::{Material, Scene};
 
@@ -133,6 +134,82 @@ proptest! {
     }
 }
 
+/// What is not seen in [`state`]: the history and the events.
+fn record(document: &mut Document, events: &mut Vec<Event>) -> (Vec<Command>, usize, Vec<Event>) {
+    events.extend(document.take_events());
+    (document.script(), document.history().undone().len(), events.clone())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// Against a document in which each of them is run and undone.
+    #[test]
+    fn previews_leave_no_trace_until_they_are_confirmed(
+        start in prop::collection::vec(any_command(), 0..8),
+        previews in prop::collection::vec(any_command(), 1..12),
+        confirms in any::<bool>(),
+    ) {
+        let (mut document, mut other) = (document(), document());
+        let mut events = document.take_events();
+        let edit = json!({ "op": "edit_objects", "objects": [0, 1] });
+        for json in std::iter::once(edit).chain(start) {
+            drop((document.run(command(json.clone())), other.run(command(json))));
+        }
+        let (first, first_record) = (state(&document), record(&mut document, &mut events));
+        let mut last = None;
+        for json in previews {
+            match (document.preview(command(json.clone())), other.run(command(json.clone()))) {
+                (Ok(outcome), Ok(expected)) => {
+                    prop_assert_eq!(outcome, expected);
+                    last = Some((command(json), state(&other)));
+                    other.undo().expect("it was just run");
+                }
+                (Err(refusal), Err(expected)) => prop_assert_eq!(refusal, expected),
+                (tried, expected) => prop_assert!(false, "{json}: {tried:?}, not {expected:?}"),
+            }
+            let expected = last.as_ref().map_or(&first, |(_, state)| state);
+            prop_assert!(state(&document) == *expected, "as if it were the only one");
+            prop_assert_eq!(document.previewed(), last.as_ref().map(|(command, _)| command));
+            prop_assert_eq!(record(&mut document, &mut events), first_record.clone());
+        }
+        if confirms && let Some((command, expected)) = last {
+            prop_assert!(document.confirm() && !document.confirm(), "once");
+            prop_assert!(state(&document) == expected, "it stays");
+            prop_assert_eq!(document.script().pop(), Some(command.clone()));
+            prop_assert_eq!(document.take_events(), vec![Event::Run(Box::new(command))]);
+            document.undo().expect("one entry");
+        } else {
+            document.cancel();
+            prop_assert_eq!(record(&mut document, &mut events), first_record);
+            prop_assert!(!document.cancel(), "there is none left");
+        }
+        prop_assert!(state(&document) == first, "the first bytes");
+    }
+}
+
+#[test]
+fn what_changes_a_document_confirms_its_preview_first() {
+    let add = || command(json!({ "op": "add_light", "light": "spot" }));
+    let mut document = document();
+    let objects = |document: &Document| document.nodes().nodes().len();
+    document.preview(add()).expect("a light");
+    document.run(add()).expect("another");
+    assert_eq!((objects(&document), document.history().done().len()), (4, 2), "both are done");
+    document.preview(add()).expect("a third");
+    document.undo().expect("the preview");
+    assert_eq!((objects(&document), document.history().undone().len()), (4, 1), "it can be done again");
+    document.redo().expect("it");
+    document.preview(add()).expect("a fourth");
+    assert_eq!(document.redo(), Err(EditError::Nothing("do again")), "after something else was done");
+    assert_eq!((objects(&document), document.history().done().len()), (6, 4), "but the fourth stays");
+    document.preview(add()).expect("a fifth");
+    document.repeat_last().expect("a sixth");
+    document.preview(add()).expect("a seventh");
+    document.adjust_last(add()).expect("the seventh");
+    assert_eq!((objects(&document), document.history().done().len()), (9, 7), "seven lights");
+}
+
 #[test]
 fn the_last_command_is_adjusted_in_place() {
     let mut document = document();
@@ -195,135 +272,161 @@ fn a_parameter_that_does_not_exist_is_refused() {
     assert!(Script::from_json(r#"{ "version": 2, "commands": [] }"#).is_err(), "a later version");
 }
 
-/// A document with cubes of these names at different places, and their nodes.
-fn cubes<const COUNT: usize>(names: [&str; COUNT]) -> (Scene, [trigon_scene::NodeId; COUNT]) {
+/// An object that is turned by a quarter about y, twice as wide along its own x, and 10 m off.
+fn placed_document() -> Document {
+    use trigon_mesh::math::{DQuat, DVec3};
     let mut scene = Scene::new();
-    let mut place = 0.0;
-    let nodes = names.map(|name| {
-        let node = scene.add_object(name, primitives::cube(1.0), Material::default());
-        place += 3.0;
-        let transform = &mut scene.node_mut(node).expect("just added").transform;
-        transform.set_translation(DVec3::new(place, 0.0, 0.0));
-        node
-    });
-    (scene, nodes)
+    let object = scene.add_object("cube", primitives::cube(2.0), Material::default());
+    let quarter =
+        DQuat::from_xyzw(0.0, std::f64::consts::FRAC_1_SQRT_2, 0.0, std::f64::consts::FRAC_1_SQRT_2);
+    let (scale, place) = (DVec3::new(2.0, 1.0, 1.0), DVec3::X * 10.0);
+    let placement = trigon_scene::Transform::from_scale_rotation_translation(scale, quarter, place);
+    scene.node_mut(object).expect("it was just added").transform = placement;
+    Document::new(scene)
+}
+
+/// The vertices of the only mesh in the world.
+fn world_points(document: &Document) -> Vec<trigon_mesh::math::DVec3> {
+    let (id, _) = document.selection().meshes().next().expect("it is edited");
+    let (mesh, to_world) = (document.mesh(id).expect("it is edited"), document.mesh_transform(id));
+    mesh.vertices().map(|vertex| to_world.transform_point3(mesh.position(vertex).as_dvec3())).collect()
 }
 
 #[test]
-fn numbers_of_removed_elements_are_not_selected_when_they_are_given_again() {
-    let mut document = document();
-    run_all(
-        &mut document,
-        &[
-            json!({ "op": "edit_objects", "objects": ["grid"] }),
-            json!({ "op": "set_element_kind", "kind": "face" }),
-            json!({ "op": "select", "elements": [2, 3] }),
-            json!({ "op": "delete", "what": "faces" }),
-            json!({ "op": "select_less" }),
-            json!({ "op": "select_all" }),
-            json!({ "op": "subdivide" }),
-        ],
-    );
-    let (id, selection) = document.selection().meshes().next().expect("one is edited");
-    let mesh = document.mesh(id).expect("it is edited");
-    assert!(selection.indices().all(|index| ElementKind::Face.is_selectable(mesh, index)));
-    assert!(
-        document.run(command(json!({ "op": "select_path" }))).is_err(),
-        "nothing was selected one by one"
-    );
-}
-
-#[test]
-fn what_is_hidden_is_never_selected() {
-    let mut document = document();
-    run_all(
-        &mut document,
-        &[
-            json!({ "op": "edit_objects", "objects": ["grid"] }),
-            json!({ "op": "set_element_kind", "kind": "face" }),
-            json!({ "op": "select", "elements": [0, 1] }),
-            json!({ "op": "hide" }),
-            json!({ "op": "select_within" }),
-        ],
-    );
-    let (_, selection) = document.selection().meshes().next().expect("one is edited");
-    assert_eq!(selection.len(), 10, "all faces of the grid but two");
-    assert!(!selection.contains(0) && !selection.contains(1));
-    let hidden = document.run(command(json!({ "op": "select", "elements": [1] })));
-    assert!(hidden.expect_err("it is hidden").to_string().contains("reveal"), "the remedy is told");
-}
-
-#[test]
-fn parts_are_separated_from_the_objects_that_they_come_from() {
-    let (mut scene, _) = cubes(["left", "middle"]);
-    let (parent, _) = scene.nodes().iter().next().expect("two");
-    scene.add_child(parent, trigon_scene::Node::default());
-    let mut document = Document::new(scene);
-    run_all(
-        &mut document,
-        &[
-            json!({ "op": "edit_objects", "objects": ["left", "middle"] }),
-            json!({ "op": "set_element_kind", "kind": "face" }),
-            json!({ "op": "select", "objects": ["middle"], "elements": [0] }),
-            json!({ "op": "separate" }),
-        ],
-    );
-    let scene = document.scene();
-    let (part, node) = scene.nodes().iter().last().expect("a new one");
-    assert_eq!(node.name, "middle", "the part comes from the second object");
-    assert_eq!(scene.world_transform(part).translation.x, 6.0, "and is where it was");
-}
-
-#[test]
-fn objects_that_hang_on_joined_ones_stay_where_they_are() {
-    let (mut scene, [base, active, hanging]) = cubes(["base", "active", "hanging"]);
-    scene.node_mut(base).expect("there").transform.rotate(DVec3::Z, 0.5);
-    scene.set_parent(active, Some(base)).expect("no circle");
-    scene.set_parent(hanging, Some(base)).expect("no circle");
-    let place = scene.world_transform(hanging);
-    let mut document = Document::new(scene);
-    run_all(
-        &mut document,
-        &[json!({ "op": "select", "objects": ["base", "active"] }), json!({ "op": "join_objects" })],
-    );
-    let scene = document.scene();
-    assert!(scene.node(base).is_none() && scene.node(active).is_some(), "the active one stays");
-    let moved = scene.world_transform(hanging).translation - place.translation;
-    assert!(moved.length() < 1e-12, "a few roundings of places of about ten metres");
-    let mesh = scene.node(active).and_then(|node| node.mesh).expect("it has one");
-    assert_eq!(document.mesh(mesh).expect("joined").face_count(), 12);
-}
-
-#[test]
-fn joined_faces_keep_their_materials_where_the_active_object_has_none() {
-    let (mut scene, [plain, red]) = cubes(["plain", "red"]);
-    scene.node_mut(plain).expect("there").materials.clear();
-    let material = scene.node(red).expect("there").materials[0];
-    let mut document = Document::new(scene);
-    run_all(
-        &mut document,
-        &[json!({ "op": "select", "objects": ["red", "plain"] }), json!({ "op": "join_objects" })],
-    );
-    let node = document.scene().node(plain).expect("the active one stays").clone();
-    let mesh = document.mesh(node.mesh.expect("it has one")).expect("joined");
-    let of_face = |face| node.materials[mesh.material(face) as usize];
-    let in_red = mesh.faces().filter(|&face| of_face(face) == material).count();
-    assert_eq!((in_red, mesh.face_count()), (6, 12), "the others are drawn as before, without a material");
-}
-
-#[test]
-fn corners_that_are_left_out_are_told() {
-    let mut builder = trigon_mesh::MeshBuilder::new();
-    for place in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] {
-        builder.push_vertex(trigon_mesh::math::Vec3::new(place[0], place[1], 0.0));
+fn elements_are_moved_turned_and_scaled_in_the_worlds_axes() {
+    use trigon_mesh::math::DVec3;
+    let center = DVec3::new(10.0, 0.0, 0.0);
+    type Expected = fn(DVec3) -> DVec3;
+    let cases: [(serde_json::Value, Expected); 4] = [
+        (json!({ "op": "translate", "offset": [1, 2, 3], "space": "world" }), |p| {
+            p + DVec3::new(1.0, 2.0, 3.0)
+        }),
+        (
+            json!({ "op": "rotate", "angle": 90, "axis": [0, 0, 1], "center": [10, 0, 0], "space": "world" }),
+            |p| DVec3::new(-p.y, p.x, p.z),
+        ),
+        (json!({ "op": "scale", "factors": [3, 1, 1], "center": [10, 0, 0], "space": "world" }), |p| {
+            DVec3::new(3.0 * p.x, p.y, p.z)
+        }),
+        (
+            json!({ "op": "scale", "factors": [3, 1, 1], "orientation": [[0, 0, 1], [1, 0, 0], [0, 1, 0]],
+            "center": [10, 0, 0], "space": "world" }),
+            |p| DVec3::new(p.x, p.y, 3.0 * p.z),
+        ),
+    ];
+    for (json, expected) in cases {
+        let mut document = placed_document();
+        run_all(
+            &mut document,
+            &[json!({ "op": "edit_objects", "objects": [0] }), json!({ "op": "select_all" })],
+        );
+        let before = world_points(&document);
+        run_all(&mut document, std::slice::from_ref(&json));
+        for (from, to) in before.into_iter().zip(world_points(&document)) {
+            let expected = expected(from - center) + center;
+            // Vertices are rounded to f32.
+            assert!(to.distance(expected) < 1e-5, "{json}: {from} goes to {to}, not to {expected}");
+        }
     }
-    builder.push_face(&[0, 1, 1, 2]).expect("a face may repeat a vertex");
-    let mut scene = Scene::new();
-    scene.add_object("folded", builder.build(), Material::default());
-    let mut document = Document::new(scene);
-    let outcome = document.run(command(json!({ "op": "edit_objects", "objects": ["folded"] })));
-    let warnings = outcome.expect("it can be edited").warnings;
-    assert_eq!(warnings, ["folded: corners at the same vertex as the next one are left out: 1"]);
-    let again = document.run(command(json!({ "op": "select_all" }))).expect("edited");
-    assert!(again.warnings.is_empty(), "told once");
+}
+
+#[test]
+fn objects_that_hang_on_each_other_are_moved_once_in_the_world() {
+    use trigon_mesh::math::DVec3;
+    let mut document = placed_document();
+    run_all(
+        &mut document,
+        &[
+            json!({ "op": "add_light", "light": "point" }),
+            json!({ "op": "select", "objects": [1] }),
+            json!({ "op": "set_parent", "parent": 0 }),
+            json!({ "op": "select_all" }),
+        ],
+    );
+    let places = |document: &Document| {
+        let scene = document.nodes();
+        scene.nodes().iter().map(|(id, _)| scene.world_transform(id).translation).collect::<Vec<_>>()
+    };
+    let before = places(&document);
+    run_all(&mut document, &[json!({ "op": "translate", "offset": [0, 0, 4], "space": "world" })]);
+    for (from, to) in before.iter().zip(places(&document)) {
+        assert!(to.distance(*from + DVec3::Z * 4.0) < 1e-12, "{from} goes to {to}");
+    }
+    run_all(
+        &mut document,
+        &[json!({ "op": "rotate", "angle": 180, "axis": [0, 1, 0], "center": [0, 0, 0], "space": "world" })],
+    );
+    for (from, to) in before.into_iter().zip(places(&document)) {
+        let expected = DVec3::new(-from.x, from.y, -from.z - 4.0);
+        assert!(to.distance(expected) < 1e-12, "{from} goes to {to}");
+    }
+}
+
+#[test]
+fn an_object_is_scaled_along_its_own_axes_by_what_they_get_in_the_world() {
+    let mut document = placed_document();
+    run_all(
+        &mut document,
+        &[json!({ "op": "select_all" }), json!({ "op": "scale", "factors": [5, 1, 1], "space": "world" })],
+    );
+    let (_, node) = document.nodes().nodes().iter().next().expect("the cube");
+    let trigon_scene::Transform::Decomposed { scale, .. } = node.transform else { panic!("no shear") };
+    // Its z runs along the world's x.
+    assert!((scale - trigon_mesh::math::DVec3::new(2.0, 1.0, 5.0)).length() < 1e-12, "{scale}");
+}
+
+#[test]
+fn parts_turn_about_their_own_middles() {
+    let mut document = document();
+    run_all(
+        &mut document,
+        &[
+            json!({ "op": "edit_objects", "objects": ["grid"] }),
+            json!({ "op": "set_element_kind", "kind": "face" }),
+            json!({ "op": "select", "elements": [0, 11] }),
+        ],
+    );
+    let middles = |document: &Document| {
+        let (id, _) = document.selection().meshes().next().expect("it is edited");
+        let mesh = document.mesh(id).expect("it is edited");
+        [0, 11].map(|face| mesh.face_center(trigon_mesh::edit::FaceId::new(face)))
+    };
+    let before = middles(&document);
+    run_all(&mut document, &[json!({ "op": "scale", "factors": [0.5, 0.5, 0.5], "individual": true })]);
+    for (from, to) in before.into_iter().zip(middles(&document)) {
+        assert!(from.distance(to) < 1e-6, "{from} stays: {to}");
+    }
+    let refusal = document.run(command(json!({ "op": "rotate", "individual": true, "proportional": {} })));
+    assert!(refusal.expect_err("near to several").to_string().contains("another pivot"), "with the remedy");
+}
+
+#[test]
+fn vertices_slide_along_the_edge_in_a_direction() {
+    let mut document = document();
+    run_all(
+        &mut document,
+        &[json!({ "op": "edit_objects", "objects": ["grid"] }), json!({ "op": "select", "elements": [6] })],
+    );
+    let place = |document: &Document| {
+        let (id, _) = document.selection().meshes().next().expect("it is edited");
+        document.mesh(id).expect("it is edited").position(trigon_mesh::edit::VertexId::new(6))
+    };
+    let before = place(&document);
+    run_all(&mut document, &[json!({ "op": "slide_vertices", "factor": 0.5, "direction": [1, 0, 0.2] })]);
+    let way = place(&document) - before;
+    assert_eq!((way.x, way.y, way.z), (0.25, 0.0, 0.0), "half of a quad of half a metre");
+}
+
+#[test]
+fn a_loop_is_cut_at_a_given_edge() {
+    let mut document = document();
+    run_all(&mut document, &[json!({ "op": "edit_objects", "objects": [0, 1] })]);
+    let two = document.run(command(json!({ "op": "loop_cut", "edge": 0 })));
+    assert!(matches!(two, Err(EditError::NothingSelected { .. })), "there are two objects");
+    let made = document.run(command(json!({ "op": "loop_cut", "edge": 0, "object": "torus", "cuts": 2 })));
+    assert!(["cut 10 edges", "cut 12 edges"].contains(&&*made.expect("quads").message), "around it, twice");
+    assert!(
+        document.run(command(json!({ "op": "loop_cut", "edge": 9999, "object": 0 }))).is_err(),
+        "no edge"
+    );
 }

@@ -125,7 +125,11 @@ fn operations() -> Vec<Operation> {
     let operation = |name, needs, parameters| Operation { name, needs, parameters };
     vec![
         operation("translate", Some("vertex", 5), |r, _| json!({ "offset": r.vector() })),
-        operation("rotate", Some("face", 3), |r, _| json!({ "angle": r.share() * 90.0, "axis": r.vector() })),
+        operation(
+            "rotate",
+            Some("face", 3),
+            |r, _| json!({ "angle": r.share() * 90.0, "axis": r.vector(), "individual": r.below(3) == 0 }),
+        ),
         operation("scale", Some("edge", 4), |r, _| json!({ "factors": r.vector().map(|x| 1.0 + 0.5 * x) })),
         operation("shear", Some("vertex", 5), |r, _| json!({ "factor": r.share() })),
         operation("to_sphere", Some("face", 4), |r, _| json!({ "factor": r.share() })),
@@ -139,6 +143,11 @@ fn operations() -> Vec<Operation> {
             |r, _| json!({ "cuts": 1 + r.below(2), "position": r.share() * 0.5 }),
         ),
         operation("slide_edges", Some("edge", 1), |r, _| json!({ "factor": 0.5 * r.share() })),
+        operation(
+            "slide_vertices",
+            Some("vertex", 3),
+            |r, _| json!({ "factor": 0.5 * r.share(), "direction": r.vector() }),
+        ),
         operation("merge", Some("vertex", 3), |r, _| {
             let at = ["center", "first", "last", "collapse", "distance"][r.below(5)];
             json!({ "at": at, "distance": 0.5 })

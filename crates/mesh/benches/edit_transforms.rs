@@ -26,7 +26,8 @@ fn moving(criterion: &mut Criterion) {
     let all: Vec<VertexId> = mesh.vertices().collect();
     let some = &all[..10_000];
     let lift = Transform::Translate { offset: DVec3::Y * 0.01 };
-    let turn = Transform::Rotate { center: DVec3::ZERO, axis: DVec3::Y, angle: 0.01 };
+    let turn =
+        Transform::Rotate { center: DVec3::ZERO, axis: DVec3::Y, angle: 0.01, orientation: DMat3::IDENTITY };
     let mut group = criterion.benchmark_group("1,000,000 quads");
     let mut move_once = |vertices: &[VertexId], transform: &Transform, falloff: Option<&Falloff>| {
         mesh.transaction(|mesh| mesh.transform_vertices(vertices, transform, falloff)).expect("possible")

@@ -7,7 +7,7 @@ use std::time::Duration;
 use trigon_scene::Frame;
 
 use crate::Stage;
-use crate::input::Modifiers;
+use crate::input::{Hands, Input, Modifiers, Taken};
 
 /// The moment of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,6 +42,14 @@ pub trait Handler {
     fn frame(&mut self, stage: &mut Stage, tick: Tick) -> Animation {
         let _ = (stage, tick);
         Animation::Resting
+    }
+
+    /// Something was done by hand that no widget took: the application may take it before the
+    /// camera, the keymap and clicks do. While [`Stage::input_owner`] is the application, widgets are
+    /// not asked before.
+    fn input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
+        let _ = (stage, input, hands);
+        Taken::No
     }
 
     /// A key was pressed that is bound to [`crate::Action::Command`] under this name.

@@ -10,7 +10,7 @@
 //! files, and nothing about editing.
 //!
 //! An event takes this way: winit → `input` (what it means, in our words) →
-//! `session` (what it does) → `pacing` (when to draw, how well) → `worker` (draws
+//! `session` (what it does: the interface's, the application's, or the camera's) → `pacing` (when to draw, how well) → `worker` (draws
 //! the scene beside the window's thread) → `interface` (what lies over it) →
 //! `egui_painter` (of that, what has changed) → `canvas` → `present` (softbuffer).
 //! Only `shell`, `present` and `input::translate` know the window system; all the
@@ -64,9 +64,12 @@ pub use egui_painter::EguiTestRenderer;
 pub use egui_painter::{ChannelOrder, EguiPainter, MAX_TEXTURE_SIDE};
 pub use error::WindowError;
 pub use handler::{Animation, Handler, Tick};
-pub use input::{Chord, Key, Modifiers, PointerButton};
+pub use input::{Chord, Hands, Input, InputOwner, Key, Modifiers, PointerButton, Taken};
 pub use interaction::{Interaction, InteractionError};
-pub use keymap::{Action, Binding, CameraMotion, DragAction, DragBinding, Keymap, Motion, ObjectMotion};
+pub use keymap::{
+    Action, Binding, CameraMotion, ClickAction, ClickBinding, DragAction, DragBinding, Keymap, Motion,
+    ObjectMotion,
+};
 pub use overlay::{Corner, Overlay};
 pub use refinement::{Comparison, Difference, QualityReport, Refinement};
 pub use shared_scene::SharedScene;

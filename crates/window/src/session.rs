@@ -3,6 +3,7 @@
 //! tested without a display.
 
 mod controls;
+mod offers;
 mod pictures;
 
 use std::path::PathBuf;
@@ -24,6 +25,7 @@ use crate::shared_scene::Revision;
 use crate::shown::DrawnNodes;
 use crate::stage::{FrameReport, Stage, Subject, Visibility};
 use crate::worker::Worker;
+use offers::TakenInput;
 
 /// The step of an animation's first frame.
 const FIRST_STEP: Duration = Duration::from_micros(16_667);
@@ -37,6 +39,8 @@ pub(crate) struct Session<'a> {
     modifiers: Modifiers,
     pointer: Pointer,
     held: HeldKeys,
+    /// The buttons and keys that the application took.
+    taken: TakenInput,
     pacing: Pacing,
     animation: Animation,
     /// When frames were last stepped; `None` while nothing moves by itself.
@@ -77,6 +81,7 @@ impl<'a> Session<'a> {
             modifiers: Modifiers::NONE,
             pointer: Pointer::default(),
             held: HeldKeys::default(),
+            taken: TakenInput::default(),
             pacing: Pacing::new(),
             animation: Animation::Resting,
             stepped: None,

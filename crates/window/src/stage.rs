@@ -10,6 +10,7 @@ use trigon_scene::quality::Preset;
 use trigon_scene::{Hit, NodeId, RenderSettings, Shadows};
 
 use crate::drawer::{Drawer, DrawnBy};
+use crate::input::InputOwner;
 use crate::keymap::Keymap;
 use crate::overlay::Overlay;
 use crate::pacing::{Progress, USUAL_BUDGET};
@@ -87,6 +88,8 @@ pub struct Stage {
     pub overlay: Overlay,
     /// What keys and drags do.
     pub keymap: Keymap,
+    /// Who is asked first what mouse and keys mean.
+    pub input_owner: InputOwner,
     /// The object that keys move and turn.
     pub selection: Option<NodeId>,
     /// Whether the list of keys is shown.
@@ -132,6 +135,7 @@ impl Stage {
             frame_budget: USUAL_BUDGET,
             overlay: Overlay::default(),
             keymap: Keymap::default(),
+            input_owner: InputOwner::default(),
             selection: None,
             cheat_sheet: Visibility::Hidden,
             frame_time: Visibility::Hidden,

@@ -2,13 +2,16 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trigon_mesh::edit::LoopCutSettings;
+use trigon_mesh::edit::{EdgeId, EditMesh, LoopCutSettings, VertexId};
+use trigon_mesh::math::{DAffine3, DVec3};
 
-use super::{Action, Outcome};
+use super::space::TransformSpace;
+use super::{Action, ObjectName, Outcome};
 use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::Elements;
 
+const CUTTING: &str = "cutting a loop";
 const EDGES: &str = "at least one selected edge";
 
 /// Cuts the selected edges into equal pieces, and the faces at them into a grid. Nothing is moved.
@@ -39,7 +42,7 @@ impl Action for Subdivide {
     }
 }
 
-/// Cuts new loops across the ring of quads of an edge: the last selected one.
+/// Cuts new loops across the ring of quads of an edge.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LoopCut {
@@ -49,11 +52,36 @@ pub struct LoopCut {
     /// How far they are moved together: −1 to 1 from side to side, 0 in the middle.
     #[schemars(range(min = -1.0, max = 1.0))]
     pub position: f64,
+    /// The number of the edge; the last selected one of each mesh if it is not given.
+    pub edge: Option<u32>,
+    /// The object whose edge is meant, if several are edited.
+    pub object: Option<ObjectName>,
 }
 
 impl Default for LoopCut {
     fn default() -> Self {
-        Self { cuts: 1, position: 0.0 }
+        Self { cuts: 1, position: 0.0, edge: None, object: None }
+    }
+}
+
+impl LoopCut {
+    /// Across a given edge: nothing has to be selected.
+    fn cut_given(
+        &self,
+        change: &mut Change<'_>,
+        edge: u32,
+        settings: &LoopCutSettings,
+    ) -> Result<usize, EditError> {
+        let object = self.object.as_ref().map(|object| object.find(change.scene())).transpose()?;
+        let id = change.only_edited_mesh(object, CUTTING)?;
+        let kind = change.selection().kind();
+        let cut = change.edit(id, |mesh| Ok(mesh.loop_cut(EdgeId::new(edge), settings)?))?;
+        let count = cut.edges.len();
+        let (selections, meshes) = change.selection_and_meshes();
+        if let (Some(selection), Some(mesh)) = (selections.of_mut(id), meshes.get(&id)) {
+            selection.select(mesh, kind, &Elements::Edges(cut.edges));
+        }
+        Ok(count)
     }
 }
 
@@ -61,8 +89,12 @@ impl Action for LoopCut {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let kind = change.selection().kind();
         let settings = LoopCutSettings { cuts: self.cuts as usize, position: self.position };
+        if let Some(edge) = self.edge {
+            let edges = self.cut_given(change, edge, &settings)?;
+            return Ok(Outcome::counted("cut", edges, ["edge", "edges"]));
+        }
         let mut edges = 0;
-        change.edit_selected("cutting a loop", EDGES, |mesh, selection| {
+        change.edit_selected(CUTTING, EDGES, |mesh, selection| {
             let selected = selection.edges(mesh, kind);
             let last = selection.order().last().copied();
             let of_last = selected.iter().copied().find(|edge| last == Some(edge.index()));
@@ -93,4 +125,49 @@ impl Action for SlideEdges {
         })?;
         Ok(Outcome::silent())
     }
+}
+
+/// Slides each selected vertex along that of its edges which runs most nearly in a direction.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SlideVertices {
+    /// How far, as a part of the edge's length; negative ones leave it backwards.
+    #[schemars(range(min = -1.0, max = 1.0))]
+    pub factor: f64,
+    /// The direction; its length does not count.
+    pub direction: [f64; 3],
+    /// The space of the direction.
+    pub space: TransformSpace,
+}
+
+impl Action for SlideVertices {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let (command, kind) = ("sliding vertices", change.selection().kind());
+        let into_meshes = self.space.into_meshes(command, change)?;
+        change.edit_selected_meshes(command, "at least one selected vertex", |id, mesh, selection| {
+            let into_mesh = into_meshes.get(&id).copied().unwrap_or(DAffine3::IDENTITY);
+            let direction = into_mesh.matrix3 * DVec3::from(self.direction);
+            let slides: Vec<_> = selection
+                .vertices(mesh, kind)
+                .into_iter()
+                .filter_map(|vertex| Some((vertex, edge_towards(mesh, vertex, direction)?)))
+                .collect();
+            mesh.slide_vertices(&slides, self.factor)?;
+            Ok(AfterEdit::Keep)
+        })?;
+        Ok(Outcome::silent())
+    }
+}
+
+/// The edge of a vertex that runs most nearly in a direction; the first of several.
+#[must_use]
+pub fn edge_towards(mesh: &EditMesh, vertex: VertexId, direction: DVec3) -> Option<EdgeId> {
+    let place = mesh.position(vertex).as_dvec3();
+    let alike = |edge: EdgeId| {
+        let way = mesh.position(mesh.other_vertex(edge, vertex)).as_dvec3() - place;
+        way.normalize_or_zero().dot(direction)
+    };
+    let edges = mesh.vertex_edges(vertex).map(|edge| (alike(edge), edge));
+    let best = edges.reduce(|best, next| if next.0 > best.0 { next } else { best });
+    best.map(|(_, edge)| edge)
 }

@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_mesh::edit::{ExtrudeOffset, Inset as InsetSettings};
-use trigon_mesh::math::DVec3;
+use trigon_mesh::math::{DAffine3, DVec3};
 
+use super::space::TransformSpace;
 use super::{Action, Outcome};
 use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
@@ -19,6 +20,8 @@ pub struct Extrude {
     pub distance: f64,
     /// How far in addition, in metres.
     pub offset: [f64; 3],
+    /// The space of the offset.
+    pub space: TransformSpace,
     /// Whether each face is extruded by itself.
     pub individual: bool,
 }
@@ -26,8 +29,10 @@ pub struct Extrude {
 impl Action for Extrude {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let kind = change.selection().kind();
-        let offset = DVec3::from(self.offset);
-        change.edit_selected("extruding", "something selected", |mesh, selection| {
+        let into_meshes = self.space.into_meshes("extruding", change)?;
+        change.edit_selected_meshes("extruding", "something selected", |id, mesh, selection| {
+            let into_mesh = into_meshes.get(&id).copied().unwrap_or(DAffine3::IDENTITY);
+            let offset = into_mesh.matrix3 * DVec3::from(self.offset);
             let faces = selection.faces(mesh, kind);
             if !faces.is_empty() {
                 let along = ExtrudeOffset::Along(self.distance);

@@ -21,6 +21,7 @@ mod normals;
 mod objects;
 mod outcome;
 mod parts;
+mod place;
 mod reference;
 mod repair;
 mod scene;
@@ -28,6 +29,7 @@ mod select;
 mod select_property;
 mod select_related;
 mod select_within;
+mod space;
 mod surface;
 mod transform;
 mod uvs;
@@ -39,7 +41,7 @@ use crate::document::Change;
 use crate::error::EditError;
 
 pub use bevel::Bevel;
-pub use cut::{LoopCut, SlideEdges, Subdivide};
+pub use cut::{LoopCut, SlideEdges, SlideVertices, Subdivide, edge_towards};
 pub use delete::{Delete, DeleteObjects, Deleted};
 pub use dissolve::{Dissolve, DissolveFlat};
 pub use extrude::{Extrude, Inset, InsetMode};
@@ -54,6 +56,7 @@ pub use normals::{FlipNormals, RecalculateNormals};
 pub use objects::ObjectName;
 pub use outcome::Outcome;
 pub use parts::{Duplicate, Separate, SplitOff};
+pub use place::{Rotate, Scale, Translate};
 pub use reference::command_reference;
 pub use repair::Repair;
 pub use scene::{
@@ -65,10 +68,10 @@ pub use select_property::{
 };
 pub use select_related::{SelectLess, SelectLinked, SelectLoop, SelectMore, SelectPath, SelectRing};
 pub use select_within::SelectWithin;
+pub use space::TransformSpace;
 pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, Triangulate, TrisToQuads};
 pub use transform::{
-    Proportional, ProportionalShape, PushPull, ResetVertices, Rotate, Scale, Shear, ShrinkFatten, ToSphere,
-    Translate,
+    Proportional, ProportionalShape, PushPull, ResetVertices, Shear, ShrinkFatten, ToSphere,
 };
 pub use uvs::{ProjectUvs, ProjectUvsOnBox};
 
@@ -220,6 +223,8 @@ commands! {
     SlideEdges("Slide Edges", false),
     /// Cuts faces along a path.
     Knife("Knife", false),
+    /// Slides vertices along their edges.
+    SlideVertices("Slide Vertices", false),
     /// Merges the selected vertices.
     Merge("Merge", false),
     /// Marks edges sharp.

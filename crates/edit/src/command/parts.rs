@@ -62,13 +62,12 @@ impl Action for Separate {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let kind = change.selection().kind();
         let mut parts = Vec::new();
-        let meshes = change.edit_selected("separating", FACES, |mesh, selection| {
-            parts.push(mesh.separate(&selection.faces(mesh, kind))?);
+        change.edit_selected_meshes("separating", FACES, |id, mesh, selection| {
+            parts.push((id, mesh.separate(&selection.faces(mesh, kind))?));
             Ok(AfterEdit::Clear)
         })?;
-        for (mesh, part) in meshes.iter().zip(parts) {
-            change.add_part(*mesh, part);
-        }
-        Ok(Outcome::counted("made", meshes.len(), ["object", "objects"]))
+        let count = parts.len();
+        parts.into_iter().for_each(|(mesh, part)| change.add_part(mesh, part));
+        Ok(Outcome::counted("made", count, ["object", "objects"]))
     }
 }

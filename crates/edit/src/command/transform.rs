@@ -1,11 +1,12 @@
-//! Moving, turning and scaling: elements in edit mode, objects in object mode.
+//! Deforming the selected vertices: shear, to sphere, along normals, push and pull; and what falls off
+//! with distance.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trigon_mesh::edit::{EditMesh, Falloff, FalloffDistance, FalloffShape, Transform, VertexId};
-use trigon_mesh::math::{DMat3, DVec3, elementary};
-use trigon_scene::Node;
+use trigon_mesh::edit::{Falloff, FalloffDistance, FalloffShape, Transform};
+use trigon_mesh::math::DVec3;
 
+use super::space::middle;
 use super::{Action, Outcome};
 use crate::document::Change;
 use crate::error::EditError;
@@ -44,9 +45,10 @@ pub enum ProportionalShape {
 }
 
 impl Proportional {
-    fn falloff(&self) -> Falloff {
+    /// For a mesh whose lengths are the command's times a factor.
+    pub(super) fn falloff(&self, length_factor: f64) -> Falloff {
         Falloff {
-            radius: self.radius,
+            radius: self.radius * length_factor,
             shape: match self.shape {
                 ProportionalShape::Smooth => FalloffShape::Smooth,
                 ProportionalShape::Sphere => FalloffShape::Sphere,
@@ -57,56 +59,6 @@ impl Proportional {
             },
             distance: if self.connected { FalloffDistance::AlongEdges } else { FalloffDistance::Straight },
         }
-    }
-}
-
-/// Moves what is selected: elements in the space of their mesh, objects in that of their parent.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Translate {
-    /// How far, in metres.
-    pub offset: [f64; 3],
-    /// Moves what is near, too.
-    pub proportional: Option<Proportional>,
-}
-
-/// Turns what is selected about a centre, counter-clockwise seen from the tip of the axis.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Rotate {
-    /// By how much, in degrees.
-    pub angle: f64,
-    /// The axis; its length does not count.
-    pub axis: [f64; 3],
-    /// What stays, in metres: the middle of the selected vertices if it is not given, and of objects
-    /// each one's origin.
-    pub center: Option<[f64; 3]>,
-    /// Turns what is near, too.
-    pub proportional: Option<Proportional>,
-}
-
-impl Default for Rotate {
-    fn default() -> Self {
-        Self { angle: 0.0, axis: [0.0, 1.0, 0.0], center: None, proportional: None }
-    }
-}
-
-/// Scales what is selected about a centre, along the axes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Scale {
-    /// Along x, y and z; negative ones mirror.
-    pub factors: [f64; 3],
-    /// What stays, in metres: the middle of the selected vertices if it is not given, and of objects
-    /// each one's origin.
-    pub center: Option<[f64; 3]>,
-    /// Scales what is near, too.
-    pub proportional: Option<Proportional>,
-}
-
-impl Default for Scale {
-    fn default() -> Self {
-        Self { factors: [1.0; 3], center: None, proportional: None }
     }
 }
 
@@ -178,7 +130,7 @@ pub struct PushPull {
 #[serde(default, deny_unknown_fields)]
 pub struct ResetVertices {}
 
-const VERTICES: &str = "at least one selected vertex";
+pub(super) const VERTICES: &str = "at least one selected vertex";
 
 /// Runs a transform on the selected vertices of each mesh. The selection stays.
 fn transform_vertices(
@@ -188,89 +140,12 @@ fn transform_vertices(
     proportional: Option<&Proportional>,
     transform: impl Fn(DVec3) -> Transform,
 ) -> Result<Outcome, EditError> {
-    let falloff = proportional.map(Proportional::falloff);
+    let falloff = proportional.map(|near| near.falloff(1.0));
     change.edit_selected_vertices(command, VERTICES, |mesh, vertices| {
         let center = center.map_or_else(|| middle(mesh, vertices), DVec3::from);
         mesh.transform_vertices(vertices, &transform(center), falloff.as_ref())
     })?;
     Ok(Outcome::silent())
-}
-
-/// The mean of some vertices; the origin where it is not finite.
-fn middle(mesh: &EditMesh, vertices: &[VertexId]) -> DVec3 {
-    let sum: DVec3 = vertices.iter().map(|&vertex| mesh.position(vertex).as_dvec3()).sum();
-    let mean = sum / vertices.len() as f64;
-    if mean.is_finite() { mean } else { DVec3::ZERO }
-}
-
-/// Changes each selected object.
-fn transform_objects(
-    change: &mut Change<'_>,
-    command: &'static str,
-    transform: impl Fn(&mut Node),
-) -> Result<Outcome, EditError> {
-    let objects = change.selection().objects.clone();
-    if objects.is_empty() {
-        return Err(EditError::NothingSelected { command, needed: "at least one object" });
-    }
-    let scene = change.scene_mut();
-    for object in objects {
-        if let Some(node) = scene.node_mut(object) {
-            transform(node);
-        }
-    }
-    Ok(Outcome::silent())
-}
-
-impl Action for Translate {
-    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let offset = DVec3::from(self.offset);
-        if !change.selection().is_editing() {
-            return transform_objects(change, "moving", |node| node.transform.translate(offset));
-        }
-        let translate = |_| Transform::Translate { offset };
-        transform_vertices(change, "moving", None, self.proportional.as_ref(), translate)
-    }
-}
-
-impl Action for Rotate {
-    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let (axis, angle) = (DVec3::from(self.axis), self.angle.to_radians());
-        if !change.selection().is_editing() {
-            return transform_objects(change, "turning", |node| {
-                node.transform.rotate(axis, angle);
-                if let (Some(center), Some(axis)) = (self.center.map(DVec3::from), axis.try_normalize()) {
-                    let arm = node.transform.translation() - center;
-                    node.transform.set_translation(center + turned(arm, axis, angle));
-                }
-            });
-        }
-        let rotate = |center| Transform::Rotate { center, axis, angle };
-        transform_vertices(change, "turning", self.center, self.proportional.as_ref(), rotate)
-    }
-}
-
-/// A vector turned about an axis of unit length (Olinde Rodrigues, 1840).
-fn turned(vector: DVec3, axis: DVec3, angle: f64) -> DVec3 {
-    let (sine, cosine) = elementary::sin_cos(angle);
-    vector * cosine + axis.cross(vector) * sine + axis * (axis.dot(vector) * (1.0 - cosine))
-}
-
-impl Action for Scale {
-    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let factors = DVec3::from(self.factors);
-        if !change.selection().is_editing() {
-            return transform_objects(change, "scaling", |node| {
-                node.transform.scale_by(factors);
-                if let Some(center) = self.center.map(DVec3::from) {
-                    let arm = node.transform.translation() - center;
-                    node.transform.set_translation(center + arm * factors);
-                }
-            });
-        }
-        let scale = |center| Transform::Scale { center, factors, orientation: DMat3::IDENTITY };
-        transform_vertices(change, "scaling", self.center, self.proportional.as_ref(), scale)
-    }
 }
 
 impl Action for Shear {

@@ -27,6 +27,10 @@ pub(crate) enum AfterEdit {
 }
 
 impl Change<'_> {
+    pub(crate) fn document(&self) -> &Document {
+        self.document
+    }
+
     pub(crate) fn scene(&self) -> &Scene {
         &self.document.file.scene
     }
@@ -145,13 +149,23 @@ impl Change<'_> {
 
     /// Changes each mesh that is edited and of which something is selected; the change is given what
     /// is selected, and tells what is to be selected afterwards. A mesh
-    /// that refuses is passed over if another does not. Tells which meshes were changed.
+    /// that refuses is passed over if another does not. Tells how many were changed.
     pub(crate) fn edit_selected(
         &mut self,
         command: &'static str,
         needed: &'static str,
         mut operation: impl FnMut(&mut EditMesh, &MeshSelection) -> Result<AfterEdit, Refusal>,
-    ) -> Result<Vec<MeshId>, EditError> {
+    ) -> Result<usize, EditError> {
+        self.edit_selected_meshes(command, needed, |_, mesh, selection| operation(mesh, selection))
+    }
+
+    /// The same for a change that has to know which mesh it is.
+    pub(crate) fn edit_selected_meshes(
+        &mut self,
+        command: &'static str,
+        needed: &'static str,
+        mut operation: impl FnMut(MeshId, &mut EditMesh, &MeshSelection) -> Result<AfterEdit, Refusal>,
+    ) -> Result<usize, EditError> {
         if !self.selection().is_editing() {
             return Err(EditError::NotEditing(command));
         }
@@ -161,11 +175,11 @@ impl Change<'_> {
         };
         let meshes: Vec<_> = self.selection().meshes().filter_map(selected).collect();
         let mut refused = None;
-        let mut changed = Vec::new();
+        let mut changed = 0;
         for (id, selection) in meshes {
-            match self.edit(id, |mesh| operation(mesh, &selection).map_err(EditError::from)) {
+            match self.edit(id, |mesh| operation(id, mesh, &selection).map_err(EditError::from)) {
                 Ok(result) => {
-                    changed.push(id);
+                    changed += 1;
                     let (selections, meshes) = self.selection_and_meshes();
                     if let (Some(selection), Some(mesh)) = (selections.of_mut(id), meshes.get(&id)) {
                         match result {
@@ -179,8 +193,8 @@ impl Change<'_> {
             }
         }
         match refused {
-            Some(refusal) if changed.is_empty() => Err(refusal),
-            None if changed.is_empty() => Err(EditError::NothingSelected { command, needed }),
+            Some(refusal) if changed == 0 => Err(refusal),
+            None if changed == 0 => Err(EditError::NothingSelected { command, needed }),
             _ => Ok(changed),
         }
     }
@@ -191,7 +205,7 @@ impl Change<'_> {
         command: &'static str,
         needed: &'static str,
         mut operation: impl FnMut(&mut EditMesh, &[VertexId]) -> Result<(), Refusal>,
-    ) -> Result<Vec<MeshId>, EditError> {
+    ) -> Result<usize, EditError> {
         let kind = self.selection().kind();
         self.edit_selected(command, needed, |mesh, selection| {
             operation(mesh, &selection.vertices(mesh, kind))?;
@@ -205,7 +219,7 @@ impl Change<'_> {
         command: &'static str,
         needed: &'static str,
         mut operation: impl FnMut(&mut EditMesh, &[EdgeId]) -> Result<(), Refusal>,
-    ) -> Result<Vec<MeshId>, EditError> {
+    ) -> Result<usize, EditError> {
         let kind = self.selection().kind();
         self.edit_selected(command, needed, |mesh, selection| {
             operation(mesh, &selection.edges(mesh, kind))?;
@@ -219,7 +233,7 @@ impl Change<'_> {
         command: &'static str,
         needed: &'static str,
         mut operation: impl FnMut(&mut EditMesh, &[FaceId]) -> Result<(), Refusal>,
-    ) -> Result<Vec<MeshId>, EditError> {
+    ) -> Result<usize, EditError> {
         let kind = self.selection().kind();
         self.edit_selected(command, needed, |mesh, selection| {
             operation(mesh, &selection.faces(mesh, kind))?;

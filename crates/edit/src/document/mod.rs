@@ -1,13 +1,15 @@
 //! An open document: a scene, its meshes while they are edited, what is selected, what was done.
 
 mod change;
+mod preview;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use trigon_io::{LoadError, LoadOptions, NativeDocument, NativeFile, Warning, WriteError};
 use trigon_mesh::edit::{EditMesh, ElementMap};
-use trigon_scene::{MeshId, Scene};
+use trigon_mesh::math::DAffine3;
+use trigon_scene::{MeshId, NodeId, Scene};
 
 use crate::command::{Command, Outcome};
 use crate::error::EditError;
@@ -51,6 +53,8 @@ pub struct Document {
     untold: Vec<String>,
     /// What was done since the last time that somebody asked; `None` until somebody asks.
     events: Option<Vec<Event>>,
+    /// What is tried out and neither confirmed nor cancelled yet; its other state is that before.
+    preview: Option<Entry>,
 }
 
 impl Document {
@@ -122,6 +126,17 @@ impl Document {
         self.file.edited.get(&id)
     }
 
+    /// The map from a mesh into the world, where it is edited: that of the first selected object that shows
+    /// it, or of the first one at all; identity where none does.
+    #[must_use]
+    pub fn mesh_transform(&self, id: MeshId) -> DAffine3 {
+        let scene = &self.file.scene;
+        let shows = |object: &NodeId| scene.node(*object).is_some_and(|node| node.mesh == Some(id));
+        let selected = self.selection.objects.iter().copied().find(shows);
+        let object = selected.or_else(|| scene.nodes().iter().map(|(object, _)| object).find(shows));
+        object.map_or(DAffine3::IDENTITY, |object| scene.world_transform(object))
+    }
+
     /// Which elements of an edited mesh those of the scene's mesh are, as of the last
     /// [`Self::scene`]; `None` for a mesh that was never edited, where all numbers are the same.
     #[must_use]
@@ -146,11 +161,20 @@ impl Document {
         self.history.set_budget(bytes);
     }
 
-    /// Runs a command: one entry in the history.
+    /// Runs a command: one entry in the history. A preview that is under way is confirmed first, as by
+    /// all that changes the document ([`Self::preview`]).
     ///
     /// # Errors
     /// Why it was refused. The document is as it was before.
     pub fn run(&mut self, command: Command) -> Result<Outcome, EditError> {
+        self.confirm();
+        let (entry, outcome) = self.attempt(command)?;
+        self.enter(entry);
+        Ok(outcome)
+    }
+
+    /// Runs a command without a trace in the history. A refusal leaves the document as it was.
+    fn attempt(&mut self, command: Command) -> Result<(Entry, Outcome), EditError> {
         let selection = self.selection.clone();
         let mut change = Change { document: self, meshes: Vec::new(), parts: None };
         let result = command.action().run(&mut change);
@@ -159,9 +183,7 @@ impl Document {
         match result {
             Ok(mut outcome) => {
                 outcome.warnings.append(&mut self.untold);
-                self.note(|| Event::Run(Box::new(entry.command.clone())));
-                self.history.push(entry);
-                Ok(outcome)
+                Ok((entry, outcome))
             }
             Err(refusal) => {
                 self.exchange(&mut entry);
@@ -170,11 +192,18 @@ impl Document {
         }
     }
 
+    /// Puts what was just done into the history.
+    fn enter(&mut self, entry: Entry) {
+        self.note(|| Event::Run(Box::new(entry.command.clone())));
+        self.history.push(entry);
+    }
+
     /// Takes back the last command.
     ///
     /// # Errors
     /// There is none.
     pub fn undo(&mut self) -> Result<(), EditError> {
+        self.confirm();
         let mut history = std::mem::take(&mut self.history);
         let entry = history.step_back().ok_or(EditError::Nothing("undo"));
         let result = entry.map(|entry| self.exchange(entry));
@@ -190,6 +219,7 @@ impl Document {
     /// # Errors
     /// There is nothing.
     pub fn redo(&mut self) -> Result<(), EditError> {
+        self.confirm();
         let mut history = std::mem::take(&mut self.history);
         let entry = history.step_forward().ok_or(EditError::Nothing("do again"));
         let result = entry.map(|entry| self.exchange(entry));
@@ -205,6 +235,7 @@ impl Document {
     /// # Errors
     /// There is none, or it is refused now.
     pub fn repeat_last(&mut self) -> Result<Outcome, EditError> {
+        self.confirm();
         let last = self.history.done().iter().rev().find(|entry| !entry.command.is_selection());
         let command = last.ok_or(EditError::Nothing("repeat"))?.command.clone();
         self.run(command)
@@ -215,6 +246,7 @@ impl Document {
     /// # Errors
     /// There is none, or the other one is refused: then the last one stays done.
     pub fn adjust_last(&mut self, command: Command) -> Result<Outcome, EditError> {
+        self.confirm();
         if self.history.done().is_empty() {
             return Err(EditError::Nothing("adjust"));
         }

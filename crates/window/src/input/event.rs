@@ -28,6 +28,14 @@ pub(crate) struct KeyPress {
     /// By its place on a US keyboard, where the layout hides digits behind
     /// Shift or has no Latin letters.
     pub(crate) physical: Option<Key>,
+    /// Whether it has been down for a while: then only an application that takes keys hears of it.
+    #[serde(default, skip_serializing_if = "is_first")]
+    pub(crate) repeat: bool,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks in this form")]
+fn is_first(repeat: &bool) -> bool {
+    !repeat
 }
 
 /// Everything that can happen to a window from outside. Positions and sizes

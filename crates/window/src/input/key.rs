@@ -72,6 +72,11 @@ impl Modifiers {
     pub fn contains(self, others: Self) -> bool {
         self.0 & others.0 == others.0
     }
+
+    /// How many they are.
+    pub(crate) fn count(self) -> u32 {
+        self.0.count_ones()
+    }
 }
 
 impl BitOr for Modifiers {

@@ -4,6 +4,7 @@
 mod event;
 mod held;
 mod key;
+mod offer;
 mod pointer;
 pub(crate) mod translate;
 mod wheel;
@@ -11,5 +12,6 @@ mod wheel;
 pub(crate) use event::{InputEvent, KeyCode, KeyPress, Press};
 pub(crate) use held::{HeldKeys, STEP};
 pub use key::{Chord, Key, Modifiers, PointerButton};
+pub use offer::{Hands, Input, InputOwner, Taken};
 pub(crate) use pointer::{Gesture, Pointer};
 pub(crate) use wheel::{WheelDelta, wheel_lines};

@@ -78,12 +78,11 @@ fn key_event(event: &KeyEvent) -> Option<InputEvent> {
     let code = KeyCode(hasher.finish());
     match event.state {
         ElementState::Released => Some(InputEvent::KeyUp(code)),
-        // Keys that act while they are down have a clock of their own.
-        ElementState::Pressed if event.repeat => None,
         ElementState::Pressed => Some(InputEvent::KeyDown(KeyPress {
             code,
             logical: logical_key(&event.key_without_modifiers()),
             physical: physical_key(event.physical_key, &event.key_without_modifiers()),
+            repeat: event.repeat,
         })),
     }
 }

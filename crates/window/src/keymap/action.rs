@@ -96,3 +96,14 @@ pub enum DragAction {
     /// Up is closer to what was under the pointer.
     ZoomToPointer,
 }
+
+/// What a click does: a press and a release at one place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ClickAction {
+    /// Selects the object under the pointer, or nothing.
+    Select,
+    /// Makes the point under the pointer the camera's target.
+    LookAt,
+    /// The same, from as near as the point was.
+    LookAtFromAsNear,
+}

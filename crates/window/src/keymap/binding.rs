@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::action::{Action, DragAction};
+use super::action::{Action, ClickAction, DragAction};
 use super::defaults;
 use crate::input::{Chord, Modifiers, PointerButton};
 
@@ -32,17 +32,31 @@ pub struct DragBinding {
     pub description: Cow<'static, str>,
 }
 
+/// A click and what it does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ClickBinding {
+    /// The button that is pressed and released.
+    pub button: PointerButton,
+    /// The modifiers that were down when it was pressed.
+    pub modifiers: Modifiers,
+    /// What it does.
+    pub action: ClickAction,
+    /// What the cheat sheet says.
+    pub description: Cow<'static, str>,
+}
+
 /// All bindings of a window. The default ones follow F3D; those for objects
 /// are on Alt, where F3D has none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Keymap {
     bindings: Vec<Binding>,
     drags: Vec<DragBinding>,
+    clicks: Vec<ClickBinding>,
 }
 
 impl Default for Keymap {
     fn default() -> Self {
-        Self { bindings: defaults::bindings(), drags: defaults::drags() }
+        Self { bindings: defaults::bindings(), drags: defaults::drags(), clicks: defaults::clicks() }
     }
 }
 
@@ -50,7 +64,7 @@ impl Keymap {
     /// No binding at all.
     #[must_use]
     pub fn empty() -> Self {
-        Self { bindings: Vec::new(), drags: Vec::new() }
+        Self { bindings: Vec::new(), drags: Vec::new(), clicks: Vec::new() }
     }
 
     /// Binds a key; whatever was on it is unbound.
@@ -78,6 +92,12 @@ impl Keymap {
         self.drags.push(drag);
     }
 
+    /// Binds a click; whatever was on it is unbound.
+    pub fn bind_click(&mut self, click: ClickBinding) {
+        self.clicks.retain(|other| (other.button, other.modifiers) != (click.button, click.modifiers));
+        self.clicks.push(click);
+    }
+
     /// All keys, in the order of the cheat sheet.
     #[must_use]
     pub fn bindings(&self) -> &[Binding] {
@@ -88,6 +108,12 @@ impl Keymap {
     #[must_use]
     pub fn drags(&self) -> &[DragBinding] {
         &self.drags
+    }
+
+    /// All clicks, in the order of the cheat sheet.
+    #[must_use]
+    pub fn clicks(&self) -> &[ClickBinding] {
+        &self.clicks
     }
 
     /// What a key does.
@@ -101,5 +127,13 @@ impl Keymap {
     pub fn find_drag(&self, button: PointerButton, modifiers: Modifiers) -> Option<DragAction> {
         let drag = self.drags.iter().find(|drag| drag.button == button && drag.modifiers == modifiers);
         drag.map(|drag| drag.action)
+    }
+
+    /// What a click does: of the bindings whose modifiers are all held, the one with most of them.
+    #[must_use]
+    pub fn find_click(&self, button: PointerButton, modifiers: Modifiers) -> Option<ClickAction> {
+        let possible =
+            self.clicks.iter().filter(|click| click.button == button && modifiers.contains(click.modifiers));
+        possible.max_by_key(|click| click.modifiers.count()).map(|click| click.action)
     }
 }

@@ -7,8 +7,8 @@ use std::f64::consts::FRAC_PI_2;
 use trigon_camera::AxisView;
 use trigon_math::DVec3;
 
-use super::action::{Action, CameraMotion, DragAction, Motion, ObjectMotion};
-use super::binding::{Binding, DragBinding};
+use super::action::{Action, CameraMotion, ClickAction, DragAction, Motion, ObjectMotion};
+use super::binding::{Binding, ClickBinding, DragBinding};
 use crate::input::{Chord, Key, Modifiers, PointerButton};
 
 /// Radians per second: a turn in four seconds.
@@ -151,6 +151,25 @@ pub(super) fn drags() -> Vec<DragBinding> {
         drag(PointerButton::Left, Modifiers::CTRL, DragAction::Roll, "roll"),
         drag(PointerButton::Right, Modifiers::NONE, DragAction::Zoom, "zoom"),
         drag(PointerButton::Right, Modifiers::CTRL, DragAction::ZoomToPointer, "zoom to the pointer"),
+    ]
+}
+
+pub(super) fn clicks() -> Vec<ClickBinding> {
+    let click = |button, modifiers, action, description: &'static str| ClickBinding {
+        button,
+        modifiers,
+        action,
+        description: description.into(),
+    };
+    vec![
+        click(PointerButton::Left, Modifiers::NONE, ClickAction::Select, "select the object"),
+        click(PointerButton::Middle, Modifiers::NONE, ClickAction::LookAt, "look at this point"),
+        click(
+            PointerButton::Middle,
+            Modifiers::SHIFT,
+            ClickAction::LookAtFromAsNear,
+            "look at this point, from as near",
+        ),
     ]
 }
 

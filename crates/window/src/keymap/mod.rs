@@ -6,6 +6,6 @@ mod binding;
 mod defaults;
 mod sheet;
 
-pub use action::{Action, CameraMotion, DragAction, Motion, ObjectMotion};
-pub use binding::{Binding, DragBinding, Keymap};
+pub use action::{Action, CameraMotion, ClickAction, DragAction, Motion, ObjectMotion};
+pub use binding::{Binding, ClickBinding, DragBinding, Keymap};
 pub(crate) use sheet::{SheetRow, sheet};

@@ -24,13 +24,8 @@ impl SheetRow {
     }
 }
 
-/// What the mouse does besides dragging; these are not in the tables.
-const FIXED: [(&str, &str); 4] = [
-    ("Wheel", "zoom"),
-    ("Ctrl+Wheel", "zoom to the pointer"),
-    ("Left click", "select the object"),
-    ("Middle click", "look at this point (Shift: from as near)"),
-];
+/// What the wheel does, which is not in the tables.
+const WHEEL: [(&str, &str); 2] = [("Wheel", "zoom"), ("Ctrl+Wheel", "zoom to the pointer")];
 
 /// All lines: the mouse first, then the keys in their order, those with the
 /// same description together.
@@ -40,8 +35,12 @@ pub(crate) fn sheet(keymap: &Keymap) -> Vec<SheetRow> {
         let keys = format!("{}{} drag", drag.modifiers, drag.button);
         add(&mut rows, keys, &drag.description);
     }
-    for (keys, description) in FIXED {
+    for (keys, description) in WHEEL {
         rows.push(SheetRow { keys: keys.into(), description: description.into(), binding: None });
+    }
+    for click in keymap.clicks() {
+        let keys = format!("{}{} click", click.modifiers, click.button);
+        rows.push(SheetRow { keys, description: click.description.to_string(), binding: None });
     }
     let mouse = rows.len();
     let mut rest = keymap.bindings();

@@ -1,6 +1,7 @@
 //! What hands do to camera, objects and interface. The interface comes first: what
-//! happens on a panel or in a text field is its own. A button belongs to whoever it was
-//! pressed on, until it is released; and all learn of releases.
+//! happens on a panel or in a text field is its own. Then the application is asked
+//! (`offers`), and what it leaves goes to camera, keymap and clicks. A button belongs
+//! to whoever it was pressed on, until it is released; and all learn of releases.
 
 use std::time::Duration;
 
@@ -9,8 +10,11 @@ use trigon_math::{DVec2, DVec3};
 
 use super::Session;
 use crate::commands;
-use crate::input::{Chord, Gesture, InputEvent, KeyCode, KeyPress, Modifiers, PointerButton, Press, STEP};
-use crate::keymap::{Action, Binding, DragAction};
+use crate::input::{
+    Chord, Gesture, Input, InputEvent, InputOwner, KeyCode, KeyPress, Modifiers, PointerButton, Press, STEP,
+    Taken,
+};
+use crate::keymap::{Action, Binding, ClickAction, DragAction};
 use crate::motion;
 use crate::pacing::Change;
 
@@ -18,33 +22,49 @@ impl Session<'_> {
     pub(super) fn control(&mut self, input: InputEvent, now: Duration) {
         match input {
             InputEvent::Interface(event) => self.interface_event(event, now),
-            InputEvent::PointerMoved(to) => {
-                let gesture = self.pointer.moved(to, self.stage.scale());
-                self.gesture(gesture, now);
+            InputEvent::PointerMoved(to) => self.pointer_moved(to, now),
+            InputEvent::Button(button, press) => self.button(button, press, now),
+            InputEvent::Wheel(_) | InputEvent::Pinch(_) if self.is_on_interface() => {}
+            InputEvent::Wheel(lines) => self.wheel(lines, now),
+            InputEvent::Pinch(power) => self.pinch(power, now),
+            InputEvent::KeyDown(_) if self.keys_are_the_interfaces() => {}
+            InputEvent::KeyDown(key) => self.key(key, now),
+            InputEvent::KeyUp(code) => self.released(code, now),
+            InputEvent::Modifiers(modifiers) => {
+                self.modifiers = modifiers;
+                self.offer(Input::ModifiersChanged, now);
             }
-            InputEvent::Button(_, Press::Down) if self.is_on_interface() => {}
-            InputEvent::Button(button, press) => {
+            InputEvent::FocusLost => self.focus_lost(now),
+            _ => {}
+        }
+    }
+
+    fn pointer_moved(&mut self, to: DVec2, now: Duration) {
+        let gesture = self.pointer.moved(to, self.stage.scale());
+        if self.pointer.is_held() || self.offer(Input::PointerMoved, now) == Taken::No {
+            self.gesture(gesture, now);
+        }
+    }
+
+    fn button(&mut self, button: PointerButton, press: Press, now: Duration) {
+        match press {
+            Press::Down if self.is_on_interface() => {}
+            Press::Down if self.offer_press(button, now) == Taken::Yes => {}
+            Press::Up if self.offer_release(button, now) == Taken::Yes => {}
+            _ => {
                 let gesture = self.pointer.button(button, press, self.modifiers);
                 self.gesture(gesture, now);
             }
-            InputEvent::Wheel(_) | InputEvent::Pinch(_) if self.is_on_interface() => {}
-            InputEvent::Wheel(lines) => self.wheel(lines, now),
-            InputEvent::Pinch(power) => {
-                motion::zoom(&mut self.stage, power, None);
-                self.pacing.changed(Change::Moving, now);
-            }
-            InputEvent::KeyDown(_) if self.interface.wants_keyboard() => {}
-            InputEvent::KeyDown(key) => self.key(key, now),
-            InputEvent::KeyUp(code) => self.released(code, now),
-            InputEvent::Modifiers(modifiers) => self.modifiers = modifiers,
-            InputEvent::FocusLost => {
-                self.move_held(now);
-                self.held.clear();
-                self.pointer.cancel();
-                self.modifiers = Modifiers::NONE;
-            }
-            _ => {}
         }
+    }
+
+    fn focus_lost(&mut self, now: Duration) {
+        self.move_held(now);
+        self.held.clear();
+        self.pointer.cancel();
+        self.modifiers = Modifiers::NONE;
+        self.taken.clear();
+        self.offer(Input::FocusLost, now);
     }
 
     /// What the interface is to know. Keys are only for it while a widget has the
@@ -56,8 +76,9 @@ impl Session<'_> {
             | Event::Copy
             | Event::Cut
             | Event::Paste(_)
-            | Event::Ime(_) => self.interface.wants_keyboard(),
+            | Event::Ime(_) => self.keys_are_the_interfaces(),
             Event::MouseWheel { .. } | Event::Zoom(_) | Event::Rotate(_) => self.is_on_interface(),
+            Event::PointerButton { pressed: true, .. } => !self.is_applications(),
             _ => true,
         };
         if wanted {
@@ -68,8 +89,18 @@ impl Session<'_> {
 
     /// Whether the pointer is on the interface, and not dragging something beneath it.
     fn is_on_interface(&self) -> bool {
-        let at = self.pointer.position().filter(|_| !self.pointer.is_held());
+        let at = self.pointer.position().filter(|_| !self.pointer.is_held() && !self.is_applications());
         at.is_some_and(|at| self.interface.wants_pointer(at))
+    }
+
+    /// Whether the pointer is the application's, wherever it is.
+    fn is_applications(&self) -> bool {
+        self.stage.input_owner == InputOwner::Application || self.taken.has_button()
+    }
+
+    /// Whether a widget has the keyboard.
+    fn keys_are_the_interfaces(&self) -> bool {
+        self.stage.input_owner == InputOwner::Interface && self.interface.wants_keyboard()
     }
 
     fn gesture(&mut self, gesture: Option<Gesture>, now: Duration) {
@@ -93,31 +124,44 @@ impl Session<'_> {
     }
 
     fn click(&mut self, button: PointerButton, modifiers: Modifiers, at: DVec2, now: Duration) {
-        match button {
-            PointerButton::Left => {
+        if self.offer_click(button, modifiers, at, now) == Taken::Yes {
+            return;
+        }
+        let Some(action) = self.stage.keymap.find_click(button, modifiers) else { return };
+        match action {
+            ClickAction::Select => {
                 self.stage.selection = self.stage.pick(at).map(|(hit, _)| hit.node);
                 commands::announce_selection(&mut self.stage);
             }
-            PointerButton::Middle => {
+            ClickAction::LookAt | ClickAction::LookAtFromAsNear => {
                 let Some((_, point)) = self.stage.pick(at) else { return };
-                if modifiers.contains(Modifiers::SHIFT) {
+                if action == ClickAction::LookAtFromAsNear {
                     // As near as the point was, not as the old target was.
                     let depth = -self.stage.camera().to_camera(point).z;
                     self.stage.orbit.set_distance(depth);
                 }
                 self.stage.orbit.set_target(point);
             }
-            PointerButton::Right => {}
         }
         self.note(now);
     }
 
     fn wheel(&mut self, lines: f64, now: Duration) {
+        if self.offer(Input::Wheel(lines), now) == Taken::Yes {
+            return;
+        }
         let to_pointer = self.modifiers.contains(Modifiers::CTRL);
         let pointer = self.pointer.position().filter(|_| to_pointer);
         let anchor = pointer.and_then(|at| self.anchor_at(at));
         motion::wheel(&mut self.stage, lines, anchor);
         self.pacing.changed(Change::Moving, now);
+    }
+
+    fn pinch(&mut self, power: f64, now: Duration) {
+        if self.offer(Input::Pinch(power), now) == Taken::No {
+            motion::zoom(&mut self.stage, power, None);
+            self.pacing.changed(Change::Moving, now);
+        }
     }
 
     /// What is under the pointer, or else the point at the target's distance.
@@ -138,6 +182,10 @@ impl Session<'_> {
     }
 
     fn key(&mut self, key: KeyPress, now: Duration) {
+        // Keys of the keymap that act while they are down have a clock of their own.
+        if self.offer_key(key, now) == Taken::Yes || key.repeat {
+            return;
+        }
         let chords = [key.logical, key.physical].into_iter().flatten();
         let found = chords
             .map(|key| Chord::new(self.modifiers, key))
@@ -174,6 +222,7 @@ impl Session<'_> {
     }
 
     fn released(&mut self, code: KeyCode, now: Duration) {
+        self.offer_key_release(code, now);
         if self.held.is_empty() {
             return;
         }

@@ -1,6 +1,7 @@
 //! A window's life without a window.
 
 mod beside;
+mod offers;
 mod ownership;
 mod picks;
 mod refinement;
@@ -147,7 +148,7 @@ fn rest_beside(session: &mut Session<'_>, rung: &Receiver<()>, start: Duration) 
 }
 
 fn key_down(code: u64, key: Key) -> InputEvent {
-    InputEvent::KeyDown(KeyPress { code: KeyCode(code), logical: Some(key), physical: None })
+    InputEvent::KeyDown(KeyPress { code: KeyCode(code), logical: Some(key), physical: None, repeat: false })
 }
 
 fn drag(session: &mut Session<'_>, button: PointerButton, way: DVec2, now: Duration) {
@@ -319,6 +320,7 @@ fn keys_change_the_view_and_the_sheet() {
         code: KeyCode(4),
         logical: Some(Key::Character('&')),
         physical: Some(Key::Character('1')),
+        repeat: false,
     };
     session.event(InputEvent::KeyDown(code), ms(6100));
     top.set_view(AxisView::Front);

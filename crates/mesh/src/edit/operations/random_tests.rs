@@ -2,7 +2,7 @@
 //! non-manifold or open.
 
 use proptest::prelude::*;
-use trigon_math::{DVec3, Plane};
+use trigon_math::{DMat3, DVec3, Plane};
 
 use super::super::tests::{check_undo_and_redo, keeps_affine_values, meshes};
 use super::*;
@@ -26,7 +26,12 @@ fn step(mesh: &mut EditMesh, (kind, bits, a, b): Step) -> Result<(), Refusal> {
     match kind % 21 {
         0 => mesh.transform_vertices(&vertices, &Transform::Translate { offset: center }, Some(&falloff)),
         1 => {
-            let rotation = Transform::Rotate { center, axis: DVec3::new(1.0, a, b), angle: 3.0 * b };
+            let rotation = Transform::Rotate {
+                center,
+                axis: DVec3::new(1.0, a, b),
+                angle: 3.0 * b,
+                orientation: DMat3::IDENTITY,
+            };
             mesh.transform_vertices(&vertices, &rotation, None)
         }
         2 => mesh.transform_vertices(&vertices, &Transform::ToSphere { center, factor: b }, None),

@@ -22,10 +22,14 @@ pub enum Transform {
     Rotate {
         /// What stays.
         center: DVec3,
-        /// Of any length but zero.
+        /// In `orientation`; of any length but zero.
         axis: DVec3,
         /// Of the turn.
         angle: f64,
+        /// The axes of the space in which the turn is one, in columns: the identity for that of the
+        /// mesh. They have to be independent. In a mesh that is drawn unevenly scaled this makes
+        /// turns that are turns as it is drawn.
+        orientation: DMat3,
     },
     /// By a factor along each of three axes. A negative factor mirrors; faces are not turned
     /// over (see [`EditMesh::mirror`](crate::edit::EditMesh::mirror)).
@@ -84,6 +88,8 @@ pub(super) enum Prepared {
         axis: DVec3,
         angle: f64,
         change: DMat3,
+        /// The orientation and its inverse, unless they are the identity.
+        orientation: Option<[DMat3; 2]>,
     },
     ToSphere {
         center: DVec3,
@@ -108,9 +114,14 @@ impl Transform {
             Self::Translate { offset } => {
                 Prepared::Linear { center: DVec3::ZERO, change: DMat3::ZERO, offset }
             }
-            Self::Rotate { center, axis, angle } => {
+            Self::Rotate { center, axis, angle, orientation } => {
                 let axis = direction_of(axis, "rotating", "the axis has no direction")?;
-                Prepared::Rotation { center, axis, angle, change: turn(axis, angle) }
+                let orientation = match orientation == DMat3::IDENTITY {
+                    true => None,
+                    false => Some([orientation, inverse(orientation, "rotating")?]),
+                };
+                let change = turn_within(orientation.as_ref(), axis, angle);
+                Prepared::Rotation { center, axis, angle, change, orientation }
             }
             Self::Scale { center, factors, orientation } => {
                 let change = scaling(factors, orientation)?;
@@ -141,19 +152,21 @@ impl Transform {
         let all = |parameter, values: DVec3| {
             values.to_array().into_iter().try_for_each(|value| finite(parameter, value))
         };
+        let axes = |parameter, axes: DMat3| {
+            [axes.x_axis, axes.y_axis, axes.z_axis].into_iter().try_for_each(|axis| all(parameter, axis))
+        };
         match *self {
             Self::Translate { offset } => all("the offset", offset),
-            Self::Rotate { center, axis, angle } => {
+            Self::Rotate { center, axis, angle, orientation } => {
                 all("the centre", center)?;
                 all("the axis", axis)?;
+                axes("the orientation", orientation)?;
                 finite("the angle", angle)
             }
             Self::Scale { center, factors, orientation } => {
                 all("the centre", center)?;
                 all("the factor", factors)?;
-                [orientation.x_axis, orientation.y_axis, orientation.z_axis]
-                    .into_iter()
-                    .try_for_each(|axis| all("the orientation", axis))
+                axes("the orientation", orientation)
             }
             Self::Shear { center, normal, direction, factor } => {
                 all("the centre", center)?;
@@ -181,8 +194,9 @@ impl Prepared {
         // Each adds a change to the start, so that no change keeps every bit.
         match *self {
             Self::Linear { center, change, offset } => start + (offset + change * (start - center)) * weight,
-            Self::Rotation { center, axis, angle, change } => {
-                let change = if weight == 1.0 { change } else { turn(axis, angle * weight) };
+            Self::Rotation { center, axis, angle, change, ref orientation } => {
+                let part = || turn_within(orientation.as_ref(), axis, angle * weight);
+                let change = if weight == 1.0 { change } else { part() };
                 start + change * (start - center)
             }
             Self::ToSphere { center, radius, factor } => {
@@ -220,14 +234,24 @@ fn turn(axis: DVec3, angle: f64) -> DMat3 {
     cross * elementary::sin(angle) + cross * cross * (2.0 * half * half)
 }
 
+/// The same in the space of an orientation, given with its inverse.
+fn turn_within(orientation: Option<&[DMat3; 2]>, axis: DVec3, angle: f64) -> DMat3 {
+    match orientation {
+        None => turn(axis, angle),
+        Some([axes, inverse]) => *axes * turn(axis, angle) * *inverse,
+    }
+}
+
 /// What scaling along the axes of an orientation adds to a vector.
 fn scaling(factors: DVec3, orientation: DMat3) -> Result<DMat3, Refusal> {
     let change = DMat3::from_diagonal(factors - DVec3::ONE);
     if orientation == DMat3::IDENTITY {
         return Ok(change);
     }
+    Ok(orientation * change * inverse(orientation, "scaling")?)
+}
+
+fn inverse(orientation: DMat3, operation: &'static str) -> Result<DMat3, Refusal> {
     let reason = "the axes of the orientation are not independent";
-    let dependent = Refusal::NotPossible { operation: "scaling", reason };
-    let inverse = orientation.try_inverse().ok_or(dependent)?;
-    Ok(orientation * change * inverse)
+    orientation.try_inverse().ok_or(Refusal::NotPossible { operation, reason })
 }

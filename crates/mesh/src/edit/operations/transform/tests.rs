@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use trigon_math::{DAffine3, DMat3, DVec3, Vec3};
 
 use super::super::super::tests::meshes;
+use super::kind::Prepared;
 use super::*;
 use crate::edit::{EditMesh, Refusal, VertexId};
 use crate::{Mesh, primitives};
@@ -33,7 +34,12 @@ fn each_transform_moves_the_corner_of_a_cube_where_it_should() {
     let center = DVec3::ZERO;
     let offset = DVec3::new(1.0, 2.0, 3.0);
     assert_eq!(moved_cube(Transform::Translate { offset }), Vec3::new(0.0, 1.0, 2.0), "translated");
-    let turned = moved_cube(Transform::Rotate { center, axis: DVec3::Z * 7.0, angle: FRAC_PI_2 });
+    let turned = moved_cube(Transform::Rotate {
+        center,
+        axis: DVec3::Z * 7.0,
+        angle: FRAC_PI_2,
+        orientation: DMat3::IDENTITY,
+    });
     assert_eq!(turned, Vec3::new(1.0, -1.0, -1.0), "from −x, −y towards x");
     let factors = DVec3::new(2.0, -1.0, 0.5);
     let scaled = moved_cube(Transform::Scale { center, factors, orientation: DMat3::IDENTITY });
@@ -62,6 +68,19 @@ fn scaling_along_a_diagonal_stretches_only_that() {
     assert!(corner.abs_diff_eq(Vec3::new(-3.0, -3.0, -1.0), 1e-6), "{corner}");
 }
 
+/// In a mesh that is drawn twice as wide, a quarter of a turn takes a metre along y to half a metre along x.
+#[test]
+fn a_turn_in_an_uneven_space_is_one_as_it_is_drawn() {
+    let orientation = DMat3::from_diagonal(DVec3::new(0.5, 1.0, 1.0));
+    let turn = |angle| Transform::Rotate { center: DVec3::ZERO, axis: DVec3::NEG_Z, angle, orientation };
+    let corner = moved_cube(turn(FRAC_PI_2));
+    assert!(corner.abs_diff_eq(Vec3::new(-0.5, 2.0, -1.0), 1e-6), "(-2, -1) drawn goes to (-1, 2): {corner}");
+    let (half, whole) = (turn(FRAC_PI_2).prepare(|_| 0.0), turn(FRAC_PI_2 / 2.0).prepare(|_| 0.0));
+    let (half, whole) = (half.expect("a turn"), whole.expect("a turn"));
+    let place = |prepared: &Prepared, weight| prepared.moved(DVec3::NEG_ONE, weight, DVec3::ZERO);
+    assert!(place(&half, 0.5).abs_diff_eq(place(&whole, 1.0), 1e-15), "a part of a turn is a smaller turn");
+}
+
 #[test]
 fn what_makes_no_sense_is_refused() {
     let mut cube = editable(&primitives::cube(2.0));
@@ -71,11 +90,13 @@ fn what_makes_no_sense_is_refused() {
         cube.transform_vertices(&vertices, &transform, None).expect_err("it makes no sense").to_string()
     };
     let center = DVec3::ZERO;
-    let message = refused(Transform::Rotate { center, axis: DVec3::ZERO, angle: 1.0 });
+    let message =
+        refused(Transform::Rotate { center, axis: DVec3::ZERO, angle: 1.0, orientation: DMat3::IDENTITY });
     assert_eq!(message, "rotating is not possible here: the axis has no direction");
     refused(Transform::Translate { offset: DVec3::NAN });
     let orientation = DMat3::from_cols(DVec3::X, DVec3::X, DVec3::Z);
     refused(Transform::Scale { center, factors: DVec3::splat(2.0), orientation });
+    refused(Transform::Rotate { center, axis: DVec3::X, angle: 1.0, orientation });
     let falloff = Falloff { radius: 0.0, ..Falloff::default() };
     let refusal = MoveSession::with_falloff(&cube, &vertices, &falloff).expect_err("no radius");
     assert!(matches!(refusal, Refusal::OutOfRange { .. }), "{refusal}");
@@ -138,7 +159,12 @@ fn half_a_turn_with_half_a_weight_is_a_quarter() {
     let moved = mesh.add_vertex(Vec3::X).expect("room");
     let follows = mesh.add_vertex(Vec3::X * 2.0).expect("room");
     let falloff = Falloff { shape: FalloffShape::Linear, radius: 2.0, ..Falloff::default() };
-    let half = Transform::Rotate { center: DVec3::ZERO, axis: DVec3::Z, angle: 2.0 * FRAC_PI_2 };
+    let half = Transform::Rotate {
+        center: DVec3::ZERO,
+        axis: DVec3::Z,
+        angle: 2.0 * FRAC_PI_2,
+        orientation: DMat3::IDENTITY,
+    };
     mesh.transform_vertices(&[moved], &half, Some(&falloff)).expect("it is possible");
     assert!(mesh.position(moved).abs_diff_eq(Vec3::NEG_X, 1e-7), "half");
     assert!(mesh.position(follows).abs_diff_eq(Vec3::Y * 2.0, 1e-7), "a quarter");
@@ -153,7 +179,12 @@ fn given_normals_turn_with_whole_faces_and_make_room_at_others() {
     attributes.face_smooth = None;
     mesh.set_attributes(attributes).expect("one value each");
     let start = editable(&mesh);
-    let rotation = Transform::Rotate { center: DVec3::ONE, axis: DVec3::new(1.0, 2.0, 3.0), angle: 0.7 };
+    let rotation = Transform::Rotate {
+        center: DVec3::ONE,
+        axis: DVec3::new(1.0, 2.0, 3.0),
+        angle: 0.7,
+        orientation: DMat3::IDENTITY,
+    };
 
     let mut whole = start.clone();
     whole.transform_vertices(&all(&start), &rotation, None).expect("it is possible");
@@ -214,7 +245,8 @@ fn transforms() -> impl Strategy<Value = Transform> {
         (vector(), vector(), number()).prop_map(|(center, axis, angle)| Transform::Rotate {
             center,
             axis,
-            angle
+            angle,
+            orientation: DMat3::IDENTITY,
         }),
         (vector(), vector()).prop_map(|(center, factors)| {
             Transform::Scale { center, factors, orientation: DMat3::IDENTITY }
@@ -301,7 +333,7 @@ proptest! {
         start.smooth_by_angle(1.0);
         let mut mesh = editable(&start);
         let axis = DVec3::new(2.0, -1.0, 0.5).normalize();
-        let rotation = Transform::Rotate { center: DVec3::ZERO, axis, angle };
+        let rotation = Transform::Rotate { center: DVec3::ZERO, axis, angle, orientation: DMat3::IDENTITY };
         let vertices = all(&mesh);
         mesh.transform_vertices(&vertices, &rotation, None).expect("it is possible");
         start.transform(&DAffine3::from_axis_angle(axis, angle));

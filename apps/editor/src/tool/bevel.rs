@@ -1,0 +1,147 @@
+//! Ctrl+B: bevels the selected edges or vertices. The farther the pointer goes away from their middle,
+//! the wider is the bevel; the wheel changes the number of segments.
+
+use trigon_edit::mesh::math::{DVec2, DVec3};
+use trigon_edit::{Bevel, Document};
+use trigon_window::{Hands, Input};
+
+use super::expression::Quantity;
+use super::extrude::on;
+use super::modal::{Modal, Step};
+use super::numeric::NumericEntry;
+use super::selected::Selected;
+use super::view::ToolView;
+use super::{Tool, ToolState};
+
+/// What the pointer and typed numbers change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Adjusting {
+    Width,
+    Segments,
+    Profile,
+}
+
+/// A bevel that runs.
+#[derive(Debug)]
+pub(crate) struct BevelTool {
+    modal: Modal,
+    /// The middle of what is selected.
+    middle: DVec3,
+    command: Bevel,
+    adjusting: Adjusting,
+    /// What counted when the pointer began to change something else: where it was, and the values then.
+    from: DVec2,
+    before: Bevel,
+}
+
+/// Pixels for one segment more, and for all profiles from 0 to 1.
+const SEGMENT: f64 = 20.0;
+const PROFILES: f64 = 400.0;
+/// The most that the kernel makes.
+const MOST_SEGMENTS: f64 = 100.0;
+
+impl BevelTool {
+    /// Starts on what is selected in edit mode; `None` where nothing is.
+    pub(crate) fn start(
+        vertices: bool,
+        document: &mut Document,
+        hands: Hands,
+        view: &ToolView,
+    ) -> Option<Self> {
+        let selected = Selected::of(document).filter(|selected| selected.is_editing)?;
+        let modal = Modal::new(hands, NumericEntry::new(Quantity::Length, 1));
+        let command = Bevel { width: 0.0, vertices, clamp_overlap: false, ..Bevel::default() };
+        let (middle, from, before) = (selected.median(), modal.pointer.place(), command.clone());
+        let adjusting = Adjusting::Width;
+        let mut tool = Self { modal, middle, command, adjusting, from, before };
+        tool.update(document, view);
+        Some(tool)
+    }
+
+    fn update(&mut self, document: &mut Document, view: &ToolView) -> ToolState {
+        if let Err(why) = self.follow(view) {
+            return self.modal.refuse(why);
+        }
+        self.modal.show(document, self.command.clone().into())
+    }
+
+    fn follow(&mut self, view: &ToolView) -> Result<(), String> {
+        let place = self.modal.pointer.place();
+        let center = view.screen(self.middle).unwrap_or(DVec2::ZERO);
+        let away = place.distance(center) - self.from.distance(center);
+        let across = (place.x - self.from.x) / view.scale;
+        let typed = self.modal.numeric.value_or(0.0).map_err(|error| error.to_string())?;
+        match self.adjusting {
+            Adjusting::Width => {
+                let dragged = self.before.width + away * view.metres_per_pixel(self.middle);
+                self.command.width = typed.unwrap_or(dragged.max(0.0));
+            }
+            Adjusting::Segments => {
+                let dragged = f64::from(self.before.segments) + across / SEGMENT;
+                self.set_segments(typed.unwrap_or(dragged));
+            }
+            Adjusting::Profile => {
+                self.command.profile =
+                    typed.unwrap_or(self.before.profile + across / PROFILES).clamp(0.0, 1.0);
+            }
+        }
+        Ok(())
+    }
+
+    fn set_segments(&mut self, segments: f64) {
+        self.command.segments = segments.round().clamp(1.0, MOST_SEGMENTS) as u32;
+    }
+
+    fn adjust(&mut self, adjusting: Adjusting) {
+        let quantity = if adjusting == Adjusting::Width { Quantity::Length } else { Quantity::Factor };
+        self.modal.numeric = NumericEntry::new(quantity, 1);
+        self.adjusting = adjusting;
+        self.from = self.modal.pointer.place();
+        self.before = self.command.clone();
+    }
+
+    fn key(&mut self, key: char, document: &mut Document, view: &ToolView) -> ToolState {
+        match key {
+            'a' => self.adjust(Adjusting::Width),
+            's' => self.adjust(Adjusting::Segments),
+            'p' => self.adjust(Adjusting::Profile),
+            'c' => self.command.clamp_overlap = !self.command.clamp_overlap,
+            'v' => self.command.vertices = !self.command.vertices,
+            _ => return ToolState::Running,
+        }
+        self.update(document, view)
+    }
+}
+
+impl Tool for BevelTool {
+    fn input(&mut self, input: &Input, hands: Hands, view: &ToolView, document: &mut Document) -> ToolState {
+        match self.modal.step(input, hands) {
+            Step::Update => self.update(document, view),
+            Step::Confirm => Modal::confirm(document),
+            Step::Cancel => Modal::cancel(document),
+            Step::Key(key) => self.key(key, document, view),
+            Step::Wheel(lines) => {
+                self.set_segments(f64::from(self.command.segments) + lines);
+                self.before.segments = self.command.segments;
+                self.update(document, view)
+            }
+            _ => ToolState::Running,
+        }
+    }
+
+    fn status(&self) -> String {
+        let Bevel { width, segments, profile, clamp_overlap, vertices } = &self.command;
+        let typed = self.modal.numeric.is_active().then(|| self.modal.numeric.status());
+        self.modal.status(format!(
+            "Bevel A: width {width:.4} m, S or wheel: segments {segments}, P: profile {profile:.3} {} \
+             C: clamp overlap ({}), V: vertices ({})",
+            typed.unwrap_or_default(),
+            on(*clamp_overlap),
+            on(*vertices),
+        ))
+    }
+
+    fn pointer_jumped(&mut self, to: DVec2) {
+        self.modal.pointer.jumped(to);
+    }
+}

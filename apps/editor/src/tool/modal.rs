@@ -1,0 +1,145 @@
+//! What all modal tools have in common: keys that confirm and cancel, the pointer, typed numbers, and the
+//! preview of a command.
+
+use trigon_edit::mesh::math::DVec2;
+use trigon_edit::{Command, Document};
+use trigon_window::{Hands, Input, Key, Modifiers, PointerButton};
+
+use super::ToolState;
+use super::numeric::NumericEntry;
+use super::pointer::VirtualPointer;
+
+/// The state that every modal tool holds.
+#[derive(Debug, Clone)]
+pub(crate) struct Modal {
+    pub(crate) pointer: VirtualPointer,
+    pub(crate) numeric: NumericEntry,
+    /// Why the last preview was refused.
+    refusal: Option<String>,
+    modifiers: Modifiers,
+    /// Whether the tool runs while the left button is held, as from a gizmo.
+    confirms_on_release: bool,
+}
+
+/// What an input means to a modal tool.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Step {
+    /// The pointer, the modifiers or the typed numbers changed.
+    Update,
+    Confirm,
+    Cancel,
+    /// A key of the tool's own, in lower case.
+    Key(char),
+    /// The middle button went down.
+    MiddlePressed,
+    MiddleReleased,
+    /// In lines away from the user.
+    Wheel(f64),
+    Nothing,
+}
+
+impl Modal {
+    /// Starts where the pointer is.
+    pub(crate) fn new(hands: Hands, numeric: NumericEntry) -> Self {
+        let mut pointer = VirtualPointer::default();
+        pointer.moved(hands.pointer, false);
+        Self { pointer, numeric, refusal: None, modifiers: hands.modifiers, confirms_on_release: false }
+    }
+
+    /// The tool was started by a press that is still held: its release confirms.
+    pub(crate) fn confirm_on_release(&mut self) {
+        self.confirms_on_release = true;
+    }
+
+    /// What an input means. Typed numbers come before keys of the tool.
+    pub(crate) fn step(&mut self, input: &Input, hands: Hands) -> Step {
+        self.modifiers = hands.modifiers;
+        match *input {
+            Input::PointerMoved => {
+                let is_precise = hands.modifiers.contains(Modifiers::SHIFT);
+                if self.pointer.moved(hands.pointer, is_precise) { Step::Update } else { Step::Nothing }
+            }
+            Input::ModifiersChanged => Step::Update,
+            // With Alt the button turns the view in the middle of a tool.
+            Input::Pressed(_) if hands.modifiers.contains(Modifiers::ALT) => Step::Nothing,
+            Input::Pressed(PointerButton::Left) => Step::Confirm,
+            Input::Released(PointerButton::Left) if self.confirms_on_release => Step::Confirm,
+            Input::Pressed(PointerButton::Right) => Step::Cancel,
+            Input::Pressed(PointerButton::Middle) => Step::MiddlePressed,
+            Input::Released(PointerButton::Middle) => Step::MiddleReleased,
+            Input::Wheel(lines) => Step::Wheel(lines),
+            Input::Key { logical, physical, repeat } => self.key(logical, physical, repeat, hands.modifiers),
+            _ => Step::Nothing,
+        }
+    }
+
+    fn key(
+        &mut self,
+        logical: Option<Key>,
+        physical: Option<Key>,
+        repeat: bool,
+        modifiers: Modifiers,
+    ) -> Step {
+        for key in [logical, physical].into_iter().flatten() {
+            if self.numeric.key(key, modifiers) {
+                return Step::Update;
+            }
+        }
+        match (logical.or(physical), repeat) {
+            (Some(Key::Enter | Key::Space), false) => Step::Confirm,
+            (Some(Key::Escape), false) => Step::Cancel,
+            (Some(Key::Character(key)), false) => Step::Key(key),
+            _ => Step::Nothing,
+        }
+    }
+
+    /// Whether Ctrl is held: snapping is inverted.
+    pub(crate) fn inverts_snapping(&self) -> bool {
+        self.modifiers.contains(Modifiers::CTRL)
+    }
+
+    /// Whether Shift is held: moves and increments are finer.
+    pub(crate) fn is_precise(&self) -> bool {
+        self.modifiers.contains(Modifiers::SHIFT)
+    }
+
+    pub(crate) fn modifiers(&self) -> Modifiers {
+        self.modifiers
+    }
+
+    /// Shows what a command does; a refusal is kept for the status line, and the last good preview
+    /// stays.
+    pub(crate) fn show(&mut self, document: &mut Document, command: Command) -> ToolState {
+        self.refusal = document.preview(command).err().map(|refusal| refusal.to_string());
+        ToolState::Running
+    }
+
+    /// Something else than the document refuses.
+    pub(crate) fn refuse(&mut self, why: impl Into<String>) -> ToolState {
+        self.refusal = Some(why.into());
+        ToolState::Running
+    }
+
+    pub(crate) fn confirm(document: &mut Document) -> ToolState {
+        document.confirm();
+        ToolState::Confirmed
+    }
+
+    pub(crate) fn cancel(document: &mut Document) -> ToolState {
+        document.cancel();
+        ToolState::Cancelled
+    }
+
+    /// A line for the status bar: the tool's, and why nothing happens.
+    pub(crate) fn status(&self, text: String) -> String {
+        match &self.refusal {
+            Some(refusal) => format!("{text} — {refusal}"),
+            None => text,
+        }
+    }
+
+    /// The distance of the pointer from a place in the picture, now and in the beginning.
+    pub(crate) fn distances(&self, from: DVec2) -> [f64; 2] {
+        [self.pointer.place().distance(from), self.pointer.start().distance(from)]
+    }
+}

@@ -1,0 +1,138 @@
+//! Selections that stay true, and objects that are joined and separated.
+
+use trigon_mesh::math::DVec3;
+
+use super::*;
+
+/// A document with cubes of these names at different places, and their nodes.
+fn cubes<const COUNT: usize>(names: [&str; COUNT]) -> (Scene, [trigon_scene::NodeId; COUNT]) {
+    let mut scene = Scene::new();
+    let mut place = 0.0;
+    let nodes = names.map(|name| {
+        let node = scene.add_object(name, primitives::cube(1.0), Material::default());
+        place += 3.0;
+        let transform = &mut scene.node_mut(node).expect("just added").transform;
+        transform.set_translation(DVec3::new(place, 0.0, 0.0));
+        node
+    });
+    (scene, nodes)
+}
+
+#[test]
+fn numbers_of_removed_elements_are_not_selected_when_they_are_given_again() {
+    let mut document = document();
+    run_all(
+        &mut document,
+        &[
+            json!({ "op": "edit_objects", "objects": ["grid"] }),
+            json!({ "op": "set_element_kind", "kind": "face" }),
+            json!({ "op": "select", "elements": [2, 3] }),
+            json!({ "op": "delete", "what": "faces" }),
+            json!({ "op": "select_less" }),
+            json!({ "op": "select_all" }),
+            json!({ "op": "subdivide" }),
+        ],
+    );
+    let (id, selection) = document.selection().meshes().next().expect("one is edited");
+    let mesh = document.mesh(id).expect("it is edited");
+    assert!(selection.indices().all(|index| ElementKind::Face.is_selectable(mesh, index)));
+    assert!(
+        document.run(command(json!({ "op": "select_path" }))).is_err(),
+        "nothing was selected one by one"
+    );
+}
+
+#[test]
+fn what_is_hidden_is_never_selected() {
+    let mut document = document();
+    run_all(
+        &mut document,
+        &[
+            json!({ "op": "edit_objects", "objects": ["grid"] }),
+            json!({ "op": "set_element_kind", "kind": "face" }),
+            json!({ "op": "select", "elements": [0, 1] }),
+            json!({ "op": "hide" }),
+            json!({ "op": "select_within" }),
+        ],
+    );
+    let (_, selection) = document.selection().meshes().next().expect("one is edited");
+    assert_eq!(selection.len(), 10, "all faces of the grid but two");
+    assert!(!selection.contains(0) && !selection.contains(1));
+    let hidden = document.run(command(json!({ "op": "select", "elements": [1] })));
+    assert!(hidden.expect_err("it is hidden").to_string().contains("reveal"), "the remedy is told");
+}
+
+#[test]
+fn parts_are_separated_from_the_objects_that_they_come_from() {
+    let (mut scene, _) = cubes(["left", "middle"]);
+    let (parent, _) = scene.nodes().iter().next().expect("two");
+    scene.add_child(parent, trigon_scene::Node::default());
+    let mut document = Document::new(scene);
+    run_all(
+        &mut document,
+        &[
+            json!({ "op": "edit_objects", "objects": ["left", "middle"] }),
+            json!({ "op": "set_element_kind", "kind": "face" }),
+            json!({ "op": "select", "objects": ["middle"], "elements": [0] }),
+            json!({ "op": "separate" }),
+        ],
+    );
+    let scene = document.scene();
+    let (part, node) = scene.nodes().iter().last().expect("a new one");
+    assert_eq!(node.name, "middle", "the part comes from the second object");
+    assert_eq!(scene.world_transform(part).translation.x, 6.0, "and is where it was");
+}
+
+#[test]
+fn objects_that_hang_on_joined_ones_stay_where_they_are() {
+    let (mut scene, [base, active, hanging]) = cubes(["base", "active", "hanging"]);
+    scene.node_mut(base).expect("there").transform.rotate(DVec3::Z, 0.5);
+    scene.set_parent(active, Some(base)).expect("no circle");
+    scene.set_parent(hanging, Some(base)).expect("no circle");
+    let place = scene.world_transform(hanging);
+    let mut document = Document::new(scene);
+    run_all(
+        &mut document,
+        &[json!({ "op": "select", "objects": ["base", "active"] }), json!({ "op": "join_objects" })],
+    );
+    let scene = document.scene();
+    assert!(scene.node(base).is_none() && scene.node(active).is_some(), "the active one stays");
+    let moved = scene.world_transform(hanging).translation - place.translation;
+    assert!(moved.length() < 1e-12, "a few roundings of places of about ten metres");
+    let mesh = scene.node(active).and_then(|node| node.mesh).expect("it has one");
+    assert_eq!(document.mesh(mesh).expect("joined").face_count(), 12);
+}
+
+#[test]
+fn joined_faces_keep_their_materials_where_the_active_object_has_none() {
+    let (mut scene, [plain, red]) = cubes(["plain", "red"]);
+    scene.node_mut(plain).expect("there").materials.clear();
+    let material = scene.node(red).expect("there").materials[0];
+    let mut document = Document::new(scene);
+    run_all(
+        &mut document,
+        &[json!({ "op": "select", "objects": ["red", "plain"] }), json!({ "op": "join_objects" })],
+    );
+    let node = document.scene().node(plain).expect("the active one stays").clone();
+    let mesh = document.mesh(node.mesh.expect("it has one")).expect("joined");
+    let of_face = |face| node.materials[mesh.material(face) as usize];
+    let in_red = mesh.faces().filter(|&face| of_face(face) == material).count();
+    assert_eq!((in_red, mesh.face_count()), (6, 12), "the others are drawn as before, without a material");
+}
+
+#[test]
+fn corners_that_are_left_out_are_told() {
+    let mut builder = trigon_mesh::MeshBuilder::new();
+    for place in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] {
+        builder.push_vertex(trigon_mesh::math::Vec3::new(place[0], place[1], 0.0));
+    }
+    builder.push_face(&[0, 1, 1, 2]).expect("a face may repeat a vertex");
+    let mut scene = Scene::new();
+    scene.add_object("folded", builder.build(), Material::default());
+    let mut document = Document::new(scene);
+    let outcome = document.run(command(json!({ "op": "edit_objects", "objects": ["folded"] })));
+    let warnings = outcome.expect("it can be edited").warnings;
+    assert_eq!(warnings, ["folded: corners at the same vertex as the next one are left out: 1"]);
+    let again = document.run(command(json!({ "op": "select_all" }))).expect("edited");
+    assert!(again.warnings.is_empty(), "told once");
+}
