@@ -37,6 +37,7 @@ impl Change<'_> {
         if self.parts.is_none() {
             self.parts = Some(Box::new(self.document.file.scene.parts()));
         }
+        self.document.shown.note_parts();
         &mut self.document.file.scene
     }
 
@@ -60,6 +61,7 @@ impl Change<'_> {
             let (mesh, _) = EditMesh::from_mesh(asset.mesh());
             self.document.file.edited.insert(id, mesh);
         }
+        self.document.shown.note_edited(id);
         self.document.file.edited.get(&id)
     }
 
@@ -75,8 +77,8 @@ impl Change<'_> {
         };
         let (result, difference) = mesh.transaction(change)?;
         if !difference.is_empty() {
+            self.document.shown.note_difference(id, mesh, &difference);
             self.meshes.push((id, difference));
-            self.document.stale.insert(id);
         }
         Ok(result)
     }
@@ -90,7 +92,7 @@ impl Change<'_> {
         let copy = self.document.file.scene.add_mesh(name, mesh);
         if let Some(edited) = edited {
             self.document.file.edited.insert(copy, edited);
-            self.document.stale.insert(copy);
+            self.document.shown.note_mesh(copy);
         }
         Some(copy)
     }
@@ -108,7 +110,7 @@ impl Change<'_> {
             let (mesh, _) = part.to_mesh();
             let mesh = self.document.file.scene.add_mesh(owner.name.clone(), mesh);
             self.document.file.edited.insert(mesh, part);
-            self.document.stale.insert(mesh);
+            self.document.shown.note_mesh(mesh);
             let parent = owner.parent();
             let mut node = owner;
             node.mesh = Some(mesh);
