@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use fixedbitset::FixedBitSet;
-use trigon_mesh::edit::{EdgeId, EditMesh, ElementNumbers, FaceId, VertexId};
+use trigon_mesh::edit::{EdgeId, ElementNumbers, FaceId, VertexId};
 use trigon_mesh::math::{Vec3, color};
 use trigon_scene::{
     ElementSet, Mark, Marks, MeshId, NodeId, Outline, Reach, RenderSettings, Scene, Style, VertexPoints,
@@ -102,7 +102,8 @@ fn outline(document: &Document) -> Option<Outline> {
 /// The elements of one kind of look, of all meshes.
 #[derive(Default)]
 struct Sets {
-    hidden_edges: ElementSet,
+    /// Of objects that are not edited.
+    plain_edges: ElementSet,
     active: [ElementSet; 3],
     selected: [ElementSet; 3],
     sharp: ElementSet,
@@ -143,9 +144,8 @@ impl Sets {
             let (place, number) = active_number(numbers, kind, active);
             self.active[place].add(node, bits(number.into_iter()));
         }
-        let marked = document.marked_edges(id);
+        let Some(marked) = document.marked(id) else { return };
         let numbered = |edges: &[EdgeId]| bits(edges.iter().filter_map(|&id| numbers.edge(id)));
-        self.hidden_edges.add(node, numbered(&marked.hidden));
         self.sharp.add(node, numbered(&marked.sharp));
         self.seams.add(node, numbered(&marked.seams));
         self.creases.add(node, numbered(&marked.creases));
@@ -156,7 +156,7 @@ impl Sets {
         let Some(asset) = scene.meshes().get(id) else { return };
         let mut all = FixedBitSet::with_capacity(asset.mesh().edge_count());
         all.insert_range(..);
-        self.hidden_edges.add(node, all);
+        self.plain_edges.add(node, all);
     }
 
     /// In the order of priority.
@@ -171,7 +171,7 @@ impl Sets {
         let [active_vertices, active_edges, active_faces] = self.active;
         let [vertices, edges, faces] = self.selected;
         let edges = [
-            mark(self.hidden_edges, [0; 3], 0.0),
+            mark(self.plain_edges, [0; 3], 0.0),
             mark(active_edges, ACTIVE, 1.0),
             mark(edges, SELECTED_EDGE, 1.0),
             mark(self.sharp, SHARP, 1.0),
@@ -203,40 +203,6 @@ fn bits(numbers: impl Iterator<Item = u32>) -> FixedBitSet {
 
 fn linear(srgb: [u8; 3]) -> Vec3 {
     Vec3::from_array(srgb.map(color::srgb8_to_linear))
-}
-
-/// The edges of a mesh that have marks which users see.
-#[derive(Debug)]
-pub(crate) struct MarkedEdges {
-    pub(crate) sharp: Vec<EdgeId>,
-    pub(crate) seams: Vec<EdgeId>,
-    pub(crate) creases: Vec<EdgeId>,
-    pub(crate) hidden: Vec<EdgeId>,
-}
-
-impl MarkedEdges {
-    pub(crate) const NONE: Self =
-        Self { sharp: Vec::new(), seams: Vec::new(), creases: Vec::new(), hidden: Vec::new() };
-
-    /// In time proportional to the mesh.
-    pub(crate) fn of(mesh: &EditMesh) -> Self {
-        let mut marked = Self::NONE;
-        for edge in mesh.edges() {
-            if mesh.is_edge_hidden(edge) {
-                marked.hidden.push(edge);
-            }
-            if mesh.is_sharp(edge) {
-                marked.sharp.push(edge);
-            }
-            if mesh.is_seam(edge) {
-                marked.seams.push(edge);
-            }
-            if mesh.crease(edge) > 0.0 {
-                marked.creases.push(edge);
-            }
-        }
-        marked
-    }
 }
 
 #[cfg(test)]

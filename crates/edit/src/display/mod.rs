@@ -6,10 +6,11 @@
 //! elements that are edited are not those of the scene's meshes, and only a
 //! [`Document`](crate::Document) knows both.
 
+mod marked;
 mod marks;
 mod nearest;
 mod pick;
 
-pub(crate) use marks::MarkedEdges;
+pub(crate) use marked::MarkedElements;
 pub use marks::{DisplayMarks, X_RAY};
 pub use pick::{PICK_RADIUS, Picks};

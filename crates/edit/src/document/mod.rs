@@ -1,7 +1,9 @@
 //! An open document: a scene, its meshes while they are edited, what is selected, what was done.
 
 mod change;
+mod scene;
 mod shown;
+mod visible;
 
 use std::path::Path;
 
@@ -16,7 +18,7 @@ use crate::recovery::Event;
 use crate::selection::Selection;
 
 pub(crate) use change::{AfterEdit, Change};
-pub use shown::SceneChange;
+pub use scene::SceneChange;
 use shown::Shown;
 
 /// A scene that is edited by commands.

@@ -25,6 +25,8 @@ pub struct ElementNumbers {
     edges: Vec<u32>,
     /// By the edges of the shown mesh.
     edges_of_mesh: Vec<EdgeId>,
+    /// Whether the shown mesh has normals of corners.
+    has_normals: bool,
 }
 
 impl ElementNumbers {
@@ -37,6 +39,7 @@ impl ElementNumbers {
             corners: inverse(edited.corner_capacity(), map.corners.iter().map(|id| id.0)),
             edges: inverse(edited.edge_capacity(), edges_of_mesh.iter().map(|id| id.0)),
             edges_of_mesh,
+            has_normals: mesh.attributes().corner_normals.is_some(),
         }
     }
 
@@ -87,6 +90,11 @@ pub struct ChangedValues {
 }
 
 impl ChangedValues {
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.vertices.is_empty() && self.corners.is_empty()
+    }
+
     /// Adds what another change changed.
     pub fn append(&mut self, mut other: Self) {
         self.vertices.append(&mut other.vertices);
@@ -156,15 +164,14 @@ impl EditMesh {
             && is_same(&self.faces, &difference.faces, face)
     }
 
-    /// The change that gives a shown mesh the values that changed. `shown` is what
-    /// [`Self::to_mesh`] gave before, and `numbers` are its. In time proportional to what
-    /// changed and its neighbours.
-    pub fn mesh_change(&self, changed: &ChangedValues, shown: &Mesh, numbers: &ElementNumbers) -> MeshChange {
+    /// The change that gives a shown mesh, whose numbers are given, the values that changed. In
+    /// time proportional to these and their neighbours.
+    pub fn mesh_change(&self, changed: &ChangedValues, numbers: &ElementNumbers) -> MeshChange {
         let vertices = changed.vertices.iter();
         let position = |&vertex: &VertexId| Some((numbers.vertex(vertex)?, self.position(vertex)));
         let mut change =
             MeshChange { positions: vertices.filter_map(position).collect(), ..MeshChange::default() };
-        if shown.attributes().corner_normals.is_some() {
+        if numbers.has_normals {
             let normals = self.shown_normals(changed).into_iter();
             let numbered = normals.filter_map(|(corner, normal)| Some((numbers.corner(corner)?, normal)));
             change.corner_normals = numbered.collect();

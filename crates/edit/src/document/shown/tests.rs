@@ -8,7 +8,7 @@ use trigon_mesh::{Attributes, primitives};
 use trigon_scene::{Material, Scene};
 
 use super::*;
-use crate::Command;
+use crate::{Command, Document};
 
 /// A smooth torus with texture coordinates and colours, and a plain grid.
 fn document() -> Document {
@@ -74,9 +74,13 @@ fn check(document: &mut Document, copy: &Scene) -> Result<(), TestCaseError> {
     document.scene();
     for (id, asset) in document.nodes().meshes().iter() {
         let shown = copy.meshes().get(id).expect("the copy has all meshes").mesh();
-        prop_assert!(shown == asset.mesh(), "the copy follows");
-        let Some(edited) = document.mesh(id) else { continue };
-        let (anew, map) = edited.to_mesh();
+        let Some(edited) = document.mesh(id) else {
+            prop_assert!(shown == asset.mesh(), "the copy follows");
+            continue;
+        };
+        prop_assert!(*asset.mesh() == edited.to_mesh().0, "the scene has all that is hidden");
+        let is_edited = document.selection().of(id).is_some();
+        let (anew, map) = if is_edited { edited.to_visible_mesh() } else { edited.to_mesh() };
         prop_assert_eq!(shown.positions(), anew.positions());
         prop_assert_eq!(shown.attributes(), anew.attributes());
         prop_assert_eq!(shown.shading_normals(), anew.shading_normals());
@@ -92,7 +96,7 @@ fn check(document: &mut Document, copy: &Scene) -> Result<(), TestCaseError> {
 
 fn tell(document: &mut Document, copy: &mut Scene) -> Vec<SceneChange> {
     let changes = document.take_scene_changes();
-    changes.iter().for_each(|change| change.apply(document.nodes(), copy));
+    changes.iter().for_each(|change| change.clone().apply(document.nodes(), copy));
     changes
 }
 
@@ -163,12 +167,12 @@ fn normals_at_sharp_edges_follow_a_vertex_beside_them() {
 }
 
 #[test]
-fn seams_creases_and_hiding_change_nothing_that_is_shown() {
+fn seams_and_creases_change_nothing_that_is_shown() {
     let (mut document, mut copy) = (document(), Scene::new());
     run(&mut document, json!({ "op": "set_element_kind", "kind": "edge" }));
     run(&mut document, json!({ "op": "select", "objects": [0], "elements": [0, 5] }));
     tell(&mut document, &mut copy);
-    for op in ["mark_seam", "crease", "hide"] {
+    for op in ["mark_seam", "crease"] {
         run(&mut document, json!({ "op": op }));
         let told = told_values(&tell(&mut document, &mut copy));
         assert_eq!(told, Some([0, 0]), "{op}");
@@ -187,4 +191,26 @@ fn objects_that_are_moved_keep_their_meshes() {
     let changes = tell(&mut document, &mut copy);
     assert!(matches!(changes[..], [SceneChange::Mesh(_), SceneChange::Parts]), "{changes:?}");
     check(&mut document, &copy).expect("the same scene");
+}
+
+#[test]
+fn hidden_elements_are_shown_again_in_object_mode_and_moved_around() {
+    let (mut document, mut copy) = (document(), Scene::new());
+    run(&mut document, json!({ "op": "set_element_kind", "kind": "face" }));
+    run(&mut document, json!({ "op": "select", "objects": [1], "elements": [0, 1, 7] }));
+    run(&mut document, json!({ "op": "hide" }));
+    run(&mut document, json!({ "op": "select", "objects": [1], "elements": [4] }));
+    let faces = |copy: &Scene| copy.meshes().iter().nth(1).expect("the grid").1.mesh().face_count();
+    tell(&mut document, &mut copy);
+    assert_eq!(faces(&copy), 12 - 3);
+    run(&mut document, json!({ "op": "translate", "offset": [0, 1, 0] }));
+    assert_eq!(told_values(&tell(&mut document, &mut copy)), Some([4, 0]), "the rest follows");
+    check(&mut document, &copy).expect("the visible part");
+    run(&mut document, json!({ "op": "leave_edit_mode" }));
+    tell(&mut document, &mut copy);
+    assert_eq!(faces(&copy), 12, "object mode shows all");
+    check(&mut document, &copy).expect("all of it");
+    document.undo().expect("edit mode again");
+    tell(&mut document, &mut copy);
+    assert_eq!(faces(&copy), 12 - 3);
 }
