@@ -4,7 +4,13 @@
 //! can go wrong becomes one line on standard error and an exit code here.
 
 mod arguments;
+#[cfg(feature = "window")]
+#[expect(dead_code, unused_imports, reason = "for the window, which does not call it yet")]
+mod overlay;
 mod run;
+#[cfg(feature = "window")]
+#[cfg_attr(not(test), expect(dead_code, reason = "for the window, which does not call it yet"))]
+mod show;
 #[cfg(feature = "window")]
 #[expect(dead_code, unused_imports, reason = "the window that starts the tools is merged after them")]
 mod tool;

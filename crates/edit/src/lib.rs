@@ -6,6 +6,7 @@
 //! [`trigon_mesh::edit`].
 
 mod command;
+mod display;
 mod document;
 mod error;
 mod history;
@@ -17,7 +18,8 @@ mod storage;
 mod tests;
 
 pub use command::*;
-pub use document::Document;
+pub use display::{DisplayMarks, PICK_RADIUS, Picks, X_RAY};
+pub use document::{Document, SceneChange};
 pub use error::EditError;
 pub use history::{Entry, History};
 pub use recovery::{Event, RecoveryLog, RecoveryStatus, RecoveryWriter, UnreadableRecovery};

@@ -277,6 +277,13 @@ impl Session {
         self.document.run(command(op, parameters)).unwrap_or_else(|error| panic!("{op}: {error}"));
     }
 
+    /// Whether the scene's mesh, which follows changes, is the one that would be made anew.
+    fn shows_what_is_edited(&mut self) -> bool {
+        self.document.scene();
+        let shown = self.document.nodes().meshes().get(self.mesh).expect("it stays");
+        *shown.mesh() == self.mesh().to_mesh().0
+    }
+
     /// Back to the start and forth again.
     fn finish(mut self, first: &(EditMesh, Selection)) {
         let last = self.state();
@@ -286,10 +293,12 @@ impl Session {
             self.document.undo().expect("it was done");
         }
         assert!(self.state() == *first, "all undone gives the first bytes");
+        assert!(self.shows_what_is_edited(), "the first mesh");
         for _ in 1..entries {
             self.document.redo().expect("it was undone");
         }
         assert!(self.state() == last, "all done again gives the last bytes");
+        assert!(self.shows_what_is_edited(), "the last mesh");
     }
 }
 
@@ -354,6 +363,11 @@ fn ten_thousand_random_operations_keep_meshes_whole() {
             if let Err(broken) = session.mesh().check_structure() {
                 panic!("after {} {said}: {broken}", operation.name);
             }
+            assert!(
+                session.shows_what_is_edited(),
+                "after {} {said} the scene shows another mesh",
+                operation.name
+            );
             if session.mesh().face_count() > MOST_FACES || session.mesh().face_count() == 0 {
                 break;
             }

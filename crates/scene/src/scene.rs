@@ -146,6 +146,36 @@ impl Scene {
         Ok(asset.change(change)?)
     }
 
+    /// Takes over a mesh of another scene under the same id, in the place of its own if it has
+    /// one. Nothing is copied: both share the mesh, and what was found out about it, until one of them changes
+    /// it. So a scene that is shown can follow one that is edited.
+    ///
+    /// `None` when the other scene has no such mesh, or when this one would have to give it
+    /// another id: take over meshes in the order of their ids.
+    ///
+    /// ```
+    /// use trigon_scene::Scene;
+    /// use trigon_scene::mesh::primitives;
+    ///
+    /// let mut edited = Scene::new();
+    /// let cube = edited.add_mesh("cube", primitives::cube(1.0));
+    /// let mut shown = Scene::new();
+    /// assert_eq!(shown.adopt_mesh(&edited, cube), Some(()));
+    /// assert_eq!(shown.meshes().get(cube).map(|asset| asset.mesh().face_count()), Some(6));
+    /// ```
+    pub fn adopt_mesh(&mut self, from: &Self, id: MeshId) -> Option<()> {
+        let asset = from.meshes.get(id)?.clone();
+        if let Some(own) = self.meshes.get_mut(id) {
+            *own = asset;
+            return Some(());
+        }
+        let inserted = self.meshes.insert(asset);
+        if inserted != id {
+            self.meshes.remove(inserted);
+        }
+        (inserted == id).then_some(())
+    }
+
     /// All meshes.
     pub fn meshes(&self) -> &Arena<MeshAsset> {
         &self.meshes

@@ -26,6 +26,7 @@ mod reference;
 mod repair;
 mod scene;
 mod select;
+mod select_elements;
 mod select_property;
 mod select_related;
 mod select_within;
@@ -63,6 +64,7 @@ pub use scene::{
     AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, SetParent, Shape, ShowObjects,
 };
 pub use select::{Select, SelectAction, SelectAll, SelectInverse, SelectNone};
+pub use select_elements::{ElementsOf, SelectElements};
 pub use select_property::{
     SelectBorder, SelectByMaterial, SelectByNormal, SelectNonManifold, SelectSharp, SelectSimilar,
 };
@@ -135,6 +137,8 @@ commands! {
     SetElementKind("Select Mode", true),
     /// Selects, adds to or takes from what is selected.
     Select("Select", true),
+    /// Selects many elements of objects at once.
+    SelectElements("Select Region", true),
     /// Selects all that is not hidden.
     SelectAll("Select All", true),
     /// Selects nothing.

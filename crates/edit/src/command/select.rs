@@ -91,7 +91,7 @@ impl Select {
     }
 }
 
-fn check_element(mesh: &EditMesh, kind: ElementKind, index: u32) -> Result<(), EditError> {
+pub(super) fn check_element(mesh: &EditMesh, kind: ElementKind, index: u32) -> Result<(), EditError> {
     use trigon_mesh::edit::{EdgeId, FaceId, Refusal, VertexId};
     let (vertex, edge, face) = (VertexId::new(index), EdgeId::new(index), FaceId::new(index));
     match kind {

@@ -41,6 +41,7 @@ impl Change<'_> {
         if self.parts.is_none() {
             self.parts = Some(Box::new(self.document.file.scene.parts()));
         }
+        self.document.shown.note_parts();
         &mut self.document.file.scene
     }
 
@@ -65,6 +66,7 @@ impl Change<'_> {
             self.document.untold.extend(left_out.warnings(&asset.name));
             self.document.file.edited.insert(id, mesh);
         }
+        self.document.shown.note_edited(id);
         self.document.file.edited.get(&id)
     }
 
@@ -80,8 +82,8 @@ impl Change<'_> {
         };
         let (result, difference) = mesh.transaction(change)?;
         if !difference.is_empty() {
+            self.document.shown.note_difference(id, mesh, &difference);
             self.meshes.push((id, difference));
-            self.document.stale.insert(id);
             if let Some(mesh) = self.document.file.edited.get(&id) {
                 self.document.selection.keep_selectable(id, mesh);
             }
@@ -98,7 +100,7 @@ impl Change<'_> {
         let copy = self.document.file.scene.add_mesh(name, mesh);
         if let Some(edited) = edited {
             self.document.file.edited.insert(copy, edited);
-            self.document.stale.insert(copy);
+            self.document.shown.note_mesh(copy);
         }
         Some(copy)
     }
@@ -110,7 +112,7 @@ impl Change<'_> {
         let (mesh, _) = part.to_mesh();
         let mesh = self.document.file.scene.add_mesh(node.name.clone(), mesh);
         self.document.file.edited.insert(mesh, part);
-        self.document.stale.insert(mesh);
+        self.document.shown.note_mesh(mesh);
         node.mesh = Some(mesh);
         let scene = self.scene_mut();
         match node.parent() {

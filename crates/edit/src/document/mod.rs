@@ -2,12 +2,14 @@
 
 mod change;
 mod preview;
+mod scene;
+mod shown;
+mod visible;
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use trigon_io::{LoadError, LoadOptions, NativeDocument, NativeFile, Warning, WriteError};
-use trigon_mesh::edit::{EditMesh, ElementMap};
+use trigon_mesh::edit::EditMesh;
 use trigon_mesh::math::DAffine3;
 use trigon_scene::{MeshId, NodeId, Scene};
 
@@ -18,6 +20,8 @@ use crate::recovery::Event;
 use crate::selection::Selection;
 
 pub(crate) use change::{AfterEdit, Change};
+pub use scene::SceneChange;
+use shown::Shown;
 
 /// A scene that is edited by commands.
 ///
@@ -45,10 +49,8 @@ pub struct Document {
     file: NativeDocument,
     selection: Selection,
     history: History,
-    /// Edited meshes that the scene does not show as they are yet.
-    stale: BTreeSet<MeshId>,
-    /// Which elements the scene's meshes show.
-    shown: BTreeMap<MeshId, ElementMap>,
+    /// What the scene shows of edited meshes.
+    shown: Shown,
     /// What was left out of meshes when they were made editable and no outcome has told yet.
     untold: Vec<String>,
     /// What was done since the last time that somebody asked; `None` until somebody asks.
@@ -99,20 +101,6 @@ impl Document {
         self.file.encode()
     }
 
-    /// The scene as it is now, to be drawn. Meshes that were edited since the last call are made anew
-    /// in it.
-    pub fn scene(&mut self) -> &Scene {
-        for id in std::mem::take(&mut self.stale) {
-            let Some(edited) = self.file.edited.get(&id) else { continue };
-            let (mesh, map) = edited.to_mesh();
-            // A mesh is never taken out of the scene, so that an undone object finds it again.
-            if self.file.scene.replace_mesh(id, mesh).is_some() {
-                self.shown.insert(id, map);
-            }
-        }
-        &self.file.scene
-    }
-
     /// The nodes and materials as they are now, and meshes as they were when [`Self::scene`] was called
     /// last.
     #[must_use]
@@ -135,13 +123,6 @@ impl Document {
         let selected = self.selection.objects.iter().copied().find(shows);
         let object = selected.or_else(|| scene.nodes().iter().map(|(object, _)| object).find(shows));
         object.map_or(DAffine3::IDENTITY, |object| scene.world_transform(object))
-    }
-
-    /// Which elements of an edited mesh those of the scene's mesh are, as of the last
-    /// [`Self::scene`]; `None` for a mesh that was never edited, where all numbers are the same.
-    #[must_use]
-    pub fn shown_elements(&self, id: MeshId) -> Option<&ElementMap> {
-        self.shown.get(&id)
     }
 
     /// What is selected.
@@ -285,12 +266,13 @@ impl Document {
         for (id, difference) in entry.meshes.iter_mut().rev() {
             if let Some(mesh) = self.file.edited.get_mut(id) {
                 difference.apply(mesh);
-                self.stale.insert(*id);
+                self.shown.note_difference(*id, mesh, difference);
             }
         }
         entry.meshes.reverse();
         if let Some(parts) = &mut entry.parts {
             self.file.scene.swap_parts(parts);
+            self.shown.note_parts();
         }
         std::mem::swap(&mut self.selection, &mut entry.selection);
     }

@@ -157,6 +157,29 @@ impl<T: Copy> Column<T> {
         }
     }
 
+    /// The elements whose values differ between the two states; `None` if these have not equally
+    /// many elements. In time proportional to the difference.
+    pub(super) fn differing(
+        &self,
+        difference: &ColumnDifference<T>,
+        differs: impl Fn(&T, &T) -> bool,
+    ) -> Option<Vec<u32>> {
+        match difference {
+            ColumnDifference::Whole(other) => {
+                let pairs = (0u32..).zip(self.values.iter().zip(other));
+                let found = pairs.filter(|(_, (own, other))| differs(own, other)).map(|(index, _)| index);
+                (other.len() == self.values.len()).then(|| found.collect())
+            }
+            ColumnDifference::Elements { values, kept, tail } => {
+                let of_values = values.iter().filter(|(index, other)| {
+                    self.values.get(*index as usize).is_some_and(|own| differs(own, other))
+                });
+                let is_as_long = *kept == self.values.len() && tail.is_empty();
+                is_as_long.then(|| of_values.map(|&(index, _)| index).collect())
+            }
+        }
+    }
+
     /// Goes to the other state, and makes the difference lead back.
     pub(super) fn swap(&mut self, difference: &mut ColumnDifference<T>) {
         debug_assert!(matches!(self.record, Record::Off), "nothing is undone within a transaction");

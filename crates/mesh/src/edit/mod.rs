@@ -14,6 +14,7 @@ mod blends;
 mod column;
 mod edit_mesh;
 mod euler;
+mod follow;
 mod from_mesh;
 mod ids;
 mod inspect;
@@ -37,6 +38,7 @@ mod walk;
 
 pub use edit_mesh::EditMesh;
 pub use euler::{SplitEdge, SplitFace};
+pub use follow::{ChangedValues, ElementNumbers};
 pub use from_mesh::LeftOut;
 pub use ids::{CornerId, EdgeId, FaceId, VertexId};
 pub use inspect::{

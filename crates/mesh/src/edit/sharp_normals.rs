@@ -31,10 +31,34 @@ impl EditMesh {
         vertices.sort_unstable();
         vertices.dedup();
         let mut fans = Fans::new(self);
+        let mut normals = vec![Vec3::ZERO; self.corner_capacity()];
         for vertex in vertices {
-            fans.add(vertex);
+            fans.add(vertex, |corner, normal| normals[corner.0 as usize] = normal);
         }
-        Some(fans.normals)
+        Some(normals)
+    }
+
+    /// The normals that [`EditMesh::to_mesh`] gives to all corners at some vertices, in time
+    /// proportional to these and their neighbours.
+    pub(super) fn normals_at(&self, vertices: &[VertexId]) -> Vec<(CornerId, Vec3)> {
+        let mut fans = Fans::new(self);
+        let mut normals = Vec::new();
+        for &vertex in vertices {
+            let first = normals.len();
+            let given = |corner| (corner, self.custom_normal(corner).unwrap_or(Vec3::ZERO));
+            normals.extend(self.vertex_corners(vertex).map(given));
+            if !self.vertex_edges(vertex).any(|edge| self.splits_fans(edge)) {
+                continue;
+            }
+            let own = &mut normals[first..];
+            own.sort_unstable_by_key(|&(corner, _)| corner);
+            fans.add(vertex, |corner, of_fan| {
+                if let Ok(place) = own.binary_search_by_key(&corner, |&(corner, _)| corner) {
+                    own[place].1 = or_if_zero(own[place].1, of_fan);
+                }
+            });
+        }
+        normals
     }
 
     /// Whether an edge is sharp between two smooth faces.
@@ -60,7 +84,6 @@ impl EditMesh {
 
 struct Fans<'a> {
     mesh: &'a EditMesh,
-    normals: Vec<Vec3>,
     face_normals: FaceNormals,
     /// The corners at the vertex in ascending order, and which of them stands for each one's fan.
     corners: Vec<CornerId>,
@@ -72,7 +95,6 @@ impl<'a> Fans<'a> {
     fn new(mesh: &'a EditMesh) -> Self {
         Self {
             mesh,
-            normals: vec![Vec3::ZERO; mesh.corner_capacity()],
             face_normals: FaceNormals::default(),
             corners: Vec::new(),
             fans: Vec::new(),
@@ -81,7 +103,7 @@ impl<'a> Fans<'a> {
     }
 
     /// Computes the normals of all smooth corners at a vertex.
-    fn add(&mut self, vertex: VertexId) {
+    fn add(&mut self, vertex: VertexId, mut give: impl FnMut(CornerId, Vec3)) {
         let mesh = self.mesh;
         self.corners.clear();
         let smooth = |corner: &CornerId| mesh.is_smooth(mesh.corner_face(*corner));
@@ -101,7 +123,7 @@ impl<'a> Fans<'a> {
             let corner = self.corners[place];
             let of_face = self.face_normals.of(mesh, mesh.corner_face(corner)).as_vec3();
             let of_fan = unit_or_zero(self.sums[fan as usize]).as_vec3();
-            self.normals[corner.0 as usize] = or_if_zero(of_fan, of_face);
+            give(corner, or_if_zero(of_fan, of_face));
         }
     }
 

@@ -45,12 +45,35 @@ impl EditMesh {
     /// element each was. First positions, creases, seams and what is hidden have no place in it;
     /// sharp edges between smooth faces show in the normals of the corners there.
     pub fn to_mesh(&self) -> (Mesh, ElementMap) {
-        let mut map = ElementMap {
+        self.mesh_of(ElementMap {
             vertices: self.vertices().collect(),
             faces: self.faces().collect(),
             corners: Vec::with_capacity(self.corner_count()),
             loose_edges: self.edges().filter(|&edge| self.edge_corners(edge).next().is_none()).collect(),
+        })
+    }
+
+    /// The same without what is hidden from the user. An edge all of whose faces are hidden
+    /// is a loose one.
+    pub fn to_visible_mesh(&self) -> (Mesh, ElementMap) {
+        let is_vertex_shown = |vertex: VertexId| !self.is_vertex_hidden(vertex);
+        let is_face_shown =
+            |face: FaceId| !self.is_face_hidden(face) && self.face_vertices(face).all(is_vertex_shown);
+        let is_edge_loose = |&edge: &EdgeId| {
+            !self.is_edge_hidden(edge)
+                && self.edge_vertices(edge).into_iter().all(is_vertex_shown)
+                && !self.edge_faces(edge).any(is_face_shown)
         };
+        self.mesh_of(ElementMap {
+            vertices: self.vertices().filter(|&vertex| is_vertex_shown(vertex)).collect(),
+            faces: self.faces().filter(|&face| is_face_shown(face)).collect(),
+            corners: Vec::new(),
+            loose_edges: self.edges().filter(is_edge_loose).collect(),
+        })
+    }
+
+    /// The mesh of some elements; their corners are added to the map.
+    fn mesh_of(&self, mut map: ElementMap) -> (Mesh, ElementMap) {
         let mut numbers = vec![0u32; self.vertex_capacity()];
         for (number, vertex) in (0u32..).zip(&map.vertices) {
             numbers[vertex.0 as usize] = number;

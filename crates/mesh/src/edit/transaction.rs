@@ -16,23 +16,23 @@ use super::refusal::Refusal;
 #[derive(Debug, Clone)]
 #[must_use = "without it the change cannot be undone"]
 pub struct Difference {
-    vertices: Option<ColumnDifference<VertexRecord>>,
-    positions: Option<ColumnDifference<Vec3>>,
+    pub(super) vertices: Option<ColumnDifference<VertexRecord>>,
+    pub(super) positions: Option<ColumnDifference<Vec3>>,
     first_positions: Option<ColumnDifference<Vec3>>,
-    edges: Option<ColumnDifference<EdgeRecord>>,
-    corners: Option<ColumnDifference<CornerRecord>>,
-    faces: Option<ColumnDifference<FaceRecord>>,
-    vertex_layers: LayersDifference,
-    corner_layers: LayersDifference,
-    slots: AllSlots,
+    pub(super) edges: Option<ColumnDifference<EdgeRecord>>,
+    pub(super) corners: Option<ColumnDifference<CornerRecord>>,
+    pub(super) faces: Option<ColumnDifference<FaceRecord>>,
+    pub(super) vertex_layers: LayersDifference,
+    pub(super) corner_layers: LayersDifference,
+    pub(super) slots: AllSlots,
 }
 
 /// Of the layers of one kind of element. A change may add layers after the others.
 #[derive(Debug, Clone)]
-struct LayersDifference {
-    common: Vec<LayerDifference>,
+pub(super) struct LayersDifference {
+    pub(super) common: Vec<LayerDifference>,
     /// Those that the state without them has not.
-    added: Vec<Layer>,
+    pub(super) added: Vec<Layer>,
 }
 
 impl EditMesh {
@@ -213,7 +213,8 @@ impl LayersDifference {
         }
     }
 
-    fn is_empty(&self) -> bool {
+    /// Whether both states have the same layers with the same values.
+    pub(super) fn is_empty(&self) -> bool {
         let is_unchanged = |layer: &LayerDifference| matches!(layer, LayerDifference::Unchanged);
         self.added.is_empty() && self.common.iter().all(is_unchanged)
     }

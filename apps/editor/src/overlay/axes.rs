@@ -1,0 +1,87 @@
+//! The axes in the corner: which way x, y and z point, and a click on one looks along it.
+
+use trigon_edit::scene::camera::AxisView;
+use trigon_edit::scene::math::DVec3;
+use trigon_window::egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, vec2};
+
+use super::view::OverlayView;
+use super::{AXIS_COLORS, AXIS_NAMES};
+
+/// From the middle to the balls, in logical pixels.
+const ARM: f32 = 34.0;
+/// Of a ball, in logical pixels.
+const BALL: f32 = 9.0;
+
+/// One end of an axis.
+struct End {
+    at: Pos2,
+    axis: usize,
+    is_positive: bool,
+    /// Towards the eye: larger is nearer.
+    nearness: f64,
+}
+
+/// The six ends, the farthest first.
+fn ends(view: &OverlayView, center: Pos2) -> Vec<End> {
+    let camera = view.camera();
+    let mut ends: Vec<End> = (0..6)
+        .map(|index| {
+            let (axis, is_positive) = (index / 2, index % 2 == 0);
+            let direction = DVec3::AXES[axis] * if is_positive { 1.0 } else { -1.0 };
+            let seen = camera.orientation.conjugate() * direction;
+            let at = center + ARM * vec2(seen.x as f32, -seen.y as f32);
+            End { at, axis, is_positive, nearness: seen.z }
+        })
+        .collect();
+    ends.sort_by(|a, b| a.nearness.total_cmp(&b.nearness));
+    ends
+}
+
+/// Draws the axes around a point.
+pub(crate) fn draw_axes(painter: &Painter, view: &OverlayView, center: Pos2) {
+    for End { at, axis, is_positive, .. } in ends(view, center) {
+        let color = AXIS_COLORS[axis];
+        if is_positive {
+            painter.line_segment([center, at], Stroke::new(2.0, color));
+            painter.circle_filled(at, BALL, color);
+            let font = FontId::proportional(12.0);
+            painter.text(at, Align2::CENTER_CENTER, AXIS_NAMES[axis], font, Color32::BLACK);
+        } else {
+            painter.circle_filled(at, BALL, color.gamma_multiply(0.35));
+            painter.circle_stroke(at, BALL, Stroke::new(1.0, color));
+        }
+    }
+}
+
+/// The view along the axis whose ball is under the pointer: from where the ball is.
+pub(crate) fn axis_view_at(view: &OverlayView, center: Pos2, pointer: Pos2) -> Option<AxisView> {
+    let end = ends(view, center).into_iter().rev().find(|end| end.at.distance(pointer) <= BALL)?;
+    Some(match (end.axis, end.is_positive) {
+        (0, true) => AxisView::Right,
+        (0, false) => AxisView::Left,
+        (1, true) => AxisView::Top,
+        (1, false) => AxisView::Bottom,
+        (_, true) => AxisView::Front,
+        (_, false) => AxisView::Back,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use trigon_window::egui::pos2;
+
+    use super::super::view::tests::front;
+    use super::*;
+
+    #[test]
+    fn a_click_on_a_ball_looks_from_there() {
+        let (view, center) = (front(), pos2(100.0, 100.0));
+        let at = |x: f32, y: f32| axis_view_at(&view, center, center + vec2(x, y));
+        assert_eq!(at(ARM, 0.0), Some(AxisView::Right));
+        assert_eq!(at(-ARM, 3.0), Some(AxisView::Left));
+        assert_eq!(at(0.0, -ARM), Some(AxisView::Top));
+        assert_eq!(at(0.0, ARM), Some(AxisView::Bottom));
+        assert_eq!(at(0.0, 0.0), Some(AxisView::Front), "the nearer of two");
+        assert_eq!(at(20.0, 20.0), None);
+    }
+}

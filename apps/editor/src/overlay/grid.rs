@@ -1,0 +1,187 @@
+//! The floor: a grid in the plane y = 0, and the axes x and z on it.
+//!
+//! The distance of its lines is a power of ten metres, chosen by how large a metre is on
+//! the screen below the middle of the picture; lines between fade in as one comes nearer. A piece of a line
+//! that lies behind what the picture shows is left out: one look at its depths for each piece.
+
+use trigon_edit::scene::math::{DVec2, DVec3, elementary};
+use trigon_window::egui::{Color32, Painter, Pos2, Stroke};
+
+use super::AXIS_COLORS;
+use super::view::OverlayView;
+
+/// Lines to each side of the middle.
+const LINES: i64 = 50;
+/// Lines that are nearer to each other are left out, in logical pixels.
+const LEAST_GAP: f64 = 8.0;
+/// Of the pieces whose depth is looked at, in logical pixels.
+const PIECE: f32 = 12.0;
+/// What a line has to lie behind the picture to be hidden, as a share of its distance: faces on the floor do not
+/// flicker.
+const BEHIND: f64 = 1.0 + 1e-3;
+
+/// The distance along the line of sight of what the picture shows at a point in physical pixels; `None`
+/// for background.
+pub(crate) type Depth<'a> = &'a dyn Fn(DVec2) -> Option<f64>;
+
+/// Draws the grid and its two axes.
+pub(crate) fn draw_grid(painter: &Painter, view: &OverlayView, depth: Depth<'_>) {
+    let Some(grid) = Grid::of(view) else { return };
+    for (line, color, width) in grid.lines() {
+        for piece in visible(view, line, depth) {
+            painter.line_segment(piece, Stroke::new(width, color));
+        }
+    }
+}
+
+/// Where lines are.
+#[derive(Debug, PartialEq)]
+struct Grid {
+    /// Between lines, in metres.
+    gap: f64,
+    /// The line in the middle, by number.
+    middle: [i64; 2],
+    /// How well the lines between every tenth are seen: 0 to 1.
+    share: f64,
+}
+
+impl Grid {
+    /// `None` where the floor is seen from its edge, or is too far away for numbers.
+    fn of(view: &OverlayView) -> Option<Self> {
+        let camera = view.camera();
+        let (eye, forward) = (camera.position, camera.forward());
+        // Where the line of sight meets the floor; below the eye where it never does.
+        let ahead = -eye.y / forward.y;
+        let reach = 4.0 * eye.y.abs().max(1e-6);
+        let point =
+            if ahead.is_finite() && ahead > 0.0 && (eye + forward * ahead).distance(eye) < 10.0 * reach {
+                eye + forward * ahead
+            } else {
+                let level = DVec3::new(forward.x, 0.0, forward.z).normalize_or_zero();
+                DVec3::new(eye.x, 0.0, eye.z) + level * reach
+            };
+        let wanted = view.pixel_size(point) * LEAST_GAP;
+        if !(wanted > 1e-9 && wanted < 1e9) {
+            return None;
+        }
+        let power = elementary::log10(wanted).ceil();
+        let gap = elementary::pow(10.0, power);
+        let middle = [point.x, point.z].map(|at| (at / gap).round());
+        middle.iter().all(|at| at.abs() < 1e12).then(|| Self {
+            gap,
+            middle: middle.map(|at| at as i64),
+            share: (power - elementary::log10(wanted)).clamp(0.0, 1.0),
+        })
+    }
+
+    /// All lines, the axes last: they lie over the others.
+    fn lines(&self) -> Vec<([DVec3; 2], Color32, f32)> {
+        let mut lines = Vec::new();
+        let mut axes = Vec::new();
+        for along in [0, 1] {
+            let across = 1 - along;
+            for number in self.middle[across] - LINES..=self.middle[across] + LINES {
+                let at = |end: i64| {
+                    let mut point = [0.0; 2];
+                    point[across] = number as f64 * self.gap;
+                    point[along] = (self.middle[along] + end * LINES) as f64 * self.gap;
+                    DVec3::new(point[0], 0.0, point[1])
+                };
+                let line = [at(-1), at(1)];
+                if number == 0 {
+                    axes.push((line, AXIS_COLORS[2 * along].gamma_multiply(0.8), 1.5));
+                } else {
+                    let share = if number % 10 == 0 { 1.0 } else { self.share };
+                    lines.push((line, Color32::from_gray(128).gamma_multiply(0.5 * share as f32), 1.0));
+                }
+            }
+        }
+        lines.extend(axes);
+        lines
+    }
+}
+
+/// The pieces of a line that nothing hides.
+fn visible(view: &OverlayView, line: [DVec3; 2], depth: Depth<'_>) -> Vec<[Pos2; 2]> {
+    let Some([from, to]) = view.line(line[0], line[1]) else { return Vec::new() };
+    let count = (from.distance(to) / PIECE).ceil().clamp(1.0, 1000.0) as usize;
+    let at = |index: usize| from.lerp(to, index as f32 / count as f32);
+    let is_seen = |index: usize| {
+        let middle = at(index).lerp(at(index + 1), 0.5);
+        let pixel = view.physical(middle);
+        let floor = floor_distance(view, pixel);
+        depth(pixel).zip(floor).is_none_or(|(seen, floor)| floor <= seen * BEHIND)
+    };
+    let mut pieces: Vec<[Pos2; 2]> = Vec::new();
+    let mut was_seen = false;
+    for index in 0..count {
+        let seen = is_seen(index);
+        match pieces.last_mut() {
+            Some([_, end]) if seen && was_seen => *end = at(index + 1),
+            _ if seen => pieces.push([at(index), at(index + 1)]),
+            _ => {}
+        }
+        was_seen = seen;
+    }
+    pieces
+}
+
+/// How far the floor is along the line of sight, at a pixel.
+fn floor_distance(view: &OverlayView, pixel: DVec2) -> Option<f64> {
+    let ray = view.ray(pixel)?;
+    let along = -ray.origin.y / ray.direction.y;
+    along.is_finite().then(|| view.distance(ray.origin + ray.direction * along))
+}
+
+#[cfg(test)]
+mod tests {
+    use trigon_edit::scene::camera::{Camera, Viewport};
+
+    use super::*;
+
+    fn from(eye: DVec3) -> OverlayView {
+        let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Y);
+        OverlayView::new(&camera, Viewport { width: 800, height: 600 }, 1.0)
+    }
+
+    #[test]
+    fn lines_are_a_power_of_ten_apart_and_never_too_dense() {
+        for distance in [0.01, 0.3, 1.0, 7.0, 80.0, 12_345.0] {
+            let view = from(DVec3::new(1.0, 1.0, 1.0) * distance);
+            let grid = Grid::of(&view).expect("the floor is seen");
+            let power = elementary::log10(grid.gap);
+            assert!((power - power.round()).abs() < 1e-9, "{} m", grid.gap);
+            let pixels = grid.gap / view.pixel_size(DVec3::ZERO);
+            assert!(
+                (LEAST_GAP - 1e-6..=10.0 * LEAST_GAP).contains(&pixels),
+                "{pixels} pixels at {distance} m"
+            );
+            assert_eq!(grid.middle, [0, 0], "around the target");
+        }
+    }
+
+    #[test]
+    fn the_axes_are_there_and_in_their_colours() {
+        let grid = Grid { gap: 1.0, middle: [3, 0], share: 0.5 };
+        let lines = grid.lines();
+        assert_eq!(lines.len(), 2 * (2 * LINES as usize + 1));
+        let [(x, x_color, _), (z, z_color, _)] = lines[lines.len() - 2..] else { panic!("two axes") };
+        assert!(x.iter().all(|end| end.z == 0.0 && end.y == 0.0), "{x:?}");
+        assert!(z.iter().all(|end| end.x == 0.0 && end.y == 0.0), "{z:?}");
+        assert!(x_color.r() > x_color.b() && z_color.b() > z_color.r(), "red and blue");
+    }
+
+    #[test]
+    fn what_the_picture_shows_before_the_floor_hides_it() {
+        let view = from(DVec3::new(0.0, 3.0, 10.0));
+        let line = [DVec3::new(-5.0, 0.0, 0.0), DVec3::new(5.0, 0.0, 0.0)];
+        let whole = visible(&view, line, &|_| None);
+        assert_eq!(whole.len(), 1, "one piece: {whole:?}");
+        // A wall 2 m before the eye in the middle of the picture.
+        let wall = |at: DVec2| ((at.x - 400.0).abs() < 50.0).then_some(2.0);
+        let parts = visible(&view, line, &wall);
+        assert_eq!(parts.len(), 2, "left and right of the wall: {parts:?}");
+        assert!(parts[0][1].x < 365.0 && parts[1][0].x > 435.0, "{parts:?}");
+        assert!(visible(&view, line, &|_| Some(100.0)).len() == 1, "what lies behind hides nothing");
+    }
+}

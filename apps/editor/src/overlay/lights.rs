@@ -1,0 +1,128 @@
+//! Lights as a few concentric circles with their names, and a line in the direction in which
+//! they shine.
+
+use trigon_edit::Document;
+use trigon_edit::scene::math::{DAffine3, DVec3, elementary};
+use trigon_edit::scene::{Light, LightKind, NodeId};
+use trigon_window::egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, vec2};
+
+use super::view::OverlayView;
+use super::{GRAB, PLAIN, SELECTED};
+
+/// Of the circles, in logical pixels.
+const RADII: [f32; 3] = [4.0, 8.0, 12.0];
+/// Of the line in the direction of the light, in logical pixels at the light.
+const RAY: f64 = 60.0;
+/// Lines that draw a spot light's cone.
+const CONE_LINES: usize = 8;
+
+/// Draws all lights that have a place or a direction.
+pub(crate) fn draw_lights(painter: &Painter, document: &Document, view: &OverlayView) {
+    for (id, light, world) in lights(document) {
+        let color = if document.selection().objects.contains(&id) { SELECTED } else { PLAIN };
+        let stroke = Stroke::new(1.0, color);
+        if let Some(center) = view.point(world.translation) {
+            for radius in RADII {
+                painter.circle_stroke(center, radius, stroke);
+            }
+            let name = &document.nodes().node(id).expect("it was just listed").name;
+            write(painter, center, name, color);
+        }
+        for [from, to] in shape(&light, &world, view) {
+            if let Some(line) = view.line(from, to) {
+                painter.line_segment(line, stroke);
+            }
+        }
+    }
+}
+
+fn write(painter: &Painter, center: Pos2, name: &str, color: Color32) {
+    let at = center + vec2(RADII[2] + 4.0, 0.0);
+    painter.text(at, Align2::LEFT_CENTER, name, FontId::proportional(12.0), color);
+}
+
+/// The light whose circles are under the pointer: the nearest to the camera of several.
+pub(crate) fn light_at(document: &Document, view: &OverlayView, pointer: Pos2) -> Option<NodeId> {
+    let is_near = |world: &DAffine3| {
+        view.point(world.translation).is_some_and(|center| center.distance(pointer) <= RADII[2].max(GRAB))
+    };
+    lights(document)
+        .filter(|(_, _, world)| is_near(world))
+        .min_by(|a, b| view.distance(a.2.translation).total_cmp(&view.distance(b.2.translation)))
+        .map(|(id, ..)| id)
+}
+
+/// All visible lights but ambient ones, with their places in the world.
+fn lights(document: &Document) -> impl Iterator<Item = (NodeId, Light, DAffine3)> {
+    let scene = document.nodes();
+    let places = scene.visible_transforms();
+    scene.nodes().iter().filter_map(move |(id, node)| {
+        let light = node.light.filter(|light| light.kind != LightKind::Ambient)?;
+        Some((id, light, places[id.index()]?))
+    })
+}
+
+/// Lines that tell where it shines.
+fn shape(light: &Light, world: &DAffine3, view: &OverlayView) -> Vec<[DVec3; 2]> {
+    let origin = world.translation;
+    let length = RAY * view.pixel_size(origin);
+    let direction = |local: DVec3| world.transform_vector3(local).normalize_or_zero() * length;
+    match light.kind {
+        LightKind::Ambient | LightKind::Point => Vec::new(),
+        LightKind::Directional => vec![[origin, origin + direction(DVec3::NEG_Z)]],
+        LightKind::Spot { outer, .. } => {
+            let (sin, cos) = elementary::sin_cos(f64::from(outer));
+            let rim = |index: usize| {
+                let turn = index as f64 / CONE_LINES as f64 * std::f64::consts::TAU;
+                let (up, right) = elementary::sin_cos(turn);
+                origin + direction(DVec3::new(sin * right, sin * up, -cos))
+            };
+            let sides = (0..CONE_LINES).step_by(2).map(|index| [origin, rim(index)]);
+            let around = (0..CONE_LINES).map(|index| [rim(index), rim(index + 1)]);
+            sides.chain(around).collect()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use trigon_edit::scene::{Node, Scene};
+    use trigon_window::egui::pos2;
+
+    use super::super::view::tests::front;
+    use super::*;
+
+    fn document() -> (Document, [NodeId; 4]) {
+        let mut scene = Scene::new();
+        let lights = [Light::point(1.0), Light::directional(1.0), Light::spot(1.0), Light::ambient(1.0)];
+        let ids = [0, 1, 2, 3].map(|index| {
+            scene.add(Node::from_light(lights[index]).at(DVec3::new(index as f64 - 1.0, 0.0, 0.0)))
+        });
+        (Document::new(scene), ids)
+    }
+
+    #[test]
+    fn the_light_under_the_pointer_is_found() {
+        let (document, [point, directional, spot, _]) = document();
+        let view = front();
+        let at = |x: f64| view.point(DVec3::new(x, 0.0, 0.0)).expect("before the eye");
+        assert_eq!(light_at(&document, &view, at(-1.0)), Some(point));
+        assert_eq!(light_at(&document, &view, at(0.0) + vec2(0.0, 11.0)), Some(directional));
+        assert_eq!(light_at(&document, &view, at(1.0)), Some(spot));
+        assert_eq!(light_at(&document, &view, at(2.0)), None, "ambient light is nowhere");
+        assert_eq!(light_at(&document, &view, pos2(0.0, 0.0)), None, "far from all");
+    }
+
+    #[test]
+    fn cones_are_as_wide_as_they_shine() {
+        let view = front();
+        let lines = shape(&Light::spot(1.0), &DAffine3::IDENTITY, &view);
+        assert_eq!(lines.len(), 4 + CONE_LINES);
+        for [_, rim] in &lines {
+            // 45°: as far from the axis as along it.
+            assert!((rim.truncate().length() + rim.z).abs() < 1e-12, "{rim}");
+        }
+        let rays = shape(&Light::directional(1.0), &DAffine3::IDENTITY, &view);
+        assert!(matches!(rays[..], [[DVec3::ZERO, to]] if to.z < 0.0), "along −Z: {rays:?}");
+    }
+}

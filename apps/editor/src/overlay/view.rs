@@ -1,0 +1,158 @@
+//! From the world to logical pixels.
+
+use trigon_edit::scene::camera::{Camera, Projector, Ray, Viewport};
+use trigon_edit::scene::math::{DVec2, DVec3};
+use trigon_window::egui::{Pos2, Vec2, pos2};
+
+/// A camera, the picture that it sees, and how large its pixels are.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct OverlayView {
+    projector: Projector,
+    /// Physical pixels to a logical one.
+    scale: f64,
+}
+
+impl OverlayView {
+    /// For a picture in physical pixels.
+    pub(crate) fn new(camera: &Camera, viewport: Viewport, scale: f64) -> Self {
+        Self { projector: Projector::new(camera, viewport), scale }
+    }
+
+    pub(crate) fn camera(&self) -> &Camera {
+        self.projector.camera()
+    }
+
+    /// The size of the picture in logical pixels.
+    pub(crate) fn size(&self) -> Vec2 {
+        let size = self.projector.viewport().size() / self.scale;
+        Vec2::new(size.x as f32, size.y as f32)
+    }
+
+    /// Metres along the line of sight from the eye.
+    pub(crate) fn distance(&self, point: DVec3) -> f64 {
+        -self.projector.to_camera(point).z
+    }
+
+    /// Where a point is drawn; `None` before the near plane.
+    pub(crate) fn point(&self, point: DVec3) -> Option<Pos2> {
+        let is_seen = self.distance(point) >= self.nearest();
+        self.projector.to_screen(point).filter(|_| is_seen).map(|at| self.logical(at))
+    }
+
+    /// How many metres a logical pixel is at a point's distance.
+    pub(crate) fn pixel_size(&self, point: DVec3) -> f64 {
+        let height = self.camera().projection.height_at(self.distance(point).max(self.nearest()));
+        height * self.scale / f64::from(self.projector.viewport().height.max(1))
+    }
+
+    /// The visible part of a line in the world; `None` where there is none.
+    pub(crate) fn line(&self, from: DVec3, to: DVec3) -> Option<[Pos2; 2]> {
+        let [from, to] = self.before_eye(from, to)?;
+        let ends = self.projector.to_screen(from).zip(self.projector.to_screen(to))?;
+        let size = self.projector.viewport().size();
+        clip(ends.0, ends.1, size).map(|(from, to)| [self.logical(from), self.logical(to)])
+    }
+
+    /// The part of a line that lies behind the near plane.
+    fn before_eye(&self, from: DVec3, to: DVec3) -> Option<[DVec3; 2]> {
+        let near = self.nearest();
+        let [start, end] = [from, to].map(|point| self.distance(point) - near);
+        match (start >= 0.0, end >= 0.0) {
+            (true, true) => Some([from, to]),
+            (false, false) => None,
+            (is_start_seen, _) => {
+                let cut = from + (to - from) * (start / (start - end));
+                Some(if is_start_seen { [from, cut] } else { [cut, to] })
+            }
+        }
+    }
+
+    /// A parallel projection sees behind the eye, too.
+    fn nearest(&self) -> f64 {
+        let projection = &self.camera().projection;
+        if projection.is_orthographic() { f64::NEG_INFINITY } else { projection.near() }
+    }
+
+    /// All points that are drawn at a physical pixel.
+    pub(crate) fn ray(&self, pixel: DVec2) -> Option<Ray> {
+        self.projector.ray(pixel)
+    }
+
+    /// Physical pixels of a logical point.
+    pub(crate) fn physical(&self, at: Pos2) -> DVec2 {
+        DVec2::new(f64::from(at.x), f64::from(at.y)) * self.scale
+    }
+
+    fn logical(&self, at: DVec2) -> Pos2 {
+        pos2((at.x / self.scale) as f32, (at.y / self.scale) as f32)
+    }
+}
+
+/// The part of a line within `0..size` (Liang and Barsky, "A New Concept and Method for Line
+/// Clipping", 1984), so that no coordinate is too large for f32.
+fn clip(from: DVec2, to: DVec2, size: DVec2) -> Option<(DVec2, DVec2)> {
+    let way = to - from;
+    let (mut enter, mut leave) = (0.0, 1.0);
+    for axis in 0..2 {
+        for (speed, room) in [(-way[axis], from[axis]), (way[axis], size[axis] - from[axis])] {
+            let at = room / speed;
+            if speed < 0.0 && at > enter {
+                enter = at;
+            } else if speed > 0.0 && at < leave {
+                leave = at;
+            } else if speed == 0.0 && room < 0.0 {
+                return None;
+            }
+        }
+    }
+    (enter <= leave).then(|| (from + way * enter, from + way * leave))
+}
+
+/// From a point to the line between two others, in pixels.
+pub(super) fn distance_to_line([a, b]: [Pos2; 2], point: Pos2) -> f32 {
+    let along = b - a;
+    let length = along.length_sq();
+    let share = if length > 0.0 { ((point - a).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
+    (a + along * share).distance(point)
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// Looks at the origin from 10 m in front of it, 800 × 600 physical pixels, two to a logical one.
+    pub(in super::super) fn front() -> OverlayView {
+        let camera = Camera::look_at(DVec3::new(0.0, 0.0, 10.0), DVec3::ZERO, DVec3::Y);
+        OverlayView::new(&camera, Viewport { width: 800, height: 600 }, 2.0)
+    }
+
+    #[test]
+    fn the_target_is_in_the_middle_in_logical_pixels() {
+        let view = front();
+        assert_eq!(view.point(DVec3::ZERO), Some(pos2(200.0, 150.0)));
+        assert_eq!(view.point(DVec3::new(0.0, 0.0, 11.0)), None, "behind the eye");
+        let size = view.pixel_size(DVec3::ZERO);
+        let beside = view.point(DVec3::X * size * 30.0).expect("before the eye");
+        assert!((beside.x - 230.0).abs() < 1e-3, "30 pixels to the right: {beside}");
+    }
+
+    #[test]
+    fn a_line_through_the_near_plane_ends_in_the_picture() {
+        let view = front();
+        // From the target past the eye, a little below it.
+        let line = view.line(DVec3::ZERO, DVec3::new(0.0, -1.0, 20.0)).expect("its far half is seen");
+        assert_eq!(line[0], pos2(200.0, 150.0));
+        assert!((line[1].x - 200.0).abs() < 1e-3 && (line[1].y - 300.0).abs() < 1e-3, "{}", line[1]);
+        let behind = [DVec3::new(0.0, 0.0, 11.0), DVec3::new(5.0, 0.0, 30.0)];
+        assert_eq!(view.line(behind[0], behind[1]), None);
+    }
+
+    #[test]
+    fn lines_stay_in_the_picture_however_long_they_are() {
+        let view = front();
+        let line = view.line(DVec3::new(-1e9, 0.0, 0.0), DVec3::new(1e9, 0.0, 0.0)).expect("it crosses");
+        for (end, x) in line.into_iter().zip([0.0, 400.0]) {
+            assert!((end.x - x).abs() < 1e-2 && (end.y - 150.0).abs() < 1e-2, "{end}");
+        }
+    }
+}

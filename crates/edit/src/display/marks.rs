@@ -1,0 +1,209 @@
+//! The selection as a picture shows it: elements in colours of their own in edit mode, an
+//! outline around objects in object mode.
+//!
+//! Colours are those of Blender's default theme. They are made anew when the selection or the marks
+//! of edges have changed, never for a frame: dragging vertices changes neither.
+
+use std::sync::Arc;
+
+use fixedbitset::FixedBitSet;
+use trigon_mesh::edit::{EdgeId, ElementNumbers, FaceId, VertexId};
+use trigon_mesh::math::{Vec3, color};
+use trigon_scene::{
+    ElementSet, Mark, Marks, MeshId, NodeId, Outline, Reach, RenderSettings, Scene, Style, VertexPoints,
+};
+
+use crate::document::Document;
+use crate::selection::{ElementKind, MeshSelection, Selection};
+
+/// How much faces let show through them in X-ray.
+pub const X_RAY: f32 = 0.5;
+
+const SELECTED_VERTEX: [u8; 3] = [0xff, 0x7a, 0x00];
+const SELECTED_EDGE: [u8; 3] = [0xff, 0x99, 0x00];
+const SELECTED_FACE: [u8; 3] = [0xff, 0xa3, 0x00];
+const ACTIVE: [u8; 3] = [0xff; 3];
+const SHARP: [u8; 3] = [0x00, 0xff, 0xff];
+const SEAM: [u8; 3] = [0xdb, 0x25, 0x12];
+const CREASE: [u8; 3] = [0xcc, 0x00, 0x99];
+const OBJECT: [u8; 3] = [0xff, 0xa0, 0x28];
+
+/// Of the colour of a selected face, so that its own shows.
+const FACE_OPACITY: f32 = 0.3;
+const ACTIVE_FACE_OPACITY: f32 = 0.5;
+
+/// In pixels.
+const OUTLINE_WIDTH: u32 = 2;
+
+/// What the selection of a document looks like, kept as long as it stays.
+#[derive(Debug, Clone, Default)]
+pub struct DisplayMarks {
+    /// Of what they were made.
+    known: Option<(u64, Selection)>,
+    marks: Marks,
+    vertices: Option<VertexPoints>,
+    outline: Option<Outline>,
+    is_editing: bool,
+}
+
+impl DisplayMarks {
+    /// Brings the marks up to date. Whether they changed: then hand them to the settings again.
+    /// In time proportional to the selected meshes if something changed, and else to the selection.
+    pub fn update(&mut self, document: &mut Document) -> bool {
+        document.scene();
+        let state = (document.marks_revision(), document.selection());
+        if self.known.as_ref().is_some_and(|(revision, selection)| (*revision, selection) == state) {
+            return false;
+        }
+        self.known = Some((state.0, state.1.clone()));
+        self.make(document);
+        true
+    }
+
+    /// Shows them in a picture. With [`Reach::Through`] faces let show what they hide (X-ray).
+    pub fn apply(&self, settings: &mut RenderSettings, reach: Reach) {
+        settings.marks = self.marks.clone();
+        settings.vertices = self.vertices;
+        settings.effects.outline = self.outline.clone();
+        if self.is_editing && settings.style == Style::Surface {
+            settings.style = Style::SurfaceWithEdges;
+        }
+        settings.x_ray = if self.is_editing && reach == Reach::Through { X_RAY } else { 0.0 };
+    }
+
+    fn make(&mut self, document: &Document) {
+        let selection = document.selection();
+        self.is_editing = selection.is_editing();
+        self.vertices =
+            (self.is_editing && selection.kind() == ElementKind::Vertex).then(VertexPoints::default);
+        self.outline = (!self.is_editing).then(|| outline(document)).flatten();
+        self.marks = if self.is_editing { edit_marks(document) } else { Marks::default() };
+    }
+}
+
+/// A line around the selected objects and what hangs on them.
+fn outline(document: &Document) -> Option<Outline> {
+    let scene = document.nodes();
+    let mut nodes: Vec<NodeId> = Vec::new();
+    let mut waiting: Vec<NodeId> = document.selection().objects.iter().copied().collect();
+    while let Some(id) = waiting.pop() {
+        if let Some(node) = scene.node(id).filter(|_| !nodes.contains(&id)) {
+            nodes.push(id);
+            // A group has no silhouette of its own.
+            if node.mesh.is_none() {
+                waiting.extend(node.children());
+            }
+        }
+    }
+    nodes.sort_unstable();
+    (!nodes.is_empty()).then(|| Outline { nodes, color: linear(OBJECT), width: OUTLINE_WIDTH })
+}
+
+/// The elements of one kind of look, of all meshes.
+#[derive(Default)]
+struct Sets {
+    /// Of objects that are not edited.
+    plain_edges: ElementSet,
+    active: [ElementSet; 3],
+    selected: [ElementSet; 3],
+    sharp: ElementSet,
+    seams: ElementSet,
+    creases: ElementSet,
+}
+
+/// The places of the kinds in [`Sets`].
+const VERTICES: usize = 0;
+const EDGES: usize = 1;
+const FACES: usize = 2;
+
+fn edit_marks(document: &Document) -> Marks {
+    let mut sets = Sets::default();
+    let scene = document.nodes();
+    for (node, content) in scene.nodes().iter() {
+        let Some(mesh) = content.mesh else { continue };
+        match document.selection().of(mesh) {
+            Some(selected) => sets.add(document, node, mesh, selected),
+            None => sets.hide_edges(scene, node, mesh),
+        }
+    }
+    sets.into_marks()
+}
+
+impl Sets {
+    /// The elements of an object that is edited.
+    fn add(&mut self, document: &Document, node: NodeId, id: MeshId, selected: &MeshSelection) {
+        let (Some(mesh), Some(numbers)) = (document.mesh(id), document.shown_numbers(id)) else { return };
+        let kind = document.selection().kind();
+        let vertices = selected.vertices(mesh, kind);
+        let edges = selected.edges(mesh, kind);
+        let faces = selected.faces(mesh, kind);
+        self.selected[VERTICES].add(node, bits(vertices.iter().filter_map(|&id| numbers.vertex(id))));
+        self.selected[EDGES].add(node, bits(edges.iter().filter_map(|&id| numbers.edge(id))));
+        self.selected[FACES].add(node, bits(faces.iter().filter_map(|&id| numbers.face(id))));
+        if let Some(active) = selected.order().last().copied() {
+            let (place, number) = active_number(numbers, kind, active);
+            self.active[place].add(node, bits(number.into_iter()));
+        }
+        let Some(marked) = document.marked(id) else { return };
+        let numbered = |edges: &[EdgeId]| bits(edges.iter().filter_map(|&id| numbers.edge(id)));
+        self.sharp.add(node, numbered(&marked.sharp));
+        self.seams.add(node, numbered(&marked.seams));
+        self.creases.add(node, numbered(&marked.creases));
+    }
+
+    /// Only what is edited shows its edges.
+    fn hide_edges(&mut self, scene: &Scene, node: NodeId, id: MeshId) {
+        let Some(asset) = scene.meshes().get(id) else { return };
+        let mut all = FixedBitSet::with_capacity(asset.mesh().edge_count());
+        all.insert_range(..);
+        self.plain_edges.add(node, all);
+    }
+
+    /// In the order of priority.
+    fn into_marks(self) -> Marks {
+        let mark = |elements: ElementSet, srgb: [u8; 3], opacity: f32| {
+            (!elements.is_empty()).then(|| Mark {
+                elements: Arc::new(elements),
+                color: linear(srgb),
+                opacity,
+            })
+        };
+        let [active_vertices, active_edges, active_faces] = self.active;
+        let [vertices, edges, faces] = self.selected;
+        let edges = [
+            mark(self.plain_edges, [0; 3], 0.0),
+            mark(active_edges, ACTIVE, 1.0),
+            mark(edges, SELECTED_EDGE, 1.0),
+            mark(self.sharp, SHARP, 1.0),
+            mark(self.seams, SEAM, 1.0),
+            mark(self.creases, CREASE, 1.0),
+        ];
+        let faces =
+            [mark(active_faces, ACTIVE, ACTIVE_FACE_OPACITY), mark(faces, SELECTED_FACE, FACE_OPACITY)];
+        let vertices = [mark(active_vertices, ACTIVE, 1.0), mark(vertices, SELECTED_VERTEX, 1.0)];
+        Marks {
+            edges: edges.into_iter().flatten().collect(),
+            faces: faces.into_iter().flatten().collect(),
+            vertices: vertices.into_iter().flatten().collect(),
+        }
+    }
+}
+
+fn active_number(numbers: &ElementNumbers, kind: ElementKind, active: u32) -> (usize, Option<u32>) {
+    match kind {
+        ElementKind::Vertex => (VERTICES, numbers.vertex(VertexId::new(active))),
+        ElementKind::Edge => (EDGES, numbers.edge(EdgeId::new(active))),
+        ElementKind::Face => (FACES, numbers.face(FaceId::new(active))),
+    }
+}
+
+fn bits(numbers: impl Iterator<Item = u32>) -> FixedBitSet {
+    numbers.map(|number| number as usize).collect()
+}
+
+fn linear(srgb: [u8; 3]) -> Vec3 {
+    Vec3::from_array(srgb.map(color::srgb8_to_linear))
+}
+
+#[cfg(test)]
+mod tests;

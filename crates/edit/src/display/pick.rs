@@ -1,0 +1,263 @@
+//! What a user points at, as a command that selects it.
+//!
+//! The scene's [`Picker`] finds the elements of the meshes that are drawn. Here they become those
+//! that are edited: elements of other objects hide what lies behind them, but are never
+//! selected, and neither is what is hidden.
+
+use std::collections::BTreeMap;
+
+use fixedbitset::FixedBitSet;
+use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
+use trigon_mesh::math::DVec2;
+use trigon_scene::{ElementSet, MeshId, NodeId, Picker, Reach, Region};
+
+use super::nearest::{Target, distance};
+use crate::command::{Command, ElementsOf, ObjectName, Select, SelectAction, SelectElements, SelectNone};
+use crate::document::Document;
+use crate::selection::{
+    ElementKind, Elements, MeshSelection, edge_loop, edge_ring, face_loop, shortest_path,
+};
+
+/// How far from the pointer an element is still meant, in logical pixels: as in Blender.
+pub const PICK_RADIUS: f64 = 25.0;
+
+/// Turns points and regions of a picture into commands that select what is there.
+///
+/// The picker's scene is the document's, or a copy that has followed all its changes
+/// ([`Document::take_scene_changes`]); after an edit that added or removed elements nothing
+/// is found until the scene was brought up to date.
+pub struct Picks<'p> {
+    pub(super) document: &'p Document,
+    pub(super) picker: &'p Picker<'p>,
+    /// Pixels to world, for distances between the pointer and elements.
+    pub(super) projector: trigon_scene::camera::Projector,
+    /// Whether what is hidden counts: X-ray.
+    pub(super) reach: Reach,
+}
+
+impl<'p> Picks<'p> {
+    /// For the picture of a picker. The projector has the camera and the size of the same
+    /// picture; all points are in its pixels.
+    #[must_use]
+    pub fn new(
+        document: &'p Document,
+        picker: &'p Picker<'p>,
+        projector: trigon_scene::camera::Projector,
+        reach: Reach,
+    ) -> Self {
+        Self { document, picker, projector, reach }
+    }
+
+    /// A click: the nearest element within a radius in pixels, or the nearest object. Nothing is
+    /// selected where nothing is; other actions than [`SelectAction::Replace`] do nothing there.
+    #[must_use]
+    pub fn click(&self, point: DVec2, radius: f64, action: SelectAction) -> Option<Command> {
+        if !self.document.selection().is_editing() {
+            return self.objects_of(self.object(point, radius), action);
+        }
+        let kind = self.document.selection().kind();
+        match self.nearest(kind, point, radius) {
+            Some(target) => Some(target.select(vec![target.element], action)),
+            None => nothing(action),
+        }
+    }
+
+    /// All elements of the selected kind in a region, or all objects.
+    #[must_use]
+    pub fn region(&self, region: &Region, action: SelectAction) -> Option<Command> {
+        if !self.document.selection().is_editing() {
+            return self.objects_of(self.picker.nodes(region, self.reach), action);
+        }
+        let kind = self.document.selection().kind();
+        let parts: Vec<ElementsOf> = self
+            .edited(kind, &self.elements(kind, region))
+            .into_values()
+            .map(|(node, bits)| ElementsOf::new(ObjectName::of(node), bits.ones().map(|bit| bit as u32)))
+            .collect();
+        if parts.is_empty() { nothing(action) } else { Some(SelectElements { parts, action }.into()) }
+    }
+
+    /// The loop of edges through the edge under the pointer; of faces, the loop of faces across it.
+    #[must_use]
+    pub fn edge_loop(&self, point: DVec2, radius: f64, action: SelectAction) -> Option<Command> {
+        self.along_edge(point, radius, action, |mesh, kind, edge| match kind {
+            ElementKind::Face => Elements::Faces(face_loop(mesh, edge)),
+            _ => Elements::Edges(edge_loop(mesh, edge)),
+        })
+    }
+
+    /// The ring of edges from the edge under the pointer; of faces, the faces between its edges.
+    #[must_use]
+    pub fn edge_ring(&self, point: DVec2, radius: f64, action: SelectAction) -> Option<Command> {
+        self.along_edge(point, radius, action, |mesh, kind, edge| match kind {
+            ElementKind::Face => Elements::Faces(face_loop(mesh, edge)),
+            _ => Elements::Edges(edge_ring(mesh, edge)),
+        })
+    }
+
+    /// The shortest path from the active element to the one under the pointer, which becomes the active
+    /// one. It alone, where there is no active one in the same part of the same mesh.
+    #[must_use]
+    pub fn path(&self, point: DVec2, radius: f64) -> Option<Command> {
+        let kind = self.document.selection().kind();
+        let target = self.nearest(kind, point, radius)?;
+        let mesh = self.document.mesh(target.mesh)?;
+        let from = self.document.selection().of(target.mesh)?.order().last().copied();
+        let path = from
+            .filter(|&from| exists(mesh, kind, from))
+            .and_then(|from| shortest_path(mesh, kind, from, target.element));
+        let path = path.unwrap_or_else(|| vec![target.element]).into_iter();
+        let visible = path.filter(|&element| is_selectable(mesh, kind, element)).collect();
+        Some(target.select(visible, SelectAction::Add))
+    }
+
+    /// All that hangs together with the element under the pointer.
+    #[must_use]
+    pub fn linked(&self, point: DVec2, radius: f64, action: SelectAction) -> Option<Command> {
+        let kind = self.document.selection().kind();
+        let target = self.nearest(kind, point, radius)?;
+        let mut linked = MeshSelection::default();
+        linked.insert(&[target.element]);
+        linked.grow_linked(self.document.mesh(target.mesh)?, kind);
+        Some(self.select_bits(&target, linked.bits(), action))
+    }
+
+    fn along_edge(
+        &self,
+        point: DVec2,
+        radius: f64,
+        action: SelectAction,
+        along: impl Fn(&EditMesh, ElementKind, EdgeId) -> Elements,
+    ) -> Option<Command> {
+        let target = self.nearest(ElementKind::Edge, point, radius)?;
+        let (mesh, kind) = (self.document.mesh(target.mesh)?, self.document.selection().kind());
+        let mut found = MeshSelection::default();
+        found.select(mesh, kind, &along(mesh, kind, EdgeId::new(target.element)));
+        Some(self.select_bits(&target, found.bits(), action))
+    }
+
+    fn select_bits(&self, target: &Target, bits: &FixedBitSet, action: SelectAction) -> Command {
+        let kind = self.document.selection().kind();
+        let all = bits.ones().map(|bit| bit as u32);
+        let visible = all.filter(|&element| {
+            self.document.mesh(target.mesh).is_some_and(|mesh| is_selectable(mesh, kind, element))
+        });
+        let parts = vec![ElementsOf::new(ObjectName::of(target.node), visible)];
+        SelectElements { parts, action }.into()
+    }
+
+    /// The object that is seen at a point, or nearest to it.
+    fn object(&self, point: DVec2, radius: f64) -> Option<NodeId> {
+        let under = Region::Point(point);
+        let seen = self.picker.nodes(&under, Reach::Visible).into_iter().next();
+        seen.or_else(|| {
+            let nearest = self.picker.nearest(point, radius, self.reach);
+            nearest.face.or(nearest.edge).or(nearest.vertex).map(|(node, _)| node)
+        })
+    }
+
+    fn objects_of(&self, nodes: impl IntoIterator<Item = NodeId>, action: SelectAction) -> Option<Command> {
+        let objects: Vec<ObjectName> = nodes.into_iter().map(ObjectName::of).collect();
+        if objects.is_empty() {
+            return nothing(action);
+        }
+        Some(Select { objects, elements: Vec::new(), action }.into())
+    }
+
+    /// The elements that the picker finds in a region, of all meshes.
+    pub(super) fn elements(&self, kind: ElementKind, region: &Region) -> ElementSet {
+        match kind {
+            ElementKind::Vertex => self.picker.vertices(region, self.reach),
+            ElementKind::Edge => self.picker.edges(region, self.reach),
+            ElementKind::Face => self.picker.faces(region, self.reach),
+        }
+    }
+
+    /// Those that can be selected, by the numbers under which they are edited, with the first object
+    /// that shows the mesh.
+    pub(super) fn edited(
+        &self,
+        kind: ElementKind,
+        found: &ElementSet,
+    ) -> BTreeMap<MeshId, (NodeId, FixedBitSet)> {
+        let mut all: BTreeMap<MeshId, (NodeId, FixedBitSet)> = BTreeMap::new();
+        for (node, bits) in found.nodes() {
+            let elements = bits.ones().filter_map(|bit| Some(self.target(kind, node, bit as u32)?.element));
+            let elements: FixedBitSet = elements.map(|element| element as usize).collect();
+            let mesh = self.document.nodes().node(node).and_then(|node| node.mesh);
+            if let Some(mesh) = mesh.filter(|_| !elements.is_clear()) {
+                all.entry(mesh).or_insert_with(|| (node, FixedBitSet::new())).1.union_with(&elements);
+            }
+        }
+        all
+    }
+
+    /// An element of the scene as one that is edited; `None` if it cannot be selected.
+    pub(super) fn target(&self, kind: ElementKind, node: NodeId, number: u32) -> Option<Target> {
+        let id = self.document.nodes().node(node)?.mesh?;
+        self.document.selection().of(id)?;
+        let numbers = self.document.shown_numbers(id)?;
+        let map = self.document.shown_elements(id)?;
+        let element = match kind {
+            ElementKind::Vertex => map.vertices.get(number as usize)?.index(),
+            ElementKind::Edge => numbers.edge_of_mesh(number)?.index(),
+            ElementKind::Face => map.faces.get(number as usize)?.index(),
+        };
+        let is_selectable = is_selectable(self.document.mesh(id)?, kind, element);
+        is_selectable.then_some(Target { node, mesh: id, element })
+    }
+
+    /// The nearest element that can be selected.
+    pub(super) fn nearest(&self, kind: ElementKind, point: DVec2, radius: f64) -> Option<Target> {
+        let nearest = self.picker.nearest(point, radius, self.reach);
+        let found = match kind {
+            ElementKind::Vertex => nearest.vertex,
+            ElementKind::Edge => nearest.edge,
+            ElementKind::Face => nearest.face,
+        };
+        let (node, number) = found?;
+        self.target(kind, node, number).or_else(|| self.nearest_of_others(kind, point, radius))
+    }
+
+    /// The same where the very nearest cannot be selected: the nearest of all within the radius.
+    fn nearest_of_others(&self, kind: ElementKind, point: DVec2, radius: f64) -> Option<Target> {
+        let found = self.elements(kind, &Region::Circle { center: point, radius });
+        let targets = found.iter().filter_map(|(node, number)| self.target(kind, node, number));
+        targets
+            .map(|target| (distance(self, kind, &target, point), target))
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, target)| target)
+    }
+}
+
+impl Target {
+    /// Selects elements of the same mesh one by one.
+    fn select(&self, elements: Vec<u32>, action: SelectAction) -> Command {
+        Select { objects: vec![ObjectName::of(self.node)], elements, action }.into()
+    }
+}
+
+/// What pointing at nothing does.
+fn nothing(action: SelectAction) -> Option<Command> {
+    (action == SelectAction::Replace).then(|| SelectNone {}.into())
+}
+
+fn exists(mesh: &EditMesh, kind: ElementKind, element: u32) -> bool {
+    match kind {
+        ElementKind::Vertex => mesh.has_vertex(VertexId::new(element)),
+        ElementKind::Edge => mesh.has_edge(EdgeId::new(element)),
+        ElementKind::Face => mesh.has_face(FaceId::new(element)),
+    }
+}
+
+fn is_selectable(mesh: &EditMesh, kind: ElementKind, element: u32) -> bool {
+    exists(mesh, kind, element)
+        && !match kind {
+            ElementKind::Vertex => mesh.is_vertex_hidden(VertexId::new(element)),
+            ElementKind::Edge => mesh.is_edge_hidden(EdgeId::new(element)),
+            ElementKind::Face => mesh.is_face_hidden(FaceId::new(element)),
+        }
+}
+
+#[cfg(test)]
+mod tests;

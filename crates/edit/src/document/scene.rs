@@ -1,0 +1,129 @@
+//! The document's scene for whoever draws it, and what a copy has to do to stay equal to it.
+
+use trigon_mesh::edit::{ElementMap, ElementNumbers};
+use trigon_mesh::{Mesh, MeshChange};
+use trigon_scene::{MeshId, Scene};
+
+use super::Document;
+use super::shown::{Outdated, Untold};
+use crate::display::MarkedElements;
+
+/// What a copy of a document's scene has to do to be equal to it again.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SceneChange {
+    /// Become a clone of it.
+    Whole,
+    /// Take over a mesh: [`Scene::adopt_mesh`].
+    Mesh(MeshId),
+    /// Show another mesh than the scene's: the part of one that is edited that is not hidden.
+    /// [`Scene::replace_mesh`].
+    Visible(MeshId, Box<Mesh>),
+    /// Take over everything but meshes: [`Scene::swap_parts`].
+    Parts,
+    /// Give a mesh other values: [`Scene::change_mesh`].
+    Values(MeshId, MeshChange),
+}
+
+impl SceneChange {
+    /// Makes the change in a copy. For a scene that tells others of changes, such as a
+    /// window's, call what the variants name.
+    pub fn apply(self, from: &Scene, copy: &mut Scene) {
+        match self {
+            Self::Whole => *copy = from.clone(),
+            Self::Mesh(id) => {
+                copy.adopt_mesh(from, id).expect("meshes are told of in the order of their ids");
+            }
+            Self::Visible(id, mesh) => copy.replace_mesh(id, *mesh).expect("it was told of before"),
+            Self::Parts => copy.swap_parts(&mut from.parts()),
+            Self::Values(id, change) => copy.change_mesh(id, &change).expect("the original was changed so"),
+        }
+    }
+}
+
+impl Document {
+    /// The scene as it is now, to be drawn. Its meshes follow the edits since the last call: in
+    /// time proportional to these where vertices were moved or corners got other values, and
+    /// else to the whole mesh. What is hidden is part of it.
+    pub fn scene(&mut self) -> &Scene {
+        let Self { file, shown, selection, .. } = self;
+        shown.update(&mut file.scene, &file.edited, selection);
+        &file.scene
+    }
+
+    /// What changed in [`Self::scene`] since the last call, for a copy of it that is shown: to
+    /// be applied in this order. The first call asks for the whole scene.
+    ///
+    /// ```
+    /// use trigon_edit::{Command, Document};
+    /// use trigon_scene::{Scene, showcase};
+    ///
+    /// let mut document = Document::new(showcase());
+    /// let mut copy = Scene::new();
+    /// for command in [r#"{ "op": "select_all" }"#, r#"{ "op": "translate", "offset": [1, 0, 0] }"#] {
+    ///     document.run(serde_json::from_str(command)?)?;
+    ///     for change in document.take_scene_changes() {
+    ///         change.apply(document.nodes(), &mut copy);
+    ///     }
+    ///     assert_eq!(copy.bounds(), document.scene().bounds());
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn take_scene_changes(&mut self) -> Vec<SceneChange> {
+        let is_first = self.shown.untold.is_none();
+        self.shown.untold.get_or_insert_default();
+        self.scene();
+        let Self { file, shown, .. } = self;
+        let untold = shown.untold.as_mut().expect("it was just made");
+        if is_first {
+            // The whole scene holds all that would be told of it.
+            let visible = std::mem::take(&mut untold.visible);
+            let known_meshes = file.scene.meshes().index_bound();
+            *untold = Untold { known_meshes, visible, ..Untold::default() };
+        }
+        let mut changes: Vec<_> = is_first.then_some(SceneChange::Whole).into_iter().collect();
+        changes.extend(untold.take(&file.scene, &shown.visible));
+        for (id, visible) in &mut shown.visible {
+            let edited = file.edited.get(id);
+            changes.extend(
+                edited.and_then(|edited| visible.take(edited)).map(|change| SceneChange::Values(*id, change)),
+            );
+        }
+        changes
+    }
+
+    /// Which elements of an edited mesh are shown, by the numbers of the mesh in a copy of the
+    /// scene that follows it, or in the scene if there is none: as of the last [`Self::scene`]. `None` for a mesh
+    /// that was never edited, where all numbers are the same.
+    #[must_use]
+    pub fn shown_elements(&self, id: MeshId) -> Option<&ElementMap> {
+        let visible = self.shown.visible.get(&id).map(|visible| &visible.map);
+        visible.or_else(|| self.shown.meshes.get(&id).map(|shown| &shown.map))
+    }
+
+    /// The numbers of an edited mesh's elements there; `None` for a mesh that was never edited,
+    /// or that got or lost elements since. Found at the first call after that, in time
+    /// proportional to the mesh.
+    #[must_use]
+    pub fn shown_numbers(&self, id: MeshId) -> Option<&ElementNumbers> {
+        if matches!(self.shown.outdated.get(&id), Some(Outdated::Whole)) {
+            return None;
+        }
+        if let Some(visible) = self.shown.visible.get(&id) {
+            return (!visible.is_outdated).then_some(&visible.numbers);
+        }
+        let mesh = self.file.scene.meshes().get(id)?.mesh();
+        let shown = self.shown.meshes.get(&id)?;
+        Some(shown.numbers(self.file.edited.get(&id)?, mesh))
+    }
+
+    /// Another number after every change of nodes or elements or of their marks, as of the
+    /// last [`Self::scene`].
+    pub(crate) fn marks_revision(&self) -> u64 {
+        self.shown.marks_revision
+    }
+
+    /// What is marked of a mesh; `None` if it is not edited.
+    pub(crate) fn marked(&self, id: MeshId) -> Option<&MarkedElements> {
+        Some(self.shown.marked(id, self.file.edited.get(&id)?))
+    }
+}

@@ -1,0 +1,200 @@
+//! The scene in step with what is edited, and a window's scene in step with that.
+//!
+//! An edit notes which of a mesh's values it changed. When the scene is asked for, its mesh is
+//! given these values, and is made anew only after edits that add, remove or join
+//! elements. What a copy of the scene has to be told is noted, too.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::OnceLock;
+
+use trigon_mesh::edit::{ChangedValues, Difference, EditMesh, ElementMap, ElementNumbers};
+use trigon_mesh::{ChangedElements, Mesh};
+use trigon_scene::{MeshId, Scene};
+
+use super::scene::SceneChange;
+use super::visible::{VisibleMesh, refresh};
+use crate::display::MarkedElements;
+use crate::selection::Selection;
+
+/// What the scene shows of a mesh that is edited.
+#[derive(Debug)]
+pub(super) struct ShownMesh {
+    pub(super) map: ElementMap,
+    /// Found when somebody asks.
+    numbers: OnceLock<ElementNumbers>,
+    /// Likewise.
+    marked: OnceLock<MarkedElements>,
+}
+
+/// How the scene's mesh differs from the one that is edited.
+#[derive(Debug)]
+pub(super) enum Outdated {
+    Whole,
+    Values(ChangedValues),
+}
+
+/// What the copy of the scene has not been told yet.
+#[derive(Debug, Default)]
+pub(super) struct Untold {
+    pub(super) parts: bool,
+    pub(super) meshes: BTreeSet<MeshId>,
+    /// In the place of the scene's.
+    pub(super) visible: BTreeMap<MeshId, Mesh>,
+    pub(super) values: BTreeMap<MeshId, ChangedElements>,
+    /// How many meshes the copy has.
+    pub(super) known_meshes: usize,
+}
+
+/// What a document knows of its scene.
+#[derive(Debug, Default)]
+pub(super) struct Shown {
+    pub(super) meshes: BTreeMap<MeshId, ShownMesh>,
+    pub(super) outdated: BTreeMap<MeshId, Outdated>,
+    /// `None` until somebody asks.
+    pub(super) untold: Option<Untold>,
+    /// Of meshes that are edited and of which something is hidden, what a copy shows.
+    pub(super) visible: BTreeMap<MeshId, VisibleMesh>,
+    /// Counts changes of what marks are made of, beside the selection.
+    pub(super) marks_revision: u64,
+}
+
+impl Shown {
+    /// An edited mesh is in the other state of a difference.
+    pub(super) fn note_difference(&mut self, id: MeshId, mesh: &EditMesh, difference: &Difference) {
+        if difference.changes_marks() {
+            self.marks_revision += 1;
+            if let Some(shown) = self.meshes.get_mut(&id) {
+                shown.marked = OnceLock::new();
+            }
+            self.note_visible(id);
+        }
+        let values = mesh.changed_values(difference).filter(|_| self.meshes.contains_key(&id));
+        match (values, self.outdated.get_mut(&id)) {
+            (_, Some(Outdated::Whole)) => {}
+            (Some(values), Some(Outdated::Values(known))) => known.append(values),
+            (Some(values), None) if values.is_empty() => {}
+            (Some(values), None) => drop(self.outdated.insert(id, Outdated::Values(values))),
+            (None, _) => self.note_mesh(id),
+        }
+    }
+
+    /// What is visible of a mesh has to be found anew.
+    fn note_visible(&mut self, id: MeshId) {
+        if let Some(visible) = self.visible.get_mut(&id) {
+            visible.is_outdated = true;
+        }
+    }
+
+    /// The scene's mesh has to be made anew.
+    pub(super) fn note_mesh(&mut self, id: MeshId) {
+        self.outdated.insert(id, Outdated::Whole);
+    }
+
+    /// A mesh is edited from now on: its elements get numbers in the scene.
+    pub(super) fn note_edited(&mut self, id: MeshId) {
+        if !self.meshes.contains_key(&id) {
+            self.note_mesh(id);
+        }
+    }
+
+    /// Nodes, materials or the like may have changed.
+    pub(super) fn note_parts(&mut self) {
+        self.marks_revision += 1;
+        if let Some(untold) = &mut self.untold {
+            untold.parts = true;
+        }
+    }
+
+    /// Makes the scene show what is edited now.
+    pub(super) fn update(
+        &mut self,
+        scene: &mut Scene,
+        meshes: &BTreeMap<MeshId, EditMesh>,
+        selection: &Selection,
+    ) {
+        for (id, outdated) in std::mem::take(&mut self.outdated) {
+            let Some(edited) = meshes.get(&id) else { continue };
+            let followed = match &outdated {
+                Outdated::Whole => None,
+                Outdated::Values(values) => self.follow(scene, id, edited, values),
+            };
+            if followed.is_none() {
+                self.make_anew(scene, id, edited);
+            }
+        }
+        refresh(self, meshes, selection);
+    }
+
+    fn make_anew(&mut self, scene: &mut Scene, id: MeshId, edited: &EditMesh) {
+        let (mesh, map) = edited.to_mesh();
+        // A mesh is never taken out of the scene, so that an undone object finds it again.
+        if scene.replace_mesh(id, mesh).is_some() {
+            self.marks_revision += 1;
+            self.note_visible(id);
+            self.meshes.insert(id, ShownMesh { map, numbers: OnceLock::new(), marked: OnceLock::new() });
+            if let Some(untold) = &mut self.untold {
+                untold.meshes.insert(id);
+            }
+        }
+    }
+
+    pub(super) fn marked(&self, id: MeshId, edited: &EditMesh) -> &MarkedElements {
+        static NONE: MarkedElements = MarkedElements::NONE;
+        match self.meshes.get(&id) {
+            Some(shown) => shown.marked.get_or_init(|| MarkedElements::of(edited)),
+            None => &NONE,
+        }
+    }
+
+    /// Gives the scene's mesh the values that changed; `None` if it cannot take them.
+    fn follow(
+        &mut self,
+        scene: &mut Scene,
+        id: MeshId,
+        edited: &EditMesh,
+        values: &ChangedValues,
+    ) -> Option<()> {
+        let mesh = scene.meshes().get(id)?.mesh();
+        let numbers = self.meshes.get(&id)?.numbers(edited, mesh);
+        let change = edited.mesh_change(values, numbers);
+        scene.change_mesh(id, &change).ok()?;
+        if let Some(visible) = self.visible.get_mut(&id) {
+            visible.values.append(values.clone());
+        }
+        if let Some(untold) = &mut self.untold {
+            untold.values.entry(id).or_default().add(&change);
+        }
+        Some(())
+    }
+}
+
+impl ShownMesh {
+    pub(super) fn numbers(&self, edited: &EditMesh, mesh: &Mesh) -> &ElementNumbers {
+        self.numbers.get_or_init(|| ElementNumbers::new(edited, mesh, &self.map))
+    }
+}
+
+impl Untold {
+    /// What was not told, meshes first: nodes name them. Of meshes that the copy shows in part
+    /// another function tells.
+    pub(super) fn take(&mut self, scene: &Scene, partly: &BTreeMap<MeshId, VisibleMesh>) -> Vec<SceneChange> {
+        let known = std::mem::replace(&mut self.known_meshes, scene.meshes().index_bound());
+        let mut meshes = std::mem::take(&mut self.meshes);
+        meshes.extend(scene.meshes().iter().map(|(id, _)| id).filter(|id| id.index() >= known));
+        let values = std::mem::take(&mut self.values).into_iter();
+        let values: Vec<_> = values
+            .filter(|(id, _)| !meshes.contains(id) && !partly.contains_key(id))
+            .filter_map(|(id, changed)| {
+                let mesh = scene.meshes().get(id)?.mesh();
+                Some(SceneChange::Values(id, changed.values_in(mesh)))
+            })
+            .collect();
+        let parts = std::mem::take(&mut self.parts).then_some(SceneChange::Parts);
+        let visible = std::mem::take(&mut self.visible).into_iter();
+        let visible = visible.map(|(id, mesh)| SceneChange::Visible(id, Box::new(mesh)));
+        meshes.into_iter().map(SceneChange::Mesh).chain(visible).chain(parts).chain(values).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;
