@@ -148,8 +148,8 @@ impl Tool for ExtrudeTool {
     }
 
     fn status(&self) -> String {
-        let typed = self.modal.numeric.is_active().then(|| self.modal.numeric.status());
-        let text = format!("{} {}", self.text, typed.unwrap_or_default());
+        let typed = self.modal.typed();
+        let text = format!("{} {}", self.text, typed);
         self.modal.status(format!("{text} X/Y/Z: lock, C: clear, I: individual ({})", on(self.individual)))
     }
 

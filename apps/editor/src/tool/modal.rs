@@ -130,6 +130,11 @@ impl Modal {
         ToolState::Cancelled
     }
 
+    /// The numbers that are being typed; empty where the pointer counts.
+    pub(crate) fn typed(&self) -> String {
+        if self.numeric.is_active() { self.numeric.status() } else { String::new() }
+    }
+
     /// A line for the status bar: the tool's, and why nothing happens.
     pub(crate) fn status(&self, text: String) -> String {
         match &self.refusal {
