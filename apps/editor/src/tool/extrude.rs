@@ -143,6 +143,10 @@ impl Tool for ExtrudeTool {
             Step::Confirm => Modal::confirm(document),
             Step::Cancel => Modal::cancel(document),
             Step::Key(key) => self.key(key, document, view),
+            Step::ToggleSnapping => {
+                self.snap.is_on ^= true;
+                self.update(document, view)
+            }
             _ => ToolState::Running,
         }
     }

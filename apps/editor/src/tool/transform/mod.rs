@@ -186,6 +186,10 @@ impl Tool for TransformTool {
                 self.is_choosing_axis = false;
                 ToolState::Running
             }
+            Step::ToggleSnapping => {
+                self.settings.snap.is_on ^= true;
+                self.update(document, view)
+            }
             Step::Nothing => ToolState::Running,
         }
     }
