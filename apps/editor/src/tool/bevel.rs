@@ -131,11 +131,11 @@ impl Tool for BevelTool {
 
     fn status(&self) -> String {
         let Bevel { width, segments, profile, clamp_overlap, vertices } = &self.command;
-        let typed = self.modal.numeric.is_active().then(|| self.modal.numeric.status());
+        let typed = self.modal.typed();
         self.modal.status(format!(
             "Bevel A: width {width:.4} m, S or wheel: segments {segments}, P: profile {profile:.3} {} \
              C: clamp overlap ({}), V: vertices ({})",
-            typed.unwrap_or_default(),
+            typed,
             on(*clamp_overlap),
             on(*vertices),
         ))

@@ -143,13 +143,17 @@ impl Tool for ExtrudeTool {
             Step::Confirm => Modal::confirm(document),
             Step::Cancel => Modal::cancel(document),
             Step::Key(key) => self.key(key, document, view),
+            Step::ToggleSnapping => {
+                self.snap.is_on ^= true;
+                self.update(document, view)
+            }
             _ => ToolState::Running,
         }
     }
 
     fn status(&self) -> String {
-        let typed = self.modal.numeric.is_active().then(|| self.modal.numeric.status());
-        let text = format!("{} {}", self.text, typed.unwrap_or_default());
+        let typed = self.modal.typed();
+        let text = format!("{} {}", self.text, typed);
         self.modal.status(format!("{text} X/Y/Z: lock, C: clear, I: individual ({})", on(self.individual)))
     }
 

@@ -94,11 +94,11 @@ impl Tool for InsetTool {
 
     fn status(&self) -> String {
         let Inset { thickness, depth, mode, open_borders } = &self.command;
-        let typed = self.modal.numeric.is_active().then(|| self.modal.numeric.status());
+        let typed = self.modal.typed();
         self.modal.status(format!(
             "Inset {thickness:.4} m, depth {depth:.4} m {} Ctrl: depth, O: outset ({}), I: individual ({}), \
              B: boundary ({})",
-            typed.unwrap_or_default(),
+            typed,
             on(*mode == InsetMode::Outset),
             on(*mode == InsetMode::Individual),
             on(*open_borders),

@@ -191,7 +191,7 @@ impl Tool for LoopCutTool {
     }
 
     fn status(&self) -> String {
-        let typed = self.modal.numeric.is_active().then(|| self.modal.numeric.status()).unwrap_or_default();
+        let typed = self.modal.typed();
         self.modal.status(match self.sliding {
             None => format!("Loop Cut: {} {typed} Wheel or digits: cuts, click: cut", self.cuts),
             Some(_) => format!("Loop Cut: slide {:.4} {typed} Right button: in the middle", self.position),

@@ -33,6 +33,8 @@ pub(crate) enum Step {
     /// The middle button went down.
     MiddlePressed,
     MiddleReleased,
+    /// Shift+Tab: snapping is switched on or off.
+    ToggleSnapping,
     /// In lines away from the user.
     Wheel(f64),
     Nothing,
@@ -66,7 +68,8 @@ impl Modal {
             Input::Released(PointerButton::Left) if self.confirms_on_release => Step::Confirm,
             Input::Pressed(PointerButton::Right) => Step::Cancel,
             Input::Pressed(PointerButton::Middle) => Step::MiddlePressed,
-            Input::Released(PointerButton::Middle) => Step::MiddleReleased,
+            // No release follows when the window lost the keyboard.
+            Input::Released(PointerButton::Middle) | Input::FocusLost => Step::MiddleReleased,
             Input::Wheel(lines) => Step::Wheel(lines),
             Input::Key { logical, physical, repeat } => self.key(logical, physical, repeat, hands.modifiers),
             _ => Step::Nothing,
@@ -88,6 +91,7 @@ impl Modal {
         match (logical.or(physical), repeat) {
             (Some(Key::Enter | Key::Space), false) => Step::Confirm,
             (Some(Key::Escape), false) => Step::Cancel,
+            (Some(Key::Tab), false) if modifiers.contains(Modifiers::SHIFT) => Step::ToggleSnapping,
             (Some(Key::Character(key)), false) => Step::Key(key),
             _ => Step::Nothing,
         }
@@ -128,6 +132,11 @@ impl Modal {
     pub(crate) fn cancel(document: &mut Document) -> ToolState {
         document.cancel();
         ToolState::Cancelled
+    }
+
+    /// The numbers that are being typed; empty where the pointer counts.
+    pub(crate) fn typed(&self) -> String {
+        if self.numeric.is_active() { self.numeric.status() } else { String::new() }
     }
 
     /// A line for the status bar: the tool's, and why nothing happens.

@@ -86,12 +86,11 @@ fn both_ways(
 ) -> [DVec2; 2] {
     let screen = |document: &Document| view.screen(placed(document.mesh(id)?, vertex, to_world));
     let Some(start) = screen(document) else { return [DVec2::ZERO; 2] };
-    let ways = [1.0, -1.0].map(|factor| {
+    [1.0, -1.0].map(|factor| {
         let end = document.preview(SlideEdges { factor }.into()).ok().and_then(|_| screen(document));
         document.cancel();
         end.map_or(DVec2::ZERO, |end| end - start)
-    });
-    ways
+    })
 }
 
 fn directions(

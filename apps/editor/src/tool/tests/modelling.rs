@@ -21,6 +21,20 @@ fn shrinking_and_fattening_moves_along_normals() {
 }
 
 #[test]
+fn pushing_and_rounding_are_about_the_middle() {
+    for (kind, keys) in [(TransformKind::ToSphere, "1!"), (TransformKind::PushPull, "2!")] {
+        let mut session = Session::editing("cube", "vertex", &[]);
+        let before = session.positions();
+        let mut tool = session.transform(kind, settings());
+        session.drag(&mut tool, 450.0, 300.0);
+        session.keys(&mut tool, keys);
+        let pushed = if kind == TransformKind::PushPull { 2.0 } else { 0.0 };
+        // The corners of a cube lie on a sphere already.
+        session.moved(&before, |p| p + p.normalize() * pushed);
+    }
+}
+
+#[test]
 fn edges_and_vertices_slide() {
     for kind in ["edge", "vertex"] {
         let mut session = Session::editing("grid", "vertex", &[12]);
@@ -34,7 +48,11 @@ fn edges_and_vertices_slide() {
         }
         let before = session.positions();
         let mut tool = session.transform(TransformKind::Translate, settings());
-        session.keys(&mut tool, "g");
+        if kind == "edge" {
+            session.keys(&mut tool, "g");
+        } else {
+            tool = tool.sliding(&mut session.document, &session.view);
+        }
         session.drag(&mut tool, 425.0, 300.0);
         let moved =
             |p: DVec3| if p.x == 0.0 && (kind == "edge" || p.z == 0.0) { p + DVec3::X * 0.25 } else { p };

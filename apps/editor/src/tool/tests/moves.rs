@@ -75,6 +75,14 @@ fn drags_are_slow_with_shift_and_go_in_steps_with_ctrl() {
     session.hold(&mut tool, Modifiers::CTRL);
     assert!(session.place().abs_diff_eq(DVec3::X * 2.0, 1e-12), "steps of a metre: {}", session.place());
     session.hold(&mut tool, Modifiers::SHIFT);
+    let tab = Input::Key { logical: Some(Key::Tab), physical: None, repeat: false };
+    session.input(&mut tool, tab);
+    assert!(
+        session.place().abs_diff_eq(DVec3::new(1.6, 0.3, 0.0), 1e-12),
+        "steps of 10 cm: {}",
+        session.place()
+    );
+    session.input(&mut tool, tab);
     session.drag(&mut tool, 660.0, 270.0);
     assert!(session.place().abs_diff_eq(DVec3::new(1.7, 0.3, 0.0), 1e-12), "a tenth: {}", session.place());
     tool.pointer_jumped(DVec2::new(0.0, 270.0));

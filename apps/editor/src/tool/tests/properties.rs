@@ -38,19 +38,19 @@ proptest! {
 
     #[test]
     fn whatever_hands_do_cancelling_restores_the_first_bytes(
-        view in views(), which in 0usize..10, kind in 0usize..3, inputs in prop::collection::vec(any_input(), 0..25)
+        view in views(), which in 0usize..12, kind in 0usize..3, inputs in prop::collection::vec(any_input(), 0..25)
     ) {
         let mut session = Session::editing("grid", ["vertex", "edge", "face"][kind], &[6, 7]);
         session.view = view;
         let first = session.bytes();
-        let kinds = [TransformKind::Translate, TransformKind::Rotate, TransformKind::Trackball, TransformKind::Scale, TransformKind::ShrinkFatten];
+        let kinds = [TransformKind::Translate, TransformKind::Rotate, TransformKind::Trackball, TransformKind::Scale, TransformKind::ShrinkFatten, TransformKind::ToSphere, TransformKind::PushPull];
         let (hands, snap) = (session.hands, SnapSettings::default());
         let mut tool: Box<dyn Tool> = match which {
-            5 => Box::new(ExtrudeTool::start(false, snap, &mut session.document, hands, &view).expect("selected")),
-            6 => Box::new(InsetTool::start(&mut session.document, hands, &view).expect("selected")),
-            7 => Box::new(BevelTool::start(false, &mut session.document, hands, &view).expect("selected")),
-            8 => Box::new(BevelTool::start(true, &mut session.document, hands, &view).expect("selected")),
-            9 => Box::new(LoopCutTool::start(&session.document, hands).expect("edit mode")),
+            7 => Box::new(ExtrudeTool::start(false, snap, &mut session.document, hands, &view).expect("selected")),
+            8 => Box::new(InsetTool::start(&mut session.document, hands, &view).expect("selected")),
+            9 => Box::new(BevelTool::start(false, &mut session.document, hands, &view).expect("selected")),
+            10 => Box::new(BevelTool::start(true, &mut session.document, hands, &view).expect("selected")),
+            11 => Box::new(LoopCutTool::start(&session.document, hands).expect("edit mode")),
             kind => Box::new(session.transform(kinds[kind], settings())),
         };
         let mut state = ToolState::Running;

@@ -6,9 +6,12 @@ use trigon_window::{Input, Modifiers, PointerButton};
 use super::super::{Orientation, Pivot, Tool, ToolState, TransformKind, TransformSettings};
 use super::{Session, settings};
 
+/// Where a point goes.
+type Map = fn(DVec3) -> DVec3;
+
 #[test]
 fn turns_are_about_the_line_of_sight_or_the_locked_axis() {
-    let turned: [(&str, fn(DVec3) -> DVec3); 4] = [
+    let turned: [(&str, Map); 4] = [
         ("90!", |p| DVec3::new(-p.y, p.x, p.z)),
         ("x90!", |p| DVec3::new(p.x, -p.z, p.y)),
         ("Y90!", |p| DVec3::new(p.z, p.y, -p.x)),
@@ -41,7 +44,7 @@ fn a_drag_around_the_pivot_turns_as_far_as_it_goes() {
 
 #[test]
 fn scales_are_along_all_or_some_axes() {
-    let scaled: [(&str, fn(DVec3) -> DVec3); 5] = [
+    let scaled: [(&str, Map); 5] = [
         ("2!", |p| p * 2.0),
         ("2>3>4!", |p| p * DVec3::new(2.0, 3.0, 4.0)),
         ("x2!", |p| p * DVec3::new(2.0, 1.0, 1.0)),

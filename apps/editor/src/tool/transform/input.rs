@@ -1,7 +1,7 @@
 //! What keys, the wheel and the pointer do to a transform that runs.
 
 use trigon_edit::mesh::math::{DVec2, elementary};
-use trigon_edit::{Command, Document, Proportional, ShrinkFatten};
+use trigon_edit::{Document, Proportional};
 use trigon_window::Modifiers;
 
 use super::super::ToolState;
@@ -9,12 +9,18 @@ use super::super::constraint::{Axis, Frames, Freedom, nearest_axis};
 use super::super::expression::Quantity;
 use super::super::numeric::NumericEntry;
 use super::super::slide::Slide;
-use super::super::snap::{SnapTarget, nearest_on_screen, rounded};
+use super::super::snap::{SnapTarget, nearest_on_screen};
 use super::super::targets::SnapTargets;
 use super::super::view::ToolView;
 use super::{TransformKind, TransformTool};
 
 impl TransformTool {
+    /// The same as a slide along edges, from the beginning.
+    pub(crate) fn sliding(mut self, document: &mut Document, view: &ToolView) -> Self {
+        self.become_kind(TransformKind::Slide, document, view);
+        self
+    }
+
     pub(super) fn become_kind(&mut self, kind: TransformKind, document: &mut Document, view: &ToolView) {
         document.cancel();
         self.kind = kind;
@@ -48,7 +54,9 @@ impl TransformTool {
             TransformKind::Rotate => self.rotate(view),
             TransformKind::Trackball => self.trackball(view),
             TransformKind::Scale => self.scale(view),
-            TransformKind::ShrinkFatten => self.shrink_fatten(view),
+            TransformKind::ShrinkFatten | TransformKind::PushPull | TransformKind::ToSphere => {
+                self.deform(view)
+            }
             TransformKind::Slide => self.slide_along(),
         };
         match command {
@@ -72,18 +80,6 @@ impl TransformTool {
             let turn = elementary::atan2(b.x * a.y - b.y * a.x, a.dot(b));
             self.turn += turn.to_degrees();
         }
-    }
-
-    fn shrink_fatten(&mut self, view: &ToolView) -> Result<Command, String> {
-        let typed = self.modal.numeric.value_or(0.0).map_err(|error| error.to_string())?;
-        let up = -self.modal.pointer.way().y * view.metres_per_pixel(self.pivot());
-        let distance = typed.unwrap_or(if self.snaps() { self.snapped_length(up) } else { up });
-        self.text = format!("Shrink/Fatten {distance:.4} m");
-        Ok(ShrinkFatten { distance, proportional: self.proportional() }.into())
-    }
-
-    fn snapped_length(&self, length: f64) -> f64 {
-        rounded(length, self.settings.snap.length_step(self.modal.is_precise()))
     }
 
     pub(super) fn key(&mut self, key: char, document: &mut Document, view: &ToolView) -> ToolState {

@@ -1,6 +1,7 @@
 //! Move, turn, scale, shrink and fatten, and slide: one tool, because each turns into another by its
 //! key.
 
+mod deform;
 mod input;
 
 use trigon_edit::mesh::math::{DVec2, DVec3};
@@ -28,7 +29,10 @@ pub(crate) enum TransformKind {
     Trackball,
     Scale,
     ShrinkFatten,
-    /// Along edges.
+    /// Away from the middle.
+    PushPull,
+    ToSphere,
+    /// Along edges; a tool that starts so needs [`TransformTool::sliding`].
     Slide,
 }
 
@@ -143,8 +147,10 @@ impl TransformTool {
             TransformKind::Scale => (Quantity::Factor, 3),
             TransformKind::Rotate => return self.set_numbers(Quantity::Angle, 1),
             TransformKind::Trackball => return self.set_numbers(Quantity::Angle, 2),
-            TransformKind::ShrinkFatten => return self.set_numbers(Quantity::Length, 1),
-            TransformKind::Slide => return self.set_numbers(Quantity::Factor, 1),
+            TransformKind::ShrinkFatten | TransformKind::PushPull => {
+                return self.set_numbers(Quantity::Length, 1);
+            }
+            TransformKind::Slide | TransformKind::ToSphere => return self.set_numbers(Quantity::Factor, 1),
         };
         let count = match self.constraint.freedom() {
             None => free,
@@ -180,15 +186,16 @@ impl Tool for TransformTool {
                 self.is_choosing_axis = false;
                 ToolState::Running
             }
+            Step::ToggleSnapping => {
+                self.settings.snap.is_on ^= true;
+                self.update(document, view)
+            }
             Step::Nothing => ToolState::Running,
         }
     }
 
     fn status(&self) -> String {
-        let mut text = self.text.clone();
-        if self.modal.numeric.is_active() {
-            text = format!("{text} {}", self.modal.numeric.status());
-        }
+        let mut text = format!("{} {}", self.text, self.modal.typed());
         text += &self.constraint.status(&self.frames);
         if let Some(near) = self.proportional() {
             text += &format!(" proportional {:.3} m", near.radius);
