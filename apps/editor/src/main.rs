@@ -4,6 +4,7 @@
 //! can go wrong becomes one line on standard error and an exit code here.
 
 mod arguments;
+mod export;
 mod run;
 
 use std::process::ExitCode;

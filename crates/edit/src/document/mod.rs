@@ -5,7 +5,9 @@ mod change;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use trigon_io::{LoadError, LoadOptions, NativeDocument, NativeFile, Warning, WriteError};
+use trigon_io::{
+    Export, ExportOptions, Format, LoadError, LoadOptions, NativeDocument, NativeFile, Warning, WriteError,
+};
 use trigon_mesh::edit::{EditMesh, ElementMap};
 use trigon_scene::{MeshId, Scene};
 
@@ -91,6 +93,19 @@ impl Document {
     /// When the file would have 4 GiB or more.
     pub fn encode(&self) -> Result<NativeFile<'_>, WriteError> {
         self.file.encode()
+    }
+
+    /// The document for other programs, not written yet; see [`trigon_io::export()`].
+    ///
+    /// # Errors
+    /// As [`trigon_io::export()`].
+    pub fn export(
+        &self,
+        name: &str,
+        format: Format,
+        options: &ExportOptions<'_>,
+    ) -> Result<Export, WriteError> {
+        self.file.export(name, format, options)
     }
 
     /// The scene as it is now, to be drawn. Meshes that were edited since the last call are made anew
