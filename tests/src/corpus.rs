@@ -15,7 +15,9 @@ fn folder() -> PathBuf {
 /// The models in the folder, by their path below it.
 fn models() -> Vec<String> {
     let is_model = |path: &Path| {
-        path.extension().is_some_and(|ending| ["obj", "gltf", "glb"].iter().any(|known| ending == *known))
+        path.extension().is_some_and(|ending| {
+            ["obj", "gltf", "glb", "ply", "stl", "off"].iter().any(|known| ending == *known)
+        })
     };
     let mut models = Vec::new();
     for sub in std::fs::read_dir(folder())

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Parser;
+use trigon_io::UpAxis;
 
 /// Edit polygon meshes and scenes by a script, without a window.
 ///
@@ -19,13 +20,37 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "SCRIPT", required_unless_present = "list_commands")]
     pub(crate) run: Option<PathBuf>,
 
-    /// Where the result goes: a GLB that other programs open, too.
+    /// Where the result goes: .glb, .obj, .ply, .stl or .off
+    ///
+    /// A .glb is the editor's own file, which other programs open, too; the others, and a .glb with
+    /// one of --up, --scale and --selection-only, are for other programs alone, and what they cannot
+    /// hold is said. Materials and pictures of an .obj lie beside it.
     #[arg(long, short, value_name = "FILE", required_unless_present = "list_commands")]
     pub(crate) output: Option<PathBuf>,
 
     /// Write the file although something of the loaded one would be lost.
     #[arg(long)]
     pub(crate) accept_losses: bool,
+
+    /// Which axis is up in the result: +Y, as in glTF, or +Z.
+    #[arg(long, value_name = "AXIS", value_parser = up_axis)]
+    pub(crate) up: Option<UpAxis>,
+
+    /// Units of the result per metre, such as 1000 for millimetres.
+    #[arg(long, value_name = "FACTOR", value_parser = scale)]
+    pub(crate) scale: Option<f64>,
+
+    /// Write the objects only that are selected when the script ends.
+    #[arg(long)]
+    pub(crate) selection_only: bool,
+
+    /// Cut polygons into triangles.
+    #[arg(long)]
+    pub(crate) triangulate: bool,
+
+    /// Write .ply and .stl as text instead of binary.
+    #[arg(long)]
+    pub(crate) ascii: bool,
 
     /// Say nothing but errors.
     #[arg(long, short)]
@@ -34,4 +59,17 @@ pub(crate) struct Arguments {
     /// Tell all commands with their parameters, as Markdown.
     #[arg(long)]
     pub(crate) list_commands: bool,
+}
+
+fn up_axis(text: &str) -> Result<UpAxis, String> {
+    match text.to_ascii_uppercase().as_str() {
+        "Y" | "+Y" => Ok(UpAxis::Y),
+        "Z" | "+Z" => Ok(UpAxis::Z),
+        _ => Err("write +Y or +Z".to_owned()),
+    }
+}
+
+fn scale(text: &str) -> Result<f64, String> {
+    let factor = text.parse().ok().filter(|factor: &f64| *factor > 0.0 && factor.is_finite());
+    factor.ok_or_else(|| "write a number greater than 0, such as 1000".to_owned())
 }

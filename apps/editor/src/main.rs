@@ -4,6 +4,7 @@
 //! can go wrong becomes one line on standard error and an exit code here.
 
 mod arguments;
+mod export;
 #[cfg(feature = "window")]
 #[expect(dead_code, unused_imports, reason = "for the window, which does not call it yet")]
 mod overlay;

@@ -7,6 +7,7 @@ use trigon_edit::{Disk, Document, Outcome, Script, save};
 use trigon_io::LoadOptions;
 
 use crate::arguments::Arguments;
+use crate::export;
 use crate::report;
 
 /// Runs what the command line asks for.
@@ -17,6 +18,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     let script = read_script(script)?;
     let mut document = open(arguments)?;
     run_script(&script, &mut document, arguments.quiet)?;
+    if let Some(format) = export::format_of(arguments, output)? {
+        return export::write(&document, format, output, arguments);
+    }
     let file = document.encode().map_err(|error| error.to_string())?;
     let losses = file.what_would_be_lost();
     if !losses.is_empty() {

@@ -76,3 +76,30 @@ fn the_commands_are_told() {
     let text = String::from_utf8(told.stdout).expect("text");
     assert!(told.status.success() && text.contains("## `catmull_clark`"), "{text}");
 }
+
+#[test]
+fn the_ending_of_the_output_chooses_its_format() {
+    let folder = folder("formats");
+    let model = write(&folder, "square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+    let script = write(&folder, "twice.json", TWICE);
+    for (name, options, faces) in [
+        ("out.obj", &["--up", "+Z"][..], 4),
+        ("out.ply", &["--ascii", "--triangulate"], 8),
+        ("out.stl", &["--scale", "1000"], 8),
+        ("out.off", &["--quiet"], 4),
+        ("out.glb", &["--selection-only"], 8),
+    ] {
+        let output = folder.join(name);
+        let mut arguments = vec!["--run".as_ref(), script.as_path(), &model, "--output".as_ref(), &output];
+        arguments.extend(options.iter().map(Path::new));
+        let done = run(&arguments);
+        assert!(done.status.success(), "{name}: {}", String::from_utf8_lossy(&done.stderr));
+        let (mut document, _) = Document::open(&output, &LoadOptions::default()).expect("as written");
+        let count: usize = document.scene().meshes().iter().map(|(_, asset)| asset.mesh().face_count()).sum();
+        assert_eq!(count, faces, "{name}");
+    }
+    let refused = run(&["--run".as_ref(), &script, &model, "--output".as_ref(), &folder.join("out.fbx")]);
+    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(message.contains(".obj, .glb, .ply, .stl, .off"), "{message}");
+    std::fs::remove_dir_all(&folder).expect("it was made above");
+}

@@ -14,7 +14,7 @@ pub(crate) fn readers(reporter: Reporter) -> u8 {
         let endings: Vec<String> = reader.extensions.iter().map(|ending| format!(".{ending}")).collect();
         format!("{:12} {:24} {}", endings.join(" "), reader.name, reader.reads)
     };
-    print_lines(trigon_io::readers().iter().map(line), reporter)
+    print_lines(trigon_io::readers().map(line), reporter)
 }
 
 /// `--list-bindings`: one line per key.

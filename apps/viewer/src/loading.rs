@@ -1,5 +1,6 @@
 //! Files to models: guards, progress, warnings.
 
+use std::io::{self, Read};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
@@ -9,7 +10,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use trigon_io::{Limits, LoadOptions, Loaded, Warning};
 use trigon_scene::Scene;
 
-use crate::args::Request;
+use crate::args::{Request, STDIN};
 use crate::failure::Failure;
 use crate::model::{Model, Source, short};
 use crate::report::Reporter;
@@ -94,12 +95,30 @@ fn load_file(path: &Path, request: &Request, progress: Progress<'_>) -> Result<L
     check_size(path, request.max_bytes)?;
     let follow = |at: trigon_io::Progress| progress(at.fraction);
     let options = LoadOptions {
+        format: request.format,
         scene: request.scene.clone(),
         threads: request.settings.threads,
         progress: Some(&follow),
         ..LoadOptions::default()
     };
+    if path.as_os_str() == STDIN {
+        let bytes = read_stdin(request.max_bytes.unwrap_or(options.limits.file_bytes))?;
+        return trigon_io::load_from_slice("standard input", &bytes, &options).map_err(Failure::work);
+    }
     trigon_io::load(path, &options).map_err(Failure::work)
+}
+
+/// What another program sends, up to a number of bytes.
+fn read_stdin(most: u64) -> Result<Vec<u8>, Failure> {
+    let mut bytes = Vec::new();
+    let read = io::stdin().lock().take(most.saturating_add(1)).read_to_end(&mut bytes);
+    read.map_err(|error| Failure::work(format!("standard input: cannot be read ({error}); send it again")))?;
+    if bytes.len() as u64 > most {
+        return Err(Failure::work(format!(
+            "standard input: is more than {most} bytes; raise --max-size if you want it"
+        )));
+    }
+    Ok(bytes)
 }
 
 fn check_size(path: &Path, max_bytes: Option<u64>) -> Result<(), Failure> {

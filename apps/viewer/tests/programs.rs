@@ -314,6 +314,22 @@ fn without_a_display_the_message_says_how_to_get_a_picture() {
     assert!(said.contains("--output picture.png"), "the remedy: {said}");
 }
 
+/// The contents tell the format, or --force-reader does.
+#[test]
+fn a_model_may_come_through_standard_input() {
+    let folder = Folder::new();
+    for flags in ["- --no-render", "- --no-render --force-reader=obj"] {
+        let input = std::fs::File::open(folder.0.path().join("corner.obj")).expect("it is there");
+        let output = folder.command(flags).stdin(input).output().expect("the viewer starts");
+        let facts = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(output.status.success() && facts.contains("faces     3"), "{flags}: {output:?}");
+    }
+    let said = folder.said("corner.obj --force-reader=ply --output o.png", 1);
+    assert!(said.contains("is no PLY file"), "{said}");
+    let said = folder.said("corner.obj --force-reader=doc --output o.png", 2);
+    assert!(said.contains("obj, gltf, glb, ply, stl, off"), "{said}");
+}
+
 #[test]
 fn lists_and_facts_go_to_standard_output() {
     let folder = Folder::new();
@@ -323,7 +339,10 @@ fn lists_and_facts_go_to_standard_output() {
         String::from_utf8_lossy(&output.stdout).into_owned()
     };
     let readers = listed("--list-readers");
-    assert!([".obj", ".gltf", ".glb"].iter().all(|ending| readers.contains(ending)), "{readers}");
+    assert!(
+        [".obj", ".gltf", ".glb", ".ply", ".stl", ".off"].iter().all(|ending| readers.contains(ending)),
+        "{readers}"
+    );
     let facts = listed("corner.obj --no-render");
     assert!(facts.contains("faces     3") && facts.contains("1 x 1 x 1"), "{facts}");
     assert!(listed("--version").starts_with("trigon-viewer "), "its name");

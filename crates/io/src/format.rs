@@ -1,7 +1,12 @@
-//! Which format a file has: by its name, and by its first bytes when the name
-//! says nothing.
+//! The formats, one row for each, and which of them a file has: by its name, and by its first bytes
+//! when the name says nothing.
 
+use std::borrow::Cow;
 use std::path::Path;
+
+use crate::error::LoadError;
+use crate::export::{HeldPoints, Holds, Writing};
+use crate::import::Import;
 
 /// A model format that can be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -13,6 +18,12 @@ pub enum Format {
     Gltf,
     /// glTF 2.0 in one binary file.
     Glb,
+    /// The Stanford triangle format, as text or binary.
+    Ply,
+    /// The format of stereolithography, as text or binary.
+    Stl,
+    /// The object file format of Geomview, as text.
+    Off,
 }
 
 /// What `--list-readers` prints of one format.
@@ -22,28 +33,159 @@ pub struct Reader {
     pub format: Format,
     /// For people.
     pub name: &'static str,
-    /// The endings of file names, in lower case, without the dot.
+    /// The endings of file names, in lower case, without the dot. The first names the format.
     pub extensions: &'static [&'static str],
     /// What is read of it.
     pub reads: &'static str,
 }
 
+/// A format that can be written; see [`export`](crate::export()).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Writer {
+    /// The format.
+    pub format: Format,
+    /// For people.
+    pub name: &'static str,
+    /// The endings of file names, in lower case, without the dot.
+    pub extensions: &'static [&'static str],
+}
+
+/// All that loader and exporter know of a format.
+pub(crate) struct FormatRow {
+    pub(crate) reader: Reader,
+    /// Whether the first bytes of a file, of which the name says nothing, are of this format.
+    sniff: fn(&[u8]) -> bool,
+    pub(crate) import: fn(&mut Import<'_>, Cow<'_, [u8]>) -> Result<(), LoadError>,
+    pub(crate) writing: Writing,
+}
+
+const GLTF: &str = "node tree, materials and all their textures, cameras, lights, skins, morph targets, animations, instances, meshopt compression; no Draco, no KTX2";
+
+/// What a format holds that has everything that meshes have.
+const ALL: Holds = Holds {
+    materials: true,
+    normals: true,
+    uvs: true,
+    colors: true,
+    edges: true,
+    points: HeldPoints::All,
+    polygons: true,
+    objects: true,
+};
+
+/// What a format holds that has triangles only.
+const FACES: Holds = Holds {
+    materials: false,
+    normals: false,
+    uvs: false,
+    colors: false,
+    edges: false,
+    points: HeldPoints::None,
+    polygons: false,
+    objects: false,
+};
+
+/// The formats. No file is of two of them, by its first bytes.
+static ROWS: [FormatRow; 6] = [
+    FormatRow {
+        reader: Reader {
+            format: Format::Obj,
+            name: "Wavefront OBJ with MTL",
+            extensions: &["obj"],
+            reads: "polygons, edges, points, groups, Phong and physically-based materials with their textures, vertex colours",
+        },
+        sniff: is_obj,
+        import: crate::obj::import_obj,
+        writing: Writing::Objects(ALL, crate::obj::write_obj),
+    },
+    FormatRow {
+        reader: Reader { format: Format::Gltf, name: "glTF 2.0", extensions: &["gltf"], reads: GLTF },
+        sniff: |bytes| first_visible(bytes) == Some(b'{'),
+        import: |import, bytes| crate::gltf::import_gltf(import, &bytes),
+        writing: Writing::Unwritten,
+    },
+    FormatRow {
+        reader: Reader {
+            format: Format::Glb,
+            name: "glTF 2.0 binary",
+            extensions: &["glb", "vrm"],
+            reads: GLTF,
+        },
+        sniff: |bytes| bytes.starts_with(b"glTF"),
+        import: |import, bytes| crate::gltf::import_glb(import, &bytes),
+        writing: Writing::Scene(crate::gltf::encode_glb),
+    },
+    FormatRow {
+        reader: Reader {
+            format: Format::Ply,
+            name: "Stanford PLY",
+            extensions: &["ply"],
+            reads: "text and binary of both byte orders: polygons, strips, edges, points, normals, colours, texture coordinates",
+        },
+        sniff: crate::ply::is_ply,
+        import: crate::ply::import_ply,
+        writing: Writing::Objects(
+            Holds { materials: false, points: HeldPoints::Clouds, objects: false, ..ALL },
+            crate::ply::write_ply,
+        ),
+    },
+    FormatRow {
+        reader: Reader {
+            format: Format::Stl,
+            name: "STL",
+            extensions: &["stl"],
+            reads: "text and binary, several solids, colours of VisCAM and Magics",
+        },
+        sniff: crate::stl::is_stl,
+        import: crate::stl::import_stl,
+        writing: Writing::Objects(FACES, crate::stl::write_stl),
+    },
+    FormatRow {
+        reader: Reader {
+            format: Format::Off,
+            name: "Geomview OFF",
+            extensions: &["off"],
+            reads: "text: polygons, edges, points, normals, colours, texture coordinates",
+        },
+        sniff: crate::off::is_off,
+        import: crate::off::import_off,
+        writing: Writing::Objects(
+            Holds { colors: true, edges: true, points: HeldPoints::Clouds, polygons: true, ..FACES },
+            crate::off::write_off,
+        ),
+    },
+];
+
 /// Every model format that can be read.
-pub fn readers() -> &'static [Reader] {
-    const GLTF: &str = "node tree, materials and all their textures, cameras, lights, skins, morph targets, animations, instances, meshopt compression; no Draco, no KTX2";
-    const OBJ: &str = "polygons, edges, points, groups, Phong and physically-based materials with their textures, vertex colours";
-    const READERS: &[Reader] = &[
-        Reader { format: Format::Obj, name: "Wavefront OBJ with MTL", extensions: &["obj"], reads: OBJ },
-        Reader { format: Format::Gltf, name: "glTF 2.0", extensions: &["gltf"], reads: GLTF },
-        Reader { format: Format::Glb, name: "glTF 2.0 binary", extensions: &["glb", "vrm"], reads: GLTF },
-    ];
-    READERS
+pub fn readers() -> impl ExactSizeIterator<Item = &'static Reader> {
+    ROWS.iter().map(|row| &row.reader)
+}
+
+/// Every model format that can be written.
+pub fn writers() -> impl Iterator<Item = Writer> {
+    let is_written = |row: &&FormatRow| !matches!(row.writing, Writing::Unwritten);
+    ROWS.iter().filter(is_written).map(|FormatRow { reader, .. }| Writer {
+        format: reader.format,
+        name: reader.name,
+        extensions: reader.extensions,
+    })
+}
+
+impl Format {
+    /// The format that goes by an ending of file names, in any case.
+    pub fn from_extension(extension: &str) -> Option<Self> {
+        let extension = extension.to_lowercase();
+        readers().find(|reader| reader.extensions.contains(&extension.as_str())).map(|reader| reader.format)
+    }
+
+    pub(crate) fn row(self) -> &'static FormatRow {
+        ROWS.iter().find(|row| row.reader.format == self).expect("every format has a row")
+    }
 }
 
 /// Formats that people will try, and that are named instead of misread.
 const UNSUPPORTED: &[&str] = &[
-    "ply", "stl", "off", "fbx", "dae", "3ds", "blend", "usd", "usda", "usdc", "usdz", "x3d", "wrl", "step",
-    "stp", "iges", "3mf",
+    "fbx", "dae", "3ds", "blend", "usd", "usda", "usdc", "usdz", "x3d", "wrl", "step", "stp", "iges", "3mf",
 ];
 
 /// The format of a file, or why it is none of ours. The magic of a GLB beats
@@ -51,10 +193,9 @@ const UNSUPPORTED: &[&str] = &[
 pub(crate) fn detect_format(path: &Path, bytes: &[u8]) -> Result<Format, String> {
     let extension =
         path.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_lowercase();
-    let by_name = readers().iter().find(|reader| reader.extensions.contains(&extension.as_str()));
-    if let Some(reader) = by_name {
+    if let Some(format) = Format::from_extension(&extension) {
         // Many a GLB is called .gltf and the other way round.
-        return Ok(match (reader.format, bytes.starts_with(b"glTF"), first_visible(bytes)) {
+        return Ok(match (format, bytes.starts_with(b"glTF"), first_visible(bytes)) {
             (Format::Gltf, true, _) => Format::Glb,
             (Format::Glb, false, Some(b'{')) => Format::Gltf,
             (format, _, _) => format,
@@ -63,13 +204,13 @@ pub(crate) fn detect_format(path: &Path, bytes: &[u8]) -> Result<Format, String>
     if UNSUPPORTED.contains(&extension.as_str()) {
         return Err(format!(".{extension} files are not supported yet"));
     }
-    sniff(bytes).ok_or_else(|| "it is of no known model format".to_owned())
+    let found = ROWS.iter().find(|row| (row.sniff)(bytes)).map(|row| row.reader.format);
+    found.ok_or_else(|| "it is of no known model format".to_owned())
 }
 
 /// The formats for a remedy: "convert it to …".
 pub(crate) fn supported() -> String {
     let endings: Vec<String> = readers()
-        .iter()
         .flat_map(|reader| reader.extensions)
         .filter(|&&e| e != "vrm")
         .map(|e| format!(".{e}"))
@@ -77,18 +218,13 @@ pub(crate) fn supported() -> String {
     format!("supported are {}", endings.join(", "))
 }
 
-fn sniff(bytes: &[u8]) -> Option<Format> {
-    if bytes.starts_with(b"glTF") {
-        return Some(Format::Glb);
-    }
-    if first_visible(bytes) == Some(b'{') {
-        return Some(Format::Gltf);
-    }
+/// Whether one of the first lines is a vertex, as every OBJ has one.
+fn is_obj(bytes: &[u8]) -> bool {
     let start = &bytes[..bytes.len().min(1 << 16)];
-    start.split(|&byte| byte == b'\n' || byte == b'\r').take(1000).any(looks_like_obj).then_some(Format::Obj)
+    start.split(|&byte| byte == b'\n' || byte == b'\r').take(1000).any(looks_like_obj)
 }
 
-/// Whether a line is a vertex, as every OBJ has one: `v`, three numbers.
+/// Whether a line is `v` and three numbers.
 fn looks_like_obj(line: &[u8]) -> bool {
     let line = String::from_utf8_lossy(line);
     let mut words = line.trim_start_matches('\u{feff}').split_ascii_whitespace();
@@ -114,6 +250,15 @@ mod tests {
         assert_eq!(detect("", b"# x\nv 1 2 3\n"), Some(Format::Obj), "a stream of OBJ");
         assert_eq!(detect("", b" {\"asset\""), Some(Format::Gltf), "a stream of JSON");
         assert_eq!(detect("a.txt", b"hello"), None, "text");
-        assert_eq!(detect("a.stl", b"v 1 2 3"), None, "later");
+        assert_eq!(detect("a.stl", b"v 1 2 3"), Some(Format::Stl), "the name");
+        assert_eq!(detect("", b"ply\r\nformat ascii 1.0"), Some(Format::Ply), "a stream of PLY");
+        assert_eq!(detect("", b" solid x\n facet normal 0 0 1"), Some(Format::Stl), "a stream of STL");
+        assert_eq!(
+            detect("", &[[0; 80].as_slice(), &[1, 0, 0, 0], &[0; 50]].concat()),
+            Some(Format::Stl),
+            "binary"
+        );
+        assert_eq!(detect("", b"# x\nCOFF 8 6 0"), Some(Format::Off), "a stream of OFF");
+        assert_eq!(detect("a.txt", b"solid advice"), None, "text");
     }
 }

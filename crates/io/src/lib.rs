@@ -1,5 +1,5 @@
-//! Model and picture files for trigon: OBJ with MTL, glTF and GLB, PNG,
-//! JPEG, WebP and Radiance in; PNG, OpenEXR and NumPy arrays out. And captures: all that a
+//! Model and picture files for trigon: OBJ with MTL, glTF and GLB, PLY, STL, OFF, PNG,
+//! JPEG, WebP and Radiance in; OBJ, GLB, PLY, STL, OFF, PNG, OpenEXR and NumPy arrays out. And captures: all that a
 //! picture was drawn from, and the picture, in one file.
 //!
 //! A file becomes a [`Scene`](trigon_scene::Scene) and a list of warnings. What
@@ -32,13 +32,15 @@
 //!
 //! # Conventions
 //! Right-handed, +Y up, metres, counter-clockwise faces: what glTF and OBJ have
-//! already. Texture coordinates count v downwards from the upper left. Colours
+//! already. PLY, STL and OFF do not say which way is up or how long a unit is: their numbers are
+//! taken as they are. Texture coordinates count v downwards from the upper left. Colours
 //! are linear light. Positions far from the origin are rebased, and the offset
 //! goes into the node. One node of the file is one node of the scene.
 
 mod capture;
 mod environment;
 mod error;
+mod export;
 mod folder;
 mod format;
 mod gltf;
@@ -46,25 +48,30 @@ mod import;
 mod layers;
 mod limits;
 mod load;
+mod numbers;
 mod obj;
+mod off;
 mod options;
 mod outputs;
 mod picture;
+mod ply;
 mod png;
+mod polygons;
 mod rebase;
 mod refusal;
+mod rows;
+mod stl;
 mod textures;
 mod uri;
 mod warning;
 mod write;
 
-pub use self::gltf::{
-    GlbOptions, GltfSource, Loss, NativeDocument, NativeFile, UpAxis, encode_glb, write_glb,
-};
+pub use self::gltf::{GltfSource, Loss, NativeDocument, NativeFile, encode_glb, write_glb};
 pub use capture::{Capture, Mismatch, PixelMismatch};
 pub use environment::load_environment;
 pub use error::{LoadError, LoadErrorKind, Place};
-pub use format::{Format, Reader, readers};
+pub use export::{Encoding, Export, ExportOptions, ExportedFile, FaceExport, UpAxis, export};
+pub use format::{Format, Reader, Writer, readers, writers};
 pub use limits::Limits;
 pub use load::{Loaded, load, load_from_slice};
 pub use options::{LoadOptions, Progress, ProgressHook, SceneChoice, Stage};

@@ -101,7 +101,7 @@ fn import(
     folder: Folder,
     options: &LoadOptions<'_>,
 ) -> Result<Loaded, LoadError> {
-    let format = detect_format(path, &bytes).map_err(|what| {
+    let format = options.format.map_or_else(|| detect_format(path, &bytes), Ok).map_err(|what| {
         LoadError::new(LoadErrorKind::Unsupported, path, what, format!("convert it; {}", supported()))
     })?;
     let mut import = Import {
@@ -114,11 +114,7 @@ fn import(
         source: options.keep_source.then(SourceDraft::default),
         marks: BTreeMap::new(),
     };
-    match format {
-        Format::Obj => crate::obj::import_obj(&mut import, bytes)?,
-        Format::Gltf => crate::gltf::import_gltf(&mut import, &bytes)?,
-        Format::Glb => crate::gltf::import_glb(&mut import, &bytes)?,
-    }
+    (format.row().import)(&mut import, bytes)?;
     options.report(path, Stage::Textures, 1.0)?;
     let Import { folder, warnings, scene, scene_names, source, marks, .. } = import;
     let (warnings, files) = (warnings.into_list(), folder.into_files());

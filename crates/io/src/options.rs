@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use crate::error::LoadError;
+use crate::format::Format;
 use crate::limits::Limits;
 
 /// What a load is doing.
@@ -46,6 +47,8 @@ pub enum SceneChoice {
 pub struct LoadOptions<'a> {
     /// How much the file may ask for.
     pub limits: Limits,
+    /// The format of the file; without it the one that its name or its contents tell.
+    pub format: Option<Format>,
     /// The scene to load of a file that has several; without it the one that
     /// the file itself shows. Formats without scenes take no notice.
     pub scene: Option<SceneChoice>,
@@ -64,9 +67,10 @@ pub struct LoadOptions<'a> {
 impl fmt::Debug for LoadOptions<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let progress = self.progress.map(|_| "a callback");
-        let Self { limits, scene, threads, keep_source, .. } = self;
+        let Self { limits, format, scene, threads, keep_source, .. } = self;
         f.debug_struct("LoadOptions")
             .field("limits", limits)
+            .field("format", format)
             .field("scene", scene)
             .field("threads", threads)
             .field("keep_source", keep_source)

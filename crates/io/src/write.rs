@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// Why a picture, what a frame holds beside it, or a capture was not written.
+/// Why a picture, what a frame holds beside it, a capture or a model was not written.
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// The sizes do not fit each other, or are zero.
@@ -33,8 +33,18 @@ pub enum WriteError {
         /// What does not fit.
         what: String,
     },
-    /// The format cannot count so many bytes.
-    #[error("the file would have {bytes} bytes and a GLB can have 4294967295; save fewer meshes in it")]
+    /// The format is read but not written.
+    #[error("{name}: the format is not written; name a file with one of these endings: {writers}")]
+    Unwritten {
+        /// The name of the file.
+        name: String,
+        /// The endings of those that are.
+        writers: String,
+    },
+    /// The format cannot count so much.
+    #[error(
+        "the file would have {bytes} bytes, and its format cannot count so many; save fewer meshes in it"
+    )]
     TooLarge {
         /// How many bytes the file would have.
         bytes: u64,

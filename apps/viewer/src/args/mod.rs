@@ -17,4 +17,4 @@ pub(crate) use output::Destination;
 pub(crate) use output::Template;
 pub(crate) use quality::Limit;
 pub(crate) use raw::{Command, RawArgs};
-pub(crate) use request::{Grouping, Mode, Request};
+pub(crate) use request::{Grouping, Mode, Request, STDIN};

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use trigon_camera::Viewport;
-use trigon_io::SceneChoice;
+use trigon_io::{Format, SceneChoice};
 use trigon_math::{DVec3, Vec3};
 use trigon_scene::SimdLevel;
 
@@ -54,7 +54,7 @@ pub(crate) struct RawArgs {
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
 
-    /// Models to show: OBJ, glTF, GLB (see --list-readers)
+    /// Models to show: OBJ, glTF, GLB, PLY, STL, OFF (see --list-readers); - is standard input, if a picture is written
     #[arg(value_name = "FILES")]
     pub(crate) files: Vec<PathBuf>,
 
@@ -246,6 +246,10 @@ pub(crate) struct RawArgs {
     /// How much to say on standard error
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "debug", default_value = "info", value_name = "LEVEL", help_heading = "Program")]
     pub(crate) verbose: Level,
+
+    /// Read all files as this format, whatever their names say: obj, gltf, glb, ply, stl or off
+    #[arg(long, value_name = "FORMAT", value_parser = values::reader, help_heading = "Files")]
+    pub(crate) force_reader: Option<Format>,
 
     /// List the formats that can be read
     #[arg(long, help_heading = "Program")]

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use trigon_camera::AxisView;
-use trigon_io::SceneChoice;
+use trigon_io::{Format, SceneChoice};
 use trigon_math::Vec3;
 use trigon_scene::{Background, RenderSettings, Style};
 
@@ -29,6 +29,8 @@ pub(crate) struct Request {
     pub(crate) grouping: Grouping,
     /// Larger files are refused.
     pub(crate) max_bytes: Option<u64>,
+    /// The format of all files, if not that which their names tell.
+    pub(crate) format: Option<Format>,
     /// The scene of files that have several.
     pub(crate) scene: Option<SceneChoice>,
     /// The moment of an animation that is shown.
@@ -92,20 +94,19 @@ pub(crate) enum Grouping {
     Together,
 }
 
+/// What stands for standard input among the files.
+pub(crate) const STDIN: &str = "-";
+
 impl Request {
     /// Puts the flags together, or says why they do not fit each other.
     pub(crate) fn new(raw: RawArgs) -> Result<Self, String> {
         let files: Vec<PathBuf> = raw.files.iter().chain(&raw.input).cloned().collect();
-        if files.iter().any(|file| file.as_os_str() == "-") {
-            return Err(
-                "models are not read from standard input yet; save it as a file and name that".to_owned()
-            );
-        }
         let grouping = match raw.multi_file_mode {
             MultiFileMode::Single => Grouping::OneByOne,
             MultiFileMode::All => Grouping::Together,
         };
         let mode = mode(&raw);
+        check_stdin(&mode, &files)?;
         check_output(&mode, files.len(), grouping)?;
         check_outputs(&mode, &raw.outputs)?;
         Ok(Self {
@@ -114,6 +115,7 @@ impl Request {
             files,
             grouping,
             max_bytes: raw.max_size,
+            format: raw.force_reader,
             scene: raw.scene.clone(),
             moment: moment(&raw),
             environment: raw.effects.hdri_file.clone(),
@@ -138,6 +140,16 @@ fn mode(raw: &RawArgs) -> Mode {
         (Some(replay), None) => Mode::Replay { capture: replay.clone(), output },
         (None, None) if output.is_some() || capture.is_some() => Mode::Picture { output, capture },
         (None, None) => Mode::Window,
+    }
+}
+
+/// Standard input can be read once, and a window loads its files again.
+fn check_stdin(mode: &Mode, files: &[PathBuf]) -> Result<(), String> {
+    match files.iter().filter(|file| file.as_os_str() == STDIN).count() {
+        0 => Ok(()),
+        1 if *mode != Mode::Window => Ok(()),
+        1 => Err("a window does not read standard input, which it could not load again; write a picture with --output, or save the model as a file and name that".to_owned()),
+        _ => Err("standard input holds one model; name - once".to_owned()),
     }
 }
 
@@ -419,8 +431,10 @@ mod tests {
     }
 
     #[test]
-    fn standard_input_is_no_file_called_dash() {
-        assert!(refusal("- --output o.png").contains("standard input"), "explained");
+    fn standard_input_is_read_once() {
+        request("- --output o.png").expect("a picture of what comes");
+        assert!(refusal("-").contains("--output"), "no window");
+        assert!(refusal("- - --output {n}.png").contains("once"), "not twice");
     }
 
     #[test]

@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use std::time::Duration;
 
 use trigon_camera::Viewport;
-use trigon_io::SceneChoice;
+use trigon_io::{Format, SceneChoice};
 use trigon_math::{DVec3, Vec3, color};
 use trigon_scene::{MAX_SIZE, SimdLevel, SimdLevelError};
 
@@ -17,6 +17,14 @@ pub(crate) fn switch(text: &str) -> Result<bool, String> {
         "false" | "off" | "no" | "0" => Ok(false),
         _ => Err("write true or false (also on, off, yes, no, 1, 0)".to_owned()),
     }
+}
+
+/// A model format by the ending of its files.
+pub(crate) fn reader(text: &str) -> Result<Format, String> {
+    Format::from_extension(text).ok_or_else(|| {
+        let known: Vec<&str> = trigon_io::readers().map(|reader| reader.extensions[0]).collect();
+        format!("write one of {}", known.join(", "))
+    })
 }
 
 /// A size in pixels: `1000,600` or `1000x600`.

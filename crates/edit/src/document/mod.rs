@@ -8,7 +8,9 @@ mod visible;
 
 use std::path::Path;
 
-use trigon_io::{LoadError, LoadOptions, NativeDocument, NativeFile, Warning, WriteError};
+use trigon_io::{
+    Export, ExportOptions, Format, LoadError, LoadOptions, NativeDocument, NativeFile, Warning, WriteError,
+};
 use trigon_mesh::edit::EditMesh;
 use trigon_mesh::math::DAffine3;
 use trigon_scene::{MeshId, NodeId, Scene};
@@ -99,6 +101,19 @@ impl Document {
     /// When the file would have 4 GiB or more.
     pub fn encode(&self) -> Result<NativeFile<'_>, WriteError> {
         self.file.encode()
+    }
+
+    /// The document for other programs, not written yet; see [`trigon_io::export()`].
+    ///
+    /// # Errors
+    /// As [`trigon_io::export()`].
+    pub fn export(
+        &self,
+        name: &str,
+        format: Format,
+        options: &ExportOptions<'_>,
+    ) -> Result<Export, WriteError> {
+        self.file.export(name, format, options)
     }
 
     /// The nodes and materials as they are now, and meshes as they were when [`Self::scene`] was called

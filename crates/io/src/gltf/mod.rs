@@ -51,7 +51,8 @@ use reader::Reader;
 
 pub use source::GltfSource;
 pub(crate) use source::SourceDraft;
-pub use write::{GlbOptions, Loss, NativeDocument, NativeFile, UpAxis, encode_glb, write_glb};
+pub(crate) use write::mime_type;
+pub use write::{Loss, NativeDocument, NativeFile, encode_glb, write_glb};
 
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::import::Import;

@@ -4,7 +4,7 @@
 //! more digits than u64 holds are its largest, so no absurd one wraps around into a
 //! valid one.
 
-use super::numbers::{MOST_DIGITS, digits, first_word};
+use crate::numbers::{MOST_DIGITS, digits, first_word};
 use crate::warning::counted;
 
 /// How many positions, texture coordinates and normals there are.

@@ -1,10 +1,10 @@
 //! Wavefront OBJ and MTL.
 //!
-//! `lines` → `chunks` (pieces of the text) → `section` (one piece: `numbers`, `index`,
+//! `lines` → `chunks` (pieces of the text) → `section` (one piece: `index`,
 //! `oddities`) → `parse` (all pieces, in parallel; `record` follows names and
 //! materials through them) → `build` (polygons, one node for each object or group).
 //! Materials come from `mtl` and `convert`, by way of `library`, their pictures by
-//! way of `textures`.
+//! way of `textures`. `write` goes the other way.
 //!
 //! The `tobj` crate is the oracle of the tests, not the parser: it was that at first,
 //! behind a layer that wrote every line anew, because it stops at the first odd byte
@@ -25,7 +25,6 @@ mod mtl;
 mod mtl_maps;
 mod mtl_reader;
 mod mtl_values;
-mod numbers;
 mod oddities;
 mod parse;
 mod passed;
@@ -35,6 +34,7 @@ mod smoothing;
 mod textures;
 mod undrawn;
 mod unread;
+mod write;
 
 use std::borrow::Cow;
 
@@ -47,6 +47,8 @@ use self::record::Record;
 use crate::error::{LoadError, Place};
 use crate::import::Import;
 use crate::options::Stage;
+
+pub(crate) use write::write_obj;
 
 /// Reads an OBJ into the scene. Its text is given up as soon as it is parsed: it is
 /// as large as everything that is made of it.

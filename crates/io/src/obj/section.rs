@@ -8,9 +8,9 @@ use super::chunks::Chunk;
 use super::content::{Content, WHITE};
 use super::index::{Corner, Corners, Counts, is_flat, read_corners};
 use super::lines::{Lines, split_keyword};
-use super::numbers::{Numbers, read_numbers};
 use super::oddities::{Oddities, Oddity, Tally};
 use super::unread::{Unread, judge};
+use crate::numbers::{Numbers, read_numbers};
 
 /// A statement that says something about the elements that follow it.
 #[derive(Clone, Copy, Debug)]

@@ -94,7 +94,7 @@ fn files_that_are_none_say_so() {
         let message = load(&path, &LoadOptions::default()).map(|_| ()).expect_err("no file").to_string();
         assert!(message.contains(word), "{message}");
     }
-    for name in ["a.stl", "a.txt"] {
+    for name in ["a.fbx", "a.txt"] {
         let message = load_from_slice(name, b"solid x", &LoadOptions::default())
             .map(|_| ())
             .expect_err("not supported")
@@ -105,6 +105,7 @@ fn files_that_are_none_say_so() {
 
 #[test]
 fn the_list_of_readers_is_what_is_read() {
-    let formats: Vec<Format> = readers().iter().map(|reader| reader.format).collect();
-    assert_eq!(formats, [Format::Obj, Format::Gltf, Format::Glb], "in this order");
+    let formats: Vec<Format> = readers().map(|reader| reader.format).collect();
+    let expected = [Format::Obj, Format::Gltf, Format::Glb, Format::Ply, Format::Stl, Format::Off];
+    assert_eq!(formats, expected, "in this order");
 }

@@ -2,6 +2,7 @@
 
 mod capture;
 mod captures;
+mod export;
 mod features;
 mod gltf;
 mod gltf_crate;
@@ -11,10 +12,13 @@ mod hostile;
 mod material;
 mod movement;
 mod obj;
+mod off;
 mod oracle;
+mod ply;
 mod saving;
 mod source;
 mod statements;
+mod stl;
 mod texture;
 mod tobj_crate;
 mod validator;

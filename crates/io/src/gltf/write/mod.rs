@@ -24,60 +24,17 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
-use trigon_math::{DAffine3, DMat3, DVec3};
 use trigon_mesh::edit::Marks;
-use trigon_scene::{MeshId, NodeId, Scene};
+use trigon_scene::{MeshId, Scene};
 
 pub use native_document::{NativeDocument, NativeFile};
 use scene::{Input, write_scene};
+pub(crate) use textures::mime_type;
 
 use super::source::GltfSource;
 use crate::error::Place;
+use crate::export::ExportOptions;
 use crate::write::{WriteError, write_atomically};
-
-/// Which way is up in a file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum UpAxis {
-    /// +Y, as glTF defines it.
-    #[default]
-    Y,
-    /// +Z, for programs that take no notice of what glTF defines.
-    Z,
-}
-
-/// How to write a GLB.
-#[derive(Clone, Debug)]
-pub struct GlbOptions<'a> {
-    /// The nodes to write, in their places; all by default. What hangs on them is written only
-    /// if it is named, too.
-    pub nodes: Option<Vec<NodeId>>,
-    /// Units of the file per metre: 1 is what glTF defines. Positive and finite, else it counts as 1.
-    pub scale: f64,
-    /// Which way is up.
-    pub up: UpAxis,
-    /// The file that the scene came from: pictures are taken from it as they were encoded.
-    /// Others are written as PNG.
-    pub pictures: Option<&'a GltfSource>,
-}
-
-impl Default for GlbOptions<'_> {
-    fn default() -> Self {
-        Self { nodes: None, scale: 1.0, up: UpAxis::Y, pictures: None }
-    }
-}
-
-impl GlbOptions<'_> {
-    /// The map from the scene to the file; none if they are the same.
-    fn root(&self) -> Option<DAffine3> {
-        let scale = if self.scale > 0.0 && self.scale.is_finite() { self.scale } else { 1.0 };
-        let turn = match self.up {
-            UpAxis::Y => DMat3::IDENTITY,
-            UpAxis::Z => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),
-        };
-        let map = DAffine3::from_mat3(turn * DMat3::from_diagonal(DVec3::splat(scale)));
-        Some(map).filter(|map| *map != DAffine3::IDENTITY)
-    }
-}
 
 /// The scene as one self-contained GLB, for other programs: nodes, meshes as triangles (loose
 /// edges as lines, loose points as points), materials with their pictures, lights, cameras,
@@ -88,11 +45,11 @@ impl GlbOptions<'_> {
 /// all digits of their f64; most programs round them to f32.
 ///
 /// ```
-/// use trigon_io::{GlbOptions, LoadOptions, encode_glb, load_from_slice};
+/// use trigon_io::{ExportOptions, LoadOptions, encode_glb, load_from_slice};
 /// use trigon_scene::showcase;
 ///
 /// let scene = showcase();
-/// let glb = encode_glb(&scene, &GlbOptions::default())?;
+/// let glb = encode_glb(&scene, &ExportOptions::default())?;
 /// let again = load_from_slice("showcase.glb", &glb, &LoadOptions::default())?;
 /// assert_eq!(again.scene.nodes().len(), scene.nodes().len());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -100,7 +57,7 @@ impl GlbOptions<'_> {
 ///
 /// # Errors
 /// When the file would have 4 GiB or more.
-pub fn encode_glb(scene: &Scene, options: &GlbOptions<'_>) -> Result<Vec<u8>, WriteError> {
+pub fn encode_glb(scene: &Scene, options: &ExportOptions<'_>) -> Result<Vec<u8>, WriteError> {
     Ok(write_scene(&export(scene, options))?.file.to_bytes())
 }
 
@@ -109,12 +66,16 @@ pub fn encode_glb(scene: &Scene, options: &GlbOptions<'_>) -> Result<Vec<u8>, Wr
 ///
 /// # Errors
 /// As [`encode_glb`], or when the file cannot be written.
-pub fn write_glb(path: impl AsRef<Path>, scene: &Scene, options: &GlbOptions<'_>) -> Result<(), WriteError> {
+pub fn write_glb(
+    path: impl AsRef<Path>,
+    scene: &Scene,
+    options: &ExportOptions<'_>,
+) -> Result<(), WriteError> {
     let written = write_scene(&export(scene, options))?;
     write_atomically(path.as_ref(), |file| written.file.write_to(file))
 }
 
-fn export<'a>(scene: &'a Scene, options: &'a GlbOptions<'a>) -> Input<'a> {
+fn export<'a>(scene: &'a Scene, options: &'a ExportOptions<'a>) -> Input<'a> {
     Input {
         scene,
         edited: None,

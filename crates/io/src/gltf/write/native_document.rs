@@ -8,9 +8,12 @@ use trigon_mesh::edit::EditMesh;
 use trigon_scene::{MeshId, Scene};
 
 use super::glb_file::GlbFile;
+use super::meshes::Shape;
 use super::scene::{Input, write_scene};
 use super::{KeptFile, Loss};
 use crate::error::{LoadError, Place};
+use crate::export::{Export, ExportOptions, export};
+use crate::format::Format;
 use crate::load::{Loaded, load, load_from_slice};
 use crate::options::LoadOptions;
 use crate::warning::{Warning, Warnings};
@@ -125,6 +128,28 @@ impl NativeDocument {
             root: None,
         })?;
         Ok(NativeFile { file: written.file, losses: written.losses })
+    }
+
+    /// The document for other programs; see [`export`](crate::export). Pictures are those of the
+    /// file that was loaded, unless the options name another.
+    ///
+    /// # Errors
+    /// As [`export`](crate::export).
+    pub fn export(
+        &self,
+        name: &str,
+        format: Format,
+        options: &ExportOptions<'_>,
+    ) -> Result<Export, WriteError> {
+        // Meshes are shared: a copy of the scene costs nothing but its lists.
+        let mut scene = self.scene.clone();
+        for (&id, edited) in &self.edited {
+            if let Some(asset) = self.scene.meshes().get(id) {
+                scene.replace_mesh(id, Shape::new(asset, Some(edited)).mesh.into_owned());
+            }
+        }
+        let pictures = options.pictures.or(self.kept.as_ref().map(|kept| &kept.source));
+        export(&scene, name, format, &ExportOptions { pictures, ..options.clone() })
     }
 }
 

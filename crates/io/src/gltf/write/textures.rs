@@ -110,7 +110,7 @@ impl<'a> Textures<'a> {
 }
 
 /// What a picture is, by its first bytes, if glTF has a name for it.
-pub(super) fn mime_type(bytes: &[u8]) -> Option<&'static str> {
+pub(crate) fn mime_type(bytes: &[u8]) -> Option<&'static str> {
     let is_webp = bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP");
     match bytes {
         [0x89, b'P', b'N', b'G', ..] => Some("image/png"),

@@ -7,7 +7,7 @@ mod written;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use trigon_io::{
-    GlbOptions, LoadOptions, Loaded, NativeDocument, UpAxis, Warning, encode_glb, load_from_slice,
+    ExportOptions, LoadOptions, Loaded, NativeDocument, UpAxis, Warning, encode_glb, load_from_slice,
 };
 use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
@@ -22,7 +22,7 @@ use crate::movement::{animated, skinned};
 use crate::{loaded, warnings};
 
 fn glb(scene: &Scene) -> Vec<u8> {
-    encode_glb(scene, &GlbOptions::default()).expect("it is small")
+    encode_glb(scene, &ExportOptions::default()).expect("it is small")
 }
 
 /// The JSON of a GLB.
@@ -266,7 +266,8 @@ fn pictures_keep_their_bytes() {
     let made = first.scene.add_texture("made", texture);
     first.scene.add_object("made", primitives::cube(1.0), Material::from_texture(made));
     let pictures = first.source.as_ref();
-    let bytes = encode_glb(&first.scene, &GlbOptions { pictures, ..GlbOptions::default() }).expect("small");
+    let bytes =
+        encode_glb(&first.scene, &ExportOptions { pictures, ..ExportOptions::default() }).expect("small");
     let again = load_from_slice("b.glb", &bytes, &options).expect("it loads");
     let kept = again.source.expect("it was asked for");
     assert_eq!(kept.image(0), pictures.and_then(|source| source.image(0)), "as it was encoded");
@@ -287,7 +288,7 @@ fn a_selection_stands_where_it_stood_and_brings_its_joints() {
     let child = scene.add_child(above, child).expect("a root");
     scene.add_object("other", primitives::cube(1.0), Material::default());
     let options =
-        GlbOptions { nodes: Some(vec![child]), scale: 100.0, up: UpAxis::Z, ..GlbOptions::default() };
+        ExportOptions { nodes: Some(vec![child]), scale: 100.0, up: UpAxis::Z, ..ExportOptions::default() };
     let again = loaded("a.glb", &encode_glb(&scene, &options).expect("small"));
     let shown: Vec<&str> = again
         .scene

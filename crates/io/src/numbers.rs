@@ -46,6 +46,14 @@ pub(crate) fn read_numbers<const MOST: usize>(line: &[u8]) -> Result<Numbers<MOS
     }
 }
 
+/// A word as a number.
+pub(crate) fn number(word: &[u8]) -> Result<f64, String> {
+    match plain(word) {
+        Some((value, length)) if length == word.len() => Ok(value),
+        _ => unusual(word),
+    }
+}
+
 /// Up to a space or the end.
 pub(crate) fn first_word(text: &[u8]) -> &[u8] {
     &text[..text.iter().position(u8::is_ascii_whitespace).unwrap_or(text.len())]

@@ -1,0 +1,52 @@
+//! The result as a file for other programs.
+
+use std::path::Path;
+
+use trigon_edit::{Disk, Document, save};
+use trigon_io::{Encoding, ExportOptions, FaceExport, Format, UpAxis, writers};
+
+use crate::arguments::Arguments;
+use crate::report;
+
+/// The format of the result; none if it is the editor's own file.
+pub(crate) fn format_of(arguments: &Arguments, output: &Path) -> Result<Option<Format>, String> {
+    let ending = output.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let Some(writer) = writers().find(|writer| writer.extensions.contains(&ending.as_str())) else {
+        let known: Vec<String> = writers().map(|writer| format!(".{}", writer.extensions[0])).collect();
+        let known = known.join(", ");
+        return Err(format!(
+            "{}: cannot be written; name a file that ends in one of {known}",
+            output.display()
+        ));
+    };
+    let is_plain = arguments.up.is_none() && arguments.scale.is_none() && !arguments.selection_only;
+    Ok((writer.format != Format::Glb || !is_plain).then_some(writer.format))
+}
+
+/// Writes the document; what the format cannot hold is said.
+pub(crate) fn write(
+    document: &Document,
+    format: Format,
+    output: &Path,
+    arguments: &Arguments,
+) -> Result<(), String> {
+    let selected = || document.selection().objects.iter().copied().collect();
+    let options = ExportOptions {
+        nodes: arguments.selection_only.then(selected),
+        scale: arguments.scale.unwrap_or(1.0),
+        up: arguments.up.unwrap_or(UpAxis::Y),
+        faces: if arguments.triangulate { FaceExport::Triangles } else { FaceExport::Polygons },
+        encoding: if arguments.ascii { Encoding::Text } else { Encoding::Binary },
+        ..ExportOptions::default()
+    };
+    let name = output.file_name().unwrap_or_default().to_string_lossy();
+    let export = document.export(&name, format, &options).map_err(|error| error.to_string())?;
+    if !arguments.quiet {
+        let losses = export.what_would_be_lost().iter();
+        losses.for_each(|loss| report("warning", &format!("not in {name}: {loss}")));
+    }
+    let folder = output.parent().unwrap_or(Path::new(""));
+    export.files.iter().try_for_each(|file| {
+        save(&mut Disk, &folder.join(&file.name), &file.bytes).map_err(|error| error.to_string())
+    })
+}

@@ -1,0 +1,153 @@
+//! The visible meshes of a scene in their places in a file.
+
+use std::collections::BTreeSet;
+
+use trigon_math::{DAffine3, DMat3, DVec3, Vec3};
+use trigon_mesh::Mesh;
+use trigon_scene::{MaterialId, Node, NodeId, Scene};
+
+use super::{ExportOptions, FaceExport, Precision};
+use crate::error::Place;
+use crate::gltf::Loss;
+use crate::rebase::offset_for;
+
+/// What is to be written.
+pub(crate) struct Gathered<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) objects: Vec<Object<'a>>,
+    /// How precise positions have to be.
+    pub(crate) precision: Precision,
+    pub(crate) losses: Vec<Loss>,
+}
+
+/// A mesh on a node.
+pub(crate) struct Object<'a> {
+    pub(crate) node: &'a Node,
+    pub(crate) mesh: &'a Mesh,
+    /// From the mesh's space to the file's.
+    map: DAffine3,
+    /// For normals; none if they stay as they are.
+    normal_map: Option<DMat3>,
+    /// How many corners each face has that is written.
+    pub(crate) face_sizes: Vec<u32>,
+    /// The corners of these faces, as the mesh numbers them, counter-clockwise in the file.
+    pub(crate) corners: Vec<u32>,
+    /// The face of the mesh that each of these faces is, or is a part of.
+    pub(crate) sources: Vec<u32>,
+}
+
+impl<'a> Gathered<'a> {
+    pub(crate) fn new(scene: &'a Scene, options: &ExportOptions<'_>) -> Self {
+        let root = options.root().unwrap_or(DAffine3::IDENTITY);
+        let wanted: Option<BTreeSet<NodeId>> =
+            options.nodes.as_ref().map(|nodes| nodes.iter().copied().collect());
+        let is_wanted = |id: &NodeId| wanted.as_ref().is_none_or(|wanted| wanted.contains(id));
+        let (visible, mut losses, mut objects) = (scene.visible_transforms(), Vec::new(), Vec::new());
+        for (id, node) in scene.nodes().iter().filter(|(id, _)| is_wanted(id)) {
+            let Some(asset) = node.mesh.and_then(|mesh| scene.meshes().get(mesh)) else { continue };
+            let Some(world) = visible[id.index()] else {
+                losses.push(Loss { place: place(node), what: "it is hidden and not written".to_owned() });
+                continue;
+            };
+            objects.push(Object::new(node, asset.mesh(), root * world, options.faces));
+        }
+        let positions = objects.iter().flat_map(|object| {
+            (0..object.mesh.vertex_count() as u32).map(|vertex| object.exact_position(vertex))
+        });
+        let is_far = offset_for(positions) != DVec3::ZERO;
+        let precision = if is_far { Precision::Double } else { Precision::Single };
+        Self { scene, objects, precision, losses }
+    }
+
+    /// The position of a vertex in the file, finite and as precise as it is written.
+    pub(crate) fn position(&self, object: &Object<'_>, vertex: u32) -> DVec3 {
+        let position = object.exact_position(vertex).to_array().map(|value| self.precision.rounded(value));
+        Some(DVec3::from_array(position)).filter(|position| position.is_finite()).unwrap_or_default()
+    }
+}
+
+/// A node, for messages.
+pub(super) fn place(node: &Node) -> Place {
+    Place::Named(format!("node \"{}\"", node.name))
+}
+
+impl<'a> Object<'a> {
+    fn new(node: &'a Node, mesh: &'a Mesh, map: DAffine3, faces: FaceExport) -> Self {
+        let linear = map.matrix3;
+        let normal_map = (linear != DMat3::IDENTITY).then(|| linear.inverse().transpose());
+        let (face_sizes, corners, sources) = Default::default();
+        let mut object = Self { node, mesh, map, normal_map, face_sizes, corners, sources };
+        match faces {
+            FaceExport::Polygons => {
+                for (face, corners) in mesh.faces().enumerate() {
+                    object.push(face as u32, corners.map(|corner| corner as u32));
+                }
+            }
+            FaceExport::Triangles => object.cut(),
+        }
+        object
+    }
+
+    /// Cuts the faces into triangles.
+    pub(crate) fn cut(&mut self) {
+        (self.face_sizes, self.corners, self.sources) = Default::default();
+        let cut = self.mesh.triangulation();
+        for (triangle, &face) in cut.triangles.iter().zip(&cut.triangle_faces) {
+            self.push(face, triangle.iter().copied());
+        }
+    }
+
+    /// Adds a face, unless a vertex has no place. A map that mirrors turns faces over, so their
+    /// corners go the other way, from the same first one.
+    fn push(&mut self, face: u32, corners: impl ExactSizeIterator<Item = u32> + Clone) {
+        let vertices = self.mesh.corner_vertices();
+        let is_placed = |corner: u32| self.mesh.positions()[vertices[corner as usize] as usize].is_finite();
+        if !corners.clone().all(is_placed) {
+            return;
+        }
+        let (first, count) = (self.corners.len(), corners.len() as u32);
+        self.corners.extend(corners);
+        if self.map.matrix3.determinant() < 0.0 {
+            self.corners[first + 1..].reverse();
+        }
+        self.face_sizes.push(count);
+        self.sources.push(face);
+    }
+
+    /// The faces, each as its corners.
+    pub(crate) fn faces(&self) -> impl Iterator<Item = &[u32]> {
+        let mut rest = self.corners.as_slice();
+        self.face_sizes.iter().map(move |&size| {
+            let (face, after) = rest.split_at(size as usize);
+            rest = after;
+            face
+        })
+    }
+
+    /// The vertex of a corner.
+    pub(crate) fn vertex(&self, corner: u32) -> u32 {
+        self.mesh.corner_vertices()[corner as usize]
+    }
+
+    fn exact_position(&self, vertex: u32) -> DVec3 {
+        let position = self.mesh.positions()[vertex as usize].as_dvec3();
+        // A map that changes nothing keeps the sign of a zero.
+        if self.map == DAffine3::IDENTITY { position } else { self.map.transform_point3(position) }
+    }
+
+    /// The normal of a corner in the file; zero where there is none.
+    pub(crate) fn normal(&self, corner: u32) -> Vec3 {
+        let Some(normals) = &self.mesh.attributes().corner_normals else { return Vec3::ZERO };
+        let normal = normals[corner as usize];
+        let turned = self
+            .normal_map
+            .map_or(normal, |map| (map * normal.as_dvec3()).try_normalize().unwrap_or_default().as_vec3());
+        if turned.is_finite() { turned } else { Vec3::ZERO }
+    }
+
+    /// The material of a face of the mesh.
+    pub(crate) fn material(&self, face: u32) -> Option<MaterialId> {
+        let slot = self.mesh.attributes().face_materials.as_ref().map_or(0, |slots| slots[face as usize]);
+        self.node.materials.get(slot as usize).copied()
+    }
+}

@@ -1,0 +1,80 @@
+//! What of a scene a format cannot hold, as data.
+
+use super::gather::place;
+use super::{Gathered, Object, loss};
+use crate::gltf::Loss;
+
+/// Which single vertices that are to be seen a format holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum HeldPoints {
+    All,
+    /// Those of a file that has nothing else.
+    Clouds,
+    None,
+}
+
+/// What a format holds beside vertices and faces.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Holds {
+    pub(crate) materials: bool,
+    pub(crate) normals: bool,
+    pub(crate) uvs: bool,
+    pub(crate) colors: bool,
+    /// Edges without faces.
+    pub(crate) edges: bool,
+    pub(crate) points: HeldPoints,
+    pub(crate) polygons: bool,
+    /// Several objects with names.
+    pub(crate) objects: bool,
+}
+
+/// Adds what will not be in the file.
+pub(super) fn add(gathered: &mut Gathered<'_>, holds: &Holds) {
+    let scene = gathered.scene;
+    add_of_nodes(gathered);
+    let mut losses = Vec::new();
+    let mut add = |is_lost: bool, what: &str| losses.extend(is_lost.then(|| loss(what)));
+    let any = |has: fn(&Object<'_>) -> bool| gathered.objects.iter().any(has);
+    add(!holds.materials && scene.materials.iter().next().is_some(), "materials and their textures");
+    add(!holds.objects && gathered.objects.len() > 1, "which faces belong to which object: all become one");
+    add(
+        any(|object| object.node.parent().is_some()),
+        "the tree of nodes: objects are written in their places",
+    );
+    add(!scene.animations.is_empty(), "animations");
+    add(any(|object| object.mesh.attributes().skin.is_some()), "skins: meshes are written as they rest");
+    add(any(|object| !object.mesh.attributes().morph_targets.is_empty()), "morph targets");
+    add(!holds.normals && any(|object| object.mesh.attributes().corner_normals.is_some()), "normals");
+    add(!holds.uvs && any(|object| !object.mesh.attributes().uv_sets.is_empty()), "texture coordinates");
+    add(
+        holds.uvs && any(|object| object.mesh.attributes().uv_sets.len() > 1),
+        "texture coordinates beyond the first set",
+    );
+    add(!holds.colors && any(|object| object.mesh.attributes().corner_colors.is_some()), "vertex colours");
+    add(!holds.edges && any(|object| !object.mesh.loose_edges().is_empty()), "edges without faces");
+    let is_cloud = !any(|object| object.mesh.face_count() > 0 || !object.mesh.loose_edges().is_empty());
+    let keeps_points = match holds.points {
+        HeldPoints::All => true,
+        HeldPoints::Clouds => is_cloud,
+        HeldPoints::None => false,
+    };
+    add(!keeps_points && any(|object| !object.mesh.loose_points().is_empty()), "points");
+    add(
+        !holds.polygons && any(|object| object.mesh.corner_count() > 3 * object.mesh.face_count()),
+        "polygons: they are cut into triangles",
+    );
+    add(
+        any(|object| object.mesh.positions().iter().any(|position| !position.is_finite())),
+        "faces with vertices that are not finite",
+    );
+    gathered.losses.append(&mut losses);
+}
+
+fn add_of_nodes(gathered: &mut Gathered<'_>) {
+    for (_, node) in gathered.scene.nodes().iter() {
+        let parts = [(node.light.is_some(), "its light"), (node.camera.is_some(), "its camera")];
+        for (_, what) in parts.iter().filter(|(is_there, _)| *is_there) {
+            gathered.losses.push(Loss { place: place(node), what: (*what).to_owned() });
+        }
+    }
+}

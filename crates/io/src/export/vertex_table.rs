@@ -1,0 +1,118 @@
+//! Values of corners as values of vertices, for formats that have no others.
+//!
+//! A vertex whose corners agree keeps its number. Where they differ, as at a seam or a sharp
+//! edge, further vertices at the same place follow behind those of the object.
+
+use std::collections::HashMap;
+
+use trigon_math::{DVec3, Vec2, Vec3, Vec4};
+
+use super::{Gathered, Object};
+
+/// Which values vertices are to have.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Columns {
+    pub(crate) normals: bool,
+    pub(crate) uvs: bool,
+    pub(crate) colors: bool,
+}
+
+impl Columns {
+    /// Those of these that any object has.
+    pub(crate) fn found(self, gathered: &Gathered<'_>) -> Self {
+        let any = |has: fn(&Object<'_>) -> bool| gathered.objects.iter().any(has);
+        Self {
+            normals: self.normals && any(|object| object.mesh.attributes().corner_normals.is_some()),
+            uvs: self.uvs && any(|object| !object.mesh.attributes().uv_sets.is_empty()),
+            colors: self.colors && any(|object| object.mesh.attributes().corner_colors.is_some()),
+        }
+    }
+}
+
+/// What a vertex has. Values that are not asked for stay at those of `Default`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Values {
+    pub(crate) normal: Vec3,
+    pub(crate) uv: Vec2,
+    /// Linear, with alpha.
+    pub(crate) color: Vec4,
+}
+
+impl Default for Values {
+    fn default() -> Self {
+        Self { normal: Vec3::ZERO, uv: Vec2::ZERO, color: Vec4::ONE }
+    }
+}
+
+impl Values {
+    fn of(object: &Object<'_>, corner: u32, columns: Columns) -> Self {
+        let (attributes, mut values) = (object.mesh.attributes(), Self::default());
+        if columns.normals {
+            values.normal = object.normal(corner);
+        }
+        if let Some(uvs) = attributes.uv_sets.first().filter(|_| columns.uvs) {
+            values.uv = Some(uvs[corner as usize]).filter(|uv| uv.is_finite()).unwrap_or_default();
+        }
+        if let Some(colors) = attributes.corner_colors.as_ref().filter(|_| columns.colors) {
+            values.color = colors[corner as usize];
+        }
+        values
+    }
+
+    fn bits(&self) -> [u32; 9] {
+        let Self { normal, uv, color } = self;
+        [normal.x, normal.y, normal.z, uv.x, uv.y, color.x, color.y, color.z, color.w].map(f32::to_bits)
+    }
+}
+
+/// The vertices of all objects, one after the other.
+#[derive(Default)]
+pub(crate) struct VertexTable {
+    pub(crate) positions: Vec<DVec3>,
+    pub(crate) values: Vec<Values>,
+    /// The vertices of all faces.
+    pub(crate) corner_vertices: Vec<u32>,
+    pub(crate) edges: Vec<[u32; 2]>,
+    /// How many vertices are there more than once.
+    pub(crate) split: usize,
+}
+
+impl VertexTable {
+    pub(crate) fn new(gathered: &Gathered<'_>, columns: Columns) -> Self {
+        let mut table = Self::default();
+        for object in &gathered.objects {
+            table.add(gathered, object, columns);
+        }
+        table
+    }
+
+    fn add(&mut self, gathered: &Gathered<'_>, object: &Object<'_>, columns: Columns) {
+        let base = self.positions.len();
+        let count = object.mesh.vertex_count();
+        self.positions.extend((0..count as u32).map(|vertex| gathered.position(object, vertex)));
+        self.values.resize(base + count, Values::default());
+        let mut is_known = vec![false; count];
+        let mut others: HashMap<(u32, [u32; 9]), u32> = HashMap::new();
+        for &corner in &object.corners {
+            let vertex = object.vertex(corner);
+            let own = base + vertex as usize;
+            let values = Values::of(object, corner, columns);
+            if !std::mem::replace(&mut is_known[vertex as usize], true) {
+                self.values[own] = values;
+            }
+            if self.values[own].bits() == values.bits() {
+                self.corner_vertices.push(own as u32);
+                continue;
+            }
+            let next = self.positions.len() as u32;
+            let number = *others.entry((vertex, values.bits())).or_insert(next);
+            if number == next {
+                self.positions.push(self.positions[own]);
+                self.values.push(values);
+                self.split += 1;
+            }
+            self.corner_vertices.push(number);
+        }
+        self.edges.extend(object.mesh.loose_edges().iter().map(|edge| edge.map(|end| base as u32 + end)));
+    }
+}

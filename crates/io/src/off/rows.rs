@@ -1,0 +1,30 @@
+//! Rows of numbers.
+
+use crate::numbers::number;
+use crate::rows::words;
+
+/// The numbers of a row.
+#[derive(Default)]
+pub(super) struct Numbers {
+    pub(super) values: Vec<f64>,
+}
+
+impl Numbers {
+    pub(super) fn read(&mut self, line: &[u8]) -> Result<(), String> {
+        self.values.clear();
+        for word in words(line) {
+            self.values.push(number(word)?);
+        }
+        Ok(())
+    }
+
+    /// A row of a face: how many vertices, these, and what else there is: a colour.
+    pub(super) fn face(&self) -> Result<(&[f64], &[f64]), String> {
+        let (&count, rest) = self.values.split_first().ok_or("is empty")?;
+        // No row has as many numbers as an f64 could round.
+        if count >= 0.0 && count.fract() == 0.0 && count <= rest.len() as f64 {
+            return Ok(rest.split_at(count as usize));
+        }
+        Err(format!("claims {count} vertices and has {} numbers", rest.len()))
+    }
+}

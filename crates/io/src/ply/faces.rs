@@ -1,0 +1,189 @@
+//! The faces and edges of a PLY.
+
+use trigon_math::Vec2;
+
+use super::header::{Element, Kind};
+use super::scalar::Scalar;
+use super::values::{Fault, Values};
+use super::vertices::{color, full_channel};
+use super::{Outcome, report, skip, stopped};
+use crate::import::Import;
+use crate::polygons::{Polygons, most_corners};
+
+/// The names of the list of a face's vertices.
+pub(super) const INDICES: &[&str] = &["vertex_indices", "vertex_index"];
+
+/// The properties of faces that mean something.
+struct Roles {
+    indices: Option<usize>,
+    /// A list of u and v for each corner.
+    uvs: Option<usize>,
+    /// Red, green, blue and alpha.
+    color: [Option<usize>; 4],
+    full: [f64; 4],
+}
+
+impl Roles {
+    fn new(element: &Element) -> Self {
+        let is_list = |&index: &usize| matches!(element.properties[index].kind, Kind::List { .. });
+        let color = [["red", "r"], ["green", "g"], ["blue", "b"], ["alpha", "a"]];
+        let color = color.map(|names| element.position(&names).filter(|index| !is_list(index)));
+        Self {
+            indices: element.position(INDICES).filter(is_list),
+            uvs: element.position(&["texcoord"]).filter(is_list),
+            full: color.map(|property| full_channel(element, property)),
+            color,
+        }
+    }
+
+    fn has_color(&self) -> bool {
+        self.color[..3].iter().all(Option::is_some)
+    }
+}
+
+/// One face.
+#[derive(Default)]
+struct Face {
+    vertices: Vec<u32>,
+    /// As they are in the file.
+    uvs: Vec<f64>,
+    channels: [f64; 4],
+}
+
+impl Face {
+    fn read<V: Values>(
+        &mut self,
+        element: &Element,
+        roles: &Roles,
+        vertices: u32,
+        values: &mut V,
+        most_corners: usize,
+    ) -> Result<(), Fault> {
+        values.begin_row()?;
+        self.vertices.clear();
+        self.uvs.clear();
+        self.channels = roles.full;
+        for (index, property) in element.properties.iter().enumerate() {
+            match property.kind {
+                Kind::List { count, item } if roles.indices == Some(index) => {
+                    let count = values.count(count)?;
+                    if count as usize > most_corners {
+                        return Err(Fault::TooMany);
+                    }
+                    for _ in 0..count {
+                        self.vertices.push(vertex(values, item, vertices)?);
+                    }
+                }
+                Kind::List { count, item } if roles.uvs == Some(index) => {
+                    let count = values.count(count)?;
+                    for _ in 0..count {
+                        self.uvs.push(values.value(item)?);
+                    }
+                }
+                Kind::Scalar(scalar) => match roles.color.iter().position(|role| *role == Some(index)) {
+                    Some(channel) => self.channels[channel] = values.value(scalar)?,
+                    None => values.pass(scalar, 1)?,
+                },
+                kind @ Kind::List { .. } => values.skip(kind)?,
+            }
+        }
+        values.end_row();
+        Ok(())
+    }
+
+    fn push(&self, roles: &Roles, polygons: &mut Polygons) {
+        polygons.face_sizes.push(self.vertices.len() as u32);
+        polygons.corner_vertices.extend_from_slice(&self.vertices);
+        if roles.has_color() {
+            polygons.face_colors.push(color(self.channels, roles.full));
+        }
+        if roles.uvs.is_some() {
+            let uv = |corner: usize| match self.uvs.get(2 * corner..2 * corner + 2) {
+                Some(&[u, v]) => Vec2::new(u as f32, (1.0 - v) as f32),
+                _ => Vec2::ZERO,
+            };
+            let uvs = (0..self.vertices.len()).map(uv);
+            polygons.corner_uvs.extend(uvs.map(|uv| if uv.is_finite() { uv } else { Vec2::ZERO }));
+        }
+    }
+}
+
+/// The number of a vertex, of which there are so many.
+fn vertex<V: Values>(values: &mut V, scalar: Scalar, vertices: u32) -> Result<u32, Fault> {
+    let index = values.value(scalar)?;
+    checked(index, vertices)
+}
+
+/// A number as that of a vertex, of which there are so many.
+pub(super) fn checked(index: f64, vertices: u32) -> Result<u32, Fault> {
+    if index >= 0.0 && index < f64::from(vertices) && index.fract() == 0.0 {
+        return Ok(index as u32);
+    }
+    Err(Fault::Bad(format!("names vertex {index}, and the vertices are 0 to {}", i64::from(vertices) - 1)))
+}
+
+pub(super) fn read_faces<V: Values>(
+    import: &mut Import<'_>,
+    element: &Element,
+    values: &mut V,
+    vertices: u32,
+    polygons: &mut Polygons,
+) -> Outcome {
+    let roles = Roles::new(element);
+    if roles.indices.is_none() {
+        return skip(import, element, values);
+    }
+    let room = element.count.min(values.progress().1 as u64) as usize;
+    polygons.face_sizes.reserve(room);
+    let mut face = Face::default();
+    for row in 0..element.count {
+        report(import, row, values)?;
+        let most = most_corners(import).saturating_sub(polygons.corner_vertices.len());
+        match face.read(element, &roles, vertices, values, most) {
+            Ok(()) => face.push(&roles, polygons),
+            Err(fault) => return stopped(import, element, row, values, fault),
+        }
+    }
+    Ok(Ok(()))
+}
+
+pub(super) fn read_edges<V: Values>(
+    import: &mut Import<'_>,
+    element: &Element,
+    values: &mut V,
+    vertices: u32,
+    polygons: &mut Polygons,
+) -> Outcome {
+    let ends = [element.position(&["vertex1"]), element.position(&["vertex2"])];
+    if ends.contains(&None) {
+        return skip(import, element, values);
+    }
+    for row in 0..element.count {
+        report(import, row, values)?;
+        let most = most_corners(import).saturating_sub(2 * polygons.edges.len());
+        match read_edge(element, ends, values, vertices) {
+            Ok(_) if most < 2 => return stopped(import, element, row, values, Fault::TooMany),
+            Ok(edge) => polygons.edges.push(edge),
+            Err(fault) => return stopped(import, element, row, values, fault),
+        }
+    }
+    Ok(Ok(()))
+}
+
+fn read_edge<V: Values>(
+    element: &Element,
+    ends: [Option<usize>; 2],
+    values: &mut V,
+    vertices: u32,
+) -> Result<[u32; 2], Fault> {
+    let mut edge = [0; 2];
+    values.begin_row()?;
+    for (index, property) in element.properties.iter().enumerate() {
+        match (property.kind, ends.iter().position(|end| *end == Some(index))) {
+            (Kind::Scalar(scalar), Some(end)) => edge[end] = vertex(values, scalar, vertices)?,
+            (kind, _) => values.skip(kind)?,
+        }
+    }
+    values.end_row();
+    Ok(edge)
+}

@@ -1,0 +1,199 @@
+//! The header of a PLY: which elements there are, how many, and what each has.
+
+use super::scalar::Scalar;
+use crate::error::{LoadError, Place};
+use crate::import::Import;
+use crate::polygons::check_vertices;
+use crate::rows::{quoted, words};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ByteOrder {
+    Little,
+    Big,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Encoding {
+    Text,
+    Binary(ByteOrder),
+}
+
+/// What a property is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Scalar(Scalar),
+    List { count: Scalar, item: Scalar },
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Property {
+    pub(super) name: String,
+    pub(super) kind: Kind,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Element {
+    pub(super) name: String,
+    /// As the file claims.
+    pub(super) count: u64,
+    pub(super) properties: Vec<Property>,
+}
+
+impl Element {
+    /// The first property with one of these names.
+    pub(super) fn position(&self, names: &[&str]) -> Option<usize> {
+        self.properties.iter().position(|property| names.contains(&property.name.as_str()))
+    }
+}
+
+#[derive(Debug)]
+pub(super) struct Header {
+    pub(super) encoding: Encoding,
+    pub(super) elements: Vec<Element>,
+    /// How many lines it has.
+    pub(super) lines: u64,
+    /// Where the data begin, in bytes.
+    pub(super) data: usize,
+}
+
+impl Header {
+    /// How many vertices there are, within the limits.
+    pub(super) fn vertex_count(&self, import: &Import<'_>) -> Result<u32, LoadError> {
+        let vertices = self.elements.iter().find(|element| element.name == "vertex");
+        let count = vertices.map_or(0, |element| element.count);
+        check_vertices(import, count)?;
+        Ok(count as u32)
+    }
+}
+
+/// The lines of a header. What ends the first ends all: `\r` before a byte of data may be either.
+struct Lines<'a> {
+    bytes: &'a [u8],
+    ending: u8,
+    at: usize,
+    number: u64,
+}
+
+impl<'a> Lines<'a> {
+    fn new(bytes: &'a [u8]) -> Self {
+        let first = memchr::memchr2(b'\n', b'\r', bytes).unwrap_or(bytes.len());
+        let is_bare = bytes[first..].starts_with(b"\r") && !bytes[first..].starts_with(b"\r\n");
+        Self { bytes, ending: if is_bare { b'\r' } else { b'\n' }, at: 0, number: 0 }
+    }
+
+    fn next(&mut self) -> Option<&'a [u8]> {
+        let rest = &self.bytes[self.at..];
+        let end = memchr::memchr(self.ending, rest)?;
+        self.at += end + 1;
+        self.number += 1;
+        Some(rest[..end].trim_ascii())
+    }
+}
+
+/// The header while it is read.
+#[derive(Default)]
+struct Draft {
+    encoding: Option<Encoding>,
+    elements: Vec<Element>,
+}
+
+pub(super) fn read_header(import: &mut Import<'_>, bytes: &[u8]) -> Result<Header, LoadError> {
+    const REMEDY: &str = "export the model again";
+    let path = import.path;
+    let malformed = |line: u64, what: String| LoadError::malformed(path, what, REMEDY).at(Place::Line(line));
+    let mut lines = Lines::new(bytes);
+    if lines.next() != Some(b"ply") {
+        return Err(malformed(1, "it does not begin with a line \"ply\", and so is no PLY file".to_owned()));
+    }
+    let mut draft = Draft::default();
+    loop {
+        let Some(line) = lines.next() else {
+            return Err(malformed(lines.number, "the header has no end_header".to_owned()));
+        };
+        if line == b"end_header" {
+            break;
+        }
+        match draft.statement(line) {
+            Ok(true) => {}
+            Ok(false) => import.warnings.push(
+                Place::Line(lines.number),
+                format!("the statement {} is not one of PLY and is ignored", first_word(line)),
+                REMEDY,
+            ),
+            Err(what) => return Err(malformed(lines.number, what)),
+        }
+    }
+    let Some(encoding) = draft.encoding else {
+        return Err(malformed(lines.number, "the header has no format statement".to_owned()));
+    };
+    Ok(Header { encoding, elements: draft.elements, lines: lines.number, data: lines.at })
+}
+
+fn first_word(line: &[u8]) -> String {
+    quoted(words(line).next().unwrap_or_default())
+}
+
+impl Draft {
+    /// Takes in a line; false if it is none of the format.
+    fn statement(&mut self, line: &[u8]) -> Result<bool, String> {
+        let mut words = words(line);
+        let Some(keyword) = words.next() else { return Ok(true) };
+        match keyword {
+            b"comment" | b"obj_info" => {}
+            b"format" => self.encoding = Some(encoding(words.next().unwrap_or_default())?),
+            b"element" => self.elements.push(element(words)?),
+            b"property" => {
+                let property = property(words)?;
+                let Some(element) = self.elements.last_mut() else {
+                    return Err("a property stands before the first element".to_owned());
+                };
+                element.properties.push(property);
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+}
+
+fn encoding(name: &[u8]) -> Result<Encoding, String> {
+    match name {
+        b"ascii" => Ok(Encoding::Text),
+        b"binary_little_endian" => Ok(Encoding::Binary(ByteOrder::Little)),
+        b"binary_big_endian" => Ok(Encoding::Binary(ByteOrder::Big)),
+        _ => Err(format!(
+            "the format {} is none of ascii, binary_little_endian and binary_big_endian",
+            quoted(name)
+        )),
+    }
+}
+
+fn element<'a>(mut words: impl Iterator<Item = &'a [u8]>) -> Result<Element, String> {
+    let name = text(words.next().unwrap_or_default());
+    let word = words.next().unwrap_or_default();
+    let count = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
+    let count =
+        count.ok_or_else(|| format!("the element \"{name}\" has {}, which is no count", quoted(word)))?;
+    Ok(Element { name, count, properties: Vec::new() })
+}
+
+fn property<'a>(mut words: impl Iterator<Item = &'a [u8]>) -> Result<Property, String> {
+    let mut word = || words.next().unwrap_or_default();
+    let scalar = |name: &[u8]| {
+        Scalar::from_name(name).ok_or_else(|| format!("{} is no type of number of PLY", quoted(name)))
+    };
+    let first = word();
+    let kind = if first == b"list" {
+        let (count, item) = (scalar(word())?, scalar(word())?);
+        if matches!(count, Scalar::Float32 | Scalar::Float64) {
+            return Err("the length of a list is a fraction".to_owned());
+        }
+        Kind::List { count, item }
+    } else {
+        Kind::Scalar(scalar(first)?)
+    };
+    Ok(Property { name: text(word()), kind })
+}
+
+fn text(word: &[u8]) -> String {
+    String::from_utf8_lossy(word).into_owned()
+}

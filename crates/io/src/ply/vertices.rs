@@ -1,0 +1,148 @@
+//! The vertices of a PLY: places, normals, colours and texture coordinates.
+
+use trigon_math::{DVec3, Vec2, Vec3, Vec4};
+
+use super::header::{Element, Kind};
+use super::values::{Fault, Values};
+use super::{cut_off, report, stopped};
+use crate::error::{LoadError, LoadErrorKind};
+use crate::import::Import;
+use crate::polygons::{Polygons, light_from_srgb};
+
+/// The names of what is read, in the order of a row.
+const NAMES: [&[&str]; 12] = [
+    &["x"],
+    &["y"],
+    &["z"],
+    &["nx", "normal_x"],
+    &["ny", "normal_y"],
+    &["nz", "normal_z"],
+    &["red", "r", "diffuse_red"],
+    &["green", "g", "diffuse_green"],
+    &["blue", "b", "diffuse_blue"],
+    &["alpha", "a", "diffuse_alpha"],
+    &["s", "u", "texture_u", "texture_s"],
+    &["t", "v", "texture_v", "texture_t"],
+];
+const X: usize = 0;
+const NORMAL: usize = 3;
+const RED: usize = 6;
+const ALPHA: usize = 9;
+const S: usize = 10;
+
+/// Where the values of a row go.
+struct Row {
+    /// Of each property.
+    slots: Vec<Option<usize>>,
+    has_normal: bool,
+    has_color: bool,
+    has_uv: bool,
+    /// What is 1 in each channel of the colour.
+    full: [f64; 4],
+    values: [f64; NAMES.len()],
+}
+
+impl Row {
+    fn new(element: &Element) -> Self {
+        let found = NAMES.map(|names| element.position(names));
+        let mut slots = vec![None; element.properties.len()];
+        for (slot, index) in found.iter().enumerate() {
+            if let Some(index) = *index
+                && matches!(element.properties[index].kind, Kind::Scalar(_))
+            {
+                slots[index] = Some(slot);
+            }
+        }
+        let has = |from: usize, count: usize| (from..from + count).all(|slot| slots.contains(&Some(slot)));
+        let (has_normal, has_color, has_uv) = (has(NORMAL, 3), has(RED, 3), has(S, 2));
+        let full = std::array::from_fn(|channel| full_channel(element, found[RED + channel]));
+        let mut values = [0.0; NAMES.len()];
+        values[ALPHA] = full[3];
+        Self { slots, has_normal, has_color, has_uv, full, values }
+    }
+
+    fn is_placed(&self) -> bool {
+        (X..X + 3).all(|slot| self.slots.contains(&Some(slot)))
+    }
+
+    fn read<V: Values>(&mut self, element: &Element, values: &mut V) -> Result<(), Fault> {
+        values.begin_row()?;
+        for (property, slot) in element.properties.iter().zip(&self.slots) {
+            match (property.kind, *slot) {
+                (Kind::Scalar(scalar), Some(slot)) => self.values[slot] = values.value(scalar)?,
+                (kind, _) => values.skip(kind)?,
+            }
+        }
+        values.end_row();
+        Ok(())
+    }
+
+    fn push(&self, polygons: &mut Polygons) {
+        let [x, y, z, nx, ny, nz, red, green, blue, alpha, s, t] = self.values;
+        polygons.positions.push(DVec3::new(x, y, z));
+        if self.has_normal {
+            polygons.normals.push(Vec3::new(nx as f32, ny as f32, nz as f32));
+        }
+        if self.has_color {
+            polygons.colors.push(color([red, green, blue, alpha], self.full));
+        }
+        if self.has_uv {
+            // PLY counts v upwards.
+            let uv = Vec2::new(s as f32, (1.0 - t) as f32);
+            polygons.uvs.push(if uv.is_finite() { uv } else { Vec2::ZERO });
+        }
+    }
+}
+
+/// What is 1 in a channel: as its type says, and 255 where there is none.
+pub(super) fn full_channel(element: &Element, property: Option<usize>) -> f64 {
+    match property.map(|index| element.properties[index].kind) {
+        Some(Kind::Scalar(scalar)) => scalar.full_channel(),
+        _ => 255.0,
+    }
+}
+
+/// A colour in sRGB as linear light.
+pub(super) fn color(channels: [f64; 4], full: [f64; 4]) -> Vec4 {
+    light_from_srgb(std::array::from_fn(|channel| channels[channel] as f32 / full[channel] as f32))
+}
+
+pub(super) fn read_vertices<V: Values>(
+    import: &Import<'_>,
+    element: &Element,
+    values: &mut V,
+    polygons: &mut Polygons,
+) -> Result<(), LoadError> {
+    let mut row = Row::new(element);
+    if !row.is_placed() {
+        let what = "its vertices have no properties x, y and z";
+        let remedy = "export the model with positions";
+        return Err(LoadError::new(LoadErrorKind::Malformed, import.path, what, remedy));
+    }
+    // Each row takes room: a count that does not fit is found out before memory is taken for it.
+    let least = |kind: Kind| match kind {
+        Kind::Scalar(scalar) => values.least_bytes(scalar),
+        Kind::List { count, .. } => values.least_bytes(count),
+    };
+    let bytes: u64 = element.properties.iter().map(|property| least(property.kind)).sum();
+    let room = (values.progress().1 as u64 + 1) / bytes;
+    if element.count > room {
+        return Err(cut_off(import, element, room, values));
+    }
+    let count = element.count as usize;
+    polygons.positions.reserve_exact(count);
+    polygons.normals.reserve_exact(if row.has_normal { count } else { 0 });
+    polygons.colors.reserve_exact(if row.has_color { count } else { 0 });
+    polygons.uvs.reserve_exact(if row.has_uv { count } else { 0 });
+    for index in 0..element.count {
+        report(import, index, values)?;
+        match row.read(element, values) {
+            Ok(()) => row.push(polygons),
+            Err(fault) => {
+                let ended = stopped(import, element, index, values, fault)?;
+                return ended.map_err(|ended| cut_off(import, element, ended.rows, values));
+            }
+        }
+    }
+    Ok(())
+}

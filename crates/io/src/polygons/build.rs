@@ -1,0 +1,185 @@
+//! Lists to a mesh: faces that cannot be shown are left out, and values of vertices go to corners.
+
+use trigon_math::{DVec3, Vec2, Vec4};
+use trigon_mesh::{Attributes, Mesh, MeshBuilder};
+
+use super::{Polygons, most_corners, too_many_corners};
+use crate::error::{LoadError, Place};
+use crate::import::Import;
+
+/// Faces of one mesh that were left out, with the first of them.
+#[derive(Default)]
+struct LeftOut {
+    non_finite: (usize, usize),
+    flat: (usize, usize),
+}
+
+fn note((count, first): &mut (usize, usize), index: usize) {
+    if *count == 0 {
+        *first = index;
+    }
+    *count += 1;
+}
+
+/// The mesh of a part, with all positions less the offset.
+pub(super) fn build(import: &mut Import<'_>, polygons: Polygons, offset: DVec3) -> Result<Mesh, LoadError> {
+    let faces = polygons.face_sizes.len();
+    let mut builder =
+        MeshBuilder::with_capacity(polygons.positions.len(), faces, polygons.corner_vertices.len());
+    let local = push_vertices(import, &polygons, offset, &mut builder);
+    let mut left_out = LeftOut::default();
+    let (mut sources, mut face_sources) =
+        (Vec::with_capacity(polygons.corner_vertices.len()), Vec::with_capacity(faces));
+    let (mut face, mut start) = (Vec::new(), 0);
+    for (index, &size) in polygons.face_sizes.iter().enumerate() {
+        let corners = start..start + size as usize;
+        start = corners.end;
+        face.clear();
+        face.extend(polygons.corner_vertices[corners.clone()].iter().map(|&vertex| local.of(vertex)));
+        if face.contains(&NOWHERE) {
+            note(&mut left_out.non_finite, index);
+        } else if builder.push_face(&face).is_err() {
+            note(&mut left_out.flat, index);
+        } else {
+            sources.extend(corners.map(|corner| corner as u32));
+            face_sources.push(index as u32);
+        }
+    }
+    push_edges(import, &polygons, &local, &mut builder, &mut left_out)?;
+    warn(import, &left_out);
+    let mut mesh = builder.build();
+    mesh.set_attributes(attributes(&polygons, &sources, &face_sources))
+        .expect("one value per accepted corner");
+    Ok(mesh)
+}
+
+/// Stands for a vertex that has no place.
+const NOWHERE: u32 = u32::MAX;
+
+/// The numbers of the file's vertices in the mesh.
+enum Local {
+    Same,
+    Others(Vec<u32>),
+}
+
+impl Local {
+    fn of(&self, vertex: u32) -> u32 {
+        match self {
+            Self::Same => vertex,
+            Self::Others(local) => local[vertex as usize],
+        }
+    }
+}
+
+fn push_vertices(
+    import: &mut Import<'_>,
+    polygons: &Polygons,
+    offset: DVec3,
+    builder: &mut MeshBuilder,
+) -> Local {
+    let place = |position: &DVec3| (*position - offset).as_vec3();
+    let Some(first) = polygons.positions.iter().position(|position| !place(position).is_finite()) else {
+        for position in &polygons.positions {
+            builder.push_vertex(place(position));
+        }
+        return Local::Same;
+    };
+    let mut count = 0;
+    let local = polygons.positions.iter().map(place).map(|place| {
+        if place.is_finite() {
+            return builder.push_vertex(place);
+        }
+        count += 1;
+        NOWHERE
+    });
+    let local = Local::Others(local.collect());
+    import.warnings.push_counted(
+        count,
+        Place::Item("vertex", first),
+        "a vertex has a place that is not finite and is left out",
+        "export the model again",
+    );
+    local
+}
+
+/// The edges of the file; where it has neither faces nor edges, its vertices are points.
+fn push_edges(
+    import: &mut Import<'_>,
+    polygons: &Polygons,
+    local: &Local,
+    builder: &mut MeshBuilder,
+    left_out: &mut LeftOut,
+) -> Result<(), LoadError> {
+    for (index, edge) in polygons.edges.iter().enumerate() {
+        let [from, to] = edge.map(|vertex| local.of(vertex));
+        if from == NOWHERE || to == NOWHERE {
+            note(&mut left_out.non_finite, index);
+        } else if builder.push_loose_edge(from, to).is_err() {
+            note(&mut left_out.flat, index);
+        }
+    }
+    if !polygons.face_sizes.is_empty() || !polygons.edges.is_empty() {
+        return Ok(());
+    }
+    if builder.vertex_count() > most_corners(import) {
+        return Err(too_many_corners(import));
+    }
+    for vertex in 0..builder.vertex_count() as u32 {
+        builder.push_loose_point(vertex).expect("the vertex exists");
+    }
+    let is_colored = |color: &Vec4| color.truncate().min_element() < 1.0;
+    import.warnings.push_counted(
+        polygons.colors.iter().filter(|color| is_colored(color)).count(),
+        Place::Whole,
+        "points are drawn without the colours of their vertices",
+        "make a surface of them to see the colours",
+    );
+    Ok(())
+}
+
+fn warn(import: &mut Import<'_>, left_out: &LeftOut) {
+    let mut warn = |(count, first): (usize, usize), what: &str, remedy: &str| {
+        import.warnings.push_counted(count, Place::Item("face", first), what, remedy);
+    };
+    warn(
+        left_out.non_finite,
+        "a face or an edge has a vertex that is not finite and is left out",
+        "export the model again",
+    );
+    warn(
+        left_out.flat,
+        "a face has fewer than 3 different vertices, or an edge fewer than 2, and is left out",
+        "clean the model up",
+    );
+}
+
+fn attributes(polygons: &Polygons, sources: &[u32], face_sources: &[u32]) -> Attributes {
+    let vertex = |&corner: &u32| polygons.corner_vertices[corner as usize] as usize;
+    let normals =
+        (!polygons.normals.is_empty()).then(|| sources.iter().map(|c| polygons.normals[vertex(c)]).collect());
+    let uvs: Option<Vec<Vec2>> = if !polygons.corner_uvs.is_empty() {
+        Some(sources.iter().map(|&corner| polygons.corner_uvs[corner as usize]).collect())
+    } else {
+        (!polygons.uvs.is_empty()).then(|| sources.iter().map(|c| polygons.uvs[vertex(c)]).collect())
+    };
+    let colors = if !polygons.colors.is_empty() {
+        Some(sources.iter().map(|c| polygons.colors[vertex(c)]).collect())
+    } else {
+        (!polygons.face_colors.is_empty()).then(|| colors_of_faces(polygons, face_sources))
+    };
+    Attributes {
+        corner_normals: normals,
+        uv_sets: uvs.into_iter().collect(),
+        corner_colors: colors,
+        ..Attributes::default()
+    }
+}
+
+/// The colour of its face at each corner of the faces that were accepted.
+fn colors_of_faces(polygons: &Polygons, face_sources: &[u32]) -> Vec<Vec4> {
+    let color = |&face: &u32| {
+        let size = polygons.face_sizes[face as usize] as usize;
+        std::iter::repeat_n(polygons.face_colors[face as usize], size)
+    };
+    face_sources.iter().flat_map(color).collect()
+}

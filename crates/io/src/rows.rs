@@ -1,0 +1,86 @@
+//! Text formats whose records are lines: PLY, OFF and STL as text.
+
+/// The lines of a text that have something in them, with their numbers, counted from 1. Lines end
+/// in `\n`, `\r\n` or `\r`; spaces around them are taken off.
+#[derive(Clone)]
+pub(crate) struct Rows<'a> {
+    text: &'a [u8],
+    at: usize,
+    number: u64,
+    /// What starts a comment, in formats that have some.
+    comment: Option<u8>,
+}
+
+impl<'a> Rows<'a> {
+    /// The lines of a text of which so many lines have been read before.
+    pub(crate) fn after(lines: u64, text: &'a [u8]) -> Self {
+        Self { text, at: 0, number: lines, comment: None }
+    }
+
+    /// All lines, without what follows a `#`.
+    pub(crate) fn without_comments(text: &'a [u8]) -> Self {
+        Self { comment: Some(b'#'), ..Self::after(0, text) }
+    }
+
+    /// The number of the line that was returned last.
+    pub(crate) fn line(&self) -> u64 {
+        self.number
+    }
+
+    /// How many bytes have been read, and how many have not.
+    pub(crate) fn progress(&self) -> (usize, usize) {
+        (self.at, self.text.len() - self.at)
+    }
+
+    /// The next line as it is, without its ending.
+    fn physical(&mut self) -> Option<&'a [u8]> {
+        let rest = self.text.get(self.at..).filter(|rest| !rest.is_empty())?;
+        self.number += 1;
+        let end = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
+        let ending = if rest[end..].starts_with(b"\r\n") { 2 } else { 1 };
+        self.at = (self.at + end + ending).min(self.text.len());
+        Some(&rest[..end])
+    }
+}
+
+impl<'a> Iterator for Rows<'a> {
+    type Item = &'a [u8];
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            let line = self.physical()?;
+            let end = self.comment.and_then(|comment| memchr::memchr(comment, line)).unwrap_or(line.len());
+            let line = line[..end].trim_ascii();
+            if !line.is_empty() {
+                return Some(line);
+            }
+        }
+    }
+}
+
+/// The words of a line.
+pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
+    line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+}
+
+/// A word as messages quote it.
+pub(crate) fn quoted(word: &[u8]) -> String {
+    format!("\"{}\"", String::from_utf8_lossy(&word[..word.len().min(40)]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_numbered_whatever_ends_them() {
+        let mut rows = Rows::without_comments(b"OFF # x\r\n\n# y\r 1 2 \r3");
+        let mut found = Vec::new();
+        while let Some(line) = rows.next() {
+            found.push((rows.line(), String::from_utf8_lossy(line).into_owned()));
+        }
+        let expected = [(1, "OFF"), (4, "1 2"), (5, "3")].map(|(line, text)| (line, text.to_owned()));
+        assert_eq!(found, expected, "without comments and blank lines");
+        assert_eq!(rows.progress().1, 0, "to the end");
+    }
+}

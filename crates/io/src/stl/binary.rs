@@ -1,0 +1,112 @@
+//! STL as bytes: a header of 80, the number of triangles, and 50 for each.
+
+use trigon_math::color::srgb_to_linear;
+use trigon_math::{DVec3, Vec3, Vec4};
+
+use super::Solid;
+use crate::error::{LoadError, Place};
+use crate::import::Import;
+use crate::options::Stage;
+use crate::polygons::{Polygons, most_corners, too_many_corners};
+
+/// The header and the number of triangles, in bytes.
+pub(super) const HEADER: usize = 84;
+/// A normal, three vertices and the attribute, in bytes.
+pub(super) const TRIANGLE: usize = 50;
+
+/// So many triangles are read before the caller is asked again whether to go on.
+const STRIDE: usize = 1 << 16;
+
+/// How many triangles the file claims; none if it is too short to say.
+fn claimed(bytes: &[u8]) -> Option<u32> {
+    let &[a, b, c, d] = bytes.get(HEADER - 4..HEADER)? else { return None };
+    Some(u32::from_le_bytes([a, b, c, d]))
+}
+
+/// Whether a file has just the room that its number of triangles needs.
+pub(super) fn has_exact_size(bytes: &[u8]) -> bool {
+    claimed(bytes)
+        .is_some_and(|count| bytes.len() as u64 == HEADER as u64 + u64::from(count) * TRIANGLE as u64)
+}
+
+pub(super) fn read(import: &mut Import<'_>, bytes: &[u8]) -> Result<Polygons, LoadError> {
+    let Some(count) = claimed(bytes) else {
+        let what = format!("it has {} bytes, and neither the start of text nor a binary header", bytes.len());
+        return Err(LoadError::malformed(import.path, what, "copy or export the file again"));
+    };
+    let triangles = bytes[HEADER..].chunks_exact(TRIANGLE).take(count as usize);
+    warn_of_size(import, bytes, count, triangles.len());
+    if triangles.len() > most_corners(import) / 3 {
+        return Err(too_many_corners(import));
+    }
+    let (mut solid, length) = (Solid::default(), triangles.len());
+    let mut colors = Colors::new(&bytes[..HEADER - 4], length);
+    for (index, triangle) in triangles.enumerate() {
+        if index % STRIDE == 0 {
+            import.options.report(import.path, Stage::Geometry, 0.9 * index as f32 / length as f32)?;
+        }
+        let (numbers, rest) = triangle.as_chunks::<4>();
+        let number = |at: usize| f64::from(f32::from_le_bytes(numbers[at]));
+        let corner = |at: usize| DVec3::new(number(at), number(at + 1), number(at + 2));
+        solid.push(import, &[corner(3), corner(6), corner(9)])?;
+        colors.push(u16::from_le_bytes([rest[0], rest[1]]));
+    }
+    solid.polygons.face_colors = colors.finish();
+    Ok(solid.polygons)
+}
+
+fn warn_of_size(import: &mut Import<'_>, bytes: &[u8], claimed: u32, there: usize) {
+    let end = Place::Byte(bytes.len() as u64);
+    if there < claimed as usize {
+        let what = format!("the header claims {claimed} triangles, and the file ends after {there}");
+        import.warnings.push(end, what, "copy or export the file again");
+    } else if !has_exact_size(bytes) {
+        let what = format!("there are bytes after the {claimed} triangles, which are ignored");
+        import.warnings.push(end, what, "export the model again");
+    }
+}
+
+/// The colours of triangles: 5 bits for each channel, and one that tells whether they count.
+struct Colors {
+    /// What Magics writes in the header: the colour of all triangles without one of their own. In such
+    /// files the bit is set where there is none, and red is in the lowest bits; elsewhere the
+    /// bit is set where there is one, and blue is.
+    of_all: Option<Vec4>,
+    colors: Vec<Vec4>,
+    any: bool,
+}
+
+impl Colors {
+    fn new(header: &[u8], triangles: usize) -> Self {
+        const KEY: &[u8] = b"COLOR=";
+        let start = header.windows(KEY.len()).position(|window| window == KEY);
+        let bytes = start.and_then(|start| header.get(start + KEY.len()..start + KEY.len() + 4));
+        let of_all = bytes.map(|bytes| {
+            let [red, green, blue, alpha] = [0, 1, 2, 3].map(|at| f32::from(bytes[at]) / 255.0);
+            linear([red, green, blue]).extend(alpha)
+        });
+        Self { of_all, colors: Vec::with_capacity(triangles), any: of_all.is_some() }
+    }
+
+    fn push(&mut self, attribute: u16) {
+        let channel = |shift: u16| f32::from((attribute >> shift) & 31) / 31.0;
+        let flag = attribute & 0x8000 != 0;
+        let color = match self.of_all {
+            Some(of_all) if flag => of_all,
+            Some(of_all) => linear([channel(0), channel(5), channel(10)]).extend(of_all.w),
+            None if flag => linear([channel(10), channel(5), channel(0)]).extend(1.0),
+            None => Vec4::ONE,
+        };
+        self.any |= flag;
+        self.colors.push(color);
+    }
+
+    /// One for each triangle; empty if none has any.
+    fn finish(self) -> Vec<Vec4> {
+        if self.any { self.colors } else { Vec::new() }
+    }
+}
+
+fn linear(color: [f32; 3]) -> Vec3 {
+    Vec3::from(color.map(srgb_to_linear))
+}

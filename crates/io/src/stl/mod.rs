@@ -1,0 +1,86 @@
+//! STL, the format of stereolithography (3D Systems, 1988), as text and binary, with the colours that
+//! VisCAM, SolidView and Materialise Magics put into its attribute bytes.
+//!
+//! Many binary files begin with the word "solid", with which text begins: their size tells. Vertices are
+//! corners of single triangles; those whose coordinates have the same bits become one. Normals follow
+//! from the order of the vertices, and those of the file are not read: many files have zeros.
+//!
+//! The crate `stl_io` 0.11 goes by the first line alone, drops the attributes, reads the first solid of
+//! several, and refuses a file for one line without saying which.
+
+mod binary;
+mod text;
+mod write;
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+use trigon_math::DVec3;
+
+use crate::error::LoadError;
+use crate::import::Import;
+use crate::options::Stage;
+use crate::polygons::{Polygons, add_polygons, check_vertices};
+
+pub(crate) use write::write_stl;
+
+/// Whether a file without a telling name is an STL.
+pub(crate) fn is_stl(bytes: &[u8]) -> bool {
+    let start = &bytes[..bytes.len().min(1024)];
+    binary::has_exact_size(bytes) || (begins_with_solid(start) && has_word(start, b"facet"))
+}
+
+fn begins_with_solid(bytes: &[u8]) -> bool {
+    bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+}
+
+fn has_word(bytes: &[u8], word: &[u8]) -> bool {
+    bytes.windows(word.len()).any(|window| window.eq_ignore_ascii_case(word))
+}
+
+/// Text has no zeros, and the header or the first numbers of a binary file have some.
+fn is_text(bytes: &[u8]) -> bool {
+    let start = &bytes[..bytes.len().min(1024)];
+    !binary::has_exact_size(bytes) && begins_with_solid(start) && !start.contains(&0)
+}
+
+/// Reads an STL into the scene.
+pub(crate) fn import_stl(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Result<(), LoadError> {
+    import.options.report(import.path, Stage::Geometry, 0.0)?;
+    let solids =
+        if is_text(&bytes) { text::read(import, &bytes)? } else { vec![binary::read(import, &bytes)?] };
+    drop(bytes);
+    add_polygons(import, solids)
+}
+
+/// The triangles of a solid, whose vertices are united.
+#[derive(Default)]
+struct Solid {
+    polygons: Polygons,
+    /// Vertices by the bits of their coordinates.
+    known: HashMap<[u64; 3], u32>,
+}
+
+impl Solid {
+    fn named(name: String) -> Self {
+        Self { polygons: Polygons { name, ..Polygons::default() }, known: HashMap::new() }
+    }
+
+    fn vertex(&mut self, place: DVec3) -> u32 {
+        // Adding zero makes −0 and +0 the same.
+        let bits = (place + DVec3::ZERO).to_array().map(f64::to_bits);
+        *self.known.entry(bits).or_insert_with(|| {
+            self.polygons.positions.push(place);
+            self.polygons.positions.len() as u32 - 1
+        })
+    }
+
+    fn push(&mut self, import: &Import<'_>, corners: &[DVec3]) -> Result<(), LoadError> {
+        for &corner in corners {
+            let vertex = self.vertex(corner);
+            self.polygons.corner_vertices.push(vertex);
+        }
+        self.polygons.face_sizes.push(corners.len() as u32);
+        check_vertices(import, self.polygons.positions.len() as u64)
+    }
+}
