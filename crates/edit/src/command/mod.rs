@@ -10,7 +10,9 @@ mod cut;
 mod delete;
 mod dissolve;
 mod extrude;
+mod hierarchy;
 mod marks;
+mod material;
 mod merge;
 mod mirror;
 mod mode;
@@ -25,7 +27,10 @@ mod select;
 mod select_property;
 mod select_related;
 mod select_within;
+mod set_light;
+mod set_transform;
 mod surface;
+mod texture;
 mod transform;
 mod uvs;
 
@@ -40,7 +45,9 @@ pub use cut::{LoopCut, SlideEdges, Subdivide};
 pub use delete::{Delete, DeleteObjects, Deleted};
 pub use dissolve::{Dissolve, DissolveFlat};
 pub use extrude::{Extrude, Inset, InsetMode};
+pub use hierarchy::{ReorderObject, SetParent};
 pub use marks::{AssignMaterial, Crease, Hide, MarkSeam, MarkSharp, Reveal, Shade};
+pub use material::{AddMaterial, MaterialName, SetMaterial, SetMaterialSlot, SurfaceAlpha, SurfaceShading};
 pub use merge::{Merge, MergeAt};
 pub use mirror::{Mirror, MirrorPlane, Symmetrize};
 pub use mode::{EditObjects, LeaveEditMode, SetElementKind};
@@ -48,10 +55,10 @@ pub use normals::{FlipNormals, RecalculateNormals};
 pub use objects::ObjectName;
 pub use outcome::Outcome;
 pub use parts::{Duplicate, JoinObjects, Separate, SplitOff};
-pub use reference::command_reference;
+pub use reference::{command_reference, command_schema};
 pub use repair::Repair;
 pub use scene::{
-    AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, SetParent, Shape, ShowObjects,
+    AddEmpty, AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, Shape, ShowObjects,
 };
 pub use select::{Select, SelectAction, SelectAll, SelectInverse, SelectNone};
 pub use select_property::{
@@ -59,7 +66,10 @@ pub use select_property::{
 };
 pub use select_related::{SelectLess, SelectLinked, SelectLoop, SelectMore, SelectPath, SelectRing};
 pub use select_within::SelectWithin;
+pub use set_light::SetLight;
+pub use set_transform::{Rotation, SetTransform, TransformSpace};
 pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, Triangulate, TrisToQuads};
+pub use texture::{AssignTexture, TextureSlot, TextureSource};
 pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Rotate, Scale, Shear, ShrinkFatten, ToSphere,
     Translate,
@@ -246,6 +256,8 @@ commands! {
     Repair("Repair", false),
     /// Adds a standard object.
     AddObject("Add Object", false),
+    /// Adds an empty object.
+    AddEmpty("Add Empty", false),
     /// Adds a light.
     AddLight("Add Light", false),
     /// Gives an object another name.
@@ -254,6 +266,20 @@ commands! {
     ShowObjects("Show/Hide Objects", false),
     /// Hangs objects on another one.
     SetParent("Set Parent", false),
+    /// Lists an object at another place.
+    ReorderObject("Reorder", false),
+    /// Places an object exactly.
+    SetTransform("Set Transform", false),
+    /// Changes a light.
+    SetLight("Set Light", false),
+    /// Gives an object a new material.
+    AddMaterial("Add Material", false),
+    /// Changes a material.
+    SetMaterial("Set Material", false),
+    /// Shows a slot of an object in another material.
+    SetMaterialSlot("Set Material Slot", false),
+    /// Gives a material a picture, or takes it off.
+    AssignTexture("Assign Texture", false),
     /// Copies objects.
     DuplicateObjects("Duplicate Objects", false),
 }

@@ -1,4 +1,4 @@
-//! Objects as a whole: new ones, names, visibility, parents, copies.
+//! Objects as a whole: new ones, names, visibility, copies.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -13,6 +13,7 @@ use crate::error::EditError;
 /// A standard object. Lengths are in metres.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
+#[schemars(extend("examples" = Shape::USUAL))]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Shape {
     Plane { width: f32, depth: f32 },
@@ -33,8 +34,28 @@ pub enum Shape {
 }
 
 impl Shape {
+    /// Each of them with usual measures: about two metres in size.
+    pub const USUAL: [Self; 15] = [
+        Self::Plane { width: 2.0, depth: 2.0 },
+        Self::Grid { width: 2.0, depth: 2.0, columns: 10, rows: 10 },
+        Self::Cube { edge: 2.0 },
+        Self::UvSphere { radius: 1.0, segments: 32, rings: 16 },
+        Self::Icosphere { radius: 1.0, subdivisions: 2 },
+        Self::Cylinder { radius: 1.0, height: 2.0, segments: 32 },
+        Self::Cone { radius: 1.0, height: 2.0, segments: 32 },
+        Self::Disc { radius: 1.0, segments: 32 },
+        Self::Torus { major_radius: 1.0, minor_radius: 0.25, major_segments: 48, minor_segments: 12 },
+        Self::Pyramid { edge: 2.0, height: 2.0 },
+        Self::Tetrahedron { edge: 2.0 },
+        Self::Octahedron { edge: 1.5 },
+        Self::Dodecahedron { edge: 0.75 },
+        Self::Icosahedron { edge: 1.0 },
+        Self::Teapot { subdivisions: 4 },
+    ];
+
     /// What it is called.
-    fn name(self) -> &'static str {
+    #[must_use]
+    pub fn name(self) -> &'static str {
         match self {
             Self::Plane { .. } => "Plane",
             Self::Grid { .. } => "Grid",
@@ -127,7 +148,8 @@ pub struct AddLight {
     pub light: LightShape,
     /// Its name.
     pub name: String,
-    /// Candela for points and spots, lux for directional lights.
+    /// What a white surface shows that the light meets head-on, of points and spots from one metre
+    /// away: 1 is white.
     #[schemars(range(min = 0.0))]
     pub intensity: f32,
     /// Linear red, green and blue.
@@ -154,6 +176,34 @@ impl Action for AddLight {
             LightShape::Spot => Light::spot(self.intensity),
         };
         let node = Node::from_light(light.with_color(Vec3::from(self.color))).with_name(self.name.clone());
+        let id = change.scene_mut().add(node.at(DVec3::from(self.position)));
+        select_only(change, id);
+        Ok(Outcome::silent())
+    }
+}
+
+/// Adds an object that shows nothing, for others to hang on, and selects it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct AddEmpty {
+    /// Its name.
+    pub name: String,
+    /// Where its origin is, in metres.
+    pub position: [f64; 3],
+}
+
+impl Default for AddEmpty {
+    fn default() -> Self {
+        Self { name: "Empty".to_owned(), position: [0.0; 3] }
+    }
+}
+
+impl Action for AddEmpty {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        if change.selection().is_editing() {
+            return Err(EditError::Editing("adding an object"));
+        }
+        let node = Node::default().with_name(self.name.clone());
         let id = change.scene_mut().add(node.at(DVec3::from(self.position)));
         select_only(change, id);
         Ok(Outcome::silent())
@@ -206,28 +256,6 @@ impl Action for ShowObjects {
     }
 }
 
-/// Hangs objects on another one, or on none. They stay where they are relative to it.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct SetParent {
-    /// Which; those that are selected if none are named.
-    pub objects: Vec<ObjectName>,
-    /// What they hang on; nothing if it is not given.
-    pub parent: Option<ObjectName>,
-}
-
-impl Action for SetParent {
-    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let objects = named_or_selected(change, &self.objects, "setting a parent")?;
-        let parent = self.parent.as_ref().map(|name| name.find(change.scene())).transpose()?;
-        let scene = change.scene_mut();
-        for id in objects.into_iter().filter(|&id| Some(id) != parent) {
-            scene.set_parent(id, parent)?;
-        }
-        Ok(Outcome::silent())
-    }
-}
-
 /// Copies the selected objects, and selects the copies. What hangs on them is not copied.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -263,7 +291,8 @@ impl Action for DuplicateObjects {
     }
 }
 
-fn named_or_selected(
+/// The objects that a command names, or the selected ones.
+pub(super) fn named_or_selected(
     change: &Change<'_>,
     names: &[ObjectName],
     command: &'static str,

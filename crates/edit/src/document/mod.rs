@@ -4,6 +4,7 @@ mod change;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use trigon_io::{LoadError, LoadOptions, NativeDocument, NativeFile, Warning, WriteError};
 use trigon_mesh::edit::{EditMesh, ElementMap};
@@ -49,6 +50,7 @@ pub struct Document {
     shown: BTreeMap<MeshId, ElementMap>,
     /// What was done since the last time that somebody asked; `None` until somebody asks.
     events: Option<Vec<Event>>,
+    revision: u64,
 }
 
 impl Document {
@@ -81,7 +83,7 @@ impl Document {
     }
 
     fn from_file(file: NativeDocument) -> Self {
-        Self { file, ..Self::default() }
+        Self { file, revision: next_revision(), ..Self::default() }
     }
 
     /// The document as a native file, not written yet: [`save`](crate::save) writes it once
@@ -133,6 +135,13 @@ impl Document {
         &self.selection
     }
 
+    /// Another number after everything that was done or taken back, and for every document that is
+    /// opened: what was computed of a document holds as long as this stays.
+    #[must_use]
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
     /// What was done.
     #[must_use]
     pub fn history(&self) -> &History {
@@ -149,6 +158,7 @@ impl Document {
     /// # Errors
     /// Why it was refused. The document is as it was before.
     pub fn run(&mut self, command: Command) -> Result<Outcome, EditError> {
+        self.revision = next_revision();
         let selection = self.selection.clone();
         let mut change = Change { document: self, meshes: Vec::new(), parts: None };
         let result = command.action().run(&mut change);
@@ -246,6 +256,7 @@ impl Document {
 
     /// Goes to an entry's other state.
     fn exchange(&mut self, entry: &mut Entry) {
+        self.revision = next_revision();
         // A command may change a mesh several times: backwards in time, and the next time forwards.
         for (id, difference) in entry.meshes.iter_mut().rev() {
             if let Some(mesh) = self.file.edited.get_mut(id) {
@@ -259,4 +270,10 @@ impl Document {
         }
         std::mem::swap(&mut self.selection, &mut entry.selection);
     }
+}
+
+/// A number that no document of this program had before.
+fn next_revision() -> u64 {
+    static LAST: AtomicU64 = AtomicU64::new(0);
+    LAST.fetch_add(1, Ordering::Relaxed) + 1
 }
