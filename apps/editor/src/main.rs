@@ -4,6 +4,11 @@
 //! can go wrong becomes one line on standard error and an exit code here.
 
 mod arguments;
+#[cfg(feature = "window")]
+#[expect(dead_code, unused_imports, reason = "the window that shows the panels comes next")]
+mod panel;
+#[cfg(feature = "window")]
+mod request;
 mod run;
 
 use std::process::ExitCode;
