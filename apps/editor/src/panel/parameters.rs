@@ -35,7 +35,7 @@ fn group_in(
     for (name, property) in properties {
         let parameter = Parameter { name, property, document, order: order.within(name) };
         ui.push_id(name, |ui| {
-            is_changed |= parameter.show(ui, &form::form(property, unit), &mut value[name])
+            is_changed |= parameter.show(ui, &form::form(property, unit), &mut value[name]);
         });
     }
     is_changed
@@ -86,7 +86,12 @@ impl Parameter<'_> {
             is_changed = true;
         }
         if is_given {
-            is_changed |= ui.indent(self.name, |ui| self.show(ui, inner, value)).inner;
+            let inner = |ui: &mut Ui| match inner {
+                // The check box is its title.
+                Form::Group(schema) => group(ui, self.document, schema, value, self.order),
+                inner => self.show(ui, inner, value),
+            };
+            is_changed |= ui.indent(self.name, inner).inner;
         }
         is_changed
     }
@@ -104,11 +109,11 @@ impl Parameter<'_> {
         let mut chosen = value[tag].clone();
         let hover = form::description(self.property);
         let mut is_changed = false;
-        if show_choice(ui, label, hover, &mut chosen, &names) {
-            if let Some(variant) = variants.iter().find(|variant| chosen == variant.name) {
-                *value = form::initial_variant(tag, variant);
-                is_changed = true;
-            }
+        if show_choice(ui, label, hover, &mut chosen, &names)
+            && let Some(variant) = variants.iter().find(|variant| chosen == variant.name)
+        {
+            *value = form::initial_variant(tag, variant);
+            is_changed = true;
         }
         if let Some(variant) = variants.iter().find(|variant| value[tag] == variant.name) {
             let unit = form::unit(self.property);

@@ -22,6 +22,7 @@ mod outcome;
 mod parts;
 mod reference;
 mod repair;
+mod rotation;
 mod scene;
 mod select;
 mod select_property;
@@ -29,8 +30,10 @@ mod select_related;
 mod select_within;
 mod set_light;
 mod set_transform;
+mod shape;
 mod surface;
 mod texture;
+mod texture_slot;
 mod transform;
 mod uvs;
 
@@ -57,9 +60,8 @@ pub use outcome::Outcome;
 pub use parts::{Duplicate, JoinObjects, Separate, SplitOff};
 pub use reference::{command_reference, command_schema};
 pub use repair::Repair;
-pub use scene::{
-    AddEmpty, AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, Shape, ShowObjects,
-};
+pub use rotation::Rotation;
+pub use scene::{AddEmpty, AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, ShowObjects};
 pub use select::{Select, SelectAction, SelectAll, SelectInverse, SelectNone};
 pub use select_property::{
     SelectBorder, SelectByMaterial, SelectByNormal, SelectNonManifold, SelectSharp, SelectSimilar,
@@ -67,9 +69,11 @@ pub use select_property::{
 pub use select_related::{SelectLess, SelectLinked, SelectLoop, SelectMore, SelectPath, SelectRing};
 pub use select_within::SelectWithin;
 pub use set_light::SetLight;
-pub use set_transform::{Rotation, SetTransform, TransformSpace};
+pub use set_transform::{SetTransform, TransformSpace};
+pub use shape::Shape;
 pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, Triangulate, TrisToQuads};
-pub use texture::{AssignTexture, TextureSlot, TextureSource};
+pub use texture::{AssignTexture, TextureSource};
+pub use texture_slot::TextureSlot;
 pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Rotate, Scale, Shear, ShrinkFatten, ToSphere,
     Translate,

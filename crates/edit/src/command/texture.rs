@@ -5,86 +5,12 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_io::{Limits, load_image};
-use trigon_scene::{
-    Material, MetallicRoughness, NormalMap, Occlusion, Scene, Shading, Texture, TextureBinding,
-    TextureFormat, TextureId,
-};
+use trigon_scene::{Scene, Texture, TextureBinding, TextureFormat, TextureId};
 
 use super::material::named_or_first;
-use super::{Action, MaterialName, Outcome};
+use super::{Action, MaterialName, Outcome, TextureSlot};
 use crate::document::Change;
 use crate::error::EditError;
-
-/// What a picture of a material says.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum TextureSlot {
-    /// Its colour and alpha.
-    #[default]
-    BaseColor,
-    /// Green: how rough it is. Blue: how metallic.
-    MetallicRoughness,
-    /// Directions that bend its normals.
-    Normal,
-    /// Red: how much light from everywhere arrives.
-    Occlusion,
-    /// The colour of light that it sends out.
-    Emissive,
-}
-
-impl TextureSlot {
-    /// Whether its pictures hold colours or data.
-    fn format(self) -> TextureFormat {
-        match self {
-            Self::BaseColor | Self::Emissive => TextureFormat::Srgb,
-            Self::MetallicRoughness | Self::Normal | Self::Occlusion => TextureFormat::Linear,
-        }
-    }
-
-    /// The picture that a material has there.
-    #[must_use]
-    pub fn of(self, material: &Material) -> Option<TextureBinding> {
-        match self {
-            Self::BaseColor => material.base_color_texture,
-            Self::MetallicRoughness => match material.shading {
-                Shading::MetallicRoughness(model) => model.texture,
-                Shading::Unlit | Shading::Lambert | Shading::BlinnPhong { .. } => None,
-            },
-            Self::Normal => material.normal_map.map(|map| map.binding),
-            Self::Occlusion => material.occlusion.map(|map| map.binding),
-            Self::Emissive => material.emissive_texture,
-        }
-    }
-
-    fn bind(self, material: &mut Material, binding: Option<TextureBinding>) {
-        match self {
-            Self::BaseColor => material.base_color_texture = binding,
-            Self::MetallicRoughness => bind_metallic_roughness(&mut material.shading, binding),
-            Self::Normal => {
-                let scale = material.normal_map.map_or(1.0, |map| map.scale);
-                material.normal_map = binding.map(|binding| NormalMap { binding, scale });
-            }
-            Self::Occlusion => {
-                let strength = material.occlusion.map_or(1.0, |map| map.strength);
-                material.occlusion = binding.map(|binding| Occlusion { binding, strength });
-            }
-            Self::Emissive => material.emissive_texture = binding,
-        }
-    }
-}
-
-fn bind_metallic_roughness(shading: &mut Shading, binding: Option<TextureBinding>) {
-    match shading {
-        Shading::MetallicRoughness(model) => model.texture = binding,
-        // The picture multiplies both.
-        _ if binding.is_some() => {
-            let model =
-                MetallicRoughness { metallic: 1.0, roughness: 1.0, texture: binding, ..Default::default() };
-            *shading = Shading::MetallicRoughness(model);
-        }
-        _ => {}
-    }
-}
 
 /// Where a picture comes from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -167,7 +93,7 @@ impl AssignTexture {
 mod tests {
     use serde_json::json;
     use trigon_mesh::primitives;
-    use trigon_scene::AlphaMode;
+    use trigon_scene::{AlphaMode, Material, Shading};
 
     use super::*;
     use crate::document::Document;
@@ -251,6 +177,19 @@ mod tests {
         run(&mut document, json!({ "op": "assign_texture", "material": "plastic", "slot": "normal" }))
             .expect("off");
         assert_eq!(TextureSlot::Normal.of(&material(&document, "plastic")), None, "taken off");
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/corpus/image/ok_checker.png");
+        let from_file = json!({ "op": "assign_texture", "material": "plastic", "slot": "emissive",
+            "texture": { "from": "file", "path": file } });
+        run(&mut document, from_file).expect("a picture");
+        let id = TextureSlot::Emissive.of(&material(&document, "plastic")).expect("assigned").texture;
+        let asset = document.nodes().textures.get(id).expect("added").clone();
+        assert_eq!(
+            (asset.name.as_str(), asset.texture.format()),
+            ("ok_checker", TextureFormat::Srgb),
+            "as colours"
+        );
+        document.undo().expect("one");
+        assert!(document.nodes().textures.get(id).is_none(), "undone with its picture");
         let missing = json!({ "op": "assign_texture", "material": "plastic",
             "texture": { "from": "file", "path": "no/such/picture.png" } });
         let refused = run(&mut document, missing).expect_err("there is none").to_string();

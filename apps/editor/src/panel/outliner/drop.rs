@@ -46,11 +46,12 @@ pub(super) fn on_row(
 /// A line between rows, or a frame around the one.
 fn mark(ui: &Ui, rect: Rect, place: Place) {
     let stroke = ui.visuals().selection.stroke;
+    let painter = ui.painter();
     match place {
-        Place::Before => drop(ui.painter().hline(rect.x_range(), rect.top(), stroke)),
-        Place::After => drop(ui.painter().hline(rect.x_range(), rect.bottom(), stroke)),
-        Place::On => drop(ui.painter().rect_stroke(rect, 2.0, stroke, egui::StrokeKind::Inside)),
-    }
+        Place::Before => painter.hline(rect.x_range(), rect.top(), stroke),
+        Place::After => painter.hline(rect.x_range(), rect.bottom(), stroke),
+        Place::On => painter.rect_stroke(rect, 2.0, stroke, egui::StrokeKind::Inside),
+    };
 }
 
 fn dropped(document: &Document, dragged: NodeId, on: NodeId, place: Place, requests: &mut Vec<Request>) {

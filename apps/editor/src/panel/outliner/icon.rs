@@ -37,7 +37,9 @@ impl Kind {
         let center = rect.center();
         let at = |x: f32, y: f32| center + vec2(x, y);
         let lines = |lines: &[[Pos2; 2]]| {
-            lines.iter().for_each(|&line| drop(painter.line_segment(line, stroke)));
+            for &line in lines {
+                painter.line_segment(line, stroke);
+            }
         };
         match self {
             Self::Mesh => {
@@ -80,7 +82,7 @@ pub(super) fn paint_eye(painter: &Painter, rect: Rect, is_open: bool, color: Col
             let x = step as f32 / 4.0;
             center + vec2(6.0 * x, height * (1.0 - x * x))
         });
-        drop(painter.line(points.collect(), stroke));
+        painter.line(points.collect(), stroke);
     };
     lid(3.5);
     if is_open {

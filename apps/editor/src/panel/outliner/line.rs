@@ -80,7 +80,7 @@ impl Line<'_> {
             let modifiers = ui.input(|input| input.modifiers);
             match state.anchor.filter(|_| modifiers.shift) {
                 Some(anchor) => {
-                    select(document, self.rows.range(anchor, id), SelectAction::Replace, requests)
+                    select(document, self.rows.range(anchor, id), SelectAction::Replace, requests);
                 }
                 None => {
                     state.anchor = Some(id);

@@ -1,6 +1,6 @@
 //! The materials of an object: its slots, their values, their pictures.
 
-use trigon_edit::scene::{AlphaMode, Material, MaterialId, Node, NodeId, Shading};
+use trigon_edit::scene::{AlphaMode, Arena, Material, MaterialId, Node, NodeId, Shading};
 use trigon_edit::{
     AddMaterial, AssignTexture, Document, MaterialName, ObjectName, SetMaterial, SetMaterialSlot,
     SurfaceAlpha, SurfaceShading, TextureSlot,
@@ -43,25 +43,47 @@ fn slots(
     requests: &mut Vec<Request>,
 ) {
     let materials = &document.nodes().materials;
-    let name = |id: MaterialId| match materials.get(id) {
-        Some(material) if !material.name.is_empty() => material.name.clone(),
-        Some(_) => format!("Material {}", id.index()),
-        None => "Default".to_owned(),
-    };
     if node.materials.len() > 1 {
-        let names: Vec<String> =
-            node.materials.iter().enumerate().map(|(at, &id)| format!("{at}: {}", name(id))).collect();
+        let names: Vec<String> = node
+            .materials
+            .iter()
+            .enumerate()
+            .map(|(at, &id)| format!("{at}: {}", name(materials, id)))
+            .collect();
         let choices: Vec<_> = names.iter().enumerate().map(|(at, name)| (at, name.as_str(), "")).collect();
         choice(ui, "Slot", "Faces name their slot.", slot, &choices);
     }
     let Some(&current) = node.materials.get(*slot) else { return };
-    let names: Vec<(MaterialId, String)> = materials.iter().map(|(id, _)| (id, name(id))).collect();
-    let choices: Vec<_> = names.iter().map(|(id, name)| (*id, name.as_str(), "")).collect();
-    let mut chosen = current;
-    if choice(ui, "Material", "Which material the slot shows.", &mut chosen, &choices).changed() {
+    if let Some(chosen) = choose_material(ui, materials, current) {
         let (object, material) = (Some(ObjectName::of(id)), MaterialName::of(chosen));
         requests.push(Request::Run(SetMaterialSlot { object, slot: *slot as u32, material }.into()));
     }
+}
+
+fn name(materials: &Arena<Material>, id: MaterialId) -> String {
+    match materials.get(id) {
+        Some(material) if !material.name.is_empty() => material.name.clone(),
+        Some(_) => format!("Material {}", id.index()),
+        None => "Default".to_owned(),
+    }
+}
+
+/// All materials of the scene. Their names are made only while the list is open: there may be
+/// thousands.
+fn choose_material(ui: &mut Ui, materials: &Arena<Material>, current: MaterialId) -> Option<MaterialId> {
+    let mut chosen = None;
+    row(ui, "Material", "Which material the slot shows.", |ui, width| {
+        let list = egui::ComboBox::from_id_salt("material").width(width).truncate();
+        let shown = list.selected_text(name(materials, current)).show_ui(ui, |ui| {
+            for (id, _) in materials.iter() {
+                if ui.selectable_label(id == current, name(materials, id)).clicked() && id != current {
+                    chosen = Some(id);
+                }
+            }
+        });
+        shown.response
+    });
+    chosen
 }
 
 /// The values of a material.
@@ -111,7 +133,7 @@ impl Fields<'_> {
             Shading::MetallicRoughness(_) => SurfaceShading::MetallicRoughness,
         };
         let choices = [
-            (SurfaceShading::MetallicRoughness, "Metallic-roughness", "As in glTF."),
+            (SurfaceShading::MetallicRoughness, "Physical", "Metallic-roughness, as in glTF."),
             (SurfaceShading::BlinnPhong, "Blinn-Phong", "Diffuse with a highlight."),
             (SurfaceShading::Lambert, "Lambert", "Diffuse."),
             (SurfaceShading::Unlit, "Unlit", "Its base colour, whatever the light."),

@@ -32,7 +32,7 @@ pub(crate) fn properties(
 ) {
     if document.selection().is_editing() {
         section(ui, "Selected elements", |ui| {
-            elements::elements(ui, document, &mut state.elements, requests)
+            elements::elements(ui, document, &mut state.elements, requests);
         });
     }
     let active = document.selection().active;

@@ -88,9 +88,9 @@ fn a_light_has_its_parameters() {
 
 #[test]
 fn a_material_has_its_values_and_pictures() {
-    let (mut case, _) = case(260.0, 1100.0);
+    let (mut case, [cube, _]) = case(260.0, 1100.0);
     select(&mut case, "Cube");
-    case.choose("Surface", "Metallic-roughness");
+    case.choose("Surface", "Physical");
     case.type_number("Metallic", "1");
     case.choose("Alpha mode", "Mask");
     case.take_requests();
@@ -111,6 +111,10 @@ fn a_material_has_its_values_and_pictures() {
         case.harness.query_by_role_and_label(egui::Role::ComboBox, "Slot").is_some(),
         "there are two slots now"
     );
+    case.choose("Slot", "1: Material");
+    case.choose("Material", "Plastic");
+    let slots = case.document().nodes().node(cube).expect("it is there").materials.clone();
+    assert_eq!(slots[0], slots[1], "the second slot shows the first material, too");
     case.picture("properties_material");
 }
 
