@@ -8,6 +8,11 @@ mod export;
 #[cfg(feature = "window")]
 #[expect(dead_code, unused_imports, reason = "for the window, which does not call it yet")]
 mod overlay;
+#[cfg(feature = "window")]
+#[expect(dead_code, unused_imports, reason = "the window that shows the panels comes next")]
+mod panel;
+#[cfg(feature = "window")]
+mod request;
 mod run;
 #[cfg(feature = "window")]
 #[cfg_attr(not(test), expect(dead_code, reason = "for the window, which does not call it yet"))]

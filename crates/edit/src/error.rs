@@ -13,6 +13,12 @@ pub enum EditError {
         "there is no object {0}; `trigon-editor --run` takes names as the outliner shows them, or numbers"
     )]
     NoSuchObject(String),
+    /// There is no material of this name or number.
+    #[error("there is no material {0}; the properties of an object list its materials")]
+    NoSuchMaterial(String),
+    /// A picture cannot be used: why.
+    #[error("{0}")]
+    Texture(String),
     /// The command needs something selected.
     #[error("{command} needs {needed}: select first")]
     NothingSelected {

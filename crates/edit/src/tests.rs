@@ -36,7 +36,9 @@ fn state(document: &Document) -> (Vec<EditMesh>, Selection, String) {
     let made = |id| EditMesh::from_mesh(scene.meshes().get(id).expect("nodes name meshes").mesh()).0;
     let meshes = shown.map(|id| document.mesh(id).cloned().unwrap_or_else(|| made(id))).collect();
     let nodes: Vec<_> = scene.nodes().iter().map(|(id, node)| format!("{id:?} {node:?}")).collect();
-    (meshes, document.selection().clone(), nodes.join("\n"))
+    let roots: Vec<_> = scene.roots().collect();
+    let materials: Vec<_> = scene.materials.iter().collect();
+    (meshes, document.selection().clone(), format!("{}\n{roots:?}\n{materials:?}", nodes.join("\n")))
 }
 
 fn any_command() -> impl Strategy<Value = serde_json::Value> {
@@ -79,7 +81,13 @@ fn any_command() -> impl Strategy<Value = serde_json::Value> {
         1 => Just(json!({ "op": "add_light", "light": "spot" })),
         1 => any::<bool>().prop_map(|visible| json!({ "op": "show_objects", "visible": visible })),
         1 => Just(json!({ "op": "rename_object", "object": 1, "name": "another" })),
-        1 => (0u32..3).prop_map(|parent| json!({ "op": "set_parent", "parent": parent })),
+        1 => (0u32..3, any::<bool>()).prop_map(|(parent, keep)| json!({ "op": "set_parent", "parent": parent,
+            "keep_transform": keep })),
+        1 => (0u32..3, 0u32..4).prop_map(|(object, to)| json!({ "op": "reorder_object", "object": object, "to": to })),
+        1 => prop::array::uniform3(-180.0f64..180.0).prop_map(|angles| json!({ "op": "set_transform", "object": 1,
+            "space": "world", "rotation": { "by": "euler", "angles": angles }, "location": [1, 2, 3] })),
+        1 => (0.0f64..1.0).prop_map(|metal| json!({ "op": "set_material", "material": 0, "metallic": metal })),
+        1 => Just(json!({ "op": "add_material", "object": 0 })),
         1 => Just(json!({ "op": "edit_objects", "objects": ["grid", 0] })),
         4 => (action, 0u32..2, prop::collection::vec(0u32..20, 0..6)).prop_map(|(action, object, elements)| {
             json!({ "op": "select", "objects": [object], "elements": elements, "action": action })

@@ -2,6 +2,7 @@
 
 mod append;
 mod mesh_asset;
+mod order;
 mod parts;
 mod placed;
 
@@ -88,6 +89,8 @@ pub struct Scene {
     /// Movements of the nodes, to be asked for by [`Scene::pose`].
     pub animations: Vec<Animation>,
     nodes: Arena<Node>,
+    /// Roots that are listed first; some may be gone, or hang on others now.
+    root_order: Vec<NodeId>,
 }
 
 impl Scene {

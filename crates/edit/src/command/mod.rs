@@ -11,9 +11,11 @@ mod delete;
 mod dissolve;
 mod extrude;
 mod grid_fill;
+mod hierarchy;
 mod join;
 mod knife;
 mod marks;
+mod material;
 mod merge;
 mod mirror;
 mod mode;
@@ -24,14 +26,20 @@ mod parts;
 mod place;
 mod reference;
 mod repair;
+mod rotation;
 mod scene;
 mod select;
 mod select_elements;
 mod select_property;
 mod select_related;
 mod select_within;
+mod set_light;
+mod set_transform;
+mod shape;
 mod space;
 mod surface;
+mod texture;
+mod texture_slot;
 mod transform;
 mod uvs;
 
@@ -47,9 +55,11 @@ pub use delete::{Delete, DeleteObjects, Deleted};
 pub use dissolve::{Dissolve, DissolveFlat};
 pub use extrude::{Extrude, Inset, InsetMode};
 pub use grid_fill::GridFill;
+pub use hierarchy::{ReorderObject, SetParent};
 pub use join::JoinObjects;
 pub use knife::{Knife, PathPoint};
 pub use marks::{AssignMaterial, Crease, Hide, MarkSeam, MarkSharp, Reveal, Shade};
+pub use material::{AddMaterial, MaterialName, SetMaterial, SetMaterialSlot, SurfaceAlpha, SurfaceShading};
 pub use merge::{Merge, MergeAt};
 pub use mirror::{Mirror, MirrorPlane, Symmetrize};
 pub use mode::{EditObjects, LeaveEditMode, SetElementKind};
@@ -58,11 +68,10 @@ pub use objects::ObjectName;
 pub use outcome::Outcome;
 pub use parts::{Duplicate, Separate, SplitOff};
 pub use place::{Rotate, Scale, Translate};
-pub use reference::command_reference;
+pub use reference::{command_reference, command_schema};
 pub use repair::Repair;
-pub use scene::{
-    AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, SetParent, Shape, ShowObjects,
-};
+pub use rotation::Rotation;
+pub use scene::{AddEmpty, AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, ShowObjects};
 pub use select::{Select, SelectAction, SelectAll, SelectInverse, SelectNone};
 pub use select_elements::{ElementsOf, SelectElements};
 pub use select_property::{
@@ -70,8 +79,13 @@ pub use select_property::{
 };
 pub use select_related::{SelectLess, SelectLinked, SelectLoop, SelectMore, SelectPath, SelectRing};
 pub use select_within::SelectWithin;
+pub use set_light::SetLight;
+pub use set_transform::SetTransform;
+pub use shape::Shape;
 pub use space::TransformSpace;
 pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, Triangulate, TrisToQuads};
+pub use texture::{AssignTexture, TextureSource};
+pub use texture_slot::TextureSlot;
 pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Shear, ShrinkFatten, ToSphere,
 };
@@ -265,6 +279,8 @@ commands! {
     Repair("Repair", false),
     /// Adds a standard object.
     AddObject("Add Object", false),
+    /// Adds an empty object.
+    AddEmpty("Add Empty", false),
     /// Adds a light.
     AddLight("Add Light", false),
     /// Gives an object another name.
@@ -273,6 +289,20 @@ commands! {
     ShowObjects("Show/Hide Objects", false),
     /// Hangs objects on another one.
     SetParent("Set Parent", false),
+    /// Lists an object at another place.
+    ReorderObject("Reorder", false),
+    /// Places an object exactly.
+    SetTransform("Set Transform", false),
+    /// Changes a light.
+    SetLight("Set Light", false),
+    /// Gives an object a new material.
+    AddMaterial("Add Material", false),
+    /// Changes a material.
+    SetMaterial("Set Material", false),
+    /// Shows a slot of an object in another material.
+    SetMaterialSlot("Set Material Slot", false),
+    /// Gives a material a picture, or takes it off.
+    AssignTexture("Assign Texture", false),
     /// Copies objects.
     DuplicateObjects("Duplicate Objects", false),
 }

@@ -8,7 +8,7 @@ use super::Command;
 /// defaults and ranges. `docs/commands.md` is this text.
 #[must_use]
 pub fn command_reference() -> String {
-    let schema = schemars::schema_for!(Command).to_value();
+    let schema = command_schema();
     let definitions = &schema["$defs"];
     let mut page = String::from(HEAD);
     for variant in schema["oneOf"].as_array().into_iter().flatten() {
@@ -29,6 +29,12 @@ pub fn command_reference() -> String {
     page.push_str("\n## Types\n");
     page.push_str(&shared);
     page
+}
+
+/// The JSON schema of [`Command`]: what a program makes a form for a command from.
+#[must_use]
+pub fn command_schema() -> Value {
+    schemars::schema_for!(Command).to_value()
 }
 
 const HEAD: &str = "# Commands
@@ -64,9 +70,11 @@ fn choices(definition: &Value) -> String {
     let mut lines = String::new();
     for variant in variants {
         let name = variant["const"].as_str().map(str::to_owned).or_else(|| {
-            let shape = variant["properties"]["shape"]["const"].as_str()?;
-            let parameters = variant["properties"].as_object()?.keys().filter(|key| *key != "shape");
-            Some(format!("{shape}: {}", parameters.cloned().collect::<Vec<_>>().join(", ")))
+            let properties = variant["properties"].as_object()?;
+            // The one that tells which variant it is.
+            let (tag, name) = properties.iter().find_map(|(tag, of)| Some((tag, of["const"].as_str()?)))?;
+            let parameters = properties.keys().filter(|key| *key != tag);
+            Some(format!("{name}: {}", parameters.cloned().collect::<Vec<_>>().join(", ")))
         });
         if let Some(name) = name {
             lines.push_str(&format!("- `{name}` {}\n", described(variant)));

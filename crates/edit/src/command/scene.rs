@@ -1,81 +1,13 @@
-//! Objects as a whole: new ones, names, visibility, parents, copies.
+//! Objects as a whole: new ones, names, visibility, copies.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_mesh::math::{DVec3, Vec3};
-use trigon_mesh::{Mesh, primitives};
 use trigon_scene::{Light, Material, Node, NodeId};
 
-use super::{Action, ObjectName, Outcome};
+use super::{Action, ObjectName, Outcome, Shape};
 use crate::document::Change;
 use crate::error::EditError;
-
-/// A standard object. Lengths are in metres.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Shape {
-    Plane { width: f32, depth: f32 },
-    Grid { width: f32, depth: f32, columns: u32, rows: u32 },
-    Cube { edge: f32 },
-    UvSphere { radius: f32, segments: u32, rings: u32 },
-    Icosphere { radius: f32, subdivisions: u32 },
-    Cylinder { radius: f32, height: f32, segments: u32 },
-    Cone { radius: f32, height: f32, segments: u32 },
-    Disc { radius: f32, segments: u32 },
-    Torus { major_radius: f32, minor_radius: f32, major_segments: u32, minor_segments: u32 },
-    Pyramid { edge: f32, height: f32 },
-    Tetrahedron { edge: f32 },
-    Octahedron { edge: f32 },
-    Dodecahedron { edge: f32 },
-    Icosahedron { edge: f32 },
-    Teapot { subdivisions: u32 },
-}
-
-impl Shape {
-    /// What it is called.
-    fn name(self) -> &'static str {
-        match self {
-            Self::Plane { .. } => "Plane",
-            Self::Grid { .. } => "Grid",
-            Self::Cube { .. } => "Cube",
-            Self::UvSphere { .. } => "Sphere",
-            Self::Icosphere { .. } => "Icosphere",
-            Self::Cylinder { .. } => "Cylinder",
-            Self::Cone { .. } => "Cone",
-            Self::Disc { .. } => "Disc",
-            Self::Torus { .. } => "Torus",
-            Self::Pyramid { .. } => "Pyramid",
-            Self::Tetrahedron { .. } => "Tetrahedron",
-            Self::Octahedron { .. } => "Octahedron",
-            Self::Dodecahedron { .. } => "Dodecahedron",
-            Self::Icosahedron { .. } => "Icosahedron",
-            Self::Teapot { .. } => "Teapot",
-        }
-    }
-
-    fn mesh(self) -> Mesh {
-        match self {
-            Self::Plane { width, depth } => primitives::plane(width, depth),
-            Self::Grid { width, depth, columns, rows } => primitives::grid(width, depth, columns, rows),
-            Self::Cube { edge } => primitives::cube(edge),
-            Self::UvSphere { radius, segments, rings } => primitives::uv_sphere(radius, segments, rings),
-            Self::Icosphere { radius, subdivisions } => primitives::icosphere(radius, subdivisions),
-            Self::Cylinder { radius, height, segments } => primitives::cylinder(radius, height, segments),
-            Self::Cone { radius, height, segments } => primitives::cone(radius, height, segments),
-            Self::Disc { radius, segments } => primitives::disc(radius, segments),
-            Self::Torus { major_radius, minor_radius, major_segments, minor_segments } => {
-                primitives::torus(major_radius, minor_radius, major_segments, minor_segments)
-            }
-            Self::Pyramid { edge, height } => primitives::pyramid(edge, height),
-            Self::Tetrahedron { edge } => primitives::tetrahedron(edge),
-            Self::Octahedron { edge } => primitives::octahedron(edge),
-            Self::Dodecahedron { edge } => primitives::dodecahedron(edge),
-            Self::Icosahedron { edge } => primitives::icosahedron(edge),
-            Self::Teapot { subdivisions } => primitives::teapot(subdivisions),
-        }
-    }
-}
 
 /// Adds a standard object and selects it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -127,7 +59,8 @@ pub struct AddLight {
     pub light: LightShape,
     /// Its name.
     pub name: String,
-    /// Candela for points and spots, lux for directional lights.
+    /// What a white surface shows that the light meets head-on, of points and spots from one metre
+    /// away: 1 is white.
     #[schemars(range(min = 0.0))]
     pub intensity: f32,
     /// Linear red, green and blue.
@@ -154,6 +87,34 @@ impl Action for AddLight {
             LightShape::Spot => Light::spot(self.intensity),
         };
         let node = Node::from_light(light.with_color(Vec3::from(self.color))).with_name(self.name.clone());
+        let id = change.scene_mut().add(node.at(DVec3::from(self.position)));
+        select_only(change, id);
+        Ok(Outcome::silent())
+    }
+}
+
+/// Adds an object that shows nothing, for others to hang on, and selects it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct AddEmpty {
+    /// Its name.
+    pub name: String,
+    /// Where its origin is, in metres.
+    pub position: [f64; 3],
+}
+
+impl Default for AddEmpty {
+    fn default() -> Self {
+        Self { name: "Empty".to_owned(), position: [0.0; 3] }
+    }
+}
+
+impl Action for AddEmpty {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        if change.selection().is_editing() {
+            return Err(EditError::Editing("adding an object"));
+        }
+        let node = Node::default().with_name(self.name.clone());
         let id = change.scene_mut().add(node.at(DVec3::from(self.position)));
         select_only(change, id);
         Ok(Outcome::silent())
@@ -206,28 +167,6 @@ impl Action for ShowObjects {
     }
 }
 
-/// Hangs objects on another one, or on none. They stay where they are relative to it.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct SetParent {
-    /// Which; those that are selected if none are named.
-    pub objects: Vec<ObjectName>,
-    /// What they hang on; nothing if it is not given.
-    pub parent: Option<ObjectName>,
-}
-
-impl Action for SetParent {
-    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let objects = named_or_selected(change, &self.objects, "setting a parent")?;
-        let parent = self.parent.as_ref().map(|name| name.find(change.scene())).transpose()?;
-        let scene = change.scene_mut();
-        for id in objects.into_iter().filter(|&id| Some(id) != parent) {
-            scene.set_parent(id, parent)?;
-        }
-        Ok(Outcome::silent())
-    }
-}
-
 /// Copies the selected objects, and selects the copies. What hangs on them is not copied.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -263,7 +202,8 @@ impl Action for DuplicateObjects {
     }
 }
 
-fn named_or_selected(
+/// The objects that a command names, or the selected ones.
+pub(super) fn named_or_selected(
     change: &Change<'_>,
     names: &[ObjectName],
     command: &'static str,

@@ -7,6 +7,7 @@ mod shown;
 mod visible;
 
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use trigon_io::{
     Export, ExportOptions, Format, LoadError, LoadOptions, NativeDocument, NativeFile, Warning, WriteError,
@@ -59,6 +60,7 @@ pub struct Document {
     events: Option<Vec<Event>>,
     /// What is tried out and neither confirmed nor cancelled yet; its other state is that before.
     preview: Option<Entry>,
+    revision: u64,
 }
 
 impl Document {
@@ -91,7 +93,7 @@ impl Document {
     }
 
     fn from_file(file: NativeDocument) -> Self {
-        Self { file, ..Self::default() }
+        Self { file, revision: next_revision(), ..Self::default() }
     }
 
     /// The document as a native file, not written yet: [`save`](crate::save) writes it once
@@ -146,6 +148,13 @@ impl Document {
         &self.selection
     }
 
+    /// Another number after everything that was done or taken back, and for every document that is
+    /// opened: what was computed of a document holds as long as this stays.
+    #[must_use]
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
     /// What was done.
     #[must_use]
     pub fn history(&self) -> &History {
@@ -171,6 +180,7 @@ impl Document {
 
     /// Runs a command without a trace in the history. A refusal leaves the document as it was.
     fn attempt(&mut self, command: Command) -> Result<(Entry, Outcome), EditError> {
+        self.revision = next_revision();
         let selection = self.selection.clone();
         let mut change = Change { document: self, meshes: Vec::new(), parts: None };
         let result = command.action().run(&mut change);
@@ -277,6 +287,7 @@ impl Document {
 
     /// Goes to an entry's other state.
     fn exchange(&mut self, entry: &mut Entry) {
+        self.revision = next_revision();
         // A command may change a mesh several times: backwards in time, and the next time forwards.
         for (id, difference) in entry.meshes.iter_mut().rev() {
             if let Some(mesh) = self.file.edited.get_mut(id) {
@@ -291,4 +302,10 @@ impl Document {
         }
         std::mem::swap(&mut self.selection, &mut entry.selection);
     }
+}
+
+/// A number that no document of this program had before.
+fn next_revision() -> u64 {
+    static LAST: AtomicU64 = AtomicU64::new(0);
+    LAST.fetch_add(1, Ordering::Relaxed) + 1
 }

@@ -18,6 +18,8 @@ pub(crate) struct Hierarchy {
     pub(crate) parents: Vec<Option<usize>>,
     /// The reached nodes, parents before children.
     pub(crate) order: Vec<usize>,
+    /// The nodes that the scene lists, in its order.
+    pub(crate) roots: Vec<usize>,
     /// The nodes that the scene lists although they hang on others.
     pub(crate) listed_children: Vec<usize>,
     /// The scene that is loaded, if the file has scenes.
@@ -58,12 +60,12 @@ pub(crate) fn find_hierarchy(
     let scene = chosen_scene(path, root, options.scene.as_ref())?;
     let roots = scene_roots(root, scene, &parents);
     let listed_children = roots.iter().copied().filter(|&node| parents[node].is_some()).collect();
-    let (included, order) = reach(root, roots);
+    let (included, order) = reach(root, roots.clone());
     for parent in &mut parents {
         *parent = parent.filter(|&parent| included[parent]);
     }
     let scene = Some(scene).filter(|&scene| scene < root.scenes.len());
-    Ok(Hierarchy { included, parents, order, listed_children, scene })
+    Ok(Hierarchy { included, parents, order, roots, listed_children, scene })
 }
 
 fn links(root: &Root) -> impl Iterator<Item = (usize, usize)> {

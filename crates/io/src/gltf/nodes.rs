@@ -68,6 +68,9 @@ pub(crate) fn add_nodes<'d>(
         ids[index] = Some(import.scene.add(node));
     }
     hang_up(import, document, hierarchy, &ids);
+    if !hierarchy.roots.is_sorted() {
+        import.scene.order_roots(hierarchy.roots.iter().filter_map(|&node| ids[node]).collect());
+    }
     let targets_of = |node: &gltf::json::Node| node.mesh.map_or(0, |mesh| target_counts[mesh.value()]);
     let target_counts = document.root.nodes.iter().map(targets_of).collect();
     Placed { document, ids, target_counts }

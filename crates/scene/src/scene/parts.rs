@@ -7,7 +7,7 @@ use crate::material::Material;
 use crate::node::Node;
 use crate::skin::Skin;
 
-use super::{Scene, TextureAsset};
+use super::{NodeId, Scene, TextureAsset};
 
 /// The nodes, materials, textures, skins and animations of a scene, with their ids.
 ///
@@ -24,6 +24,7 @@ use super::{Scene, TextureAsset};
 #[derive(Clone, Debug)]
 pub struct SceneParts {
     nodes: Arena<Node>,
+    root_order: Vec<NodeId>,
     materials: Arena<Material>,
     textures: Arena<TextureAsset>,
     skins: Arena<Skin>,
@@ -48,6 +49,7 @@ impl Scene {
     pub fn parts(&self) -> SceneParts {
         SceneParts {
             nodes: self.nodes.clone(),
+            root_order: self.root_order.clone(),
             materials: self.materials.clone(),
             textures: self.textures.clone(),
             skins: self.skins.clone(),
@@ -59,6 +61,7 @@ impl Scene {
     /// drawn.
     pub fn swap_parts(&mut self, parts: &mut SceneParts) {
         std::mem::swap(&mut self.nodes, &mut parts.nodes);
+        std::mem::swap(&mut self.root_order, &mut parts.root_order);
         std::mem::swap(&mut self.materials, &mut parts.materials);
         std::mem::swap(&mut self.textures, &mut parts.textures);
         std::mem::swap(&mut self.skins, &mut parts.skins);

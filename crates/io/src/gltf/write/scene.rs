@@ -384,11 +384,8 @@ impl<'a> SceneWriter<'a> {
 
     /// The scene and its roots.
     fn write_roots(&mut self, map: Option<DAffine3>) {
-        let roots = |scene: &Scene| -> Vec<NodeId> {
-            scene.nodes().iter().filter(|(_, node)| node.parent().is_none()).map(|(id, _)| id).collect()
-        };
-        let now = roots(self.scene);
-        let is_same = self.kept.is_some_and(|kept| roots(&kept.scene) == now);
+        let now: Vec<NodeId> = self.scene.roots().collect();
+        let is_same = self.kept.is_some_and(|kept| kept.scene.roots().eq(now.iter().copied()));
         if is_same && self.gone.is_none() {
             return;
         }

@@ -1,0 +1,211 @@
+//! What the schema of the commands says about a parameter: which widget it needs.
+
+use std::sync::OnceLock;
+
+use serde_json::Value;
+use trigon_edit::command_schema;
+
+use super::unit::Unit;
+
+/// What a value may be.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Form<'s> {
+    /// A number within bounds.
+    Number(NumberForm),
+    /// True or false.
+    Switch,
+    /// A text.
+    Text,
+    /// One of some names, each with what it means.
+    Choice(Vec<(&'s str, &'s str)>),
+    /// So many numbers.
+    Vector(usize, NumberForm),
+    /// One of some groups of parameters; the key tells which.
+    Variants(&'s str, Vec<Variant<'s>>),
+    /// Parameters of its own.
+    Group(&'s Value),
+    /// Nothing, or something of that form.
+    Optional(Box<Form<'s>>),
+    /// What is not edited here, as a list of numbers of elements.
+    ReadOnly,
+}
+
+/// A number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct NumberForm {
+    pub(super) least: f64,
+    pub(super) most: f64,
+    pub(super) is_integer: bool,
+    pub(super) unit: Unit,
+}
+
+/// One of several groups.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Variant<'s> {
+    pub(super) name: &'s str,
+    pub(super) description: &'s str,
+    /// Its parameters, and the key that tells which it is.
+    pub(super) schema: &'s Value,
+    /// What it is at first.
+    pub(super) example: Option<&'s Value>,
+}
+
+/// The schema of all commands.
+pub(super) fn schema() -> &'static Value {
+    static SCHEMA: OnceLock<Value> = OnceLock::new();
+    SCHEMA.get_or_init(command_schema)
+}
+
+/// The parameters of a command, by its name in JSON.
+pub(super) fn of_command(name: &str) -> Option<&'static Value> {
+    let variants = schema()["oneOf"].as_array()?;
+    variants.iter().find(|variant| variant["properties"]["op"]["const"] == name).map(resolve)
+}
+
+/// What a `$ref` leads to.
+pub(super) fn resolve(value: &'static Value) -> &'static Value {
+    match value["$ref"].as_str().and_then(|path| path.rsplit('/').next()) {
+        Some(name) => &schema()["$defs"][name],
+        None => value,
+    }
+}
+
+/// The comment on a parameter, or on its type.
+pub(super) fn description(property: &'static Value) -> &'static str {
+    let own = property["description"].as_str();
+    own.or_else(|| resolve(property)["description"].as_str()).unwrap_or_default()
+}
+
+/// The unit that the comment on a parameter tells, or that on its type.
+pub(super) fn unit(property: &'static Value) -> Unit {
+    let told = |value: &Value| Unit::of_comment(value["description"].as_str().unwrap_or_default());
+    match told(property) {
+        Unit::None => told(resolve(property)),
+        unit => unit,
+    }
+}
+
+/// The form of a parameter. `outer` is the unit of its group, if it does not tell its own.
+pub(super) fn form(property: &'static Value, outer: Unit) -> Form<'static> {
+    let unit = if unit(property) == Unit::None { outer } else { unit(property) };
+    if let Some(any) = property["anyOf"].as_array() {
+        let mut forms = any.iter().filter(|one| one["type"] != "null").map(|one| form(one, unit));
+        return match (forms.next(), any.len()) {
+            (Some(form), 2) if any.iter().any(|one| one["type"] == "null") => Form::Optional(Box::new(form)),
+            _ => Form::ReadOnly,
+        };
+    }
+    let schema = resolve(property);
+    if let Some(types) = schema["type"].as_array() {
+        let is_optional = types.iter().any(|one| one == "null");
+        let name = types.iter().filter_map(Value::as_str).find(|&name| name != "null").unwrap_or_default();
+        let form = simple(schema, name, unit);
+        return if is_optional { Form::Optional(Box::new(form)) } else { form };
+    }
+    if let Some(variants) = schema["oneOf"].as_array() {
+        return one_of(schema, variants);
+    }
+    if let Some(names) = schema["enum"].as_array() {
+        return Form::Choice(names.iter().filter_map(Value::as_str).map(|name| (name, "")).collect());
+    }
+    if schema["anyOf"].is_array() {
+        return Form::ReadOnly;
+    }
+    simple(schema, schema["type"].as_str().unwrap_or_default(), unit)
+}
+
+fn simple(schema: &'static Value, name: &str, unit: Unit) -> Form<'static> {
+    match name {
+        "number" => Form::Number(number(schema, false, unit)),
+        "integer" => Form::Number(number(schema, true, Unit::None)),
+        "boolean" => Form::Switch,
+        "string" => Form::Text,
+        "object" => Form::Group(schema),
+        "array" => match (schema["maxItems"].as_u64(), form(&schema["items"], unit)) {
+            (Some(count), Form::Number(number)) => Form::Vector(count as usize, number),
+            _ => Form::ReadOnly,
+        },
+        _ => Form::ReadOnly,
+    }
+}
+
+fn number(schema: &Value, is_integer: bool, unit: Unit) -> NumberForm {
+    // Counts: more than that is no parameter that anybody drags to.
+    let most = if is_integer { f64::from(u32::MAX) } else { f64::INFINITY };
+    let least = schema["minimum"].as_f64().unwrap_or(if is_integer { 0.0 } else { f64::NEG_INFINITY });
+    NumberForm { least, most: schema["maximum"].as_f64().unwrap_or(most), is_integer, unit }
+}
+
+/// An enumeration of names, or of groups of parameters.
+fn one_of(schema: &'static Value, variants: &'static [Value]) -> Form<'static> {
+    let described = |variant: &'static Value| variant["description"].as_str().unwrap_or_default();
+    let named = variants.iter().filter_map(|one| Some((one["const"].as_str()?, described(one))));
+    let names: Vec<_> = named.collect();
+    if names.len() == variants.len() {
+        return Form::Choice(names);
+    }
+    let mut tag = "";
+    let mut groups = Vec::new();
+    for variant in variants {
+        let properties = variant["properties"].as_object().into_iter().flatten();
+        for (key, property) in properties {
+            if let Some(name) = property["const"].as_str() {
+                tag = key;
+                let examples = schema["examples"].as_array();
+                let example = examples.and_then(|all| all.iter().find(|one| one[key] == name));
+                groups.push(Variant { name, description: described(variant), schema: variant, example });
+            }
+        }
+    }
+    if groups.is_empty() { Form::ReadOnly } else { Form::Variants(tag, groups) }
+}
+
+/// "Merge distance" for `merge_distance`.
+pub(super) fn label(name: &str) -> String {
+    let mut label = name.replace('_', " ");
+    if let Some(first) = label.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    label
+}
+
+/// What a value of a form is before anybody chose one.
+pub(super) fn initial(form: &Form<'static>) -> Value {
+    match form {
+        Form::Number(number) => number_value(0.0, number),
+        Form::Switch => false.into(),
+        Form::Text => "".into(),
+        Form::Choice(names) => names.first().map_or(Value::Null, |&(name, _)| name.into()),
+        Form::Vector(count, number) => vec![number_value(0.0, number); *count].into(),
+        Form::Variants(tag, variants) => {
+            variants.first().map_or(Value::Null, |one| initial_variant(tag, one))
+        }
+        Form::Group(schema) => {
+            let properties = schema["properties"].as_object().into_iter().flatten();
+            let first = |property: &'static Value| match &property["default"] {
+                Value::Null => initial(&self::form(property, Unit::None)),
+                default => default.clone(),
+            };
+            properties.map(|(key, property)| (key.clone(), first(property))).collect()
+        }
+        Form::Optional(_) | Form::ReadOnly => Value::Null,
+    }
+}
+
+/// What a variant is at first.
+pub(super) fn initial_variant(tag: &str, variant: &Variant<'static>) -> Value {
+    if let Some(example) = variant.example {
+        return example.clone();
+    }
+    let properties = variant.schema["properties"].as_object().into_iter().flatten();
+    let mut value: serde_json::Map<String, Value> =
+        properties.map(|(key, property)| (key.clone(), initial(&form(property, Unit::None)))).collect();
+    value.insert(tag.to_owned(), variant.name.into());
+    Value::Object(value)
+}
+
+/// A number as JSON, within its bounds.
+pub(super) fn number_value(number: f64, form: &NumberForm) -> Value {
+    let number = number.clamp(form.least, form.most);
+    if form.is_integer { (number.round() as i64).into() } else { number.into() }
+}

@@ -1,0 +1,148 @@
+//! Lengths, angles, areas, volumes, and what may be wrong with meshes: computed when asked for.
+
+use trigon_edit::mesh::edit::{EditMesh, Inspection, InspectionSettings, VertexId};
+use trigon_edit::mesh::math::{DVec3, elementary};
+use trigon_edit::{Document, MeshSelection};
+
+use super::super::row::written;
+
+/// A line of what was measured.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Finding {
+    pub(super) name: &'static str,
+    pub(super) value: String,
+    /// Whether it is usually in the way of printing or further work.
+    pub(super) is_problem: bool,
+}
+
+impl Finding {
+    fn new(name: &'static str, value: impl Into<String>) -> Self {
+        Self { name, value: value.into(), is_problem: false }
+    }
+
+    fn number(name: &'static str, value: f64, unit: &str) -> Self {
+        Self::new(name, format!("{}{unit}", written(value)))
+    }
+
+    /// Something that should not be there.
+    fn problem(name: &'static str, count: usize) -> Option<Self> {
+        (count > 0).then(|| Self { name, value: count.to_string(), is_problem: true })
+    }
+}
+
+/// Measures what is selected: elements in edit mode, whole meshes of objects otherwise.
+pub(super) fn measured(document: &Document) -> Vec<Finding> {
+    let selection = document.selection();
+    let mut findings = Vec::new();
+    if selection.is_editing() {
+        for (id, selected) in selection.meshes().filter(|(_, selected)| !selected.is_empty()) {
+            if let Some(mesh) = document.mesh(id) {
+                findings.extend(of_elements(document, mesh, selected));
+            }
+        }
+    } else {
+        for node in selection.objects.iter().filter_map(|&id| document.nodes().node(id)) {
+            let Some(id) = node.mesh else { continue };
+            findings.push(Finding::new("Object", node.name.clone()));
+            match document.mesh(id) {
+                Some(mesh) => findings.extend(of_mesh(mesh)),
+                None => {
+                    let asset = document.nodes().meshes().get(id);
+                    findings.extend(
+                        asset.into_iter().flat_map(|asset| of_mesh(&EditMesh::from_mesh(asset.mesh()).0)),
+                    );
+                }
+            }
+        }
+    }
+    if findings.is_empty() {
+        findings.push(Finding::new("Nothing to measure", "select meshes, or elements of one"));
+    }
+    findings
+}
+
+/// Of selected elements: lengths of edges, areas of faces, the distance of two vertices, the angle
+/// of three or of two edges.
+fn of_elements(document: &Document, mesh: &EditMesh, selected: &MeshSelection) -> Vec<Finding> {
+    let kind = document.selection().kind();
+    let (edges, faces) = (selected.edges(mesh, kind), selected.faces(mesh, kind));
+    let mut findings = Vec::new();
+    if !edges.is_empty() {
+        let length = edges.iter().map(|&edge| mesh.edge_length(edge)).sum();
+        findings.push(Finding::number("Length of edges", length, " m"));
+    }
+    if let &[edge] = &edges[..]
+        && let Some(angle) = mesh.edge_angle(edge)
+    {
+        findings.push(Finding::number("Angle between its faces", degrees(angle), "°"));
+    }
+    if !faces.is_empty() {
+        let area = faces.iter().map(|&face| mesh.face_area(face)).sum();
+        findings.push(Finding::number("Area of faces", area, " m²"));
+    }
+    findings.extend(of_vertices(mesh, &in_order(document, mesh, selected)));
+    findings
+}
+
+/// The selected vertices, in the order in which they were selected where that is known.
+fn in_order(document: &Document, mesh: &EditMesh, selected: &MeshSelection) -> Vec<VertexId> {
+    let vertices = selected.vertices(mesh, document.selection().kind());
+    let ordered: Vec<VertexId> = selected.order().iter().map(|&index| VertexId::new(index)).collect();
+    let is_whole = ordered.len() == vertices.len() && ordered.iter().all(|vertex| vertices.contains(vertex));
+    // Few only: more have neither one distance nor one angle.
+    if vertices.len() <= 3 && is_whole { ordered } else { vertices }
+}
+
+fn of_vertices(mesh: &EditMesh, vertices: &[VertexId]) -> Option<Finding> {
+    let at = |vertex: VertexId| mesh.position(vertex).as_dvec3();
+    match *vertices {
+        [a, b] => Some(Finding::number("Distance", at(a).distance(at(b)), " m")),
+        [a, b, c] => {
+            let angle = angle_between(at(a) - at(b), at(c) - at(b))?;
+            Some(Finding::number("Angle at the second vertex", degrees(angle), "°"))
+        }
+        _ => None,
+    }
+}
+
+/// In degrees, to the digits that angles between faces have.
+fn degrees(radians: f64) -> f64 {
+    (radians.to_degrees() * 1e4).round() / 1e4
+}
+
+/// In radians; `None` without a direction.
+fn angle_between(a: DVec3, b: DVec3) -> Option<f64> {
+    (a != DVec3::ZERO && b != DVec3::ZERO).then(|| elementary::atan2(a.cross(b).length(), a.dot(b)))
+}
+
+fn of_mesh(mesh: &EditMesh) -> Vec<Finding> {
+    let inspection = mesh.inspect(&InspectionSettings::default());
+    let mut findings = vec![Finding::number("Surface", mesh.surface_area(), " m²")];
+    match inspection.volume {
+        Some(volume) => findings.push(Finding::number("Volume", volume, " m³")),
+        None => findings.push(Finding { is_problem: true, ..Finding::new("Watertight", "no") }),
+    }
+    if inspection.volume.is_some() {
+        findings.push(Finding::new("Watertight", "yes"));
+    }
+    findings.push(Finding::new("Parts", inspection.parts.len().to_string()));
+    findings.extend(problems(&inspection));
+    findings
+}
+
+fn problems(found: &Inspection) -> impl Iterator<Item = Finding> {
+    let counts = [
+        ("Non-manifold edges", found.non_manifold_edges.len()),
+        ("Open borders", found.boundary_loops.len()),
+        ("Edges with inconsistent normals", found.inconsistent_edges.len()),
+        ("Loose edges", found.loose_edges.len()),
+        ("Loose vertices", found.loose_vertices.len()),
+        ("Edges without length", found.zero_length_edges.len()),
+        ("Faces without area", found.zero_area_faces.len()),
+        ("Faces that are not planar", found.non_planar_faces.len()),
+        ("Doubled vertices", found.doubled_vertices.len()),
+        ("Doubled faces", found.doubled_faces.len()),
+        ("Touching faces", found.touching_faces.pairs.len()),
+    ];
+    counts.into_iter().filter_map(|(name, count)| Finding::problem(name, count))
+}

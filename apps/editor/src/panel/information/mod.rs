@@ -1,0 +1,156 @@
+//! The tab *Information*: what is selected, how much there is, how large it is, what was measured, and
+//! which keys do what.
+
+mod counts;
+mod measures;
+#[cfg(test)]
+mod tests;
+
+use trigon_edit::{Document, ElementKind};
+use trigon_window::egui::{self, CollapsingHeader, Grid, Ui};
+
+use super::row::{is_narrow, written};
+use counts::{Counts, counted};
+use measures::{Finding, measured};
+
+/// What the tab remembers: what was computed, and of which revision of the document.
+#[derive(Debug, Default)]
+pub(crate) struct InformationState {
+    counts: Option<(u64, Counts)>,
+    /// The revision in the last pass.
+    seen: u64,
+    measures: Option<(u64, Vec<Finding>)>,
+}
+
+/// Shows it. `controls` are keys and what they do, as the keymap has them now.
+pub(crate) fn information(
+    ui: &mut Ui,
+    document: &Document,
+    state: &mut InformationState,
+    controls: &[(String, String)],
+) {
+    let revision = document.revision();
+    if state.counts.as_ref().is_none_or(|(known, _)| *known != revision) {
+        // While something is dragged, each pass has another revision: counted is when it rests.
+        if std::mem::replace(&mut state.seen, revision) == revision || state.counts.is_none() {
+            state.counts = Some((revision, counted(document)));
+        } else {
+            ui.ctx().request_repaint();
+        }
+    }
+    state.measures.take_if(|(known, _)| *known != revision);
+    if let Some((_, counts)) = &state.counts {
+        ui.add(egui::Label::new(selected(document, counts)).wrap());
+        section(ui, "Counts", |ui| show_counts(ui, counts));
+        section(ui, "Dimensions", |ui| show_dimensions(ui, document, counts));
+    }
+    section(ui, "Measures", |ui| show_measures(ui, document, &mut state.measures));
+    section(ui, "Controls", |ui| show_controls(ui, controls));
+}
+
+fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
+    CollapsingHeader::new(title).default_open(true).show_unindented(ui, contents);
+}
+
+/// "Cube and 2 more objects", "3 faces".
+fn selected(document: &Document, counts: &Counts) -> String {
+    let selection = document.selection();
+    if selection.is_editing() {
+        let count: usize = selection.meshes().map(|(_, selection)| selection.len()).sum();
+        let [one, many] = match selection.kind() {
+            ElementKind::Vertex => ["vertex", "vertices"],
+            ElementKind::Edge => ["edge", "edges"],
+            ElementKind::Face => ["face", "faces"],
+        };
+        return format!("Selected: {count} {}", if count == 1 { one } else { many });
+    }
+    let active = selection.active.filter(|id| selection.objects.contains(id));
+    let name = active.and_then(|id| document.nodes().node(id)).map(|node| node.name.as_str());
+    match (counts.selected_objects, name) {
+        (0, _) => "Nothing is selected.".to_owned(),
+        (1, Some(name)) => format!("Selected: {name}"),
+        (1, None) => "Selected: one object".to_owned(),
+        (count, Some(name)) => format!("Selected: {name} and {} more", count - 1),
+        (count, None) => format!("Selected: {count} objects"),
+    }
+}
+
+fn show_counts(ui: &mut Ui, counts: &Counts) {
+    let rows = [
+        ("Objects", counts.objects, counts.selected_objects),
+        ("Vertices", counts.scene.vertices, counts.selected.vertices),
+        ("Edges", counts.scene.edges, counts.selected.edges),
+        ("Faces", counts.scene.faces, counts.selected.faces),
+        ("Triangles", counts.scene.triangles, counts.selected.triangles),
+    ];
+    let rows = rows.map(|(name, all, selected)| [name.to_owned(), all.to_string(), selected.to_string()]);
+    table(ui, ["Scene", "Selected"], &rows);
+}
+
+/// Rows of a name and two values under their titles; in a narrow panel the values stand below the name.
+fn table(ui: &mut Ui, titles: [&str; 2], rows: &[[String; 3]]) {
+    if is_narrow(ui) {
+        for [name, one, two] in rows {
+            let [first, second] = titles.map(str::to_lowercase);
+            ui.add(egui::Label::new(format!("{name}: {first} {one}, {second} {two}")).wrap());
+        }
+        return;
+    }
+    Grid::new(titles).num_columns(3).spacing([10.0, 2.0]).show(ui, |ui| {
+        for text in ["", titles[0], titles[1]] {
+            ui.weak(text);
+        }
+        ui.end_row();
+        for row in rows {
+            row.iter().for_each(|text| drop(ui.label(text)));
+            ui.end_row();
+        }
+    });
+}
+
+fn show_dimensions(ui: &mut Ui, document: &Document, counts: &Counts) {
+    let whose = if document.selection().is_editing() {
+        "Of the selected, in the space of the mesh:"
+    } else {
+        "Of the selected, in the world:"
+    };
+    let nothing = counts.bounds.is_empty();
+    ui.add(egui::Label::new(if nothing { "Nothing with a size is selected." } else { whose }).wrap());
+    if nothing {
+        return;
+    }
+    let (from, size) = (counts.bounds.min.to_array(), counts.bounds.size().to_array());
+    let rows = [0, 1, 2].map(|axis| {
+        let name = ["X", "Y", "Z"][axis];
+        [name.to_owned(), meters(size[axis]), meters(from[axis])]
+    });
+    table(ui, ["Size", "From"], &rows);
+}
+
+/// Short enough for three columns.
+fn meters(value: f64) -> String {
+    format!("{} m", written((value * 1e4).round() / 1e4))
+}
+
+fn show_measures(ui: &mut Ui, document: &Document, measures: &mut Option<(u64, Vec<Finding>)>) {
+    let hover = "Lengths, angles, areas and volumes of what is selected, and what may be wrong with it";
+    if ui.add(egui::Button::new("Measure selection").wrap()).on_hover_text(hover).clicked() {
+        *measures = Some((document.revision(), measured(document)));
+    }
+    let Some((_, findings)) = measures else { return };
+    for finding in findings {
+        let text = format!("{}: {}", finding.name, finding.value);
+        let text = egui::RichText::new(text);
+        let text = if finding.is_problem { text.color(ui.visuals().warn_fg_color) } else { text };
+        ui.add(egui::Label::new(text).wrap());
+    }
+}
+
+fn show_controls(ui: &mut Ui, controls: &[(String, String)]) {
+    for (keys, what) in controls {
+        ui.horizontal_wrapped(|ui| {
+            ui.strong(keys);
+            ui.label(what);
+        });
+    }
+}

@@ -1,0 +1,92 @@
+//! Counts and measures of known bodies.
+
+use egui_kittest::kittest::Queryable;
+use serde_json::json;
+use trigon_edit::mesh::primitives;
+use trigon_edit::scene::{Material, Scene};
+
+use super::super::testing::Case;
+use super::*;
+
+fn case(width: f32) -> Case<InformationState> {
+    let mut scene = Scene::new();
+    scene.add_object("Cube", primitives::cube(2.0), Material::default());
+    scene.add_object("Grid", primitives::grid(1.0, 1.0, 2, 2), Material::default());
+    let controls =
+        [("Middle mouse button".to_owned(), "orbit".to_owned()), ("A".to_owned(), "select all".to_owned())];
+    Case::new(
+        [width, 640.0],
+        Document::new(scene),
+        InformationState::default(),
+        move |ui, document, state, _| {
+            information(ui, document, state, &controls);
+        },
+    )
+}
+
+/// All text in view.
+fn text(case: &Case<InformationState>) -> String {
+    let texts = case.harness.output().shapes.iter().filter_map(|clipped| match &clipped.shape {
+        egui::Shape::Text(text) => Some(text.galley.text().to_owned()),
+        _ => None,
+    });
+    texts.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn a_cube_of_two_metres_is_measured() {
+    let mut case = case(260.0);
+    case.command(json!({ "op": "select", "objects": ["Cube"] }));
+    let shown = text(&case);
+    for expected in
+        ["Selected: Cube", "Vertices\n17\n8", "Edges\n24\n12", "Triangles\n20\n12", "X\n2 m\n-1 m"]
+    {
+        assert!(shown.contains(expected), "{expected:?} in\n{shown}");
+    }
+    case.click("Measure selection");
+    let shown = text(&case);
+    for expected in ["Surface: 24 m²", "Volume: 8 m³", "Watertight: yes"] {
+        assert!(shown.contains(expected), "{expected:?} in\n{shown}");
+    }
+    case.picture("information");
+    case.command(json!({ "op": "translate", "offset": [1, 0, 0] }));
+    assert!(!text(&case).contains("Volume"), "measured before it was changed");
+}
+
+#[test]
+fn elements_are_measured() {
+    let mut case = case(260.0);
+    case.command(json!({ "op": "edit_objects", "objects": ["Cube"] }));
+    case.command(json!({ "op": "set_element_kind", "kind": "edge" }));
+    case.command(json!({ "op": "select", "elements": [0] }));
+    case.click("Measure selection");
+    let shown = text(&case);
+    for expected in
+        ["Selected: 1 edge", "Length of edges: 2 m", "Angle between its faces: 90°", "Distance: 2 m"]
+    {
+        assert!(shown.contains(expected), "{expected:?} in\n{shown}");
+    }
+    case.command(json!({ "op": "set_element_kind", "kind": "face" }));
+    case.command(json!({ "op": "select", "elements": [0, 1] }));
+    case.click("Measure selection");
+    assert!(text(&case).contains("Area of faces: 8 m²"), "{}", text(&case));
+}
+
+#[test]
+fn an_open_grid_is_not_watertight() {
+    let mut case = case(260.0);
+    case.command(json!({ "op": "select", "objects": ["Grid"] }));
+    case.click("Measure selection");
+    let shown = text(&case);
+    assert!(shown.contains("Watertight: no") && shown.contains("Open borders: 1"), "{shown}");
+}
+
+#[test]
+fn a_narrow_panel_clips_no_label() {
+    let mut case = case(160.0);
+    case.command(json!({ "op": "select_all" }));
+    case.click("Measure selection");
+    case.assert_nothing_is_clipped();
+    assert!(case.harness.query_by_label("Middle mouse button").is_some(), "the keys are there");
+    case.picture("information_narrow");
+}

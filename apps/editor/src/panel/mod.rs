@@ -1,0 +1,29 @@
+//! The panels: functions of the document and of what each remembers, which change nothing
+//! and return requests.
+//!
+//! [`outliner`] lists the objects. [`properties`], [`information`], [`add`] and [`development`] are
+//! the tabs. [`adjust`] shows the parameters of the last command; its widgets are made from the
+//! schema of the commands ([`form`] says what there is, [`parameters`] shows it), so that a new command
+//! has its panel without a line of code here.
+
+mod add;
+mod adjust;
+mod development;
+mod form;
+mod information;
+mod key_order;
+mod outliner;
+mod parameters;
+mod properties;
+mod row;
+mod submit;
+#[cfg(test)]
+mod testing;
+mod unit;
+
+pub(crate) use add::{AddState, add};
+pub(crate) use adjust::adjust;
+pub(crate) use development::{DevelopmentState, DrawnView, development};
+pub(crate) use information::{InformationState, information};
+pub(crate) use outliner::{OutlinerState, outliner};
+pub(crate) use properties::{PropertiesState, properties};

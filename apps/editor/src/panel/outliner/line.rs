@@ -1,0 +1,145 @@
+//! One row of the outliner: fold, kind, name, eye.
+
+use trigon_edit::scene::{Node, NodeId};
+use trigon_edit::{Document, ObjectName, RenameObject, SelectAction, ShowObjects};
+use trigon_window::egui::{
+    self, Key, Rect, Response, RichText, Role, Sense, Ui, Vec2, WidgetInfo, collapsing_header,
+};
+
+use super::icon::{self, Kind};
+use super::rows::{Row, Rows};
+use super::{OutlinerState, drop, menu, select};
+use crate::request::Request;
+
+/// How far children are moved to the right, in points.
+const INDENT: f32 = 12.0;
+
+/// The room of an icon, in points.
+const ROOM: Vec2 = Vec2::new(14.0, 18.0);
+
+/// Deeper than that, rows are not moved farther, so that names stay in view.
+const DEEPEST: usize = 8;
+
+/// A row with what it shows.
+pub(super) struct Line<'l> {
+    pub(super) document: &'l Document,
+    pub(super) rows: &'l Rows,
+    pub(super) row: Row,
+    pub(super) node: &'l Node,
+}
+
+impl Line<'_> {
+    /// Shows the row and asks for what is done there.
+    pub(super) fn show(&self, ui: &mut Ui, state: &mut OutlinerState, requests: &mut Vec<Request>) {
+        let Self { document, row, node, .. } = *self;
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 2.0;
+            ui.add_space(INDENT * row.depth.min(DEEPEST) as f32);
+            self.fold(ui, state);
+            let kind = Kind::of(node);
+            let (icon, response) = ui.allocate_exact_size(ROOM, Sense::hover());
+            kind.paint(ui.painter(), icon, ui.visuals().text_color());
+            response.on_hover_text(kind.name());
+            let eye = ui.spacing().interact_size.y;
+            let width = (ui.available_width() - eye - 4.0).max(eye);
+            if state.renaming.as_ref().is_some_and(|renaming| renaming.object == row.id) {
+                rename(ui, width, state, requests);
+            } else {
+                let response = name(ui, width, document, row.id, node);
+                self.clicked(ui, &response, state, requests);
+                drop::on_row(ui, &response, document, row.id, requests);
+                menu::menu(&response, document, state, row.id, requests);
+            }
+            visibility(ui, eye, node, row.id, requests);
+        });
+    }
+
+    /// The triangle of a row that others hang on.
+    fn fold(&self, ui: &mut Ui, state: &mut OutlinerState) {
+        let sense = if self.row.has_children { Sense::click() } else { Sense::empty() };
+        let (_, response) = ui.allocate_exact_size(ROOM, sense);
+        if !self.row.has_children {
+            return;
+        }
+        let what = if self.row.is_folded { "Unfold" } else { "Fold" };
+        let openness = if self.row.is_folded { 0.0 } else { 1.0 };
+        let rect = Rect::from_center_size(response.rect.center(), Vec2::splat(9.0));
+        collapsing_header::paint_default_icon(ui, openness, &response.clone().with_new_rect(rect));
+        let name = format!("{what} {}", self.node.name);
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+        if response.clicked() {
+            state.toggled = Some(self.row.id);
+        }
+    }
+
+    fn clicked(&self, ui: &Ui, response: &Response, state: &mut OutlinerState, requests: &mut Vec<Request>) {
+        let (id, document) = (self.row.id, self.document);
+        if response.double_clicked() {
+            state.rename(document, id);
+        } else if response.clicked() {
+            let modifiers = ui.input(|input| input.modifiers);
+            match state.anchor.filter(|_| modifiers.shift) {
+                Some(anchor) => {
+                    select(document, self.rows.range(anchor, id), SelectAction::Replace, requests);
+                }
+                None => {
+                    state.anchor = Some(id);
+                    let action = if modifiers.command { SelectAction::Toggle } else { SelectAction::Replace };
+                    select(document, vec![id], action, requests);
+                }
+            }
+        }
+    }
+}
+
+/// The name, which can be clicked and dragged.
+fn name(ui: &mut Ui, width: f32, document: &Document, id: NodeId, node: &Node) -> Response {
+    let selection = document.selection();
+    let is_selected = selection.objects.contains(&id);
+    let shown = if node.name.is_empty() { "(no name)" } else { node.name.as_str() };
+    let mut text = RichText::new(shown);
+    if selection.active == Some(id) && is_selected {
+        text = text.strong();
+    }
+    if !node.visible {
+        text = text.weak();
+    }
+    let button = egui::Button::selectable(is_selected, text).truncate().sense(Sense::click_and_drag());
+    let layout = egui::Layout::left_to_right(egui::Align::Center).with_main_justify(true);
+    let size = egui::vec2(width, ui.spacing().interact_size.y);
+    let response =
+        ui.allocate_ui_with_layout(size, layout.with_main_align(egui::Align::Min), |ui| ui.add(button));
+    response.inner.accessible_name(shown)
+}
+
+/// The field in place of a name: Enter or a click elsewhere takes it, Escape does not.
+fn rename(ui: &mut Ui, width: f32, state: &mut OutlinerState, requests: &mut Vec<Request>) {
+    let Some(renaming) = &mut state.renaming else { return };
+    let field = egui::TextEdit::singleline(&mut renaming.text).desired_width(width);
+    let response = ui.add(field).accessible_name("New name");
+    if !renaming.is_open {
+        response.request_focus();
+        renaming.is_open = true;
+    } else if response.lost_focus() {
+        if !ui.input(|input| input.key_pressed(Key::Escape)) {
+            let (object, name) = (ObjectName::of(renaming.object), renaming.text.clone());
+            requests.push(Request::Run(RenameObject { object, name }.into()));
+        }
+        state.renaming = None;
+    }
+}
+
+/// The eye: open while the object is shown.
+fn visibility(ui: &mut Ui, size: f32, node: &Node, id: NodeId, requests: &mut Vec<Request>) {
+    let (rect, response) = ui.allocate_exact_size(egui::vec2(size, size), Sense::click());
+    let visuals = ui.style().interact(&response);
+    let color = if node.visible { visuals.text_color() } else { ui.visuals().weak_text_color() };
+    icon::paint_eye(ui.painter(), rect, node.visible, color);
+    let what = if node.visible { "Hide" } else { "Show" };
+    let name = format!("{what} {}", node.name);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+    if response.on_hover_text(what).clicked() {
+        let show = ShowObjects { objects: vec![ObjectName::of(id)], visible: !node.visible };
+        requests.push(Request::Run(show.into()));
+    }
+}

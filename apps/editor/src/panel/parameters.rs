@@ -1,0 +1,230 @@
+//! Widgets for the parameters of any command, by their forms.
+
+use serde_json::Value;
+use trigon_edit::{Document, ElementKind};
+use trigon_window::egui::{self, Response, Ui};
+
+use super::form::{self, Form, NumberForm, Variant};
+use super::key_order::KeyOrder;
+use super::row::{hovered, number, row, text, vector};
+use super::unit::Unit;
+
+/// Shows the parameters of a group in their order. Tells whether one was changed.
+pub(super) fn group(
+    ui: &mut Ui,
+    document: &Document,
+    schema: &'static Value,
+    value: &mut Value,
+    order: &KeyOrder,
+) -> bool {
+    group_in(ui, document, schema, value, order, Unit::None)
+}
+
+fn group_in(
+    ui: &mut Ui,
+    document: &Document,
+    schema: &'static Value,
+    value: &mut Value,
+    order: &KeyOrder,
+    unit: Unit,
+) -> bool {
+    let properties = schema["properties"].as_object().into_iter().flatten();
+    let mut properties: Vec<_> = properties.filter(|(_, property)| property["const"].is_null()).collect();
+    properties.sort_by_key(|(name, _)| order.place(name));
+    let mut is_changed = false;
+    for (name, property) in properties {
+        let parameter = Parameter { name, property, document, order: order.within(name) };
+        ui.push_id(name, |ui| {
+            is_changed |= parameter.show(ui, &form::form(property, unit), &mut value[name]);
+        });
+    }
+    is_changed
+}
+
+/// One of them.
+struct Parameter<'p> {
+    name: &'p str,
+    property: &'static Value,
+    document: &'p Document,
+    order: &'p KeyOrder,
+}
+
+impl Parameter<'_> {
+    fn show(&self, ui: &mut Ui, form: &Form<'static>, value: &mut Value) -> bool {
+        let (label, hover) = (form::label(self.name), form::description(self.property));
+        match form {
+            Form::Number(number) => show_number(ui, &label, hover, value, number),
+            Form::Switch => show_switch(ui, &label, hover, value),
+            Form::Text => show_text(ui, &label, hover, value),
+            Form::Choice(names) => show_choice(ui, &label, hover, value, names),
+            Form::Vector(count, number) => show_vector(ui, &label, hover, value, (*count, number)),
+            Form::Variants(tag, variants) => self.show_variants(ui, &label, value, tag, variants),
+            Form::Group(schema) => {
+                hovered(ui.strong(&label), hover);
+                ui.indent(self.name, |ui| group(ui, self.document, schema, value, self.order)).inner
+            }
+            Form::Optional(inner) => self.show_optional(ui, &label, inner, value),
+            Form::ReadOnly => {
+                let text = self.read_only(value);
+                row(ui, &label, hover, |ui, _| ui.add(egui::Label::new(text).wrap()));
+                false
+            }
+        }
+    }
+
+    /// A check box that tells whether there is a value, and the value.
+    fn show_optional(&self, ui: &mut Ui, label: &str, inner: &Form<'static>, value: &mut Value) -> bool {
+        // A name or a list that nobody gave cannot be given here.
+        if *inner == Form::ReadOnly {
+            return self.show(ui, inner, value);
+        }
+        let mut is_given = !value.is_null();
+        let hover = form::description(self.property);
+        let mut is_changed = false;
+        if hovered(check_box(ui, &mut is_given, label), hover).changed() {
+            *value = if is_given { form::initial(inner) } else { Value::Null };
+            is_changed = true;
+        }
+        if is_given {
+            let inner = |ui: &mut Ui| match inner {
+                // The check box is its title.
+                Form::Group(schema) => group(ui, self.document, schema, value, self.order),
+                inner => self.show(ui, inner, value),
+            };
+            is_changed |= ui.indent(self.name, inner).inner;
+        }
+        is_changed
+    }
+
+    /// A list of groups, and the parameters of the chosen one.
+    fn show_variants(
+        &self,
+        ui: &mut Ui,
+        label: &str,
+        value: &mut Value,
+        tag: &'static str,
+        variants: &[Variant<'static>],
+    ) -> bool {
+        let names: Vec<_> = variants.iter().map(|variant| (variant.name, variant.description)).collect();
+        let mut chosen = value[tag].clone();
+        let hover = form::description(self.property);
+        let mut is_changed = false;
+        if show_choice(ui, label, hover, &mut chosen, &names)
+            && let Some(variant) = variants.iter().find(|variant| chosen == variant.name)
+        {
+            *value = form::initial_variant(tag, variant);
+            is_changed = true;
+        }
+        if let Some(variant) = variants.iter().find(|variant| value[tag] == variant.name) {
+            let unit = form::unit(self.property);
+            let unit = if unit == Unit::None { Unit::of_comment(variant.description) } else { unit };
+            let inner = |ui: &mut Ui| group_in(ui, self.document, variant.schema, value, self.order, unit);
+            is_changed |= ui.indent(self.name, inner).inner;
+        }
+        is_changed
+    }
+
+    /// "12 faces", "Cube", "the selected".
+    fn read_only(&self, value: &Value) -> String {
+        match value {
+            Value::Array(list) if list.is_empty() => "none named".to_owned(),
+            Value::Array(list) => {
+                let noun = match (self.name, self.document.selection().kind()) {
+                    ("elements", ElementKind::Vertex) => "vertices",
+                    ("elements", ElementKind::Edge) => "edges",
+                    ("elements", ElementKind::Face) => "faces",
+                    (name, _) => name,
+                };
+                match &list[..] {
+                    [one] if noun == "objects" => self.named(one),
+                    list => format!("{} {noun}", list.len()),
+                }
+            }
+            Value::Null => "not given".to_owned(),
+            value => self.named(value),
+        }
+    }
+
+    /// The name of an object that is given by its number.
+    fn named(&self, value: &Value) -> String {
+        let nodes = self.document.nodes().nodes();
+        let id = value.as_u64().filter(|_| self.name.starts_with("object") || self.name == "parent");
+        let node = id.and_then(|index| nodes.get(nodes.id_at(index as usize)?));
+        match (node, value.as_str()) {
+            (Some(node), _) if !node.name.is_empty() => node.name.clone(),
+            (_, Some(name)) => name.to_owned(),
+            _ => value.to_string(),
+        }
+    }
+}
+
+/// A check box whose label is wrapped in a narrow panel.
+pub(super) fn check_box(ui: &mut Ui, value: &mut bool, label: &str) -> Response {
+    ui.scope(|ui| {
+        ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Wrap);
+        ui.checkbox(value, label)
+    })
+    .inner
+}
+
+fn show_number(ui: &mut Ui, label: &str, hover: &str, value: &mut Value, form: &NumberForm) -> bool {
+    let mut shown = value.as_f64().unwrap_or(0.0);
+    let response = row(ui, label, hover, |ui, width| number(ui, width, &mut shown, form, ""));
+    if response.changed() {
+        *value = form::number_value(shown, form);
+    }
+    response.changed()
+}
+
+fn show_switch(ui: &mut Ui, label: &str, hover: &str, value: &mut Value) -> bool {
+    let mut is_on = value.as_bool().unwrap_or_default();
+    let is_changed = hovered(check_box(ui, &mut is_on, label), hover).changed();
+    if is_changed {
+        *value = is_on.into();
+    }
+    is_changed
+}
+
+fn show_text(ui: &mut Ui, label: &str, hover: &str, value: &mut Value) -> bool {
+    let mut shown = value.as_str().unwrap_or_default().to_owned();
+    let response = row(ui, label, hover, |ui, width| text(ui, width, &mut shown));
+    if response.changed() {
+        *value = shown.into();
+    }
+    response.changed()
+}
+
+fn show_choice(ui: &mut Ui, label: &str, hover: &str, value: &mut Value, names: &[(&str, &str)]) -> bool {
+    let current = value.as_str().map(form::label).unwrap_or_default();
+    let mut chosen = None;
+    row(ui, label, hover, |ui, width| {
+        let list = egui::ComboBox::from_id_salt("choice").width(width).truncate().selected_text(current);
+        let shown = list.show_ui(ui, |ui| {
+            for (name, hover) in names {
+                let is_chosen = *value == *name;
+                if hovered(ui.selectable_label(is_chosen, form::label(name)), hover).clicked() && !is_chosen {
+                    chosen = Some(*name);
+                }
+            }
+        });
+        shown.response
+    });
+    if let Some(name) = chosen {
+        *value = name.into();
+    }
+    chosen.is_some()
+}
+
+fn show_vector(
+    ui: &mut Ui,
+    label: &str,
+    hover: &str,
+    value: &mut Value,
+    (count, form): (usize, &NumberForm),
+) -> bool {
+    let mut numbers: Vec<f64> = (0..count).map(|index| value[index].as_f64().unwrap_or(0.0)).collect();
+    let Some((index, _)) = vector(ui, label, hover, &mut numbers, form) else { return false };
+    // The others keep their digits.
+    value[index] = form::number_value(numbers[index], form);
+    true
+}

@@ -1,0 +1,228 @@
+//! The materials of an object: its slots, their values, their pictures.
+
+use trigon_edit::scene::{AlphaMode, Arena, Material, MaterialId, Node, NodeId, Shading};
+use trigon_edit::{
+    AddMaterial, AssignTexture, Document, MaterialName, ObjectName, SetMaterial, SetMaterialSlot,
+    SurfaceAlpha, SurfaceShading, TextureSlot,
+};
+use trigon_window::egui::{self, Ui};
+
+use super::super::parameters::check_box;
+use super::super::row::{choice, color, number, positive, row, text};
+use super::super::submit::submit;
+use super::super::unit::Unit;
+use crate::request::Request;
+
+/// Shows the slots and the material of the chosen one.
+pub(super) fn material(
+    ui: &mut Ui,
+    document: &Document,
+    (id, node): (NodeId, &Node),
+    slot: &mut usize,
+    requests: &mut Vec<Request>,
+) {
+    let object = Some(ObjectName::of(id));
+    *slot = (*slot).min(node.materials.len().saturating_sub(1));
+    slots(ui, document, (id, node), slot, requests);
+    if ui.button("Add material").on_hover_text("A new material in a slot of its own").clicked() {
+        requests.push(Request::Run(AddMaterial { object, ..AddMaterial::default() }.into()));
+    }
+    let materials = &document.nodes().materials;
+    if let Some((id, material)) = node.materials.get(*slot).and_then(|&id| Some((id, materials.get(id)?))) {
+        let fields = Fields { document, id, material };
+        fields.show(ui, requests);
+    }
+}
+
+/// Which slot is shown, and which material is in it.
+fn slots(
+    ui: &mut Ui,
+    document: &Document,
+    (id, node): (NodeId, &Node),
+    slot: &mut usize,
+    requests: &mut Vec<Request>,
+) {
+    let materials = &document.nodes().materials;
+    if node.materials.len() > 1 {
+        let names: Vec<String> = node
+            .materials
+            .iter()
+            .enumerate()
+            .map(|(at, &id)| format!("{at}: {}", name(materials, id)))
+            .collect();
+        let choices: Vec<_> = names.iter().enumerate().map(|(at, name)| (at, name.as_str(), "")).collect();
+        choice(ui, "Slot", "Faces name their slot.", slot, &choices);
+    }
+    let Some(&current) = node.materials.get(*slot) else { return };
+    if let Some(chosen) = choose_material(ui, materials, current) {
+        let (object, material) = (Some(ObjectName::of(id)), MaterialName::of(chosen));
+        requests.push(Request::Run(SetMaterialSlot { object, slot: *slot as u32, material }.into()));
+    }
+}
+
+fn name(materials: &Arena<Material>, id: MaterialId) -> String {
+    match materials.get(id) {
+        Some(material) if !material.name.is_empty() => material.name.clone(),
+        Some(_) => format!("Material {}", id.index()),
+        None => "Default".to_owned(),
+    }
+}
+
+/// All materials of the scene. Their names are made only while the list is open: there may be
+/// thousands.
+fn choose_material(ui: &mut Ui, materials: &Arena<Material>, current: MaterialId) -> Option<MaterialId> {
+    let mut chosen = None;
+    row(ui, "Material", "Which material the slot shows.", |ui, width| {
+        let list = egui::ComboBox::from_id_salt("material").width(width).truncate();
+        let shown = list.selected_text(name(materials, current)).show_ui(ui, |ui| {
+            for (id, _) in materials.iter() {
+                if ui.selectable_label(id == current, name(materials, id)).clicked() && id != current {
+                    chosen = Some(id);
+                }
+            }
+        });
+        shown.response
+    });
+    chosen
+}
+
+/// The values of a material.
+struct Fields<'f> {
+    document: &'f Document,
+    id: MaterialId,
+    material: &'f Material,
+}
+
+impl Fields<'_> {
+    fn show(&self, ui: &mut Ui, requests: &mut Vec<Request>) {
+        let mut name = self.material.name.clone();
+        if row(ui, "Material name", "", |ui, width| text(ui, width, &mut name)).changed() {
+            requests.push(Request::Run(SetMaterial { name: Some(name), ..self.unchanged() }.into()));
+        }
+        self.shading(ui, requests);
+        self.base_color(ui, requests);
+        if let Shading::MetallicRoughness(model) = self.material.shading {
+            let given = |metallic| SetMaterial { metallic: Some(metallic), ..self.unchanged() };
+            self.share(ui, "Metallic", "0 is a dielectric, 1 a metal.", (model.metallic, &given), requests);
+            let given = |roughness| SetMaterial { roughness: Some(roughness), ..self.unchanged() };
+            self.share(ui, "Roughness", "0 is a mirror, 1 is matt.", (model.roughness, &given), requests);
+        }
+        let mut emissive = self.material.emissive.to_array();
+        if let Some(response) = color(ui, "Emission", "Light that it sends out.", &mut emissive) {
+            let command = SetMaterial { emissive: Some(emissive), ..self.unchanged() };
+            submit(ui, self.document, &response, command.into(), requests);
+        }
+        self.alpha(ui, requests);
+        let mut double_sided = self.material.double_sided;
+        if check_box(ui, &mut double_sided, "Show back faces").changed() {
+            let command = SetMaterial { double_sided: Some(double_sided), ..self.unchanged() };
+            requests.push(Request::Run(command.into()));
+        }
+        self.textures(ui, requests);
+    }
+
+    fn unchanged(&self) -> SetMaterial {
+        SetMaterial { material: Some(MaterialName::of(self.id)), ..SetMaterial::default() }
+    }
+
+    fn shading(&self, ui: &mut Ui, requests: &mut Vec<Request>) {
+        let mut chosen = match self.material.shading {
+            Shading::Unlit => SurfaceShading::Unlit,
+            Shading::Lambert => SurfaceShading::Lambert,
+            Shading::BlinnPhong { .. } => SurfaceShading::BlinnPhong,
+            Shading::MetallicRoughness(_) => SurfaceShading::MetallicRoughness,
+        };
+        let choices = [
+            (SurfaceShading::MetallicRoughness, "Physical", "Metallic-roughness, as in glTF."),
+            (SurfaceShading::BlinnPhong, "Blinn-Phong", "Diffuse with a highlight."),
+            (SurfaceShading::Lambert, "Lambert", "Diffuse."),
+            (SurfaceShading::Unlit, "Unlit", "Its base colour, whatever the light."),
+        ];
+        if choice(ui, "Surface", "How it answers to light.", &mut chosen, &choices).changed() {
+            let command = SetMaterial { shading: Some(chosen), ..self.unchanged() };
+            requests.push(Request::Run(command.into()));
+        }
+    }
+
+    fn base_color(&self, ui: &mut Ui, requests: &mut Vec<Request>) {
+        let [red, green, blue, alpha] = self.material.base_color.to_array();
+        let mut chosen = [red, green, blue];
+        if let Some(response) = color(ui, "Base colour", "Multiplies its picture.", &mut chosen) {
+            let [red, green, blue] = chosen;
+            let command = SetMaterial { base_color: Some([red, green, blue, alpha]), ..self.unchanged() };
+            submit(ui, self.document, &response, command.into(), requests);
+        }
+        let given = |alpha| SetMaterial { base_color: Some([red, green, blue, alpha]), ..self.unchanged() };
+        self.share(ui, "Alpha", "How opaque it is, where alpha counts.", (alpha, &given), requests);
+    }
+
+    /// A number from 0 to 1.
+    fn share(
+        &self,
+        ui: &mut Ui,
+        label: &str,
+        hover: &str,
+        (value, given): (f32, &dyn Fn(f32) -> SetMaterial),
+        requests: &mut Vec<Request>,
+    ) {
+        let mut shown = f64::from(value);
+        let form = positive(1.0, Unit::None);
+        let response = row(ui, label, hover, |ui, width| number(ui, width, &mut shown, &form, ""));
+        if response.changed() {
+            submit(ui, self.document, &response, given(shown as f32).into(), requests);
+        }
+    }
+
+    fn alpha(&self, ui: &mut Ui, requests: &mut Vec<Request>) {
+        let mut chosen = match self.material.alpha_mode {
+            AlphaMode::Opaque => SurfaceAlpha::Opaque,
+            AlphaMode::Mask { .. } => SurfaceAlpha::Mask,
+            AlphaMode::Blend => SurfaceAlpha::Blend,
+        };
+        let choices = [
+            (SurfaceAlpha::Opaque, "Opaque", "Alpha does not count."),
+            (SurfaceAlpha::Mask, "Mask", "Holes where alpha is below the cutoff."),
+            (SurfaceAlpha::Blend, "Blend", "What lies behind shows through."),
+        ];
+        if choice(ui, "Alpha mode", "What alpha means.", &mut chosen, &choices).changed() {
+            requests.push(Request::Run(SetMaterial { alpha: Some(chosen), ..self.unchanged() }.into()));
+        }
+        if let AlphaMode::Mask { cutoff } = self.material.alpha_mode {
+            let given = |cutoff| SetMaterial { alpha_cutoff: Some(cutoff), ..self.unchanged() };
+            self.share(ui, "Alpha cutoff", "The smallest alpha that is surface.", (cutoff, &given), requests);
+        }
+    }
+
+    fn textures(&self, ui: &mut Ui, requests: &mut Vec<Request>) {
+        let slots = [
+            (TextureSlot::BaseColor, "Base colour picture"),
+            (TextureSlot::MetallicRoughness, "Metallic-roughness picture"),
+            (TextureSlot::Normal, "Normal map"),
+            (TextureSlot::Occlusion, "Occlusion map"),
+            (TextureSlot::Emissive, "Emission picture"),
+        ];
+        for (slot, label) in slots {
+            ui.push_id(label, |ui| self.texture(ui, slot, label, requests));
+        }
+    }
+
+    /// The picture of a slot: which, another one, none.
+    fn texture(&self, ui: &mut Ui, slot: TextureSlot, label: &str, requests: &mut Vec<Request>) {
+        let material = MaterialName::of(self.id);
+        let textures = &self.document.nodes().textures;
+        let asset = slot.of(self.material).and_then(|binding| textures.get(binding.texture));
+        let name = asset.map_or("none", |asset| if asset.name.is_empty() { "no name" } else { &asset.name });
+        ui.add(egui::Label::new(format!("{label}: {name}")).wrap());
+        ui.horizontal_wrapped(|ui| {
+            let open = ui.button("Open…").accessible_name(format!("Open {label}"));
+            if open.on_hover_text("Choose a PNG, JPEG or WebP file").clicked() {
+                requests.push(Request::ChooseTexture { material: material.clone(), slot });
+            }
+            let remove = ui.add_enabled(asset.is_some(), egui::Button::new("Remove"));
+            if remove.accessible_name(format!("Remove {label}")).clicked() {
+                let material = Some(material);
+                requests.push(Request::Run(AssignTexture { material, slot, ..Default::default() }.into()));
+            }
+        });
+    }
+}

@@ -1,0 +1,64 @@
+//! The tab *Properties*: exact values of the active object, or of what is selected of meshes.
+
+mod elements;
+mod light;
+mod material;
+#[cfg(test)]
+mod tests;
+mod transform;
+
+use trigon_edit::{Document, ObjectName, RenameObject};
+use trigon_window::egui::{self, CollapsingHeader, Ui};
+
+use super::row::{row, text};
+use crate::request::Request;
+
+/// What the tab remembers.
+#[derive(Debug, Default)]
+pub(crate) struct PropertiesState {
+    transform: transform::TransformState,
+    /// Of the selected elements, and of which revision of the document.
+    elements: Option<(u64, elements::Values)>,
+    /// Which material slot is shown.
+    slot: usize,
+}
+
+/// Shows it.
+pub(crate) fn properties(
+    ui: &mut Ui,
+    document: &Document,
+    state: &mut PropertiesState,
+    requests: &mut Vec<Request>,
+) {
+    if document.selection().is_editing() {
+        section(ui, "Selected elements", |ui| {
+            elements::elements(ui, document, &mut state.elements, requests);
+        });
+    }
+    let active = document.selection().active;
+    let Some((id, node)) = active.and_then(|id| Some((id, document.nodes().node(id)?))) else {
+        ui.add(egui::Label::new("Select an object to see its properties.").wrap());
+        return;
+    };
+    ui.push_id(id, |ui| {
+        let mut name = node.name.clone();
+        if row(ui, "Name", "", |ui, width| text(ui, width, &mut name)).changed() {
+            requests.push(Request::Run(RenameObject { object: ObjectName::of(id), name }.into()));
+        }
+        section(ui, "Transform", |ui| {
+            transform::transform(ui, document, (id, node), &mut state.transform, requests);
+        });
+        if let Some(light) = node.light {
+            section(ui, "Light", |ui| light::light(ui, document, (id, light), requests));
+        }
+        if node.mesh.is_some() {
+            section(ui, "Material", |ui| {
+                material::material(ui, document, (id, node), &mut state.slot, requests);
+            });
+        }
+    });
+}
+
+fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
+    CollapsingHeader::new(title).default_open(true).show_unindented(ui, contents);
+}

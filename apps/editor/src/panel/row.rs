@@ -1,0 +1,210 @@
+//! Rows of a panel: a label and a widget, side by side or, where the panel is narrow, one above the other.
+
+use trigon_window::egui::{self, DragValue, Response, Ui};
+
+use super::form::NumberForm;
+use super::unit::Unit;
+
+/// Below this width, in points, labels stand above their widgets.
+const NARROW: f32 = 230.0;
+
+/// The share of a wide panel that labels take.
+const LABEL_SHARE: f32 = 0.42;
+
+/// Whether labels stand above their widgets.
+pub(super) fn is_narrow(ui: &Ui) -> bool {
+    ui.available_width() < NARROW
+}
+
+/// A label with a widget, which is given its width. The widget gets the label as its name.
+pub(super) fn row(
+    ui: &mut Ui,
+    label: &str,
+    hover: &str,
+    widget: impl FnOnce(&mut Ui, f32) -> Response,
+) -> Response {
+    let width = ui.available_width();
+    let caption = |ui: &mut Ui| drop(hovered(ui.add(egui::Label::new(label).wrap()), hover));
+    let response = if is_narrow(ui) {
+        caption(ui);
+        widget(ui, width)
+    } else {
+        let labels = egui::vec2((width * LABEL_SHARE).floor(), ui.spacing().interact_size.y);
+        let row = ui.horizontal(|ui| {
+            let layout = egui::Layout::left_to_right(egui::Align::Center).with_main_wrap(true);
+            ui.allocate_ui_with_layout(labels, layout, |ui| {
+                ui.set_min_width(labels.x);
+                caption(ui);
+            });
+            let rest = ui.available_width();
+            widget(ui, rest)
+        });
+        row.inner
+    };
+    hovered(response.accessible_name(label), hover)
+}
+
+/// With a text that explains it, if there is one.
+pub(super) fn hovered(response: Response, text: &str) -> Response {
+    if text.is_empty() { response } else { response.on_hover_text(text) }
+}
+
+/// A number that is typed or dragged. Only what a user does changes it: leaving the field
+/// does not round it to what is shown.
+pub(super) fn number(ui: &mut Ui, width: f32, value: &mut f64, form: &NumberForm, prefix: &str) -> Response {
+    let before = *value;
+    let mut shown = form.unit.shown(before);
+    let text_of = |number| rounded(number, form.unit.digits());
+    let bounds = form.unit.shown(form.least)..=form.unit.shown(form.most);
+    let drag = DragValue::new(&mut shown)
+        .range(bounds)
+        .clamp_existing_to_range(false)
+        .speed(speed(before, form))
+        .update_while_editing(false)
+        .custom_formatter(|number, _| text_of(number))
+        .suffix(form.unit.suffix())
+        .prefix(prefix);
+    let mut response = ui.add_sized([width, ui.spacing().interact_size.y], drag);
+    if response.changed() && text_of(shown) == text_of(form.unit.shown(before)) {
+        response.flags.remove(egui::response::Flags::CHANGED);
+    } else if response.changed() {
+        *value = form.unit.value(shown);
+    }
+    response
+}
+
+/// Values that span a bounded range move through it in some hundred points.
+fn speed(value: f64, form: &NumberForm) -> f64 {
+    let span = form.most - form.least;
+    match form.unit {
+        _ if form.is_integer => 0.1,
+        Unit::None if span <= 10.0 => span / 200.0,
+        unit => unit.speed() * value.abs().max(1.0),
+    }
+}
+
+/// A number for people: no more than six digits after the point, and no zeros at the end.
+pub(super) fn written(number: f64) -> String {
+    rounded(number, Unit::None.digits())
+}
+
+fn rounded(number: f64, digits: usize) -> String {
+    // Beyond these, digits would fill the panel.
+    if number != 0.0 && !(1e-5..1e9).contains(&number.abs()) {
+        return format!("{number:e}");
+    }
+    let text = format!("{number:.digits$}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// Plain numbers without bounds.
+pub(super) fn plain(unit: Unit) -> NumberForm {
+    NumberForm { least: f64::NEG_INFINITY, most: f64::INFINITY, is_integer: false, unit }
+}
+
+/// A number from 0 to a bound.
+pub(super) fn positive(most: f64, unit: Unit) -> NumberForm {
+    NumberForm { least: 0.0, most, is_integer: false, unit }
+}
+
+/// Three or more numbers under one label, each on a line of its own. Returns which one was changed, and
+/// its response.
+pub(super) fn vector(
+    ui: &mut Ui,
+    label: &str,
+    hover: &str,
+    values: &mut [f64],
+    form: &NumberForm,
+) -> Option<(usize, Response)> {
+    const AXES: [&str; 4] = ["X", "Y", "Z", "W"];
+    let mut changed = None;
+    row(ui, label, hover, |ui, width| {
+        let fields = ui.vertical(|ui| {
+            for (index, value) in values.iter_mut().enumerate() {
+                let axis = AXES.get(index).copied().unwrap_or_default();
+                let response = number(ui, width, value, form, &format!("{axis} "));
+                let response = response.accessible_name(format!("{label} {axis}"));
+                if response.changed() {
+                    changed = Some((index, response));
+                }
+            }
+        });
+        fields.response
+    });
+    changed
+}
+
+/// A text in one line, which counts when its field is left, and not after Escape.
+pub(super) fn text(ui: &mut Ui, width: f32, text: &mut String) -> Response {
+    let id = ui.next_auto_id();
+    let before = text.clone();
+    let mut shown: String = ui.data(|data| data.get_temp(id)).unwrap_or_else(|| before.clone());
+    let field = egui::TextEdit::singleline(&mut shown).id(id).desired_width(width);
+    let mut response = ui.add(field);
+    response.flags.remove(egui::response::Flags::CHANGED);
+    if response.lost_focus() {
+        ui.data_mut(|data| data.remove_temp::<String>(id));
+        if shown != before && !ui.input(|input| input.key_pressed(egui::Key::Escape)) {
+            *text = shown;
+            response.mark_changed();
+        }
+    } else if response.has_focus() {
+        ui.data_mut(|data| data.insert_temp(id, shown));
+    }
+    response
+}
+
+/// A list of names to choose from.
+pub(super) fn choice<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    label: &str,
+    hover: &str,
+    chosen: &mut T,
+    names: &[(T, &str, &str)],
+) -> Response {
+    let text = names.iter().find(|(value, ..)| value == chosen).map_or("", |(_, name, _)| name);
+    row(ui, label, hover, |ui, width| {
+        let mut is_changed = false;
+        let list = egui::ComboBox::from_id_salt(label).width(width).truncate().selected_text(text);
+        let mut response = list
+            .show_ui(ui, |ui| {
+                for (value, name, hover) in names {
+                    is_changed |= hovered(ui.selectable_value(chosen, *value, *name), hover).changed();
+                }
+            })
+            .response;
+        if is_changed {
+            response.mark_changed();
+        }
+        response
+    })
+}
+
+/// Linear red, green and blue as a colour that can be chosen, and as numbers.
+pub(super) fn color(ui: &mut Ui, label: &str, hover: &str, value: &mut [f32; 3]) -> Option<Response> {
+    let response = row(ui, label, hover, |ui, width| {
+        ui.spacing_mut().interact_size.x = width;
+        egui::color_picker::color_edit_button_rgb(ui, value)
+    });
+    response.changed().then_some(response)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_short() {
+        for (number, text) in [
+            (1.0, "1"),
+            (0.1, "0.1"),
+            (f64::from(0.1f32), "0.1"),
+            (-0.0, "0"),
+            (1e30, "1e30"),
+            (1e-7, "1e-7"),
+        ] {
+            assert_eq!(written(number), text, "{number}");
+        }
+    }
+}

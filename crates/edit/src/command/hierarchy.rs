@@ -1,0 +1,143 @@
+//! Which object hangs on which, and in which order they are listed.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::scene::named_or_selected;
+use super::set_transform::transform_of;
+use super::{Action, ObjectName, Outcome};
+use crate::document::Change;
+use crate::error::EditError;
+
+/// Hangs objects on another one, or on none.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SetParent {
+    /// Which; those that are selected if none are named.
+    pub objects: Vec<ObjectName>,
+    /// What they hang on; nothing if it is not given.
+    pub parent: Option<ObjectName>,
+    /// Whether they stay where they are in the world. Otherwise they keep their place relative to what
+    /// they hang on, and move.
+    pub keep_transform: bool,
+    /// The place of the first among those that hang there, from 0; the last places if it is not given.
+    pub place: Option<u32>,
+}
+
+impl Action for SetParent {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let objects = named_or_selected(change, &self.objects, "setting a parent")?;
+        let parent = self.parent.as_ref().map(|name| name.find(change.scene())).transpose()?;
+        let scene = change.scene_mut();
+        for (count, id) in objects.into_iter().filter(|&id| Some(id) != parent).enumerate() {
+            let world = scene.world_transform(id);
+            scene.set_parent(id, parent)?;
+            if self.keep_transform {
+                let outer = parent.map_or(Default::default(), |parent| scene.world_transform(parent));
+                let local = transform_of(outer.inverse() * world);
+                scene.node_mut(id).expect("it was just hung").transform = local;
+            }
+            if let Some(place) = self.place {
+                scene.reorder(id, place as usize + count)?;
+            }
+        }
+        Ok(Outcome::silent())
+    }
+}
+
+/// Lists an object at another place among those that hang on the same object, or on none.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ReorderObject {
+    /// Which; the active one if none is named.
+    #[serde(default)]
+    pub object: Option<ObjectName>,
+    /// Its new place, from 0; beyond the last counts as the last.
+    pub to: u32,
+}
+
+impl Action for ReorderObject {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let id = super::set_transform::named_or_active(change, self.object.as_ref(), "reordering")?;
+        change.scene_mut().reorder(id, self.to as usize)?;
+        Ok(Outcome::silent())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+    use trigon_mesh::math::{DQuat, DVec3};
+    use trigon_scene::{Node, NodeId, Scene, Transform};
+
+    use crate::document::Document;
+
+    fn run(document: &mut Document, json: serde_json::Value) {
+        document.run(serde_json::from_value(json.clone()).expect("a command")).expect("it can be done");
+    }
+
+    fn document() -> (Document, [NodeId; 3]) {
+        let mut scene = Scene::new();
+        let ids = ["one", "two", "three"].map(|name| scene.add(Node::default().with_name(name)));
+        let turned = Transform::from_scale_rotation_translation(
+            DVec3::splat(2.0),
+            DQuat::from_rotation_z(1.0),
+            DVec3::new(3.0, 0.0, 0.0),
+        );
+        scene.node_mut(ids[0]).expect("it was added").transform = turned;
+        (Document::new(scene), ids)
+    }
+
+    #[test]
+    fn objects_stay_where_they_are_when_they_keep_their_transform() {
+        let (mut document, [one, two, three]) = document();
+        let before = document.nodes().world_transform(two);
+        run(
+            &mut document,
+            json!({ "op": "set_parent", "objects": ["two"], "parent": "one", "keep_transform": true }),
+        );
+        // Roundings of an inverse and a product of numbers up to 3.
+        assert!(document.nodes().world_transform(two).abs_diff_eq(before, 1e-14), "it did not move");
+        run(&mut document, json!({ "op": "set_parent", "objects": ["three"], "parent": "one" }));
+        let moved = document.nodes().world_transform(three);
+        assert_eq!(moved, document.nodes().world_transform(one), "it moved with what it hangs on");
+    }
+
+    #[test]
+    fn siblings_and_roots_are_reordered_and_undone() {
+        let (mut document, [one, two, three]) = document();
+        let roots = |document: &Document| document.nodes().roots().collect::<Vec<_>>();
+        assert_eq!(roots(&document), [one, two, three], "as they were added");
+        run(&mut document, json!({ "op": "reorder_object", "object": "three", "to": 0 }));
+        assert_eq!(roots(&document), [three, one, two], "the last is the first");
+        run(&mut document, json!({ "op": "add_light" }));
+        assert_eq!(roots(&document)[..3], [three, one, two], "a new one comes last");
+        document.undo().expect("the light");
+        for (object, expected) in [("three", [three]), ("two", [three])] {
+            run(&mut document, json!({ "op": "set_parent", "objects": [object], "parent": "one" }));
+            assert_eq!(
+                document.nodes().node(one).expect("there").children()[..1],
+                expected,
+                "hung on at the end"
+            );
+        }
+        run(&mut document, json!({ "op": "set_parent", "objects": ["two"], "parent": "one", "place": 0 }));
+        assert_eq!(document.nodes().node(one).expect("there").children(), [two, three], "among its siblings");
+        (0..4).for_each(|_| document.undo().expect("four were done"));
+        assert_eq!(roots(&document), [one, two, three], "all is undone");
+    }
+    #[test]
+    fn the_order_of_roots_is_saved() {
+        let (mut document, _) = document();
+        // A file without any mesh is not opened.
+        run(&mut document, json!({ "op": "add_object", "object": { "shape": "cube", "edge": 1.0 } }));
+        run(&mut document, json!({ "op": "reorder_object", "object": "three", "to": 0 }));
+        let bytes = document.encode().expect("small").to_bytes();
+        let name = std::path::Path::new("order.glb");
+        let (again, _) = Document::open_bytes(name, &bytes, &Default::default()).expect("as written");
+        let names = again.nodes().roots().filter_map(|id| Some(again.nodes().node(id)?.name.clone()));
+        assert_eq!(names.collect::<Vec<_>>(), ["three", "one", "two", "Cube"], "as ordered");
+        let bytes_again = again.encode().expect("small").to_bytes();
+        assert!(bytes == bytes_again, "and saved as loaded");
+    }
+}

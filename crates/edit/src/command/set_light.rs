@@ -1,0 +1,116 @@
+//! What a light sends out.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trigon_mesh::math::Vec3;
+use trigon_scene::{Light, LightKind};
+
+use super::set_transform::named_or_active;
+use super::{Action, LightShape, ObjectName, Outcome};
+use crate::document::Change;
+use crate::error::EditError;
+
+/// Changes the light of an object. What is not given stays as it is.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SetLight {
+    /// Which; the active one if none is named.
+    pub object: Option<ObjectName>,
+    /// The kind of light.
+    pub light: Option<LightShape>,
+    /// Linear red, green and blue.
+    pub color: Option<[f32; 3]>,
+    /// What a white surface shows that the light meets head-on, of points and spots from one metre
+    /// away: 1 is white.
+    #[schemars(range(min = 0.0))]
+    pub intensity: Option<f32>,
+    /// Beyond it a point or spot does not shine, in metres; 0 for no such limit.
+    #[schemars(range(min = 0.0))]
+    pub range: Option<f32>,
+    /// Of a spot: from its axis to where it begins to fade, in degrees.
+    #[schemars(range(min = 0.0, max = 90.0))]
+    pub inner_angle: Option<f32>,
+    /// Of a spot: from its axis to where there is no light, in degrees.
+    #[schemars(range(min = 0.0, max = 90.0))]
+    pub outer_angle: Option<f32>,
+}
+
+impl Action for SetLight {
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let id = named_or_active(change, self.object.as_ref(), "changing a light")?;
+        let light = change.scene().node(id).and_then(|node| node.light);
+        let needed = "an object that is a light";
+        let light = light.ok_or(EditError::NothingSelected { command: "changing a light", needed })?;
+        let changed = self.changed(light);
+        change.scene_mut().node_mut(id).expect("it was just found").light = Some(changed);
+        Ok(Outcome::silent())
+    }
+}
+
+impl SetLight {
+    /// A light with what is given here.
+    fn changed(&self, light: Light) -> Light {
+        let kind = self.light.map_or(light.kind, |shape| match (shape, light.kind) {
+            (LightShape::Point, _) => LightKind::Point,
+            (LightShape::Directional, _) => LightKind::Directional,
+            (LightShape::Spot, LightKind::Spot { .. }) => light.kind,
+            (LightShape::Spot, _) => Light::spot(1.0).kind,
+        });
+        let range = self.range.map(|range| if range > 0.0 { range } else { f32::INFINITY });
+        Light {
+            kind: self.cone(kind),
+            color: self.color.map_or(light.color, Vec3::from),
+            intensity: self.intensity.unwrap_or(light.intensity).max(0.0),
+            range: range.unwrap_or(light.range),
+        }
+    }
+
+    /// The outer angle is never smaller than the inner: the one that is not given follows.
+    fn cone(&self, kind: LightKind) -> LightKind {
+        let LightKind::Spot { inner, outer } = kind else { return kind };
+        let given = |degrees: Option<f32>| degrees.map(|angle| angle.clamp(0.0, 90.0).to_radians());
+        let (new_inner, new_outer) = (given(self.inner_angle), given(self.outer_angle));
+        let outer = new_outer.unwrap_or_else(|| outer.max(new_inner.unwrap_or(0.0)));
+        LightKind::Spot { inner: new_inner.unwrap_or(inner).min(outer), outer }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use trigon_scene::{Node, Scene};
+
+    use super::*;
+    use crate::document::Document;
+
+    #[test]
+    fn a_light_changes_what_is_given_and_keeps_the_rest() {
+        let mut scene = Scene::new();
+        let id = scene.add(Node::from_light(Light::point(3.0).with_range(7.0)).with_name("lamp"));
+        let mut document = Document::new(scene);
+        let mut run = |json: serde_json::Value| {
+            document.run(serde_json::from_value(json).expect("a command")).expect("it can be done");
+            document.nodes().node(id).and_then(|node| node.light).expect("it is a light")
+        };
+        let lamp = run(
+            serde_json::json!({ "op": "set_light", "object": "lamp", "light": "spot", "inner_angle": 60.0 }),
+        );
+        let LightKind::Spot { inner, outer } = lamp.kind else { panic!("a spot: {lamp:?}") };
+        assert_eq!((inner, outer), (60f32.to_radians(), 60f32.to_radians()), "the outer angle makes room");
+        assert_eq!((lamp.intensity, lamp.range), (3.0, 7.0), "kept");
+        let lamp = run(
+            serde_json::json!({ "op": "set_light", "object": "lamp", "outer_angle": 10.0, "range": 0.0 }),
+        );
+        let LightKind::Spot { inner, outer } = lamp.kind else { panic!("a spot: {lamp:?}") };
+        assert_eq!((inner, outer), (10f32.to_radians(), 10f32.to_radians()), "the inner angle follows");
+        assert_eq!(lamp.range, f32::INFINITY, "no limit");
+        assert!(
+            document
+                .run(
+                    SetLight { object: Some(ObjectName::Name("nobody".into())), ..SetLight::default() }
+                        .into()
+                )
+                .is_err(),
+            "none"
+        );
+    }
+}
