@@ -1,0 +1,176 @@
+//! What a panel, a menu, a key or a tool asks the editor to do. Whatever shows the document changes nothing
+//! itself: it adds requests, and the editor carries them out one after the other.
+
+use std::path::PathBuf;
+
+use trigon_edit::{Command, ElementKind};
+use trigon_window::scene::camera::AxisView;
+
+/// One thing to be done.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Request {
+    /// Runs a command: one entry in the history.
+    Run(Command),
+    /// Runs a command in place of the last one.
+    #[expect(dead_code, reason = "the panel of the last operation asks for it")]
+    Adjust(Command),
+    Undo,
+    Redo,
+    /// Runs the last command that was not a selection again.
+    RepeatLast,
+    /// Starts a tool that follows the pointer.
+    StartTool(ToolKind),
+    /// Changes how the document is seen.
+    View(ViewRequest),
+    /// Opens, saves, closes.
+    File(FileRequest),
+    /// Changes what the window shows besides the document, and how its tools work.
+    Ui(UiRequest),
+}
+
+/// The tools that follow the pointer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ToolKind {
+    Move,
+    Rotate,
+    Scale,
+    Extrude,
+    ExtrudeIndividual,
+    Inset,
+    Bevel,
+    BevelVertices,
+    LoopCut,
+    EdgeSlide,
+    ShrinkFatten,
+    PushPull,
+    Shear,
+    ToSphere,
+    SelectBox,
+    SelectCircle,
+    SelectLasso,
+}
+
+/// How the document is seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum ViewRequest {
+    Axis(AxisView),
+    /// The same from the other side.
+    Opposite,
+    ToggleOrthographic,
+    /// By degrees to the right and up.
+    Orbit(f64, f64),
+    /// In shares of the picture's height to the right and up.
+    Pan(f64, f64),
+    /// By degrees counter-clockwise.
+    Roll(f64),
+    /// By a factor.
+    Zoom(f64),
+    FrameSelected,
+    FrameAll,
+    /// Shows only what is selected, or all again.
+    ToggleLocal,
+    /// Looks through the first camera of the scene, or back.
+    Camera,
+    Display(DisplayMode),
+    ToggleWireframe,
+    ToggleXRay,
+}
+
+/// How surfaces are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum DisplayMode {
+    Wireframe,
+    /// Plain shading by studio lights.
+    #[default]
+    Solid,
+    /// Materials and textures in studio lights.
+    Textured,
+    /// The scene's own lights and effects.
+    Rendered,
+}
+
+/// What happens to files.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum FileRequest {
+    Ask(FileAction),
+    Open(PathBuf),
+    SaveAs(PathBuf),
+    Import(PathBuf),
+    Export(PathBuf),
+}
+
+/// What a menu entry or a key does about files, without a path yet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FileAction {
+    New,
+    Open,
+    Save,
+    SaveAs,
+    Import,
+    Export,
+    Quit,
+}
+
+/// About what transformations turn and scale.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Pivot {
+    #[default]
+    Median,
+    /// Each part about its own middle, each object about its own origin.
+    Individual,
+    /// The origin of the active object.
+    Origin,
+    /// The middle of the box around what is selected.
+    Bounds,
+    /// What was selected last.
+    Active,
+    /// The 3D cursor.
+    Cursor,
+}
+
+/// Along which axes transformations work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Orientation {
+    #[default]
+    Global,
+    Local,
+    Normal,
+    View,
+}
+
+/// To what transformations snap.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum SnapTarget {
+    #[default]
+    Increment,
+    Grid,
+    Vertex,
+    Edge,
+    Face,
+}
+
+/// What the window shows besides the document, and how its tools work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum UiRequest {
+    /// Shows the actions of a menu at the pointer.
+    Popup(&'static str),
+    Search,
+    Help,
+    AdjustPanel,
+    ToggleEditMode,
+    Select(ElementKind),
+    ToolBar,
+    SideBar,
+    EmulateMouse,
+    EmulateNumpad,
+    Snapping,
+    Snap(SnapTarget),
+    Proportional,
+    Pivot(Pivot),
+    Orientation(Orientation),
+    Rename,
+    /// Selects what hangs together with what is under the pointer.
+    LinkedAtPointer,
+    LargerText,
+    SmallerText,
+}

@@ -1,0 +1,61 @@
+//! Questions that have to be answered before anything else is done.
+
+use trigon_window::Stage;
+use trigon_window::egui::{Context, Id, Key, Modal, Ui};
+
+use crate::window::editor::Editor;
+use crate::window::open_file::{Answer, Question};
+
+/// Shows the question, if there is one.
+pub(super) fn show(context: &Context, editor: &mut Editor, stage: &mut Stage) {
+    let Some(question) = &editor.question else { return };
+    let modal = Modal::new(Id::unique("question")).show(context, |ui| {
+        ui.set_max_width(460.0);
+        content(ui, question)
+    });
+    let mut answer = modal.inner;
+    if answer.is_none() && context.input(|input| input.key_pressed(Key::Escape)) {
+        answer = Some(Answer::Cancel);
+    }
+    if let Some(answer) = answer {
+        editor.answer(stage, answer);
+        context.request_repaint();
+    }
+}
+
+/// What is asked, and the buttons.
+fn content(ui: &mut Ui, question: &Question) -> Option<Answer> {
+    match question {
+        Question::Unsaved(_) => {
+            ui.heading("Save changes?");
+            ui.label("The document has changes that are not saved.");
+            buttons(ui, &[("Save", Answer::Yes), ("Discard", Answer::No), ("Cancel", Answer::Cancel)])
+        }
+        Question::Losses { path, losses, .. } => {
+            ui.heading("Something would be lost");
+            ui.label(format!("{} would not hold:", path.display()));
+            /// More would not fit the window.
+            const MOST: usize = 12;
+            losses.iter().take(MOST).for_each(|loss| drop(ui.label(format!("• {loss}"))));
+            if losses.len() > MOST {
+                ui.label(format!("and {} more", losses.len() - MOST));
+            }
+            buttons(ui, &[("Save All the Same", Answer::Yes), ("Cancel", Answer::Cancel)])
+        }
+        Question::Recover(left) => {
+            ui.heading("Recover a document?");
+            let name = left
+                .document
+                .as_ref()
+                .map_or("a document without a file".into(), |path| path.display().to_string());
+            ui.label(format!("The editor ended without closing {name}, with {} changes.", left.actions));
+            buttons(ui, &[("Recover", Answer::Yes), ("Discard", Answer::No), ("Later", Answer::Cancel)])
+        }
+    }
+}
+
+fn buttons(ui: &mut Ui, all: &[(&str, Answer)]) -> Option<Answer> {
+    ui.add_space(8.0);
+    ui.horizontal(|ui| all.iter().find(|(text, _)| ui.button(*text).clicked()).map(|(_, answer)| *answer))
+        .inner
+}
