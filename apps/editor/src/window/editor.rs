@@ -9,7 +9,7 @@ use trigon_window::scene::math::DVec2;
 use super::dialog::FileWindow;
 use super::interface::{Popup, Rename, Search};
 use super::keys::Keys;
-use super::open_file::{OpenFile, Question};
+use super::open_file::{Next, OpenFile, Question};
 use super::pick::{self, Click};
 use super::recent::Recent;
 use super::recovery::Recovery;
@@ -27,7 +27,7 @@ pub(crate) enum Message {
 }
 
 /// Says at a first start what nobody can guess.
-const WELCOME: &str =
+pub(crate) const WELCOME: &str =
     "Middle drag or Alt+left drag orbits, the wheel zooms; click selects, Tab edits; F3 finds every command";
 
 /// A document in a window.
@@ -44,6 +44,8 @@ pub(crate) struct Editor {
     pub(crate) rename: Option<Rename>,
     pub(crate) question: Option<Question>,
     pub(crate) dialog: FileWindow,
+    /// What follows when a document without a file has got one.
+    pub(crate) after_save: Option<Next>,
     pub(crate) recent: Recent,
     pub(crate) recovery: Option<Recovery>,
     pub(crate) panels: Panels,
@@ -74,6 +76,7 @@ impl Editor {
             rename: None,
             question: None,
             dialog: FileWindow::default(),
+            after_save: None,
             recent: Recent::load(folder.as_deref()),
             recovery: None,
             panels: Panels::default(),

@@ -3,16 +3,20 @@
 use std::path::{Path, PathBuf};
 
 use trigon_edit::scene::{Light, Material, Node, Scene};
-use trigon_edit::{Disk, Document, save};
+use trigon_edit::{Disk, Document, ObjectName, Select, save};
 use trigon_io::{GlbOptions, LoadOptions, write_glb};
 use trigon_window::Stage;
+use trigon_window::scene::math::DVec3;
 use trigon_window::scene::mesh::primitives;
 
 use super::dialog::Purpose;
-use super::editor::{Editor, Message};
+use super::editor::{Editor, Message, WELCOME};
 use super::open_file::{Answer, Next, OpenFile, Question};
 use super::recovery::{Left, Recovery};
 use crate::request::{FileAction, FileRequest};
+
+/// From the right, above and before.
+const HOME_DIRECTION: DVec3 = DVec3::new(-0.8, -0.6, -1.0);
 
 /// Whether something is to be recovered.
 pub(crate) fn offer_recovery(folder: Option<&Path>) -> Option<Question> {
@@ -27,15 +31,18 @@ impl Editor {
     }
 
     /// Another document with a cube, as Blender starts.
-    pub(crate) fn start_new(&mut self) {
+    fn start_new(&mut self) {
         let mut scene = Scene::new();
-        scene.add_object("Cube", primitives::cube(2.0), Material::default());
+        let cube = scene.add_object("Cube", primitives::cube(2.0), Material::default());
         let light = scene.add(Node::from_light(Light::point(100.0)));
         if let Some(node) = scene.node_mut(light) {
             node.name = "Light".into();
-            node.transform.translate(trigon_window::scene::math::DVec3::new(4.0, 6.0, 3.0));
+            node.transform.translate(DVec3::new(4.0, 6.0, 3.0));
         }
         self.take_document(Document::new(scene), None);
+        // So that Tab and G work at once.
+        self.run(Select { objects: vec![ObjectName::of(cube)], ..Select::default() }.into());
+        self.message = Message::Info(WELCOME.into());
     }
 
     fn take_document(&mut self, document: Document, path: Option<PathBuf>) {
@@ -55,13 +62,17 @@ impl Editor {
         match request {
             FileRequest::Ask(action) => self.ask(stage, action),
             FileRequest::Open(path) => self.unless_unsaved(stage, Next::Open(path)),
-            FileRequest::SaveAs(path) => self.save_to(stage, with_extension(path), None),
+            FileRequest::SaveAs(path) => {
+                let next = self.after_save.take();
+                self.save_to(stage, with_extension(path), next);
+            }
             FileRequest::Import(path) => self.import(&path),
             FileRequest::Export(path) => self.export(&with_extension(path)),
         }
     }
 
     fn ask(&mut self, stage: &mut Stage, action: FileAction) {
+        self.after_save = None;
         match action {
             FileAction::New => self.unless_unsaved(stage, Next::New),
             FileAction::Quit => self.unless_unsaved(stage, Next::Quit),
@@ -93,7 +104,9 @@ impl Editor {
         }
     }
 
-    fn go_on(&mut self, stage: &mut Stage, next: Next) {
+    /// Replaces the document, or closes the window.
+    pub(crate) fn go_on(&mut self, stage: &mut Stage, next: Next) {
+        let is_new = next == Next::New;
         match next {
             Next::New => self.start_new(),
             Next::Open(path) => self.open(&path),
@@ -106,7 +119,13 @@ impl Editor {
             }
         }
         self.show(stage);
+        stage.orbit.look_along(HOME_DIRECTION);
         stage.fit_view();
+        if is_new {
+            // Room for what will be added.
+            stage.orbit.zoom(0.5);
+        }
+        stage.set_home(stage.orbit);
     }
 
     fn open(&mut self, path: &Path) {
@@ -193,7 +212,10 @@ impl Editor {
     fn save_then(&mut self, stage: &mut Stage, next: Next) {
         match self.native_path() {
             Some(path) => self.save_to(stage, path, Some(next)),
-            None => self.ask(stage, FileAction::SaveAs),
+            None => {
+                self.ask(stage, FileAction::SaveAs);
+                self.after_save = Some(next);
+            }
         }
     }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton, Stage, Taken, egui};
 
 use super::editor::Editor;
+use super::open_file::Next;
 use super::pick::{self, Click};
 use super::{files, interface};
 use crate::request::{FileAction, FileRequest, Request};
@@ -63,8 +64,8 @@ impl Editor {
     fn begin(&mut self, stage: &mut Stage) {
         let mut files = std::mem::take(&mut self.to_open).into_iter();
         match files.next() {
-            Some(first) => self.file_request(stage, FileRequest::Open(first)),
-            None => self.start_new(),
+            Some(first) => self.go_on(stage, Next::Open(first)),
+            None => self.go_on(stage, Next::New),
         }
         files.for_each(|file| self.file_request(stage, FileRequest::Import(file)));
         if self.question.is_none() {

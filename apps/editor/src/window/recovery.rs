@@ -140,10 +140,13 @@ mod tests {
     fn what_a_crash_leaves_is_found_once_and_comes_back() {
         let folder = tempfile::tempdir().expect("a folder");
         let folder = folder.path();
-        let mut document = Document::default();
+        let mut document = Document::new(trigon_edit::scene::showcase());
+        let before = document.nodes().nodes().len();
         let path = Path::new("/models/chair.glb");
         let mut recovery = Recovery::start(folder, &mut document, Some(path)).expect("it can be written");
-        document.run(command(r#"{"op":"add_object","object":{"cube":{"edge":2.0}}}"#)).expect("possible");
+        document
+            .run(command(r#"{"op":"add_object","object":{"shape":"cube","edge":2.0}}"#))
+            .expect("possible");
         assert_eq!(recovery.follow(&mut document), None, "nothing goes wrong");
         assert!(Left::find(folder).is_empty(), "its process is alive");
         // A crash: the file stays, and the lock is free.
@@ -152,7 +155,7 @@ mod tests {
         let [left] = &left[..] else { panic!("one document was open: {left:?}") };
         assert_eq!((left.document.as_deref(), left.actions), (Some(path), 1), "what and how much");
         let mut again = left.recover().expect("it was written whole");
-        assert_eq!(again.scene().nodes().len(), 1, "the cube is there");
+        assert_eq!(again.scene().nodes().len(), before + 1, "the cube is there");
         left.discard();
         assert!(Left::find(folder).is_empty(), "and it is not offered again");
     }

@@ -126,6 +126,11 @@ impl Action {
         (!is_met).then(|| self.needs.remedy(is_editing))
     }
 
+    /// Whether it opens a menu at the pointer, which a menu has no use for.
+    pub(crate) fn opens_menu(&self) -> bool {
+        matches!(self.does, Does::Ui(UiRequest::Popup(_)))
+    }
+
     /// Whether it is an action of the mode that the document is in.
     pub(crate) fn fits_mode(&self, is_editing: bool) -> bool {
         match self.needs {

@@ -107,7 +107,7 @@ fn choice<T: Copy + PartialEq>(ui: &mut Ui, name: &str, current: T, all: &[(&str
 }
 
 /// The tools on the left, those of each mode.
-const TOOLS: [&str; 13] = [
+const TOOLS: [&str; 12] = [
     "select.box",
     "select.circle",
     "select.lasso",
@@ -120,7 +120,6 @@ const TOOLS: [&str; 13] = [
     "mesh.loop_cut",
     "mesh.edge_slide",
     "tool.shrink_fatten",
-    "edit.proportional",
 ];
 
 /// A button for each tool of the mode, with its key in the tool tip.

@@ -1,10 +1,17 @@
 //! Menus, made from the table of actions.
 
 use trigon_window::Stage;
-use trigon_window::egui::{self, Button, Context, Pos2, Ui};
+use trigon_window::egui::containers::menu::menu_style;
+use trigon_window::egui::{
+    Align, Area, Button, Context, Frame, Id, Layout, MenuBar, Order, Pos2, RichText, Ui,
+};
 
+use super::label;
 use crate::window::actions::{self, Action, MENUS};
 use crate::window::editor::Editor;
+
+/// In points.
+const POPUP_WIDTH: f32 = 220.0;
 
 /// A menu that a key opened.
 #[derive(Debug)]
@@ -23,7 +30,7 @@ impl Popup {
 /// The bar of menus.
 pub(super) fn bar(ui: &mut Ui, editor: &mut Editor, stage: &mut Stage) {
     let mut chosen = None;
-    egui::MenuBar::new().ui(ui, |ui| {
+    MenuBar::new().ui(ui, |ui| {
         for menu in MENUS {
             ui.menu_button(menu, |ui| chosen = entries(ui, editor, menu).or(chosen));
         }
@@ -38,7 +45,7 @@ pub(super) fn bar(ui: &mut Ui, editor: &mut Editor, stage: &mut Stage) {
 fn entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Action> {
     let mut chosen = None;
     let mut within: Vec<&str> = Vec::new();
-    for action in actions::all() {
+    for action in actions::all().filter(|action| !action.opens_menu()) {
         if action.menu == menu {
             chosen = entry(ui, editor, action).or(chosen);
             continue;
@@ -57,8 +64,9 @@ fn entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Action> 
 /// One action with its key; greyed, with the reason, while it cannot run.
 fn entry(ui: &mut Ui, editor: &Editor, action: &'static Action) -> Option<&'static Action> {
     let refusal = action.refusal(&editor.document);
-    let button = Button::new(action.label).shortcut_text(editor.keys.text_of(action));
-    let shown = ui.add_enabled(refusal.is_none(), button);
+    let shortcut = RichText::new(editor.keys.text_of(action)).weak();
+    let shown = ui.add_enabled(refusal.is_none(), Button::new(action.label).right_text(shortcut));
+    label(&shown, action.label);
     let shown = shown.on_hover_text(action.help);
     let shown = match refusal {
         Some(reason) => shown.on_disabled_hover_text(format!("{}\n{reason}", action.help)),
@@ -71,29 +79,39 @@ fn entry(ui: &mut Ui, editor: &Editor, action: &'static Action) -> Option<&'stat
     None
 }
 
+/// A menu with those within it below one another, as few movements of the hand as can be.
+fn all_entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Action> {
+    let (mut chosen, mut current) = (None, menu);
+    ui.strong(menu.rsplit('/').next().unwrap_or(menu));
+    for action in actions::all().filter(|action| !action.opens_menu()) {
+        let within = action.menu.strip_prefix(menu);
+        if !within.is_some_and(|rest| rest.is_empty() || rest.starts_with('/')) {
+            continue;
+        }
+        if action.menu != current {
+            current = action.menu;
+            ui.separator();
+        }
+        chosen = entry(ui, editor, action).or(chosen);
+    }
+    chosen
+}
+
 /// The menu that a key opened, at the pointer.
 pub(super) fn popup(context: &Context, editor: &mut Editor, stage: &mut Stage) {
-    let Some(popup) = &mut editor.popup else { return };
-    let is_new = popup.at.is_none();
+    let Some(Popup { menu, at }) = &mut editor.popup else { return };
+    let is_new = at.is_none();
     let pointer = || context.pointer_latest_pos().unwrap_or_else(|| context.content_rect().center());
-    let at = *popup.at.get_or_insert_with(pointer);
-    let menu = popup.menu;
+    let (menu, at) = (*menu, *at.get_or_insert_with(pointer));
     let mut chosen = None;
-    let area =
-        egui::Area::new(egui::Id::unique(("popup", menu))).fixed_pos(at).order(egui::Order::Foreground);
+    let area = Area::new(Id::unique(("popup", menu))).fixed_pos(at).order(Order::Foreground);
     let shown = area.constrain(true).fade_in(false).show(context, |ui| {
-        egui::Frame::menu(ui.style()).show(ui, |ui| {
-            ui.strong(menu.rsplit('/').next().unwrap_or(menu));
-            let opens_itself = |action: &Action| action.name.ends_with(".menu");
-            for action in actions::all().filter(|action| action.menu == menu && !opens_itself(action)) {
-                chosen = entry(ui, editor, action).or(chosen);
-            }
-            if menu == "Add" {
-                chosen = ["Add/Solids", "Add/Light"]
-                    .iter()
-                    .flat_map(|menu| actions::all().filter(move |action| action.menu == *menu))
-                    .fold(chosen, |chosen, action| entry(ui, editor, action).or(chosen));
-            }
+        Frame::menu(ui.style()).show(ui, |ui| {
+            menu_style(ui.style_mut());
+            ui.set_max_width(POPUP_WIDTH);
+            ui.with_layout(Layout::top_down_justified(Align::LEFT), |ui| {
+                chosen = all_entries(ui, editor, menu)
+            });
         });
     });
     let beside = !is_new && shown.response.clicked_elsewhere();

@@ -26,10 +26,7 @@ pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<R
     Panel::top("modes").show(ui, |ui| bars::top(ui, editor, stage, &mut requests));
     Panel::bottom("status").show(ui, |ui| status::line(ui, editor));
     if editor.layout.tool_bar {
-        Panel::left("tools")
-            .resizable(false)
-            .default_size(92.0)
-            .show(ui, |ui| bars::tools(ui, editor, stage));
+        Panel::left("tools").resizable(false).exact_size(132.0).show(ui, |ui| bars::tools(ui, editor, stage));
     }
     if editor.layout.side_bar {
         side_bar(ui, editor, &mut requests);

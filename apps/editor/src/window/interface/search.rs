@@ -1,7 +1,7 @@
 //! The command search: every action by its name.
 
 use trigon_window::Stage;
-use trigon_window::egui::{self, Align2, Button, Context, Key, ScrollArea, TextEdit, Ui};
+use trigon_window::egui::{self, Align2, Button, Context, Key, RichText, ScrollArea, TextEdit, Ui};
 
 use super::label;
 use crate::window::actions::{self, Action};
@@ -82,9 +82,11 @@ fn step(ui: &Ui, index: &mut usize, count: usize) {
 fn row(ui: &mut Ui, editor: &Editor, action: &'static Action, is_current: bool) -> Option<&'static Action> {
     let text = format!("{} — {}", action.label, action.menu.replace('/', ", "));
     let refusal = action.refusal(&editor.document);
-    let button = Button::selectable(is_current, text).shortcut_text(editor.keys.text_of(action));
+    let shortcut = RichText::new(editor.keys.text_of(action)).weak();
+    let button = Button::selectable(is_current, text).right_text(shortcut);
     let width = ui.available_width();
     let shown = ui.add_enabled(refusal.is_none(), button.min_size(egui::vec2(width, 0.0)));
+    label(&shown, action.label);
     if is_current {
         shown.scroll_to_me(None);
     }
