@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton, Stage, Taken, egui};
 
 use super::editor::Editor;
-use super::open_file::Next;
+use super::open_file::{Answer, Next};
 use super::pick::{self, Click};
 use super::{files, interface};
 use crate::request::{FileAction, FileRequest, Request};
@@ -75,6 +75,9 @@ impl Editor {
 
     fn key(&mut self, stage: &mut Stage, hands: Hands, keys: [Option<Key>; 2]) -> Taken {
         if self.question.is_some() {
+            if keys[0] == Some(Key::Escape) {
+                self.answer(stage, Answer::Cancel);
+            }
             return Taken::Yes;
         }
         if keys[0] == Some(Key::Escape) && self.dismiss() {

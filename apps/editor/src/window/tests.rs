@@ -1,7 +1,7 @@
 //! The window's interface by labels and keys, drawn by the window's own painter.
 
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use trigon_window::egui::{Key, Modifiers as Held};
 use trigon_window::{EguiTestRenderer, Handler, Hands, Input, Key as WindowKey, Modifiers, Stage, Taken};
 
@@ -164,4 +164,37 @@ fn a_document_is_saved_and_opened_again() {
     editor.perform(stage, Request::File(FileRequest::Open(path.with_extension("glb"))));
     assert_eq!(editor.document.nodes().nodes().len(), 4, "again: {:?}", editor.message);
     assert!(!editor.file.is_unsaved(), "as it was saved");
+}
+
+#[test]
+fn a_menu_at_the_pointer_is_worked_by_keys() {
+    let mut harness = harness();
+    harness.state_mut().key(WindowKey::Character('a'), Modifiers::SHIFT);
+    harness.run();
+    harness.key_press(Key::ArrowDown);
+    harness.run();
+    harness.key_press(Key::Enter);
+    harness.run();
+    let names: Vec<_> =
+        harness.state().stage.scene.nodes().iter().map(|(_, node)| node.name.clone()).collect();
+    assert_eq!(names, ["Cube", "Light", "Cube"], "the second entry of Add");
+    assert!(harness.state().editor.popup.is_none(), "and the menu is gone");
+    harness.state_mut().key(WindowKey::Character('a'), Modifiers::SHIFT);
+    harness.run();
+    harness.key_press(Key::Escape);
+    harness.run();
+    assert!(harness.state().editor.popup.is_none(), "Escape closes it");
+    assert_eq!(harness.state().objects(), 3, "and adds nothing");
+}
+
+#[test]
+fn an_entry_that_cannot_run_is_grey_and_says_why() {
+    let mut harness = harness();
+    harness.get_by_label("Mesh").click();
+    harness.run();
+    let inset = harness.get_by_label("Inset Faces");
+    assert!(inset.accesskit_node().is_disabled(), "no mesh is edited");
+    inset.hover();
+    harness.run();
+    harness.get_by_label_contains("enter edit mode first (Tab)");
 }

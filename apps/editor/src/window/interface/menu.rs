@@ -3,10 +3,10 @@
 use trigon_window::Stage;
 use trigon_window::egui::containers::menu::menu_style;
 use trigon_window::egui::{
-    Align, Area, Button, Context, Frame, Id, Layout, MenuBar, Order, Pos2, RichText, Ui,
+    Align, Area, Button, Context, Frame, Id, Key, Layout, MenuBar, Order, Pos2, Response, RichText, Ui,
 };
 
-use super::label;
+use super::{focus_first, label};
 use crate::window::actions::{self, Action, MENUS};
 use crate::window::editor::Editor;
 
@@ -47,7 +47,10 @@ fn entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Action> 
     let mut within: Vec<&str> = Vec::new();
     for action in actions::all().filter(|action| !action.opens_menu()) {
         if action.menu == menu {
-            chosen = entry(ui, editor, action).or(chosen);
+            if entry(ui, editor, action).clicked() {
+                ui.close();
+                chosen = Some(action);
+            }
             continue;
         }
         let Some(name) = action.menu.strip_prefix(menu).and_then(|rest| rest.strip_prefix('/')) else {
@@ -62,21 +65,13 @@ fn entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Action> 
 }
 
 /// One action with its key; greyed, with the reason, while it cannot run.
-fn entry(ui: &mut Ui, editor: &Editor, action: &'static Action) -> Option<&'static Action> {
+fn entry(ui: &mut Ui, editor: &Editor, action: &Action) -> Response {
     let refusal = action.refusal(&editor.document);
     let shortcut = RichText::new(editor.keys.text_of(action)).weak();
     let shown = ui.add_enabled(refusal.is_none(), Button::new(action.label).right_text(shortcut));
     label(&shown, action.label);
-    let shown = shown.on_hover_text(action.help);
-    let shown = match refusal {
-        Some(reason) => shown.on_disabled_hover_text(format!("{}\n{reason}", action.help)),
-        None => shown,
-    };
-    if shown.clicked() {
-        ui.close();
-        return Some(action);
-    }
-    None
+    let reason = refusal.map_or_else(String::new, |reason| format!("{}\n{reason}", action.help));
+    shown.on_hover_text(action.help).on_disabled_hover_text(reason)
 }
 
 /// A menu with those within it below one another, as few movements of the hand as can be.
@@ -92,7 +87,12 @@ fn all_entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Acti
             current = action.menu;
             ui.separator();
         }
-        chosen = entry(ui, editor, action).or(chosen);
+        let shown = entry(ui, editor, action);
+        if shown.enabled() {
+            // Arrows and Enter choose, too.
+            focus_first(&shown);
+        }
+        chosen = shown.clicked().then_some(action).or(chosen);
     }
     chosen
 }
@@ -110,12 +110,13 @@ pub(super) fn popup(context: &Context, editor: &mut Editor, stage: &mut Stage) {
             menu_style(ui.style_mut());
             ui.set_max_width(POPUP_WIDTH);
             ui.with_layout(Layout::top_down_justified(Align::LEFT), |ui| {
-                chosen = all_entries(ui, editor, menu)
+                chosen = all_entries(ui, editor, menu);
             });
         });
     });
     let beside = !is_new && shown.response.clicked_elsewhere();
-    if chosen.is_some() || beside {
+    let escaped = context.input(|input| input.key_pressed(Key::Escape));
+    if chosen.is_some() || beside || escaped {
         editor.popup = None;
     }
     if let Some(action) = chosen {

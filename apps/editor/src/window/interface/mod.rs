@@ -56,6 +56,13 @@ fn side_bar(ui: &mut Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     });
 }
 
+/// Gives the keyboard to a widget if no other has it.
+fn focus_first(widget: &egui::Response) {
+    if widget.ctx.memory(|memory| memory.focused().is_none()) {
+        widget.request_focus();
+    }
+}
+
 /// A label for those who use a screen reader, and for tests.
 fn label(response: &egui::Response, text: &str) {
     response.ctx.accesskit_node_builder(response.id, |node| node.set_label(text));

@@ -3,6 +3,7 @@
 use trigon_window::Stage;
 use trigon_window::egui::{Context, Id, Key, Modal, Ui};
 
+use super::focus_first;
 use crate::window::editor::Editor;
 use crate::window::open_file::{Answer, Question};
 
@@ -54,8 +55,17 @@ fn content(ui: &mut Ui, question: &Question) -> Option<Answer> {
     }
 }
 
+/// The first has the keyboard, so that Enter presses it and Tab goes on to the others.
 fn buttons(ui: &mut Ui, all: &[(&str, Answer)]) -> Option<Answer> {
     ui.add_space(8.0);
-    ui.horizontal(|ui| all.iter().find(|(text, _)| ui.button(*text).clicked()).map(|(_, answer)| *answer))
-        .inner
+    ui.horizontal(|ui| {
+        let mut answer = None;
+        for (text, means) in all {
+            let button = ui.button(*text);
+            focus_first(&button);
+            answer = button.clicked().then_some(*means).or(answer);
+        }
+        answer
+    })
+    .inner
 }
