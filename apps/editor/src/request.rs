@@ -174,3 +174,10 @@ pub(crate) enum UiRequest {
     LargerText,
     SmallerText,
 }
+
+impl UiRequest {
+    /// Whether it leaves the document and its picture as they are.
+    pub(crate) fn is_about_window(self) -> bool {
+        !matches!(self, Self::ToggleEditMode | Self::Select(_) | Self::LinkedAtPointer)
+    }
+}

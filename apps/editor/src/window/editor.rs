@@ -89,6 +89,7 @@ impl Editor {
 
     /// Carries out what was asked for, and shows what has become of the document.
     pub(crate) fn perform(&mut self, stage: &mut Stage, request: Request) {
+        let is_shown = !matches!(request, Request::Ui(request) if request.is_about_window());
         match request {
             Request::Run(command) => self.run(command),
             Request::Adjust(command) => self.adjust(command),
@@ -100,7 +101,10 @@ impl Editor {
             Request::File(request) => self.file_request(stage, request),
             Request::Ui(request) => self.ui_request(stage, request),
         }
-        self.show(stage);
+        // The picture is drawn again only where it may be another one.
+        if is_shown {
+            self.show(stage);
+        }
     }
 
     /// Brings the document onto the stage, and what was done into the recovery file.
