@@ -46,15 +46,19 @@ impl Editor {
     }
 
     fn take_document(&mut self, document: Document, path: Option<PathBuf>) {
+        self.replace_document(document);
+        let folder = self.recovery_folder.as_deref();
+        self.recovery =
+            folder.and_then(|folder| Recovery::start(folder, &mut self.document, path.as_deref()));
+        self.file = OpenFile::opened(path);
+    }
+
+    fn replace_document(&mut self, document: Document) {
         if let Some(recovery) = self.recovery.take() {
             recovery.close();
         }
         self.document = document;
         (self.view.local, self.view.before_camera) = (None, None);
-        let folder = self.recovery_folder.as_deref();
-        self.recovery =
-            folder.and_then(|folder| Recovery::start(folder, &mut self.document, path.as_deref()));
-        self.file = OpenFile::opened(path);
     }
 
     /// Does what was asked about files.
@@ -221,8 +225,12 @@ impl Editor {
 
     fn recover(&mut self, stage: &mut Stage, left: &Left) {
         match left.recover() {
-            Ok(document) => {
-                self.take_document(document, left.document.clone());
+            Ok((document, log)) => {
+                self.replace_document(document);
+                let (folder, path) = (self.recovery_folder.as_deref(), left.document.clone());
+                self.recovery = folder
+                    .and_then(|folder| Recovery::resume(folder, &mut self.document, log, path.as_deref()));
+                self.file = OpenFile::opened(path);
                 self.file.changed();
                 left.discard();
                 self.message = Message::Info("Recovered what was not saved; save it now".into());

@@ -36,16 +36,32 @@ pub(crate) struct Left {
 impl Recovery {
     /// Starts to write down what is done to a document, in this folder. `None` if no file can be made there.
     pub(crate) fn start(folder: &Path, document: &mut Document, path: Option<&Path>) -> Option<Self> {
-        fs::create_dir_all(folder).ok()?;
         let base = document.encode().ok()?.to_bytes();
+        // From now on the document remembers its events.
+        drop(document.take_events());
+        Self::write(folder, RecoveryLog { base, events: Vec::new(), is_cut_off: false }, path)
+    }
+
+    /// Goes on with what was recovered: later events may undo those before, and build on what they selected.
+    pub(crate) fn resume(
+        folder: &Path,
+        document: &mut Document,
+        log: RecoveryLog,
+        path: Option<&Path>,
+    ) -> Option<Self> {
+        drop(document.take_events());
+        Self::write(folder, log, path)
+    }
+
+    fn write(folder: &Path, log: RecoveryLog, path: Option<&Path>) -> Option<Self> {
+        fs::create_dir_all(folder).ok()?;
         let (name, mut held) = free_name(folder)?;
         let lock = folder.join(format!("{name}.lock"));
         // Through the handle that holds the lock: elsewhere than on Unix no other one may.
         held.write_all(path.and_then(Path::to_str).unwrap_or_default().as_bytes()).ok()?;
-        // From now on the document remembers its events.
-        drop(document.take_events());
         let file = folder.join(format!("{name}.recovery"));
-        let writer = RecoveryWriter::start(Box::new(Disk), &file, base);
+        let writer = RecoveryWriter::start(Box::new(Disk), &file, log.base);
+        log.events.into_iter().for_each(|event| writer.add(event));
         Some(Self { writer: Some(writer), lock, _held: held, has_told: false })
     }
 
@@ -107,18 +123,18 @@ impl Left {
         Some(left)
     }
 
-    /// The document as it was.
+    /// The document as it was, and what it was made from.
     ///
     /// # Errors
     /// Why not, for people.
-    pub(crate) fn recover(&self) -> Result<Document, String> {
+    pub(crate) fn recover(&self) -> Result<(Document, RecoveryLog), String> {
         let bytes = fs::read(&self.file).map_err(|error| format!("{}: {error}", self.file.display()))?;
         let log = RecoveryLog::read(&bytes).map_err(|error| error.to_string())?;
         let name = self.document.as_deref().unwrap_or(Path::new("untitled.glb"));
         let (mut document, _) = Document::open_bytes(name, &log.base, &LoadOptions::default())
             .map_err(|error| error.to_string())?;
         document.replay(&log.events).map_err(|error| error.to_string())?;
-        Ok(document)
+        Ok((document, log))
     }
 
     /// Nobody wants it.
@@ -154,10 +170,34 @@ mod tests {
         let left = Left::find(folder);
         let [left] = &left[..] else { panic!("one document was open: {left:?}") };
         assert_eq!((left.document.as_deref(), left.actions), (Some(path), 1), "what and how much");
-        let mut again = left.recover().expect("it was written whole");
+        let (mut again, log) = left.recover().expect("it was written whole");
         assert_eq!(again.scene().nodes().len(), before + 1, "the cube is there");
         left.discard();
         assert!(Left::find(folder).is_empty(), "and it is not offered again");
+        // The next crash comes after an undo of what was done before the first.
+        let mut recovery = Recovery::resume(folder, &mut again, log, Some(path)).expect("it can be written");
+        again.undo().expect("the cube was added");
+        again.run(command(r#"{"op":"add_light"}"#)).expect("possible");
+        assert_eq!(recovery.follow(&mut again), None, "nothing goes wrong");
+        drop(recovery);
+        let (third, _) = Left::find(folder)[0].recover().expect("undo finds what it undoes");
+        let names = |document: &Document| -> Vec<String> {
+            document.nodes().nodes().iter().map(|(_, node)| node.name.clone()).collect()
+        };
+        assert_eq!(names(&third), names(&again), "the light, and no cube");
+    }
+
+    #[test]
+    fn the_base_of_a_recovery_file_numbers_objects_as_the_document_does() {
+        let document = Document::new(trigon_edit::scene::showcase());
+        let base = document.encode().expect("small").to_bytes();
+        let (again, _) =
+            Document::open_bytes(Path::new("a.glb"), &base, &LoadOptions::default()).expect("ours");
+        let names = |document: &Document| -> Vec<(usize, String)> {
+            let nodes = document.nodes().nodes().iter();
+            nodes.map(|(id, node)| (id.index(), node.name.clone())).collect()
+        };
+        assert_eq!(names(&again), names(&document), "commands name objects by number");
     }
 
     #[test]
