@@ -9,6 +9,7 @@ use trigon_window::scene::math::DVec2;
 use super::dialog::FileWindow;
 use super::interface::{Popup, Rename, Search};
 use super::keys::Keys;
+use super::loading::Loading;
 use super::open_file::{Next, OpenFile, Question};
 use super::pick::{self, Click};
 use super::recent::Recent;
@@ -44,6 +45,8 @@ pub(crate) struct Editor {
     pub(crate) rename: Option<Rename>,
     pub(crate) question: Option<Question>,
     pub(crate) dialog: FileWindow,
+    /// The document that will replace this one.
+    pub(crate) loading: Option<Loading>,
     /// What follows when a document without a file has got one.
     pub(crate) after_save: Option<Next>,
     pub(crate) recent: Recent,
@@ -76,6 +79,7 @@ impl Editor {
             rename: None,
             question: None,
             dialog: FileWindow::default(),
+            loading: None,
             after_save: None,
             recent: Recent::load(folder.as_deref()),
             recovery: None,

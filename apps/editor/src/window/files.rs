@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use trigon_edit::scene::{Light, Material, Node, Scene};
 use trigon_edit::{Disk, Document, ObjectName, Select, save};
-use trigon_io::{GlbOptions, LoadOptions, write_glb};
+use trigon_io::{GlbOptions, write_glb};
 use trigon_window::Stage;
 use trigon_window::scene::math::DVec3;
 use trigon_window::scene::mesh::primitives;
 
 use super::dialog::Purpose;
 use super::editor::{Editor, Message, WELCOME};
+use super::loading::{Loading, Outcome};
 use super::open_file::{Answer, Next, OpenFile, Question};
 use super::recovery::{Left, Recovery};
 use crate::request::{FileAction, FileRequest};
@@ -110,48 +111,57 @@ impl Editor {
 
     /// Replaces the document, or closes the window.
     pub(crate) fn go_on(&mut self, stage: &mut Stage, next: Next) {
-        let is_new = next == Next::New;
         match next {
-            Next::New => self.start_new(),
-            Next::Open(path) => self.open(&path),
+            Next::New => {
+                self.start_new();
+                self.look_at_all(stage);
+                // Room for what will be added.
+                stage.orbit.zoom(0.5);
+                stage.set_home(stage.orbit);
+            }
+            Next::Open(path) => {
+                let waker = stage.waker();
+                self.loading = Some(Loading::start(path, move || waker.wake()));
+            }
             Next::Quit => {
                 if let Some(recovery) = self.recovery.take() {
                     recovery.close();
                 }
                 stage.exit();
-                return;
             }
         }
+    }
+
+    fn look_at_all(&mut self, stage: &mut Stage) {
         self.show(stage);
         stage.orbit.look_along(HOME_DIRECTION);
         stage.fit_view();
-        if is_new {
-            // Room for what will be added.
-            stage.orbit.zoom(0.5);
-        }
         stage.set_home(stage.orbit);
     }
 
-    fn open(&mut self, path: &Path) {
-        match Document::open(path, &LoadOptions::default()) {
+    /// A load has ended.
+    pub(crate) fn loaded(&mut self, stage: &mut Stage, path: &Path, outcome: Outcome) {
+        match outcome {
             Ok((document, warnings)) => {
                 self.take_document(document, Some(path.to_owned()));
                 self.recent.add(path);
-                let text = match &warnings[..] {
-                    [] => format!("Opened {}", path.display()),
-                    [first, ..] => {
-                        format!("Opened {} with {} warnings: {first}", path.display(), warnings.len())
-                    }
+                let warned = match &warnings[..] {
+                    [] => String::new(),
+                    [first, ..] => format!(" with {} warnings: {first}", warnings.len()),
                 };
-                self.message = Message::Info(text);
+                self.message = Message::Info(format!("Opened {}{warned}", path.display()));
+                self.look_at_all(stage);
             }
-            Err(error) => {
-                if self.recovery.is_none() {
-                    self.start_new();
-                }
-                self.message = Message::Refusal(error.to_string());
-            }
+            Err(error) => self.give_up_loading(stage, Message::Refusal(error)),
         }
+    }
+
+    /// Nothing is loaded: what was open stays, and at the start there is a cube.
+    pub(crate) fn give_up_loading(&mut self, stage: &mut Stage, message: Message) {
+        if self.document.nodes().nodes().is_empty() {
+            self.go_on(stage, Next::New);
+        }
+        self.message = message;
     }
 
     /// Saves, unless something would be lost that nobody was asked about.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton, Stage, Taken, egui};
 
 use super::editor::Editor;
+use super::loading::Loading;
 use super::open_file::{Answer, Next};
 use super::pick::{self, Click};
 use super::{files, interface};
@@ -50,6 +51,11 @@ impl Handler for Editor {
     }
 
     fn woken(&mut self, stage: &mut Stage) {
+        if let Some(outcome) = self.loading.as_ref().and_then(Loading::outcome)
+            && let Some(loading) = self.loading.take()
+        {
+            self.loaded(stage, &loading.path, outcome);
+        }
         if let Some(request) = self.dialog.picked() {
             self.perform(stage, Request::File(request));
         }
@@ -74,6 +80,10 @@ impl Editor {
     }
 
     fn key(&mut self, stage: &mut Stage, hands: Hands, keys: [Option<Key>; 2]) -> Taken {
+        if self.loading.is_some() {
+            // What was done now would be lost.
+            return Taken::Yes;
+        }
         if self.question.is_some() {
             if keys[0] == Some(Key::Escape) {
                 self.answer(stage, Answer::Cancel);

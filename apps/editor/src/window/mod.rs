@@ -10,6 +10,7 @@ mod files;
 mod handler;
 mod interface;
 mod keys;
+mod loading;
 mod navigation;
 mod open_file;
 mod pick;

@@ -162,8 +162,13 @@ fn a_document_is_saved_and_opened_again() {
     editor.perform(stage, Request::File(FileRequest::Ask(crate::request::FileAction::New)));
     assert_eq!(editor.document.nodes().nodes().len(), 2, "another document");
     editor.perform(stage, Request::File(FileRequest::Open(path.with_extension("glb"))));
+    let loading = editor.loading.take().expect("nothing was unsaved");
+    editor.loaded(stage, &loading.path, loading.wait());
     assert_eq!(editor.document.nodes().nodes().len(), 4, "again: {:?}", editor.message);
     assert!(!editor.file.is_unsaved(), "as it was saved");
+    editor.loaded(stage, &path, Err("it is broken".into()));
+    assert_eq!(worked.objects(), 4, "a load that fails leaves the document");
+    assert_eq!(worked.refusal(), "it is broken", "and says why");
 }
 
 #[test]

@@ -38,6 +38,7 @@ pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<R
     let waker = stage.waker();
     let chosen = editor.dialog.show(ui.ctx(), &editor.recent, move || waker.wake());
     requests.extend(chosen.map(Request::File));
+    questions::loading(ui.ctx(), editor, stage);
     questions::show(ui.ctx(), editor, stage);
     requests
 }

@@ -4,7 +4,7 @@ use trigon_window::Stage;
 use trigon_window::egui::{Context, Id, Key, Modal, Ui};
 
 use super::focus_first;
-use crate::window::editor::Editor;
+use crate::window::editor::{Editor, Message};
 use crate::window::open_file::{Answer, Question};
 
 /// Shows the question, if there is one.
@@ -21,6 +21,20 @@ pub(super) fn show(context: &Context, editor: &mut Editor, stage: &mut Stage) {
     if let Some(answer) = answer {
         editor.answer(stage, answer);
         context.request_repaint();
+    }
+}
+
+/// What is being loaded, and a way to end it.
+pub(super) fn loading(context: &Context, editor: &mut Editor, stage: &mut Stage) {
+    let Some(loading) = &editor.loading else { return };
+    let text = format!("Loading {}", loading.path.display());
+    let modal = Modal::new(Id::unique("loading")).show(context, |ui| {
+        ui.label(text);
+        ui.button("Cancel").clicked()
+    });
+    if modal.inner {
+        editor.loading = None;
+        editor.give_up_loading(stage, Message::Info("Loading was cancelled".into()));
     }
 }
 
