@@ -5,27 +5,28 @@ use std::path::PathBuf;
 use clap::Parser;
 use trigon_io::UpAxis;
 
-/// Edit polygon meshes and scenes by a script, without a window.
+/// Edit polygon meshes and scenes, in a window or by a script.
 ///
-/// A script is a list of commands as JSON; --list-commands tells all of them. The result is written whole or
-/// not at all, and a file that it replaces is kept with `.bak` at the end of its name. Exit
-/// codes: 0 done, 1 something failed, 2 wrong usage.
+/// Without --run a window opens on the files. A script is a list of commands as JSON; --list-commands tells all
+/// of them. The result is written whole or not at all, and a file that it replaces is kept with `.bak` at the
+/// end of its name. Exit codes: 0 done, 1 something failed, 2 wrong usage.
 #[derive(Debug, Parser)]
 #[command(name = "trigon-editor", version)]
 pub(crate) struct Arguments {
-    /// The model or scene to edit; an empty scene if none is given.
-    pub(crate) file: Option<PathBuf>,
+    /// The model or scene to edit; a window starts with a cube if none is given, a script with an empty scene.
+    #[arg(value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
 
-    /// The script to run.
-    #[arg(long, value_name = "SCRIPT", required_unless_present = "list_commands")]
+    /// The script to run, without a window.
+    #[arg(long, value_name = "SCRIPT", requires = "output")]
     pub(crate) run: Option<PathBuf>,
 
-    /// Where the result goes: .glb, .obj, .ply, .stl or .off
+    /// Where the result of a script goes: .glb, .obj, .ply, .stl or .off
     ///
     /// A .glb is the editor's own file, which other programs open, too; the others, and a .glb with
     /// one of --up, --scale and --selection-only, are for other programs alone, and what they cannot
     /// hold is said. Materials and pictures of an .obj lie beside it.
-    #[arg(long, short, value_name = "FILE", required_unless_present = "list_commands")]
+    #[arg(long, short, value_name = "FILE", requires = "run")]
     pub(crate) output: Option<PathBuf>,
 
     /// Write the file although something of the loaded one would be lost.
@@ -59,6 +60,12 @@ pub(crate) struct Arguments {
     /// Tell all commands with their parameters, as Markdown.
     #[arg(long)]
     pub(crate) list_commands: bool,
+
+    /// Tell all keys of the window as a keymap file, to be changed and kept in the configuration folder as
+    /// trigon/editor-keymap.json.
+    #[cfg(feature = "window")]
+    #[arg(long)]
+    pub(crate) print_keymap: bool,
 }
 
 fn up_axis(text: &str) -> Result<UpAxis, String> {

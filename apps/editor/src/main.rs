@@ -1,4 +1,4 @@
-//! The editor: runs scripts of commands on models, without a window.
+//! The editor: a window on a document, or scripts of commands without one.
 //!
 //! It only assembles: documents and commands come from `trigon-edit`, files from `trigon-io`. What
 //! can go wrong becomes one line on standard error and an exit code here.
@@ -20,6 +20,8 @@ mod show;
 #[cfg(feature = "window")]
 #[expect(dead_code, unused_imports, reason = "the window that starts the tools is merged after them")]
 mod tool;
+#[cfg(feature = "window")]
+mod window;
 
 use std::process::ExitCode;
 
@@ -33,13 +35,29 @@ fn main() -> ExitCode {
         print_line(&trigon_edit::command_reference());
         return ExitCode::SUCCESS;
     }
-    match run::run(&arguments) {
+    #[cfg(feature = "window")]
+    if arguments.print_keymap {
+        print_line(&window::keymap());
+        return ExitCode::SUCCESS;
+    }
+    let result = if arguments.run.is_some() { run::run(&arguments) } else { edit(&arguments) };
+    match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             report("error", &message);
             ExitCode::FAILURE
         }
     }
+}
+
+#[cfg(feature = "window")]
+fn edit(arguments: &Arguments) -> Result<(), String> {
+    window::run(arguments)
+}
+
+#[cfg(not(feature = "window"))]
+fn edit(_: &Arguments) -> Result<(), String> {
+    Err("this trigon-editor was built without its window; run a script with --run script.json --output FILE, or build it with the feature `window`".into())
 }
 
 /// A line on standard error.

@@ -1,24 +1,194 @@
-//! What panels, keys and tools ask the editor to do. They change nothing by themselves.
+//! What a panel, a menu, a key or a tool asks the editor to do. Whatever shows the document changes nothing
+//! itself: it adds requests, and the editor carries them out one after the other.
 
-use trigon_edit::{Command, MaterialName, TextureSlot};
+use std::path::PathBuf;
+
+use trigon_edit::{Command, ElementKind, MaterialName, TextureSlot};
+use trigon_window::scene::camera::AxisView;
 use trigon_window::{Comparison, Refinement};
 
-/// One thing to be done. The editor does them in order, after the interface was laid out.
+/// One thing to be done.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Request {
-    /// Run a command.
+    /// Runs a command: one entry in the history.
     Run(Command),
-    /// Run a command in place of the last one.
+    /// Runs a command in place of the last one.
     Adjust(Command),
-    /// Ask for a picture file and assign it to a material.
+    Undo,
+    Redo,
+    /// Runs the last command that was not a selection again.
+    RepeatLast,
+    /// Asks for a picture file and assigns it to a material.
     ChooseTexture {
         /// Which material.
         material: MaterialName,
         /// What the picture says.
         slot: TextureSlot,
     },
-    /// Compare the picture at rest with the reference, or stop it.
+    /// Compares the picture at rest with the reference, or stops it.
     Compare(Comparison),
-    /// Refine the picture at rest so far.
+    /// Refines the picture at rest so far.
     Refine(Refinement),
+    /// Starts a tool that follows the pointer.
+    StartTool(ToolKind),
+    /// Changes how the document is seen.
+    View(ViewRequest),
+    /// Opens, saves, closes.
+    File(FileRequest),
+    /// Changes what the window shows besides the document, and how its tools work.
+    Ui(UiRequest),
+}
+
+/// The tools that follow the pointer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ToolKind {
+    Move,
+    Rotate,
+    Scale,
+    Extrude,
+    ExtrudeIndividual,
+    Inset,
+    Bevel,
+    BevelVertices,
+    LoopCut,
+    EdgeSlide,
+    ShrinkFatten,
+    PushPull,
+    Shear,
+    ToSphere,
+    SelectBox,
+    SelectCircle,
+    SelectLasso,
+}
+
+/// How the document is seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum ViewRequest {
+    Axis(AxisView),
+    /// The same from the other side.
+    Opposite,
+    ToggleOrthographic,
+    /// By degrees to the right and up.
+    Orbit(f64, f64),
+    /// In shares of the picture's height to the right and up.
+    Pan(f64, f64),
+    /// By degrees counter-clockwise.
+    Roll(f64),
+    /// By a factor.
+    Zoom(f64),
+    FrameSelected,
+    FrameAll,
+    /// Shows only what is selected, or all again.
+    ToggleLocal,
+    /// Looks through the first camera of the scene, or back.
+    Camera,
+    Display(DisplayMode),
+    ToggleWireframe,
+    ToggleXRay,
+}
+
+/// How surfaces are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum DisplayMode {
+    Wireframe,
+    /// Plain shading by studio lights.
+    #[default]
+    Solid,
+    /// Materials and textures in studio lights.
+    Textured,
+    /// The scene's own lights and effects.
+    Rendered,
+}
+
+/// What happens to files.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum FileRequest {
+    Ask(FileAction),
+    Open(PathBuf),
+    SaveAs(PathBuf),
+    Import(PathBuf),
+    Export(PathBuf),
+}
+
+/// What a menu entry or a key does about files, without a path yet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FileAction {
+    New,
+    Open,
+    Save,
+    SaveAs,
+    Import,
+    Export,
+    Quit,
+}
+
+/// About what transformations turn and scale.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Pivot {
+    #[default]
+    Median,
+    /// Each part about its own middle, each object about its own origin.
+    Individual,
+    /// The origin of the active object.
+    Origin,
+    /// The middle of the box around what is selected.
+    Bounds,
+    /// What was selected last.
+    Active,
+    /// The 3D cursor.
+    Cursor,
+}
+
+/// Along which axes transformations work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Orientation {
+    #[default]
+    Global,
+    Local,
+    Normal,
+    View,
+}
+
+/// To what transformations snap.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum SnapTarget {
+    #[default]
+    Increment,
+    Grid,
+    Vertex,
+    Edge,
+    Face,
+}
+
+/// What the window shows besides the document, and how its tools work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum UiRequest {
+    /// Shows the actions of a menu at the pointer.
+    Popup(&'static str),
+    Search,
+    Help,
+    AdjustPanel,
+    ToggleEditMode,
+    Select(ElementKind),
+    ToolBar,
+    SideBar,
+    EmulateMouse,
+    EmulateNumpad,
+    Snapping,
+    Snap(SnapTarget),
+    Proportional,
+    Pivot(Pivot),
+    Orientation(Orientation),
+    Rename,
+    /// Selects what hangs together with what is under the pointer.
+    LinkedAtPointer,
+    LargerText,
+    SmallerText,
+}
+
+impl UiRequest {
+    /// Whether it leaves the document and its picture as they are.
+    pub(crate) fn is_about_window(self) -> bool {
+        !matches!(self, Self::ToggleEditMode | Self::Select(_) | Self::LinkedAtPointer)
+    }
 }

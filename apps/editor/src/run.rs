@@ -39,7 +39,13 @@ fn read_script(path: &Path) -> Result<Script, String> {
 }
 
 fn open(arguments: &Arguments) -> Result<Document, String> {
-    let Some(path) = &arguments.file else { return Ok(Document::default()) };
+    let path = match &arguments.files[..] {
+        [] => return Ok(Document::default()),
+        [path] => path,
+        [_, second, ..] => {
+            return Err(format!("{}: a script edits one file; run it once for each", second.display()));
+        }
+    };
     let (document, warnings) =
         Document::open(path, &LoadOptions::default()).map_err(|error| error.to_string())?;
     if !arguments.quiet {

@@ -69,6 +69,11 @@ pub trait Handler {
         let _ = (stage, paths, modifiers);
     }
 
+    /// Somebody wants to close the window: unless this says otherwise, it is closed.
+    fn close_requested(&mut self, stage: &mut Stage) {
+        stage.exit();
+    }
+
     /// A picture that [`Stage::request_picture`] asked for.
     fn picture(&mut self, stage: &mut Stage, frame: Frame) {
         let _ = (stage, frame);

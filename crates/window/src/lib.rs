@@ -64,7 +64,7 @@ pub use egui_painter::EguiTestRenderer;
 pub use egui_painter::{ChannelOrder, EguiPainter, MAX_TEXTURE_SIDE};
 pub use error::WindowError;
 pub use handler::{Animation, Handler, Tick};
-pub use input::{Chord, Hands, Input, InputOwner, Key, Modifiers, PointerButton, Taken};
+pub use input::{Chord, ChordError, Hands, Input, InputOwner, Key, Modifiers, PointerButton, Taken};
 pub use interaction::{Interaction, InteractionError};
 pub use keymap::{
     Action, Binding, CameraMotion, ClickAction, ClickBinding, DragAction, DragBinding, Keymap, Motion,

@@ -218,7 +218,10 @@ impl<'a> Session<'a> {
                 self.interface.painter.invalidate();
                 self.pacing.changed(Change::Overlay, now);
             }
-            InputEvent::CloseRequested => self.stage.exit(),
+            InputEvent::CloseRequested => {
+                self.handler.close_requested(&mut self.stage);
+                self.after_handler(now);
+            }
             input => self.control(input, now),
         }
     }

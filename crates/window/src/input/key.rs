@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::BitOr;
+use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +42,9 @@ pub enum Key {
     Down,
     /// F1 to F24.
     Function(u8),
+    /// What a key of the number pad types: a digit, or one of `.+-*/`. The key at this place of the main
+    /// block is its [`Key::Character`], which applications find where nothing is bound to the pad.
+    Numpad(char),
 }
 
 impl fmt::Display for Key {
@@ -48,6 +52,7 @@ impl fmt::Display for Key {
         match self {
             Self::Character(c) => write!(f, "{}", c.to_uppercase()),
             Self::Function(n) => write!(f, "F{n}"),
+            Self::Numpad(c) => write!(f, "Numpad{c}"),
             named => write!(f, "{named:?}"),
         }
     }
@@ -134,6 +139,68 @@ impl fmt::Display for Chord {
     }
 }
 
+/// A text is no chord.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{0:?} is no key; write Ctrl, Alt, Shift and one key with + between them, as Ctrl+Shift+Z, F3, Tab, Numpad1"
+)]
+pub struct ChordError(String);
+
+impl FromStr for Chord {
+    type Err = ChordError;
+
+    /// Reads what [`Display`](fmt::Display) writes, in upper or lower case.
+    fn from_str(text: &str) -> Result<Self, ChordError> {
+        let mut modifiers = Modifiers::NONE;
+        let mut rest = text.trim();
+        while let Some((modifier, tail)) = split_modifier(rest) {
+            modifiers = modifiers | modifier;
+            rest = tail;
+        }
+        let key = key_named(rest).ok_or_else(|| ChordError(text.to_owned()))?;
+        Ok(Self::new(modifiers, key))
+    }
+}
+
+/// The modifier at the beginning, and the rest.
+fn split_modifier(text: &str) -> Option<(Modifiers, &str)> {
+    let (first, tail) = text.split_once('+').filter(|(_, tail)| !tail.is_empty())?;
+    let known = [("ctrl", Modifiers::CTRL), ("alt", Modifiers::ALT), ("shift", Modifiers::SHIFT)];
+    let found = known.into_iter().find(|(name, _)| first.trim().eq_ignore_ascii_case(name));
+    found.map(|(_, modifier)| (modifier, tail))
+}
+
+/// The key of this name.
+fn key_named(text: &str) -> Option<Key> {
+    const NAMED: [Key; 14] = [
+        Key::Enter,
+        Key::Escape,
+        Key::Tab,
+        Key::Space,
+        Key::Backspace,
+        Key::Delete,
+        Key::Home,
+        Key::End,
+        Key::PageUp,
+        Key::PageDown,
+        Key::Left,
+        Key::Right,
+        Key::Up,
+        Key::Down,
+    ];
+    let text = text.trim();
+    let only = |text: &str| {
+        let mut lower = text.chars().flat_map(char::to_lowercase);
+        lower.next().filter(|_| lower.next().is_none())
+    };
+    let lower = text.to_ascii_lowercase();
+    let pad = lower.strip_prefix("numpad").and_then(only).filter(|c| "0123456789.+-*/".contains(*c));
+    let function = lower.strip_prefix('f').and_then(|number| number.parse().ok());
+    let function = function.filter(|number| (1..=24).contains(number));
+    let named = || NAMED.into_iter().find(|key| key.to_string().eq_ignore_ascii_case(text));
+    only(text).map(Key::Character).or(pad.map(Key::Numpad)).or(function.map(Key::Function)).or_else(named)
+}
+
 /// A button of the mouse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum PointerButton {
@@ -161,5 +228,22 @@ mod tests {
         assert_eq!(chord.to_string(), "Ctrl+Shift+H", "modifiers in the usual order");
         assert_eq!(Chord::from(Key::PageUp).to_string(), "PageUp", "named keys by name");
         assert_eq!(Chord::from(Key::Function(12)).to_string(), "F12", "function keys by number");
+        assert_eq!(Chord::from(Key::Numpad('1')).to_string(), "Numpad1", "the pad is another place");
+    }
+
+    #[test]
+    fn chords_are_read_as_they_are_written() {
+        let keys = [Key::Character('h'), Key::Character('+'), Key::Character('.'), Key::Function(12)];
+        for key in keys.into_iter().chain([Key::PageUp, Key::Numpad('/'), Key::Numpad('+'), Key::Tab]) {
+            for modifiers in [Modifiers::NONE, Modifiers::CTRL, Modifiers::ALT | Modifiers::SHIFT] {
+                let chord = Chord::new(modifiers, key);
+                assert_eq!(chord.to_string().parse(), Ok(chord), "{chord}");
+                assert_eq!(chord.to_string().to_lowercase().parse(), Ok(chord), "{chord} in lower case");
+            }
+        }
+        for wrong in ["", "Ctrl+", "Hyper+A", "F25", "Numpad", "Numpadx", "Enterr"] {
+            let error = wrong.parse::<Chord>().expect_err(wrong).to_string();
+            assert!(error.contains("Ctrl+Shift+Z"), "{error}");
+        }
     }
 }

@@ -11,7 +11,7 @@ mod wheel;
 
 pub(crate) use event::{InputEvent, KeyCode, KeyPress, Press};
 pub(crate) use held::{HeldKeys, STEP};
-pub use key::{Chord, Key, Modifiers, PointerButton};
+pub use key::{Chord, ChordError, Key, Modifiers, PointerButton};
 pub use offer::{Hands, Input, InputOwner, Taken};
 pub(crate) use pointer::{Gesture, Pointer};
 pub(crate) use wheel::{WheelDelta, wheel_lines};

@@ -80,7 +80,7 @@ fn key_event(event: &KeyEvent) -> Option<InputEvent> {
         ElementState::Released => Some(InputEvent::KeyUp(code)),
         ElementState::Pressed => Some(InputEvent::KeyDown(KeyPress {
             code,
-            logical: logical_key(&event.key_without_modifiers()),
+            logical: pad_key(event.physical_key).or_else(|| logical_key(&event.key_without_modifiers())),
             physical: physical_key(event.physical_key, &event.key_without_modifiers()),
             repeat: event.repeat,
         })),
@@ -91,7 +91,35 @@ fn key_event(event: &KeyEvent) -> Option<InputEvent> {
 /// Shift, and letters where the layout has none of the Latin ones.
 fn physical_key(physical: PhysicalKey, logical: &keyboard::Key) -> Option<Key> {
     let is_foreign = matches!(logical, keyboard::Key::Character(text) if !text.is_ascii());
-    physical_digit(physical).or_else(|| physical_letter(physical).filter(|_| is_foreign))
+    let pad = || match pad_key(physical) {
+        Some(Key::Numpad(typed)) => Some(Key::Character(typed)),
+        _ => None,
+    };
+    physical_digit(physical).or_else(pad).or_else(|| physical_letter(physical).filter(|_| is_foreign))
+}
+
+/// The key of the number pad, with or without its lock.
+fn pad_key(key: PhysicalKey) -> Option<Key> {
+    use keyboard::KeyCode as Code;
+    const KEYS: [(Code, char); 15] = [
+        (Code::Numpad0, '0'),
+        (Code::Numpad1, '1'),
+        (Code::Numpad2, '2'),
+        (Code::Numpad3, '3'),
+        (Code::Numpad4, '4'),
+        (Code::Numpad5, '5'),
+        (Code::Numpad6, '6'),
+        (Code::Numpad7, '7'),
+        (Code::Numpad8, '8'),
+        (Code::Numpad9, '9'),
+        (Code::NumpadDecimal, '.'),
+        (Code::NumpadAdd, '+'),
+        (Code::NumpadSubtract, '-'),
+        (Code::NumpadMultiply, '*'),
+        (Code::NumpadDivide, '/'),
+    ];
+    let PhysicalKey::Code(code) = key else { return None };
+    KEYS.into_iter().find(|&(place, _)| place == code).map(|(_, typed)| Key::Numpad(typed))
 }
 
 fn physical_letter(key: PhysicalKey) -> Option<Key> {
@@ -199,5 +227,15 @@ mod tests {
         let five = Some(Key::Character('5'));
         assert_eq!(physical_digit(PhysicalKey::Code(keyboard::KeyCode::Digit5)), five, "in the row");
         assert_eq!(physical_digit(PhysicalKey::Code(keyboard::KeyCode::Numpad5)), five, "and on the pad");
+    }
+
+    #[test]
+    fn the_pad_is_told_from_the_row_and_stands_for_it() {
+        let place = |code| PhysicalKey::Code(code);
+        assert_eq!(pad_key(place(keyboard::KeyCode::Numpad1)), Some(Key::Numpad('1')), "a place of its own");
+        assert_eq!(pad_key(place(keyboard::KeyCode::Digit1)), None, "which the row is not");
+        let locked = keyboard::Key::Named(NamedKey::Delete);
+        let point = physical_key(place(keyboard::KeyCode::NumpadDecimal), &locked);
+        assert_eq!(point, Some(Key::Character('.')), "whether its lock is on or not");
     }
 }

@@ -79,7 +79,7 @@ fn median(ui: &mut Ui, document: &Document, values: Values, requests: &mut Vec<R
     let hover = "In the space of the mesh: the vertex, or the mean of the selected ones.";
     if let Some((_, response)) = vector(ui, label, hover, &mut shown, &plain(Unit::Metres)) {
         let offset = DVec3::from(shown) - values.middle + moved_before(ui, document, &response);
-        let command = Translate { offset: offset.into(), proportional: None };
+        let command = Translate { offset: offset.into(), ..Translate::default() };
         submit(ui, document, &response, command.into(), requests);
     }
 }

@@ -97,7 +97,7 @@ fn a_button_that_was_taken_is_the_applications_until_its_release_over_panels_too
     assert_eq!(session.stage.selection, None, "and nothing was clicked");
     assert_eq!(session.stage.title(), "taken", "what it changed is there");
     press(&mut session, BUTTON, Press::Down, ms(5000));
-    press(&mut session, BUTTON, Press::Up, ms(6000));
+    press(&mut session, BUTTON, Press::Up, ms(5000));
     drop(session);
     let left = PointerButton::Left;
     let expected = [Input::PointerMoved, Input::Pressed(left), Input::PointerMoved, Input::Released(left)];

@@ -1,0 +1,179 @@
+//! Everything that a user can do, in one table: menus, keys, the command search and the help sheet are all
+//! made from it, so that none of them can lack or promise anything.
+
+mod add;
+mod edit;
+mod file;
+mod mesh;
+mod select;
+mod view;
+
+use trigon_edit::Document;
+
+use crate::request::{FileAction, FileRequest, Request, ToolKind, UiRequest, ViewRequest};
+
+/// The menus of the bar, in their order. Others are opened by keys.
+pub(crate) const MENUS: [&str; 8] = ["File", "Edit", "Add", "Select", "Mesh", "UV", "View", "Help"];
+
+/// One row of the table.
+#[derive(Debug)]
+pub(crate) struct Action {
+    /// In the keymap file, as `edit.undo`.
+    pub(crate) name: &'static str,
+    /// The menu, as `Mesh`, or a menu within it, as `Mesh/Delete`.
+    pub(crate) menu: &'static str,
+    /// In menus.
+    pub(crate) label: &'static str,
+    /// The chords that it has unless a user says otherwise, with spaces between them.
+    pub(crate) keys: &'static str,
+    pub(crate) needs: Needs,
+    pub(crate) does: Does,
+    /// A sentence for tool tips and the help sheet.
+    pub(crate) help: &'static str,
+}
+
+/// What an action does.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Does {
+    /// Runs the command of this JSON.
+    Run(&'static str),
+    Tool(ToolKind),
+    View(ViewRequest),
+    File(FileAction),
+    Ui(UiRequest),
+    Undo,
+    Redo,
+    RepeatLast,
+}
+
+/// What has to be so before an action can run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Needs {
+    Nothing,
+    ObjectMode,
+    /// Object mode, and something selected.
+    Objects,
+    TwoObjects,
+    EditMode,
+    /// Edit mode, and something selected.
+    Elements,
+    /// Something selected, in either mode.
+    Selected,
+    SomethingDone,
+    SomethingUndone,
+    SomethingToRepeat,
+}
+
+/// Makes a table of actions: menu, name, label, keys, needs, what it does => help.
+macro_rules! actions {
+    ($($menu:literal $name:literal $label:literal $keys:literal $needs:ident $does:expr => $help:literal;)*) => {
+        pub(super) const ACTIONS: &[Action] = &[$(Action {
+            name: $name,
+            menu: $menu,
+            label: $label,
+            keys: $keys,
+            needs: Needs::$needs,
+            does: $does,
+            help: $help,
+        }),*];
+    };
+}
+use actions;
+
+/// All actions, menu by menu.
+pub(crate) fn all() -> impl Iterator<Item = &'static Action> {
+    let tables = [file::ACTIONS, edit::ACTIONS, add::ACTIONS, select::ACTIONS, mesh::ACTIONS, view::ACTIONS];
+    tables.into_iter().flatten()
+}
+
+/// The action of this name.
+pub(crate) fn named(name: &str) -> Option<&'static Action> {
+    all().find(|action| action.name == name)
+}
+
+impl Action {
+    /// What the editor is asked when it is chosen.
+    pub(crate) fn request(&self) -> Request {
+        match self.does {
+            Does::Run(json) => {
+                Request::Run(serde_json::from_str(json).expect("a test reads the commands of the table"))
+            }
+            Does::Tool(tool) => Request::StartTool(tool),
+            Does::View(view) => Request::View(view),
+            Does::File(file) => Request::File(FileRequest::Ask(file)),
+            Does::Ui(ui) => Request::Ui(ui),
+            Does::Undo => Request::Undo,
+            Does::Redo => Request::Redo,
+            Does::RepeatLast => Request::RepeatLast,
+        }
+    }
+
+    /// Why it cannot run now; `None` if it can.
+    pub(crate) fn refusal(&self, document: &Document) -> Option<&'static str> {
+        let is_editing = document.selection().is_editing();
+        match self.needs {
+            Needs::Objects | Needs::TwoObjects | Needs::ObjectMode if is_editing => {
+                return Some("works on whole objects: leave edit mode first (Tab)");
+            }
+            Needs::EditMode | Needs::Elements if !is_editing => {
+                return Some(
+                    "works on the elements of a mesh: select an object and enter edit mode first (Tab)",
+                );
+            }
+            _ => {}
+        }
+        let is_met = self.needs.are_met(document);
+        (!is_met).then(|| self.needs.remedy(is_editing))
+    }
+
+    /// Whether it opens a menu at the pointer, which a menu has no use for.
+    pub(crate) fn opens_menu(&self) -> bool {
+        matches!(self.does, Does::Ui(UiRequest::Popup(_)))
+    }
+
+    /// Whether it is an action of the mode that the document is in.
+    pub(crate) fn fits_mode(&self, is_editing: bool) -> bool {
+        match self.needs {
+            Needs::Objects | Needs::TwoObjects | Needs::ObjectMode => !is_editing,
+            Needs::EditMode | Needs::Elements => is_editing,
+            _ => true,
+        }
+    }
+}
+
+impl Needs {
+    fn are_met(self, document: &Document) -> bool {
+        let (selection, history) = (document.selection(), document.history());
+        let elements = || selection.meshes().any(|(_, elements)| !elements.is_empty());
+        match self {
+            Self::Nothing | Self::ObjectMode | Self::EditMode => true,
+            Self::Objects => !selection.objects.is_empty(),
+            Self::TwoObjects => selection.objects.len() > 1,
+            Self::Elements => elements(),
+            Self::Selected if selection.is_editing() => elements(),
+            Self::Selected => !selection.objects.is_empty(),
+            Self::SomethingDone => !history.done().is_empty(),
+            Self::SomethingUndone => !history.undone().is_empty(),
+            Self::SomethingToRepeat => history.done().iter().any(|entry| !entry.command().is_selection()),
+        }
+    }
+
+    /// Why it cannot be, and what to do about it.
+    fn remedy(self, is_editing: bool) -> &'static str {
+        match self {
+            Self::TwoObjects => "needs two objects: click one, then Shift+click another",
+            Self::Elements => "needs something selected: click a vertex, an edge or a face first",
+            Self::Selected if is_editing => {
+                "needs something selected: click a vertex, an edge or a face first"
+            }
+            Self::Objects | Self::Selected => "needs an object: click one first",
+            Self::SomethingDone => "there is nothing to undo",
+            Self::SomethingUndone => "there is nothing to do again",
+            Self::SomethingToRepeat => "there is nothing to repeat yet",
+            Self::Nothing | Self::ObjectMode | Self::EditMode => "",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,197 @@
+//! The window in which a file is chosen: the system's dialog, a typed path where there is none, and the files
+//! of last time.
+
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::thread;
+
+use trigon_window::egui::{self, Key};
+
+use super::recent::Recent;
+use crate::request::{FileAction, FileRequest};
+
+/// What a file is chosen for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Purpose {
+    #[default]
+    Open,
+    SaveAs,
+    Import,
+    Export,
+}
+
+/// The window, shown or not.
+#[derive(Debug, Default)]
+pub(crate) struct FileWindow {
+    purpose: Option<Purpose>,
+    path: String,
+    /// The system's dialog, while it is open.
+    dialog: Option<(Purpose, Receiver<Option<PathBuf>>)>,
+    note: &'static str,
+}
+
+impl Purpose {
+    /// That of an entry of the menu File.
+    pub(crate) fn of(action: FileAction) -> Option<Self> {
+        match action {
+            FileAction::Open => Some(Self::Open),
+            FileAction::SaveAs => Some(Self::SaveAs),
+            FileAction::Import => Some(Self::Import),
+            FileAction::Export => Some(Self::Export),
+            FileAction::New | FileAction::Save | FileAction::Quit => None,
+        }
+    }
+
+    fn request(self, path: PathBuf) -> FileRequest {
+        match self {
+            Self::Open => FileRequest::Open(path),
+            Self::SaveAs => FileRequest::SaveAs(path),
+            Self::Import => FileRequest::Import(path),
+            Self::Export => FileRequest::Export(path),
+        }
+    }
+
+    fn title(self) -> &'static str {
+        match self {
+            Self::Open => "Open",
+            Self::SaveAs => "Save As",
+            Self::Import => "Import",
+            Self::Export => "Export",
+        }
+    }
+
+    fn writes(self) -> bool {
+        matches!(self, Self::SaveAs | Self::Export)
+    }
+
+    /// Asks by the system's dialog: on Linux that of the desktop portal.
+    fn ask(self) -> Option<PathBuf> {
+        let dialog = rfd::FileDialog::new().set_title(self.title());
+        if self.writes() { dialog.add_filter("glTF", &["glb"]).save_file() } else { dialog.pick_file() }
+    }
+}
+
+impl FileWindow {
+    /// Shows itself.
+    pub(crate) fn ask(&mut self, purpose: Purpose, suggestion: String) {
+        (self.purpose, self.path, self.note) = (Some(purpose), suggestion, "");
+    }
+
+    /// Hides itself; tells whether it was shown.
+    pub(crate) fn close(&mut self) -> bool {
+        self.purpose.take().is_some()
+    }
+
+    /// Asks by a dialog on a thread of its own; `wake` is called when it is closed.
+    fn browse(
+        &mut self,
+        purpose: Purpose,
+        dialog: impl FnOnce() -> Option<PathBuf> + Send + 'static,
+        wake: impl FnOnce() + Send + 'static,
+    ) {
+        let (sender, receiver) = channel();
+        let asked = thread::Builder::new().name("trigon-dialog".into()).spawn(move || {
+            // Nobody waits for it any more when this fails.
+            drop(sender.send(dialog()));
+            wake();
+        });
+        self.dialog = asked.ok().map(|_| (purpose, receiver));
+    }
+
+    /// What a dialog ended with, once.
+    pub(crate) fn picked(&mut self) -> Option<FileRequest> {
+        let (purpose, receiver) = self.dialog.as_ref()?;
+        let (purpose, ended) = match receiver.try_recv() {
+            Err(TryRecvError::Empty) => return None,
+            Err(TryRecvError::Disconnected) => (*purpose, None),
+            Ok(path) => (*purpose, path),
+        };
+        self.dialog = None;
+        self.note = "no file was chosen; where the system shows no dialog, type a path";
+        let path = ended?;
+        self.purpose = None;
+        Some(purpose.request(path))
+    }
+
+    /// Shows it, if it is to be seen. Returns what was chosen; `wake` is called when a dialog is closed.
+    pub(crate) fn show(
+        &mut self,
+        context: &egui::Context,
+        recent: &Recent,
+        wake: impl FnOnce() + Send + 'static,
+    ) -> Option<FileRequest> {
+        let purpose = self.purpose?;
+        let (mut chosen, mut browses, mut is_open) = (None, false, true);
+        let window = egui::Window::new(purpose.title()).open(&mut is_open).collapsible(false);
+        window.anchor(egui::Align2::CENTER_CENTER, [0.0; 2]).default_width(460.0).show(context, |ui| {
+            (chosen, browses) = self.fields(ui, purpose);
+            if !self.note.is_empty() {
+                ui.label(self.note);
+            }
+            if !purpose.writes() && !recent.files().is_empty() {
+                ui.separator();
+                ui.label("recent");
+                for file in recent.files() {
+                    if ui.button(file.display().to_string()).clicked() {
+                        chosen = Some(file.clone());
+                    }
+                }
+            }
+        });
+        if browses {
+            self.browse(purpose, move || purpose.ask(), wake);
+        }
+        if !is_open || chosen.is_some() {
+            self.purpose = None;
+        }
+        chosen.map(|path| purpose.request(path))
+    }
+
+    /// The path that is typed, and the way to the dialog. Returns what was entered, and whether to browse.
+    fn fields(&mut self, ui: &mut egui::Ui, purpose: Purpose) -> (Option<PathBuf>, bool) {
+        ui.horizontal(|ui| {
+            let field = egui::TextEdit::singleline(&mut self.path).hint_text("path of a file");
+            let typed = ui.add(field.desired_width(300.0));
+            ui.ctx().accesskit_node_builder(typed.id, |node| node.set_label("path of a file"));
+            let entered = typed.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            if !entered && ui.memory(|memory| memory.focused().is_none()) {
+                typed.request_focus();
+            }
+            let has_path = !self.path.trim().is_empty();
+            let pressed = ui.add_enabled(has_path, egui::Button::new(purpose.title())).clicked();
+            let path = ((pressed || entered) && has_path).then(|| PathBuf::from(self.path.trim()));
+            let browses = ui.add_enabled(self.dialog.is_none(), egui::Button::new("Browse…")).clicked();
+            (path, browses)
+        })
+        .inner
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A window whose dialog has ended so.
+    fn ended(decision: Option<PathBuf>) -> (FileWindow, Option<FileRequest>) {
+        let ((decide, decided), (wake, woken)) = (channel(), channel());
+        let mut window = FileWindow::default();
+        window.ask(Purpose::Import, String::new());
+        let dialog = move || decided.recv().expect("the test decides");
+        window.browse(Purpose::Import, dialog, move || wake.send(()).expect("the test waits"));
+        assert_eq!(window.picked(), None, "its user has not decided");
+        decide.send(decision).expect("the dialog waits");
+        woken.recv().expect("it closes");
+        let picked = window.picked();
+        (window, picked)
+    }
+
+    #[test]
+    fn dialogs_answer_with_a_file_or_leave_the_window_open() {
+        let (mut window, picked) = ended(Some("a.obj".into()));
+        assert_eq!(picked, Some(FileRequest::Import("a.obj".into())), "for what it was asked for");
+        assert!(!window.close() && window.picked().is_none(), "once, and nothing more is asked");
+        let (mut window, picked) = ended(None);
+        assert_eq!(picked, None, "none");
+        assert!(!window.note.is_empty() && window.close(), "a path can be typed instead");
+    }
+}

@@ -1,0 +1,254 @@
+//! The editor's state, and what becomes of requests.
+
+use std::path::{Path, PathBuf};
+
+use trigon_edit::{Command, Document, EditObjects, ElementKind, LeaveEditMode, SetElementKind};
+use trigon_window::Stage;
+use trigon_window::scene::math::DVec2;
+
+use super::dialog::FileWindow;
+use super::interface::{Popup, Rename, Search};
+use super::keys::Keys;
+use super::loading::Loading;
+use super::open_file::{Next, OpenFile, Question};
+use super::pick::{self, Click};
+use super::recent::Recent;
+use super::recovery::Recovery;
+use super::settings::{self, Layout, ToolSettings, ViewState};
+use super::wiring::Panels;
+use super::{actions, navigation, show};
+use crate::request::{Request, ToolKind, UiRequest};
+
+/// What the status line says until the next action.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Message {
+    Info(String),
+    /// Why something was not done.
+    Refusal(String),
+}
+
+/// Says at a first start what nobody can guess.
+pub(crate) const WELCOME: &str =
+    "Middle drag or Alt+left drag orbits, the wheel zooms; click selects, Tab edits; F3 finds every command";
+
+/// A document in a window.
+pub(crate) struct Editor {
+    pub(crate) document: Document,
+    pub(crate) file: OpenFile,
+    pub(crate) keys: Keys,
+    pub(crate) tools: ToolSettings,
+    pub(crate) view: ViewState,
+    pub(crate) layout: Layout,
+    pub(crate) message: Message,
+    pub(crate) popup: Option<Popup>,
+    pub(crate) search: Option<Search>,
+    pub(crate) rename: Option<Rename>,
+    pub(crate) question: Option<Question>,
+    pub(crate) dialog: FileWindow,
+    /// The document that will replace this one.
+    pub(crate) loading: Option<Loading>,
+    /// What follows when a document without a file has got one.
+    pub(crate) after_save: Option<Next>,
+    pub(crate) recent: Recent,
+    pub(crate) recovery: Option<Recovery>,
+    pub(crate) panels: Panels,
+    /// A press of the left button that has not become anything yet.
+    pub(crate) click: Option<Click>,
+    /// Where the pointer was last, in physical pixels.
+    pub(crate) pointer: Option<DVec2>,
+    /// Where files of recovery are kept.
+    pub(crate) recovery_folder: Option<PathBuf>,
+    /// The files of the command line, until the window is open.
+    pub(crate) to_open: Vec<PathBuf>,
+}
+
+impl Editor {
+    /// An editor that remembers what it has to in a folder, and opens the first of these files and imports the
+    /// others.
+    pub(crate) fn new(keys: Keys, folder: Option<PathBuf>, to_open: Vec<PathBuf>) -> Self {
+        Self {
+            document: Document::default(),
+            file: OpenFile::default(),
+            keys,
+            tools: ToolSettings::default(),
+            view: ViewState::default(),
+            layout: Layout::default(),
+            message: Message::Info(WELCOME.into()),
+            popup: None,
+            search: None,
+            rename: None,
+            question: None,
+            dialog: FileWindow::default(),
+            loading: None,
+            after_save: None,
+            recent: Recent::load(folder.as_deref()),
+            recovery: None,
+            panels: Panels::default(),
+            click: None,
+            pointer: None,
+            recovery_folder: folder.as_deref().map(|folder: &Path| folder.join("recovery")),
+            to_open,
+        }
+    }
+
+    /// Carries out what was asked for, and shows what has become of the document.
+    pub(crate) fn perform(&mut self, stage: &mut Stage, request: Request) {
+        let is_shown = !matches!(request, Request::Ui(request) if request.is_about_window());
+        match request {
+            Request::Run(command) => self.run(command),
+            Request::Adjust(command) => self.adjust(command),
+            Request::Undo => self.undo(),
+            Request::Redo => self.redo(),
+            Request::RepeatLast => self.repeat(),
+            Request::ChooseTexture { .. } => {}
+            Request::Compare(comparison) => stage.comparison = comparison,
+            Request::Refine(refinement) => stage.refinement = refinement,
+            Request::StartTool(tool) => self.start_tool(tool),
+            Request::View(request) => navigation::apply(self, stage, request),
+            Request::File(request) => self.file_request(stage, request),
+            Request::Ui(request) => self.ui_request(stage, request),
+        }
+        // The picture is drawn again only where it may be another one.
+        if is_shown {
+            self.show(stage);
+        }
+    }
+
+    /// Brings the document onto the stage, and what was done into the recovery file.
+    pub(crate) fn show(&mut self, stage: &mut Stage) {
+        if let Some(recovery) = &mut self.recovery
+            && let Some(error) = recovery.follow(&mut self.document)
+        {
+            self.message = Message::Refusal(error);
+        }
+        show::onto_stage(self, stage);
+        stage.set_title(self.title());
+    }
+
+    /// Runs a command, and says what has come of it.
+    pub(crate) fn run(&mut self, command: Command) {
+        let (selects, name) = (command.is_selection(), command.name());
+        match self.document.run(command) {
+            Ok(outcome) => {
+                self.file.ran(selects);
+                self.done(name, &outcome.message);
+            }
+            Err(refusal) => self.message = Message::Refusal(refusal.to_string()),
+        }
+    }
+
+    fn done(&mut self, name: &str, message: &str) {
+        let text = if message.is_empty() { name.to_owned() } else { format!("{name}: {message}") };
+        self.message = Message::Info(text);
+    }
+
+    fn adjust(&mut self, command: Command) {
+        let (selects, name) = (command.is_selection(), command.name());
+        match self.document.adjust_last(command) {
+            Ok(outcome) => {
+                if !selects {
+                    self.file.changed();
+                }
+                self.done(name, &outcome.message);
+            }
+            Err(refusal) => self.message = Message::Refusal(refusal.to_string()),
+        }
+    }
+
+    fn undo(&mut self) {
+        let last = self.document.history().done().last().map(|entry| entry.command());
+        let (selects, name) = last.map_or((true, ""), |command| (command.is_selection(), command.name()));
+        match self.document.undo() {
+            Ok(()) => {
+                self.file.undid(selects);
+                self.message = Message::Info(format!("Undo: {name}"));
+            }
+            Err(refusal) => self.message = Message::Refusal(refusal.to_string()),
+        }
+    }
+
+    fn redo(&mut self) {
+        let next = self.document.history().undone().first().map(|entry| entry.command());
+        let (selects, name) = next.map_or((true, ""), |command| (command.is_selection(), command.name()));
+        match self.document.redo() {
+            Ok(()) => {
+                self.file.redid(selects);
+                self.message = Message::Info(format!("Redo: {name}"));
+            }
+            Err(refusal) => self.message = Message::Refusal(refusal.to_string()),
+        }
+    }
+
+    fn repeat(&mut self) {
+        match self.document.repeat_last() {
+            Ok(outcome) => {
+                self.file.ran(false);
+                self.done("Repeat", &outcome.message);
+            }
+            Err(refusal) => self.message = Message::Refusal(refusal.to_string()),
+        }
+    }
+
+    fn start_tool(&mut self, tool: ToolKind) {
+        if let Some(command) = super::wiring::without_tool(tool) {
+            self.run(command);
+        } else {
+            self.message = Message::Refusal(format!("{tool:?} has no tool that follows the pointer yet"));
+        }
+    }
+
+    fn ui_request(&mut self, stage: &mut Stage, request: UiRequest) {
+        match request {
+            UiRequest::Popup(menu) => self.popup = Some(Popup::new(menu)),
+            UiRequest::Search => self.search = Some(Search::default()),
+            UiRequest::Help => self.layout.help = !self.layout.help,
+            UiRequest::AdjustPanel => self.layout.adjust = !self.layout.adjust,
+            UiRequest::ToggleEditMode => self.toggle_edit_mode(),
+            UiRequest::Select(kind) => self.select_kind(kind),
+            UiRequest::ToolBar => self.layout.tool_bar = !self.layout.tool_bar,
+            UiRequest::SideBar => self.layout.side_bar = !self.layout.side_bar,
+            UiRequest::EmulateMouse => {
+                self.layout.emulates_mouse = !self.layout.emulates_mouse;
+                stage.keymap = settings::drags(self.layout.emulates_mouse);
+            }
+            UiRequest::EmulateNumpad => self.keys.emulates_numpad = !self.keys.emulates_numpad,
+            UiRequest::Snapping => self.tools.snapping = !self.tools.snapping,
+            UiRequest::Snap(target) => self.tools.snap_target = target,
+            UiRequest::Proportional => self.tools.proportional = !self.tools.proportional,
+            UiRequest::Pivot(pivot) => self.tools.pivot = pivot,
+            UiRequest::Orientation(orientation) => self.tools.orientation = orientation,
+            UiRequest::LinkedAtPointer => self.select_linked(stage),
+            UiRequest::Rename => self.rename = Rename::of_active(&self.document),
+            UiRequest::LargerText => stage.text_scale = (stage.text_scale * 1.25).min(4.0),
+            UiRequest::SmallerText => stage.text_scale = (stage.text_scale / 1.25).max(0.5),
+        }
+    }
+
+    fn toggle_edit_mode(&mut self) {
+        if self.document.selection().is_editing() {
+            self.run(LeaveEditMode {}.into());
+        } else {
+            self.run(EditObjects::default().into());
+        }
+    }
+
+    fn select_linked(&mut self, stage: &Stage) {
+        let commands = self.pointer.map(|at| pick::linked(self, stage, at)).unwrap_or_default();
+        if commands.is_empty() {
+            self.message = Message::Refusal("Linked: point at a mesh that is edited".into());
+        }
+        commands.into_iter().for_each(|command| self.run(command));
+    }
+
+    fn select_kind(&mut self, kind: ElementKind) {
+        self.run(SetElementKind { kind }.into());
+    }
+
+    /// Does what an action of the table does, or says why it cannot.
+    pub(crate) fn choose(&mut self, stage: &mut Stage, action: &actions::Action) {
+        match action.refusal(&self.document) {
+            Some(reason) => self.message = Message::Refusal(format!("{}: {reason}", action.label)),
+            None => self.perform(stage, action.request()),
+        }
+    }
+}

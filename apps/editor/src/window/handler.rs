@@ -1,0 +1,143 @@
+//! What the window tells the editor.
+
+use std::path::PathBuf;
+
+use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton, Stage, Taken, egui};
+
+use super::editor::Editor;
+use super::loading::Loading;
+use super::open_file::{Answer, Next};
+use super::pick::{self, Click};
+use super::{files, interface};
+use crate::request::{FileAction, FileRequest, Request};
+
+impl Handler for Editor {
+    fn start(&mut self, stage: &mut Stage) {
+        self.begin(stage);
+        self.show(stage);
+    }
+
+    fn input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
+        self.pointer = hands.pointer;
+        match *input {
+            Input::Key { logical, physical, repeat: false } => self.key(stage, hands, [logical, physical]),
+            Input::Pressed(PointerButton::Left) => self.pressed(hands),
+            Input::PointerMoved => self.pointer_moved(stage, hands),
+            Input::Released(PointerButton::Left) => self.released(stage),
+            Input::Clicked(PointerButton::Left) => self.clicked(stage, hands),
+            Input::FocusLost => {
+                self.click = None;
+                Taken::No
+            }
+            _ => Taken::No,
+        }
+    }
+
+    fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {
+        let requests = interface::show(self, stage, ui);
+        for request in requests {
+            self.perform(stage, request);
+            ui.ctx().request_repaint();
+        }
+    }
+
+    fn dropped(&mut self, stage: &mut Stage, paths: Vec<PathBuf>, modifiers: Modifiers) {
+        for path in paths {
+            // With Shift it is added to the scene, as a menu entry would.
+            let imports = modifiers.contains(Modifiers::SHIFT);
+            let request = if imports { FileRequest::Import(path) } else { FileRequest::Open(path) };
+            self.perform(stage, Request::File(request));
+        }
+    }
+
+    fn woken(&mut self, stage: &mut Stage) {
+        if let Some(outcome) = self.loading.as_ref().and_then(Loading::outcome)
+            && let Some(loading) = self.loading.take()
+        {
+            self.loaded(stage, &loading.path, outcome);
+        }
+        if let Some(request) = self.dialog.picked() {
+            self.perform(stage, Request::File(request));
+        }
+    }
+
+    fn close_requested(&mut self, stage: &mut Stage) {
+        self.perform(stage, Request::File(FileRequest::Ask(FileAction::Quit)));
+    }
+}
+
+impl Editor {
+    fn begin(&mut self, stage: &mut Stage) {
+        let mut files = std::mem::take(&mut self.to_open).into_iter();
+        match files.next() {
+            Some(first) => self.go_on(stage, Next::Open(first)),
+            None => self.go_on(stage, Next::New),
+        }
+        files.for_each(|file| self.file_request(stage, FileRequest::Import(file)));
+        if self.question.is_none() {
+            self.question = files::offer_recovery(self.recovery_folder.as_deref());
+        }
+    }
+
+    fn key(&mut self, stage: &mut Stage, hands: Hands, keys: [Option<Key>; 2]) -> Taken {
+        if self.loading.is_some() {
+            // What was done now would be lost.
+            return Taken::Yes;
+        }
+        if self.question.is_some() {
+            if keys[0] == Some(Key::Escape) {
+                self.answer(stage, Answer::Cancel);
+            }
+            return Taken::Yes;
+        }
+        if keys[0] == Some(Key::Escape) && self.dismiss() {
+            return Taken::Yes;
+        }
+        let is_editing = self.document.selection().is_editing();
+        let chords = keys.into_iter().flatten().map(|key| Chord::new(hands.modifiers, key));
+        let found = chords.into_iter().find_map(|chord| self.keys.find(chord, is_editing));
+        let Some(action) = found else { return Taken::No };
+        self.choose(stage, action);
+        Taken::Yes
+    }
+
+    /// Closes what lies over the view; tells whether anything did.
+    fn dismiss(&mut self) -> bool {
+        let was_open = self.popup.is_some() || self.search.is_some() || self.layout.help;
+        (self.popup, self.search, self.layout.help) = (None, None, false);
+        was_open | self.dialog.close() | self.rename.take().is_some()
+    }
+
+    fn pressed(&mut self, hands: Hands) -> Taken {
+        if self.popup.take().is_some() {
+            return Taken::Yes;
+        }
+        if self.layout.emulates_mouse && hands.modifiers.contains(Modifiers::ALT) {
+            // A drag is the camera's, and a click comes back as such.
+            return Taken::No;
+        }
+        self.click = Click::new(hands);
+        Taken::Yes
+    }
+
+    fn pointer_moved(&mut self, stage: &Stage, hands: Hands) -> Taken {
+        let Some(click) = &mut self.click else { return Taken::No };
+        click.moved(hands, stage.scale());
+        Taken::Yes
+    }
+
+    fn released(&mut self, stage: &mut Stage) -> Taken {
+        let click = self.click.take().and_then(Click::released);
+        if let Some((at, modifiers)) = click {
+            pick::click(self, stage, at, modifiers);
+        }
+        Taken::Yes
+    }
+
+    fn clicked(&mut self, stage: &mut Stage, hands: Hands) -> Taken {
+        if let Some(at) = hands.pointer {
+            pick::click(self, stage, at, hands.modifiers);
+        }
+        Taken::Yes
+    }
+}

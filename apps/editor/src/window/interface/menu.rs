@@ -1,0 +1,126 @@
+//! Menus, made from the table of actions.
+
+use trigon_window::Stage;
+use trigon_window::egui::containers::menu::menu_style;
+use trigon_window::egui::{
+    Align, Area, Button, Context, Frame, Id, Key, Layout, MenuBar, Order, Pos2, Response, RichText, Ui,
+};
+
+use super::{focus_first, label};
+use crate::window::actions::{self, Action, MENUS};
+use crate::window::editor::Editor;
+
+/// In points.
+const POPUP_WIDTH: f32 = 220.0;
+
+/// A menu that a key opened.
+#[derive(Debug)]
+pub(crate) struct Popup {
+    menu: &'static str,
+    /// Where; at the pointer, once it is shown.
+    at: Option<Pos2>,
+}
+
+impl Popup {
+    pub(crate) fn new(menu: &'static str) -> Self {
+        Self { menu, at: None }
+    }
+}
+
+/// The bar of menus.
+pub(super) fn bar(ui: &mut Ui, editor: &mut Editor, stage: &mut Stage) {
+    let mut chosen = None;
+    MenuBar::new().ui(ui, |ui| {
+        for menu in MENUS {
+            ui.menu_button(menu, |ui| chosen = entries(ui, editor, menu).or(chosen));
+        }
+    });
+    if let Some(action) = chosen {
+        editor.choose(stage, action);
+        ui.ctx().request_repaint();
+    }
+}
+
+/// The entries of a menu: its actions, and the menus within it where they first come up.
+fn entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Action> {
+    let mut chosen = None;
+    let mut within: Vec<&str> = Vec::new();
+    for action in actions::all().filter(|action| !action.opens_menu()) {
+        if action.menu == menu {
+            if entry(ui, editor, action).clicked() {
+                ui.close();
+                chosen = Some(action);
+            }
+            continue;
+        }
+        let Some(name) = action.menu.strip_prefix(menu).and_then(|rest| rest.strip_prefix('/')) else {
+            continue;
+        };
+        if !within.contains(&name) {
+            within.push(name);
+            ui.menu_button(name, |ui| chosen = entries(ui, editor, action.menu).or(chosen));
+        }
+    }
+    chosen
+}
+
+/// One action with its key; greyed, with the reason, while it cannot run.
+fn entry(ui: &mut Ui, editor: &Editor, action: &Action) -> Response {
+    let refusal = action.refusal(&editor.document);
+    let shortcut = RichText::new(editor.keys.text_of(action)).weak();
+    let shown = ui.add_enabled(refusal.is_none(), Button::new(action.label).right_text(shortcut));
+    label(&shown, action.label);
+    let reason = refusal.map_or_else(String::new, |reason| format!("{}\n{reason}", action.help));
+    shown.on_hover_text(action.help).on_disabled_hover_text(reason)
+}
+
+/// A menu with those within it below one another, as few movements of the hand as can be.
+fn all_entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Action> {
+    let (mut chosen, mut current) = (None, menu);
+    ui.strong(menu.rsplit('/').next().unwrap_or(menu));
+    for action in actions::all().filter(|action| !action.opens_menu()) {
+        let within = action.menu.strip_prefix(menu);
+        if !within.is_some_and(|rest| rest.is_empty() || rest.starts_with('/')) {
+            continue;
+        }
+        if action.menu != current {
+            current = action.menu;
+            ui.separator();
+        }
+        let shown = entry(ui, editor, action);
+        if shown.enabled() {
+            // Arrows and Enter choose, too.
+            focus_first(&shown);
+        }
+        chosen = shown.clicked().then_some(action).or(chosen);
+    }
+    chosen
+}
+
+/// The menu that a key opened, at the pointer.
+pub(super) fn popup(context: &Context, editor: &mut Editor, stage: &mut Stage) {
+    let Some(Popup { menu, at }) = &mut editor.popup else { return };
+    let is_new = at.is_none();
+    let pointer = || context.pointer_latest_pos().unwrap_or_else(|| context.content_rect().center());
+    let (menu, at) = (*menu, *at.get_or_insert_with(pointer));
+    let mut chosen = None;
+    let area = Area::new(Id::unique(("popup", menu))).fixed_pos(at).order(Order::Foreground);
+    let shown = area.constrain(true).fade_in(false).show(context, |ui| {
+        Frame::menu(ui.style()).show(ui, |ui| {
+            menu_style(ui.style_mut());
+            ui.set_max_width(POPUP_WIDTH);
+            ui.with_layout(Layout::top_down_justified(Align::LEFT), |ui| {
+                chosen = all_entries(ui, editor, menu);
+            });
+        });
+    });
+    let beside = !is_new && shown.response.clicked_elsewhere();
+    let escaped = context.input(|input| input.key_pressed(Key::Escape));
+    if chosen.is_some() || beside || escaped {
+        editor.popup = None;
+    }
+    if let Some(action) = chosen {
+        editor.choose(stage, action);
+        context.request_repaint();
+    }
+}

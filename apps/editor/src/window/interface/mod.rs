@@ -1,0 +1,70 @@
+//! Everything around the 3D view. Each part adds what it is asked for to a list, which the editor carries out
+//! when the interface is laid out.
+
+mod bars;
+mod menu;
+mod overlays;
+mod questions;
+mod search;
+mod status;
+
+use trigon_window::Stage;
+use trigon_window::egui::{self, Panel, ScrollArea, Ui};
+
+use super::editor::Editor;
+use super::wiring;
+use crate::request::Request;
+
+pub(crate) use menu::Popup;
+pub(crate) use overlays::Rename;
+pub(crate) use search::Search;
+
+/// Shows all of it; returns what is to be done.
+pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<Request> {
+    let mut requests = Vec::new();
+    Panel::top("menus").show(ui, |ui| menu::bar(ui, editor, stage));
+    Panel::top("modes").show(ui, |ui| bars::top(ui, editor, stage, &mut requests));
+    Panel::bottom("status").show(ui, |ui| status::line(ui, editor));
+    if editor.layout.tool_bar {
+        Panel::left("tools").resizable(false).exact_size(132.0).show(ui, |ui| bars::tools(ui, editor, stage));
+    }
+    if editor.layout.side_bar {
+        side_bar(ui, editor, &mut requests);
+    }
+    search::show(ui.ctx(), editor, stage);
+    menu::popup(ui.ctx(), editor, stage);
+    overlays::help(ui.ctx(), editor);
+    overlays::rename(ui.ctx(), editor, &mut requests);
+    let waker = stage.waker();
+    let chosen = editor.dialog.show(ui.ctx(), &editor.recent, move || waker.wake());
+    requests.extend(chosen.map(Request::File));
+    questions::loading(ui.ctx(), editor, stage);
+    questions::show(ui.ctx(), editor, stage);
+    requests
+}
+
+/// The outliner above, the tabs below.
+fn side_bar(ui: &mut Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+    Panel::right("side").default_size(260.0).show(ui, |ui| {
+        let half = ui.available_height() * 0.4;
+        ui.strong("Outliner");
+        let scroll = ScrollArea::vertical().id_salt("outliner").max_height(half).auto_shrink([false, false]);
+        scroll.show(ui, |ui| wiring::outliner(ui, &editor.document, &mut editor.panels, requests));
+        ui.separator();
+        ScrollArea::vertical().id_salt("tabs").auto_shrink([false, false]).show(ui, |ui| {
+            wiring::tabs(ui, &editor.document, &mut editor.panels, requests);
+        });
+    });
+}
+
+/// Gives the keyboard to a widget if no other has it.
+fn focus_first(widget: &egui::Response) {
+    if widget.ctx.memory(|memory| memory.focused().is_none()) {
+        widget.request_focus();
+    }
+}
+
+/// A label for those who use a screen reader, and for tests.
+fn label(response: &egui::Response, text: &str) {
+    response.ctx.accesskit_node_builder(response.id, |node| node.set_label(text));
+}

@@ -1,0 +1,43 @@
+//! The line at the bottom: what was done or refused, and what is selected.
+
+use trigon_edit::{Document, ElementKind};
+use trigon_window::egui::{Align, Color32, Layout, RichText, Ui};
+
+use crate::window::editor::{Editor, Message};
+
+/// Readable on the panel's dark grey.
+const REFUSAL: Color32 = Color32::from_rgb(255, 170, 90);
+
+/// Shows it.
+pub(super) fn line(ui: &mut Ui, editor: &Editor) {
+    ui.horizontal(|ui| {
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.label(counts(&editor.document));
+            ui.separator();
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let text = match &editor.message {
+                    Message::Info(text) => RichText::new(text),
+                    Message::Refusal(text) => RichText::new(text).color(REFUSAL),
+                };
+                ui.add(trigon_window::egui::Label::new(text).truncate());
+            });
+        });
+    });
+}
+
+/// As "3 of 8 vertices".
+fn counts(document: &Document) -> String {
+    let selection = document.selection();
+    if !selection.is_editing() {
+        let all = document.nodes().nodes().len();
+        return format!("{} of {all} objects selected", selection.objects.len());
+    }
+    let selected: usize = selection.meshes().map(|(_, elements)| elements.len()).sum();
+    let meshes = selection.meshes().filter_map(|(id, _)| document.mesh(id));
+    let (all, kind) = match selection.kind() {
+        ElementKind::Vertex => (meshes.map(|mesh| mesh.vertex_count()).sum::<usize>(), "vertices"),
+        ElementKind::Edge => (meshes.map(|mesh| mesh.edge_count()).sum(), "edges"),
+        ElementKind::Face => (meshes.map(|mesh| mesh.face_count()).sum(), "faces"),
+    };
+    format!("{selected} of {all} {kind} selected")
+}

@@ -1,0 +1,68 @@
+//! The editor's window: its state, and everything around the 3D view.
+//!
+//! A key, a menu, a panel or a tool makes a [`Request`](crate::request::Request); [`Editor`](editor::Editor)
+//! carries it out on the document; [`show`] brings the document onto the stage.
+
+mod actions;
+mod dialog;
+mod editor;
+mod files;
+mod handler;
+mod interface;
+mod keys;
+mod loading;
+mod navigation;
+mod open_file;
+mod pick;
+mod recent;
+mod recovery;
+mod settings;
+mod show;
+#[cfg(test)]
+mod tests;
+mod wiring;
+
+use trigon_window::{Application, WindowError};
+
+use crate::arguments::Arguments;
+use editor::Editor;
+use keys::Keys;
+
+/// The default keymap, as a file that users may change.
+pub(crate) fn keymap() -> String {
+    keys::print()
+}
+
+/// Opens the window, and returns when it is closed.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
+    if !display_is_named() {
+        return Err(
+            "there is no display to open a window on; run a script instead: trigon-editor --run script.json"
+                .into(),
+        );
+    }
+    let (keys, notes) = keys_of_user()?;
+    notes.iter().for_each(|note| crate::report("warning", note));
+    let mut application = Application::new("trigon");
+    let mut editor = Editor::new(keys, recent::state_folder(), arguments.files.clone());
+    settings::prepare(&mut application.stage);
+    application.run_with(&mut editor).map_err(|error| match error {
+        WindowError::NoDisplay { .. } => format!("{error}; run a script instead: --run script.json"),
+        other => other.to_string(),
+    })
+}
+
+/// The keys of the user's file, if there is one, and what in it is not known.
+fn keys_of_user() -> Result<(Keys, Vec<String>), String> {
+    let Some(path) = keys::file().filter(|path| path.exists()) else { return Ok(Default::default()) };
+    let text = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let (keys, warnings) = Keys::from_json(&text).map_err(|error| format!("{}, {error}", path.display()))?;
+    Ok((keys, warnings.into_iter().map(|warning| format!("{}, {warning}", path.display())).collect()))
+}
+
+/// Opening a large document only to find that there is no display helps nobody. Other systems always have one,
+/// or say so later.
+fn display_is_named() -> bool {
+    let named = |variable| std::env::var_os(variable).is_some_and(|value| !value.is_empty());
+    !cfg!(target_os = "linux") || named("DISPLAY") || named("WAYLAND_DISPLAY")
+}

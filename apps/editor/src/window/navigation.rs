@@ -1,0 +1,111 @@
+//! Changes of the view that come from keys and menus; drags are the window's own.
+
+use trigon_edit::Document;
+use trigon_edit::scene::Scene;
+use trigon_window::Stage;
+use trigon_window::scene::camera::{DEFAULT_MARGIN, Orbit};
+use trigon_window::scene::math::{DVec3, Vec3};
+
+use super::editor::{Editor, Message};
+use crate::request::{DisplayMode, ViewRequest};
+
+/// Does what is asked for.
+pub(crate) fn apply(editor: &mut Editor, stage: &mut Stage, request: ViewRequest) {
+    match request {
+        ViewRequest::Axis(view) => stage.orbit.set_view(view),
+        ViewRequest::Opposite => stage.orbit.orbit(std::f64::consts::PI, 0.0),
+        ViewRequest::ToggleOrthographic => stage.orbit.toggle_orthographic(),
+        ViewRequest::Orbit(right, up) => stage.orbit.orbit(right.to_radians(), up.to_radians()),
+        ViewRequest::Roll(angle) => stage.orbit.roll(angle.to_radians()),
+        ViewRequest::Zoom(factor) => stage.orbit.zoom(factor),
+        ViewRequest::Pan(right, up) => {
+            let height = stage.orbit.height_at_target();
+            stage.orbit.pan(right * height, up * height);
+        }
+        ViewRequest::FrameSelected => frame_selected(editor, stage),
+        ViewRequest::FrameAll => stage.fit_view(),
+        ViewRequest::ToggleLocal => toggle_local(editor, stage),
+        ViewRequest::Camera => look_through_camera(editor, stage),
+        ViewRequest::Display(mode) => editor.view.display = mode,
+        ViewRequest::ToggleWireframe => toggle_wireframe(editor),
+        ViewRequest::ToggleXRay => editor.view.x_ray = !editor.view.x_ray,
+    }
+}
+
+fn toggle_wireframe(editor: &mut Editor) {
+    let view = &mut editor.view;
+    if view.display == DisplayMode::Wireframe {
+        view.display = view.before_wireframe;
+    } else {
+        view.before_wireframe = std::mem::replace(&mut view.display, DisplayMode::Wireframe);
+    }
+    if view.display == DisplayMode::Wireframe && view.before_wireframe == DisplayMode::Wireframe {
+        view.before_wireframe = DisplayMode::Solid;
+    }
+}
+
+fn frame_selected(editor: &mut Editor, stage: &mut Stage) {
+    let points = selected_points(&editor.document);
+    if points.is_empty() {
+        stage.fit_view();
+        return;
+    }
+    let aspect = stage.viewport().aspect();
+    match &points[..] {
+        // A point has no size that the view could be fitted to.
+        [point] => stage.orbit.set_target(*point),
+        _ => stage.orbit.fit_points(&points, aspect, DEFAULT_MARGIN),
+    }
+}
+
+/// The places of all selected vertices in the world; of objects those of all their vertices, or their origins.
+fn selected_points(document: &Document) -> Vec<DVec3> {
+    let (scene, selection) = (document.nodes(), document.selection());
+    let mut points = Vec::new();
+    for (id, node) in scene.nodes().iter() {
+        let world = scene.world_transform(id);
+        let mut add = |place: Vec3| points.push(world.transform_point3(place.as_dvec3()));
+        match node.mesh {
+            Some(mesh) if selection.is_editing() => {
+                if let (Some(elements), Some(edited)) = (selection.of(mesh), document.mesh(mesh)) {
+                    let vertices = elements.vertices(edited, selection.kind());
+                    vertices.into_iter().for_each(|vertex| add(edited.position(vertex)));
+                }
+            }
+            Some(mesh) if selection.objects.contains(&id) => {
+                let asset = scene.meshes().get(mesh);
+                asset.into_iter().flat_map(|asset| asset.mesh().positions()).for_each(|place| add(*place));
+            }
+            None if selection.objects.contains(&id) => add(Vec3::ZERO),
+            _ => {}
+        }
+    }
+    points
+}
+
+fn toggle_local(editor: &mut Editor, stage: &mut Stage) {
+    let selected = &editor.document.selection().objects;
+    if editor.view.local.take().is_none() {
+        if selected.is_empty() {
+            let text = "Local View: needs an object: click one first";
+            editor.message = Message::Refusal(text.into());
+            return;
+        }
+        editor.view.local = Some(selected.clone());
+        frame_selected(editor, stage);
+    }
+}
+
+fn look_through_camera(editor: &mut Editor, stage: &mut Stage) {
+    if let Some(before) = editor.view.before_camera.take() {
+        stage.orbit = before;
+        return;
+    }
+    let scene: &Scene = editor.document.nodes();
+    let Some((_, camera)) = scene.cameras().into_iter().next() else {
+        editor.message = Message::Refusal("Camera: the scene has no camera".into());
+        return;
+    };
+    editor.view.before_camera = Some(stage.orbit);
+    stage.orbit = Orbit::from_camera(&camera, stage.orbit.distance(), DVec3::Y);
+}

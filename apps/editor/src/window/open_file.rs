@@ -1,0 +1,111 @@
+//! What is known about the document's file, and what has to be asked before it is replaced.
+
+use std::path::{Path, PathBuf};
+
+use super::recovery::Left;
+
+/// The file of the document, and whether it holds what was done.
+#[derive(Debug, Default)]
+pub(crate) struct OpenFile {
+    pub(crate) path: Option<PathBuf>,
+    /// How many changes lie between the document as it was opened and as it is.
+    position: i64,
+    /// The position that the file holds; `None` if no undo leads there.
+    saved: Option<i64>,
+}
+
+impl OpenFile {
+    pub(crate) fn opened(path: Option<PathBuf>) -> Self {
+        Self { path, position: 0, saved: Some(0) }
+    }
+
+    /// A command was run. One that only selects is no change, but what was undone before cannot be done again.
+    pub(crate) fn ran(&mut self, selects: bool) {
+        self.saved = self.saved.filter(|saved| *saved <= self.position);
+        self.position += i64::from(!selects);
+    }
+
+    /// A command was taken back.
+    pub(crate) fn undid(&mut self, selects: bool) {
+        self.position -= i64::from(!selects);
+    }
+
+    /// A command was done again.
+    pub(crate) fn redid(&mut self, selects: bool) {
+        self.position += i64::from(!selects);
+    }
+
+    /// Something was done that no count of commands tells.
+    pub(crate) fn changed(&mut self) {
+        self.saved = None;
+    }
+
+    /// It was written to this file.
+    pub(crate) fn saved_as(&mut self, path: PathBuf) {
+        (self.saved, self.path) = (Some(self.position), Some(path));
+    }
+
+    /// Whether closing the document would lose something.
+    pub(crate) fn is_unsaved(&self) -> bool {
+        self.saved != Some(self.position)
+    }
+
+    pub(crate) fn name(&self) -> String {
+        let name = self.path.as_deref().and_then(Path::file_name);
+        name.map_or_else(|| "untitled".into(), |name| name.to_string_lossy().into_owned())
+    }
+}
+
+/// What is done when a question is answered.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Next {
+    New,
+    Open(PathBuf),
+    Quit,
+}
+
+/// What has to be answered before anything else is done.
+#[derive(Debug)]
+pub(crate) enum Question {
+    /// The document has changes: save them, discard them, or go on.
+    Unsaved(Next),
+    /// The file would not hold all of the one that was opened.
+    Losses { path: PathBuf, losses: Vec<String>, next: Option<Next> },
+    /// A crash has left a document.
+    Recover(Left),
+}
+
+/// How a question was answered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Answer {
+    /// Save, write all the same, recover.
+    Yes,
+    /// Discard.
+    No,
+    Cancel,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn undo_and_redo_lead_back_to_what_was_saved_unless_something_else_was_done() {
+        let mut file = OpenFile::opened(None);
+        assert!(!file.is_unsaved(), "just opened");
+        file.ran(true);
+        assert!(!file.is_unsaved(), "a selection is no change");
+        file.ran(false);
+        file.saved_as("/a.glb".into());
+        file.undid(false);
+        assert!(file.is_unsaved(), "what was saved is undone");
+        file.redid(false);
+        assert!(!file.is_unsaved(), "and done again");
+        file.undid(false);
+        file.ran(false);
+        assert!(file.is_unsaved(), "something else was done in its place");
+        file.undid(false);
+        file.ran(true);
+        assert!(file.is_unsaved(), "nothing leads there any more");
+    }
+}

@@ -1,0 +1,213 @@
+//! What is written down beside the window while somebody edits, and what a crash has left behind.
+//!
+//! Each open document has a recovery file and beside it a file that this process holds locked. Where that lock
+//! is free, the process that held it is gone without having closed its document.
+
+use std::fs::{self, File};
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+
+use trigon_edit::{Disk, Document, Event, RecoveryLog, RecoveryWriter};
+use trigon_io::LoadOptions;
+
+/// The recovery file of the document that is open.
+#[derive(Debug)]
+pub(crate) struct Recovery {
+    writer: Option<RecoveryWriter>,
+    lock: PathBuf,
+    /// Held for as long as the document is open.
+    _held: File,
+    /// Whether somebody was told that nothing is written any more.
+    has_told: bool,
+}
+
+/// A document that was open when the editor ended without closing it.
+#[derive(Debug)]
+pub(crate) struct Left {
+    file: PathBuf,
+    lock: PathBuf,
+    /// The file that the document had, if it had one.
+    pub(crate) document: Option<PathBuf>,
+    /// How many actions can be recovered.
+    pub(crate) actions: usize,
+    _held: File,
+}
+
+impl Recovery {
+    /// Starts to write down what is done to a document, in this folder. `None` if no file can be made there.
+    pub(crate) fn start(folder: &Path, document: &mut Document, path: Option<&Path>) -> Option<Self> {
+        let base = document.encode().ok()?.to_bytes();
+        // From now on the document remembers its events.
+        drop(document.take_events());
+        Self::write(folder, RecoveryLog { base, events: Vec::new(), is_cut_off: false }, path)
+    }
+
+    /// Goes on with what was recovered: later events may undo those before, and build on what they selected.
+    pub(crate) fn resume(
+        folder: &Path,
+        document: &mut Document,
+        log: RecoveryLog,
+        path: Option<&Path>,
+    ) -> Option<Self> {
+        drop(document.take_events());
+        Self::write(folder, log, path)
+    }
+
+    fn write(folder: &Path, log: RecoveryLog, path: Option<&Path>) -> Option<Self> {
+        fs::create_dir_all(folder).ok()?;
+        let (name, mut held) = free_name(folder)?;
+        let lock = folder.join(format!("{name}.lock"));
+        // Through the handle that holds the lock: elsewhere than on Unix no other one may.
+        held.write_all(path.and_then(Path::to_str).unwrap_or_default().as_bytes()).ok()?;
+        let file = folder.join(format!("{name}.recovery"));
+        let writer = RecoveryWriter::start(Box::new(Disk), &file, log.base);
+        log.events.into_iter().for_each(|event| writer.add(event));
+        Some(Self { writer: Some(writer), lock, _held: held, has_told: false })
+    }
+
+    /// Writes down what was done since the last call. Returns what a user has to know, once.
+    pub(crate) fn follow(&mut self, document: &mut Document) -> Option<String> {
+        let writer = self.writer.as_ref()?;
+        document.take_events().into_iter().for_each(|event| writer.add(event));
+        let error = writer.status().error.filter(|_| !self.has_told)?;
+        self.has_told = true;
+        Some(error)
+    }
+
+    /// The document is closed: nothing of it is to be recovered.
+    pub(crate) fn close(mut self) {
+        if let Some(writer) = self.writer.take() {
+            writer.remove();
+        }
+        drop(fs::remove_file(&self.lock));
+    }
+}
+
+/// A name that no document has, with its lock.
+fn free_name(folder: &Path) -> Option<(String, File)> {
+    let process = std::process::id();
+    (0..1000).find_map(|number| {
+        let name = format!("{process}-{number}");
+        let lock = File::create_new(folder.join(format!("{name}.lock"))).ok()?;
+        lock.try_lock().ok()?;
+        Some((name, lock))
+    })
+}
+
+impl Left {
+    /// What was left in a folder with anything to recover.
+    pub(crate) fn find(folder: &Path) -> Vec<Self> {
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+        let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+        files.retain(|path| path.extension().is_some_and(|extension| extension == "recovery"));
+        files.sort();
+        files.into_iter().filter_map(Self::of).collect()
+    }
+
+    fn of(file: PathBuf) -> Option<Self> {
+        let lock = file.with_extension("lock");
+        let mut held =
+            File::options().read(true).write(true).create(true).truncate(false).open(&lock).ok()?;
+        held.try_lock().ok()?;
+        let events = RecoveryLog::read(&fs::read(&file).ok()?).map(|log| log.events).unwrap_or_default();
+        let changes = |event: &&Event| !matches!(event, Event::Run(command) if command.is_selection());
+        let actions = events.iter().filter(changes).count();
+        let mut name = String::new();
+        held.read_to_string(&mut name).ok()?;
+        let document = Some(name).filter(|name| !name.is_empty()).map(PathBuf::from);
+        let left = Self { file, lock, document, actions, _held: held };
+        if actions == 0 {
+            left.discard();
+            return None;
+        }
+        Some(left)
+    }
+
+    /// The document as it was, and what it was made from.
+    ///
+    /// # Errors
+    /// Why not, for people.
+    pub(crate) fn recover(&self) -> Result<(Document, RecoveryLog), String> {
+        let bytes = fs::read(&self.file).map_err(|error| format!("{}: {error}", self.file.display()))?;
+        let log = RecoveryLog::read(&bytes).map_err(|error| error.to_string())?;
+        let name = self.document.as_deref().unwrap_or(Path::new("untitled.glb"));
+        let (mut document, _) = Document::open_bytes(name, &log.base, &LoadOptions::default())
+            .map_err(|error| error.to_string())?;
+        document.replay(&log.events).map_err(|error| error.to_string())?;
+        Ok((document, log))
+    }
+
+    /// Nobody wants it.
+    pub(crate) fn discard(&self) {
+        drop(fs::remove_file(&self.file));
+        drop(fs::remove_file(&self.lock));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn command(json: &str) -> trigon_edit::Command {
+        serde_json::from_str(json).expect("a command")
+    }
+
+    #[test]
+    fn what_a_crash_leaves_is_found_once_and_comes_back() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let folder = folder.path();
+        let mut document = Document::new(trigon_edit::scene::showcase());
+        let before = document.nodes().nodes().len();
+        let path = Path::new("/models/chair.glb");
+        let mut recovery = Recovery::start(folder, &mut document, Some(path)).expect("it can be written");
+        document
+            .run(command(r#"{"op":"add_object","object":{"shape":"cube","edge":2.0}}"#))
+            .expect("possible");
+        assert_eq!(recovery.follow(&mut document), None, "nothing goes wrong");
+        assert!(Left::find(folder).is_empty(), "its process is alive");
+        // A crash: the file stays, and the lock is free.
+        drop(recovery);
+        let left = Left::find(folder);
+        let [left] = &left[..] else { panic!("one document was open: {left:?}") };
+        assert_eq!((left.document.as_deref(), left.actions), (Some(path), 1), "what and how much");
+        let (mut again, log) = left.recover().expect("it was written whole");
+        assert_eq!(again.scene().nodes().len(), before + 1, "the cube is there");
+        left.discard();
+        assert!(Left::find(folder).is_empty(), "and it is not offered again");
+        // The next crash comes after an undo of what was done before the first.
+        let mut recovery = Recovery::resume(folder, &mut again, log, Some(path)).expect("it can be written");
+        again.undo().expect("the cube was added");
+        again.run(command(r#"{"op":"add_light"}"#)).expect("possible");
+        assert_eq!(recovery.follow(&mut again), None, "nothing goes wrong");
+        drop(recovery);
+        let (third, _) = Left::find(folder)[0].recover().expect("undo finds what it undoes");
+        let names = |document: &Document| -> Vec<String> {
+            document.nodes().nodes().iter().map(|(_, node)| node.name.clone()).collect()
+        };
+        assert_eq!(names(&third), names(&again), "the light, and no cube");
+    }
+
+    #[test]
+    fn the_base_of_a_recovery_file_numbers_objects_as_the_document_does() {
+        let document = Document::new(trigon_edit::scene::showcase());
+        let base = document.encode().expect("small").to_bytes();
+        let (again, _) =
+            Document::open_bytes(Path::new("a.glb"), &base, &LoadOptions::default()).expect("ours");
+        let names = |document: &Document| -> Vec<(usize, String)> {
+            let nodes = document.nodes().nodes().iter();
+            nodes.map(|(id, node)| (id.index(), node.name.clone())).collect()
+        };
+        assert_eq!(names(&again), names(&document), "commands name objects by number");
+    }
+
+    #[test]
+    fn a_document_that_was_closed_leaves_nothing() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut document = Document::default();
+        Recovery::start(folder.path(), &mut document, None).expect("it can be written").close();
+        assert_eq!(fs::read_dir(folder.path()).expect("it is there").count(), 0, "no file");
+        let mut untouched = Document::default();
+        drop(Recovery::start(folder.path(), &mut untouched, None));
+        assert!(Left::find(folder.path()).is_empty(), "nothing was done, so nothing is offered");
+    }
+}

@@ -1,0 +1,83 @@
+//! How the window and its tools work, apart from the document.
+
+use std::collections::BTreeSet;
+
+use trigon_edit::scene::NodeId;
+use trigon_window::scene::camera::{Orbit, Viewport};
+use trigon_window::{
+    Action, DragAction, DragBinding, Key, Keymap, Modifiers, PointerButton, Refinement, Stage,
+};
+
+use crate::request::{DisplayMode, Orientation, Pivot, SnapTarget};
+
+/// How tools work.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct ToolSettings {
+    pub(crate) snapping: bool,
+    pub(crate) snap_target: SnapTarget,
+    pub(crate) proportional: bool,
+    pub(crate) pivot: Pivot,
+    pub(crate) orientation: Orientation,
+}
+
+/// How the document is seen, apart from the camera.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ViewState {
+    pub(crate) display: DisplayMode,
+    /// What was shown before the wireframe.
+    pub(crate) before_wireframe: DisplayMode,
+    pub(crate) x_ray: bool,
+    /// The only objects that are shown.
+    pub(crate) local: Option<BTreeSet<NodeId>>,
+    /// The view that the scene's camera replaced.
+    pub(crate) before_camera: Option<Orbit>,
+}
+
+/// Which parts of the window are shown.
+#[derive(Debug)]
+pub(crate) struct Layout {
+    pub(crate) tool_bar: bool,
+    pub(crate) side_bar: bool,
+    pub(crate) adjust: bool,
+    pub(crate) help: bool,
+    /// Whether Alt and the left button stand for the middle one.
+    pub(crate) emulates_mouse: bool,
+}
+
+impl Default for Layout {
+    fn default() -> Self {
+        // Touchpads and thin clients have no middle button, and nothing is lost by helping them.
+        Self { tool_bar: true, side_bar: true, adjust: true, help: false, emulates_mouse: true }
+    }
+}
+
+/// Prepares a stage for the editor: its size, quality, and Blender's drags.
+pub(crate) fn prepare(stage: &mut Stage) {
+    stage.set_size(Viewport { width: 1440, height: 900 });
+    stage.refinement = Refinement::Settings;
+    (stage.settings.samples_per_axis, stage.settings.samples) = (2, 1);
+    stage.keymap = drags(true);
+}
+
+/// The camera's drags, and the way to the panels without a mouse: all that the editor uses of the window's own
+/// keymap.
+pub(crate) fn drags(emulates_mouse: bool) -> Keymap {
+    let none = Modifiers::NONE;
+    let kinds = [
+        (none, DragAction::Orbit, "orbit"),
+        (Modifiers::SHIFT, DragAction::Pan, "pan"),
+        (Modifiers::CTRL, DragAction::Zoom, "zoom"),
+        (Modifiers::CTRL | Modifiers::SHIFT, DragAction::Zoom, "zoom"),
+    ];
+    let mut keymap = Keymap::empty();
+    let description = "into the interface (Escape: out of it)";
+    keymap.bind(Key::Function(6), "interface", Action::EnterInterface, description);
+    let emulated = emulates_mouse.then_some((PointerButton::Left, Modifiers::ALT));
+    for (button, base) in [(PointerButton::Middle, none)].into_iter().chain(emulated) {
+        for (modifiers, action, description) in kinds {
+            let modifiers = base | modifiers;
+            keymap.bind_drag(DragBinding { button, modifiers, action, description: description.into() });
+        }
+    }
+    keymap
+}
