@@ -21,6 +21,7 @@ mod parts;
 mod place;
 mod reference;
 mod repair;
+mod scale;
 mod scene;
 mod select;
 mod select_property;
@@ -50,9 +51,10 @@ pub use normals::{FlipNormals, RecalculateNormals};
 pub use objects::ObjectName;
 pub use outcome::Outcome;
 pub use parts::{Duplicate, JoinObjects, Separate, SplitOff};
-pub use place::{Rotate, Scale, Translate};
+pub use place::{Rotate, Translate};
 pub use reference::command_reference;
 pub use repair::Repair;
+pub use scale::Scale;
 pub use scene::{
     AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, SetParent, Shape, ShowObjects,
 };
