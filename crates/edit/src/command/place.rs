@@ -1,4 +1,4 @@
-//! Moving, turning and scaling: elements in edit mode, objects in object mode.
+//! Moving and turning: elements in edit mode, objects in object mode.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -58,55 +58,19 @@ impl Default for Rotate {
     }
 }
 
-/// Scales what is selected about a centre, along three axes.
-///
-/// An object is never sheared: where the axes are not its own, it is scaled along its own by as much as
-/// it gets longer along them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Scale {
-    /// Along the three axes; negative ones mirror.
-    pub factors: [f64; 3],
-    /// The axes, one after another; they have to be independent. Those of the space if they are not given,
-    /// and of objects in the local space each one's own.
-    pub orientation: Option<[[f64; 3]; 3]>,
-    /// What stays, in metres: the middle of each mesh's selected vertices if it is not given, and of
-    /// objects each one's origin.
-    pub center: Option<[f64; 3]>,
-    /// The space of the axes and of the centre.
-    pub space: TransformSpace,
-    /// Whether vertices that hang together are scaled about their own middle; there is no centre then.
-    pub individual: bool,
-    /// Scales what is near, too.
-    pub proportional: Option<Proportional>,
-}
-
-impl Default for Scale {
-    fn default() -> Self {
-        Self {
-            factors: [1.0; 3],
-            orientation: None,
-            center: None,
-            space: TransformSpace::default(),
-            individual: false,
-            proportional: None,
-        }
-    }
-}
-
-/// What the three have in common.
-struct Placing<'a> {
-    command: &'static str,
-    space: TransformSpace,
-    center: Option<[f64; 3]>,
-    individual: bool,
-    proportional: Option<&'a Proportional>,
+/// What moves, turns and scales have in common.
+pub(super) struct Placing<'a> {
+    pub(super) command: &'static str,
+    pub(super) space: TransformSpace,
+    pub(super) center: Option<[f64; 3]>,
+    pub(super) individual: bool,
+    pub(super) proportional: Option<&'a Proportional>,
 }
 
 impl Placing<'_> {
     /// Transforms the selected vertices of each mesh; `transform` is given the centre in the
     /// space of the mesh, and the map into that space.
-    fn transform_vertices(
+    pub(super) fn transform_vertices(
         &self,
         change: &mut Change<'_>,
         transform: impl Fn(DVec3, &DAffine3) -> Transform,
@@ -138,7 +102,7 @@ impl Placing<'_> {
 
     /// Changes each selected object; `transform` is given the map from its parent into
     /// the space of the command, and the map back.
-    fn transform_objects(
+    pub(super) fn transform_objects(
         &self,
         change: &mut Change<'_>,
         transform: impl Fn(&mut NodeTransform, &DAffine3, &DAffine3),
@@ -221,76 +185,4 @@ fn turn_object(node: &mut NodeTransform, outward: &DAffine3, inward: &DAffine3, 
 fn turned(vector: DVec3, axis: DVec3, angle: f64) -> DVec3 {
     let (sine, cosine) = elementary::sin_cos(angle);
     vector * cosine + axis.cross(vector) * sine + axis * (axis.dot(vector) * (1.0 - cosine))
-}
-
-impl Action for Scale {
-    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let factors = DVec3::from(self.factors);
-        let placing = Placing {
-            command: "scaling",
-            space: self.space,
-            center: self.center,
-            individual: self.individual,
-            proportional: self.proportional.as_ref(),
-        };
-        let axes = self.axes()?;
-        if !change.selection().is_editing() {
-            return placing.transform_objects(change, |node, outward, inward| {
-                let own = self.orientation.is_none() && self.space == TransformSpace::Local;
-                node.scale_by(if own { factors } else { axes.own_factors(node, outward) });
-                if let Some(center) = self.center.map(DVec3::from) {
-                    let arm = outward.transform_point3(node.translation()) - center;
-                    node.set_translation(inward.transform_point3(center + axes.scaled(arm)));
-                }
-            });
-        }
-        placing.transform_vertices(change, |center, into_mesh| {
-            let orientation = match (self.orientation, self.space) {
-                (None, TransformSpace::Local) => DMat3::IDENTITY,
-                _ => into_mesh.matrix3 * axes.axes,
-            };
-            Transform::Scale { center, factors, orientation }
-        })
-    }
-}
-
-/// Factors along axes.
-struct Axes {
-    factors: DVec3,
-    /// In columns.
-    axes: DMat3,
-    inverse: DMat3,
-}
-
-impl Scale {
-    fn axes(&self) -> Result<Axes, EditError> {
-        let factors = DVec3::from(self.factors);
-        let Some(given) = self.orientation else {
-            return Ok(Axes { factors, axes: DMat3::IDENTITY, inverse: DMat3::IDENTITY });
-        };
-        let reason = "the axes of the orientation are not independent";
-        let dependent = Refusal::NotPossible { operation: "scaling", reason };
-        let axes = DMat3::from_cols_array_2d(&given);
-        let inverse = axes.try_inverse().filter(DMat3::is_finite).ok_or(dependent)?;
-        Ok(Axes { factors, axes, inverse })
-    }
-}
-
-impl Axes {
-    fn scaled(&self, vector: DVec3) -> DVec3 {
-        self.axes * (self.factors * (self.inverse * vector))
-    }
-
-    /// By how much each of an object's own axes gets longer along itself.
-    fn own_factors(&self, node: &NodeTransform, outward: &DAffine3) -> DVec3 {
-        if self.factors.x == self.factors.y && self.factors.y == self.factors.z {
-            return self.factors;
-        }
-        let own = outward.matrix3 * node.to_affine().matrix3;
-        let along = |axis: DVec3| {
-            let axis = axis.normalize_or_zero();
-            if axis == DVec3::ZERO { 1.0 } else { self.scaled(axis).dot(axis) }
-        };
-        DVec3::new(along(own.x_axis), along(own.y_axis), along(own.z_axis))
-    }
 }
