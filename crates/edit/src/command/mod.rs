@@ -67,20 +67,13 @@ pub use mode::{EditObjects, LeaveEditMode, SetElementKind};
 pub use normals::{FlipNormals, RecalculateNormals};
 pub use objects::ObjectName;
 pub use outcome::Outcome;
-pub use parts::{Duplicate, JoinObjects, Separate, SplitOff};
 pub use parts::{Duplicate, Separate, SplitOff};
-pub use place::{Rotate, Scale, Translate};
 pub use place::{Rotate, Translate};
-pub use reference::command_reference;
 pub use reference::{command_reference, command_schema};
-pub use repair::Repair;
 pub use repair::Repair;
 pub use rotation::Rotation;
 pub use scale::Scale;
 pub use scene::{AddEmpty, AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, ShowObjects};
-pub use scene::{
-    AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, SetParent, Shape, ShowObjects,
-};
 pub use select::{Select, SelectAction, SelectAll, SelectInverse, SelectNone};
 pub use select_elements::{ElementsOf, SelectElements};
 pub use select_property::{
