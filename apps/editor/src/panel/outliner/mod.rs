@@ -105,8 +105,15 @@ fn keys(
 
 /// Selects objects. Whole objects are selected in object mode only, so edit mode ends.
 fn select(document: &Document, objects: Vec<NodeId>, action: SelectAction, requests: &mut Vec<Request>) {
-    if document.selection().is_editing() {
+    let selection = document.selection();
+    if selection.is_editing() {
         requests.push(Request::Run(LeaveEditMode {}.into()));
+    } else if let (&[one], SelectAction::Replace) = (&objects[..], action)
+        && selection.active == Some(one)
+        && selection.objects.iter().eq([&one])
+    {
+        // It is all that is selected: nothing to be undone.
+        return;
     }
     let objects = objects.into_iter().map(ObjectName::of).collect();
     let select = Select { objects, action, ..Select::default() };

@@ -32,6 +32,9 @@ fn a_click_selects_and_modifiers_add() {
     let (mut case, [table, lamp, chair]) = case(200.0);
     case.click("Lamp");
     assert_eq!(selected(&mut case), [lamp], "one");
+    case.take_requests();
+    case.click("Lamp");
+    assert_eq!(case.take_requests(), [], "it is selected already");
     case.harness.get_by_label("Chair").click_modifiers(Modifiers::COMMAND);
     case.run();
     assert_eq!(selected(&mut case), [lamp, chair], "one more");
