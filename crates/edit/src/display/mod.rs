@@ -6,9 +6,9 @@
 //! elements that are edited are not those of the scene's meshes, and only a
 //! [`Document`](crate::Document) knows both.
 
+mod element;
 mod marked;
 mod marks;
-mod nearest;
 mod pick;
 
 pub(crate) use marked::MarkedElements;

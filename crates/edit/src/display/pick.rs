@@ -7,11 +7,11 @@
 use std::collections::BTreeMap;
 
 use fixedbitset::FixedBitSet;
-use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
+use trigon_mesh::edit::{EdgeId, EditMesh};
 use trigon_mesh::math::DVec2;
 use trigon_scene::{ElementSet, MeshId, NodeId, Picker, Reach, Region};
 
-use super::nearest::{Target, distance};
+use super::element::{Numbering, Target, distance, exists, is_selectable};
 use crate::command::{Command, ElementsOf, ObjectName, Select, SelectAction, SelectElements, SelectNone};
 use crate::document::Document;
 use crate::selection::{
@@ -182,29 +182,36 @@ impl<'p> Picks<'p> {
     ) -> BTreeMap<MeshId, (NodeId, FixedBitSet)> {
         let mut all: BTreeMap<MeshId, (NodeId, FixedBitSet)> = BTreeMap::new();
         for (node, bits) in found.nodes() {
-            let elements = bits.ones().filter_map(|bit| Some(self.target(kind, node, bit as u32)?.element));
-            let elements: FixedBitSet = elements.map(|element| element as usize).collect();
-            let mesh = self.document.nodes().node(node).and_then(|node| node.mesh);
-            if let Some(mesh) = mesh.filter(|_| !elements.is_clear()) {
-                all.entry(mesh).or_insert_with(|| (node, FixedBitSet::new())).1.union_with(&elements);
+            let Some(numbering) = self.numbering(node) else { continue };
+            let mut elements = FixedBitSet::new();
+            for element in bits.ones().filter_map(|bit| numbering.element(kind, bit as u32)) {
+                elements.grow(element as usize + 1);
+                elements.insert(element as usize);
+            }
+            if !elements.is_clear() {
+                let all = all.entry(numbering.id).or_insert_with(|| (node, FixedBitSet::new()));
+                all.1.union_with(&elements);
             }
         }
         all
     }
 
-    /// An element of the scene as one that is edited; `None` if it cannot be selected.
-    pub(super) fn target(&self, kind: ElementKind, node: NodeId, number: u32) -> Option<Target> {
+    /// The numbers of an object that is edited; `None` of others.
+    fn numbering(&self, node: NodeId) -> Option<Numbering<'_>> {
         let id = self.document.nodes().node(node)?.mesh?;
         self.document.selection().of(id)?;
-        let numbers = self.document.shown_numbers(id)?;
-        let map = self.document.shown_elements(id)?;
-        let element = match kind {
-            ElementKind::Vertex => map.vertices.get(number as usize)?.index(),
-            ElementKind::Edge => numbers.edge_of_mesh(number)?.index(),
-            ElementKind::Face => map.faces.get(number as usize)?.index(),
-        };
-        let is_selectable = is_selectable(self.document.mesh(id)?, kind, element);
-        is_selectable.then_some(Target { node, mesh: id, element })
+        Some(Numbering {
+            id,
+            mesh: self.document.mesh(id)?,
+            map: self.document.shown_elements(id)?,
+            numbers: self.document.shown_numbers(id)?,
+        })
+    }
+
+    /// An element of the scene as one that is edited; `None` if it cannot be selected.
+    pub(super) fn target(&self, kind: ElementKind, node: NodeId, number: u32) -> Option<Target> {
+        let numbering = self.numbering(node)?;
+        Some(Target { node, mesh: numbering.id, element: numbering.element(kind, number)? })
     }
 
     /// The nearest element that can be selected.
@@ -240,23 +247,6 @@ impl Target {
 /// What pointing at nothing does.
 fn nothing(action: SelectAction) -> Option<Command> {
     (action == SelectAction::Replace).then(|| SelectNone {}.into())
-}
-
-fn exists(mesh: &EditMesh, kind: ElementKind, element: u32) -> bool {
-    match kind {
-        ElementKind::Vertex => mesh.has_vertex(VertexId::new(element)),
-        ElementKind::Edge => mesh.has_edge(EdgeId::new(element)),
-        ElementKind::Face => mesh.has_face(FaceId::new(element)),
-    }
-}
-
-fn is_selectable(mesh: &EditMesh, kind: ElementKind, element: u32) -> bool {
-    exists(mesh, kind, element)
-        && !match kind {
-            ElementKind::Vertex => mesh.is_vertex_hidden(VertexId::new(element)),
-            ElementKind::Edge => mesh.is_edge_hidden(EdgeId::new(element)),
-            ElementKind::Face => mesh.is_face_hidden(FaceId::new(element)),
-        }
 }
 
 #[cfg(test)]

