@@ -7,6 +7,10 @@ import pathlib
 import sys
 
 import bpy
+import numpy
+
+# Blender 3.4 reads glTF with a name that NumPy 1.24 has no more.
+numpy.bool = bool
 
 source, target = sys.argv[sys.argv.index("--") + 1 :]
 kind = pathlib.Path(source).suffix[1:]
@@ -14,7 +18,7 @@ bpy.ops.wm.read_factory_settings(use_empty=True)
 
 # The axes of the file stay those of Blender, so that no position is turned and rounded.
 AXES = {"axis_forward": "Y", "axis_up": "Z"}
-OBJ_AXES = {"forward_axis": "Y_FORWARD", "up_axis": "Z_UP"}
+OBJ_AXES = {"forward_axis": "Y", "up_axis": "Z"}
 if kind == "glb":
     bpy.ops.import_scene.gltf(filepath=source, merge_vertices=True)
 elif kind == "ply":

@@ -319,7 +319,7 @@ fn without_a_display_the_message_says_how_to_get_a_picture() {
 fn a_model_may_come_through_standard_input() {
     let folder = Folder::new();
     for flags in ["- --no-render", "- --no-render --force-reader=obj"] {
-        let input = std::fs::File::open(folder.0.path().join("corner.obj")).expect("it is there");
+        let input = fs::File::open(folder.0.path().join("corner.obj")).expect("it is there");
         let output = folder.command(flags).stdin(input).output().expect("the viewer starts");
         let facts = String::from_utf8_lossy(&output.stdout).into_owned();
         assert!(output.status.success() && facts.contains("faces     3"), "{flags}: {output:?}");
