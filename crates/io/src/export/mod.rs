@@ -160,10 +160,10 @@ pub(crate) enum Writing {
 ///
 /// let mut scene = Scene::new();
 /// scene.add_object("cube", primitives::cube(2.0), Material::default());
-/// let written = export(&scene, "cube.ply", Format::Ply, &ExportOptions::default())?;
+/// let written = export(&scene, "cube.off", Format::Off, &ExportOptions::default())?;
 /// assert_eq!(written.what_would_be_lost()[0].to_string(), "materials and their textures");
 ///
-/// let again = load_from_slice("cube.ply", &written.files[0].bytes, &LoadOptions::default())?;
+/// let again = load_from_slice("cube.off", &written.files[0].bytes, &LoadOptions::default())?;
 /// let (_, cube) = again.scene.meshes().iter().next().expect("it was written");
 /// assert_eq!((cube.mesh().vertex_count(), cube.mesh().face_count()), (8, 6), "polygons stay polygons");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
