@@ -10,6 +10,13 @@ use crate::report;
 
 /// The format of the result; none if it is the editor's own file.
 pub(crate) fn format_of(arguments: &Arguments, output: &Path) -> Result<Option<Format>, String> {
+    let format = format_by_ending(output)?;
+    let is_plain = arguments.up.is_none() && arguments.scale.is_none() && !arguments.selection_only;
+    Ok((format != Format::Glb || !is_plain).then_some(format))
+}
+
+/// The format that a file's ending names.
+pub(crate) fn format_by_ending(output: &Path) -> Result<Format, String> {
     let ending = output.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let Some(writer) = writers().find(|writer| writer.extensions.contains(&ending.as_str())) else {
         let known: Vec<String> = writers().map(|writer| format!(".{}", writer.extensions[0])).collect();
@@ -19,8 +26,7 @@ pub(crate) fn format_of(arguments: &Arguments, output: &Path) -> Result<Option<F
             output.display()
         ));
     };
-    let is_plain = arguments.up.is_none() && arguments.scale.is_none() && !arguments.selection_only;
-    Ok((writer.format != Format::Glb || !is_plain).then_some(writer.format))
+    Ok(writer.format)
 }
 
 /// Writes the document; what the format cannot hold is said.
@@ -39,14 +45,26 @@ pub(crate) fn write(
         encoding: if arguments.ascii { Encoding::Text } else { Encoding::Binary },
         ..ExportOptions::default()
     };
-    let name = output.file_name().unwrap_or_default().to_string_lossy();
-    let export = document.export(&name, format, &options).map_err(|error| error.to_string())?;
+    let losses = write_as(document, format, output, &options)?;
     if !arguments.quiet {
-        let losses = export.what_would_be_lost().iter();
-        losses.for_each(|loss| report("warning", &format!("not in {name}: {loss}")));
+        losses.iter().for_each(|loss| report("warning", loss));
     }
+    Ok(())
+}
+
+/// The same with other options. Returns what the format cannot hold.
+pub(crate) fn write_as(
+    document: &Document,
+    format: Format,
+    output: &Path,
+    options: &ExportOptions<'_>,
+) -> Result<Vec<String>, String> {
+    let name = output.file_name().unwrap_or_default().to_string_lossy();
+    let export = document.export(&name, format, options).map_err(|error| error.to_string())?;
+    let losses = export.what_would_be_lost().iter().map(|loss| format!("not in {name}: {loss}")).collect();
     let folder = output.parent().unwrap_or(Path::new(""));
     export.files.iter().try_for_each(|file| {
         save(&mut Disk, &folder.join(&file.name), &file.bytes).map_err(|error| error.to_string())
-    })
+    })?;
+    Ok(losses)
 }

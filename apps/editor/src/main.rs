@@ -6,19 +6,15 @@
 mod arguments;
 mod export;
 #[cfg(feature = "window")]
-#[expect(dead_code, unused_imports, reason = "for the window, which does not call it yet")]
 mod overlay;
 #[cfg(feature = "window")]
-#[expect(dead_code, unused_imports, reason = "the window that shows the panels comes next")]
 mod panel;
 #[cfg(feature = "window")]
 mod request;
 mod run;
 #[cfg(feature = "window")]
-#[cfg_attr(not(test), expect(dead_code, reason = "for the window, which does not call it yet"))]
 mod show;
 #[cfg(feature = "window")]
-#[expect(dead_code, unused_imports, reason = "the window that starts the tools is merged after them")]
 mod tool;
 #[cfg(feature = "window")]
 mod window;

@@ -7,6 +7,9 @@ use trigon_edit::{Command, ElementKind, MaterialName, TextureSlot};
 use trigon_window::scene::camera::AxisView;
 use trigon_window::{Comparison, Refinement};
 
+pub(crate) use crate::overlay::GizmoKind;
+pub(crate) use crate::tool::{Orientation, Pivot, SnapSource, SnapTarget};
+
 /// One thing to be done.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Request {
@@ -108,6 +111,12 @@ pub(crate) enum FileRequest {
     SaveAs(PathBuf),
     Import(PathBuf),
     Export(PathBuf),
+    /// Gives a material a picture.
+    Texture {
+        material: MaterialName,
+        slot: TextureSlot,
+        path: PathBuf,
+    },
 }
 
 /// What a menu entry or a key does about files, without a path yet.
@@ -120,44 +129,6 @@ pub(crate) enum FileAction {
     Import,
     Export,
     Quit,
-}
-
-/// About what transformations turn and scale.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Pivot {
-    #[default]
-    Median,
-    /// Each part about its own middle, each object about its own origin.
-    Individual,
-    /// The origin of the active object.
-    Origin,
-    /// The middle of the box around what is selected.
-    Bounds,
-    /// What was selected last.
-    Active,
-    /// The 3D cursor.
-    Cursor,
-}
-
-/// Along which axes transformations work.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Orientation {
-    #[default]
-    Global,
-    Local,
-    Normal,
-    View,
-}
-
-/// To what transformations snap.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum SnapTarget {
-    #[default]
-    Increment,
-    Grid,
-    Vertex,
-    Edge,
-    Face,
 }
 
 /// What the window shows besides the document, and how its tools work.
@@ -176,9 +147,11 @@ pub(crate) enum UiRequest {
     EmulateNumpad,
     Snapping,
     Snap(SnapTarget),
+    SnapWith(SnapSource),
     Proportional,
     Pivot(Pivot),
     Orientation(Orientation),
+    Gizmo(Option<GizmoKind>),
     Rename,
     /// Selects what hangs together with what is under the pointer.
     LinkedAtPointer,

@@ -3,12 +3,24 @@
 use trigon_edit::{Document, SceneChange};
 use trigon_window::SharedScene;
 
+/// What of a scene changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Changed {
+    /// Anything at all.
+    pub(crate) anything: bool,
+    /// Its nodes were taken over from the document.
+    pub(crate) nodes: bool,
+}
+
 /// Makes a window's scene show the document as it is now. In time proportional to what changed:
 /// vertices that were moved are told to the threads that draw, and nothing is copied for them.
 ///
-/// The scene has to be the same at each call, and nobody else may change it.
-pub(crate) fn show(document: &mut Document, scene: &mut SharedScene) {
+/// The scene has to be the same at each call, and nobody else may change its meshes.
+pub(crate) fn show(document: &mut Document, scene: &mut SharedScene) -> Changed {
+    let mut changed = Changed::default();
     for change in document.take_scene_changes() {
+        changed.anything = true;
+        changed.nodes |= matches!(change, SceneChange::Whole | SceneChange::Parts);
         match change {
             SceneChange::Whole => *scene = document.nodes().clone().into(),
             SceneChange::Values(id, values) => {
@@ -17,6 +29,7 @@ pub(crate) fn show(document: &mut Document, scene: &mut SharedScene) {
             other => other.apply(document.nodes(), scene),
         }
     }
+    changed
 }
 
 #[cfg(test)]

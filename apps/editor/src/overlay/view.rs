@@ -2,7 +2,7 @@
 
 use trigon_edit::scene::camera::{Camera, Projector, Ray, Viewport};
 use trigon_edit::scene::math::{DVec2, DVec3};
-use trigon_window::egui::{Pos2, Vec2, pos2};
+use trigon_window::egui::{Pos2, pos2};
 
 /// A camera, the picture that it sees, and how large its pixels are.
 #[derive(Debug, Clone, Copy)]
@@ -20,12 +20,6 @@ impl OverlayView {
 
     pub(crate) fn camera(&self) -> &Camera {
         self.projector.camera()
-    }
-
-    /// The size of the picture in logical pixels.
-    pub(crate) fn size(&self) -> Vec2 {
-        let size = self.projector.viewport().size() / self.scale;
-        Vec2::new(size.x as f32, size.y as f32)
     }
 
     /// Metres along the line of sight from the eye.
@@ -83,7 +77,8 @@ impl OverlayView {
         DVec2::new(f64::from(at.x), f64::from(at.y)) * self.scale
     }
 
-    fn logical(&self, at: DVec2) -> Pos2 {
+    /// The logical point of physical pixels.
+    pub(crate) fn logical(&self, at: DVec2) -> Pos2 {
         pos2((at.x / self.scale) as f32, (at.y / self.scale) as f32)
     }
 }

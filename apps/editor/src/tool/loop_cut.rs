@@ -45,7 +45,7 @@ impl LoopCutTool {
         })
     }
 
-    /// The face that is drawn under the pointer, as the window's picks tell, before each input: the ring
+    /// The face that is drawn under the pointer, as the window's picks tell, after each input: the ring
     /// of its side that is nearest to the pointer is shown. `None` shows nothing.
     pub(crate) fn hover(&mut self, document: &Document, view: &ToolView, face: Option<(MeshId, FaceId)>) {
         if self.sliding.is_some() {
@@ -54,6 +54,11 @@ impl LoopCutTool {
         let place = self.modal.pointer.in_window().unwrap_or_default();
         self.hovered = face.and_then(|(id, face)| Some((id, nearest_side(document, view, id, face, place)?)));
         self.show_ring(document);
+    }
+
+    /// Whether the face under the pointer matters: until a click has cut.
+    pub(crate) fn wants_face(&self) -> bool {
+        self.sliding.is_none()
     }
 
     fn show_ring(&mut self, document: &Document) {

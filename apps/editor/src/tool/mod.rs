@@ -34,12 +34,13 @@ use trigon_edit::mesh::math::{DVec2, DVec3};
 use trigon_window::{Hands, Input};
 
 pub(crate) use bevel::BevelTool;
-pub(crate) use constraint::{Axis, Freedom, Orientation};
+pub(crate) use constraint::{Axis, Frames, Freedom, Orientation};
 pub(crate) use extrude::ExtrudeTool;
 pub(crate) use gesture::{Gesture, GestureKind, GestureState, RegionMode};
 pub(crate) use inset::InsetTool;
 pub(crate) use loop_cut::LoopCutTool;
 pub(crate) use pivot::Pivot;
+pub(crate) use selected::Selected;
 pub(crate) use snap::{SnapSettings, SnapSource, SnapTarget};
 pub(crate) use transform::{TransformKind, TransformSettings, TransformTool};
 pub(crate) use view::ToolView;

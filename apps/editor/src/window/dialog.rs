@@ -5,19 +5,22 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 
+use trigon_edit::{MaterialName, TextureSlot};
 use trigon_window::egui::{self, Key};
 
 use super::recent::Recent;
 use crate::request::{FileAction, FileRequest};
 
 /// What a file is chosen for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) enum Purpose {
     #[default]
     Open,
     SaveAs,
     Import,
     Export,
+    /// A picture for a material.
+    Texture(MaterialName, TextureSlot),
 }
 
 /// The window, shown or not.
@@ -48,26 +51,30 @@ impl Purpose {
             Self::SaveAs => FileRequest::SaveAs(path),
             Self::Import => FileRequest::Import(path),
             Self::Export => FileRequest::Export(path),
+            Self::Texture(material, slot) => FileRequest::Texture { material, slot, path },
         }
     }
 
-    fn title(self) -> &'static str {
+    fn title(&self) -> &'static str {
         match self {
             Self::Open => "Open",
             Self::SaveAs => "Save As",
             Self::Import => "Import",
             Self::Export => "Export",
+            Self::Texture(..) => "Open Picture",
         }
-    }
-
-    fn writes(self) -> bool {
-        matches!(self, Self::SaveAs | Self::Export)
     }
 
     /// Asks by the system's dialog: on Linux that of the desktop portal.
     fn ask(self) -> Option<PathBuf> {
         let dialog = rfd::FileDialog::new().set_title(self.title());
-        if self.writes() { dialog.add_filter("glTF", &["glb"]).save_file() } else { dialog.pick_file() }
+        match self {
+            Self::SaveAs => dialog.add_filter("glTF", &["glb"]).save_file(),
+            Self::Export => trigon_io::writers()
+                .fold(dialog, |dialog, writer| dialog.add_filter(writer.extensions[0], writer.extensions))
+                .save_file(),
+            Self::Open | Self::Import | Self::Texture(..) => dialog.pick_file(),
+        }
     }
 }
 
@@ -100,13 +107,12 @@ impl FileWindow {
 
     /// What a dialog ended with, once.
     pub(crate) fn picked(&mut self) -> Option<FileRequest> {
-        let (purpose, receiver) = self.dialog.as_ref()?;
-        let (purpose, ended) = match receiver.try_recv() {
+        let ended = match self.dialog.as_ref()?.1.try_recv() {
             Err(TryRecvError::Empty) => return None,
-            Err(TryRecvError::Disconnected) => (*purpose, None),
-            Ok(path) => (*purpose, path),
+            Err(TryRecvError::Disconnected) => None,
+            Ok(path) => path,
         };
-        self.dialog = None;
+        let (purpose, _) = self.dialog.take()?;
         self.note = "no file was chosen; where the system shows no dialog, type a path";
         let path = ended?;
         self.purpose = None;
@@ -120,15 +126,15 @@ impl FileWindow {
         recent: &Recent,
         wake: impl FnOnce() + Send + 'static,
     ) -> Option<FileRequest> {
-        let purpose = self.purpose?;
+        let purpose = self.purpose.clone()?;
         let (mut chosen, mut browses, mut is_open) = (None, false, true);
         let window = egui::Window::new(purpose.title()).open(&mut is_open).collapsible(false);
         window.anchor(egui::Align2::CENTER_CENTER, [0.0; 2]).default_width(460.0).show(context, |ui| {
-            (chosen, browses) = self.fields(ui, purpose);
+            (chosen, browses) = self.fields(ui, &purpose);
             if !self.note.is_empty() {
                 ui.label(self.note);
             }
-            if !purpose.writes() && !recent.files().is_empty() {
+            if matches!(purpose, Purpose::Open | Purpose::Import) && !recent.files().is_empty() {
                 ui.separator();
                 ui.label("recent");
                 for file in recent.files() {
@@ -139,7 +145,8 @@ impl FileWindow {
             }
         });
         if browses {
-            self.browse(purpose, move || purpose.ask(), wake);
+            let asked = purpose.clone();
+            self.browse(purpose.clone(), move || asked.ask(), wake);
         }
         if !is_open || chosen.is_some() {
             self.purpose = None;
@@ -148,7 +155,7 @@ impl FileWindow {
     }
 
     /// The path that is typed, and the way to the dialog. Returns what was entered, and whether to browse.
-    fn fields(&mut self, ui: &mut egui::Ui, purpose: Purpose) -> (Option<PathBuf>, bool) {
+    fn fields(&mut self, ui: &mut egui::Ui, purpose: &Purpose) -> (Option<PathBuf>, bool) {
         ui.horizontal(|ui| {
             let field = egui::TextEdit::singleline(&mut self.path).hint_text("path of a file");
             let typed = ui.add(field.desired_width(300.0));

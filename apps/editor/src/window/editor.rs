@@ -4,19 +4,23 @@ use std::path::{Path, PathBuf};
 
 use trigon_edit::{Command, Document, EditObjects, ElementKind, LeaveEditMode, SetElementKind};
 use trigon_window::Stage;
+use trigon_window::egui::Rect;
 use trigon_window::scene::math::DVec2;
 
-use super::dialog::FileWindow;
-use super::interface::{Popup, Rename, Search};
+use super::dialog::{FileWindow, Purpose};
+use super::gizmo::Place;
+use super::interface::{Panels, Popup, Rename, Search};
 use super::keys::Keys;
 use super::loading::Loading;
+use super::look::Look;
+use super::modal::Running;
 use super::open_file::{Next, OpenFile, Question};
 use super::pick::{self, Click};
+use super::pointing::Pointing;
 use super::recent::Recent;
 use super::recovery::Recovery;
 use super::settings::{self, Layout, ToolSettings, ViewState};
-use super::wiring::Panels;
-use super::{actions, navigation, show};
+use super::{actions, look, navigation};
 use crate::request::{Request, ToolKind, UiRequest};
 
 /// What the status line says until the next action.
@@ -52,6 +56,13 @@ pub(crate) struct Editor {
     pub(crate) recent: Recent,
     pub(crate) recovery: Option<Recovery>,
     pub(crate) panels: Panels,
+    /// The tool that follows the pointer.
+    pub(crate) tool: Option<Running>,
+    pub(crate) look: Look,
+    pub(crate) place: Place,
+    /// What no panel covers of the window, in points, once that is known.
+    pub(crate) free: Option<Rect>,
+    pub(crate) pointing: Pointing,
     /// A press of the left button that has not become anything yet.
     pub(crate) click: Option<Click>,
     /// Where the pointer was last, in physical pixels.
@@ -84,6 +95,11 @@ impl Editor {
             recent: Recent::load(folder.as_deref()),
             recovery: None,
             panels: Panels::default(),
+            tool: None,
+            look: Look::default(),
+            place: Place::default(),
+            free: None,
+            pointing: Pointing::default(),
             click: None,
             pointer: None,
             recovery_folder: folder.as_deref().map(|folder: &Path| folder.join("recovery")),
@@ -100,10 +116,12 @@ impl Editor {
             Request::Undo => self.undo(),
             Request::Redo => self.redo(),
             Request::RepeatLast => self.repeat(),
-            Request::ChooseTexture { .. } => {}
+            Request::ChooseTexture { material, slot } => {
+                self.dialog.ask(Purpose::Texture(material, slot), String::new());
+            }
             Request::Compare(comparison) => stage.comparison = comparison,
             Request::Refine(refinement) => stage.refinement = refinement,
-            Request::StartTool(tool) => self.start_tool(tool),
+            Request::StartTool(tool) => self.start_tool(stage, tool),
             Request::View(request) => navigation::apply(self, stage, request),
             Request::File(request) => self.file_request(stage, request),
             Request::Ui(request) => self.ui_request(stage, request),
@@ -121,7 +139,7 @@ impl Editor {
         {
             self.message = Message::Refusal(error);
         }
-        show::onto_stage(self, stage);
+        look::onto_stage(self, stage);
         stage.set_title(self.title());
     }
 
@@ -137,7 +155,7 @@ impl Editor {
         }
     }
 
-    fn done(&mut self, name: &str, message: &str) {
+    pub(crate) fn done(&mut self, name: &str, message: &str) {
         let text = if message.is_empty() { name.to_owned() } else { format!("{name}: {message}") };
         self.message = Message::Info(text);
     }
@@ -189,14 +207,6 @@ impl Editor {
         }
     }
 
-    fn start_tool(&mut self, tool: ToolKind) {
-        if let Some(command) = super::wiring::without_tool(tool) {
-            self.run(command);
-        } else {
-            self.message = Message::Refusal(format!("{tool:?} has no tool that follows the pointer yet"));
-        }
-    }
-
     fn ui_request(&mut self, stage: &mut Stage, request: UiRequest) {
         match request {
             UiRequest::Popup(menu) => self.popup = Some(Popup::new(menu)),
@@ -214,8 +224,10 @@ impl Editor {
             UiRequest::EmulateNumpad => self.keys.emulates_numpad = !self.keys.emulates_numpad,
             UiRequest::Snapping => self.tools.snapping = !self.tools.snapping,
             UiRequest::Snap(target) => self.tools.snap_target = target,
+            UiRequest::SnapWith(source) => self.tools.snap_source = source,
             UiRequest::Proportional => self.tools.proportional = !self.tools.proportional,
             UiRequest::Pivot(pivot) => self.tools.pivot = pivot,
+            UiRequest::Gizmo(kind) => self.tools.gizmo = kind,
             UiRequest::Orientation(orientation) => self.tools.orientation = orientation,
             UiRequest::LinkedAtPointer => self.select_linked(stage),
             UiRequest::Rename => self.rename = Rename::of_active(&self.document),
@@ -233,11 +245,10 @@ impl Editor {
     }
 
     fn select_linked(&mut self, stage: &Stage) {
-        let commands = self.pointer.map(|at| pick::linked(self, stage, at)).unwrap_or_default();
-        if commands.is_empty() {
-            self.message = Message::Refusal("Linked: point at a mesh that is edited".into());
+        match self.pointer.and_then(|at| pick::linked(self, stage, at)) {
+            Some(command) => self.run(command),
+            None => self.message = Message::Refusal("Linked: point at a mesh that is edited".into()),
         }
-        commands.into_iter().for_each(|command| self.run(command));
     }
 
     fn select_kind(&mut self, kind: ElementKind) {
@@ -248,7 +259,13 @@ impl Editor {
     pub(crate) fn choose(&mut self, stage: &mut Stage, action: &actions::Action) {
         match action.refusal(&self.document) {
             Some(reason) => self.message = Message::Refusal(format!("{}: {reason}", action.label)),
-            None => self.perform(stage, action.request()),
+            None => {
+                let before = self.entries();
+                self.perform(stage, action.request());
+                if action.makes_copies() && self.entries() > before {
+                    self.start_tool(stage, ToolKind::Move);
+                }
+            }
         }
     }
 }

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use trigon_edit::scene::{Light, Material, Node, Scene};
-use trigon_edit::{Disk, Document, ObjectName, Select, save};
-use trigon_io::{ExportOptions, write_glb};
+use trigon_edit::{AssignTexture, Disk, Document, ObjectName, Select, TextureSource, save};
+use trigon_io::ExportOptions;
 use trigon_window::Stage;
 use trigon_window::scene::math::DVec3;
 use trigon_window::scene::mesh::primitives;
@@ -12,8 +12,11 @@ use trigon_window::scene::mesh::primitives;
 use super::dialog::Purpose;
 use super::editor::{Editor, Message, WELCOME};
 use super::loading::{Loading, Outcome};
+use super::look::Look;
+use super::navigation;
 use super::open_file::{Answer, Next, OpenFile, Question};
 use super::recovery::{Left, Recovery};
+use crate::export;
 use crate::request::{FileAction, FileRequest};
 
 /// From the right, above and before.
@@ -59,11 +62,14 @@ impl Editor {
             recovery.close();
         }
         self.document = document;
+        // Its numbers may be those of the one before.
+        self.look = Look::default();
         (self.view.local, self.view.before_camera) = (None, None);
     }
 
     /// Does what was asked about files.
     pub(crate) fn file_request(&mut self, stage: &mut Stage, request: FileRequest) {
+        self.cancel_tool(stage);
         match request {
             FileRequest::Ask(action) => self.ask(stage, action),
             FileRequest::Open(path) => self.unless_unsaved(stage, Next::Open(path)),
@@ -72,6 +78,11 @@ impl Editor {
                 self.save_to(stage, with_extension(path), next);
             }
             FileRequest::Import(path) => self.import(&path),
+            FileRequest::Texture { material, slot, path } => {
+                let texture = Some(TextureSource::File { path: path.to_string_lossy().into_owned() });
+                let material = Some(material);
+                self.run(AssignTexture { material, slot, texture, ..AssignTexture::default() }.into());
+            }
             FileRequest::Export(path) => self.export(&with_extension(path)),
         }
     }
@@ -135,7 +146,7 @@ impl Editor {
     fn look_at_all(&mut self, stage: &mut Stage) {
         self.show(stage);
         stage.orbit.look_along(HOME_DIRECTION);
-        stage.fit_view();
+        navigation::frame_all(self, stage);
         stage.set_home(stage.orbit);
     }
 
@@ -198,9 +209,15 @@ impl Editor {
     }
 
     fn export(&mut self, path: &Path) {
-        self.message = match write_glb(path, self.document.scene(), &ExportOptions::default()) {
-            Ok(()) => Message::Info(format!("Exported {}", path.display())),
-            Err(error) => Message::Refusal(error.to_string()),
+        let written = export::format_by_ending(path)
+            .and_then(|format| export::write_as(&self.document, format, path, &ExportOptions::default()));
+        self.message = match written {
+            Ok(losses) if losses.is_empty() => Message::Info(format!("Exported {}", path.display())),
+            Ok(losses) => {
+                let (first, count) = (&losses[0], losses.len());
+                Message::Info(format!("Exported {}; {count} things are lost: {first}", path.display()))
+            }
+            Err(error) => Message::Refusal(error),
         };
     }
 
@@ -245,7 +262,7 @@ impl Editor {
                 left.discard();
                 self.message = Message::Info("Recovered what was not saved; save it now".into());
                 self.show(stage);
-                stage.fit_view();
+                navigation::frame_all(self, stage);
             }
             Err(error) => self.message = Message::Refusal(format!("Recovery: {error}")),
         }

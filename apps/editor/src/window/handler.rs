@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use trigon_window::scene::camera::Projector;
 use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton, Stage, Taken, egui};
 
 use super::editor::Editor;
@@ -18,13 +19,19 @@ impl Handler for Editor {
     }
 
     fn input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
-        self.pointer = hands.pointer;
+        self.pointer = hands.pointer.or(self.pointer);
+        if self.tool.is_some() {
+            return self.tool_input(stage, input, hands);
+        }
         match *input {
             Input::Key { logical, physical, repeat: false } => self.key(stage, hands, [logical, physical]),
-            Input::Pressed(PointerButton::Left) => self.pressed(hands),
+            Input::Pressed(PointerButton::Left) => self.pressed(stage, hands),
             Input::PointerMoved => self.pointer_moved(stage, hands),
             Input::Released(PointerButton::Left) => self.released(stage),
             Input::Clicked(PointerButton::Left) => self.clicked(stage, hands),
+            Input::Clicked(PointerButton::Right) if hands.modifiers.contains(Modifiers::SHIFT) => {
+                self.place_cursor(stage, hands)
+            }
             Input::FocusLost => {
                 self.click = None;
                 Taken::No
@@ -42,6 +49,7 @@ impl Handler for Editor {
     }
 
     fn dropped(&mut self, stage: &mut Stage, paths: Vec<PathBuf>, modifiers: Modifiers) {
+        self.cancel_tool(stage);
         for path in paths {
             // With Shift it is added to the scene, as a menu entry would.
             let imports = modifiers.contains(Modifiers::SHIFT);
@@ -62,6 +70,7 @@ impl Handler for Editor {
     }
 
     fn close_requested(&mut self, stage: &mut Stage) {
+        self.cancel_tool(stage);
         self.perform(stage, Request::File(FileRequest::Ask(FileAction::Quit)));
     }
 }
@@ -108,7 +117,7 @@ impl Editor {
         was_open | self.dialog.close() | self.rename.take().is_some()
     }
 
-    fn pressed(&mut self, hands: Hands) -> Taken {
+    fn pressed(&mut self, stage: &mut Stage, hands: Hands) -> Taken {
         if self.popup.take().is_some() {
             return Taken::Yes;
         }
@@ -116,19 +125,24 @@ impl Editor {
             // A drag is the camera's, and a click comes back as such.
             return Taken::No;
         }
-        self.click = Click::new(hands);
+        if !self.press_gizmo(stage, hands) {
+            self.click = Click::new(hands);
+        }
         Taken::Yes
     }
 
-    fn pointer_moved(&mut self, stage: &Stage, hands: Hands) -> Taken {
-        let Some(click) = &mut self.click else { return Taken::No };
-        click.moved(hands, stage.scale());
+    /// A press that goes on as a drag draws a box, or with Ctrl a lasso.
+    fn pointer_moved(&mut self, stage: &mut Stage, hands: Hands) -> Taken {
+        let Some(click) = self.click else { return Taken::No };
+        if click.is_drag(hands, stage.scale()) {
+            self.click = None;
+            self.drag_region(stage, click, hands);
+        }
         Taken::Yes
     }
 
     fn released(&mut self, stage: &mut Stage) -> Taken {
-        let click = self.click.take().and_then(Click::released);
-        if let Some((at, modifiers)) = click {
+        if let Some(Click { at, modifiers }) = self.click.take() {
             pick::click(self, stage, at, modifiers);
         }
         Taken::Yes
@@ -138,6 +152,16 @@ impl Editor {
         if let Some(at) = hands.pointer {
             pick::click(self, stage, at, hands.modifiers);
         }
+        Taken::Yes
+    }
+
+    /// The 3D cursor goes to the surface under the pointer, or as far away as what the view turns around.
+    fn place_cursor(&mut self, stage: &mut Stage, hands: Hands) -> Taken {
+        let Some(at) = hands.pointer else { return Taken::No };
+        let beside =
+            || Projector::new(&stage.camera(), stage.viewport()).at_distance(at, stage.orbit.distance());
+        let Some(place) = stage.pick(at).map(|(_, place)| place).or_else(beside) else { return Taken::No };
+        self.tools.cursor = place;
         Taken::Yes
     }
 }

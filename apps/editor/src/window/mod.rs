@@ -1,26 +1,28 @@
 //! The editor's window: its state, and everything around the 3D view.
 //!
 //! A key, a menu, a panel or a tool makes a [`Request`](crate::request::Request); [`Editor`](editor::Editor)
-//! carries it out on the document; [`show`] brings the document onto the stage.
+//! carries it out on the document; [`look`] brings the document onto the stage.
 
 mod actions;
 mod dialog;
 mod editor;
 mod files;
+mod gizmo;
 mod handler;
 mod interface;
 mod keys;
 mod loading;
+mod look;
+mod modal;
 mod navigation;
 mod open_file;
 mod pick;
+mod pointing;
 mod recent;
 mod recovery;
 mod settings;
-mod show;
 #[cfg(test)]
 mod tests;
-mod wiring;
 
 use trigon_window::{Application, WindowError};
 

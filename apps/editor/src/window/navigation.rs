@@ -4,7 +4,7 @@ use trigon_edit::Document;
 use trigon_edit::scene::Scene;
 use trigon_window::Stage;
 use trigon_window::scene::camera::{DEFAULT_MARGIN, Orbit};
-use trigon_window::scene::math::{DVec3, Vec3};
+use trigon_window::scene::math::{DVec2, DVec3, Vec3};
 
 use super::editor::{Editor, Message};
 use crate::request::{DisplayMode, ViewRequest};
@@ -23,7 +23,7 @@ pub(crate) fn apply(editor: &mut Editor, stage: &mut Stage, request: ViewRequest
             stage.orbit.pan(right * height, up * height);
         }
         ViewRequest::FrameSelected => frame_selected(editor, stage),
-        ViewRequest::FrameAll => stage.fit_view(),
+        ViewRequest::FrameAll => frame_all(editor, stage),
         ViewRequest::ToggleLocal => toggle_local(editor, stage),
         ViewRequest::Camera => look_through_camera(editor, stage),
         ViewRequest::Display(mode) => editor.view.display = mode,
@@ -46,16 +46,37 @@ fn toggle_wireframe(editor: &mut Editor) {
 
 fn frame_selected(editor: &mut Editor, stage: &mut Stage) {
     let points = selected_points(&editor.document);
-    if points.is_empty() {
-        stage.fit_view();
-        return;
-    }
-    let aspect = stage.viewport().aspect();
     match &points[..] {
+        [] => frame_all(editor, stage),
         // A point has no size that the view could be fitted to.
         [point] => stage.orbit.set_target(*point),
-        _ => stage.orbit.fit_points(&points, aspect, DEFAULT_MARGIN),
+        _ => frame(editor, stage, &points),
     }
+}
+
+/// Takes the whole scene into the picture, seen from the same side.
+pub(crate) fn frame_all(editor: &Editor, stage: &mut Stage) {
+    let points: Vec<DVec3> = stage.scene.visible_points().collect();
+    frame(editor, stage, &points);
+}
+
+/// Takes points into the part of the picture that no panel covers. What the view turns around stays in
+/// the middle of the window, so that they get the room that is on both sides of it.
+fn frame(editor: &Editor, stage: &mut Stage, points: &[DVec3]) {
+    /// Before the panels were laid out, as shares of the window.
+    const USUAL: DVec2 = DVec2::new(0.55, 0.85);
+    /// However much is covered.
+    const LEAST: f64 = 0.2;
+    let points_to_pixels = stage.scale() * f64::from(stage.text_scale);
+    let (size, viewport) = (stage.viewport().size() / points_to_pixels, stage.viewport());
+    let room = editor.free.map_or(USUAL, |free| {
+        let (min, max) = (DVec2::new(free.min.x.into(), free.min.y.into()), free.max);
+        let max = DVec2::new(max.x.into(), max.y.into());
+        (size * 0.5 - min).min(max - size * 0.5) / (size * 0.5)
+    });
+    let room = room.clamp(DVec2::splat(LEAST), DVec2::ONE);
+    stage.orbit.fit_points(points, viewport.aspect() * room.x / room.y, DEFAULT_MARGIN);
+    stage.orbit.zoom(room.y);
 }
 
 /// The places of all selected vertices in the world; of objects those of all their vertices, or their origins.

@@ -2,22 +2,63 @@
 
 use std::collections::BTreeSet;
 
+use trigon_edit::Proportional;
 use trigon_edit::scene::NodeId;
 use trigon_window::scene::camera::{Orbit, Viewport};
+use trigon_window::scene::math::DVec3;
 use trigon_window::{
     Action, DragAction, DragBinding, Key, Keymap, Modifiers, PointerButton, Refinement, Stage,
 };
 
-use crate::request::{DisplayMode, Orientation, Pivot, SnapTarget};
+use crate::request::{DisplayMode, GizmoKind, Orientation, Pivot, SnapSource, SnapTarget};
+use crate::tool::{SnapSettings, TransformSettings};
 
 /// How tools work.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ToolSettings {
     pub(crate) snapping: bool,
     pub(crate) snap_target: SnapTarget,
+    pub(crate) snap_source: SnapSource,
     pub(crate) proportional: bool,
     pub(crate) pivot: Pivot,
     pub(crate) orientation: Orientation,
+    /// The gizmo on what is selected, if there is to be one.
+    pub(crate) gizmo: Option<GizmoKind>,
+    /// Where the 3D cursor is, in metres in the world.
+    pub(crate) cursor: DVec3,
+}
+
+impl Default for ToolSettings {
+    fn default() -> Self {
+        Self {
+            snapping: false,
+            snap_target: SnapTarget::default(),
+            snap_source: SnapSource::default(),
+            proportional: false,
+            pivot: Pivot::default(),
+            orientation: Orientation::default(),
+            // Who does not know the keys has to see that things can be moved.
+            gizmo: Some(GizmoKind::Move),
+            cursor: DVec3::ZERO,
+        }
+    }
+}
+
+impl ToolSettings {
+    pub(crate) fn snap(&self) -> SnapSettings {
+        let (target, source) = (self.snap_target, self.snap_source);
+        SnapSettings { is_on: self.snapping, target, source, ..SnapSettings::default() }
+    }
+
+    pub(crate) fn transform(&self) -> TransformSettings {
+        TransformSettings {
+            orientation: self.orientation,
+            pivot: self.pivot,
+            snap: self.snap(),
+            cursor: self.cursor,
+            proportional: self.proportional.then(Proportional::default),
+        }
+    }
 }
 
 /// How the document is seen, apart from the camera.

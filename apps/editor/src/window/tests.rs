@@ -1,5 +1,7 @@
 //! The window's interface by labels and keys, drawn by the window's own painter.
 
+mod tools;
+
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use trigon_window::egui::{Key, Modifiers as Held};
@@ -75,7 +77,8 @@ fn a_first_start_shows_a_cube_and_how_to_begin() {
 #[test]
 fn menus_run_actions_and_undo_takes_them_back() {
     let mut harness = harness();
-    harness.get_by_label("Add").click();
+    // The tab of this name comes after the menu.
+    harness.get_all_by_label("Add").next().expect("the menu").click();
     harness.run();
     harness.get_by_label("Torus").click();
     harness.run();

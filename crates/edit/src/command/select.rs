@@ -1,8 +1,11 @@
 //! Selecting objects and elements by number or name, all, none, and the rest.
 
+use std::collections::BTreeSet;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_mesh::edit::EditMesh;
+use trigon_scene::MeshId;
 
 use super::select_related::change_selections;
 use super::{Action, ObjectName, Outcome};
@@ -23,6 +26,8 @@ pub enum SelectAction {
     Remove,
     /// Of what is named, the selected is selected no more, and the rest is.
     Toggle,
+    /// Only what is named stays selected.
+    Intersect,
 }
 
 /// Selects objects, or elements of an object that is edited. In edit mode `elements` are numbers of
@@ -48,6 +53,9 @@ impl Action for Select {
             if self.action == SelectAction::Replace {
                 selection.objects.clear();
             }
+            if self.action == SelectAction::Intersect {
+                selection.objects.retain(|object| objects.contains(object));
+            }
             for object in objects {
                 let is_in = selection.objects.contains(&object);
                 if self.selects(is_in) {
@@ -62,8 +70,10 @@ impl Action for Select {
         let id = change.only_edited_mesh(objects, "selecting elements")?;
         let kind = change.selection().kind();
         let (selection, meshes) = change.selection_and_meshes();
-        if self.action == SelectAction::Replace {
-            let all: Vec<_> = selection.meshes().map(|(mesh, _)| mesh).collect();
+        let keeps_others = !matches!(self.action, SelectAction::Replace | SelectAction::Intersect);
+        if !keeps_others {
+            let is_cleared = |mesh: &MeshId| self.action == SelectAction::Replace || *mesh != id;
+            let all: Vec<_> = selection.meshes().map(|(mesh, _)| mesh).filter(is_cleared).collect();
             for mesh in all {
                 selection.of_mut(mesh).expect("it was just listed").clear();
             }
@@ -72,6 +82,11 @@ impl Action for Select {
             return Err(EditError::NotEditing("selecting elements of an object"));
         };
         self.elements.iter().try_for_each(|&element| check_element(mesh, kind, element))?;
+        if self.action == SelectAction::Intersect {
+            let named: BTreeSet<u32> = self.elements.iter().copied().collect();
+            let others: Vec<u32> = selection.indices().filter(|element| !named.contains(element)).collect();
+            selection.remove(&others);
+        }
         let is_selected = |&element: &u32| self.selects(selection.contains(element));
         let (in_it, out_of_it): (Vec<u32>, Vec<u32>) = self.elements.iter().partition(|e| is_selected(e));
         selection.remove(&out_of_it);
@@ -87,6 +102,7 @@ impl Select {
             SelectAction::Replace | SelectAction::Add => true,
             SelectAction::Remove => false,
             SelectAction::Toggle => !was_selected,
+            SelectAction::Intersect => was_selected,
         }
     }
 }

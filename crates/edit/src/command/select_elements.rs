@@ -53,8 +53,10 @@ impl Action for SelectElements {
         let found: Result<Vec<_>, _> = self.parts.iter().map(|part| named(change, part)).collect();
         let found = found?;
         let (selection, _) = change.selection_and_meshes();
-        if self.action == SelectAction::Replace {
-            let all: Vec<_> = selection.meshes().map(|(mesh, _)| mesh).collect();
+        if matches!(self.action, SelectAction::Replace | SelectAction::Intersect) {
+            let is_named = |mesh: &MeshId| found.iter().any(|(named, _)| named == mesh);
+            let is_cleared = |mesh: &MeshId| self.action == SelectAction::Replace || !is_named(mesh);
+            let all: Vec<_> = selection.meshes().map(|(mesh, _)| mesh).filter(is_cleared).collect();
             for mesh in all {
                 selection.of_mut(mesh).expect("it was just listed").clear();
             }
@@ -76,6 +78,7 @@ impl SelectElements {
             SelectAction::Replace | SelectAction::Add => after.union_with(named),
             SelectAction::Remove => after.difference_with(named),
             SelectAction::Toggle => after.symmetric_difference_with(named),
+            SelectAction::Intersect => after.intersect_with(named),
         }
         after
     }
@@ -145,6 +148,8 @@ mod tests {
         assert_eq!(selected(&document), [vec![1, 2, 3], vec![0, 5]]);
         select(&mut document, [&[1, 4], &[5]], SelectAction::Toggle);
         assert_eq!(selected(&document), [vec![2, 3, 4], vec![0]]);
+        select(&mut document, [&[3, 5], &[0]], SelectAction::Intersect);
+        assert_eq!(selected(&document), [vec![3], vec![0]]);
         select(&mut document, [&[], &[1]], SelectAction::Replace);
         assert_eq!(selected(&document)[1], [1], "and nothing of the first");
     }

@@ -23,6 +23,8 @@ const SELECTED_VERTEX: [u8; 3] = [0xff, 0x7a, 0x00];
 const SELECTED_EDGE: [u8; 3] = [0xff, 0x99, 0x00];
 const SELECTED_FACE: [u8; 3] = [0xff, 0xa3, 0x00];
 const ACTIVE: [u8; 3] = [0xff; 3];
+/// White over a light material would look like no selection at all.
+const ACTIVE_FACE: [u8; 3] = [0xff, 0xc8, 0x50];
 const SHARP: [u8; 3] = [0x00, 0xff, 0xff];
 const SEAM: [u8; 3] = [0xdb, 0x25, 0x12];
 const CREASE: [u8; 3] = [0xcc, 0x00, 0x99];
@@ -179,7 +181,7 @@ impl Sets {
             mark(self.creases, CREASE, 1.0),
         ];
         let faces =
-            [mark(active_faces, ACTIVE, ACTIVE_FACE_OPACITY), mark(faces, SELECTED_FACE, FACE_OPACITY)];
+            [mark(active_faces, ACTIVE_FACE, ACTIVE_FACE_OPACITY), mark(faces, SELECTED_FACE, FACE_OPACITY)];
         let vertices = [mark(active_vertices, ACTIVE, 1.0), mark(vertices, SELECTED_VERTEX, 1.0)];
         Marks {
             edges: edges.into_iter().flatten().collect(),

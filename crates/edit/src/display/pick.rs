@@ -49,7 +49,7 @@ impl<'p> Picks<'p> {
     }
 
     /// A click: the nearest element within a radius in pixels, or the nearest object. Nothing is
-    /// selected where nothing is; other actions than [`SelectAction::Replace`] do nothing there.
+    /// selected where nothing is; [`SelectAction::Add`], `Remove` and `Toggle` do nothing there.
     #[must_use]
     pub fn click(&self, point: DVec2, radius: f64, action: SelectAction) -> Option<Command> {
         if !self.document.selection().is_editing() {
@@ -246,7 +246,8 @@ impl Target {
 
 /// What pointing at nothing does.
 fn nothing(action: SelectAction) -> Option<Command> {
-    (action == SelectAction::Replace).then(|| SelectNone {}.into())
+    let clears = matches!(action, SelectAction::Replace | SelectAction::Intersect);
+    clears.then(|| SelectNone {}.into())
 }
 
 #[cfg(test)]

@@ -64,8 +64,6 @@ const RADII: [f64; 2] = [1.0, 1000.0];
 /// A lasso notes a place when the pointer went so far, in pixels, and at most so many places.
 const LASSO_STEP: f64 = 2.0;
 const LASSO_POINTS: usize = 20_000;
-/// Sides of the polygon as which a circle is drawn.
-const CIRCLE_SIDES: u32 = 64;
 
 impl Gesture {
     /// Starts to wait for a press. `scale` is physical pixels per logical one.
@@ -168,7 +166,7 @@ impl Gesture {
     }
 
     /// The region as it is now.
-    pub(crate) fn region(&self) -> Region {
+    fn region(&self) -> Region {
         let start = self.points.first().copied().unwrap_or(self.place);
         match self.kind {
             GestureKind::Box => Region::Rectangle { min: start.min(self.place), max: start.max(self.place) },
@@ -177,17 +175,10 @@ impl Gesture {
         }
     }
 
-    /// The closed outline to be drawn, in physical pixels; empty while there is none.
-    pub(crate) fn outline(&self) -> Vec<DVec2> {
-        match self.region() {
-            Region::Circle { center, radius } => circle(center, radius),
-            _ if self.drawing.is_none() => Vec::new(),
-            Region::Rectangle { min, max } => {
-                vec![min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)]
-            }
-            Region::Lasso(points) => points,
-            _ => Vec::new(),
-        }
+    /// The region to be drawn; `None` while there is none. A circle is shown before it paints.
+    pub(crate) fn shown(&self) -> Option<Region> {
+        let is_shown = self.drawing.is_some() || self.kind == GestureKind::Circle;
+        is_shown.then(|| self.region())
     }
 
     /// A line for the status bar.
@@ -214,13 +205,4 @@ fn mode_of(button: PointerButton, modifiers: Modifiers) -> RegionMode {
         (PointerButton::Left, true, false) => RegionMode::Extend,
         _ => RegionMode::Subtract,
     }
-}
-
-fn circle(center: DVec2, radius: f64) -> Vec<DVec2> {
-    let corner = |side: u32| {
-        let (sine, cosine) =
-            elementary::sin_cos(f64::from(side) * std::f64::consts::TAU / f64::from(CIRCLE_SIDES));
-        center + DVec2::new(cosine, sine) * radius
-    };
-    (0..CIRCLE_SIDES).map(corner).collect()
 }

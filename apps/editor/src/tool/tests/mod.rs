@@ -13,7 +13,7 @@ use trigon_edit::mesh::math::{DVec2, DVec3, Vec3};
 use trigon_edit::mesh::primitives;
 use trigon_edit::scene::{Material, MeshId, Scene};
 use trigon_edit::{Command, Document};
-use trigon_window::{Hands, Input, Key, Modifiers, PointerButton};
+use trigon_window::{Hands, Input, Key, Modifiers};
 
 use super::view::tests::front;
 use super::*;

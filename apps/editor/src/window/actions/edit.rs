@@ -19,7 +19,7 @@ actions! {
     "Edit/Transform" "tool.shrink_fatten" "Shrink/Fatten" "Alt+S" Elements Tool(ToolKind::ShrinkFatten) => "Moves what is selected along its normals.";
     "Edit/Transform" "tool.push_pull" "Push/Pull" "" Elements Tool(ToolKind::PushPull) => "Moves what is selected to or from its middle.";
 
-    "Edit" "edit.duplicate" "Duplicate Objects" "Shift+D" Objects Run(r#"{"op":"duplicate_objects"}"#) => "Copies objects with their meshes; G moves the copies.";
+    "Edit" "edit.duplicate" "Duplicate Objects" "Shift+D" Objects Run(r#"{"op":"duplicate_objects"}"#) => "Copies objects with their meshes, and moves the copies.";
     "Edit" "edit.duplicate_linked" "Duplicate Linked" "Alt+D" Objects Run(r#"{"op":"duplicate_objects","linked":true}"#) => "Copies objects that go on sharing their meshes.";
     "Edit" "edit.join" "Join Objects" "Ctrl+J" TwoObjects Run(r#"{"op":"join_objects"}"#) => "Puts the selected objects into the active one.";
     "Edit" "edit.parent_clear" "Clear Parent" "Alt+P" Objects Run(r#"{"op":"set_parent"}"#) => "Takes objects off what they hang on; they stay where they are.";

@@ -13,10 +13,11 @@ actions! {
     "Mesh" "mesh.edge_slide" "Edge Slide" "" Elements Tool(ToolKind::EdgeSlide) => "Slides edges along their neighbours (G G).";
     "Mesh" "mesh.subdivide" "Subdivide" "" Elements Run(r#"{"op":"subdivide"}"#) => "Cuts the selected edges in halves.";
     "Mesh" "mesh.catmull_clark" "Catmull-Clark" "" EditMode Run(r#"{"op":"catmull_clark"}"#) => "Subdivides meshes to smooth surfaces.";
-    "Mesh" "mesh.duplicate" "Duplicate" "Shift+D" Elements Run(r#"{"op":"duplicate"}"#) => "Copies what is selected; G moves the copy.";
+    "Mesh" "mesh.duplicate" "Duplicate" "Shift+D" Elements Run(r#"{"op":"duplicate"}"#) => "Copies what is selected, and moves the copy.";
     "Mesh" "mesh.split" "Split" "Y" Elements Run(r#"{"op":"split_off"}"#) => "Splits the selected faces off.";
     "Mesh" "mesh.separate" "Separate" "P" Elements Run(r#"{"op":"separate"}"#) => "Makes the selected faces an object.";
     "Mesh" "mesh.fill" "Make Face / Fill" "F Alt+F" Elements Run(r#"{"op":"fill"}"#) => "Makes faces where there are none.";
+    "Mesh" "mesh.grid_fill" "Grid Fill" "" Elements Run(r#"{"op":"grid_fill"}"#) => "Fills a closed loop of edges with a grid of quads.";
     "Mesh" "mesh.connect" "Connect Vertices" "J" Elements Run(r#"{"op":"connect_vertices"}"#) => "Joins vertices by edges through faces.";
     "Mesh" "mesh.bridge" "Bridge Edge Loops" "" Elements Run(r#"{"op":"bridge"}"#) => "Joins two loops of edges by faces.";
     "Mesh" "mesh.triangulate" "Triangulate" "Ctrl+T" Elements Run(r#"{"op":"triangulate"}"#) => "Cuts faces into triangles.";

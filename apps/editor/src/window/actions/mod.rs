@@ -91,6 +91,27 @@ pub(crate) fn named(name: &str) -> Option<&'static Action> {
     all().find(|action| action.name == name)
 }
 
+/// The tools of the bar on the left.
+const TOOLS: [&str; 12] = [
+    "select.box",
+    "select.circle",
+    "select.lasso",
+    "tool.move",
+    "tool.rotate",
+    "tool.scale",
+    "mesh.extrude",
+    "mesh.inset",
+    "mesh.bevel",
+    "mesh.loop_cut",
+    "mesh.edge_slide",
+    "tool.shrink_fatten",
+];
+
+/// The tools that have a button, of both modes.
+pub(crate) fn tools() -> impl Iterator<Item = &'static Action> {
+    TOOLS.iter().filter_map(|name| named(name))
+}
+
 impl Action {
     /// What the editor is asked when it is chosen.
     pub(crate) fn request(&self) -> Request {
@@ -129,6 +150,11 @@ impl Action {
     /// Whether it opens a menu at the pointer, which a menu has no use for.
     pub(crate) fn opens_menu(&self) -> bool {
         matches!(self.does, Does::Ui(UiRequest::Popup(_)))
+    }
+
+    /// Whether what it makes lies on what was there, so that it is moved next.
+    pub(crate) fn makes_copies(&self) -> bool {
+        ["edit.duplicate", "edit.duplicate_linked", "mesh.duplicate"].contains(&self.name)
     }
 
     /// Whether it is an action of the mode that the document is in.

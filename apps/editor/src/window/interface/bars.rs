@@ -5,7 +5,9 @@ use trigon_window::Stage;
 use trigon_window::egui::{self, Button, Ui};
 
 use super::label;
-use crate::request::{DisplayMode, Orientation, Pivot, Request, SnapTarget, UiRequest, ViewRequest};
+use crate::request::{
+    DisplayMode, GizmoKind, Orientation, Pivot, Request, SnapSource, SnapTarget, UiRequest, ViewRequest,
+};
 use crate::window::actions;
 use crate::window::editor::Editor;
 
@@ -70,6 +72,13 @@ fn tool_settings(ui: &mut Ui, editor: &Editor, requests: &mut Vec<Request>) {
         ("Face", SnapTarget::Face),
     ];
     ask(choice(ui, "Snap to", tools.snap_target, &targets).map(UiRequest::Snap));
+    let sources = [
+        ("Closest", SnapSource::Closest),
+        ("Center", SnapSource::Center),
+        ("Median", SnapSource::Median),
+        ("Active", SnapSource::Active),
+    ];
+    ask(choice(ui, "Snap with", tools.snap_source, &sources).map(UiRequest::SnapWith));
     let pivots = [
         ("Bounding Box Center", Pivot::Bounds),
         ("Origin", Pivot::Origin),
@@ -86,6 +95,13 @@ fn tool_settings(ui: &mut Ui, editor: &Editor, requests: &mut Vec<Request>) {
         ("View", Orientation::View),
     ];
     ask(choice(ui, "Orientation", tools.orientation, &orientations).map(UiRequest::Orientation));
+    let gizmos = [
+        ("No Gizmo", None),
+        ("Move", Some(GizmoKind::Move)),
+        ("Rotate", Some(GizmoKind::Rotate)),
+        ("Scale", Some(GizmoKind::Scale)),
+    ];
+    ask(choice(ui, "Gizmo", tools.gizmo, &gizmos).map(UiRequest::Gizmo));
     let proportional = ui.selectable_label(tools.proportional, "Proportional");
     ask(proportional.clicked().then_some(UiRequest::Proportional));
 }
@@ -106,28 +122,12 @@ fn choice<T: Copy + PartialEq>(ui: &mut Ui, name: &str, current: T, all: &[(&str
     chosen
 }
 
-/// The tools on the left, those of each mode.
-const TOOLS: [&str; 12] = [
-    "select.box",
-    "select.circle",
-    "select.lasso",
-    "tool.move",
-    "tool.rotate",
-    "tool.scale",
-    "mesh.extrude",
-    "mesh.inset",
-    "mesh.bevel",
-    "mesh.loop_cut",
-    "mesh.edge_slide",
-    "tool.shrink_fatten",
-];
-
 /// A button for each tool of the mode, with its key in the tool tip.
 pub(super) fn tools(ui: &mut Ui, editor: &mut Editor, stage: &mut Stage) {
     let is_editing = editor.document.selection().is_editing();
     let mut chosen = None;
     ui.add_space(4.0);
-    for action in TOOLS.iter().filter_map(|name| actions::named(name)) {
+    for action in actions::tools() {
         if !action.fits_mode(is_editing) {
             continue;
         }

@@ -6,22 +6,25 @@ mod menu;
 mod overlays;
 mod questions;
 mod search;
+mod side;
 mod status;
+mod view;
 
 use trigon_window::Stage;
-use trigon_window::egui::{self, Panel, ScrollArea, Ui};
+use trigon_window::egui::{self, Panel, Ui};
 
 use super::editor::Editor;
-use super::wiring;
 use crate::request::Request;
 
 pub(crate) use menu::Popup;
 pub(crate) use overlays::Rename;
 pub(crate) use search::Search;
+pub(crate) use side::Panels;
 
 /// Shows all of it; returns what is to be done.
 pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<Request> {
     let mut requests = Vec::new();
+    view::show(ui, editor, stage);
     Panel::top("menus").show(ui, |ui| menu::bar(ui, editor, stage));
     Panel::top("modes").show(ui, |ui| bars::top(ui, editor, stage, &mut requests));
     Panel::bottom("status").show(ui, |ui| status::line(ui, editor));
@@ -29,8 +32,11 @@ pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<R
         Panel::left("tools").resizable(false).exact_size(132.0).show(ui, |ui| bars::tools(ui, editor, stage));
     }
     if editor.layout.side_bar {
-        side_bar(ui, editor, &mut requests);
+        side::show(ui, editor, stage, &mut requests);
     }
+    let free = ui.available_rect_before_wrap();
+    editor.free = Some(free);
+    side::adjust(ui.ctx(), editor, free, &mut requests);
     search::show(ui.ctx(), editor, stage);
     menu::popup(ui.ctx(), editor, stage);
     overlays::help(ui.ctx(), editor);
@@ -41,20 +47,6 @@ pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<R
     questions::loading(ui.ctx(), editor, stage);
     questions::show(ui.ctx(), editor, stage);
     requests
-}
-
-/// The outliner above, the tabs below.
-fn side_bar(ui: &mut Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
-    Panel::right("side").default_size(260.0).show(ui, |ui| {
-        let half = ui.available_height() * 0.4;
-        ui.strong("Outliner");
-        let scroll = ScrollArea::vertical().id_salt("outliner").max_height(half).auto_shrink([false, false]);
-        scroll.show(ui, |ui| wiring::outliner(ui, &editor.document, &mut editor.panels, requests));
-        ui.separator();
-        ScrollArea::vertical().id_salt("tabs").auto_shrink([false, false]).show(ui, |ui| {
-            wiring::tabs(ui, &editor.document, &mut editor.panels, requests);
-        });
-    });
 }
 
 /// Gives the keyboard to a widget if no other has it.

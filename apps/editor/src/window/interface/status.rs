@@ -1,4 +1,5 @@
-//! The line at the bottom: what was done or refused, and what is selected.
+//! The line at the bottom: the keys and numbers of the tool that runs, what was done or refused, and what is
+//! selected.
 
 use trigon_edit::{Document, ElementKind};
 use trigon_window::egui::{Align, Color32, Layout, RichText, Ui};
@@ -15,9 +16,10 @@ pub(super) fn line(ui: &mut Ui, editor: &Editor) {
             ui.label(counts(&editor.document));
             ui.separator();
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                let text = match &editor.message {
-                    Message::Info(text) => RichText::new(text),
-                    Message::Refusal(text) => RichText::new(text).color(REFUSAL),
+                let text = match (&editor.tool, &editor.message) {
+                    (Some(tool), _) => RichText::new(tool.status()),
+                    (None, Message::Info(text)) => RichText::new(text),
+                    (None, Message::Refusal(text)) => RichText::new(text).color(REFUSAL),
                 };
                 ui.add(trigon_window::egui::Label::new(text).truncate());
             });

@@ -50,7 +50,7 @@ fn selected_faces_are_marked_under_their_numbers_in_the_scene() {
     let settings = settings(&mut document);
     // Two faces before the last ones are gone, one before the first.
     assert_eq!(of_color(&settings.marks.faces, SELECTED_FACE), [0, 4, 13]);
-    assert_eq!(of_color(&settings.marks.faces, ACTIVE), [13], "the last one");
+    assert_eq!(of_color(&settings.marks.faces, ACTIVE_FACE), [13], "the last one");
     assert_eq!(settings.vertices, None, "not in face mode");
     assert_eq!(settings.style, Style::SurfaceWithEdges);
     assert_eq!(settings.effects.outline, None);

@@ -1,0 +1,75 @@
+//! The gizmo on what is selected, the axes in the corner, and presses on them.
+
+use trigon_window::egui::{Pos2, Rect, vec2};
+use trigon_window::{Hands, Stage};
+
+use super::editor::Editor;
+use super::modal::tool_view;
+use super::pick::Click;
+use crate::overlay::{Gizmo, GizmoKind, Handle, OverlayView, axis_view_at};
+use crate::request::{Request, ToolKind, ViewRequest};
+use crate::tool::{Axis, Frames, Freedom, Selected};
+
+/// From the corner of the view to the middle of the axes, in points.
+const AXES: f32 = 56.0;
+/// In a smaller view there are none, in points.
+const LEAST_VIEW: f32 = 240.0;
+
+/// Where the selected things are, of which revision of the document.
+#[derive(Debug, Default)]
+pub(crate) struct Place {
+    known: Option<(u64, Option<Selected>)>,
+}
+
+impl Editor {
+    /// The view in points, as everything over the picture is drawn.
+    pub(crate) fn overlay_view(&self, stage: &Stage) -> OverlayView {
+        let scale = stage.scale() * f64::from(stage.text_scale.clamp(0.5, 4.0));
+        OverlayView::new(&stage.camera(), stage.viewport(), scale)
+    }
+
+    /// The gizmo, while something is selected that it could move.
+    pub(crate) fn gizmo(&mut self, stage: &Stage) -> Option<Gizmo> {
+        let kind = self.tools.gizmo.filter(|_| self.tool.is_none())?;
+        let revision = self.document.revision();
+        if self.place.known.as_ref().is_none_or(|(known, _)| *known != revision) {
+            self.place.known = Some((revision, Selected::of(&self.document)));
+        }
+        let selected = self.place.known.as_ref()?.1.as_ref()?;
+        let center = self.tools.pivot.point(selected, self.tools.cursor);
+        let view = tool_view(stage);
+        let axes = Frames::new(self.tools.orientation, selected.local, selected.normal, &view).chosen;
+        Some(Gizmo { kind, center, axes })
+    }
+
+    /// Where the axes in the corner are; `None` where there is no room for them.
+    pub(crate) fn axes_center(&self) -> Option<Pos2> {
+        let free: Rect = self.free?;
+        let has_room = free.width() >= LEAST_VIEW && free.height() >= LEAST_VIEW;
+        has_room.then(|| free.right_top() + vec2(-AXES, AXES))
+    }
+
+    /// A press on one of them; tells whether it was.
+    pub(crate) fn press_gizmo(&mut self, stage: &mut Stage, hands: Hands) -> bool {
+        let (view, Some(press)) = (self.overlay_view(stage), Click::new(hands)) else { return false };
+        let at = view.logical(press.at);
+        if let Some(axis) = self.axes_center().and_then(|center| axis_view_at(&view, center, at)) {
+            self.perform(stage, Request::View(ViewRequest::Axis(axis)));
+            return true;
+        }
+        let Some(gizmo) = self.gizmo(stage) else { return false };
+        let Some(handle) = gizmo.handle_at(&view, at) else { return false };
+        let tool = match gizmo.kind {
+            GizmoKind::Move => ToolKind::Move,
+            GizmoKind::Rotate => ToolKind::Rotate,
+            GizmoKind::Scale => ToolKind::Scale,
+        };
+        let freedom = match handle {
+            Handle::Axis(axis) => Some(Freedom::Along(Axis::ALL[axis])),
+            Handle::Plane(axis) => Some(Freedom::Across(Axis::ALL[axis])),
+            Handle::View => None,
+        };
+        self.start_held(stage, tool, freedom, press);
+        true
+    }
+}

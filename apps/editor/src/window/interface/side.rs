@@ -1,0 +1,103 @@
+//! The panels on the right: the outliner above, tabs below; and that of the last operation, at the lower left
+//! of the view.
+
+use trigon_window::Stage;
+use trigon_window::egui::{self, Align2, Context, Id, Panel, Rect, ScrollArea, Ui};
+
+use crate::panel::{
+    self, AddState, DevelopmentState, DrawnView, InformationState, OutlinerState, PropertiesState,
+};
+use crate::request::Request;
+use crate::window::actions;
+use crate::window::editor::Editor;
+
+/// In points.
+const WIDTH: f32 = 280.0;
+const LEAST_WIDTH: f32 = 200.0;
+const ADJUST_WIDTH: f32 = 260.0;
+
+/// The tabs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Tab {
+    Information,
+    Add,
+    #[default]
+    Properties,
+    Development,
+}
+
+/// What panels remember.
+#[derive(Default)]
+pub(crate) struct Panels {
+    tab: Tab,
+    outliner: OutlinerState,
+    information: InformationState,
+    add: AddState,
+    properties: PropertiesState,
+    development: DevelopmentState,
+}
+
+/// The outliner above, the tabs below.
+pub(super) fn show(ui: &mut Ui, editor: &mut Editor, stage: &Stage, requests: &mut Vec<Request>) {
+    let side = Panel::right("side").default_size(WIDTH).min_size(LEAST_WIDTH);
+    side.show(ui, |ui| {
+        let height = ui.available_height();
+        let upper = Panel::top("outliner").resizable(true).default_size(height * 0.3);
+        upper.show(ui, |ui| {
+            panel::outliner(ui, &editor.document, &mut editor.panels.outliner, requests);
+        });
+        tabs(ui, editor, stage, requests);
+    });
+}
+
+fn tabs(ui: &mut Ui, editor: &mut Editor, stage: &Stage, requests: &mut Vec<Request>) {
+    let all = [
+        (Tab::Properties, "Properties"),
+        (Tab::Add, "Add"),
+        (Tab::Information, "Information"),
+        (Tab::Development, "Development"),
+    ];
+    ui.horizontal_wrapped(|ui| {
+        for (tab, name) in all {
+            ui.selectable_value(&mut editor.panels.tab, tab, name);
+        }
+    });
+    ui.separator();
+    let Editor { document, panels, tools, keys, .. } = editor;
+    ScrollArea::vertical().id_salt(panels.tab as usize).auto_shrink([false, false]).show(
+        ui,
+        |ui| match panels.tab {
+            Tab::Information => {
+                let is_editing = document.selection().is_editing();
+                let of_mode = actions::tools().filter(|action| action.fits_mode(is_editing));
+                let controls = of_mode.map(|action| (keys.text_of(action), action.label.to_owned()));
+                let controls: Vec<_> = controls.filter(|(keys, _)| !keys.is_empty()).collect();
+                panel::information(ui, document, &mut panels.information, &controls);
+            }
+            Tab::Add => panel::add(ui, document, &mut panels.add, tools.cursor.to_array(), requests),
+            Tab::Properties => panel::properties(ui, document, &mut panels.properties, requests),
+            Tab::Development => {
+                panel::development(ui, &DrawnView::of(stage), &mut panels.development, requests);
+            }
+        },
+    );
+}
+
+/// The values of the last operation, while there are some that could be changed.
+pub(super) fn adjust(context: &Context, editor: &Editor, free: Rect, requests: &mut Vec<Request>) {
+    let last = editor.document.history().done().last().map(|entry| entry.command());
+    let is_over = editor.tool.is_none() && editor.question.is_none() && editor.loading.is_none();
+    let can_adjust = last.is_some_and(|last| !last.is_selection());
+    if !(can_adjust && is_over && editor.layout.adjust) {
+        return;
+    }
+    let at = free.left_bottom() + egui::vec2(8.0, -8.0);
+    let window = egui::Window::new("Last Operation").id(Id::unique("adjust")).resizable(false);
+    let window = window.pivot(Align2::LEFT_BOTTOM).fixed_pos(at).default_width(ADJUST_WIDTH);
+    window.show(context, |ui| {
+        ui.set_width(ADJUST_WIDTH);
+        ScrollArea::vertical().max_height((free.height() * 0.6).max(80.0)).show(ui, |ui| {
+            panel::adjust(ui, &editor.document, requests);
+        });
+    });
+}

@@ -1,0 +1,72 @@
+//! What lies over the picture: the grid, lights, cameras, the cursor, gizmos, and what tools and gestures draw.
+
+use trigon_edit::scene::Region;
+use trigon_window::Stage;
+use trigon_window::egui::{Color32, Painter, Shape, Stroke, Ui};
+
+use crate::overlay::{
+    Gesture, OverlayView, draw_axes, draw_cameras, draw_cursor, draw_gesture, draw_grid, draw_lights,
+    draw_origins,
+};
+use crate::tool::ToolMarks;
+use crate::window::editor::Editor;
+
+/// Of what tools draw.
+const INK: Color32 = Color32::from_rgb(255, 240, 120);
+/// What something snapped to, in points.
+const SNAPPED: f32 = 7.0;
+
+/// Draws it, before the panels: they lie over it.
+pub(super) fn show(ui: &Ui, editor: &mut Editor, stage: &Stage) {
+    let (painter, view) = (ui.painter(), editor.overlay_view(stage));
+    let distance = |at| stage.pick(at).map(|(_, point)| view.distance(point));
+    draw_grid(painter, &view, &distance);
+    draw_lights(painter, &editor.document, &view);
+    draw_cameras(painter, &editor.document, &view);
+    draw_origins(painter, &editor.document, &view);
+    draw_cursor(painter, &view, editor.tools.cursor);
+    if let Some(gizmo) = editor.gizmo(stage) {
+        let pointer = editor.pointer.map(|at| view.logical(at));
+        gizmo.draw(painter, &view, pointer.and_then(|at| gizmo.handle_at(&view, at)));
+    }
+    if let Some(tool) = &editor.tool {
+        draw_marks(painter, &view, &tool.marks());
+        if let Some(region) = tool.region() {
+            draw_gesture(painter, &outline(&view, &region));
+        }
+    }
+    if let Some(center) = editor.axes_center() {
+        draw_axes(painter, &view, center);
+    }
+}
+
+fn draw_marks(painter: &Painter, view: &OverlayView, marks: &ToolMarks) {
+    let stroke = Stroke::new(1.5, INK);
+    for [from, to] in &marks.lines {
+        if let Some(line) = view.line(*from, *to) {
+            painter.line_segment(line, stroke);
+        }
+    }
+    if let Some((center, radius)) = marks.circle
+        && let Some(at) = view.point(center)
+    {
+        painter.circle_stroke(at, (radius / view.pixel_size(center)).min(1e4) as f32, Stroke::new(1.0, INK));
+    }
+    if let Some(at) = marks.point.and_then(|point| view.point(point)) {
+        painter.add(Shape::circle_stroke(at, SNAPPED, stroke));
+    }
+}
+
+/// A region in physical pixels as it is drawn.
+fn outline(view: &OverlayView, region: &Region) -> Gesture {
+    match region {
+        Region::Rectangle { min, max } => Gesture::Box([view.logical(*min), view.logical(*max)]),
+        Region::Circle { center, radius } => {
+            let center = view.logical(*center);
+            let right = view.logical(view.physical(center) + trigon_window::scene::math::DVec2::X * *radius);
+            Gesture::Circle { center, radius: right.x - center.x }
+        }
+        Region::Lasso(points) => Gesture::Lasso(points.iter().map(|at| view.logical(*at)).collect()),
+        _ => Gesture::Lasso(Vec::new()),
+    }
+}

@@ -1,0 +1,295 @@
+//! The tool that follows the pointer: how it is started, what it is given, and what becomes of what it did.
+
+use trigon_edit::mesh::math::DVec2;
+use trigon_edit::scene::Region;
+use trigon_edit::{SelectAction, Shear};
+use trigon_window::{Hands, Input, InputOwner, Key, Modifiers, PointerButton, Stage, Taken};
+
+use super::editor::{Editor, Message};
+use super::pick::Click;
+use crate::request::{Request, ToolKind};
+use crate::tool::{
+    BevelTool, ExtrudeTool, Freedom, Gesture, GestureKind, GestureState, InsetTool, LoopCutTool, RegionMode,
+    Tool, ToolMarks, ToolState, ToolView, TransformKind, TransformTool,
+};
+
+/// A tool or a gesture that runs.
+pub(crate) struct Running {
+    kind: ToolKind,
+    what: What,
+    /// Where a press of the left button started it.
+    pressed: Option<Click>,
+    /// Whether the camera has taken the pointer: where that comes back is no movement.
+    is_navigating: bool,
+}
+
+enum What {
+    Tool(Box<dyn Tool>),
+    /// Which is told of faces under the pointer.
+    LoopCut(Box<LoopCutTool>),
+    Gesture(Gesture),
+}
+
+impl Running {
+    fn new(kind: ToolKind, what: What) -> Self {
+        Self { kind, what, pressed: None, is_navigating: false }
+    }
+
+    /// Keys and numbers for the status line.
+    pub(crate) fn status(&self) -> String {
+        match &self.what {
+            What::Tool(tool) => tool.status(),
+            What::LoopCut(tool) => tool.status(),
+            What::Gesture(gesture) => gesture.status().into(),
+        }
+    }
+
+    /// What it draws in the world.
+    pub(crate) fn marks(&self) -> ToolMarks {
+        match &self.what {
+            What::Tool(tool) => tool.marks(),
+            What::LoopCut(tool) => tool.marks(),
+            What::Gesture(_) => ToolMarks::default(),
+        }
+    }
+
+    /// The region that a gesture draws, in physical pixels; `None` where there is none.
+    pub(crate) fn region(&self) -> Option<Region> {
+        match &self.what {
+            What::Gesture(gesture) => gesture.shown(),
+            What::Tool(_) | What::LoopCut(_) => None,
+        }
+    }
+
+    /// Whether an input turns or zooms the view in the middle of the tool.
+    fn leaves_to_camera(&self, input: &Input, hands: Hands) -> bool {
+        use ToolKind::{Bevel, BevelVertices, Extrude, ExtrudeIndividual, Inset, LoopCut, SelectCircle};
+        match input {
+            Input::Pressed(PointerButton::Left) => hands.modifiers.contains(Modifiers::ALT),
+            Input::Pressed(PointerButton::Middle) => {
+                let has_no_use = matches!(
+                    self.kind,
+                    Extrude | ExtrudeIndividual | Inset | Bevel | BevelVertices | LoopCut
+                );
+                has_no_use || hands.modifiers.contains(Modifiers::ALT)
+            }
+            Input::Wheel(_) => {
+                let takes = matches!(self.kind, Bevel | BevelVertices | LoopCut | SelectCircle);
+                !takes && self.marks().circle.is_none()
+            }
+            Input::Pinch(_) => true,
+            _ => false,
+        }
+    }
+
+    fn pointer_jumped(&mut self, to: DVec2) {
+        match &mut self.what {
+            What::Tool(tool) => tool.pointer_jumped(to),
+            What::LoopCut(tool) => tool.pointer_jumped(to),
+            What::Gesture(_) => {}
+        }
+    }
+}
+
+/// What a transform is for the tool that does all of them.
+fn transform_kind(tool: ToolKind) -> Option<TransformKind> {
+    Some(match tool {
+        ToolKind::Move | ToolKind::EdgeSlide => TransformKind::Translate,
+        ToolKind::Rotate => TransformKind::Rotate,
+        ToolKind::Scale => TransformKind::Scale,
+        ToolKind::ShrinkFatten => TransformKind::ShrinkFatten,
+        ToolKind::PushPull => TransformKind::PushPull,
+        ToolKind::ToSphere => TransformKind::ToSphere,
+        _ => return None,
+    })
+}
+
+fn gesture_kind(tool: ToolKind) -> Option<GestureKind> {
+    Some(match tool {
+        ToolKind::SelectBox => GestureKind::Box,
+        ToolKind::SelectCircle => GestureKind::Circle,
+        ToolKind::SelectLasso => GestureKind::Lasso,
+        _ => return None,
+    })
+}
+
+/// How tools see the stage.
+pub(crate) fn tool_view(stage: &Stage) -> ToolView {
+    ToolView { camera: stage.camera(), viewport: stage.viewport(), scale: stage.scale() }
+}
+
+impl Editor {
+    /// Starts a tool at the pointer, or says why it cannot.
+    pub(crate) fn start_tool(&mut self, stage: &mut Stage, kind: ToolKind) {
+        let hands = Hands { pointer: self.pointer, modifiers: Modifiers::NONE };
+        if kind == ToolKind::Shear {
+            // It has nothing that follows the pointer; its values can be adjusted.
+            return self.run(Shear::default().into());
+        }
+        match self.started(stage, kind, hands) {
+            Some(what) => self.follow(stage, Running::new(kind, what)),
+            None => self.message = Message::Refusal(format!("{kind:?}: select something first")),
+        }
+    }
+
+    fn started(&mut self, stage: &Stage, kind: ToolKind, hands: Hands) -> Option<What> {
+        let (view, document) = (tool_view(stage), &mut self.document);
+        if let Some(gesture) = gesture_kind(kind) {
+            return Some(What::Gesture(Gesture::waiting(gesture, hands, stage.scale())));
+        }
+        if let Some(transform) = transform_kind(kind) {
+            let tool = TransformTool::start(transform, self.tools.transform(), document, hands, &view)?;
+            let slides = kind == ToolKind::EdgeSlide;
+            let tool = if slides { tool.sliding(document, &view) } else { tool };
+            return Some(What::Tool(Box::new(tool)));
+        }
+        let snap = self.tools.snap();
+        let tool: Box<dyn Tool> = match kind {
+            ToolKind::Extrude => Box::new(ExtrudeTool::start(false, snap, document, hands, &view)?),
+            ToolKind::ExtrudeIndividual => Box::new(ExtrudeTool::start(true, snap, document, hands, &view)?),
+            ToolKind::Inset => Box::new(InsetTool::start(document, hands, &view)?),
+            ToolKind::Bevel => Box::new(BevelTool::start(false, document, hands, &view)?),
+            ToolKind::BevelVertices => Box::new(BevelTool::start(true, document, hands, &view)?),
+            _ => {
+                let mut tool = LoopCutTool::start(document, hands)?;
+                let face = hands.pointer.and_then(|at| self.pointing.face(document, stage, at));
+                tool.hover(document, &view, face);
+                return Some(What::LoopCut(Box::new(tool)));
+            }
+        };
+        Some(What::Tool(tool))
+    }
+
+    fn follow(&mut self, stage: &mut Stage, running: Running) {
+        self.click = None;
+        self.tool = Some(running);
+        stage.input_owner = InputOwner::Application;
+    }
+
+    /// Starts to move, turn or scale by a handle of the gizmo that is held.
+    pub(crate) fn start_held(
+        &mut self,
+        stage: &mut Stage,
+        kind: ToolKind,
+        freedom: Option<Freedom>,
+        press: Click,
+    ) {
+        let hands = Hands { pointer: Some(press.at), modifiers: press.modifiers };
+        let (view, settings) = (tool_view(stage), self.tools.transform());
+        let tool = transform_kind(kind)
+            .and_then(|transform| TransformTool::start(transform, settings, &self.document, hands, &view));
+        if let Some(tool) = tool {
+            let what = What::Tool(Box::new(tool.held(freedom)));
+            self.follow(stage, Running { pressed: Some(press), ..Running::new(kind, what) });
+        }
+    }
+
+    /// A press became a drag: it selects within a box, with Ctrl within a lasso.
+    pub(crate) fn drag_region(&mut self, stage: &mut Stage, press: Click, hands: Hands) {
+        let is_lasso = press.modifiers.contains(Modifiers::CTRL);
+        let (tool, gesture) = match is_lasso {
+            true => (ToolKind::SelectLasso, GestureKind::Lasso),
+            false => (ToolKind::SelectBox, GestureKind::Box),
+        };
+        let start = Hands { pointer: Some(press.at), modifiers: press.modifiers };
+        let gesture = Gesture::drawing(gesture, PointerButton::Left, start, stage.scale());
+        self.follow(stage, Running::new(tool, What::Gesture(gesture)));
+        self.tool_input(stage, &Input::PointerMoved, hands);
+    }
+
+    /// Gives an input to the tool.
+    pub(crate) fn tool_input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
+        let Some(mut running) = self.tool.take() else { return Taken::No };
+        if running.leaves_to_camera(input, hands) {
+            running.is_navigating = true;
+            self.tool = Some(running);
+            return Taken::No;
+        }
+        if std::mem::take(&mut running.is_navigating)
+            && let Some(to) = hands.pointer
+        {
+            running.pointer_jumped(to);
+        }
+        let view = tool_view(stage);
+        let before = self.entries();
+        let state = match &mut running.what {
+            What::Tool(tool) => tool.input(input, hands, &view, &mut self.document),
+            What::LoopCut(tool) => {
+                let state = tool.input(input, hands, &view, &mut self.document);
+                if tool.wants_face() {
+                    let face = hands.pointer.and_then(|at| self.pointing.face(&self.document, stage, at));
+                    tool.hover(&self.document, &view, face);
+                }
+                state
+            }
+            What::Gesture(gesture) => {
+                let state = gesture.input(input, hands);
+                return self.gesture_did(stage, running, state);
+            }
+        };
+        match state {
+            ToolState::Running => self.tool = Some(running),
+            ToolState::Confirmed | ToolState::Cancelled => self.tool_ended(stage, &running, before),
+        }
+        self.show(stage);
+        Taken::Yes
+    }
+
+    /// How many entries the history ever had.
+    pub(crate) fn entries(&self) -> usize {
+        self.document.history().done().len() + self.document.history().dropped()
+    }
+
+    fn tool_ended(&mut self, stage: &mut Stage, running: &Running, before: usize) {
+        stage.input_owner = InputOwner::Interface;
+        if self.entries() > before {
+            let last = self.document.history().done().last().map(|entry| entry.command().name());
+            self.file.ran(false);
+            self.done(last.unwrap_or_default(), "");
+        } else if let Some(Click { at, modifiers }) = running.pressed {
+            // A handle that was pressed and not dragged hides what it lies on no longer.
+            super::pick::click(self, stage, at, modifiers);
+        } else {
+            self.message = Message::Info(String::new());
+        }
+    }
+
+    fn gesture_did(&mut self, stage: &mut Stage, running: Running, state: GestureState) -> Taken {
+        let (region, goes_on) = match state {
+            GestureState::Running => (None, true),
+            GestureState::Selects(region, mode) => (Some((region, mode)), true),
+            GestureState::Ended(region) => (region, false),
+        };
+        if goes_on {
+            self.tool = Some(running);
+        } else {
+            stage.input_owner = InputOwner::Interface;
+        }
+        if let Some((region, mode)) = region {
+            self.select_region(stage, &region, mode);
+        }
+        Taken::Yes
+    }
+
+    fn select_region(&mut self, stage: &mut Stage, region: &Region, mode: RegionMode) {
+        let action = match mode {
+            RegionMode::Set => SelectAction::Replace,
+            RegionMode::Extend => SelectAction::Add,
+            RegionMode::Subtract => SelectAction::Remove,
+            RegionMode::Intersect => SelectAction::Intersect,
+        };
+        let reach = self.reach();
+        let command =
+            self.pointing.ask(&self.document, stage, reach, |picks| picks.region(region, action)).flatten();
+        if let Some(command) = command {
+            self.perform(stage, Request::Run(command));
+        }
+    }
+
+    /// Ends the tool that runs, if there is one: the document is as it was before.
+    pub(crate) fn cancel_tool(&mut self, stage: &mut Stage) {
+        let escape = Input::Key { logical: Some(Key::Escape), physical: None, repeat: false };
+        let hands = Hands { pointer: self.pointer, modifiers: Modifiers::NONE };
+        self.tool_input(stage, &escape, hands);
+    }
+}
