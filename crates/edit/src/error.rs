@@ -19,6 +19,9 @@ pub enum EditError {
     /// A picture cannot be used: why.
     #[error("{0}")]
     Texture(String),
+    /// A file cannot be read: why.
+    #[error("{0}")]
+    Import(String),
     /// The command needs something selected.
     #[error("{command} needs {needed}: select first")]
     NothingSelected {

@@ -57,8 +57,8 @@ pub struct LoadOptions<'a> {
     pub threads: Option<NonZeroUsize>,
     /// Keep the JSON, buffers and pictures of a glTF file and say which object of it each
     /// part of the scene was, in [`Loaded::source`](crate::Loaded::source). Costs their
-    /// memory, and reads buffers and pictures that nothing uses, too. Off by default;
-    /// other formats take no notice.
+    /// memory, and reads buffers and pictures that nothing uses, too. A file without any mesh is
+    /// loaded only so: something may be added to it. Off by default; other formats take no notice.
     pub keep_source: bool,
     /// Follows the progress, and may cancel.
     pub progress: Option<ProgressHook<'a>>,

@@ -72,7 +72,7 @@ pub struct Stage {
     /// The camera. A window begins with [`Stage::reset_view`].
     pub orbit: Orbit,
     /// How it is drawn. Width, height and outputs are the window's business;
-    /// the line width counts in logical pixels.
+    /// the line width and the sizes of vertices count in logical pixels.
     pub settings: RenderSettings,
     /// How far it is refined at rest.
     pub refinement: Refinement,
@@ -351,7 +351,12 @@ impl Stage {
     /// For the window's size, smaller by a factor in each direction.
     fn fitted(&self, mut settings: RenderSettings, shrink: f64) -> RenderSettings {
         settings.outputs = shown::OUTPUTS;
-        settings.line_width *= (self.scale / shrink) as f32;
+        let larger = (self.scale / shrink) as f32;
+        settings.line_width *= larger;
+        if let Some(points) = &mut settings.vertices {
+            points.size *= larger;
+            points.marked_size *= larger;
+        }
         let smaller = |size: u32| ((f64::from(size) / shrink) as u32).clamp(1, trigon_scene::MAX_SIZE);
         (settings.width, settings.height) = (smaller(self.viewport.width), smaller(self.viewport.height));
         settings

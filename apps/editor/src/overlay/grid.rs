@@ -11,7 +11,7 @@ use super::AXIS_COLORS;
 use super::view::OverlayView;
 
 /// Lines to each side of the middle.
-const LINES: i64 = 50;
+const LINES: i64 = 30;
 /// Lines that are nearer to each other are left out, in logical pixels.
 const LEAST_GAP: f64 = 8.0;
 /// Of the pieces whose depth is looked at, in logical pixels.
@@ -74,30 +74,42 @@ impl Grid {
         })
     }
 
-    /// All lines, the axes last: they lie over the others.
+    /// All lines, the axes last: they lie over the others. Every tenth goes ten times as far.
     fn lines(&self) -> Vec<([DVec3; 2], Color32, f32)> {
         let mut lines = Vec::new();
         let mut axes = Vec::new();
         for along in [0, 1] {
-            let across = 1 - along;
-            for number in self.middle[across] - LINES..=self.middle[across] + LINES {
-                let at = |end: i64| {
-                    let mut point = [0.0; 2];
-                    point[across] = number as f64 * self.gap;
-                    point[along] = (self.middle[along] + end * LINES) as f64 * self.gap;
-                    DVec3::new(point[0], 0.0, point[1])
-                };
-                let line = [at(-1), at(1)];
-                if number == 0 {
-                    axes.push((line, AXIS_COLORS[2 * along].gamma_multiply(0.8), 1.5));
-                } else {
-                    let share = if number % 10 == 0 { 1.0 } else { self.share };
-                    lines.push((line, Color32::from_gray(128).gamma_multiply(0.5 * share as f32), 1.0));
-                }
-            }
+            self.add_lines(along, 1, &mut lines);
+            self.add_lines(along, 10, &mut lines);
+            let axis = self.line(along, 0, 10);
+            let is_near = (self.middle[1 - along] / 10).abs() <= LINES;
+            axes.extend(is_near.then(|| (axis, AXIS_COLORS[2 * along].gamma_multiply(0.8), 1.5)));
         }
         lines.extend(axes);
         lines
+    }
+
+    /// Those in steps of so many gaps, but those that larger steps have.
+    fn add_lines(&self, along: usize, step: i64, lines: &mut Vec<([DVec3; 2], Color32, f32)>) {
+        let middle = self.middle[1 - along] / step;
+        let share = if step == 1 { self.share } else { 1.0 };
+        let color = Color32::from_gray(128).gamma_multiply(0.5 * share as f32);
+        for number in (middle - LINES..=middle + LINES).map(|number| number * step) {
+            let is_larger = step == 1 && number % 10 == 0;
+            if !is_larger && number != 0 {
+                lines.push((self.line(along, number, step), color, 1.0));
+            }
+        }
+    }
+
+    /// The line of a number, as long as so many gaps allow.
+    fn line(&self, along: usize, number: i64, step: i64) -> [DVec3; 2] {
+        [-1, 1].map(|end| {
+            let mut point = [0.0; 2];
+            point[1 - along] = number as f64 * self.gap;
+            point[along] = (self.middle[along] + end * LINES * step) as f64 * self.gap;
+            DVec3::new(point[0], 0.0, point[1])
+        })
     }
 }
 
@@ -164,7 +176,11 @@ mod tests {
     fn the_axes_are_there_and_in_their_colours() {
         let grid = Grid { gap: 1.0, middle: [3, 0], share: 0.5 };
         let lines = grid.lines();
-        assert_eq!(lines.len(), 2 * (2 * LINES as usize + 1));
+        let has = |x: f64| lines.iter().any(|(line, ..)| line.iter().all(|end| end.x == x));
+        assert!(
+            has(4.0) && has(-20.0) && has(290.0) && !has(34.5) && !has(41.0),
+            "near ones, and every tenth"
+        );
         let [(x, x_color, _), (z, z_color, _)] = lines[lines.len() - 2..] else { panic!("two axes") };
         assert!(x.iter().all(|end| end.z == 0.0 && end.y == 0.0), "{x:?}");
         assert!(z.iter().all(|end| end.x == 0.0 && end.y == 0.0), "{z:?}");

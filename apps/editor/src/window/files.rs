@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use trigon_edit::scene::{Light, Material, Node, Scene};
-use trigon_edit::{AssignTexture, Disk, Document, ObjectName, Select, TextureSource, save};
+use trigon_edit::{
+    AssignTexture, Disk, Document, ImportFile, LeaveEditMode, ObjectName, Select, TextureSource, save,
+};
 use trigon_io::ExportOptions;
 use trigon_window::Stage;
 use trigon_window::scene::math::DVec3;
@@ -77,7 +79,7 @@ impl Editor {
                 let next = self.after_save.take();
                 self.save_to(stage, with_extension(path), next);
             }
-            FileRequest::Import(path) => self.import(&path),
+            FileRequest::Import(path) => self.import(stage, path),
             FileRequest::Texture { material, slot, path } => {
                 let texture = Some(TextureSource::File { path: path.to_string_lossy().into_owned() });
                 let material = Some(material);
@@ -221,9 +223,14 @@ impl Editor {
         };
     }
 
-    fn import(&mut self, path: &Path) {
-        let text = format!("Import: {} cannot be added to a scene yet; open it instead", path.display());
-        self.message = Message::Refusal(text);
+    /// Adds what a file holds, as a command: the recovery file names it as it is found from anywhere.
+    fn import(&mut self, stage: &mut Stage, path: PathBuf) {
+        let path = std::path::absolute(&path).unwrap_or(path);
+        if self.document.selection().is_editing() {
+            self.run(LeaveEditMode {}.into());
+        }
+        self.run(ImportFile { path: path.to_string_lossy().into_owned() }.into());
+        self.show(stage);
     }
 
     /// Goes on after a question.

@@ -174,6 +174,31 @@ fn a_document_is_saved_and_opened_again() {
     assert_eq!(worked.refusal(), "it is broken", "and says why");
 }
 
+/// Such a file has nothing to be drawn.
+#[test]
+fn what_has_no_mesh_is_saved_and_opened_again_and_another_file_imported() {
+    use crate::request::FileRequest;
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("light.glb");
+    let mut worked = Worked::new();
+    worked.character('x');
+    let Worked { editor, stage } = &mut worked;
+    editor.perform(stage, Request::File(FileRequest::SaveAs(path.clone())));
+    assert_eq!(stage.title(), "light.glb - trigon", "saved: {:?}", editor.message);
+    editor.perform(stage, Request::File(FileRequest::Open(path.clone())));
+    let loading = editor.loading.take().expect("nothing was unsaved");
+    editor.loaded(stage, &loading.path, loading.wait());
+    assert_eq!(editor.document.nodes().nodes().len(), 1, "the light: {:?}", editor.message);
+    let square = folder.path().join("square.obj");
+    std::fs::write(&square, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n").expect("written");
+    editor.perform(stage, Request::File(FileRequest::Import(square)));
+    assert_eq!(worked.objects(), 2, "the square, too");
+    let Worked { editor, stage } = &mut worked;
+    let exported = folder.path().join("both.stl");
+    editor.perform(stage, Request::File(FileRequest::Export(exported.clone())));
+    assert!(exported.exists(), "by its ending: {:?}", editor.message);
+}
+
 #[test]
 fn a_menu_at_the_pointer_is_worked_by_keys() {
     let mut harness = harness();

@@ -12,6 +12,7 @@ mod dissolve;
 mod extrude;
 mod grid_fill;
 mod hierarchy;
+mod import;
 mod join;
 mod knife;
 mod marks;
@@ -57,6 +58,7 @@ pub use dissolve::{Dissolve, DissolveFlat};
 pub use extrude::{Extrude, Inset, InsetMode};
 pub use grid_fill::GridFill;
 pub use hierarchy::{ReorderObject, SetParent};
+pub use import::ImportFile;
 pub use join::JoinObjects;
 pub use knife::{Knife, PathPoint};
 pub use marks::{AssignMaterial, Crease, Hide, MarkSeam, MarkSharp, Reveal, Shade};
@@ -279,6 +281,8 @@ commands! {
     ProjectUvsOnBox("Box Projection", false),
     /// Repairs what an inspection finds.
     Repair("Repair", false),
+    /// Adds what a file holds.
+    ImportFile("Import", false),
     /// Adds a standard object.
     AddObject("Add Object", false),
     /// Adds an empty object.

@@ -164,3 +164,44 @@ fn a_drag_selects_within_a_box_what_is_seen_or_with_x_ray_all() {
     assert!(worked.selected() < 6, "fewer");
     assert!(worked.editor.tool.is_none(), "a box is drawn once");
 }
+
+#[test]
+fn the_panel_of_the_last_operation_changes_it() {
+    use egui_kittest::kittest::NodeT;
+    use trigon_window::egui::Role;
+
+    let mut harness = harness();
+    let worked = harness.state_mut();
+    worked.move_to(DVec2::new(700.0, 400.0));
+    worked.keys("gx2!");
+    harness.run();
+    let offset = harness.get_by_role_and_label(Role::SpinButton, "Offset X");
+    assert_eq!(offset.accesskit_node().value().as_deref(), Some("X 2 m"), "what was done");
+    offset.click();
+    harness.run();
+    harness.event(trigon_window::egui::Event::Text("3".into()));
+    harness.run();
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(harness.state().place(), DVec3::new(3.0, 0.0, 0.0), "in its place");
+    harness.state_mut().key(WindowKey::Function(9), Modifiers::NONE);
+    harness.run();
+    let hidden = harness.query_by_role_and_label(Role::SpinButton, "Offset X");
+    assert!(hidden.is_none(), "F9 hides it");
+    harness.state_mut().key(WindowKey::Character('z'), Modifiers::CTRL);
+    assert_eq!(harness.state().place(), DVec3::ZERO, "one entry");
+}
+
+#[test]
+fn a_handle_of_the_gizmo_moves_along_its_axis() {
+    let mut worked = Worked::new();
+    let gizmo = worked.editor.gizmo(&worked.stage).expect("the cube is selected");
+    let view = worked.editor.overlay_view(&worked.stage);
+    let arm = gizmo.center + DVec3::X * view.pixel_size(gizmo.center) * 60.0;
+    let from = worked.seen(arm);
+    worked.drag(from, worked.seen(arm + DVec3::X), Modifiers::NONE);
+    let place = worked.place();
+    // A metre is drawn a little larger at the arm, which is nearer to the eye than the middle.
+    assert!((0.9..1.1).contains(&place.x) && place.y == 0.0 && place.z == 0.0, "{place}: about 1 m on X");
+    assert!(worked.editor.tool.is_none(), "letting go confirms");
+}

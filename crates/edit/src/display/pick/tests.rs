@@ -170,9 +170,13 @@ fn regions_select_what_the_picker_finds_in_every_mode() {
                 });
                 let found = view.found(kind, &set);
                 compared += found.len();
-                for action in
-                    [SelectAction::Replace, SelectAction::Add, SelectAction::Remove, SelectAction::Toggle]
-                {
+                for action in [
+                    SelectAction::Replace,
+                    SelectAction::Add,
+                    SelectAction::Remove,
+                    SelectAction::Toggle,
+                    SelectAction::Intersect,
+                ] {
                     let before = view.selected();
                     view.select(reach, |picks| picks.region(&region, action));
                     let expected: BTreeSet<_> = match action {
@@ -180,6 +184,7 @@ fn regions_select_what_the_picker_finds_in_every_mode() {
                         SelectAction::Add => before.union(&found).cloned().collect(),
                         SelectAction::Remove => before.difference(&found).cloned().collect(),
                         SelectAction::Toggle => before.symmetric_difference(&found).cloned().collect(),
+                        SelectAction::Intersect => before.intersection(&found).cloned().collect(),
                     };
                     assert_eq!(view.selected(), expected, "{kind:?} {reach:?} {region:?} {action:?}");
                 }
