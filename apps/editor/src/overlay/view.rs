@@ -27,7 +27,7 @@ impl OverlayView {
         -self.projector.to_camera(point).z
     }
 
-    /// Where a point is drawn; `None` before the near plane.
+    /// Where a point is drawn; `None` behind the eye.
     pub(crate) fn point(&self, point: DVec3) -> Option<Pos2> {
         let is_seen = self.distance(point) >= self.nearest();
         self.projector.to_screen(point).filter(|_| is_seen).map(|at| self.logical(at))
@@ -47,7 +47,7 @@ impl OverlayView {
         clip(ends.0, ends.1, size).map(|(from, to)| [self.logical(from), self.logical(to)])
     }
 
-    /// The part of a line that lies behind the near plane.
+    /// The part of a line that lies before the eye.
     fn before_eye(&self, from: DVec3, to: DVec3) -> Option<[DVec3; 2]> {
         let near = self.nearest();
         let [start, end] = [from, to].map(|point| self.distance(point) - near);
@@ -61,10 +61,12 @@ impl OverlayView {
         }
     }
 
-    /// A parallel projection sees behind the eye, too.
+    /// Where lines are cut, in metres before the eye: much nearer than the near plane, which a view has right
+    /// before its scene, where the floor goes on. A parallel projection sees behind the eye, too.
     fn nearest(&self) -> f64 {
+        const SHARE: f64 = 1e-3;
         let projection = &self.camera().projection;
-        if projection.is_orthographic() { f64::NEG_INFINITY } else { projection.near() }
+        if projection.is_orthographic() { f64::NEG_INFINITY } else { projection.near() * SHARE }
     }
 
     /// All points that are drawn at a physical pixel.
@@ -132,7 +134,16 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_line_through_the_near_plane_ends_in_the_picture() {
+    fn the_near_plane_of_a_view_cuts_nothing() {
+        let camera = Camera::look_at(DVec3::new(0.0, 0.0, 10.0), DVec3::ZERO, DVec3::Y);
+        let projection = trigon_edit::scene::camera::Projection::perspective(0.8, 9.0, None).expect("valid");
+        let viewport = Viewport { width: 800, height: 600 };
+        let view = OverlayView::new(&camera.with_projection(projection), viewport, 1.0);
+        assert_eq!(view.point(DVec3::Z * 5.0), Some(pos2(400.0, 300.0)), "4 m before the plane");
+    }
+
+    #[test]
+    fn a_line_past_the_eye_ends_in_the_picture() {
         let view = front();
         // From the target past the eye, a little below it.
         let line = view.line(DVec3::ZERO, DVec3::new(0.0, -1.0, 20.0)).expect("its far half is seen");
