@@ -243,11 +243,13 @@ fn failures_are_one_line_that_names_the_file() {
     let folder = Folder::new();
     folder.write("empty.obj", "");
     folder.write("model.stl", "solid x\nendsolid x\n");
+    folder.write("model.fbx", "Kaydara FBX Binary");
     folder.write("broken.gltf", "{ \"asset\": ");
     for (flags, words) in [
         ("missing.obj --output o.png", ["missing.obj", "check the name"]),
         ("empty.obj --output o.png", ["empty.obj", "nothing to draw"]),
-        ("model.stl --output o.png", ["model.stl", "supported"]),
+        ("model.stl --output o.png", ["model.stl", "nothing to draw"]),
+        ("model.fbx --output o.png", ["model.fbx", "supported"]),
         ("broken.gltf --output o.png", ["broken.gltf", ""]),
         ("corner.obj --output no/such/folder/o.png", ["no/such/folder/o.png", "folder exists"]),
         ("corner.obj --output o.png --max-size=0.00001", ["corner.obj", "--max-size"]),
