@@ -16,6 +16,8 @@ const PLANE: [f64; 2] = [0.3, 0.5];
 const TIP: f32 = 5.0;
 /// Of the ring around all others, as a share of the arms.
 const OUTER: f64 = 1.2;
+/// A square that covers less is left out, in logical pixels.
+const LEAST_AREA: f32 = 4.0;
 /// Pieces of a ring.
 const PIECES: usize = 64;
 /// How near the pointer has to be, in logical pixels.
@@ -156,14 +158,19 @@ impl Gizmo {
             .collect()
     }
 
-    /// The square of a plane.
+    /// The square of a plane; none where it is seen from its edge.
     fn area(&self, view: &OverlayView, handle: Handle) -> Option<Vec<Pos2>> {
         let Handle::Plane(axis) = handle else { return None };
         let size = self.size(view);
         let [right, up] = [1, 2].map(|next| self.axes.col((axis + next) % 3) * size);
         let [low, high] = PLANE;
         let corners = [(low, low), (high, low), (high, high), (low, high)];
-        corners.map(|(x, y)| view.point(self.center + right * x + up * y)).into_iter().collect()
+        let places = corners.map(|(x, y)| view.point(self.center + right * x + up * y));
+        let places: Vec<Pos2> = places.into_iter().collect::<Option<_>>()?;
+        // Its outline has no direction where it is seen from its edge, and would be drawn at no number.
+        let (one, other) = (places[2] - places[0], places[3] - places[1]);
+        let area = 0.5 * (one.x * other.y - one.y * other.x).abs();
+        (area >= LEAST_AREA).then_some(places)
     }
 
     /// The end of an arm.
@@ -200,6 +207,18 @@ mod tests {
 
     fn gizmo(kind: GizmoKind) -> Gizmo {
         Gizmo { kind, center: DVec3::ZERO, axes: DMat3::IDENTITY }
+    }
+
+    #[test]
+    fn squares_are_left_out_that_are_seen_from_their_edges() {
+        use trigon_edit::scene::camera::{Camera, Projection, Viewport};
+        let camera = Camera::look_at(DVec3::Z * 10.0, DVec3::ZERO, DVec3::Y);
+        let projection = Projection::orthographic(5.0, 0.1, 100.0).expect("valid");
+        let viewport = Viewport { width: 800, height: 600 };
+        let view = OverlayView::new(&camera.with_projection(projection), viewport, 1.0);
+        let gizmo = Gizmo { kind: GizmoKind::Move, center: DVec3::ZERO, axes: DMat3::IDENTITY };
+        let has_area = [0, 1, 2].map(|axis| gizmo.area(&view, Handle::Plane(axis)).is_some());
+        assert_eq!(has_area, [false, false, true], "of three only the one that faces the eye");
     }
 
     #[test]
