@@ -1,9 +1,9 @@
 //! The panels: functions of the document and of what each remembers, which change nothing
 //! and return requests.
 //!
-//! [`outliner`] lists the objects. [`properties`], [`information`], [`add`] and [`development`] are
-//! the tabs. [`adjust`] shows the parameters of the last command; its widgets are made from the
-//! schema of the commands ([`form`] says what there is, [`parameters`] shows it), so that a new command
+//! `outliner` lists the objects. `properties`, `information`, `add` and `development` are
+//! the tabs. `adjust` shows the parameters of the last command; its widgets are made from the
+//! schema of the commands (`form` says what there is, `parameters` shows it), so that a new command
 //! has its panel without a line of code here.
 
 mod add;
