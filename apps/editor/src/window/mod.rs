@@ -1,6 +1,6 @@
 //! The editor's window: its state, and everything around the 3D view.
 //!
-//! A key, a menu, a panel or a tool makes a [`Request`](crate::request::Request); [`Editor`](editor::Editor)
+//! A key, a menu, a panel or a tool makes a [`Request`](crate::request::Request); [`Editor`]
 //! carries it out on the document; [`look`] brings the document onto the stage.
 
 mod actions;
