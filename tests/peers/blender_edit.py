@@ -118,17 +118,17 @@ on_elements(
     lambda b: ops.extrude_face_region(b, geom=b.faces[:] + b.edges[:] + b.verts[:]),
 )
 on_elements(
-    "extrude individual, a tenth", 500, lambda b: ops.extrude_discrete_faces(b, faces=b.faces[::10])
+    "extrude individual, a tenth", 500, lambda b: ops.extrude_discrete_faces(b, faces=list(b.faces)[::10])
 )
 on_elements(
     "inset individual, a tenth",
     500,
-    lambda b: ops.inset_individual(b, faces=b.faces[::10], thickness=0.0005),
+    lambda b: ops.inset_individual(b, faces=list(b.faces)[::10], thickness=0.0005),
 )
 on_elements(
     "bevel a tenth of the edges, 1 segment",
     200,
-    lambda b: ops.bevel(b, geom=b.edges[::10], offset=0.0005, segments=1, affect="EDGES", profile=0.5),
+    lambda b: ops.bevel(b, geom=list(b.edges)[::10], offset=0.0005, segments=1, affect="EDGES", profile=0.5),
 )
 on_elements(
     "subdivide flat", 500, lambda b: ops.subdivide_edges(b, edges=b.edges[:], cuts=1, use_grid_fill=True)
@@ -139,6 +139,6 @@ on_elements(
 on_elements("triangulate", 500, lambda b: ops.triangulate(b, faces=b.faces[:]))
 on_elements("recalculate normals", 500, lambda b: ops.recalc_face_normals(b, faces=b.faces[:]))
 on_elements(
-    "delete a tenth of the faces", 500, lambda b: ops.delete(b, geom=b.faces[::10], context="FACES")
+    "delete a tenth of the faces", 500, lambda b: ops.delete(b, geom=list(b.faces)[::10], context="FACES")
 )
 in_edit_mode(1000)
