@@ -35,6 +35,7 @@
 
 mod application;
 mod canvas;
+mod clip_line;
 mod commands;
 mod drawer;
 mod egui_painter;
@@ -58,6 +59,7 @@ mod waker;
 mod worker;
 
 pub use application::Application;
+pub use clip_line::clip_line;
 pub use drawer::Drawer;
 #[cfg(any(test, feature = "kittest"))]
 pub use egui_painter::EguiTestRenderer;

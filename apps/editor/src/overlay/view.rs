@@ -2,6 +2,7 @@
 
 use trigon_edit::scene::camera::{Camera, Projector, Ray, Viewport};
 use trigon_edit::scene::math::{DVec2, DVec3};
+use trigon_window::clip_line;
 use trigon_window::egui::{Pos2, pos2};
 
 /// A camera, the picture that it sees, and how large its pixels are.
@@ -44,7 +45,7 @@ impl OverlayView {
         let [from, to] = self.before_eye(from, to)?;
         let ends = self.projector.to_screen(from).zip(self.projector.to_screen(to))?;
         let size = self.projector.viewport().size();
-        clip(ends.0, ends.1, size).map(|(from, to)| [self.logical(from), self.logical(to)])
+        clip_line(ends.0, ends.1, size).map(|(from, to)| [self.logical(from), self.logical(to)])
     }
 
     /// The part of a line that lies before the eye.
@@ -83,26 +84,6 @@ impl OverlayView {
     pub(crate) fn logical(&self, at: DVec2) -> Pos2 {
         pos2((at.x / self.scale) as f32, (at.y / self.scale) as f32)
     }
-}
-
-/// The part of a line within `0..size` (Liang and Barsky, "A New Concept and Method for Line
-/// Clipping", 1984), so that no coordinate is too large for f32.
-fn clip(from: DVec2, to: DVec2, size: DVec2) -> Option<(DVec2, DVec2)> {
-    let way = to - from;
-    let (mut enter, mut leave) = (0.0, 1.0);
-    for axis in 0..2 {
-        for (speed, room) in [(-way[axis], from[axis]), (way[axis], size[axis] - from[axis])] {
-            let at = room / speed;
-            if speed < 0.0 && at > enter {
-                enter = at;
-            } else if speed > 0.0 && at < leave {
-                leave = at;
-            } else if speed == 0.0 && room < 0.0 {
-                return None;
-            }
-        }
-    }
-    (enter <= leave).then(|| (from + way * enter, from + way * leave))
 }
 
 /// From a point to the line between two others, in pixels.

@@ -4,6 +4,8 @@ use egui::{Color32, Stroke, Ui};
 use trigon_camera::{Camera, Projector, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
 
+use crate::clip_line;
+
 const COLOR: Color32 = Color32::from_rgba_premultiplied(200, 138, 50, 200);
 
 /// In points.
@@ -16,7 +18,7 @@ pub(super) fn show(ui: &Ui, camera: &Camera, viewport: Viewport, bounds: &Bounds
     let point = |pixel: DVec2| egui::pos2((pixel.x / points) as f32, (pixel.y / points) as f32);
     for (from, to) in edges(bounds) {
         let ends = projector.to_screen(from).zip(projector.to_screen(to));
-        if let Some((from, to)) = ends.and_then(|(from, to)| clip(from, to, viewport.size())) {
+        if let Some((from, to)) = ends.and_then(|(from, to)| clip_line(from, to, viewport.size())) {
             ui.painter().line_segment([point(from), point(to)], Stroke::new(WIDTH, COLOR));
         }
     }
@@ -34,26 +36,6 @@ fn edges(bounds: &Bounds3) -> impl Iterator<Item = (DVec3, DVec3)> {
     })
 }
 
-/// The part of a line within `0..size` (Liang and Barsky, "A New Concept and
-/// Method for Line Clipping", 1984).
-fn clip(from: DVec2, to: DVec2, size: DVec2) -> Option<(DVec2, DVec2)> {
-    let way = to - from;
-    let (mut enter, mut leave) = (0.0, 1.0);
-    for axis in 0..2 {
-        for (speed, room) in [(-way[axis], from[axis]), (way[axis], size[axis] - from[axis])] {
-            let at = room / speed;
-            if speed < 0.0 && at > enter {
-                enter = at;
-            } else if speed > 0.0 && at < leave {
-                leave = at;
-            } else if speed == 0.0 && room < 0.0 {
-                return None;
-            }
-        }
-    }
-    (enter <= leave).then(|| (from + way * enter, from + way * leave))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,20 +48,5 @@ mod tests {
             assert_eq!(from.distance(*to), 1.0, "an edge changes one coordinate");
             assert!(!all[..i].contains(&(*from, *to)), "({from}, {to}) is there twice");
         }
-    }
-
-    #[test]
-    fn lines_are_cut_at_the_edges() {
-        let size = DVec2::new(10.0, 10.0);
-        let through = clip(DVec2::new(-1e9, 5.0), DVec2::new(1e9, 5.0), size);
-        let (from, to) = through.expect("it crosses the canvas");
-        assert!(
-            from.distance(DVec2::new(0.0, 5.0)) < 1e-3 && to.distance(DVec2::new(10.0, 5.0)) < 1e-3,
-            "{from}, {to}"
-        );
-        assert_eq!(clip(DVec2::new(-1.0, 5.0), DVec2::new(-1.0, 8.0), size), None, "left of it");
-        assert_eq!(clip(DVec2::new(-5.0, 2.0), DVec2::new(2.0, -5.0), size), None, "past its corner");
-        let inside = (DVec2::new(1.0, 2.0), DVec2::new(3.0, 4.0));
-        assert_eq!(clip(inside.0, inside.1, size), Some(inside), "as it is");
     }
 }

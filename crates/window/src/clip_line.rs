@@ -1,0 +1,45 @@
+//! Lines over the picture, cut at its edges.
+
+use trigon_math::DVec2;
+
+/// The part of a line from `from` to `to` within `0..size`, all in pixels; `None` where it is outside
+/// (Liang and Barsky, "A New Concept and Method for Line Clipping", 1984). What is left has no
+/// coordinate too large for the f32 of shapes.
+#[must_use]
+pub fn clip_line(from: DVec2, to: DVec2, size: DVec2) -> Option<(DVec2, DVec2)> {
+    let way = to - from;
+    let (mut enter, mut leave) = (0.0, 1.0);
+    for axis in 0..2 {
+        for (speed, room) in [(-way[axis], from[axis]), (way[axis], size[axis] - from[axis])] {
+            let at = room / speed;
+            if speed < 0.0 && at > enter {
+                enter = at;
+            } else if speed > 0.0 && at < leave {
+                leave = at;
+            } else if speed == 0.0 && room < 0.0 {
+                return None;
+            }
+        }
+    }
+    (enter <= leave).then(|| (from + way * enter, from + way * leave))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_cut_at_the_edges() {
+        let size = DVec2::new(10.0, 10.0);
+        let through = clip_line(DVec2::new(-1e9, 5.0), DVec2::new(1e9, 5.0), size);
+        let (from, to) = through.expect("it crosses the canvas");
+        assert!(
+            from.distance(DVec2::new(0.0, 5.0)) < 1e-3 && to.distance(DVec2::new(10.0, 5.0)) < 1e-3,
+            "{from}, {to}"
+        );
+        assert_eq!(clip_line(DVec2::new(-1.0, 5.0), DVec2::new(-1.0, 8.0), size), None, "left of it");
+        assert_eq!(clip_line(DVec2::new(-5.0, 2.0), DVec2::new(2.0, -5.0), size), None, "past its corner");
+        let inside = (DVec2::new(1.0, 2.0), DVec2::new(3.0, 4.0));
+        assert_eq!(clip_line(inside.0, inside.1, size), Some(inside), "as it is");
+    }
+}
