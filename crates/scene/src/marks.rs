@@ -6,7 +6,7 @@ use trigon_math::{Vec3, Vec4};
 use trigon_raster::MarkColors;
 
 use crate::elements::ElementSet;
-use crate::scene::NodeId;
+use crate::node::NodeId;
 
 /// Vertices, edges and faces in colours of their own.
 ///

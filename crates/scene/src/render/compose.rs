@@ -12,16 +12,18 @@ use trigon_raster::{Culling, EdgeFlags, Outline};
 
 use super::backdrop::Backdrop;
 use super::geometry::{Geometry, Run};
+use super::placement::Rays;
 use super::placement::{Eye, Placement};
 use super::record::{Dots, MarkNumbers, ObjectMarks, Record, Segments, Triangles};
 use super::shapes::{Shape, Shapes};
-use super::surface::{Dressed, Occasion, Rays, Surface};
+use super::surface::{Dressed, Occasion, Surface};
 use super::wire::{HiddenLine, Wire, WireMarks};
 use crate::effects::{Counts, Effect, Scenery};
 use crate::marks;
 use crate::material::{AlphaMode, Material, Shading};
 use crate::node::Node;
-use crate::scene::{MeshAsset, NodeId, Scene};
+use crate::node::NodeId;
+use crate::scene::{MeshAsset, Scene};
 use crate::settings::{RenderSettings, Style};
 
 /// Size of loose points, in line widths.
