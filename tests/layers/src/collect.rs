@@ -1,6 +1,7 @@
 //! Reads a crate's files.
 
 use crate::module::{Crate, Module, Names};
+use proc_macro2::{TokenStream, TokenTree};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -85,6 +86,10 @@ impl Visit<'_> for Collector<'_> {
         if let Some(name) = name(item) {
             self.module.items.insert(name);
         }
+        if let Item::Macro(item) = item {
+            // What a macro of this module defines under a name of its own.
+            self.module.items.extend(defined_types(item.mac.tokens.clone()));
+        }
         visit::visit_item(self, item);
     }
 
@@ -138,6 +143,21 @@ impl Collector<'_> {
         }
         self.module.imports.insert(known_as, whole);
     }
+}
+
+/// The names behind `struct` and `enum` in the rules of a macro, unless they are parameters.
+fn defined_types(tokens: TokenStream) -> Vec<String> {
+    let (mut names, mut is_next) = (Vec::new(), false);
+    for token in tokens {
+        let was_next = std::mem::take(&mut is_next);
+        match token {
+            TokenTree::Group(group) => names.extend(defined_types(group.stream())),
+            TokenTree::Ident(ident) if was_next => names.push(ident.to_string()),
+            TokenTree::Ident(ident) => is_next = ident == "struct" || ident == "enum",
+            TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+        }
+    }
+    names
 }
 
 fn name(item: &Item) -> Option<String> {
