@@ -1,7 +1,8 @@
 //! The list of keys, and the field for another name.
 
 use trigon_edit::{Document, ObjectName, RenameObject};
-use trigon_window::egui::{self, Align2, Context, Grid, Key, RichText, ScrollArea};
+use trigon_window::egui::text_selection::CCursorRange;
+use trigon_window::egui::{self, Align2, Context, Grid, Key, RichText, ScrollArea, TextEdit};
 
 use super::label;
 use crate::request::Request;
@@ -73,12 +74,19 @@ pub(super) fn rename(context: &Context, editor: &mut Editor, requests: &mut Vec<
     let (mut is_open, mut is_done) = (true, false);
     let window = egui::Window::new("Rename").open(&mut is_open).collapsible(false).resizable(false);
     window.anchor(Align2::CENTER_CENTER, [0.0; 2]).show(context, |ui| {
-        let typed = ui.text_edit_singleline(&mut rename.name);
-        label(&typed, "name of the object");
+        let mut field = TextEdit::singleline(&mut rename.name).show(ui);
+        let typed = &field.response;
+        label(typed, "name of the object");
         is_done = typed.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         is_done |= ui.button("Rename").clicked();
         if !is_done {
             typed.request_focus();
+        }
+        if typed.gained_focus() {
+            // What is typed replaces the old name.
+            let all = CCursorRange::select_all(&field.galley);
+            field.state.cursor.set_char_range(Some(all));
+            field.state.store(ui.ctx(), typed.id);
         }
     });
     if is_done {
