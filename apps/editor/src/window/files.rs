@@ -129,7 +129,7 @@ impl Editor {
                 self.start_new();
                 self.look_at_all(stage);
                 // Room for what will be added.
-                stage.orbit.zoom(0.5);
+                stage.orbit.zoom(0.9);
                 stage.set_home(stage.orbit);
             }
             Next::Open(path) => {
