@@ -17,7 +17,7 @@ const LIGHT: &str = "
     see Move
     keys G                                   # thought better of
     move 30 30
-    see Esc
+    see Move (
     keys Escape
     enter Intensity 250
     keys Ctrl+S

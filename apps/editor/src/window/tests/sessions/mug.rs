@@ -27,7 +27,7 @@ const MUG: &str = "
     wheel 1
     wheel 1
     wheel 1
-    see 4 cuts
+    see Loop Cut: 4
     click
     right click
     mesh Cylinder 128 240 114
