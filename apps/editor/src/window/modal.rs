@@ -230,6 +230,11 @@ impl Editor {
         match state {
             ToolState::Running => self.tool = Some(running),
             ToolState::Confirmed | ToolState::Cancelled => self.tool_ended(stage, &running, before),
+            ToolState::ConfirmedThen(next) => {
+                self.tool_ended(stage, &running, before);
+                let is_turn = next == TransformKind::Rotate;
+                self.start_tool(stage, if is_turn { ToolKind::Rotate } else { ToolKind::Scale });
+            }
         }
         self.show(stage);
         Taken::Yes

@@ -1,10 +1,10 @@
 //! The list of keys, and the field for another name.
 
 use trigon_edit::{Document, ObjectName, RenameObject};
-use trigon_window::egui::text_selection::CCursorRange;
 use trigon_window::egui::{self, Align2, Context, Grid, Key, RichText, ScrollArea, TextEdit};
 
 use super::label;
+use crate::panel::select_all_at_first;
 use crate::request::Request;
 use crate::window::actions::{self, MENUS};
 use crate::window::editor::Editor;
@@ -82,12 +82,7 @@ pub(super) fn rename(context: &Context, editor: &mut Editor, requests: &mut Vec<
         if !is_done {
             typed.request_focus();
         }
-        if typed.gained_focus() {
-            // What is typed replaces the old name.
-            let all = CCursorRange::select_all(&field.galley);
-            field.state.cursor.set_char_range(Some(all));
-            field.state.store(ui.ctx(), typed.id);
-        }
+        select_all_at_first(&mut field);
     });
     if is_done {
         let (object, name) = (rename.object.clone(), rename.name.clone());
