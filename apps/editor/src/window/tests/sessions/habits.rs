@@ -91,3 +91,52 @@ fn the_status_line_says_how_a_tool_ends() {
     ",
     );
 }
+
+#[test]
+fn a_tool_of_a_button_waits_for_a_press_in_the_view() {
+    play(
+        "
+        hover 0 1 0
+        keys Tab 3
+        click 0 1 0
+        press Extrude
+        hover 0 1 0
+        see Press in the view and drag
+        see Extrude 0.0000 m
+        drag 0 1 0 by 0 -40         # the whole tool
+        mesh Cube 12 20 10
+        see Last Operation
+        keys Ctrl+Z
+        press Extrude
+        click 0 1 0                 # or it follows the pointer from here
+        see Extrude 0.0000 m
+        move 0 -20
+        hidden Last Operation
+        click
+        mesh Cube 12 20 10
+        keys Ctrl+Z
+        press Extrude
+        keys . 5 Enter              # or numbers
+        mesh Cube 12 20 10
+        keys Ctrl+Z
+        press Extrude
+        press Inset Faces           # thought better of
+        mesh Cube 8 12 6
+    ",
+    );
+}
+
+#[test]
+fn escape_closes_a_menu_of_the_bar() {
+    play(
+        "
+        press Edit
+        see Undo
+        keys Escape
+        hidden Undo
+        keys G                      # and keys mean what they meant before
+        see Move
+        keys Escape
+    ",
+    );
+}
