@@ -61,6 +61,8 @@ impl<'a> HeadlessWindow<'a> {
         });
         let mut session = Session::new(stage, handler, Worker::of_caller());
         session.interface().context().enable_accesskit();
+        // Nobody watches colours and folds move.
+        session.interface().context().all_styles_mut(|style| style.animation_time = 0.0);
         session.record();
         let (pointer, modifiers) = (DVec2::ZERO, Modifiers::NONE);
         let mut window = Self { session, now: Duration::ZERO, pointer, modifiers, tree: None, rings };

@@ -4,7 +4,7 @@ use super::*;
 
 fn play(script: &str) {
     let folder = tempfile::tempdir().expect("a folder");
-    at_the_editor(folder.path(), &[], |user| user.play(script));
+    at_the_editor(folder.path(), &[], SIZE, |user| user.play(script));
 }
 
 #[test]

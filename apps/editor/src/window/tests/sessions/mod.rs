@@ -21,7 +21,7 @@ use crate::window::editor::Editor;
 use crate::window::keys::Keys;
 use crate::window::settings;
 
-const SIZE: Viewport = Viewport { width: 1280, height: 800 };
+pub(super) const SIZE: Viewport = Viewport { width: 1280, height: 800 };
 
 /// The window's editor, at which a test looks meanwhile.
 struct Watched(Rc<RefCell<Editor>>);
@@ -65,15 +65,20 @@ impl Handler for Watched {
 }
 
 /// Somebody at the editor.
-struct User<'a> {
-    window: HeadlessWindow<'a>,
-    editor: Rc<RefCell<Editor>>,
+pub(super) struct User<'a> {
+    pub(super) window: HeadlessWindow<'a>,
+    pub(super) editor: Rc<RefCell<Editor>>,
     /// What `$FOLDER` in a script is.
     folder: &'a Path,
 }
 
-/// Opens the editor with these files, and lets somebody work.
-fn at_the_editor(folder: &Path, files: &[PathBuf], work: impl FnOnce(&mut User<'_>)) {
+/// Opens the editor with these files in a window of a size, and lets somebody work.
+pub(super) fn at_the_editor(
+    folder: &Path,
+    files: &[PathBuf],
+    size: Viewport,
+    work: impl FnOnce(&mut User<'_>),
+) {
     let mut stage = Stage::new("test");
     settings::prepare(&mut stage);
     // The pictures' edges are not what is tested.
@@ -81,7 +86,7 @@ fn at_the_editor(folder: &Path, files: &[PathBuf], work: impl FnOnce(&mut User<'
     let editor = Editor::new(Keys::default(), Some(folder.join("state")), files.to_vec());
     let editor = Rc::new(RefCell::new(editor));
     let mut handler = Watched(Rc::clone(&editor));
-    let window = HeadlessWindow::open(stage, &mut handler, SIZE);
+    let window = HeadlessWindow::open(stage, &mut handler, size);
     work(&mut User { window, editor, folder });
 }
 
@@ -90,12 +95,12 @@ fn at_the_editor(folder: &Path, files: &[PathBuf], work: impl FnOnce(&mut User<'
 fn saved_and_reopened(script: &str, finished: impl Fn(&Document)) {
     let folder = tempfile::tempdir().expect("a folder");
     let mut before = Vec::new();
-    at_the_editor(folder.path(), &[], |user| {
+    at_the_editor(folder.path(), &[], SIZE, |user| {
         user.play(script);
         finished(&user.editor.borrow().document);
         before = user.bytes();
     });
-    at_the_editor(folder.path(), &[folder.path().join("saved.glb")], |user| {
+    at_the_editor(folder.path(), &[folder.path().join("saved.glb")], SIZE, |user| {
         user.wait_for_title("saved.glb - trigon");
         finished(&user.editor.borrow().document);
         assert!(user.bytes() == before, "what was saved is what was opened");

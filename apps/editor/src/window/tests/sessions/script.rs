@@ -29,7 +29,7 @@ use crate::tool::Axis;
 
 impl User<'_> {
     /// Does what a script says, line by line.
-    pub(super) fn play(&mut self, script: &str) {
+    pub(in crate::window::tests) fn play(&mut self, script: &str) {
         for (line, number) in script.lines().zip(1..) {
             let action = line.split_once('#').map_or(line, |(action, _)| action).trim();
             if !action.is_empty() {
