@@ -140,3 +140,37 @@ fn escape_closes_a_menu_of_the_bar() {
     ",
     );
 }
+
+#[test]
+fn joined_objects_are_edited() {
+    play(
+        "
+        hover 0 1 0
+        keys Shift+D X 3 Enter
+        keys Shift+D Z 2 Enter
+        click 0 1 0 with Shift
+        see 2 of 4 objects selected
+        keys Ctrl+J
+        objects 3
+        keys Tab
+        see vertices selected
+        keys 1 A
+        see 16 of 16 vertices selected
+    ",
+    );
+}
+
+#[test]
+fn alt_h_shows_hidden_objects_again() {
+    play(
+        "
+        hover 0 1 0
+        keys H
+        see 0 of 2 objects selected
+        keys Alt+H
+        see 1 of 2 objects selected
+        keys G X 1 Enter
+        see Last Operation
+    ",
+    );
+}
