@@ -128,9 +128,8 @@ impl Editor {
             Next::New => {
                 self.start_new();
                 self.look_at_all(stage);
-                // The view turns around what is modelled first, and has room for what will be added.
-                stage.orbit.set_target(DVec3::ZERO);
-                stage.orbit.zoom(0.55);
+                // Room for what will be added, and for the light.
+                stage.orbit.zoom(0.3);
                 stage.set_home(stage.orbit);
             }
             Next::Open(path) => {

@@ -19,8 +19,10 @@
 //! | `mesh Cube 8 12 6` | asserts vertices, edges and faces |
 //! | `objects 2` | asserts how many there are |
 
+use std::path::Path;
+
 use trigon_window::egui::Role;
-use trigon_window::scene::camera::Projector;
+use trigon_window::scene::camera::{Projector, Viewport};
 use trigon_window::scene::math::{DVec2, DVec3};
 use trigon_window::{Chord, Key, Modifiers, PointerButton, Widget};
 
@@ -35,8 +37,22 @@ impl User<'_> {
             if !action.is_empty() {
                 self.act(&action.replace("$FOLDER", &self.folder.display().to_string()))
                     .unwrap_or_else(|error| panic!("line {number}, `{action}`: {error}"));
+                self.picture(number);
             }
         }
+    }
+
+    /// `TRIGON_PICTURES=folder` writes what the window shows after each line, to be looked at.
+    fn picture(&self, line: usize) {
+        let Some(folder) = std::env::var_os("TRIGON_PICTURES") else { return };
+        let thread = std::thread::current();
+        let test = thread.name().and_then(|name| name.rsplit("::").next()).unwrap_or("session");
+        let path = Path::new(&folder).join(format!("{test}_{line:03}.png"));
+        let Viewport { width, height } = self.window.stage().viewport();
+        let pixels: Vec<u8> =
+            self.window.pixels().into_iter().flat_map(|[r, g, b, _]| [r, g, b, 255]).collect();
+        trigon_io::write_png(path, width, height, trigon_io::Pixels::Rgba8(&pixels))
+            .expect("the folder exists");
     }
 
     fn act(&mut self, action: &str) -> Result<(), String> {
