@@ -128,8 +128,8 @@ impl Editor {
             Next::New => {
                 self.start_new();
                 self.look_at_all(stage);
-                // Room for what will be added.
-                stage.orbit.zoom(0.5);
+                // Room for what will be added, and for the light.
+                stage.orbit.zoom(0.3);
                 stage.set_home(stage.orbit);
             }
             Next::Open(path) => {

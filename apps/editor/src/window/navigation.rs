@@ -54,7 +54,7 @@ fn frame_selected(editor: &mut Editor, stage: &mut Stage) {
     }
 }
 
-/// Takes the whole scene into the picture, seen from the same side.
+/// Takes all meshes into the picture, seen from the same side. Lights and empties may be far away.
 pub(crate) fn frame_all(editor: &Editor, stage: &mut Stage) {
     let points: Vec<DVec3> = stage.scene.visible_points().collect();
     frame(editor, stage, &points);

@@ -27,6 +27,7 @@ mod parts;
 mod place;
 mod reference;
 mod repair;
+mod reveal;
 mod rotation;
 mod scale;
 mod scene;
@@ -73,6 +74,7 @@ pub use parts::{Duplicate, Separate, SplitOff};
 pub use place::{Rotate, Translate};
 pub use reference::{command_reference, command_schema};
 pub use repair::Repair;
+pub use reveal::RevealObjects;
 pub use rotation::Rotation;
 pub use scale::Scale;
 pub use scene::{AddEmpty, AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, ShowObjects};
@@ -271,7 +273,7 @@ commands! {
     Mirror("Mirror", false),
     /// Makes faces symmetric.
     Symmetrize("Symmetrize", false),
-    /// Joins two loops of edges by faces.
+    /// Joins two loops of edges by faces; selected faces are removed and their outlines joined.
     Bridge("Bridge Edge Loops", false),
     /// Joins vertices by edges through faces.
     ConnectVertices("Connect Vertices", false),
@@ -293,6 +295,8 @@ commands! {
     RenameObject("Rename", false),
     /// Shows or hides objects.
     ShowObjects("Show/Hide Objects", false),
+    /// Shows all hidden objects and selects them.
+    RevealObjects("Show Hidden Objects", false),
     /// Hangs objects on another one.
     SetParent("Set Parent", false),
     /// Lists an object at another place.

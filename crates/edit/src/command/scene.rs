@@ -1,5 +1,7 @@
 //! Objects as a whole: new ones, names, visibility, copies.
 
+use std::collections::BTreeSet;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trigon_mesh::math::{DVec3, Vec3};
@@ -145,7 +147,7 @@ impl Action for RenameObject {
     }
 }
 
-/// Shows or hides objects with what hangs on them.
+/// Shows or hides objects with what hangs on them. Hidden ones are not selected any more.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ShowObjects {
@@ -162,6 +164,15 @@ impl Action for ShowObjects {
         let scene = change.scene_mut();
         for id in objects {
             scene.node_mut(id).expect("it was just found").visible = self.visible;
+        }
+        let scene = change.scene();
+        let hidden = |id: &NodeId| scene.node(*id).is_none_or(|node| !node.visible);
+        let (hidden, shown): (BTreeSet<NodeId>, BTreeSet<NodeId>) =
+            change.selection().objects.iter().partition(|id| hidden(id));
+        if !change.selection().is_editing() && !hidden.is_empty() {
+            let selection = change.selection_mut();
+            selection.active = selection.active.filter(|active| shown.contains(active));
+            selection.objects = shown;
         }
         Ok(Outcome::silent())
     }
@@ -180,7 +191,7 @@ pub struct DuplicateObjects {
 impl Action for DuplicateObjects {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let objects = named_or_selected(change, &[], "duplicating objects")?;
-        let mut copies = std::collections::BTreeSet::new();
+        let mut copies = BTreeSet::new();
         for id in objects {
             let mut node = change.scene().node(id).expect("it was just found").clone();
             let parent = node.parent();

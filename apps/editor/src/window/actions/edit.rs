@@ -24,6 +24,7 @@ actions! {
     "Edit" "edit.join" "Join Objects" "Ctrl+J" TwoObjects Run(r#"{"op":"join_objects"}"#) => "Puts the selected objects into the active one.";
     "Edit" "edit.parent_clear" "Clear Parent" "Alt+P" Objects Run(r#"{"op":"set_parent"}"#) => "Takes objects off what they hang on; they stay where they are.";
     "Edit" "edit.hide" "Hide Objects" "H" Objects Run(r#"{"op":"show_objects","visible":false}"#) => "Hides the selected objects.";
+    "Edit" "edit.reveal" "Show Hidden Objects" "Alt+H" ObjectMode Run(r#"{"op":"reveal_objects"}"#) => "Shows all objects that are hidden, and selects them.";
     "Edit" "edit.delete" "Delete Objects" "X Delete" Objects Run(r#"{"op":"delete_objects"}"#) => "Deletes the selected objects and what hangs on them.";
 
     "Edit/Snap To" "snap.toggle" "Snapping" "Shift+Tab" Nothing Ui(UiRequest::Snapping) => "Whether moves snap; Ctrl turns it round while moving.";
