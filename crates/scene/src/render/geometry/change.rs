@@ -6,7 +6,7 @@
 //! the geometry of a mesh that a pose can bend; and all of it when a polygon gets more or
 //! fewer triangles than it had.
 
-use std::mem::take;
+use std::mem::{replace, take};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -64,13 +64,13 @@ impl Geometry {
         Some((update.vertices.iter().map(|updated| updated.vertex).collect(), triangles?))
     }
 
-    /// The triangles that are replaced, increasing. `None`, and nothing is replaced, where a
-    /// face has more or fewer than before.
+    /// Replaces the triangles of faces; those that are other ones now, or have other flags or
+    /// sides, increasing. `None`, and nothing is replaced, where a face has more or fewer than
+    /// before.
     fn replace_triangles(&mut self, mesh: &Mesh, update: &RenderUpdate) -> Option<Vec<u32>> {
         /// Faces that a thread takes at a time.
         const PIECE: usize = 1024;
         let cuts = self.cuts(mesh, update)?;
-        let replaced = cuts.iter().flat_map(|cut| cut.place as u32..cut.end() as u32).collect();
         let vertex_of_corner = self.links.as_ref()?.vertex_of_corner();
         let mut lists = TriangleLists {
             triangles: &mut self.triangles,
@@ -84,10 +84,18 @@ impl Geometry {
             pieces.push((cuts, first, lists.split_off(end - first)));
             first = end;
         }
-        pieces.into_par_iter().for_each(|(cuts, first, mut lists)| {
-            cuts.iter().for_each(|cut| lists.write(mesh, vertex_of_corner, (cut, first)));
-        });
-        Some(replaced)
+        let replace = |(cuts, first, mut lists): (&[Cut<'_>], usize, TriangleLists<'_>)| {
+            let (mut replaced, mut flags) = (Vec::new(), Vec::new());
+            for cut in cuts {
+                flags.clear();
+                if !lists.flags.is_empty() {
+                    flags_of_face(mesh, (cut.face, cut.triangles), |made| flags.push(made));
+                }
+                lists.write(mesh, vertex_of_corner, (cut, first), (&flags, &mut replaced));
+            }
+            replaced
+        };
+        Some(pieces.into_par_iter().map(replace).collect::<Vec<_>>().concat())
     }
 
     /// How the changed faces are cut, by the place of their triangles.
@@ -164,22 +172,29 @@ impl<'a> TriangleLists<'a> {
         }
     }
 
-    /// Writes those of a face, given the place of the first triangle of these lists.
-    fn write(&mut self, mesh: &Mesh, vertex_of_corner: &[u32], (cut, first): (&Cut<'_>, usize)) {
-        let place = cut.place - first..cut.end() - first;
-        for (own, &corners) in self.triangles[place.clone()].iter_mut().zip(cut.triangles) {
-            *own = corners.map(|corner| vertex_of_corner[corner as usize]);
-        }
-        if let Some(sides) = self.sides.get_mut(place.clone()) {
-            for (sides, triangle) in sides.iter_mut().zip(cut.triangles) {
-                *sides = sides_of_triangle(mesh, cut.face, triangle);
+    /// Writes those of a face, given the place of the first triangle of these lists, and adds
+    /// the places of those that differ from before.
+    fn write(
+        &mut self,
+        mesh: &Mesh,
+        vertex_of_corner: &[u32],
+        (cut, first): (&Cut<'_>, usize),
+        (made_flags, replaced): (&[EdgeFlags], &mut Vec<u32>),
+    ) {
+        for (number, triangle) in cut.triangles.iter().enumerate() {
+            let at = cut.place - first + number;
+            let corners = triangle.map(|corner| vertex_of_corner[corner as usize]);
+            let mut differs = replace(&mut self.triangles[at], corners) != corners;
+            if let Some((own, &made)) = self.flags.get_mut(at).zip(made_flags.get(number)) {
+                differs |= replace(own, made) != made;
             }
-        }
-        if let Some(flags) = self.flags.get_mut(place) {
-            let mut flags = flags.iter_mut();
-            flags_of_face(mesh, (cut.face, cut.triangles), |made| {
-                flags.next().into_iter().for_each(|flags| *flags = made);
-            });
+            if let Some(own) = self.sides.get_mut(at) {
+                let sides = sides_of_triangle(mesh, cut.face, triangle);
+                differs |= replace(own, sides) != sides;
+            }
+            if differs {
+                replaced.push((cut.place + number) as u32);
+            }
         }
     }
 }
