@@ -50,41 +50,62 @@ pub fn srgb8_to_linear(byte: u8) -> f32 {
 /// survives [`srgb8_to_linear`] and back.
 #[must_use]
 pub fn linear_to_srgb8(linear: f32) -> u8 {
-    if linear >= THRESHOLDS[254] {
-        return 255;
-    }
-    if linear < CELL_START || linear.is_nan() {
-        return 0;
-    }
-    let cell = (linear.to_bits() - CELL_START.to_bits()) >> CELL_SHIFT;
-    let below = CELLS[cell as usize];
-    below + u8::from(linear >= THRESHOLDS[usize::from(below)])
+    // The comparison is false for NaN.
+    let linear = if linear > SRGB8_LEAST { linear } else { SRGB8_LEAST };
+    let bits = linear.min(SRGB8_GREATEST).to_bits() - SRGB8_LEAST.to_bits();
+    ((srgb8_cell(bits >> SRGB8_CELL_BITS) + bits % (1 << SRGB8_CELL_BITS)) >> SRGB8_CELL_BITS) as u8
 }
 
-/// Where the cells of the encoder begin: a power of two just below the first
-/// threshold.
-const CELL_START: f32 = 1.0 / 8192.0;
-/// A cell is a run of `f32`s that agree in all but the last 16 bits: 1/128 of
-/// an octave. No cell holds two thresholds, which the table's builder asserts.
-const CELL_SHIFT: u32 = 16;
+/// The value that stands for all smaller ones in [`srgb8_cell`]: a power of two just below
+/// the first threshold.
+pub const SRGB8_LEAST: f32 = 1.0 / 8192.0;
+/// The value that stands for all greater ones: the last below 1.
+pub const SRGB8_GREATEST: f32 = 1.0 - f32::EPSILON / 2.0;
+/// A cell is a run of `f32`s that agree in all but so many of their last bits: 1/128 of an
+/// octave. No cell holds two thresholds, which the table's builder asserts.
+pub const SRGB8_CELL_BITS: u32 = 16;
 /// 13 octaves from 2⁻¹³ to 1.
-const CELL_COUNT: usize = 13 << (23 - CELL_SHIFT);
-/// For each cell, the byte of its first value.
-static CELLS: [u8; CELL_COUNT] = cells();
+const CELL_COUNT: usize = 13 << (23 - SRGB8_CELL_BITS);
+/// So many that a remainder stays inside.
+const CELLS_WITH_ROOM: usize = CELL_COUNT.next_power_of_two();
+static CELLS: [u32; CELLS_WITH_ROOM] = cells();
 
-/// Counts for each cell the thresholds at or below its first value.
-const fn cells() -> [u8; CELL_COUNT] {
-    let mut cells = [0; CELL_COUNT];
+/// For those who encode several values at once: from `bits`, those of a value between
+/// [`SRGB8_LEAST`] and [`SRGB8_GREATEST`] less those of `SRGB8_LEAST`, its byte follows as
+/// `(srgb8_cell(bits >> 16) + bits % (1 << 16)) >> 16`, with [`SRGB8_CELL_BITS`] for 16.
+///
+/// ```
+/// use trigon_math::color::{SRGB8_LEAST, linear_to_srgb8, srgb8_cell};
+///
+/// let bits = 0.5_f32.to_bits() - SRGB8_LEAST.to_bits();
+/// assert_eq!((srgb8_cell(bits >> 16) + bits % (1 << 16)) >> 16, 188);
+/// assert_eq!(linear_to_srgb8(0.5), 188);
+/// ```
+#[must_use]
+#[inline]
+pub fn srgb8_cell(cell: u32) -> u32 {
+    CELLS[cell as usize % CELLS_WITH_ROOM]
+}
+
+/// For each cell the byte of its first value in the upper half of a number. The lower half
+/// is what the last bits of a threshold in the cell lack for a carry; 0 if there is none.
+const fn cells() -> [u32; CELLS_WITH_ROOM] {
+    const CARRY: u32 = 1 << SRGB8_CELL_BITS;
+    let mut cells = [0; CELLS_WITH_ROOM];
     let mut cell = 0;
     let mut below = 0;
     while cell < CELL_COUNT {
-        let first = f32::from_bits(CELL_START.to_bits() + ((cell as u32) << CELL_SHIFT));
-        let start = below;
-        while below < THRESHOLDS.len() && THRESHOLDS[below] <= first {
+        let first = SRGB8_LEAST.to_bits() + ((cell as u32) << SRGB8_CELL_BITS);
+        while below < THRESHOLDS.len() && THRESHOLDS[below].to_bits() <= first {
             below += 1;
         }
-        assert!(below <= start + 1, "two thresholds share a cell");
-        cells[cell] = below as u8;
+        cells[cell] = (below as u32) << SRGB8_CELL_BITS;
+        if below < THRESHOLDS.len() && THRESHOLDS[below].to_bits() < first + CARRY {
+            cells[cell] += CARRY - (THRESHOLDS[below].to_bits() - first);
+            let next = below + 1;
+            let is_alone = next == THRESHOLDS.len() || THRESHOLDS[next].to_bits() >= first + CARRY;
+            assert!(is_alone, "two thresholds share a cell");
+        }
         cell += 1;
     }
     cells

@@ -158,15 +158,48 @@ const ARC_COSINE: [f64; 8] = [
 /// 10⁻⁷ away from 0 and π, which is plenty for a weight, and several times
 /// faster than the exact one.
 pub(crate) fn angle(a: DVec3, b: DVec3) -> f64 {
-    let squares = a.length_squared() * b.length_squared();
-    if squares <= 0.0 {
-        return 0.0;
+    let [angle] = angles([a.dot(b)], [a.length_squared() * b.length_squared()]);
+    angle
+}
+
+/// The angles at the corners of a quad: the bits of [`corner_angle`], for all four at once.
+pub(crate) fn quad_angles(corners: [DVec3; 4]) -> [f64; 4] {
+    let (mut ahead, mut squares) = ([DVec3::ZERO; 4], [0.0; 4]);
+    for corner in 0..4 {
+        ahead[corner] = corners[(corner + 1) % 4] - corners[corner];
+        squares[corner] = ahead[corner].length_squared();
     }
-    let cosine = a.dot(b) / squares.sqrt();
-    let x = cosine.abs().min(1.0);
-    let series = ARC_COSINE.iter().rev().fold(0.0, |sum, factor| sum * x + factor);
-    let acute = (1.0 - x).sqrt() * series;
-    if cosine < 0.0 { PI - acute } else { acute }
+    let (mut dots, mut products) = ([0.0; 4], [0.0; 4]);
+    for corner in 0..4 {
+        // The way back is the way ahead of the corner before, turned round.
+        let before = (corner + 3) % 4;
+        dots[corner] = -ahead[before].dot(ahead[corner]);
+        products[corner] = squares[before] * squares[corner];
+    }
+    angles(dots, products)
+}
+
+/// Angles between vectors, from their dot products and the products of their squared
+/// lengths. Step by step for all of them, so that the compiler takes several at a time.
+fn angles<const N: usize>(dots: [f64; N], squares: [f64; N]) -> [f64; N] {
+    let (mut cosines, mut x, mut series, mut angles) = ([0.0; N], [0.0_f64; N], [0.0; N], [0.0; N]);
+    for i in 0..N {
+        cosines[i] = dots[i] / squares[i].sqrt();
+        let size = cosines[i].abs();
+        // No number counts as 1, too.
+        x[i] = if size < 1.0 { size } else { 1.0 };
+    }
+    for factor in ARC_COSINE.iter().rev() {
+        for i in 0..N {
+            series[i] = series[i] * x[i] + factor;
+        }
+    }
+    for i in 0..N {
+        let acute = (1.0 - x[i]).sqrt() * series[i];
+        let angle = if cosines[i] < 0.0 { PI - acute } else { acute };
+        angles[i] = if squares[i] <= 0.0 { 0.0 } else { angle };
+    }
+    angles
 }
 
 /// The direction of a vector, the zero vector if it has none.
@@ -192,7 +225,27 @@ pub(crate) fn or_if_zero(normal: Vec3, other: Vec3) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
     use trigon_math::elementary;
+
+    proptest! {
+        #[test]
+        fn angles_of_quads_are_those_of_their_corners(
+            corners in prop::array::uniform4(prop::array::uniform3(prop_oneof![
+                4 => -2.0_f32..2.0,
+                4 => (-1_i8..=1).prop_map(f32::from),
+                1 => prop::sample::select(vec![-0.0, 1e-30, 1e30, f32::NAN, f32::INFINITY]),
+            ])),
+        ) {
+            let mut builder = crate::MeshBuilder::new();
+            corners.iter().for_each(|&corner| { builder.push_vertex(Vec3::from_array(corner)); });
+            builder.push_face(&[0, 1, 2, 3]).expect("four vertices");
+            let mesh = builder.build();
+            let expected = [0, 1, 2, 3].map(|corner| corner_angle(&mesh, &[0, 1, 2, 3], corner).to_bits());
+            let quad = corners.map(|corner| Vec3::from_array(corner).as_dvec3());
+            prop_assert_eq!(quad_angles(quad).map(f64::to_bits), expected);
+        }
+    }
 
     #[test]
     fn angles_are_as_close_as_they_say() {

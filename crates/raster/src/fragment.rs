@@ -103,7 +103,7 @@ impl EdgeFlags {
     /// Rounded down to half a power of two, from 1 to 2^15.5; 1 unless it is given.
     #[must_use]
     pub fn with_radius_ratio(self, ratio: f32) -> Self {
-        let above = RADIUS_RATIOS.iter().filter(|&&step| step <= ratio).count();
+        let above = RADIUS_RATIOS.partition_point(|&step| step <= ratio);
         Self(self.0 & 0b111 | (above.saturating_sub(1) as u8) << 3)
     }
 

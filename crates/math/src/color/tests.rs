@@ -45,7 +45,7 @@ fn by_search(linear: f32) -> u8 {
 fn the_encoder_equals_a_search_around_thresholds_and_cells() {
     let mut values: Vec<f32> = THRESHOLDS.to_vec();
     values.extend(
-        (0..=CELL_COUNT as u32).map(|cell| f32::from_bits(CELL_START.to_bits() + (cell << CELL_SHIFT))),
+        (0..=CELL_COUNT as u32).map(|cell| f32::from_bits(SRGB8_LEAST.to_bits() + (cell << SRGB8_CELL_BITS))),
     );
     for value in values {
         for near in [value.next_down(), value, value.next_up()] {

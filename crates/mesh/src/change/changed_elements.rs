@@ -48,7 +48,7 @@ impl ChangedElements {
     }
 
     /// The vertices, increasing.
-    pub(super) fn vertices(&self) -> Vec<u32> {
+    pub fn vertices(&self) -> Vec<u32> {
         self.vertices.sorted()
     }
 

@@ -8,7 +8,8 @@ use trigon_math::Vec3;
 
 use super::render_links::PIECE;
 use crate::Mesh;
-use crate::normals::corner_angle;
+use crate::normals::{corner_angle, quad_angles, unit_or_zero};
+use crate::triangulate::area_vector;
 
 /// The normals of all faces of a mesh, and the angles by which they are weighted.
 #[derive(Debug, Clone, Default)]
@@ -37,32 +38,25 @@ impl FaceNormals {
         Self { normals, angles }
     }
 
-    /// Brings those of some faces up to date.
+    /// Brings those of some faces up to date; the faces increase.
     pub(super) fn update(&mut self, mesh: &Mesh, faces: &[u32]) {
-        let has_angles = !self.angles.is_empty();
-        let made = |faces: &[u32]| {
-            let mut made = Self::default();
-            for &face in faces {
-                made.normals.push(mesh.face_normal(face as usize));
-                if has_angles {
-                    made.angles.extend(angles_at(mesh, mesh.face_corners(face as usize)));
-                }
-            }
-            made
-        };
-        let parts = faces.par_chunks(PIECE).map(made).collect::<Vec<_>>();
-        for (faces, part) in faces.chunks(PIECE).zip(parts) {
-            let mut angles = part.angles.as_slice();
-            for (&face, normal) in faces.iter().zip(part.normals) {
-                self.normals[face as usize] = normal;
-                if has_angles {
-                    let corners = mesh.face_corners(face as usize);
-                    let (own, rest) = angles.split_at(corners.len());
-                    self.angles[corners].copy_from_slice(own);
-                    angles = rest;
-                }
-            }
+        let (mut normals, mut angles) = (self.normals.as_mut_slice(), self.angles.as_mut_slice());
+        let (mut first_face, mut first_corner) = (0, 0);
+        let mut parts = Vec::with_capacity(faces.len().div_ceil(PIECE));
+        for faces in faces.chunks(PIECE) {
+            let end = faces[faces.len() - 1] as usize + 1;
+            let end_corner = mesh.face_corners(end - 1).end;
+            let own_angles = if angles.is_empty() { 0 } else { end_corner - first_corner };
+            parts.push(Part {
+                faces,
+                first_face,
+                first_corner,
+                normals: normals.split_off_mut(..end - first_face).expect("faces increase"),
+                angles: angles.split_off_mut(..own_angles).expect("so do their corners"),
+            });
+            (first_face, first_corner) = (end, end_corner);
         }
+        parts.into_par_iter().for_each(|part| part.update(mesh));
     }
 
     /// The unit normal of a face; zero if it has none.
@@ -73,6 +67,39 @@ impl FaceNormals {
     /// The angle at a corner of a mesh that has smooth faces.
     pub(super) fn angle(&self, corner: u32) -> f64 {
         self.angles[corner as usize]
+    }
+}
+
+/// Some faces, and what is known of all from one of them to another.
+struct Part<'a> {
+    faces: &'a [u32],
+    first_face: usize,
+    normals: &'a mut [Vec3],
+    first_corner: usize,
+    /// None if no face is smooth.
+    angles: &'a mut [f64],
+}
+
+impl Part<'_> {
+    fn update(self, mesh: &Mesh) {
+        for face in self.faces.iter().map(|&face| face as usize) {
+            let normal = &mut self.normals[face - self.first_face];
+            let corners = mesh.face_corners(face);
+            let own = corners.start - self.first_corner..corners.end - self.first_corner;
+            if let &[a, b, c, d] = mesh.face_vertices(face) {
+                // Most faces of most meshes. Their corners are looked up once for all.
+                let quad = [a, b, c, d].map(|vertex| mesh.position(vertex));
+                *normal = unit_or_zero(area_vector(quad)).as_vec3();
+                if let Some(angles) = self.angles.get_mut(own) {
+                    angles.copy_from_slice(&quad_angles(quad));
+                }
+                continue;
+            }
+            *normal = mesh.face_normal(face);
+            if let Some(angles) = self.angles.get_mut(own) {
+                angles.iter_mut().zip(angles_at(mesh, corners)).for_each(|(angle, made)| *angle = made);
+            }
+        }
     }
 }
 

@@ -53,6 +53,22 @@ impl<'a> LocalNormals<'a> {
         }
     }
 
+    /// The normal that all corners at one vertex have where each of them takes it from the
+    /// vertex; else `None`. Most vertices of most meshes are such.
+    pub(super) fn of_all(&self, corners: &[u32]) -> Option<Vec3> {
+        let smooth = self.smooth.filter(|_| self.given.is_none())?;
+        let mut sum = DVec3::ZERO;
+        for &corner in corners {
+            let face = self.faces.of(corner).0;
+            if !smooth[face] {
+                return None;
+            }
+            sum += self.weighted(face, corner);
+        }
+        let normal = unit_or_zero(sum).as_vec3();
+        (normal != Vec3::ZERO).then_some(normal)
+    }
+
     fn is_smooth(&self, face: usize) -> bool {
         self.smooth.is_some_and(|smooth| smooth[face])
     }
@@ -62,11 +78,16 @@ impl<'a> LocalNormals<'a> {
     fn mean(&self, corners: &[u32], around: &[usize]) -> Vec3 {
         let mut sum = DVec3::ZERO;
         for (&corner, &face) in corners.iter().zip(around) {
-            let normal = self.face_normals.normal(face).as_dvec3();
-            if self.is_smooth(face) && normal != DVec3::ZERO {
-                sum += normal * self.face_normals.angle(corner);
+            if self.is_smooth(face) {
+                sum += self.weighted(face, corner);
             }
         }
         unit_or_zero(sum).as_vec3()
+    }
+
+    /// What a smooth face adds to the normal of the vertex at one of its corners.
+    fn weighted(&self, face: usize, corner: u32) -> DVec3 {
+        let normal = self.face_normals.normal(face).as_dvec3();
+        if normal == DVec3::ZERO { DVec3::ZERO } else { normal * self.face_normals.angle(corner) }
     }
 }

@@ -1,4 +1,4 @@
-//! Elements that were met already.
+//! Sets of elements, of which few are in one.
 
 /// A bit for each element.
 pub(super) struct Marks(Vec<u64>);
@@ -8,11 +8,33 @@ impl Marks {
         Self(vec![0; elements.div_ceil(64)])
     }
 
-    /// Marks an element; whether it was not marked before.
-    pub(super) fn insert(&mut self, element: u32) -> bool {
-        let (word, bit) = (&mut self.0[element as usize / 64], 1 << (element % 64));
-        let is_new = *word & bit == 0;
-        *word |= bit;
-        is_new
+    pub(super) fn insert(&mut self, element: u32) {
+        self.0[element as usize / 64] |= 1 << (element % 64);
+    }
+
+    /// The elements, increasing: whoever follows them through the lists of a mesh finds them
+    /// in the order in which they lie in memory.
+    pub(super) fn listed(self) -> Vec<u32> {
+        let mut listed = Vec::with_capacity(self.0.iter().map(|word| word.count_ones() as usize).sum());
+        for (mut word, first) in self.0.into_iter().zip((0..).step_by(64)) {
+            while word != 0 {
+                listed.push(first + word.trailing_zeros());
+                word &= word - 1;
+            }
+        }
+        listed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Marks;
+
+    #[test]
+    fn elements_are_listed_once_and_in_order() {
+        let mut marks = Marks::new(130);
+        [129, 64, 0, 63, 64].into_iter().for_each(|element| marks.insert(element));
+        assert_eq!(marks.listed(), [0, 63, 64, 129]);
+        assert_eq!(Marks::new(0).listed(), [0_u32; 0], "of nothing");
     }
 }

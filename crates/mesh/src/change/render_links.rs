@@ -81,12 +81,12 @@ impl RenderLinks {
         update
     }
 
-    /// The faces that have one of these vertices, each once.
+    /// The faces that have one of these vertices, increasing.
     fn faces_around(&self, mesh: &Mesh, vertices: &[u32]) -> Vec<u32> {
         let (of_corner, mut met) = (CornerFaces::new(mesh), Marks::new(mesh.face_count()));
         let corners = vertices.iter().flat_map(|&vertex| self.corners_at.get(vertex));
-        let faces = corners.map(|&corner| of_corner.of(corner).0 as u32);
-        faces.filter(|&face| met.insert(face)).collect()
+        corners.for_each(|&corner| met.insert(of_corner.of(corner).0 as u32));
+        met.listed()
     }
 
     /// Brings the normals of faces up to date whose corners moved.
@@ -100,17 +100,16 @@ impl RenderLinks {
         }
     }
 
-    /// The vertices at which a corner may show other values than before, each once.
+    /// The vertices at which a corner may show other values than before, increasing.
     fn affected_vertices(&self, mesh: &Mesh, vertices: &[u32], corners: &[u32], faces: &[u32]) -> Vec<u32> {
         let mut met = Marks::new(mesh.vertex_count());
-        let mut affected: Vec<u32> = vertices.iter().copied().filter(|&vertex| met.insert(vertex)).collect();
-        let of_corners = corners.iter().map(|&corner| mesh.corner_vertices()[corner as usize]);
-        affected.extend(of_corners.filter(|&vertex| met.insert(vertex)));
+        vertices.iter().for_each(|&vertex| met.insert(vertex));
+        corners.iter().for_each(|&corner| met.insert(mesh.corner_vertices()[corner as usize]));
         if self.face_normals.is_some() {
             let around = faces.iter().flat_map(|&face| mesh.face_vertices(face as usize));
-            affected.extend(around.copied().filter(|&vertex| met.insert(vertex)));
+            around.for_each(|&vertex| met.insert(vertex));
         }
-        affected
+        met.listed()
     }
 
     /// Updates what the corners at some vertices show; `changed` are those with other

@@ -68,6 +68,10 @@ impl<'a> VertexValues<'a> {
         let (mut around, mut normals, mut values) = (Vec::new(), Vec::new(), Vec::new());
         for &vertex in vertices {
             let corners = self.corners_at.get(vertex);
+            if let Some(updated) = self.whole_by_vertex(corners) {
+                shown.kept.push(updated);
+                continue;
+            }
             self.normals.at_corners(corners, &mut around, &mut normals);
             if let Some(updated) = self.whole(corners, &normals).filter(|_| self.same_attributes) {
                 shown.kept.push(updated);
@@ -85,14 +89,29 @@ impl<'a> VertexValues<'a> {
         shown
     }
 
+    /// The render vertex of all corners at a vertex, if they had the same one, can differ in
+    /// nothing but normals, and all take these from the vertex.
+    fn whole_by_vertex(&self, corners: &[u32]) -> Option<UpdatedVertex> {
+        let (vertex, corner) = self.same_before(corners).filter(|_| self.same_attributes)?;
+        let normal = self.normals.of_all(corners)?;
+        Some(UpdatedVertex { vertex, corner, normal })
+    }
+
     /// The render vertex of all corners at a vertex, if they had the same one and agree in
     /// their normals.
     fn whole(&self, corners: &[u32], normals: &[Vec3]) -> Option<UpdatedVertex> {
-        let (&corner, &normal) = corners.first().zip(normals.first())?;
-        let vertex = self.vertex_of_corner[corner as usize];
-        let had_same = corners.iter().all(|&other| self.vertex_of_corner[other as usize] == vertex);
+        let (vertex, corner) = self.same_before(corners)?;
+        let normal = *normals.first()?;
         let agree = normals.iter().all(|&other| tells_apart(other) == tells_apart(normal));
-        (had_same && agree).then_some(UpdatedVertex { vertex, corner, normal })
+        agree.then_some(UpdatedVertex { vertex, corner, normal })
+    }
+
+    /// The render vertex that all corners at a vertex had, and the first of them.
+    fn same_before(&self, corners: &[u32]) -> Option<(u32, u32)> {
+        let &first = corners.first()?;
+        let vertex = self.vertex_of_corner[first as usize];
+        let had_same = corners.iter().all(|&other| self.vertex_of_corner[other as usize] == vertex);
+        had_same.then_some((vertex, first))
     }
 
     /// The render vertices of the corners at one vertex: one for all that agreed before and

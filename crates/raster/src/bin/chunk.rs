@@ -1,7 +1,8 @@
 //! A run of the frame's primitives, set up and sorted into tiles.
 
+use super::earlier::primitives_of;
 use super::place::{Entry, Listed, Place};
-use super::{Grid, TileRange};
+use super::{EarlierEntries, Grid, TileRange};
 use crate::line::Stroke;
 use crate::setup::{Corners, CutWeights, DetailIndex, Quad, QuadDetail, SetupTriangle};
 use crate::simd::{Each, LANES, Mask, Simd, U32, append, prelude::*};
@@ -250,6 +251,33 @@ impl Chunk {
         }
     }
 
+    /// Gives away what its tiles list, so that some of its primitives can be set up again,
+    /// if it has none but triangles that are drawn as they are; else it is left as it is.
+    pub(crate) fn set_aside(&mut self, earlier: &mut EarlierEntries) -> bool {
+        let Stats { culled, set_up, clipped, .. } = self.stats;
+        let is_plain = self.extras.is_empty() && self.quads.is_empty() && self.large.is_empty();
+        if !is_plain || clipped > 0 || culled + set_up != self.ordinals.len() as u64 {
+            return false;
+        }
+        // A triangle between the samples of all tiles is in none, and would be missed.
+        if primitives_of(&self.pushed) != set_up {
+            return false;
+        }
+        earlier.take((&mut self.tiles, &mut self.pushed));
+        self.starts.clear();
+        self.entries.clear();
+        self.stats = Stats::default();
+        true
+    }
+
+    /// Takes back what tiles listed of some primitives, by their places in the chunk. They
+    /// have to come in order.
+    pub(crate) fn take_back(&mut self, earlier: &mut EarlierEntries, places: Range<u32>) {
+        let set_up = earlier.give_back(&places, (&mut self.tiles, &mut self.pushed));
+        self.stats.set_up += set_up;
+        self.stats.culled += places.len() as u64 - set_up;
+    }
+
     /// Visits the tiles that list primitives of some kind, told by the place in the chunk;
     /// some tiles more than once.
     pub(crate) fn for_each_tile_of(
@@ -258,8 +286,9 @@ impl Chunk {
         is_one: impl Fn(u32) -> bool,
         mut visit: impl FnMut(u32),
     ) {
-        for (&tile, &entry) in self.tiles.iter().zip(&self.pushed) {
-            if is_one(self.primitive(entry)) {
+        for (starts, tile) in self.starts.windows(2).zip(self.first_tile..) {
+            let entries = &self.entries[starts[0] as usize..starts[1] as usize];
+            if entries.iter().any(|&entry| is_one(self.primitive(entry))) {
                 visit(tile);
             }
         }

@@ -4,9 +4,11 @@
 //! into tiles by one worker, and a tile visits the chunks in order.
 
 mod chunk;
+mod earlier;
 mod grid;
 mod place;
 
 pub(crate) use chunk::Chunk;
+pub(crate) use earlier::EarlierEntries;
 pub(crate) use grid::{Grid, TileRange};
 pub(crate) use place::{Entry, Place};

@@ -22,7 +22,8 @@ pub struct DrawChange<'a> {
     /// Vertices for which the pipeline may answer otherwise, in any order.
     pub vertices: &'a [u32],
     /// Triangles that may have other corners, [`edge_flags`](crate::Draw::edge_flags) or
-    /// [`marks`](crate::Draw::marks), increasing. Lines and points cannot change.
+    /// [`marks`](crate::Draw::marks), increasing; none of lines and points, which can move
+    /// but not have other vertices.
     pub triangles: &'a [u32],
 }
 
@@ -85,12 +86,11 @@ pub(super) fn can_follow(plan: &Plan, pass: &Pass<'_>, changes: &[DrawChange<'_>
     pass.scissor.is_none()
         && changes.len() == pass.draws.len()
         && plan.draws.iter().all(|draw| {
-            let DrawChange { vertices, triangles } = changes[draw.draw];
             let Recorded { geometry, pipeline } = &pass.draws[draw.draw];
             let is_mesh = matches!(geometry.shape, Shape::Triangles { .. });
             // Other corners could use other vertices.
             let uses_all = draw.used == UsedVertices::Range(0..pipeline.vertex_count());
-            triangles.is_empty() && (vertices.is_empty() || is_mesh) || is_mesh && uses_all
+            changes[draw.draw].triangles.is_empty() || is_mesh && uses_all
         })
 }
 

@@ -2,9 +2,11 @@
 
 use super::change::{DirtyTiles, Signature, can_follow};
 use super::layout::Layout;
-use super::set_up::set_up_chunk;
+use super::set_up::SetUp;
 use super::stages::{Arena, How, finish, prepare};
+use super::touched::Found;
 use super::{DrawChange, FrameView, Redraw};
+use crate::bin::EarlierEntries;
 use crate::clock::Clock;
 use crate::ink::Ink;
 use crate::pass::Pass;
@@ -63,19 +65,19 @@ fn follow<'f>(
     let rest = Mutex::new(chunks[..used].iter_mut());
     let next = || rest.lock().unwrap_or_else(PoisonError::into_inner).next();
     let many = used > 1;
+    let set_up = SetUp { pass: &pass.draws, plan, places, grid: &grid, axis, token: how.token };
     how.workers.run(many, |_| {
-        let mut flags = Vec::new();
+        let (mut found, mut earlier) = (Found::default(), EarlierEntries::default());
         while let Some(chunk) = next()
             && !how.is_cancelled()
         {
-            let found = touched.triangles(&pass.draws, plan, (changes, has_lines), chunk, &mut flags);
+            touched.triangles(&pass.draws, plan, (changes, has_lines), chunk, &mut found);
             if found.any {
-                tiles.add(&grid, chunk, &flags);
+                tiles.add(&grid, chunk, &found.differ);
             }
-            if found.moved {
-                chunk.reset(chunk.ordinals.clone(), chunk.surface);
-                set_up_chunk(&pass.draws, plan, places, (&grid, axis), how.token, chunk);
-                tiles.add(&grid, chunk, &flags);
+            if found.any_moved {
+                set_up.moved(chunk, &found.moved, &mut earlier);
+                tiles.add(&grid, chunk, &found.differ);
             }
         }
     });

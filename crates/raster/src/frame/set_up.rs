@@ -1,69 +1,98 @@
 //! The stage that sets primitives up and bins them: chunk by chunk.
 
-use super::Plan;
 use super::stages::How;
+use super::{DrawPlan, Plan};
 use crate::Culling;
-use crate::bin::{Chunk, Grid};
+use crate::bin::{Chunk, EarlierEntries, Grid};
 use crate::clip;
 use crate::geometry::Shape;
 use crate::line::LineStyle;
 use crate::pass::Recorded;
 use crate::point::PointStyle;
 use crate::setup::Setup;
-use crate::simd::{Simd, Token, at_level};
+use crate::simd::{LANES, Simd, Token, at_level};
 use crate::vertex::{DrawVertices, ScreenVertex};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// Set-up and binning: every worker takes a chunk at a time.
-pub(super) fn set_up(
-    pass: &[Recorded<'_>],
-    plan: &Plan,
-    places: &[ScreenVertex],
-    (grid, axis): (&Grid, u32),
-    how: How<'_>,
-    chunks: &mut [Chunk],
-) {
-    let many = chunks.len() > 1;
-    let rest = Mutex::new(chunks.iter_mut());
-    let next = || rest.lock().unwrap_or_else(PoisonError::into_inner).next();
-    how.workers.run(many, |_| {
-        while let Some(chunk) = next()
-            && !how.is_cancelled()
-        {
-            set_up_chunk(pass, plan, places, (grid, axis), how.token, chunk);
-        }
-    });
+/// What set-up reads.
+#[derive(Clone, Copy)]
+pub(super) struct SetUp<'a> {
+    pub(super) pass: &'a [Recorded<'a>],
+    pub(super) plan: &'a Plan,
+    pub(super) places: &'a [ScreenVertex],
+    pub(super) grid: &'a Grid,
+    /// Internal pixels for each pixel of the target and axis.
+    pub(super) axis: u32,
+    pub(super) token: Token,
 }
 
-/// Sets up the primitives of a chunk that is empty.
-pub(super) fn set_up_chunk(
-    pass: &[Recorded<'_>],
-    plan: &Plan,
-    places: &[ScreenVertex],
-    (grid, axis): (&Grid, u32),
-    token: Token,
-    chunk: &mut Chunk,
-) {
-    for (draw, range) in plan.parts(chunk.ordinals.clone()) {
-        let recorded = &pass[draw.draw];
+impl SetUp<'_> {
+    /// Set-up and binning: every worker takes a chunk at a time.
+    pub(super) fn all(&self, how: How<'_>, chunks: &mut [Chunk]) {
+        let many = chunks.len() > 1;
+        let rest = Mutex::new(chunks.iter_mut());
+        let next = || rest.lock().unwrap_or_else(PoisonError::into_inner).next();
+        how.workers.run(many, |_| {
+            while let Some(chunk) = next()
+                && !how.is_cancelled()
+            {
+                self.chunk(chunk);
+            }
+        });
+    }
+
+    /// Sets up the primitives of a chunk that is empty.
+    pub(super) fn chunk(&self, chunk: &mut Chunk) {
+        for (draw, range) in self.plan.parts(chunk.ordinals.clone()) {
+            let shape = &self.pass[draw.draw].geometry.shape;
+            set_up_part(self.part(draw, chunk), shape, self.axis, self.token, range);
+        }
+        chunk.sort();
+    }
+
+    /// Sets up those primitives of a chunk again that were moved, and what is set up with
+    /// them. `earlier` is room to be used again.
+    pub(super) fn moved(&self, chunk: &mut Chunk, moved: &[bool], earlier: &mut EarlierEntries) {
+        if !chunk.set_aside(earlier) {
+            chunk.reset(chunk.ordinals.clone(), chunk.surface);
+            return self.chunk(chunk);
+        }
+        for (draw, range) in self.plan.parts(chunk.ordinals.clone()) {
+            let mut setup = self.part(draw, chunk);
+            let place = setup.place(range.start);
+            let moved = &moved[place as usize..place as usize + range.len()];
+            let shape = &self.pass[draw.draw].geometry.shape;
+            let Shape::Triangles { triangles, culling, .. } = *shape else {
+                // No tile lists any line or point so far.
+                set_up_part(setup, shape, self.axis, self.token, range);
+                continue;
+            };
+            setup.culling = culling;
+            let triangles = &triangles[range.start as usize..range.end as usize];
+            let triangles = (range.start, triangles);
+            at_level!(self.token, simd => set_up_moved(simd, &mut setup, triangles, (moved, earlier)));
+        }
+        chunk.sort();
+    }
+
+    /// The set-up of one draw's primitives.
+    fn part<'s>(&'s self, draw: &DrawPlan, chunk: &'s mut Chunk) -> Setup<'s> {
         let vertices = DrawVertices {
-            slots: plan.slots(draw),
-            places: &places[draw.places.clone()],
-            pipeline: recorded.pipeline,
-            token,
+            slots: self.plan.slots(draw),
+            places: &self.places[draw.places.clone()],
+            pipeline: self.pass[draw.draw].pipeline,
+            token: self.token,
         };
-        let setup = Setup {
-            grid,
-            volume: &clip::volume(grid.viewport),
+        Setup {
+            grid: self.grid,
+            volume: clip::volume(self.grid.viewport),
             vertices,
             first: draw.ordinals.start,
             culling: Culling::None,
             chunk,
-        };
-        set_up_part(setup, &recorded.geometry.shape, axis, token, range);
+        }
     }
-    chunk.sort();
 }
 
 /// Sets up some primitives of one draw.
@@ -92,7 +121,28 @@ fn set_up_part(mut setup: Setup<'_>, shape: &Shape<'_>, axis: u32, token: Token,
 
 #[inline(always)]
 fn set_up_triangles<S: Simd>(simd: S, setup: &mut Setup<'_>, first: u32, triangles: &[[u32; 3]]) {
-    for (group, triangles) in triangles.chunks(crate::simd::LANES).enumerate() {
-        setup.eight_triangles(simd, first + (group * crate::simd::LANES) as u32, triangles);
+    for (group, triangles) in triangles.chunks(LANES).enumerate() {
+        setup.eight_triangles(simd, first + (group * LANES) as u32, triangles);
     }
+}
+
+/// The same where some triangles were moved: what the others are listed by is kept.
+#[inline(always)]
+fn set_up_moved<S: Simd>(
+    simd: S,
+    setup: &mut Setup<'_>,
+    (first, triangles): (u32, &[[u32; 3]]),
+    (moved, earlier): (&[bool], &mut EarlierEntries),
+) {
+    let place = setup.place(first);
+    let mut kept = 0;
+    let groups = triangles.chunks(LANES).zip(moved.chunks(LANES));
+    for ((triangles, moved), at) in groups.zip((0..).step_by(LANES)) {
+        if moved.contains(&true) {
+            setup.chunk.take_back(earlier, place + kept..place + at);
+            setup.eight_triangles(simd, first + at, triangles);
+            kept = at + triangles.len() as u32;
+        }
+    }
+    setup.chunk.take_back(earlier, place + kept..place + triangles.len() as u32);
 }

@@ -3,7 +3,7 @@
 
 use super::change::Signature;
 use super::layout::Layout;
-use super::set_up::set_up;
+use super::set_up::SetUp;
 use super::touched::Touched;
 use super::{FrameView, Plan};
 use crate::bin::Chunk;
@@ -102,7 +102,8 @@ pub(crate) fn prepare<'f>(
     let mut clock = Clock::new(how.timed);
     run_vertices(&pass.draws, plan, grid.viewport, how, (places, varyings));
     let vertices = clock.lap();
-    set_up(&pass.draws, plan, places, (&grid, layout.axis), how, chunks);
+    let set_up = SetUp { pass: &pass.draws, plan, places, grid: &grid, axis: layout.axis, token: how.token };
+    set_up.all(how, chunks);
     let times = StageTimes { vertices, set_up: clock.lap(), ..StageTimes::default() };
     arena.view((pass, target), layout, how, used, times)
 }

@@ -27,13 +27,27 @@ pub(super) struct Touched {
     moved: Vec<u64>,
 }
 
-/// What was found of a chunk's triangles.
-#[derive(Clone, Copy, Default)]
+/// What was found of a chunk's primitives, one after the other.
+#[derive(Default)]
 pub(super) struct Found {
-    /// Whether any of them looks different.
+    /// Those that look different.
+    pub(super) differ: Vec<bool>,
+    /// Those that lie elsewhere.
+    pub(super) moved: Vec<bool>,
+    /// Whether there are any of these.
     pub(super) any: bool,
-    /// Whether any of them lies elsewhere.
-    pub(super) moved: bool,
+    pub(super) any_moved: bool,
+}
+
+impl Found {
+    /// Begins with none of so many.
+    fn reset(&mut self, count: usize) {
+        (self.any, self.any_moved) = (false, false);
+        for flags in [&mut self.differ, &mut self.moved] {
+            flags.clear();
+            flags.resize(count, false);
+        }
+    }
 }
 
 impl Touched {
@@ -110,20 +124,17 @@ impl Touched {
         });
     }
 
-    /// Flags the primitives of a chunk that may look different.
+    /// Finds the primitives of a chunk that may look different.
     pub(super) fn triangles(
         &self,
         pass: &[Recorded<'_>],
         plan: &Plan,
         (changes, has_edges): (&[DrawChange<'_>], bool),
         chunk: &Chunk,
-        flags: &mut Vec<bool>,
-    ) -> Found {
-        flags.clear();
-        flags.resize(chunk.ordinals.len(), false);
-        let mut found = Found::default();
+        found: &mut Found,
+    ) {
+        found.reset(chunk.ordinals.len());
         for (draw, range) in plan.parts(chunk.ordinals.clone()) {
-            let Shape::Triangles { triangles, .. } = pass[draw.draw].geometry.shape else { continue };
             if range.is_empty() {
                 continue;
             }
@@ -133,27 +144,27 @@ impl Touched {
             let search = Search {
                 slots: plan.slots(draw),
                 geometry: &pass[draw.draw].geometry,
-                triangles,
                 listed: changes[draw.draw].triangles,
                 reach: self.reaches[number],
                 changed: &self.changed[words.clone()],
                 moved: &self.moved[words],
             };
             let first = (draw.ordinals.start + range.start - chunk.ordinals.start) as usize;
-            let flags = &mut flags[first..first + range.len()];
-            let of_draw = search.flag(range, has_edges, flags);
-            found = Found { any: found.any || of_draw.any, moved: found.moved || of_draw.moved };
+            match search.geometry.shape {
+                Shape::Triangles { triangles, .. } => {
+                    search.flag(triangles, range, has_edges, (found, first));
+                }
+                Shape::Lines { .. } | Shape::Points { .. } => search.flag_quads(range, (found, first)),
+            }
         }
-        found
     }
 }
 
-/// Looks for the triangles of a draw that look different.
+/// Looks for the primitives of a draw that look different.
 struct Search<'a> {
     slots: Slots<'a>,
     geometry: &'a Geometry<'a>,
-    triangles: &'a [[u32; 3]],
-    /// Those that are known to.
+    /// Triangles that are known to.
     listed: &'a [u32],
     /// Between which vertices those lie that may have other values.
     reach: [u32; 2],
@@ -162,45 +173,72 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Flags some of the triangles, and the others of their faces if it has edges.
-    fn flag(&self, range: Range<u32>, has_edges: bool, flags: &mut [bool]) -> Found {
+    /// Flags some of the triangles, and the others of their faces if it has edges. The flags
+    /// of the first one are given by their place.
+    fn flag(
+        &self,
+        triangles: &[[u32; 3]],
+        range: Range<u32>,
+        has_edges: bool,
+        (found, first): (&mut Found, usize),
+    ) {
         /// Triangles that are left out together.
         const BLOCK: usize = 64;
-        let (mut seeds, mut found) = (Vec::new(), Found::default());
-        let blocks = self.triangles[range.start as usize..range.end as usize].chunks(BLOCK);
+        let mut seeds = Vec::new();
+        let Found { differ, moved, any, any_moved } = found;
+        let mut note_moved = |triangle: u32| {
+            moved[first + (triangle - range.start) as usize] = true;
+            *any_moved = true;
+        };
+        let blocks = triangles[range.start as usize..range.end as usize].chunks(BLOCK);
         for (block, start) in blocks.zip((range.start..).step_by(BLOCK)) {
             if self.reaches(block.as_flattened()) {
                 for (&corners, triangle) in block.iter().zip(start..) {
                     if self.has(self.changed, corners) {
-                        found.moved |= self.has(self.moved, corners);
                         seeds.push(triangle);
+                        if self.has(self.moved, corners) {
+                            note_moved(triangle);
+                        }
                     }
                 }
             }
         }
         let at = |at: u32| self.listed.partition_point(|&triangle| triangle < at);
         let listed = &self.listed[at(range.start)..at(range.end)];
-        found.moved |= !listed.is_empty();
+        listed.iter().for_each(|&triangle| note_moved(triangle));
         seeds.extend(listed);
         if has_edges {
             self.add_beside(&range, &mut seeds);
         }
-        let place = |triangle: u32| range.contains(&triangle).then(|| (triangle - range.start) as usize);
+        *any |= !seeds.is_empty();
+        let place =
+            |triangle: u32| range.contains(&triangle).then(|| first + (triangle - range.start) as usize);
         for seed in seeds {
-            found.any = true;
-            place(seed).into_iter().for_each(|place| flags[place] = true);
+            place(seed).into_iter().for_each(|place| differ[place] = true);
             if has_edges {
-                parts(self.geometry, seed).filter_map(place).for_each(|place| flags[place] = true);
+                parts(self.geometry, seed).filter_map(place).for_each(|place| differ[place] = true);
             }
         }
-        found
+    }
+
+    /// Flags some of the lines or points. The flags of the first one are given by their place.
+    fn flag_quads(&self, range: Range<u32>, (found, first): (&mut Found, usize)) {
+        for (quad, place) in range.zip(first..) {
+            let corners = self.geometry.corners(quad);
+            if self.has(self.changed, corners) {
+                (found.differ[place], found.any) = (true, true);
+            }
+            if self.has(self.moved, corners) {
+                (found.moved[place], found.any_moved) = (true, true);
+            }
+        }
     }
 
     /// Adds triangles beside the range that belong to faces in it, and look different.
     fn add_beside(&self, range: &Range<u32>, seeds: &mut Vec<u32>) {
         let ends = [range.start, range.end - 1].map(|end| parts(self.geometry, end));
         let is_beside = |triangle: &u32| {
-            let corners = self.triangles[*triangle as usize];
+            let corners = self.geometry.corners(*triangle);
             !range.contains(triangle)
                 && (self.has(self.changed, corners) || self.listed.binary_search(triangle).is_ok())
         };

@@ -92,7 +92,7 @@ impl Setup<'_> {
         } else if planes.cuts() {
             self.chunk.stats.clipped += 1;
             let positions = indices.map(|index| self.vertices.position(index));
-            let ends = clip_segment(positions, self.volume);
+            let ends = clip_segment(positions, &self.volume);
             let screen =
                 |end: ClipVertex<2>| Some((ScreenVertex::of(end.position, self.grid.viewport)?, end.weights));
             match ends.map(|[a, b]| (screen(a), screen(b))) {

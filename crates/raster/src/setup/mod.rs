@@ -28,7 +28,7 @@ pub(crate) type CutWeights = [[f32; 3]; 3];
 /// Sets up primitives of one draw into a chunk.
 pub(crate) struct Setup<'a> {
     pub(crate) grid: &'a Grid,
-    pub(crate) volume: &'a ClipVolume,
+    pub(crate) volume: ClipVolume,
     pub(crate) vertices: DrawVertices<'a>,
     /// Ordinal of the draw's first primitive in the frame.
     pub(crate) first: u32,
@@ -84,7 +84,7 @@ impl Setup<'_> {
 
     fn cut_triangle(&mut self, primitive: u32, indices: [u32; 3]) {
         let positions = indices.map(|index| self.vertices.position(index));
-        let cut = clip::cut_triangle(positions, self.volume);
+        let cut = clip::cut_triangle(positions, &self.volume);
         let vertices = cut.polygon.vertices();
         self.chunk.stats.clipped += 1;
         let mut places = [ScreenVertex::default(); clip::MOST_VERTICES];

@@ -35,23 +35,31 @@ impl Encoding {
         }
     }
 
+    /// [`encode_lanes`](Self::encode_lanes) where something shows through.
+    #[inline(never)]
+    fn encode_one_by_one<S: Simd>(self, simd: S, color: [F32<S>; 4]) -> U32<S> {
+        let channels: [[f32; LANES]; 4] = color.each(Into::into);
+        let codes = lanes_of(|lane| {
+            let [r, g, b, a] = channels.each(|channel| channel[lane]);
+            u32::from_le_bytes(self.encode(Vec4::new(r, g, b, a)))
+        });
+        U32::simd_from(simd, codes)
+    }
+
     /// Eight colours as four bytes each, red in the lowest.
     #[inline(always)]
     pub(crate) fn encode_lanes<S: Simd>(self, simd: S, color: [F32<S>; 4]) -> U32<S> {
         match self {
             Self::Srgb8 => {
-                let channels: [[f32; LANES]; 4] = color.each(Into::into);
-                let codes = lanes_of(
+                let [r, g, b, a] = color;
+                if !a.simd_eq(F32::splat(simd, 1.0)).all_true() {
+                    return self.encode_one_by_one(simd, color);
+                }
+                let [r, g, b] = [r, g, b].each(
                     #[inline(always)]
-                    |lane| {
-                        let [r, g, b, a] = channels.each(
-                            #[inline(always)]
-                            |channel| channel[lane],
-                        );
-                        u32::from_le_bytes(self.encode(Vec4::new(r, g, b, a)))
-                    },
+                    |channel| srgb_lanes(simd, channel),
                 );
-                U32::simd_from(simd, codes)
+                r | (g << 8) | (b << 16) | 0xff00_0000
             }
             Self::Unorm8 => {
                 let [r, g, b, a] = color.each(
@@ -62,6 +70,22 @@ impl Encoding {
             }
         }
     }
+}
+
+/// Linear light to sRGB bytes: the bits of [`color::linear_to_srgb8`].
+#[inline(always)]
+fn srgb_lanes<S: Simd>(simd: S, value: F32<S>) -> U32<S> {
+    let [least, greatest] = [color::SRGB8_LEAST, color::SRGB8_GREATEST].each(
+        #[inline(always)]
+        |end| F32::splat(simd, end),
+    );
+    // What is no number becomes the least.
+    let value = lesser(greater(value, least), greatest);
+    let bits = value.bitcast::<U32<S>>() - color::SRGB8_LEAST.to_bits();
+    let cells: [u32; LANES] = (bits >> color::SRGB8_CELL_BITS).into();
+    let cells = cells.each(color::srgb8_cell);
+    let within = bits & ((1 << color::SRGB8_CELL_BITS) - 1);
+    (U32::simd_from(simd, cells) + within) >> color::SRGB8_CELL_BITS
 }
 
 /// To the nearest of 256 steps; NaN is 0.
@@ -88,7 +112,14 @@ mod tests {
 
     proptest! {
         #[test]
-        fn lanes_encode_as_single_colors_do(channels: [[f32; 8]; 4]) {
+        fn lanes_encode_as_single_colors_do(
+            any: [[f32; 8]; 3],
+            light in prop::array::uniform3(prop::array::uniform8(0.0_f32..1.0)),
+            alpha in prop_oneof![Just([1.0; 8]), prop::array::uniform8(0.0_f32..1.0), any::<[f32; 8]>()],
+            is_light: bool,
+        ) {
+            let [r, g, b] = if is_light { light } else { any };
+            let channels = [r, g, b, alpha];
             for encoding in [Encoding::Srgb8, Encoding::Unorm8] {
                 for token in SimdLevel::ALL.into_iter().filter_map(SimdLevel::token) {
                     let codes = at_level!(token, simd => {

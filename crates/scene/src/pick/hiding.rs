@@ -15,7 +15,7 @@ use trigon_math::DVec2;
 
 use super::nearby::{Nearby, NearbyTriangles};
 use super::object::{Facing, Object};
-use super::occluders::{Group, Occluder, Pixels, Probe};
+use super::occluders::{Group, Occluder, Pixels, Probes};
 use super::region::Area;
 use super::screen::{Screen, Spot};
 use crate::frame::Frame;
@@ -49,7 +49,7 @@ struct Band {
     /// For each pixel where its points begin, and the end of the last one's.
     starts: Vec<u32>,
     points: Vec<Candidate>,
-    probes: Vec<Probe>,
+    probes: Probes,
     hidden: Vec<AtomicBool>,
 }
 
@@ -114,7 +114,7 @@ impl<'p> Hiding<'p> {
         share: Range<usize>,
         hides: &impl Fn(u32, &Candidate) -> bool,
     ) {
-        let mut group = Group::default();
+        let mut group = Group::new();
         for triangle in share {
             triangles.pieces(triangle, |piece| {
                 let [a, b, c] = piece.map(|spot| spot.at);
@@ -122,7 +122,7 @@ impl<'p> Hiding<'p> {
                     return;
                 }
                 let Some(pixels) = self.pixels(piece) else { return };
-                let occluder = Occluder::new(piece, triangles.drawn.face(triangle));
+                let occluder = Occluder { piece: *piece, face: triangles.drawn.face(triangle) };
                 if !group.takes(&pixels) {
                     self.visit(&group, hides);
                     group.clear();
@@ -139,22 +139,20 @@ impl<'p> Hiding<'p> {
         for row in around.pixels.rows.clone() {
             let band = &self.bands[(row / BAND) as usize];
             let numbers = band.points_of(row % BAND, &around.pixels.columns, self.columns.len());
-            for (number, probe) in numbers.clone().zip(&band.probes[numbers]) {
-                if !around.extent.may_hide(probe) || band.hidden[number].load(Ordering::Relaxed) {
-                    continue;
+            band.probes.for_each_hidden(&around.extent, numbers, |number| {
+                if band.hidden[number].load(Ordering::Relaxed) {
+                    return;
                 }
-                let point = &band.points[number];
+                let (point, probe) = (&band.points[number], band.probes.get(number));
                 let hiding_depth = || self.screen.hiding_depth(point.spot.depth);
-                let is_hidden = group.occluders().iter().any(|occluder| {
-                    occluder.extent.may_hide(probe)
-                        && depth_at(&occluder.piece, point.spot.at)
-                            .is_some_and(|depth| depth > hiding_depth())
+                let is_hidden = group.that_may_hide(&probe).any(|occluder| {
+                    depth_at(&occluder.piece, point.spot.at).is_some_and(|depth| depth > hiding_depth())
                         && hides(occluder.face, point)
                 });
                 if is_hidden {
                     band.hidden[number].store(true, Ordering::Relaxed);
                 }
-            }
+            });
         }
     }
 
@@ -186,7 +184,7 @@ impl Band {
         let Sorted { starts, order } =
             Sorted::new(columns * BAND as usize, points.iter().map(pixel).collect());
         let points: Vec<Candidate> = order.iter().map(|&number| *points[number as usize]).collect();
-        let probes = points.iter().map(|point| Probe::new(screen, &point.spot)).collect();
+        let probes = Probes::new(screen, points.iter().map(|point| &point.spot));
         let hidden = points.iter().map(|_| AtomicBool::new(false)).collect();
         Self { starts, points, probes, hidden }
     }

@@ -15,18 +15,71 @@ const ROUNDED: f64 = 1.0 / 64.0;
 /// Triangles in a group.
 const MOST: usize = 8;
 
-/// What most triangles need to know of a point, rounded: it takes a third of the memory.
-#[derive(Clone, Copy)]
+/// Points that are asked together.
+const TOGETHER: usize = 8;
+
+/// What most triangles need to know of points, rounded: it takes a third of the memory. Number
+/// by number, so that the compiler asks several points at once.
+#[derive(Default)]
+pub(super) struct Probes {
+    at: [Vec<f32>; 2],
+    /// Not nearer than the depth that hides each point.
+    depth: Vec<f32>,
+}
+
+/// One of them.
 pub(super) struct Probe {
     at: [f32; 2],
-    /// Not nearer than the depth that hides the point.
     depth: f32,
 }
 
-impl Probe {
-    pub(super) fn new(screen: &Screen, spot: &Spot) -> Self {
-        let depth = (screen.hiding_depth(spot.depth) as f32).next_down();
-        Self { at: spot.at.to_array().map(|at| at as f32), depth }
+impl Probes {
+    pub(super) fn new<'s>(screen: &Screen, spots: impl ExactSizeIterator<Item = &'s Spot>) -> Self {
+        let room = spots.len() + TOGETHER;
+        let mut probes = Self { at: [Vec::with_capacity(room), Vec::with_capacity(room)], ..Self::default() };
+        probes.depth.reserve_exact(room);
+        for spot in spots {
+            let [x, y] = spot.at.to_array().map(|at| at as f32);
+            probes.push([x, y], (screen.hiding_depth(spot.depth) as f32).next_down());
+        }
+        // What is asked together with the last ones: nothing is nearer.
+        (0..TOGETHER).for_each(|_| probes.push([0.0; 2], f32::INFINITY));
+        probes
+    }
+
+    fn push(&mut self, [x, y]: [f32; 2], depth: f32) {
+        self.at[0].push(x);
+        self.at[1].push(y);
+        self.depth.push(depth);
+    }
+
+    pub(super) fn get(&self, number: usize) -> Probe {
+        Probe { at: [self.at[0][number], self.at[1][number]], depth: self.depth[number] }
+    }
+
+    /// Calls `visit` with the numbers of points that triangles may hide, of some of them.
+    #[inline]
+    pub(super) fn for_each_hidden(
+        &self,
+        extent: &Extent,
+        numbers: Range<usize>,
+        mut visit: impl FnMut(usize),
+    ) {
+        let mut first = numbers.start;
+        while first < numbers.end {
+            let lists = [&self.at[0], &self.at[1], &self.depth].map(|list| list[first..].first_chunk());
+            let [Some(x), Some(y), Some(depth)] = lists else { return };
+            let mut bits = extent.may_hide_some([x, y, depth]);
+            let count = numbers.end - first;
+            if count < TOGETHER {
+                bits &= (1 << count) - 1;
+            }
+            while bits != 0 {
+                visit(first + bits.trailing_zeros() as usize);
+                bits &= bits - 1;
+            }
+            first += TOGETHER;
+        }
     }
 }
 
@@ -56,15 +109,57 @@ impl Extent {
         }
     }
 
-    /// `false` is a proof that the triangles do not hide the point.
+    /// The points that the triangles may hide, a bit for each: no bit is a proof that they
+    /// do not hide the point.
     #[inline(always)]
-    pub(super) fn may_hide(&self, probe: &Probe) -> bool {
-        // All of them at once: each is as likely as not.
-        (probe.depth < self.nearest)
-            & (probe.at[0] >= self.min[0])
-            & (probe.at[0] <= self.max[0])
-            & (probe.at[1] >= self.min[1])
-            & (probe.at[1] <= self.max[1])
+    fn may_hide_some(&self, [x, y, depth]: [&[f32; TOGETHER]; 3]) -> u32 {
+        let mut bits = 0;
+        for point in 0..TOGETHER {
+            let is_near = (depth[point] < self.nearest)
+                & (x[point] >= self.min[0])
+                & (x[point] <= self.max[0])
+                & (y[point] >= self.min[1])
+                & (y[point] <= self.max[1]);
+            bits |= u32::from(is_near) << point;
+        }
+        bits
+    }
+}
+
+/// Extents of the triangles of a group, number by number.
+struct Extents {
+    min: [[f32; MOST]; 2],
+    max: [[f32; MOST]; 2],
+    nearest: [f32; MOST],
+}
+
+impl Extents {
+    /// Of no triangles.
+    const NONE: Self =
+        Self { min: [[0.0; MOST]; 2], max: [[0.0; MOST]; 2], nearest: [f32::NEG_INFINITY; MOST] };
+
+    fn set(&mut self, number: usize, extent: &Extent) {
+        for axis in 0..2 {
+            self.min[axis][number] = extent.min[axis];
+            self.max[axis][number] = extent.max[axis];
+        }
+        self.nearest[number] = extent.nearest;
+    }
+
+    /// The triangles that may hide a point, a bit for each: no bit is a proof that the
+    /// triangle does not.
+    #[inline(always)]
+    fn that_may_hide(&self, probe: &Probe) -> u32 {
+        let mut bits = 0;
+        for number in 0..MOST {
+            let is_near = (probe.depth < self.nearest[number])
+                & (probe.at[0] >= self.min[0][number])
+                & (probe.at[0] <= self.max[0][number])
+                & (probe.at[1] >= self.min[1][number])
+                & (probe.at[1] <= self.max[1][number]);
+            bits |= u32::from(is_near) << number;
+        }
+        bits
     }
 }
 
@@ -90,13 +185,6 @@ impl Pixels {
 pub(super) struct Occluder {
     pub(super) piece: [Spot; 3],
     pub(super) face: u32,
-    pub(super) extent: Extent,
-}
-
-impl Occluder {
-    pub(super) fn new(piece: &[Spot; 3], face: u32) -> Self {
-        Self { piece: *piece, face, extent: Extent::new(piece) }
-    }
 }
 
 /// All triangles of a group.
@@ -106,15 +194,20 @@ pub(super) struct Around {
 }
 
 /// Triangles side by side.
-#[derive(Default)]
 pub(super) struct Group {
     occluders: Vec<Occluder>,
+    extents: Extents,
     around: Option<Around>,
 }
 
 impl Group {
+    pub(super) fn new() -> Self {
+        Self { occluders: Vec::with_capacity(MOST), extents: Extents::NONE, around: None }
+    }
+
     pub(super) fn clear(&mut self) {
         self.occluders.clear();
+        self.extents = Extents::NONE;
         self.around = None;
     }
 
@@ -127,17 +220,26 @@ impl Group {
     }
 
     pub(super) fn push(&mut self, occluder: Occluder, pixels: Pixels) {
+        let extent = Extent::new(&occluder.piece);
         self.around = Some(match &self.around {
-            None => Around { pixels, extent: occluder.extent },
+            None => Around { pixels, extent },
             Some(around) => {
-                Around { pixels: around.pixels.union(&pixels), extent: around.extent.union(&occluder.extent) }
+                Around { pixels: around.pixels.union(&pixels), extent: around.extent.union(&extent) }
             }
         });
+        self.extents.set(self.occluders.len(), &extent);
         self.occluders.push(occluder);
     }
 
-    pub(super) fn occluders(&self) -> &[Occluder] {
-        &self.occluders
+    /// The triangles that may hide a point.
+    #[inline(always)]
+    pub(super) fn that_may_hide(&self, probe: &Probe) -> impl Iterator<Item = &Occluder> {
+        let mut bits = self.extents.that_may_hide(probe);
+        std::iter::from_fn(move || {
+            let number = bits.trailing_zeros() as usize;
+            bits &= bits.wrapping_sub(1);
+            self.occluders.get(number)
+        })
     }
 
     /// What is around all of them; `None` of nothing.

@@ -1,7 +1,6 @@
 //! The values of a mesh's vertices, column by column: what a vertex stage in
 //! vectors reads.
 
-use rayon::prelude::*;
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Deformed, Mesh, RenderMesh, UpdatedVertex};
 
@@ -42,21 +41,24 @@ impl Columns {
     /// Writes the values of vertices that a change of the mesh has touched; new ones come
     /// in the order of their numbers.
     pub(crate) fn update(&mut self, mesh: &Mesh, vertices: &[UpdatedVertex]) {
+        let Self { positions, normals, tangents, uv_sets, colors } = self;
         let attributes = mesh.attributes();
         let position = |of: &UpdatedVertex| {
             mesh.positions()[mesh.corner_vertices()[of.corner as usize] as usize].to_array()
         };
-        write(&mut self.positions, vertices, position);
-        write(&mut self.normals, vertices, |of| of.normal.to_array());
-        if let (Some(columns), Some(values)) = (&mut self.tangents, &attributes.corner_tangents) {
-            write(columns, vertices, |of| values[of.corner as usize].to_array());
-        }
-        for (columns, values) in self.uv_sets.iter_mut().zip(&attributes.uv_sets) {
-            write(columns, vertices, |of| values[of.corner as usize].to_array());
-        }
-        if let (Some(columns), Some(values)) = (&mut self.colors, &attributes.corner_colors) {
-            write(columns, vertices, |of| values[of.corner as usize].to_array());
-        }
+        let write_others = || {
+            write(normals, vertices, |of| of.normal.to_array());
+            if let (Some(columns), Some(values)) = (tangents, &attributes.corner_tangents) {
+                write(columns, vertices, |of| values[of.corner as usize].to_array());
+            }
+            for (columns, values) in uv_sets.iter_mut().zip(&attributes.uv_sets) {
+                write(columns, vertices, |of| values[of.corner as usize].to_array());
+            }
+            if let (Some(columns), Some(values)) = (colors, &attributes.corner_colors) {
+                write(columns, vertices, |of| values[of.corner as usize].to_array());
+            }
+        };
+        rayon::join(|| write(positions, vertices, position), write_others);
     }
 
     /// Bytes of what a pose changes.
@@ -71,34 +73,18 @@ impl Columns {
     }
 }
 
-/// Writes the columns of one attribute. Of many vertices each thread takes whole columns.
+/// Writes the columns of one attribute.
 fn write<const N: usize>(
     columns: &mut [Vec<f32>; N],
     vertices: &[UpdatedVertex],
-    value: impl Fn(&UpdatedVertex) -> [f32; N] + Send + Sync,
+    value: impl Fn(&UpdatedVertex) -> [f32; N],
 ) {
-    /// Fewer are written sooner than another thread is woken.
-    const MANY: usize = 4096;
-    if vertices.len() < MANY {
-        for (axis, column) in columns.iter_mut().enumerate() {
-            write_column(column, vertices.iter().map(|vertex| (vertex.vertex, value(vertex)[axis])));
-        }
-        return;
-    }
-    let values: Vec<[f32; N]> = vertices.par_iter().with_min_len(MANY / 4).map(value).collect();
-    columns.par_iter_mut().enumerate().for_each(|(axis, column)| {
-        write_column(
-            column,
-            vertices.iter().zip(&values).map(|(vertex, value)| (vertex.vertex, value[axis])),
-        );
-    });
-}
-
-fn write_column(column: &mut Vec<f32>, entries: impl Iterator<Item = (u32, f32)>) {
-    for (index, entry) in entries {
-        match column.get_mut(index as usize) {
-            Some(place) => *place = entry,
-            None => column.push(entry),
+    for vertex in vertices {
+        for (column, entry) in columns.iter_mut().zip(value(vertex)) {
+            match column.get_mut(vertex.vertex as usize) {
+                Some(place) => *place = entry,
+                None => column.push(entry),
+            }
         }
     }
 }

@@ -61,6 +61,8 @@ pub(crate) struct GeometryChange {
     pub(crate) before: GeometryState,
     /// Vertices with other values.
     pub(crate) vertices: Vec<u32>,
+    /// Vertices of the mesh at other places.
+    pub(crate) mesh_vertices: Vec<u32>,
     /// Triangles that may have other corners or other flags of their edges; increasing.
     pub(crate) triangles: Vec<u32>,
 }

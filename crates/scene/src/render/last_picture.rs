@@ -292,9 +292,12 @@ impl DrawOrigin {
         let is_alike =
             (first_triangle, triangle_count, place) == (&now.first_triangle, &now.triangle_count, &now.place);
         let change = source.geometry.change.as_ref().filter(|change| change.before == self.state)?;
-        // Lines and points have vertices that the geometry does not know.
-        if !is_alike || *triangle_count == 0 {
+        if !is_alike {
             return None;
+        }
+        // Lines and points have the vertices of the mesh.
+        if *triangle_count == 0 {
+            return Some(ChangedDraw { vertices: change.mesh_vertices.clone(), triangles: Vec::new() });
         }
         let first = *first_triangle as u32;
         let at = |triangle: u32| change.triangles.partition_point(|&other| other < triangle);

@@ -4,7 +4,8 @@
 use crate::simd::SimdLevel;
 use crate::{
     Background, Cancel, Culling, Draw, DrawChange, EdgeFlags, ExecuteSettings, FaceEdges, Fragment, Lines,
-    MarkColors, Marks, Output, Pass, Pipeline, Rasterizer, Stats, Surface, Target, TileSize, VertexOutput,
+    MarkColors, Marks, Outline, Output, Pass, Pipeline, Points, Rasterizer, Stats, Surface, Target, TileSize,
+    VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
@@ -176,6 +177,8 @@ struct View {
     outputs: Vec<Output>,
     edges: Option<f32>,
     has_marks: bool,
+    /// Lines share a chunk with opaque triangles, which then is set up again as a whole.
+    has_lines: bool,
     background: usize,
     settings: ExecuteSettings,
 }
@@ -201,13 +204,15 @@ fn view() -> impl Strategy<Value = View> {
             ExecuteSettings { threads, simd, tile_size, ..ExecuteSettings::default() }
         });
     let edges = prop_oneof![Just(None), (0.5_f32..5.0).prop_map(Some)];
-    ([1_u32..130, 1_u32..100], samples, outputs, edges, any::<bool>(), 0..3_usize, settings).prop_map(
-        |(size, samples, outputs, edges, has_marks, background, settings)| View {
+    let has = [any::<bool>(), any::<bool>()];
+    ([1_u32..130, 1_u32..100], samples, outputs, edges, has, 0..3_usize, settings).prop_map(
+        |(size, samples, outputs, edges, [has_marks, has_lines], background, settings)| View {
             size,
             samples,
             outputs,
             edges,
             has_marks,
+            has_lines,
             background,
             settings,
         },
@@ -247,8 +252,12 @@ impl View {
         }
         // Between others: its ordinals begin and end where theirs do.
         pass.triangles(Draw::new(&models[2], &[]));
-        let lines = Lines::new(&models[2], &[[0, 11], [11, 30]]);
+        let segments: &[[u32; 2]] = if self.has_lines { &[[0, 11], [11, 30], [34, 35]] } else { &[] };
+        let lines = Lines::new(&models[0], segments);
         pass.lines(Lines { object: 9, width: 3.0, ..lines });
+        let points: &[u32] = if self.has_lines { &[0, 12, 34, 60] } else { &[] };
+        let outline = Outline::AntiAliased;
+        pass.points(Points { object: 10, outline, ..Points::new(&models[0], points, 4.0) });
         if let Some(width) = self.edges {
             pass.edges(FaceEdges { width, color: Vec3::X, opacity: 0.7 });
         }
@@ -264,6 +273,17 @@ impl View {
         Rasterizer::new(one).expect("the best level").draw(&self.pass(models), &mut target);
         target
     }
+
+    /// What a whole picture counts up to its tiles.
+    fn counts(&self, models: &[Model]) -> [u64; 8] {
+        let mut rasterizer = Rasterizer::new(self.settings).expect("a level that there is");
+        up_to_tiles(&rasterizer.draw(&self.pass(models), &mut self.target()))
+    }
+}
+
+fn up_to_tiles(stats: &Stats) -> [u64; 8] {
+    let Stats { primitives, vertices, invalid, outside, clipped, culled, set_up, binned, .. } = *stats;
+    [primitives, vertices, invalid, outside, clipped, culled, set_up, binned]
 }
 
 fn models(surfaces: [Surface; 2]) -> Vec<Model> {
@@ -282,9 +302,15 @@ fn check(view: &View, mut models: Vec<Model>, deltas: &[Delta]) -> Result<(), Te
     rasterizer.redraw(&view.pass(&models), &mut target, None);
     for delta in deltas {
         let [vertices, triangles] = delta.apply(&mut models[delta.model]);
-        let mut changes = [DrawChange::default(); 5];
+        let mut changes = [DrawChange::default(); 6];
         changes[delta.model] = DrawChange { vertices: &vertices, triangles: &triangles };
-        rasterizer.redraw(&view.pass(&models), &mut target, Some(&changes));
+        if delta.model == 0 {
+            // The lines and the points have its vertices.
+            changes[4..].fill(DrawChange { vertices: &vertices, triangles: &[] });
+        }
+        let redraw = rasterizer.redraw(&view.pass(&models), &mut target, Some(&changes));
+        let counts = view.counts(&models);
+        prop_assert!(up_to_tiles(&redraw.stats) == counts, "the counts of a whole picture after {delta:?}");
         let fresh = view.fresh(&models);
         prop_assert!(target.srgb8() == fresh.srgb8(), "bytes after {delta:?}");
         prop_assert!(target.unorm8() == fresh.unorm8(), "linear bytes after {delta:?}");
@@ -326,6 +352,7 @@ fn plain(outputs: &[Output]) -> View {
         outputs: outputs.to_vec(),
         edges: Some(1.0),
         has_marks: false,
+        has_lines: true,
         background: 1,
         settings: ExecuteSettings::default(),
     }
@@ -355,12 +382,14 @@ fn only_tiles_around_what_moved_are_drawn() {
     let mut target = view.target();
     let first = rasterizer.redraw(&view.pass(&models), &mut target, None);
     assert_eq!(share(&view, &first.parts), 1.0, "nothing was there");
-    let unchanged = [DrawChange::default(); 5];
+    let unchanged = [DrawChange::default(); 6];
     let same = rasterizer.redraw(&view.pass(&models), &mut target, Some(&unchanged));
     assert!(same.parts.is_empty(), "nothing differs");
     let [vertices, _] = one_vertex().apply(&mut models[0]);
     let mut changes = unchanged;
-    changes[0].vertices = &vertices;
+    for draw in [0, 4, 5] {
+        changes[draw].vertices = &vertices;
+    }
     let moved = rasterizer.redraw(&view.pass(&models), &mut target, Some(&changes));
     let drawn = share(&view, &moved.parts);
     assert!(drawn > 0.0 && drawn < 0.3, "four quads of {}: {drawn}", QUADS * QUADS);
@@ -377,7 +406,7 @@ fn only_tiles_around_other_marks_are_drawn() {
     let before = target.srgb8().map(<[_]>::to_vec);
     let marked = [vec![(44, 3)], vec![(40, 3)]];
     let [_, triangles] = Delta { moved: Vec::new(), marked, ..one_vertex() }.apply(&mut models[0]);
-    let mut changes = [DrawChange::default(); 5];
+    let mut changes = [DrawChange::default(); 6];
     changes[0].triangles = &triangles;
     let redraw = rasterizer.redraw(&view.pass(&models), &mut target, Some(&changes));
     let drawn = share(&view, &redraw.parts);
@@ -424,7 +453,7 @@ fn draws_without_triangles_broke_the_redraws_look_up_of_draws() {
 #[test]
 fn after_anything_else_everything_is_drawn() {
     let (view, models) = (plain(&[Output::Srgb8]), models([Surface::Opaque; 2]));
-    let unchanged = [DrawChange::default(); 5];
+    let unchanged = [DrawChange::default(); 6];
     let spoil: [fn(&mut Rasterizer, &View, &[Model]); 4] = [
         |rasterizer, view, models| {
             let _: Stats = rasterizer.draw(&view.pass(models), &mut view.target());

@@ -2,13 +2,15 @@
 
 use std::collections::BTreeSet;
 
+use trigon_camera::Camera;
 use trigon_math::{DVec2, DVec3};
+use trigon_mesh::primitives;
 
 use super::super::region::center;
 use super::oracle::{Answer, Element, Oracle, ROUNDING, contains};
 use super::scenes::{Random, camera, regions, scene};
 use super::target::{Rendered, Target};
-use crate::{ElementSet, NodeId, Outputs, Picker, Reach, Region, RenderSettings, render};
+use crate::{ElementSet, Material, NodeId, Outputs, Picker, Reach, Region, RenderSettings, Scene, render};
 
 /// Large beside faces, so that most have a pixel that is far from their outline.
 const SIZE: [u32; 2] = [320, 240];
@@ -182,5 +184,40 @@ fn regions_hit_what_rays_say() {
         for Tally { hit, missed, open } in tallies {
             assert!(open * 1000 <= hit + missed + open, "at most a thousandth is open: {tallies:?}");
         }
+    }
+}
+
+/// More triangles than a thread takes at a time, and more points in a pixel than are asked
+/// together.
+#[test]
+fn any_number_of_threads_picks_the_same() {
+    let mut scene = Scene::new();
+    scene.add_object("torus", primitives::torus(1.0, 0.45, 150, 90), Material::default());
+    let camera = Camera::look_at(DVec3::new(0.0, 2.6, 4.6), DVec3::ZERO, DVec3::Y);
+    let outputs = Outputs { ids: true, ..Outputs::NONE };
+    let settings = RenderSettings { outputs, samples_per_axis: 1, ..RenderSettings::new(96, 72) };
+    let frame = render(&scene, &camera, &settings).expect("drawn");
+    let region = Region::Rectangle { min: DVec2::new(3.0, 2.0), max: DVec2::new(70.0, 60.0) };
+    let picked = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| {
+            let picker = Picker::new(&scene, &camera, &frame);
+            [Reach::Visible, Reach::Through].map(|reach| {
+                let nearest = picker.nearest(DVec2::new(40.0, 50.0), 12.0, reach);
+                let of = [
+                    picker.faces(&region, reach),
+                    picker.vertices(&region, reach),
+                    picker.edges(&region, reach),
+                ];
+                (of, nearest)
+            })
+        })
+    };
+    let alone = picked(1);
+    let counts = alone.each_ref().map(|(of, _)| of.each_ref().map(ElementSet::len));
+    assert!(counts.as_flattened().iter().all(|&count| count > 1000), "{counts:?}");
+    assert!(counts[0].iter().zip(counts[1]).all(|(&seen, all)| seen < all), "some are hidden: {counts:?}");
+    for threads in [2, 3, 8] {
+        assert!(picked(threads) == alone, "{threads} threads");
     }
 }

@@ -6,6 +6,7 @@
 //! the geometry of a mesh that a pose can bend; and all of it when a polygon gets more or
 //! fewer triangles than it had.
 
+use std::mem::{replace, take};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -36,7 +37,8 @@ impl Geometry {
         let mut geometry = Arc::try_unwrap(before).unwrap_or_else(|shared| shared.copied());
         match geometry.follow(mesh, changed) {
             Some((vertices, triangles)) => {
-                geometry.change = Some(GeometryChange { before: state, vertices, triangles });
+                let mesh_vertices = changed.vertices();
+                geometry.change = Some(GeometryChange { before: state, vertices, mesh_vertices, triangles });
                 geometry
             }
             None => Self::that_follows(mesh),
@@ -55,46 +57,69 @@ impl Geometry {
         self.state = GeometryState::default();
         self.bounds = OnceLock::new();
         self.tangential = places_for(&self.columns);
-        self.columns.update(mesh, &update.vertices);
-        let triangles = self.replace_triangles(mesh, &update)?;
-        Some((update.vertices.iter().map(|updated| updated.vertex).collect(), triangles))
+        let mut columns = take(&mut self.columns);
+        let (triangles, ()) =
+            rayon::join(|| self.replace_triangles(mesh, &update), || columns.update(mesh, &update.vertices));
+        self.columns = columns;
+        Some((update.vertices.iter().map(|updated| updated.vertex).collect(), triangles?))
     }
 
-    /// The triangles that are replaced, increasing.
+    /// Replaces the triangles of faces; those that are other ones now, or have other flags or
+    /// sides, increasing. `None`, and nothing is replaced, where a face has more or fewer than
+    /// before.
     fn replace_triangles(&mut self, mesh: &Mesh, update: &RenderUpdate) -> Option<Vec<u32>> {
-        let mut replaced = Vec::with_capacity(update.triangulation.triangles.len());
-        let slots = mesh.attributes().face_materials.as_deref();
-        let made_flags = self.edge_flags.get().map(|_| flags_of_update(mesh, update));
-        let made_faces = update.triangulation.triangle_faces.as_slice();
+        /// Faces that a thread takes at a time.
+        const PIECE: usize = 1024;
+        let cuts = self.cuts(mesh, update)?;
+        let vertex_of_corner = self.links.as_ref()?.vertex_of_corner();
+        let mut lists = TriangleLists {
+            triangles: &mut self.triangles,
+            flags: self.edge_flags.get_mut().map_or(&mut [], Vec::as_mut_slice),
+            sides: self.side_edges.get_mut().map_or(&mut [], |sides| Arc::make_mut(sides).as_mut_slice()),
+        };
         let mut first = 0;
+        let mut pieces = Vec::with_capacity(cuts.len().div_ceil(PIECE));
+        for cuts in cuts.chunks(PIECE) {
+            let end = cuts[cuts.len() - 1].end();
+            pieces.push((cuts, first, lists.split_off(end - first)));
+            first = end;
+        }
+        let replace = |(cuts, first, mut lists): (&[Cut<'_>], usize, TriangleLists<'_>)| {
+            let (mut replaced, mut flags) = (Vec::new(), Vec::new());
+            for cut in cuts {
+                flags.clear();
+                if !lists.flags.is_empty() {
+                    flags_of_face(mesh, (cut.face, cut.triangles), |made| flags.push(made));
+                }
+                lists.write(mesh, vertex_of_corner, (cut, first), (&flags, &mut replaced));
+            }
+            replaced
+        };
+        Some(pieces.into_par_iter().map(replace).collect::<Vec<_>>().concat())
+    }
+
+    /// How the changed faces are cut, by the place of their triangles.
+    fn cuts<'a>(&self, mesh: &Mesh, update: &'a RenderUpdate) -> Option<Vec<Cut<'a>>> {
+        let slots = mesh.attributes().face_materials.as_deref();
+        let (mut triangles, mut faces) =
+            (update.triangulation.triangles.as_slice(), update.triangulation.triangle_faces.as_slice());
+        let mut cuts = Vec::with_capacity(update.faces.len());
         for &face in &update.faces {
-            let count = made_faces[first..].iter().take_while(|&&of| of == face).count();
-            let made = first..first + count;
-            first = made.end;
+            let count = faces.iter().take_while(|&&of| of == face).count();
+            faces = &faces[count..];
+            let own = triangles.split_off(..count)?;
             let slot = slots.map_or(0, |slots| slots[face as usize]);
             let place = self.place_of(face, slot, mesh.face_count());
             if place.len() != count {
                 return None;
             }
-            replaced.extend(place.clone().map(|triangle| triangle as u32));
-            let vertex_of_corner = self.links.as_ref()?.vertex_of_corner();
-            let triangles = &update.triangulation.triangles[made.clone()];
-            for (own, &corners) in self.triangles[place.clone()].iter_mut().zip(triangles) {
-                *own = corners.map(|corner| vertex_of_corner[corner as usize]);
-            }
-            if let Some(sides) = self.side_edges.get_mut() {
-                let sides = &mut Arc::make_mut(sides)[place.clone()];
-                for (sides, triangle) in sides.iter_mut().zip(triangles) {
-                    *sides = sides_of_triangle(mesh, face, triangle);
-                }
-            }
-            if let (Some(flags), Some(made_flags)) = (self.edge_flags.get_mut(), &made_flags) {
-                flags[place].copy_from_slice(&made_flags[made]);
+            if count > 0 {
+                cuts.push(Cut { face, triangles: own, place: place.start });
             }
         }
         // Out of order where faces of several slots change.
-        replaced.sort_unstable();
-        Some(replaced)
+        cuts.sort_by_key(|cut| cut.place);
+        Some(cuts)
     }
 
     /// Where the triangles of a face of a slot lie; empty where it has none.
@@ -111,23 +136,67 @@ impl Geometry {
     }
 }
 
-/// The flags of all triangles that are made anew.
-fn flags_of_update(mesh: &Mesh, update: &RenderUpdate) -> Vec<EdgeFlags> {
-    /// Faces that a thread takes at a time.
-    const PIECE: usize = 1024;
-    let triangles = update.triangulation.triangles.as_slice();
-    let mut faces = Vec::with_capacity(update.faces.len());
-    let mut first = 0;
-    for face in update.triangulation.triangle_faces.chunk_by(|a, b| a == b) {
-        faces.push((face[0], &triangles[first..first + face.len()]));
-        first += face.len();
+/// A changed face and its triangles.
+struct Cut<'a> {
+    face: u32,
+    /// Over the corners of the mesh.
+    triangles: &'a [[u32; 3]],
+    /// Where they lie in the geometry.
+    place: usize,
+}
+
+impl Cut<'_> {
+    fn end(&self) -> usize {
+        self.place + self.triangles.len()
     }
-    let flags_of = |faces: &[(u32, &[[u32; 3]])]| {
-        let mut flags = Vec::new();
-        faces.iter().for_each(|&face| flags_of_face(mesh, face, |part| flags.push(part)));
-        flags
-    };
-    faces.par_chunks(PIECE).map(flags_of).collect::<Vec<_>>().concat()
+}
+
+/// What geometry has for each triangle, of some triangles one after the other; or nothing
+/// where it is not known.
+struct TriangleLists<'a> {
+    triangles: &'a mut [[u32; 3]],
+    flags: &'a mut [EdgeFlags],
+    sides: &'a mut [[u32; 3]],
+}
+
+impl<'a> TriangleLists<'a> {
+    /// Takes away the first so many.
+    fn split_off(&mut self, count: usize) -> Self {
+        fn first<'a, T>(list: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+            list.split_off_mut(..count).unwrap_or_default()
+        }
+        Self {
+            triangles: first(&mut self.triangles, count),
+            flags: first(&mut self.flags, count),
+            sides: first(&mut self.sides, count),
+        }
+    }
+
+    /// Writes those of a face, given the place of the first triangle of these lists, and adds
+    /// the places of those that differ from before.
+    fn write(
+        &mut self,
+        mesh: &Mesh,
+        vertex_of_corner: &[u32],
+        (cut, first): (&Cut<'_>, usize),
+        (made_flags, replaced): (&[EdgeFlags], &mut Vec<u32>),
+    ) {
+        for (number, triangle) in cut.triangles.iter().enumerate() {
+            let at = cut.place - first + number;
+            let corners = triangle.map(|corner| vertex_of_corner[corner as usize]);
+            let mut differs = replace(&mut self.triangles[at], corners) != corners;
+            if let Some((own, &made)) = self.flags.get_mut(at).zip(made_flags.get(number)) {
+                differs |= replace(own, made) != made;
+            }
+            if let Some(own) = self.sides.get_mut(at) {
+                let sides = sides_of_triangle(mesh, cut.face, triangle);
+                differs |= replace(own, sides) != sides;
+            }
+            if differs {
+                replaced.push((cut.place + number) as u32);
+            }
+        }
+    }
 }
 
 #[cfg(test)]

@@ -28,18 +28,18 @@ pub(super) fn flags_of_face(
     let (first, last) = (corners.start as u32, corners.end as u32 - 1);
     let neighbours = |from: u32, to: u32| to == if from == last { first } else { from + 1 };
     let edges = |&[a, b, c]: &[u32; 3]| [(a, b), (b, c), (c, a)].map(|(from, to)| neighbours(from, to));
-    if let [triangle] = triangles {
-        return give(EdgeFlags::new(edges(triangle)));
-    }
     let measure = |triangle: &[u32; 3]| Measure::new(source, triangle, edges(triangle));
-    let whole = triangles.iter().map(measure).fold(Measure::default(), Measure::sum);
-    for triangle in triangles {
-        let part = measure(triangle);
-        // In the middle of a polygon there are no edges.
-        let own = if part.edges > 0.0 { part.edges } else { part.perimeter };
-        // Without an area it is no number, and so ignored.
-        let ratio = (whole.area * own) / (part.area * whole.edges);
-        give(EdgeFlags::new(edges(triangle)).with_radius_ratio(ratio as f32));
+    let mut give_all = |measures: &[Measure]| {
+        let whole = measures.iter().copied().fold(Measure::default(), Measure::sum);
+        for (triangle, part) in triangles.iter().zip(measures) {
+            give(EdgeFlags::new(edges(triangle)).with_radius_ratio(part.radius_ratio(&whole)));
+        }
+    };
+    match triangles {
+        [triangle] => give(EdgeFlags::new(edges(triangle))),
+        // Quads are many, and take no memory.
+        [first, second] => give_all(&[measure(first), measure(second)]),
+        _ => give_all(&triangles.iter().map(measure).collect::<Vec<_>>()),
     }
 }
 
@@ -65,6 +65,14 @@ impl Measure {
             perimeter: lengths.iter().sum(),
             edges: of_edges.map(|(length, _)| length).sum(),
         }
+    }
+
+    /// How many times the inner radius of this triangle its polygon has.
+    fn radius_ratio(&self, whole: &Self) -> f32 {
+        // In the middle of a polygon there are no edges.
+        let own = if self.edges > 0.0 { self.edges } else { self.perimeter };
+        // Without an area it is no number, and so ignored.
+        ((whole.area * own) / (self.area * whole.edges)) as f32
     }
 
     fn sum(self, other: Self) -> Self {

@@ -309,6 +309,30 @@ fn from_the_third_picture_on_only_what_changes_is_drawn() {
     assert!(tiles(&sequence) > all / 2, "from another place everything looks different");
 }
 
+/// Points and lines have the vertices of the mesh, and not of what is drawn of it: with either of
+/// them a moved vertex drew everything.
+#[test]
+fn points_and_lines_follow_moved_vertices() {
+    for style in [Style::Surface, Style::SurfaceWithEdges, Style::HiddenLine, Style::Wireframe] {
+        let settings = RenderSettings {
+            samples_per_axis: 1,
+            style,
+            vertices: Some(VertexPoints::default()),
+            ..RenderSettings::new(640, 480)
+        };
+        let mut sequence = Sequence::new(model(AlphaMode::Opaque), settings);
+        sequence.draw();
+        let all = tiles(&sequence);
+        sequence.draw();
+        for vertex in [40, 41, 90] {
+            sequence.apply(&moved(vertex));
+            sequence.draw();
+            assert!((1..all / 2).contains(&tiles(&sequence)), "{style:?}: {} of {all}", tiles(&sequence));
+            assert!(sequence.frame == sequence.fresh(), "{style:?}: the bytes of a fresh picture");
+        }
+    }
+}
+
 #[test]
 fn effects_that_reach_over_tiles_draw_everything() {
     let settings = RenderSettings { samples_per_axis: 1, ..RenderSettings::new(320, 240) };
