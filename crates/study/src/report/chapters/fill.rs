@@ -61,6 +61,7 @@ fn of_case(case: Case, effort: Effort) -> Vec<Row> {
         }
         let per_mille = |count: usize| 1e3 * count as f64 / errors.edge_pixels as f64;
         Row::new(case.name(), fill.name())
+            .sized([SIDE; 2])
             .with(WRONG, errors.wrong_per_mille())
             .with(GAPS, per_mille(errors.gaps))
             .with(DOUBLES, per_mille(errors.doubles))
@@ -123,20 +124,12 @@ fn picture() -> Picture {
 fn findings(rows: &[Row]) -> Vec<String> {
     let [tiles, fan, lattice] = [Case::Tiles, Case::Fan, Case::Lattice].map(Case::name);
     let of = |case: &str, fill: Fill, quantity: &str| value(rows, case, fill.name(), quantity);
-    let [float, exact, engine] = [Fill::FloatTopLeft, Fill::Fixed8, Fill::Engine];
+    let [float, exact] = [Fill::FloatTopLeft, Fill::Fixed8];
     vec![
         format!(
-            "**Exact coverage instead of float coverage** takes {} of the time: {} ns per triangle in integers, {} in `f32`; the \
-             engine, which sets up eight triangles at a time, takes {}.",
-            times(of(tiles, exact, TIME), of(tiles, float, TIME)),
-            number(of(tiles, exact, TIME)),
-            number(of(tiles, float, TIME)),
-            number(of(tiles, engine, TIME)),
-        ),
-        format!(
             "What a grid costs is accuracy against corners between its points: {}, {} and {} of a thousand edge pixels go to the \
-             neighbour with 4, 8 and 12 bits. With `f32` it is {}; but far corners leave {} gaps and {} doubles of a thousand \
-             there, where a grid has none, ever.",
+             neighbour with 4, 8 and 12 bits. With `f32` it is {}; but far corners leave {} gaps and {} doubles of a \
+             thousand there, where a grid has none, ever.",
             number(of(tiles, Fill::Fixed4, WRONG)),
             number(of(tiles, exact, WRONG)),
             number(of(tiles, Fill::Fixed12, WRONG)),
@@ -150,9 +143,14 @@ fn findings(rows: &[Row]) -> Vec<String> {
             number(of(lattice, Fill::EdgesAtCenters, DOUBLES)),
             number(of(lattice, Fill::Strips, DOUBLES)),
         ),
-        format!(
-            "The bounding box is worth {} in time over the whole screen, and changes no pixel.",
-            times(of(tiles, Fill::EdgesOnScreen, TIME), of(tiles, Fill::EdgesInBox, TIME)),
-        ),
+    ]
+}
+
+pub(super) fn headlines() -> Vec<Headline> {
+    let tiles = |fills: [Fill; 2]| Headline::within(Case::Tiles.name(), fills.map(Fill::name), [TIME, WRONG]);
+    vec![
+        tiles([Fill::Fixed8, Fill::FloatTopLeft]),
+        tiles([Fill::Engine, Fill::Fixed8]),
+        tiles([Fill::EdgesOnScreen, Fill::EdgesInBox]).meaning("The bounding box changes no pixel."),
     ]
 }

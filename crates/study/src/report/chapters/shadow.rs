@@ -21,7 +21,9 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         Box::new(move || drop(draw(side, &*light)))
     });
     let row = |(shadow, (ready, time)): (Shadow, (Spread, Spread))| {
-        let row = Row::new(CASE, shadow.name()).with(RMSE, error(&draw(side, &*shadow.ready())).rmse());
+        let row = Row::new(CASE, shadow.name())
+            .sized([side; 2])
+            .with(RMSE, error(&draw(side, &*shadow.ready())).rmse());
         row.timed(TIME, time.scaled(1.0 / (side * side) as f64)).timed(READY, ready.scaled(1e-6))
     };
     let rows: Vec<Row> = Shadow::ALL.into_iter().zip(ready.into_iter().zip(times)).map(row).collect();
@@ -31,7 +33,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         text: "Maps that reach just round the ball, nearest texel or four of them weighted, and rays against 5,120 triangles, \
                against the closed form, in the pixels within two of the shadow's edge. A map is made in closed form here; an \
                engine draws it.",
-        findings: findings(&rows),
+        findings: Vec::new(),
         plots: vec![Plot::trade("ball", &rows, CASE, [TIME, RMSE])],
         pictures: vec![picture()],
         rows,
@@ -56,14 +58,11 @@ fn picture() -> Picture {
     )
 }
 
-fn findings(rows: &[Row]) -> Vec<String> {
-    let of = |shadow: Shadow, quantity: &str| value(rows, CASE, &shadow.name(), quantity);
+pub(super) fn headlines() -> Vec<Headline> {
     let map = Shadow::Map(1024, MapFilter::Nearest);
-    vec![format!(
-        "Rays take {} of the time of a map of 1024 texels a side for a pixel, and have {} of its error at the edge, which is that \
-         of the triangles. Filtering takes {} of the time.",
-        times(of(Shadow::Rays, TIME), of(map, TIME)),
-        times(of(Shadow::Rays, RMSE), of(map, RMSE)),
-        times(of(Shadow::Map(1024, MapFilter::Linear), TIME), of(map, TIME)),
-    )]
+    let against_map = |shadow: Shadow| Headline::within(CASE, [shadow.name(), map.name()], [TIME, RMSE]);
+    vec![
+        against_map(Shadow::Rays).meaning("What rays have of error is that of the triangles."),
+        against_map(Shadow::Map(1024, MapFilter::Linear)),
+    ]
 }

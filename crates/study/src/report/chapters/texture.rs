@@ -19,7 +19,10 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     });
     let row = |(filter, time): (TextureFilter, Spread)| {
         let error = filter.error(ground, &right);
-        let row = Row::new(CASE, filter.name()).with(RMSE, error.rmse()).with(WORST, error.worst);
+        let row = Row::new(CASE, filter.name())
+            .sized(ground.size())
+            .with(RMSE, error.rmse())
+            .with(WORST, error.worst);
         row.with(DELTA_E, error.delta_e()).timed(TIME, time.scaled(1.0 / pixels))
     };
     let rows: Vec<Row> = TextureFilter::ALL.into_iter().zip(times).map(row).collect();
@@ -31,7 +34,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         title: "How many texels does a pixel need?",
         text: "The engine's filters, one look-up at a time, on a floor that leads to the horizon, against the mean of 256 points in \
                each pixel.",
-        findings: findings(&rows),
+        findings: Vec::new(),
         plots: vec![Plot::trade("floor", &rows, CASE, [TIME, RMSE])],
         pictures: vec![Picture::new(
             "floor",
@@ -42,18 +45,9 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     }
 }
 
-fn findings(rows: &[Row]) -> Vec<String> {
-    let of = |filter: TextureFilter, quantity: &str| value(rows, CASE, &filter.name(), quantity);
-    let step = |one: TextureFilter, other: TextureFilter| {
-        format!(
-            "{} of the error for {} of the time",
-            times(of(other, RMSE), of(one, RMSE)),
-            times(of(other, TIME), of(one, TIME))
-        )
-    };
-    vec![format!(
-        "Trilinear instead of nearest has {}; anisotropic 16 instead of trilinear, {}.",
-        step(TextureFilter::Nearest, TextureFilter::Trilinear),
-        step(TextureFilter::Trilinear, TextureFilter::Anisotropic(16)),
-    )]
+pub(super) fn headlines() -> Vec<Headline> {
+    let [nearest, trilinear] = [TextureFilter::Nearest, TextureFilter::Trilinear].map(TextureFilter::name);
+    let anisotropic = TextureFilter::Anisotropic(16).name();
+    let of = |filters: [String; 2]| Headline::within(CASE, filters, [TIME, RMSE]);
+    vec![of([trilinear.clone(), nearest]), of([anisotropic, trilinear])]
 }

@@ -21,7 +21,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     for (name, tilt) in [(PARALLEL, 0), (CROSSING, side as i32)] {
         rows.extend(of_scene(name, &sheets(side, tilt), effort));
     }
-    let counts: &[usize] = effort.pick(&[10, 20, 40, 80], &[10, 20, 40, 80, 160, 320, 640, 1280]);
+    let counts: &[usize] = effort.pick(&[10, 20, 40], &[10, 20, 40, 80, 160, 320, 640, 1280]);
     let (by_time, by_tests) = growth(side, counts, effort);
     let findings = findings(&rows, &by_time);
     let balls = Case::Balls.name();
@@ -56,9 +56,11 @@ fn of_scene(name: &str, scene: &Scene, effort: Effort) -> Vec<Row> {
     let times = nanoseconds(effort.rounds().div_ceil(2), &Visibility::ALL, |way| way.repeated(scene));
     let row = |(way, time): (Visibility, Spread)| {
         let Ok(drawing) = way.draw(scene) else {
-            return Row::new(name, format!("{} (refuses: not convex)", way.name()));
+            return Row::new(name, format!("{} (refuses: not convex)", way.name())).sized(scene.size());
         };
-        let row = Row::new(name, way.name()).with(WRONG, OrderErrors::of(scene, &drawing.faces).per_mille());
+        let row = Row::new(name, way.name())
+            .sized(scene.size())
+            .with(WRONG, OrderErrors::of(scene, &drawing.faces).per_mille());
         let row = if drawing.tests > 0 { row.with(TESTS, drawing.tests as f64) } else { row };
         row.timed(TIME, time.scaled(1e-6))
     };
@@ -123,34 +125,35 @@ fn lines_picture() -> Picture {
 }
 
 fn findings(rows: &[Row], by_time: &Lines) -> Vec<String> {
-    let of = |case: &str, way: Visibility, quantity: &str| value(rows, case, way.name(), quantity);
-    let [balls_case, crossing, torus] = [Case::Balls, Case::Crossing, Case::Torus].map(Case::name);
-    let mut findings = vec![
-        format!(
-            "**Rays against the z-buffer:** on 40 balls a tree of rays takes {} of the z-buffer's time, and every face for every \
-             pixel {}; the engine takes {}. {}",
-            times(of(balls_case, Visibility::TreeRays, TIME), of(balls_case, Visibility::ZBuffer, TIME)),
-            times(of(balls_case, Visibility::AllRays, TIME), of(balls_case, Visibility::ZBuffer, TIME)),
-            times(of(balls_case, Visibility::Engine, TIME), of(balls_case, Visibility::ZBuffer, TIME)),
-            crossover(by_time),
-        ),
+    let painter = |case: Case| number(value(rows, case.name(), Visibility::Painter.name(), WRONG));
+    vec![
+        crossover(by_time),
         format!(
             "The painter is right while there is an order: {} ‰ wrong on a torus, {} ‰ where balls stick in each other, {} ‰ in a \
-             ring, and it is as fast as the z-buffer at best.",
-            number(of(torus, Visibility::Painter, WRONG)),
-            number(of(crossing, Visibility::Painter, WRONG)),
-            number(of(Case::Ring.name(), Visibility::Painter, WRONG)),
+             ring.",
+            painter(Case::Torus),
+            painter(Case::Crossing),
+            painter(Case::Ring),
         ),
-    ];
-    let unevenness = |way: Visibility| times(of(CROSSING, way, TESTS), of(PARALLEL, way, TESTS));
-    findings.push(format!(
         "Source D's claims hold: Roberts' work is quadratic in the number of bodies, and the z-buffer's linear (twice the bodies, \
-         four and two times the tests: see the plot); Warnock's follows what overlaps: sheets that cross instead of lying behind \
-         each other take {} of its tests, and of the z-buffer's {}.",
-        unevenness(Visibility::Warnock),
-        unevenness(Visibility::ZBuffer),
-    ));
-    findings
+         four and two times the tests: see the plot); Warnock's follows what overlaps."
+            .to_owned(),
+    ]
+}
+
+pub(super) fn headlines() -> Vec<Headline> {
+    let of = |case: Case, ways: [Visibility; 2]| {
+        Headline::within(case.name(), ways.map(Visibility::name), [TIME, WRONG])
+    };
+    let crossing = |way: Visibility| Headline::between([CROSSING, PARALLEL], way.name(), [TESTS]);
+    vec![
+        of(Case::Balls, [Visibility::TreeRays, Visibility::ZBuffer]),
+        of(Case::Balls, [Visibility::AllRays, Visibility::TreeRays]),
+        of(Case::Balls, [Visibility::Engine, Visibility::ZBuffer]),
+        of(Case::Crossing, [Visibility::Painter, Visibility::ZBuffer]),
+        crossing(Visibility::Warnock),
+        crossing(Visibility::ZBuffer),
+    ]
 }
 
 /// From how many triangles on rays with a tree are faster than the z-buffer.
