@@ -107,7 +107,29 @@ impl Edges {
     /// A value that is linear on the screen, at the centre of a pixel.
     #[inline]
     pub(crate) fn interpolated(&self, shares: &[f64; 3], pixel: [i32; 2]) -> f64 {
-        (0..3).map(|i| self.value(i, pixel) as f64 * shares[i]).sum()
+        weighted(shares, [0, 1, 2].map(|i| self.value(i, pixel)))
+    }
+
+    /// Calls `visit` for each pixel of some columns and rows that the triangle covers, with the
+    /// values of its edges there, which are the weights of the corners. From pixel to pixel the
+    /// values change by their steps: nothing is multiplied.
+    #[inline]
+    pub(crate) fn each_covered(
+        &self,
+        [columns, rows]: &[RangeInclusive<i32>; 2],
+        mut visit: impl FnMut([i32; 2], [i64; 3]),
+    ) {
+        for y in rows.clone() {
+            let mut values = [0, 1, 2].map(|i| self.value(i, [*columns.start(), y]));
+            for x in columns.clone() {
+                if (0..3).all(|i| values[i] >= self.biases[i]) {
+                    visit([x, y], values);
+                }
+                for (value, [across, _]) in values.iter_mut().zip(self.steps) {
+                    *value += across;
+                }
+            }
+        }
     }
 
     /// Columns and rows that the triangle can reach in a picture of that size.
@@ -125,6 +147,12 @@ impl Edges {
         let [across, down] = self.steps[edge];
         self.starts[edge] + across * i64::from(x) + down * i64::from(y)
     }
+}
+
+/// A value that is linear on the screen where the edges have some values.
+#[inline]
+pub(crate) fn weighted(shares: &[f64; 3], weights: [i64; 3]) -> f64 {
+    (0..3).map(|i| weights[i] as f64 * shares[i]).sum()
 }
 
 /// Twice the signed area: positive if the points run clockwise on the screen.

@@ -13,9 +13,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     let width = effort.pick(320, 640);
     let (wall, size) = (&Wall::new(width), [width, width * 3 / 4]);
     let pixels = Interpolation::Affine.draw(wall).values().iter().flatten().count() as f64;
-    let times = nanoseconds(effort.rounds(), &Interpolation::ALL, |way| -> Box<dyn FnMut()> {
-        Box::new(move || drop(way.draw(wall)))
-    });
+    let times = nanoseconds(effort.rounds(), &Interpolation::ALL, |way| way.repeated(wall));
     let row = |(way, time): (Interpolation, Spread)| {
         let errors = way.errors(wall);
         let row = Row::new(CASE, way.name()).sized(size).with(RMS, errors.rms).with(WORST, errors.worst);
@@ -25,8 +23,9 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     Chapter {
         name: "interpolation",
         title: "What does a division in each pixel buy?",
-        text: "Texture coordinates on a wall that leads from 1.5 to 6 metres away, 256 texels to the metre, against what the corners say \
-               in `f64`. The engine's time is that of a whole picture with a pipeline of its own.",
+        text: "Texture coordinates on a wall that leads from 1.5 to 6 metres away, 256 texels to the metre, against exact areas and \
+               a division in `f64` (`oracle::perspective`). Which pixels a row covers is known before for all but the engine, \
+               whose time is that of a whole picture.",
         findings: Vec::new(),
         plots: vec![Plot::trade("wall", &rows, CASE, [TIME, RMS])],
         pictures: vec![picture()],

@@ -16,9 +16,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     let mut rows = Vec::new();
     for (name, ball) in &cases {
         let pixels = Shading::Flat.draw(ball).values().iter().flatten().count() as f64;
-        let times = nanoseconds(effort.rounds(), &Shading::ALL, |shading| -> Box<dyn FnMut()> {
-            Box::new(move || drop(shading.draw(ball)))
-        });
+        let times = nanoseconds(effort.rounds(), &Shading::ALL, |shading| shading.repeated(ball));
         for (shading, time) in Shading::ALL.into_iter().zip(times) {
             let error = shading.error(ball);
             let row = Row::new(name, shading.name())

@@ -1,7 +1,7 @@
 //! In which order are translucent faces laid over each other?
 
 use super::*;
-use crate::transparency::Transparency;
+use crate::transparency::{Transparency, exact};
 use crate::visibility::Case;
 
 const RMSE: &str = "RMSE, linear light";
@@ -14,11 +14,10 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     let mut rows = Vec::new();
     for case in [Case::Balls, Case::Crossing] {
         let scene = &case.scene(side);
-        let times = nanoseconds(effort.rounds().div_ceil(2), &Transparency::ALL, |way| -> Box<dyn FnMut()> {
-            Box::new(move || drop(way.draw(scene)))
-        });
+        let times = nanoseconds(effort.rounds().div_ceil(2), &Transparency::ALL, |way| way.repeated(scene));
+        let right = exact(scene);
         for (way, time) in Transparency::ALL.into_iter().zip(times) {
-            let error = way.error(scene);
+            let error = way.error(scene, &right);
             let row = Row::new(case.name(), way.name())
                 .sized([side; 2])
                 .with(RMSE, error.rmse())
@@ -29,7 +28,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     Chapter {
         name: "transparency",
         title: "In which order are translucent faces laid over each other?",
-        text: "Bodies whose faces let half of the light through, against fragments sorted in each pixel.",
+        text: "Bodies whose faces let half of the light through, against fragments in the order of their exact depths (`oracle::nearness`).",
         findings: Vec::new(),
         plots: vec![Plot::trade("crossing", &rows, Case::Crossing.name(), [TIME, RMSE])],
         pictures: vec![picture()],
