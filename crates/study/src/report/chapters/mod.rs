@@ -8,6 +8,7 @@ mod fill;
 mod frames;
 mod interpolation;
 mod line;
+mod same_bytes;
 mod shading;
 mod shadow;
 mod storage;
@@ -22,7 +23,7 @@ use super::{Chapter, Effort, Picture, Plot, Question, grey, heat, tint, tinted};
 use crate::measure::{Spread, interleaved};
 
 /// The chapters in their order.
-pub(super) const CHAPTERS: [Question; 15] = [
+pub(super) const CHAPTERS: [Question; 16] = [
     Question { name: "fill", measure: fill::measure, headlines: fill::headlines },
     Question { name: "visibility", measure: visibility::measure, headlines: visibility::headlines },
     Question { name: "line", measure: line::measure, headlines: line::headlines },
@@ -35,6 +36,7 @@ pub(super) const CHAPTERS: [Question; 15] = [
     Question { name: "shadow", measure: shadow::measure, headlines: shadow::headlines },
     Question { name: "color", measure: color::measure, headlines: color::headlines },
     Question { name: "coordinates", measure: coordinates::measure, headlines: coordinates::headlines },
+    Question { name: "same-bytes", measure: same_bytes::measure, headlines: same_bytes::headlines },
     Question { name: "storage", measure: storage::measure, headlines: storage::headlines },
     Question { name: "threads", measure: threads::measure, headlines: threads::headlines },
     Question { name: "frames", measure: frames::measure, headlines: frames::headlines },
