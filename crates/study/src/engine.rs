@@ -124,20 +124,26 @@ impl LanePipeline for Corners {
 
     #[inline(always)]
     fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
-        let mut columns = [[0.0; 8]; 4];
-        let lanes = vertices.first()..vertices.first() + vertices.count();
-        for (lane, position) in self.positions[lanes].iter().enumerate() {
-            for (column, value) in columns.iter_mut().zip(position.to_array()) {
-                column[lane] = value;
-            }
-        }
-        columns.map(|column| F32::simd_from(simd, column))
+        positions(simd, vertices, &self.positions)
     }
 
     #[inline(always)]
     fn fragments<S: Simd>(&self, simd: S, _: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
         [1.0, 0.0, 0.0, 0.0].map(|value| F32::splat(simd, value))
     }
+}
+
+/// Positions in clip space, for a vertex stage that has nothing to do.
+#[inline(always)]
+pub(crate) fn positions<S: Simd>(simd: S, vertices: &VertexLanes<'_>, positions: &[Vec4]) -> [F32<S>; 4] {
+    let mut columns = [[0.0; 8]; 4];
+    let lanes = vertices.first()..vertices.first() + vertices.count();
+    for (lane, position) in positions[lanes].iter().enumerate() {
+        for (column, value) in columns.iter_mut().zip(position.to_array()) {
+            column[lane] = value;
+        }
+    }
+    columns.map(|column| F32::simd_from(simd, column))
 }
 
 /// Triangles that paint their own edges.

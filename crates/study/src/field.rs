@@ -39,6 +39,11 @@ impl<T> Field<T> {
         &self.values
     }
 
+    /// The same, to be changed.
+    pub fn values_mut(&mut self) -> &mut [T] {
+        &mut self.values
+    }
+
     /// The value at a place, if that is in the picture.
     pub fn get(&self, place: [i32; 2]) -> Option<&T> {
         self.index(place).map(|index| &self.values[index])
@@ -54,6 +59,13 @@ impl<T> Field<T> {
     pub fn pixels(&self) -> impl Iterator<Item = ([usize; 2], &T)> {
         let width = self.width;
         self.values.iter().enumerate().map(move |(index, value)| ([index % width, index / width], value))
+    }
+
+    /// A row, counted from the top.
+    #[inline]
+    pub fn row_mut(&mut self, y: usize) -> &mut [T] {
+        let start = y * self.width;
+        &mut self.values[start..start + self.width]
     }
 
     /// The rows, from the top.

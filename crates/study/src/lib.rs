@@ -3,7 +3,7 @@
 //! - A module for each question, in which the classical algorithms stand beside the
 //!   engine, each in a file of its own with its source: [`fill`], [`visibility`],
 //!   [`mod@line`], [`shading`], [`interpolation`], [`depth`], [`antialiasing`], [`texture`],
-//!   [`transparency`], [`shadow`], [`color`], [`coordinates`], [`storage`], [`threads`];
+//!   [`transparency`], [`shadow`], [`color`], [`coordinates`], [`same_bytes`], [`storage`], [`threads`];
 //!   [`frames`] for whole pictures.
 //! - Exact answers to hold them against: [`oracle`].
 //! - What all that costs: [`report`].
@@ -42,6 +42,7 @@ pub mod interpolation;
 pub mod line;
 pub mod oracle;
 pub mod report;
+pub mod same_bytes;
 pub mod shading;
 pub mod shadow;
 pub mod storage;

@@ -49,6 +49,7 @@ impl Canvas {
     }
 
     /// Fills triangles with a brush of its own for each.
+    #[inline(always)]
     pub(super) fn each(&mut self, triangles: &[Triangle], fill: impl Fn(&Triangle, &mut Self)) {
         for (brush, triangle) in (0..).zip(triangles) {
             self.brush = brush;

@@ -5,10 +5,21 @@ use std::ops::RangeInclusive;
 
 /// With `BITS` bits behind the point.
 pub(super) fn fill<const BITS: u32>(triangle: &Triangle, canvas: &mut Canvas) {
-    let one = f64::from(1 << BITS);
+    if let Some(edges) = edges(triangle, BITS) {
+        fill_edges(&edges, canvas);
+    }
+}
+
+/// The edges of a triangle with its corners on a grid; none if it has no area there.
+pub(super) fn edges(triangle: &Triangle, bits: u32) -> Option<Edges> {
+    let one = f64::from(1 << bits);
     let snapped =
         triangle.map(|corner| corner.as_dvec2().to_array().map(|part| (part * one).round_ties_even() as i64));
-    let Some(edges) = Edges::new(snapped, 1 << BITS) else { return };
+    Edges::new(snapped, 1 << bits)
+}
+
+/// Pixel by pixel of the bounding box.
+pub(super) fn fill_edges(edges: &Edges, canvas: &mut Canvas) {
     let [columns, rows] = edges.bounding_box(canvas.limits());
     for y in rows {
         for x in columns.clone() {
@@ -61,6 +72,24 @@ impl Edges {
         (0..3).all(|i| self.value(i, pixel) >= self.biases[i])
     }
 
+    /// The edges in units of one pixel times the grid's, rounded down, which keeps their signs
+    /// with the borders counted: for each the value at `first`, and the steps from column to
+    /// column and from row to row. None if a value between `first` and `last` exceeds 32 bits.
+    pub(super) fn planes(&self, first: [i32; 2], last: [i32; 2]) -> Option<[[i32; 3]; 3]> {
+        let mut planes = [[0; 3]; 3];
+        for (i, plane) in planes.iter_mut().enumerate() {
+            let value = |pixel: [i32; 2]| (self.value(i, pixel) - self.biases[i]).div_euclid(self.one);
+            // A linear function is largest and least in corners.
+            let corners = [first, last, [first[0], last[1]], [last[0], first[1]]];
+            if corners.iter().any(|&corner| i32::try_from(value(corner)).is_err()) {
+                return None;
+            }
+            let [across, down] = self.steps[i].map(|step| step / self.one);
+            *plane = [value(first), across, down].map(|part| part as i32);
+        }
+        Some(planes)
+    }
+
     /// Whether a pixel's centre lies beyond one of the three edges.
     pub(crate) fn is_beyond(&self, edge: usize, pixel: [i32; 2]) -> bool {
         self.value(edge, pixel) < self.biases[edge]
@@ -78,7 +107,29 @@ impl Edges {
     /// A value that is linear on the screen, at the centre of a pixel.
     #[inline]
     pub(crate) fn interpolated(&self, shares: &[f64; 3], pixel: [i32; 2]) -> f64 {
-        (0..3).map(|i| self.value(i, pixel) as f64 * shares[i]).sum()
+        weighted(shares, [0, 1, 2].map(|i| self.value(i, pixel)))
+    }
+
+    /// Calls `visit` for each pixel of some columns and rows that the triangle covers, with the
+    /// values of its edges there, which are the weights of the corners. From pixel to pixel the
+    /// values change by their steps: nothing is multiplied.
+    #[inline]
+    pub(crate) fn each_covered(
+        &self,
+        [columns, rows]: &[RangeInclusive<i32>; 2],
+        mut visit: impl FnMut([i32; 2], [i64; 3]),
+    ) {
+        for y in rows.clone() {
+            let mut values = [0, 1, 2].map(|i| self.value(i, [*columns.start(), y]));
+            for x in columns.clone() {
+                if (0..3).all(|i| values[i] >= self.biases[i]) {
+                    visit([x, y], values);
+                }
+                for (value, [across, _]) in values.iter_mut().zip(self.steps) {
+                    *value += across;
+                }
+            }
+        }
     }
 
     /// Columns and rows that the triangle can reach in a picture of that size.
@@ -96,6 +147,12 @@ impl Edges {
         let [across, down] = self.steps[edge];
         self.starts[edge] + across * i64::from(x) + down * i64::from(y)
     }
+}
+
+/// A value that is linear on the screen where the edges have some values.
+#[inline]
+pub(crate) fn weighted(shares: &[f64; 3], weights: [i64; 3]) -> f64 {
+    (0..3).map(|i| weights[i] as f64 * shares[i]).sum()
 }
 
 /// Twice the signed area: positive if the points run clockwise on the screen.

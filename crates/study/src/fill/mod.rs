@@ -11,6 +11,7 @@ mod engine;
 mod errors;
 pub(crate) mod fixed;
 mod float;
+mod lanes;
 mod scanlines;
 mod strips;
 
@@ -40,30 +41,39 @@ pub enum Fill {
     EdgesInBox,
     /// The same at the middle of the pixel instead of its corner.
     EdgesAtCenters,
-    /// Edge functions in `f32` with the top-left rule.
-    FloatTopLeft,
+    /// Edge functions in `f32` with the top-left rule, from their corners in each pixel.
+    FloatFromCorners,
+    /// The same as linear functions, made once for a triangle.
+    FloatHoisted,
+    /// The same for eight pixels at a time.
+    FloatLanes,
     /// Corners on a grid of 1/16 pixel, then exact integers.
     Fixed4,
     /// Corners on a grid of 1/256 pixel.
     Fixed8,
     /// Corners on a grid of 1/4096 pixel.
     Fixed12,
+    /// [`Fixed8`](Self::Fixed8) for eight pixels at a time.
+    Fixed8Lanes,
     /// The renderer: a grid of 1/256 pixel.
     Engine,
 }
 
 impl Fill {
     /// All of them, the oldest ideas first.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 13] = [
         Self::Strips,
         Self::Scanlines,
         Self::EdgesOnScreen,
         Self::EdgesInBox,
         Self::EdgesAtCenters,
-        Self::FloatTopLeft,
+        Self::FloatFromCorners,
+        Self::FloatHoisted,
+        Self::FloatLanes,
         Self::Fixed4,
         Self::Fixed8,
         Self::Fixed12,
+        Self::Fixed8Lanes,
         Self::Engine,
     ];
 
@@ -75,10 +85,13 @@ impl Fill {
             Self::EdgesOnScreen => "inclusive edges, screen",
             Self::EdgesInBox => "inclusive edges, box",
             Self::EdgesAtCenters => "inclusive edges, centres",
-            Self::FloatTopLeft => "float edges, top-left",
+            Self::FloatFromCorners => "float edges from corners",
+            Self::FloatHoisted => "float edges",
+            Self::FloatLanes => "float edges, eight lanes",
             Self::Fixed4 => "fixed point, 4 bits",
             Self::Fixed8 => "fixed point, 8 bits",
             Self::Fixed12 => "fixed point, 12 bits",
+            Self::Fixed8Lanes => "fixed point, 8 bits, eight lanes",
             Self::Engine => "engine",
         }
     }
@@ -91,10 +104,13 @@ impl Fill {
             Self::EdgesOnScreen => canvas.each(triangles, edges::fill_on_screen),
             Self::EdgesInBox => canvas.each(triangles, edges::fill_in_box),
             Self::EdgesAtCenters => canvas.each(triangles, edges::fill_at_centers),
-            Self::FloatTopLeft => canvas.each(triangles, float::fill),
+            Self::FloatFromCorners => canvas.each(triangles, float::fill_from_corners),
+            Self::FloatHoisted => canvas.each(triangles, float::fill_hoisted),
+            Self::FloatLanes => lanes::fill_float(triangles, canvas),
             Self::Fixed4 => canvas.each(triangles, fixed::fill::<4>),
             Self::Fixed8 => canvas.each(triangles, fixed::fill::<8>),
             Self::Fixed12 => canvas.each(triangles, fixed::fill::<12>),
+            Self::Fixed8Lanes => lanes::fill_fixed(triangles, canvas),
             Self::Engine => engine::fill(triangles, canvas),
         }
     }

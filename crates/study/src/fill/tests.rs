@@ -57,7 +57,8 @@ fn each_bit_of_a_grid_buys_accuracy() {
 
 #[test]
 fn what_lies_on_the_grid_is_exact() {
-    for fill in [Fill::Fixed4, Fill::Fixed8, Fill::Fixed12, Fill::FloatTopLeft, Fill::Engine] {
+    let floats = [Fill::FloatFromCorners, Fill::FloatHoisted];
+    for fill in [Fill::Fixed4, Fill::Fixed8, Fill::Fixed12, Fill::Engine].into_iter().chain(floats) {
         assert_eq!(errors(fill, Case::Lattice, 2).wrong, 0, "{fill:?}: corners on half pixels");
     }
 }
@@ -72,12 +73,44 @@ fn inclusive_edges_paint_shared_pixels_twice() {
 
 #[test]
 fn float_edges_break_where_values_are_large() {
-    let far = errors(Fill::FloatTopLeft, Case::Fan, 4);
+    let far = errors(Fill::FloatFromCorners, Case::Fan, 4);
     assert!(far.gaps + far.doubles > 0, "needles of 12,000 pixels: {far:?}");
     assert!(
         far.wrong < errors(Fill::Fixed4, Case::Fan, 4).wrong,
         "but corners stay nearer to the input than on a coarse grid"
     );
+}
+
+#[test]
+fn lanes_paint_the_pixels_of_one_at_a_time() {
+    for case in Case::ALL {
+        let triangles = case.triangles(SIDE, 6);
+        for [lanes, single] in [[Fill::FloatLanes, Fill::FloatHoisted], [Fill::Fixed8Lanes, Fill::Fixed8]] {
+            assert!(
+                painted(lanes, &triangles).pixels() == painted(single, &triangles).pixels(),
+                "{lanes:?}, {case:?}"
+            );
+        }
+    }
+}
+
+/// Edges farther away than 32 bits reach are done one pixel at a time.
+#[test]
+fn lanes_do_not_overflow() {
+    let far = [Vec2::new(-16_000.0, -16_000.0), Vec2::new(16_000.0, -15_000.0), Vec2::new(100.0, 16_000.0)];
+    let edges = fixed::edges(&far, 8).unwrap();
+    assert_eq!(edges.planes([0; 2], [255; 2]), None, "values of up to 2^36");
+    let [lanes, single] = [Fill::Fixed8Lanes, Fill::Fixed8].map(|fill| painted(fill, &[far]));
+    assert!(lanes.pixels() == single.pixels(), "every pixel");
+}
+
+/// Neighbours get the same value with opposite signs, unlike from corners.
+#[test]
+fn hoisted_float_edges_neither_leave_gaps_nor_paint_twice() {
+    for case in Case::ALL {
+        let FillErrors { gaps, doubles, .. } = errors(Fill::FloatHoisted, case, 4);
+        assert_eq!((gaps, doubles), (0, 0), "{case:?}");
+    }
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! Which share of a picture is proven, and what proving it takes.
 
 use crate::workloads::{Canvas, Scene, Workload};
-use trigon_raster::{Certainty, Rasterizer, TargetError, Tolerance};
+use std::num::NonZeroUsize;
+use trigon_raster::{Certainty, ExecuteSettings, Rasterizer, TargetError, Tolerance};
 
 /// Shares of the pixels that show anything, together 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -14,28 +15,34 @@ pub struct Certified {
     pub color: f64,
 }
 
-/// Draws a workload's picture and proves it, as often as asked for.
+/// Draws a workload's picture and proves it, as often as asked for, on one thread.
 pub struct Prover {
     scene: Scene,
-    pixels: Vec<[u8; 4]>,
+    canvas: Canvas<'static>,
 }
 
 impl Prover {
     /// A picture so many times smaller in each direction. Nothing is drawn yet.
-    pub fn new(workload: Workload, shrink: u32) -> Self {
-        let mut scene = workload.scene();
-        scene.size /= shrink.max(1);
-        let pixels = vec![[0; 4]; scene.pixel_count()];
-        Self { scene, pixels }
-    }
-
-    /// Draws the picture.
     ///
     /// # Errors
     /// Not enough memory.
-    pub fn draw(&mut self) -> Result<(), TargetError> {
-        Canvas::new(Rasterizer::default(), &self.scene, &mut self.pixels)?.draw(&self.scene);
-        Ok(())
+    pub fn new(workload: Workload, shrink: u32) -> Result<Self, TargetError> {
+        let mut scene = workload.scene();
+        scene.size /= shrink.max(1);
+        let settings = ExecuteSettings { threads: Some(NonZeroUsize::MIN), ..Default::default() };
+        let rasterizer = Rasterizer::new(settings).expect("no SIMD level was asked for");
+        let canvas = Canvas::with_own_pixels(rasterizer, &scene)?;
+        Ok(Self { scene, canvas })
+    }
+
+    /// Width and height of the picture in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        self.scene.size.to_array().map(|side| side as usize)
+    }
+
+    /// Draws the picture.
+    pub fn draw(&mut self) {
+        self.canvas.draw(&self.scene);
     }
 
     /// Draws the picture, and proves under the usual tolerance what can be proven of it.
@@ -43,10 +50,9 @@ impl Prover {
     /// # Errors
     /// Not enough memory.
     pub fn prove(&mut self) -> Result<Certified, TargetError> {
-        let mut canvas = Canvas::new(Rasterizer::default(), &self.scene, &mut self.pixels)?;
-        canvas.draw(&self.scene);
-        let certificate = canvas.certify(&self.scene, Tolerance::default())?;
-        let drawn = self.pixels.iter().zip(certificate.pixels());
+        self.canvas.draw(&self.scene);
+        let certificate = self.canvas.certify(&self.scene, Tolerance::default())?;
+        let drawn = self.canvas.pixels().iter().zip(certificate.pixels());
         let drawn = drawn.filter(|(color, _)| **color != Scene::BACKGROUND).map(|(_, certainty)| *certainty);
         let mut counts = [0.0; 3];
         drawn.for_each(|certainty| counts[certainty as usize] += 1.0);

@@ -52,7 +52,7 @@ fn misses_are_parts_of_what_was_measured() {
 
 #[test]
 fn most_of_a_smooth_picture_is_certified() {
-    let proven = Prover::new(Workload::KnotPhong, 8).prove().unwrap();
+    let proven = Prover::new(Workload::KnotPhong, 8).unwrap().prove().unwrap();
     let sum = proven.certified + proven.visibility + proven.color;
     // Three quotients by the same number: a few roundings.
     assert!((sum - 1.0).abs() < 1e-12, "every pixel is one of three: {proven:?}");

@@ -1,22 +1,27 @@
-//! Divided at every 16th pixel of a row and at its end, and linear between (M. Abrash,
+//! Divided at every 16th pixel of a row and at its end, and steps added between (M. Abrash,
 //! "Graphics Programming Black Book", 1997, chapter 70, on Quake).
 
-use super::wall::{Facet, Picture, paint};
-use std::ops::RangeInclusive;
+use super::Texel;
+use super::wall::Row;
 
-const STEP: i32 = 16;
+const STEP: usize = 16;
 
-pub(super) fn row(triangle: &Facet, y: i32, columns: RangeInclusive<i32>, picture: &mut Picture) {
-    let (mut start, end) = (*columns.start(), *columns.end());
-    let mut here = triangle.perspective([start, y]);
-    paint(picture, [start, y], here);
-    while start < end {
-        let stop = end.min(start + STEP);
-        let there = triangle.perspective([stop, y]);
-        for x in start + 1..=stop {
-            let share = (x - start) as f32 / (stop - start) as f32;
-            paint(picture, [x, y], [0, 1].map(|axis| here[axis] + (there[axis] - here[axis]) * share));
+#[inline]
+pub(super) fn row(row: &Row, pixels: &mut [Option<Texel>]) {
+    let last = pixels.len() - 1;
+    let mut here = row.perspective(0);
+    for (start, span) in (0..).step_by(STEP).zip(pixels.chunks_mut(STEP)) {
+        // To the first pixel of the next span, or to the last one of the row.
+        let stop = (start + STEP).min(last);
+        let there = row.perspective(stop);
+        // A power of two but in the last span.
+        let share = 1.0 / (stop - start).max(1) as f32;
+        let steps = [0, 1].map(|axis| (there[axis] - here[axis]) * share);
+        let mut texel = here;
+        for pixel in span {
+            *pixel = Some(texel);
+            texel = [texel[0] + steps[0], texel[1] + steps[1]];
         }
-        (start, here) = (stop, there);
+        here = there;
     }
 }

@@ -46,11 +46,36 @@ impl Interpolation {
 
     /// The texel at the centre of each pixel of a wall; none beside it.
     pub fn draw(self, wall: &Wall) -> Field<Option<Texel>> {
+        if self == Self::Engine {
+            let mut drawer = engine::Drawer::new(wall);
+            drawer.draw();
+            return drawer.picture();
+        }
+        let mut picture = Field::new(wall.size, None);
+        self.draw_into(wall, &mut picture);
+        picture
+    }
+
+    /// What draws a wall again and again, with all kept that can be kept.
+    pub fn repeated(self, wall: &Wall) -> Box<dyn FnMut() + '_> {
+        if self == Self::Engine {
+            let mut drawer = engine::Drawer::new(wall);
+            return Box::new(move || drawer.draw());
+        }
+        let mut picture = Field::new(wall.size, None);
+        Box::new(move || {
+            picture.clear(None);
+            self.draw_into(wall, &mut picture);
+        })
+    }
+
+    /// By one of the classical ways.
+    fn draw_into(self, wall: &Wall, picture: &mut Field<Option<Texel>>) {
         match self {
-            Self::Affine => wall.draw(affine::row),
-            Self::Every16 => wall.draw(every16::row),
-            Self::Perspective => wall.draw(perspective::row),
-            Self::Engine => engine::draw(wall),
+            Self::Affine => wall.draw_into(picture, affine::row),
+            Self::Every16 => wall.draw_into(picture, every16::row),
+            Self::Perspective => wall.draw_into(picture, perspective::row),
+            Self::Engine => {}
         }
     }
 

@@ -3,15 +3,11 @@
 use super::Texel;
 use crate::field::Field;
 use crate::fill::fixed::Edges;
-use std::ops::RangeInclusive;
+use crate::oracle::{coverage, perspective};
+use std::ops::Range;
 
 /// The texel in each pixel; none where the wall is not.
 pub(super) type Picture = Field<Option<Texel>>;
-
-/// Sets the texel of a pixel of the picture.
-pub(super) fn paint(picture: &mut Picture, [x, y]: [i32; 2], texel: Texel) {
-    picture[[x as usize, y as usize]] = Some(texel);
-}
 
 /// A wall with a texture, beside an eye one metre from it.
 pub struct Wall {
@@ -24,7 +20,7 @@ pub struct Wall {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     /// In 1/256 pixel.
-    pub(super) place: [i64; 2],
+    pub(super) place: [i32; 2],
     /// How far from the eye.
     pub(super) distance: f64,
     /// In texels.
@@ -34,47 +30,90 @@ pub(super) struct Corner {
 /// The corners of the two triangles.
 pub(super) const TRIANGLES: [[usize; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
+/// A function that is linear on the screen: its value at the first pixel's centre, and its steps
+/// from column to column and from row to row.
+#[derive(Clone, Copy, Debug)]
+struct Plane([f64; 3]);
+
+impl Plane {
+    fn new(edges: &Edges, values: [f64; 3]) -> Self {
+        let shares = edges.shares(values);
+        let [start, right, below] = [[0, 0], [1, 0], [0, 1]].map(|pixel| edges.interpolated(&shares, pixel));
+        Self([start, right - start, below - start])
+    }
+
+    /// From a pixel on to the right.
+    fn along(self, [x, y]: [usize; 2]) -> Linear {
+        let Self([start, across, down]) = self;
+        Linear { start: (start + across * x as f64 + down * y as f64) as f32, step: across as f32 }
+    }
+}
+
+/// A linear function along a row, in `f32`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Linear {
+    start: f32,
+    step: f32,
+}
+
+impl Linear {
+    /// So many pixels from its start.
+    #[inline]
+    pub(super) fn at(self, pixels: usize) -> f32 {
+        self.start + self.step * pixels as f32
+    }
+}
+
+/// What a row of a triangle has at its first pixel, and how that changes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row {
+    pub(super) texel: [Linear; 2],
+    pub(super) texel_over_distance: [Linear; 2],
+    pub(super) inverse_distance: Linear,
+}
+
+impl Row {
+    /// The texel on the wall so many pixels from the first one: a division.
+    #[inline]
+    pub(super) fn perspective(&self, pixels: usize) -> Texel {
+        let distance = 1.0 / self.inverse_distance.at(pixels);
+        self.texel_over_distance.map(|part| part.at(pixels) * distance)
+    }
+}
+
 /// A triangle with what is linear on the screen over it.
-pub(super) struct Facet {
-    edges: Edges,
-    texel: [[f64; 3]; 2],
-    texel_over_distance: [[f64; 3]; 2],
-    inverse_distance: [f64; 3],
+struct Facet {
+    /// The columns that each row covers: one range, as a triangle has no holes.
+    spans: Vec<Range<usize>>,
+    texel: [Plane; 2],
+    texel_over_distance: [Plane; 2],
+    inverse_distance: Plane,
 }
 
 impl Facet {
-    fn new(corners: [Corner; 3]) -> Self {
-        let edges = Edges::new(corners.map(|corner| corner.place), 256).expect("the wall has an area");
-        let texel = [0, 1].map(|axis| edges.shares(corners.map(|corner| corner.texel[axis])));
-        let texel_over_distance =
-            [0, 1].map(|axis| edges.shares(corners.map(|corner| corner.texel[axis] / corner.distance)));
-        let inverse_distance = edges.shares(corners.map(|corner| 1.0 / corner.distance));
-        Self { edges, texel, texel_over_distance, inverse_distance }
+    fn new(corners: [Corner; 3], size: [usize; 2]) -> Self {
+        let places = corners.map(|corner| corner.place.map(i64::from));
+        let edges = Edges::new(places, 256).expect("the wall has an area");
+        let mut spans = vec![0..0; size[1]];
+        edges.each_covered(&edges.bounding_box(size.map(|side| side as i32)), |[x, y], _| {
+            let span = &mut spans[y as usize];
+            *span = if span.end == 0 { x as usize..x as usize + 1 } else { span.start..x as usize + 1 };
+        });
+        let plane = |value: &dyn Fn(Corner) -> f64| Plane::new(&edges, corners.map(value));
+        Self {
+            spans,
+            texel: [0, 1].map(|axis| plane(&|corner| corner.texel[axis])),
+            texel_over_distance: [0, 1].map(|axis| plane(&|corner| corner.texel[axis] / corner.distance)),
+            inverse_distance: plane(&|corner| 1.0 / corner.distance),
+        }
     }
 
-    /// Linear on the screen.
-    pub(super) fn affine(&self, pixel: [i32; 2]) -> Texel {
-        self.texel.map(|shares| self.edges.interpolated(&shares, pixel) as f32)
-    }
-
-    /// Linear on the wall, computed in `f32`.
-    pub(super) fn perspective(&self, pixel: [i32; 2]) -> Texel {
-        let inverse = self.edges.interpolated(&self.inverse_distance, pixel) as f32;
-        self.texel_over_distance.map(|shares| self.edges.interpolated(&shares, pixel) as f32 / inverse)
-    }
-
-    /// The same in `f64`: what is right.
-    fn exact(&self, pixel: [i32; 2]) -> [f64; 2] {
-        let inverse = self.edges.interpolated(&self.inverse_distance, pixel);
-        self.texel_over_distance.map(|shares| self.edges.interpolated(&shares, pixel) / inverse)
-    }
-
-    /// The columns that are covered in a row: one range, as a triangle has no holes.
-    fn columns(&self, y: i32, limits: [i32; 2]) -> Option<RangeInclusive<i32>> {
-        let [columns, _] = self.edges.bounding_box(limits);
-        let mut covered = columns.filter(|&x| self.edges.covers([x, y]));
-        let first = covered.next()?;
-        Some(first..=covered.next_back().unwrap_or(first))
+    fn row(&self, pixel: [usize; 2]) -> Row {
+        Row {
+            texel: self.texel.map(|plane| plane.along(pixel)),
+            texel_over_distance: self.texel_over_distance.map(|plane| plane.along(pixel)),
+            inverse_distance: self.inverse_distance.along(pixel),
+        }
     }
 }
 
@@ -88,34 +127,37 @@ impl Wall {
             let place =
                 [width as f64 * 0.95 - scale / distance, width as f64 * 0.375 - scale * up / distance];
             Corner {
-                place: place.map(|part| (part * 256.0).round() as i64),
+                place: place.map(|part| (part * 256.0).round() as i32),
                 distance,
                 texel: [distance * TEXELS, up * TEXELS],
             }
         };
+        let size = [width, width * 3 / 4];
         let corners = [[-0.9, 1.5], [-0.9, 6.0], [0.9, 6.0], [0.9, 1.5]].map(corner);
-        let triangles = TRIANGLES.map(|triangle| Facet::new(triangle.map(|index| corners[index])));
-        Self { size: [width, width * 3 / 4], corners, triangles }
+        let triangles = TRIANGLES.map(|triangle| Facet::new(triangle.map(|index| corners[index]), size));
+        Self { size, corners, triangles }
     }
 
-    /// A picture that `row` draws what each triangle covers of each row into.
-    pub(super) fn draw(&self, row: impl Fn(&Facet, i32, RangeInclusive<i32>, &mut Picture)) -> Picture {
-        let mut picture = Field::new(self.size, None);
-        let limits = self.size.map(|side| side as i32);
+    /// Draws each row of each triangle by a function of the row and its pixels.
+    #[inline]
+    pub(super) fn draw_into(&self, picture: &mut Picture, row: impl Fn(&Row, &mut [Option<Texel>])) {
         for triangle in &self.triangles {
-            for y in 0..limits[1] {
-                if let Some(columns) = triangle.columns(y, limits) {
-                    row(triangle, y, columns, &mut picture);
-                }
+            for (y, span) in triangle.spans.iter().enumerate().filter(|(_, span)| span.end > 0) {
+                row(&triangle.row([span.start, y]), &mut picture.row_mut(y)[span.clone()]);
             }
         }
-        picture
     }
 
-    /// The right texel at the centre of a pixel.
+    /// The right texel at the centre of a pixel, by [`perspective::at`].
     pub(super) fn texel(&self, place: [usize; 2]) -> Option<[f64; 2]> {
-        let pixel = place.map(|part| part as i32);
-        let covering = self.triangles.iter().find(|triangle| triangle.edges.covers(pixel));
-        covering.map(|triangle| triangle.exact(pixel))
+        let point = coverage::centre(place.map(|part| part as i32));
+        let triangles = TRIANGLES.map(|triangle| triangle.map(|index| self.corners[index]));
+        let corners =
+            triangles.into_iter().find(|corners| coverage::covers(corners.map(|c| c.place), point))?;
+        let distances = corners.map(|corner| corner.distance);
+        let [u, v] = [0, 1].map(|axis| {
+            perspective::at(corners.map(|c| c.place), distances, corners.map(|c| c.texel[axis]), point)
+        });
+        Some([u?, v?])
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Nothing here shares a line with the engine: coverage by displacement instead
 //! of edge functions with a bias ([`coverage`]), depth and areas in rational
-//! numbers ([`depth`], [`area`]), what an eye sees by rays instead of projection,
+//! numbers ([`depth`], [`area`]), order by fractions of integers ([`nearness`]), what an eye sees by rays instead of projection,
 //! cutting and snapping ([`ray`]). Where a result is not exact, its
 //! documentation states the bound.
 //!
@@ -32,6 +32,8 @@ pub mod depth;
 mod double_double;
 pub mod face_edges;
 pub mod half_plane;
+pub mod nearness;
+pub mod perspective;
 pub mod ray;
 
 pub use double_double::DoubleDouble;

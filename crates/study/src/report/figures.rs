@@ -2,12 +2,55 @@
 
 use crate::measure::Spread;
 
-/// What one variant gave in one case.
+/// What one variant gave in one case, and under which conditions.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Row {
+    /// The table that it stands in.
     pub(super) case: String,
+    /// Its name there.
     pub(super) variant: String,
+    pub(super) conditions: Conditions,
     pub(super) values: Vec<Value>,
+}
+
+/// All that two rows may differ in. Only rows that differ in exactly one of these are compared.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Conditions {
+    /// What does the work, with its settings.
+    pub(super) algorithm: String,
+    pub(super) threads: usize,
+    /// What is drawn, or worked on.
+    pub(super) geometry: String,
+    /// Of the picture, in pixels; 0 where there is none.
+    pub(super) resolution: [usize; 2],
+    pub(super) warmth: Warmth,
+}
+
+/// What a timed run finds ready.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Warmth {
+    /// Memory, threads and trees are kept from run to run.
+    Warm,
+    /// They are made in each run.
+    BuiltAnew,
+}
+
+impl Conditions {
+    /// The names of the conditions in files.
+    pub(super) const NAMES: [&'static str; 5] = ["algorithm", "threads", "geometry", "resolution", "warmth"];
+
+    /// The conditions in words, in the order of their names; empty where there is nothing to say.
+    pub(super) fn words(&self) -> [String; 5] {
+        let [width, height] = self.resolution;
+        let resolution = if width * height > 0 { format!("{width}×{height} pixels") } else { String::new() };
+        let threads =
+            if self.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", self.threads) };
+        let warmth = match self.warmth {
+            Warmth::Warm => "warm",
+            Warmth::BuiltAnew => "built anew in each run",
+        };
+        [self.algorithm.clone(), threads, self.geometry.clone(), resolution, warmth.to_owned()]
+    }
 }
 
 /// One number.
@@ -21,8 +64,47 @@ pub(super) struct Value {
 }
 
 impl Row {
+    /// A row of a table, with one thread and warm, its algorithm and its geometry named like it.
     pub(super) fn new(case: impl Into<String>, variant: impl Into<String>) -> Self {
-        Self { case: case.into(), variant: variant.into(), values: Vec::new() }
+        let (case, variant) = (case.into(), variant.into());
+        let conditions = Conditions {
+            algorithm: variant.clone(),
+            threads: 1,
+            geometry: case.clone(),
+            resolution: [0; 2],
+            warmth: Warmth::Warm,
+        };
+        Self { case, variant, conditions, values: Vec::new() }
+    }
+
+    /// Of a picture of so many pixels.
+    pub(super) fn sized(mut self, resolution: [usize; 2]) -> Self {
+        self.conditions.resolution = resolution;
+        self
+    }
+
+    /// By an algorithm that the row is not named after.
+    pub(super) fn by(mut self, algorithm: impl Into<String>) -> Self {
+        self.conditions.algorithm = algorithm.into();
+        self
+    }
+
+    /// Of something that the table is not named after.
+    pub(super) fn of(mut self, geometry: impl Into<String>) -> Self {
+        self.conditions.geometry = geometry.into();
+        self
+    }
+
+    /// With several threads.
+    pub(super) fn with_threads(mut self, threads: usize) -> Self {
+        self.conditions.threads = threads;
+        self
+    }
+
+    /// With nothing kept from run to run.
+    pub(super) fn built_anew(mut self) -> Self {
+        self.conditions.warmth = Warmth::BuiltAnew;
+        self
     }
 
     /// With a number.
@@ -63,9 +145,4 @@ pub(super) fn number(value: f64) -> String {
         let after = (2.0 - before).max(0.0) as usize;
         format!("{value:.after$}")
     }
-}
-
-/// How many times one number is the other.
-pub(super) fn times(of: f64, other: f64) -> String {
-    format!("{}×", number(of / other))
 }

@@ -1,14 +1,22 @@
 //! The report as text, and its numbers as a list.
 
-use super::figures::{Row, Value, number};
-use super::{Chapter, Effort};
+use super::figures::{Conditions, Row, Value, Warmth, number};
+use super::{Answer, Effort};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
+/// How to read the sentences.
+const RULES: &str = "Each sentence divides one row of the tables below by another one; the two figures stand in brackets. The \
+                     two rows differ in what is printed in bold and in nothing else that is recorded: algorithm, \
+                     threads, geometry, resolution, and whether memory, threads and trees are kept from run to run \
+                     (warm). What lies within 15 % of 1 is no measurable difference. All rows with their conditions are \
+                     in `results.csv` beside the report (here `docs/accuracy.csv`), and a test divides them \
+                     again.\n\n";
+
 /// The whole report.
-pub(super) fn report(effort: Effort, chapters: &[Chapter]) -> String {
+pub(super) fn report(effort: Effort, answers: &[Answer]) -> String {
     let mut text = String::from("# What accuracy costs in time\n\n");
-    let command = if effort == Effort::Quick { "trigon-viewer study --quick" } else { "trigon-viewer study" };
+    let command = effort.pick("trigon-viewer study --quick", "trigon-viewer study");
     let _ = writeln!(
         text,
         "Made by `{command}`. Errors are the same on every machine and held by tests; times were measured by that \
@@ -17,12 +25,15 @@ pub(super) fn report(effort: Effort, chapters: &[Chapter]) -> String {
         processor()
     );
     text.push_str("## In short\n\n");
-    for chapter in chapters {
-        let finding = chapter.findings.first().map_or("", String::as_str);
-        let _ = writeln!(text, "- [{}](#{}) {finding}", chapter.title, anchor(chapter.title));
+    text.push_str(RULES);
+    for Answer { chapter, sentences } in answers {
+        let _ = writeln!(text, "- [{}](#{})", chapter.title, anchor(chapter.title));
+        for sentence in sentences {
+            let _ = writeln!(text, "  - {sentence}");
+        }
     }
-    for chapter in chapters {
-        write_chapter(chapter, &mut text);
+    for answer in answers {
+        write_chapter(answer, &mut text);
     }
     text
 }
@@ -41,10 +52,10 @@ fn processor() -> String {
     format!("{model} ({threads} threads)")
 }
 
-fn write_chapter(chapter: &Chapter, text: &mut String) {
+fn write_chapter(Answer { chapter, sentences }: &Answer, text: &mut String) {
     let _ = write!(text, "\n## {}\n\n{}\n\n", chapter.title, chapter.text);
-    for finding in &chapter.findings {
-        let _ = writeln!(text, "- {finding}");
+    for sentence in sentences.iter().chain(&chapter.findings) {
+        let _ = writeln!(text, "- {sentence}");
     }
     let mut cases: Vec<&str> = Vec::new();
     for row in &chapter.rows {
@@ -95,14 +106,23 @@ fn cell(value: &Value) -> String {
 }
 
 /// A line for each number.
-pub(super) fn write_csv(chapters: &[Chapter], file: &mut impl Write) -> io::Result<()> {
-    writeln!(file, "question,case,variant,quantity,value,low,high")?;
-    for chapter in chapters {
+pub(super) fn write_csv(answers: &[Answer], file: &mut impl Write) -> io::Result<()> {
+    writeln!(file, "question,case,variant,{},quantity,value,low,high", Conditions::NAMES.join(","))?;
+    for Answer { chapter, .. } in answers {
         for row in &chapter.rows {
+            let Conditions { algorithm, threads, geometry, resolution: [width, height], warmth } =
+                &row.conditions;
+            let warmth = if *warmth == Warmth::Warm { "warm" } else { "built anew" };
+            let [question, case, variant, algorithm, geometry] =
+                [chapter.name, &row.case, &row.variant, algorithm, geometry].map(quoted);
             for Value { quantity, value, range } in &row.values {
                 let [low, high] = range.unwrap_or([*value; 2]);
-                let words = [chapter.name, &row.case, &row.variant, quantity].map(quoted);
-                writeln!(file, "{},{value},{low},{high}", words.join(","))?;
+                let quantity = quoted(quantity);
+                write!(
+                    file,
+                    "{question},{case},{variant},{algorithm},{threads},{geometry},{width}x{height},{warmth},"
+                )?;
+                writeln!(file, "{quantity},{value},{low},{high}")?;
             }
         }
     }

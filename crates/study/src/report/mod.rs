@@ -5,6 +5,7 @@
 
 mod chapters;
 mod figures;
+mod headline;
 mod labels;
 mod markdown;
 mod picture;
@@ -16,6 +17,7 @@ mod tests;
 use crate::field::Field;
 use chapters::CHAPTERS;
 use figures::Row;
+use headline::Headline;
 use picture::Picture;
 use plot::Plot;
 use std::fs::{self, File};
@@ -30,22 +32,37 @@ pub enum Effort {
     /// Some minutes.
     #[default]
     Full,
+    /// Everything once, to see that it works.
+    #[cfg(test)]
+    Once,
 }
 
 impl Effort {
     /// One of two numbers.
     fn pick<T>(self, quick: T, full: T) -> T {
-        if self == Self::Quick { quick } else { full }
+        if self == Self::Full { full } else { quick }
     }
 
     /// How often everything is timed.
     fn rounds(self) -> usize {
-        self.pick(5, 15)
+        match self {
+            Self::Quick => 5,
+            Self::Full => 15,
+            #[cfg(test)]
+            Self::Once => 1,
+        }
     }
 }
 
-/// A name, and who measures.
-type Question = (&'static str, fn(Effort) -> Chapter);
+/// A question that a chapter answers.
+#[derive(Clone, Copy)]
+struct Question {
+    /// In file names.
+    name: &'static str,
+    measure: fn(Effort) -> Chapter,
+    /// What stands under "In short" of it.
+    headlines: fn() -> Vec<Headline>,
+}
 
 /// One question, and what was found.
 struct Chapter {
@@ -57,8 +74,23 @@ struct Chapter {
     rows: Vec<Row>,
     plots: Vec<Plot>,
     pictures: Vec<Picture>,
-    /// What a reader should know, with figures.
+    /// What else a reader should know, with figures that are not divided by each other.
     findings: Vec<String>,
+}
+
+/// A chapter with its headlines in words.
+struct Answer {
+    chapter: Chapter,
+    sentences: Vec<String>,
+}
+
+impl Answer {
+    fn measure(question: &Question, effort: Effort) -> Self {
+        let chapter = (question.measure)(effort);
+        let sentences =
+            (question.headlines)().iter().map(|headline| headline.sentence(&chapter.rows)).collect();
+        Self { chapter, sentences }
+    }
 }
 
 /// How far measuring has come.
@@ -75,7 +107,7 @@ pub struct Progress {
 /// All answers.
 pub struct Report {
     effort: Effort,
-    chapters: Vec<Chapter>,
+    answers: Vec<Answer>,
 }
 
 impl Report {
@@ -87,11 +119,11 @@ impl Report {
     /// Measures some chapters.
     fn of(chapters: &[Question], effort: Effort, mut progress: impl FnMut(Progress)) -> Self {
         let of = chapters.len();
-        let measure = |(done, &(chapter, measure)): (usize, &Question)| {
-            progress(Progress { chapter, done, of });
-            measure(effort)
+        let measure = |(done, question): (usize, &Question)| {
+            progress(Progress { chapter: question.name, done, of });
+            Answer::measure(question, effort)
         };
-        Self { effort, chapters: chapters.iter().enumerate().map(measure).collect() }
+        Self { effort, answers: chapters.iter().enumerate().map(measure).collect() }
     }
 
     /// Writes `report.md`, `results.csv` and the folder `images`, which the report shows.
@@ -101,7 +133,7 @@ impl Report {
     pub fn write(&self, folder: &Path) -> io::Result<()> {
         let images = folder.join("images");
         fs::create_dir_all(&images)?;
-        for chapter in &self.chapters {
+        for Answer { chapter, .. } in &self.answers {
             for plot in &chapter.plots {
                 plot.write(&images.join(plot.file(chapter.name)))?;
             }
@@ -110,9 +142,9 @@ impl Report {
             }
         }
         let mut csv = io::BufWriter::new(File::create(folder.join("results.csv"))?);
-        markdown::write_csv(&self.chapters, &mut csv)?;
+        markdown::write_csv(&self.answers, &mut csv)?;
         csv.flush()?;
-        fs::write(folder.join("report.md"), markdown::report(self.effort, &self.chapters))
+        fs::write(folder.join("report.md"), markdown::report(self.effort, &self.answers))
     }
 }
 

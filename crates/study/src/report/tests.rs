@@ -35,7 +35,28 @@ fn everything_that_the_report_names_is_written() {
         let file = fs::read(folder.join("images").join(image)).unwrap();
         assert!(file.len() > 500, "{image} holds a picture");
     }
+    for answer in &report.answers {
+        for sentence in &answer.sentences {
+            assert_eq!(
+                text.matches(sentence.as_str()).count(),
+                2,
+                "in short, and in its chapter: {sentence}"
+            );
+        }
+    }
     let csv = fs::read_to_string(folder.join("results.csv")).unwrap();
-    let fields = csv.lines().filter(|line| line.starts_with("depth,at 10 m,16 bit,bytes,2,2,2"));
+    let fields = csv
+        .lines()
+        .filter(|line| line.starts_with("depth,at 10 m,16 bit,16 bit,1,at 10 m,0x0,warm,bytes,2,2,2"));
     assert_eq!(fields.count(), 1, "a line for each number");
+}
+
+/// Every chapter's headlines find their rows, which differ in one condition: a sentence panics
+/// otherwise.
+#[test]
+fn every_chapter_answers() {
+    for question in CHAPTERS {
+        let answer = Answer::measure(&question, Effort::Once);
+        assert!(!answer.sentences.is_empty(), "{} has a headline", question.name);
+    }
 }

@@ -28,21 +28,12 @@ impl Facet {
         self.edges.shares(values)
     }
 
-    /// A value at the centre of a pixel.
-    pub(super) fn at(&self, shares: &[f64; 3], pixel: [i32; 2]) -> f64 {
-        self.edges.interpolated(shares, pixel)
-    }
-
-    /// Paints the light of each pixel.
-    pub(super) fn paint(&self, picture: &mut Picture, light: impl Fn([i32; 2]) -> f64) {
-        let [columns, rows] = self.edges.bounding_box(picture.size().map(|side| side as i32));
-        for y in rows {
-            for x in columns.clone() {
-                if self.edges.covers([x, y]) {
-                    picture[[x as usize, y as usize]] = Some(light([x, y]));
-                }
-            }
-        }
+    /// Paints the light of each pixel, by the weights of the corners there.
+    pub(super) fn paint(&self, picture: &mut Picture, light: impl Fn([i64; 3]) -> f64) {
+        let pixels = self.edges.bounding_box(picture.size().map(|side| side as i32));
+        self.edges.each_covered(&pixels, |[x, y], weights| {
+            picture[[x as usize, y as usize]] = Some(light(weights));
+        });
     }
 }
 
@@ -75,11 +66,14 @@ impl Ball {
         self.faces.len()
     }
 
-    /// A picture that `shade` draws each face into.
-    pub(super) fn draw(&self, shade: impl Fn(&Facet, &mut Picture)) -> Picture {
-        let mut picture = Field::new([self.side; 2], None);
-        self.faces.iter().for_each(|face| shade(face, &mut picture));
-        picture
+    /// An empty picture of it.
+    pub(super) fn picture(&self) -> Picture {
+        Field::new([self.side; 2], None)
+    }
+
+    /// The faces that are turned to the eye.
+    pub(super) fn faces(&self) -> &[Facet] {
+        &self.faces
     }
 
     /// The unit normal of the ball itself at the centre of a pixel, if it is there.

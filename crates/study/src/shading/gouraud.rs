@@ -3,8 +3,9 @@
 
 use super::ball::{Facet, Picture};
 use super::light_of;
+use crate::fill::fixed::weighted;
 
 pub(super) fn draw(face: &Facet, picture: &mut Picture) {
     let lights = face.shares(face.normals.map(light_of));
-    face.paint(picture, |pixel| face.at(&lights, pixel));
+    face.paint(picture, |weights| weighted(&lights, weights));
 }

@@ -41,11 +41,27 @@ impl Shading {
 
     /// The light in each pixel of a ball; none where it is not.
     pub fn draw(self, ball: &Ball) -> Field<Option<f64>> {
-        match self {
-            Self::Flat => ball.draw(flat::draw),
-            Self::Gouraud => ball.draw(gouraud::draw),
-            Self::Phong => ball.draw(phong::draw),
-        }
+        let mut picture = ball.picture();
+        self.draw_into(ball, &mut picture);
+        picture
+    }
+
+    /// What draws a ball again and again into the same memory.
+    pub fn repeated(self, ball: &Ball) -> Box<dyn FnMut() + '_> {
+        let mut picture = ball.picture();
+        Box::new(move || {
+            picture.clear(None);
+            self.draw_into(ball, &mut picture);
+        })
+    }
+
+    fn draw_into(self, ball: &Ball, picture: &mut Field<Option<f64>>) {
+        let shade = match self {
+            Self::Flat => flat::draw,
+            Self::Gouraud => gouraud::draw,
+            Self::Phong => phong::draw,
+        };
+        ball.faces().iter().for_each(|face| shade(face, picture));
     }
 
     /// How far that is from a ball without triangles, where both are.

@@ -3,12 +3,13 @@
 
 use super::ball::{Facet, Picture};
 use super::light_of;
+use crate::fill::fixed::weighted;
 use trigon_math::DVec3;
 
 pub(super) fn draw(face: &Facet, picture: &mut Picture) {
     let normals = [0, 1, 2].map(|axis| face.shares(face.normals.map(|normal| normal[axis])));
-    face.paint(picture, |pixel| {
-        let normal = DVec3::from(normals.map(|shares| face.at(&shares, pixel)));
+    face.paint(picture, |weights| {
+        let normal = DVec3::from(normals.map(|shares| weighted(&shares, weights)));
         light_of(normal.normalize())
     });
 }

@@ -4,12 +4,13 @@
 //! not depths.
 
 use super::MapFilter;
-use super::stage::{BALL, LIGHT, across, on_floor};
+use super::stage::{BALL, LIGHT, across, on_floor, triangles};
 use crate::field::Field;
+use crate::fill::fixed::{Edges, weighted};
 use trigon_math::DVec3;
 
-/// The distance of the ball from the light's plane through the origin, by texel; no number
-/// where it is not.
+/// The distance of the nearest triangle from the light's plane through the origin, by texel; minus
+/// infinity where there is none.
 pub struct ShadowMap {
     texels: Field<f32>,
 }
@@ -18,14 +19,29 @@ pub struct ShadowMap {
 const REACH: f64 = 1.05;
 
 impl ShadowMap {
-    /// As a light sees the ball, with a square of texels round it.
+    /// As a light sees the ball, with a square of texels round it: its triangles, drawn with a
+    /// z-buffer.
     pub fn new(side: usize) -> Self {
-        let texel = |place: [usize; 2]| {
-            let [u, v] = place.map(|part| ((part as f64 + 0.5) / side as f64 * 2.0 - 1.0) * REACH);
-            let height = 1.0 - u * u - v * v;
-            if height > 0.0 { (BALL.dot(LIGHT) + height.sqrt()) as f32 } else { f32::NAN }
+        let mut texels = Field::new([side; 2], f32::NEG_INFINITY);
+        let across = across();
+        let place = |corner: DVec3| {
+            across.map(|axis| {
+                let texel = ((corner - BALL).dot(axis) / REACH + 1.0) / 2.0 * side as f64;
+                (texel * 256.0).round() as i64
+            })
         };
-        Self { texels: Field::from_fn([side; 2], texel) }
+        for triangle in triangles() {
+            let Some(edges) = Edges::new(triangle.map(place), 256) else { continue };
+            let depths = edges.shares(triangle.map(|corner| corner.dot(LIGHT)));
+            edges.each_covered(&edges.bounding_box([side as i32; 2]), |[x, y], weights| {
+                let nearest = &mut texels[[x as usize, y as usize]];
+                let depth = weighted(&depths, weights) as f32;
+                if depth > *nearest {
+                    *nearest = depth;
+                }
+            });
+        }
+        Self { texels }
     }
 
     /// The share of light that a point of the floor gets.

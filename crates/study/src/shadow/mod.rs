@@ -1,6 +1,8 @@
-//! What does a shadow's edge cost? A ball above a floor, lit from one direction: maps of
-//! several sizes and filters, and rays, against the closed form.
+//! What does a shadow's edge cost? A ball of triangles above a floor, lit from one direction:
+//! maps of several sizes and filters, and rays, and the renderer's own of both, against the
+//! shadow of the same triangles.
 
+mod engine;
 mod map;
 mod rays;
 mod stage;
@@ -11,6 +13,7 @@ mod tests;
 use crate::field::Field;
 use crate::metric::Difference;
 
+pub use engine::Drawer;
 pub use map::ShadowMap;
 pub use rays::ShadowRays;
 
@@ -72,23 +75,35 @@ impl Shadow {
 
 /// The light on a floor of `side` by `side` pixels as something says it.
 pub fn draw(side: usize, light: &dyn Fn([f64; 2]) -> f64) -> Field<f64> {
-    Field::from_fn([side; 2], |place| light(stage::point(place, side)))
+    let mut picture = Field::new([side; 2], 0.0);
+    draw_into(&mut picture, light);
+    picture
 }
 
-/// The light as it is: 0 where the ball is between a point and the light, else 1.
-pub fn exact(point: [f64; 2]) -> f64 {
-    stage::exact(point)
+/// The same into a square picture.
+pub fn draw_into(picture: &mut Field<f64>, light: &dyn Fn([f64; 2]) -> f64) {
+    let [side, _] = picture.size();
+    for (y, row) in picture.rows_mut().enumerate() {
+        for (x, pixel) in row.iter_mut().enumerate() {
+            *pixel = light(stage::point([x, y], side));
+        }
+    }
+}
+
+/// The light as it is: 0 where a triangle of the ball is between a pixel's centre and the light,
+/// else 1.
+pub fn exact(side: usize) -> Field<f64> {
+    stage::exact(side)
 }
 
 /// How far a picture is from right, in the pixels that lie within two of the shadow's edge.
-pub fn error(drawn: &Field<f64>) -> Difference {
-    let side = drawn.size()[0];
-    let right = |place: [usize; 2]| exact(stage::point(place, side));
+pub fn error(drawn: &Field<f64>, right: &Field<f64>) -> Difference {
     let is_near_edge = |[x, y]: [usize; 2]| {
         let around =
             (y.saturating_sub(2)..=y + 2).flat_map(|y| (x.saturating_sub(2)..=x + 2).map(move |x| [x, y]));
-        around.into_iter().any(|place| right(place) != right([x, y]))
+        let mut lights = around.filter_map(|place| right.get(place.map(|part| part as i32)));
+        lights.any(|light| *light != right[[x, y]])
     };
     let near = drawn.pixels().filter(|(place, _)| is_near_edge(*place));
-    Difference::of(near.map(|(place, &light)| [light, right(place)]))
+    Difference::of(near.map(|(place, &light)| [light, right[place]]))
 }

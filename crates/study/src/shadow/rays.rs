@@ -1,9 +1,8 @@
 //! A ray from each point to the light (T. Whitted, "An improved illumination model for
 //! shaded display", CACM 23(6), 1980), against triangles in a tree.
 
-use super::stage::{BALL, LIGHT, on_floor};
+use super::stage::{LIGHT, on_floor, triangles};
 use trigon_math::{Bvh, Ray, Vec3};
-use trigon_mesh::primitives;
 
 /// A ball of 5,120 triangles in a tree.
 pub struct ShadowRays {
@@ -19,13 +18,8 @@ impl Default for ShadowRays {
 impl ShadowRays {
     /// Builds the tree.
     pub fn new() -> Self {
-        let mesh = primitives::icosphere(1.0, 4);
-        let corner = |&vertex: &u32| mesh.positions()[vertex as usize] + BALL.as_vec3();
-        let triangle = |face: usize| -> [Vec3; 3] {
-            let corners = mesh.face_vertices(face);
-            [corner(&corners[0]), corner(&corners[1]), corner(&corners[2])]
-        };
-        let triangles: Vec<[Vec3; 3]> = (0..mesh.face_count()).map(triangle).collect();
+        let triangles: Vec<[Vec3; 3]> =
+            triangles().into_iter().map(|triangle| triangle.map(|corner| corner.as_vec3())).collect();
         Self { tree: Bvh::new(&triangles) }
     }
 

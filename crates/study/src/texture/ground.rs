@@ -35,25 +35,24 @@ impl Ground {
         &self.texture
     }
 
-    /// Texture coordinates at a point of the picture, turned by 0.6 against it, and how they
-    /// change to the right and down.
-    pub(super) fn footprint(&self, [x, y]: [f64; 2]) -> [[f64; 2]; 3] {
-        const TURN: [f64; 2] = [0.8, 0.6];
+    /// How far ahead a point of the picture lies on the floor, in metres.
+    pub(super) fn distance(&self, [_, y]: [f64; 2]) -> f64 {
         let scale = self.width as f64 / 2.0;
         // The horizon lies a twentieth of the height above the picture.
-        let below = (y + self.width as f64 / 40.0) / scale;
-        let (ahead, right) = (1.0 / below, (x - scale) / scale / below);
-        let down = -1.0 / (below * below) / scale;
-        let [ahead_down, right_down] = [down, (x - scale) / scale * down];
-        let turned =
-            |right: f64, ahead: f64| [TURN[0] * right - TURN[1] * ahead, TURN[1] * right + TURN[0] * ahead];
-        [turned(right, ahead), turned(1.0 / scale / below, 0.0), turned(right_down, ahead_down)]
+        scale / (y + self.width as f64 / 40.0)
+    }
+
+    /// Texture coordinates at a point of the picture, turned by 0.6 against it.
+    pub(super) fn coordinates(&self, point: [f64; 2]) -> [f64; 2] {
+        const TURN: [f64; 2] = [0.8, 0.6];
+        let (scale, ahead) = (self.width as f64 / 2.0, self.distance(point));
+        let right = (point[0] - scale) / scale * ahead;
+        [TURN[0] * right - TURN[1] * ahead, TURN[1] * right + TURN[0] * ahead]
     }
 
     /// The light at a point of the picture: that of the texel it lies in.
     pub(super) fn light(&self, point: [f64; 2]) -> f64 {
-        let [uv, ..] = self.footprint(point);
-        let squares = uv.map(|part| (part * f64::from(SIDE / SQUARE)).floor() as i64);
+        let squares = self.coordinates(point).map(|part| (part * f64::from(SIDE / SQUARE)).floor() as i64);
         f64::from(TINTS[(squares[0] + squares[1]).rem_euclid(2) as usize]) / 255.0
     }
 }

@@ -1,16 +1,17 @@
 //! How many texels does a pixel need? The renderer's filters on a floor that leads to the
 //! horizon, against the mean of what each pixel sees of it.
 
+mod engine;
 mod ground;
 
 #[cfg(test)]
 mod tests;
 
+pub use engine::Drawer;
 pub use ground::Ground;
 
 use crate::field::Field;
 use crate::metric::Difference;
-use trigon_math::Vec2;
 use trigon_raster::{Filter, MipFilter, Sampler};
 
 /// A way to look a texture up.
@@ -59,12 +60,9 @@ impl TextureFilter {
 
     /// The light of each pixel.
     pub fn draw(self, ground: &Ground) -> Field<f64> {
-        let sampler = self.sampler();
-        Field::from_fn(ground.size(), |[x, y]| {
-            let [uv, ddx, ddy] =
-                ground.footprint([x as f64 + 0.5, y as f64 + 0.5]).map(|v| Vec2::from(v.map(|c| c as f32)));
-            ground.texture().sample(uv, ddx, ddy, &sampler).x.into()
-        })
+        let mut drawer = Drawer::new(ground);
+        drawer.draw(self);
+        drawer.light()
     }
 
     /// How far that is from the mean of what each pixel sees.

@@ -1,42 +1,76 @@
 //! The renderer's translucent surfaces, which it sorts in each sample.
 
-use super::{SHOWS, light};
+use super::{SHOWS, Way, lights};
 use crate::engine::{Engine, field, target};
 use crate::field::Field;
 use crate::visibility::{Scene, clip_corners};
 use trigon_math::Vec4;
-use trigon_raster::{Culling, Draw, Fragment, Output, Pass, Pipeline, Surface, VertexOutput};
+use trigon_raster::simd::{Each, F32, Simd, prelude::*};
+use trigon_raster::{Culling, Draw, FragmentLanes, LanePipeline, Output, Pass, Surface, Target, VertexLanes};
 
 /// Faces with corners of their own.
 struct Faces {
     corners: Vec<Vec4>,
+    /// Of each face, with the share of it that covers what is behind.
+    lights: Vec<f32>,
 }
 
-impl Pipeline for Faces {
-    type Varyings = ();
+impl LanePipeline for Faces {
+    const VARYINGS: usize = 0;
 
     fn vertex_count(&self) -> usize {
         self.corners.len()
     }
 
-    fn vertex(&self, index: usize) -> VertexOutput<()> {
-        VertexOutput { position: self.corners[index], varyings: () }
+    #[inline(always)]
+    fn vertices<S: Simd>(&self, simd: S, vertices: &mut VertexLanes<'_>) -> [F32<S>; 4] {
+        crate::engine::positions(simd, vertices, &self.corners)
     }
 
-    fn fragment(&self, fragment: &Fragment<()>) -> Vec4 {
-        let alpha = (1.0 - SHOWS) as f32;
-        (Vec4::splat(light(fragment.triangle) as f32) * alpha).with_w(alpha)
+    #[inline(always)]
+    fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4] {
+        let lights = fragments.primitives().each(
+            #[inline(always)]
+            |face| self.lights[face as usize],
+        );
+        let light = F32::simd_from(simd, lights);
+        [light, light, light, F32::splat(simd, (1.0 - SHOWS) as f32)]
     }
 }
 
-pub(super) fn draw(scene: &Scene) -> Field<f64> {
-    let faces = Faces { corners: clip_corners(scene) };
-    let triangles: Vec<[u32; 3]> =
-        (0..scene.face_count() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    let mut target = target(scene.size(), &[Output::Linear]);
-    let mut pass = Pass::new();
-    let surface = Surface::Translucent;
-    pass.triangles(Draw { surface, culling: Culling::None, ..Draw::new(&faces, &triangles) });
-    Engine::default().rasterizer.draw(&pass, &mut target);
-    field(scene.size(), target.linear()).map(|color| color.x.into())
+/// A scene and what it takes to draw it again and again.
+pub(super) struct Drawer {
+    faces: Faces,
+    triangles: Vec<[u32; 3]>,
+    engine: Engine,
+    target: Target<'static>,
+}
+
+impl Drawer {
+    pub(super) fn new(scene: &Scene) -> Self {
+        Self {
+            faces: Faces {
+                corners: clip_corners(scene),
+                lights: lights(scene).into_iter().map(|light| (light * (1.0 - SHOWS)) as f32).collect(),
+            },
+            triangles: (0..scene.face_count() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+            engine: Engine::default(),
+            target: target(scene.size(), &[Output::Linear]),
+        }
+    }
+}
+
+impl Way for Drawer {
+    fn draw(&mut self, _: &Scene) {
+        let mut pass = Pass::new();
+        let surface = Surface::Translucent;
+        let draw = Draw::new(&self.faces, &self.triangles);
+        pass.triangles(Draw { surface, culling: Culling::None, ..draw });
+        self.engine.rasterizer.draw(&pass, &mut self.target);
+    }
+
+    fn picture(&self) -> Field<f64> {
+        let size = [self.target.width(), self.target.height()].map(|side| side as usize);
+        field(size, self.target.linear()).map(|color| color.x.into())
+    }
 }

@@ -1,35 +1,56 @@
 //! Faces laid over each other one after the other (T. Porter and T. Duff, "Compositing
 //! digital images", SIGGRAPH 1984), the farthest first.
 
-use super::{SHOWS, light};
+use super::{SHOWS, Way, lights};
 use crate::field::Field;
 use crate::visibility::{Scene, Surface};
 
-/// In ascending order of a key; equal ones as they come.
-pub(super) fn draw(scene: &Scene, key: impl Fn(u32) -> i64) -> Field<f64> {
-    let mut order: Vec<u32> = scene.faces().map(|(number, _)| number).collect();
-    order.sort_by_key(|&number| key(number));
-    let mut picture = Field::new(scene.size(), 0.0);
-    for number in order {
-        let Some(surface) = Surface::new(scene.face(number)) else { continue };
-        let light = light(number) * (1.0 - SHOWS);
-        surface.each_pixel(scene.limits(), |pixel| {
-            let below = &mut picture[pixel.map(|part| part as usize)];
-            *below = *below * SHOWS + light;
-        });
+/// What faces are sorted by, in ascending order.
+type Key = fn(&Scene, u32) -> i64;
+
+/// Faces in the order of a key; equal ones as they come.
+pub(super) struct Faces {
+    key: Key,
+    order: Vec<u32>,
+    lights: Vec<f64>,
+    picture: Field<f64>,
+}
+
+impl Faces {
+    pub(super) fn new(scene: &Scene, key: Key) -> Self {
+        Self { key, order: Vec::new(), lights: lights(scene), picture: Field::new(scene.size(), 0.0) }
     }
-    picture
+}
+
+impl Way for Faces {
+    fn draw(&mut self, scene: &Scene) {
+        let Self { key, order, lights, picture } = self;
+        order.clear();
+        order.extend(scene.faces().map(|(number, _)| number));
+        order.sort_by_key(|&number| key(scene, number));
+        picture.clear(0.0);
+        for &number in &*order {
+            let Some(surface) = Surface::new(scene.face(number)) else { continue };
+            let light = lights[number as usize] * (1.0 - SHOWS);
+            surface.each_pixel(scene.limits(), |pixel, _| {
+                let below = &mut picture[pixel.map(|part| part as usize)];
+                *below = *below * SHOWS + light;
+            });
+        }
+    }
+
+    fn picture(&self) -> Field<f64> {
+        self.picture.clone()
+    }
 }
 
 /// Three times the depth of a face's middle.
-pub(super) fn depth_of_face(scene: &Scene) -> impl Fn(u32) -> i64 {
-    |number| scene.face(number).corners.iter().map(|corner| i64::from(corner[2])).sum()
+pub(super) fn depth_of_face(scene: &Scene, number: u32) -> i64 {
+    scene.face(number).corners.iter().map(|corner| i64::from(corner[2])).sum()
 }
 
 /// The depth of the middle of a face's body.
-pub(super) fn depth_of_body(scene: &Scene) -> impl Fn(u32) -> i64 {
-    |number| {
-        let corners = &scene.bodies()[scene.face(number).body].corners;
-        corners.iter().map(|corner| i64::from(corner[2])).sum::<i64>() / corners.len() as i64
-    }
+pub(super) fn depth_of_body(scene: &Scene, number: u32) -> i64 {
+    let corners = &scene.bodies()[scene.face(number).body].corners;
+    corners.iter().map(|corner| i64::from(corner[2])).sum::<i64>() / corners.len() as i64
 }

@@ -1,21 +1,47 @@
 //! Fragments are kept and sorted in each pixel (L. Carpenter, "The A-buffer, an
 //! antialiased hidden surface method", SIGGRAPH 1984, without its masks).
 
-use super::{SHOWS, light};
+use super::{SHOWS, Way, lights};
 use crate::field::Field;
 use crate::visibility::{Scene, Surface};
 
-pub(super) fn draw(scene: &Scene) -> Field<f64> {
-    let mut fragments: Field<Vec<(f64, u32)>> = Field::new(scene.size(), Vec::new());
-    for (number, face) in scene.faces() {
-        let Some(surface) = Surface::new(face) else { continue };
-        surface.each_pixel(scene.limits(), |pixel| {
-            fragments[pixel.map(|part| part as usize)].push((surface.depth(pixel), number));
-        });
+/// The fragments of all pixels, in lists that keep their memory.
+pub(super) struct Fragments {
+    /// The depth and the face of each.
+    lists: Field<Vec<(f64, u32)>>,
+    lights: Vec<f64>,
+    picture: Field<f64>,
+}
+
+impl Fragments {
+    pub(super) fn new(scene: &Scene) -> Self {
+        Self {
+            lists: Field::new(scene.size(), Vec::new()),
+            lights: lights(scene),
+            picture: Field::new(scene.size(), 0.0),
+        }
     }
-    fragments.map(|fragments| {
-        let mut fragments = fragments.clone();
-        fragments.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
-        fragments.iter().fold(0.0, |below, (_, number)| below * SHOWS + light(*number) * (1.0 - SHOWS))
-    })
+}
+
+impl Way for Fragments {
+    fn draw(&mut self, scene: &Scene) {
+        self.lists.values_mut().iter_mut().for_each(Vec::clear);
+        for (number, face) in scene.faces() {
+            let Some(surface) = Surface::new(face) else { continue };
+            surface.each_pixel(scene.limits(), |pixel, depth| {
+                self.lists[pixel.map(|part| part as usize)].push((depth, number));
+            });
+        }
+        let lists = self.lists.values_mut().iter_mut();
+        for (list, pixel) in lists.zip(self.picture.values_mut()) {
+            list.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+            *pixel = list.iter().fold(0.0, |below, &(_, number)| {
+                below * SHOWS + self.lights[number as usize] * (1.0 - SHOWS)
+            });
+        }
+    }
+
+    fn picture(&self) -> Field<f64> {
+        self.picture.clone()
+    }
 }

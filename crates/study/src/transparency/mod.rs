@@ -10,8 +10,13 @@ mod tests;
 
 use crate::field::Field;
 use crate::metric::Difference;
+use crate::oracle::nearness::{self, Nearness};
 use crate::random::Random;
 use crate::visibility::Scene;
+use engine::Drawer;
+use faces::Faces;
+use fragments::Fragments;
+use std::cmp::Reverse;
 
 /// A way to order what is translucent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -45,22 +50,56 @@ impl Transparency {
 
     /// The light of each pixel before black, every face letting half of it through.
     pub fn draw(self, scene: &Scene) -> Field<f64> {
+        let mut way = self.way(scene);
+        way.draw(scene);
+        way.picture()
+    }
+
+    /// What draws a scene again and again, with all memory kept.
+    pub fn repeated(self, scene: &Scene) -> Box<dyn FnMut() + '_> {
+        let mut way = self.way(scene);
+        Box::new(move || way.draw(scene))
+    }
+
+    fn way(self, scene: &Scene) -> Box<dyn Way> {
         match self {
-            Self::Unsorted => faces::draw(scene, |_| 0),
-            Self::ByBody => faces::draw(scene, faces::depth_of_body(scene)),
-            Self::ByFace => faces::draw(scene, faces::depth_of_face(scene)),
-            Self::ByFragment => fragments::draw(scene),
-            Self::Engine => engine::draw(scene),
+            Self::Unsorted => Box::new(Faces::new(scene, |_, _| 0)),
+            Self::ByBody => Box::new(Faces::new(scene, faces::depth_of_body)),
+            Self::ByFace => Box::new(Faces::new(scene, faces::depth_of_face)),
+            Self::ByFragment => Box::new(Fragments::new(scene)),
+            Self::Engine => Box::new(Drawer::new(scene)),
         }
     }
 
-    /// How far that is from fragments in the right order.
-    pub fn error(self, scene: &Scene) -> Difference {
-        let (drawn, right) = (self.draw(scene), Self::ByFragment.draw(scene));
-        let pairs =
-            right.pixels().filter(|(_, light)| **light > 0.0).map(|(place, &light)| [drawn[place], light]);
-        Difference::of(pairs)
+    /// How far that is from [`exact`].
+    pub fn error(self, scene: &Scene, exact: &Field<f64>) -> Difference {
+        let drawn = self.draw(scene);
+        let pairs = exact.pixels().filter(|(_, light)| **light > 0.0);
+        Difference::of(pairs.map(|(place, &light)| [drawn[place], light]))
     }
+}
+
+/// A way to order faces, with the memory that it draws in.
+trait Way {
+    fn draw(&mut self, scene: &Scene);
+
+    /// What was drawn last.
+    fn picture(&self) -> Field<f64>;
+}
+
+/// The light of each pixel with all faces in the order of their [`Nearness`], of equal ones the
+/// later first.
+pub fn exact(scene: &Scene) -> Field<f64> {
+    let mut layers: Field<Vec<(Nearness, Reverse<u32>)>> = Field::new(scene.size(), Vec::new());
+    for (number, face) in scene.faces() {
+        for pixel in nearness::pixels(face.corners, scene.size()) {
+            let nearness = Nearness::of(face.corners, pixel);
+            layers[pixel.map(|part| part as usize)]
+                .extend(nearness.map(|nearness| (nearness, Reverse(number))));
+        }
+    }
+    layers.values_mut().iter_mut().for_each(|layers| layers.sort());
+    layers.map(|layers| layers.iter().fold(0.0, |below, (_, Reverse(face))| (below + light(*face)) / 2.0))
 }
 
 /// How much of what is behind a face shows.
@@ -69,4 +108,9 @@ const SHOWS: f64 = 0.5;
 /// The light of a face, a number of its own for each.
 fn light(face: u32) -> f64 {
     Random::new(face.into()).between(0.1, 1.0)
+}
+
+/// The lights of all faces of a scene.
+fn lights(scene: &Scene) -> Vec<f64> {
+    scene.faces().map(|(number, _)| light(number)).collect()
 }

@@ -11,10 +11,11 @@ pub(super) fn draw(scene: &Scene) -> Drawing {
     Drawing { faces: Engine::default().seen(&shape, scene.size()), tests: 0 }
 }
 
-/// Draws again and again, into the same target, from the scene as the others get it.
-pub(super) fn repeated(scene: &Scene) -> impl FnMut() {
+/// Draws again and again, into the same target.
+pub(super) fn repeated(scene: &Scene) -> impl FnMut() + use<> {
     let (mut engine, mut target) = (Engine::default(), target(scene.size(), &[Output::Triangle]));
-    move || engine.draw(&Corners::new(clip_corners(scene)), &mut target)
+    let shape = Corners::new(clip_corners(scene));
+    move || engine.draw(&shape, &mut target)
 }
 
 /// The corners of all faces, three for each, as the engine takes them.

@@ -28,6 +28,10 @@ pub(crate) use engine::clip_corners;
 pub(crate) use surface::Surface;
 
 use crate::field::Field;
+use painter::Painter;
+use rays::{AllFaces, Tree};
+use std::hint::black_box;
+use z_buffer::Buffers;
 
 /// A way to find what is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -61,6 +65,11 @@ pub struct Drawing {
 impl Drawing {
     fn empty(size: [usize; 2]) -> Self {
         Self { faces: Field::new(size, u32::MAX), tests: 0 }
+    }
+
+    fn clear(&mut self) {
+        self.faces.clear(u32::MAX);
+        self.tests = 0;
     }
 }
 
@@ -107,23 +116,57 @@ impl Visibility {
     /// Roberts' algorithm refuses bodies that are not convex.
     pub fn draw(self, scene: &Scene) -> Result<Drawing, NotConvex> {
         match self {
-            Self::Painter => Ok(painter::draw(scene)),
+            Self::Painter => Ok(Painter::new(scene).draw(scene).clone()),
             Self::Roberts => roberts::draw(scene),
             Self::Warnock => Ok(warnock::draw(scene)),
-            Self::ZBuffer => Ok(z_buffer::draw(scene)),
-            Self::AllRays => Ok(rays::draw_with_all(scene)),
-            Self::TreeRays => Ok(rays::draw_with_tree(scene)),
+            Self::ZBuffer => Ok(Buffers::new(scene).draw(scene).clone()),
+            Self::AllRays => Ok(AllFaces::new(scene).draw().clone()),
+            Self::TreeRays => Ok(Tree::new(scene).draw().clone()),
             Self::Engine => Ok(engine::draw(scene)),
         }
     }
 
-    /// What draws a scene again and again, with all kept that can be kept; a scene that
-    /// is refused takes no time.
+    /// What draws a scene again and again, with memory, trees and what else is the same for any
+    /// ray kept; a scene that is refused takes no time.
     pub fn repeated(self, scene: &Scene) -> Box<dyn FnMut() + '_> {
         match self {
+            Self::Painter => {
+                let mut painter = Painter::new(scene);
+                Box::new(move || {
+                    black_box(painter.draw(scene));
+                })
+            }
+            Self::ZBuffer => {
+                let mut buffers = Buffers::new(scene);
+                Box::new(move || {
+                    black_box(buffers.draw(scene));
+                })
+            }
+            Self::AllRays => {
+                let mut faces = AllFaces::new(scene);
+                Box::new(move || {
+                    black_box(faces.draw());
+                })
+            }
+            Self::TreeRays => {
+                let mut tree = Tree::new(scene);
+                Box::new(move || {
+                    black_box(tree.draw());
+                })
+            }
             Self::Engine => Box::new(engine::repeated(scene)),
-            _ => Box::new(move || drop(self.draw(scene))),
+            Self::Roberts | Self::Warnock => self.repeated_anew(scene),
         }
+    }
+
+    /// What draws a scene again and again with nothing kept.
+    pub fn repeated_anew(self, scene: &Scene) -> Box<dyn FnMut() + '_> {
+        Box::new(move || drop(self.draw(scene)))
+    }
+
+    /// Whether [`repeated`](Self::repeated) keeps anything.
+    pub fn is_kept(self) -> bool {
+        ![Self::Roberts, Self::Warnock].contains(&self)
     }
 }
 

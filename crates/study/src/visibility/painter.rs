@@ -5,19 +5,31 @@
 
 use super::{Drawing, Scene, Surface};
 
-pub(super) fn draw(scene: &Scene) -> Drawing {
-    let mut drawing = Drawing::empty(scene.size());
-    let mut order: Vec<(i64, u32)> = scene
-        .faces()
-        .map(|(number, face)| (face.corners.iter().map(|corner| i64::from(corner[2])).sum(), number))
-        .collect();
-    order.sort_by(|a, b| {
-        drawing.tests += 1;
-        a.cmp(b)
-    });
-    for (_, number) in order {
-        let Some(surface) = Surface::new(scene.face(number)) else { continue };
-        surface.each_pixel(scene.limits(), |[x, y]| drawing.faces[[x as usize, y as usize]] = number);
+/// A picture and the order of faces, in memory that is kept from frame to frame.
+pub(super) struct Painter {
+    drawing: Drawing,
+    order: Vec<(i64, u32)>,
+}
+
+impl Painter {
+    pub(super) fn new(scene: &Scene) -> Self {
+        Self { drawing: Drawing::empty(scene.size()), order: Vec::new() }
     }
-    drawing
+
+    pub(super) fn draw(&mut self, scene: &Scene) -> &Drawing {
+        let Self { drawing, order } = self;
+        drawing.clear();
+        order.clear();
+        let depth = |corners: [super::Corner; 3]| corners.iter().map(|corner| i64::from(corner[2])).sum();
+        order.extend(scene.faces().map(|(number, face)| (depth(face.corners), number)));
+        order.sort_by(|a, b| {
+            drawing.tests += 1;
+            a.cmp(b)
+        });
+        for &(_, number) in &*order {
+            let Some(surface) = Surface::new(scene.face(number)) else { continue };
+            surface.each_pixel(scene.limits(), |[x, y], _| drawing.faces[[x as usize, y as usize]] = number);
+        }
+        drawing
+    }
 }

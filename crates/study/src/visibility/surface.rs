@@ -1,7 +1,7 @@
 //! A face made ready for pixels: what it covers, and how deep it lies there.
 
 use super::scene::{Face, STEPS};
-use crate::fill::fixed::Edges;
+use crate::fill::fixed::{Edges, weighted};
 use std::ops::RangeInclusive;
 
 /// Edges and depth of a face.
@@ -42,19 +42,13 @@ impl Surface {
         self.edges.bounding_box(limits)
     }
 
-    /// Calls `visit` for each pixel that the face covers; returns how many were looked
-    /// at.
+    /// Calls `visit` for each pixel that the face covers, with its [`depth`](Self::depth) there;
+    /// returns how many were looked at.
     #[inline]
-    pub(crate) fn each_pixel(&self, limits: [i32; 2], mut visit: impl FnMut([i32; 2])) -> u64 {
-        let [columns, rows] = self.bounding_box(limits);
-        let (width, height) = (columns.clone().count(), rows.clone().count());
-        for y in rows {
-            for x in columns.clone() {
-                if self.covers([x, y]) {
-                    visit([x, y]);
-                }
-            }
-        }
+    pub(crate) fn each_pixel(&self, limits: [i32; 2], mut visit: impl FnMut([i32; 2], f64)) -> u64 {
+        let pixels = self.bounding_box(limits);
+        self.edges.each_covered(&pixels, |pixel, weights| visit(pixel, weighted(&self.depths, weights)));
+        let [width, height] = pixels.map(Iterator::count);
         (width * height) as u64
     }
 }

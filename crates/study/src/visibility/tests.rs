@@ -121,3 +121,13 @@ fn hidden_lines_end_where_the_body_before_them_begins() {
     ends.sort_by(f64::total_cmp);
     assert_eq!(ends, [1000.0, 4000.0, 6000.0, 9000.0], "two parts of the edge are seen");
 }
+
+/// What is kept from picture to picture changes none.
+#[test]
+fn the_second_picture_is_the_first() {
+    let scene = Case::Crossing.scene(64);
+    let (mut painter, mut buffers) = (Painter::new(&scene), Buffers::new(&scene));
+    let firsts = [painter.draw(&scene).clone(), buffers.draw(&scene).clone()];
+    assert!(painter.draw(&scene) == &firsts[0], "the painter's");
+    assert!(buffers.draw(&scene) == &firsts[1], "the z-buffer's");
+}

@@ -5,19 +5,32 @@
 use super::{Drawing, Scene, Surface};
 use crate::field::Field;
 
-pub(super) fn draw(scene: &Scene) -> Drawing {
-    let mut drawing = Drawing::empty(scene.size());
-    let mut depths = Field::new(scene.size(), f32::NEG_INFINITY);
-    for (number, face) in scene.faces() {
-        let Some(surface) = Surface::new(face) else { continue };
-        drawing.tests += surface.each_pixel(scene.limits(), |pixel| {
-            let place = pixel.map(|part| part as usize);
-            let depth = surface.depth(pixel) as f32;
-            if depth > depths[place] {
-                depths[place] = depth;
-                drawing.faces[place] = number;
-            }
-        });
+/// A picture with its depths, kept from frame to frame.
+pub(super) struct Buffers {
+    drawing: Drawing,
+    depths: Field<f32>,
+}
+
+impl Buffers {
+    pub(super) fn new(scene: &Scene) -> Self {
+        Self { drawing: Drawing::empty(scene.size()), depths: Field::new(scene.size(), f32::NEG_INFINITY) }
     }
-    drawing
+
+    pub(super) fn draw(&mut self, scene: &Scene) -> &Drawing {
+        let Self { drawing, depths } = self;
+        drawing.clear();
+        depths.clear(f32::NEG_INFINITY);
+        for (number, face) in scene.faces() {
+            let Some(surface) = Surface::new(face) else { continue };
+            drawing.tests += surface.each_pixel(scene.limits(), |pixel, depth| {
+                let place = pixel.map(|part| part as usize);
+                let depth = depth as f32;
+                if depth > depths[place] {
+                    depths[place] = depth;
+                    drawing.faces[place] = number;
+                }
+            });
+        }
+        drawing
+    }
 }

@@ -4,7 +4,8 @@ use super::pipelines::{BlinnPhong, Flat, Gouraud, Textured};
 use super::{Scene, Shading};
 use trigon_math::Vec4;
 use trigon_raster::{
-    Background, Certificate, Draw, LanePipeline, Pass, Rasterizer, Stats, Target, TargetError, Tolerance,
+    Background, Certificate, Draw, LanePipeline, Output, Pass, Rasterizer, Stats, Target, TargetError,
+    Tolerance,
 };
 
 /// The caller's pixels and what it takes to draw into them, kept from frame to
@@ -28,6 +29,21 @@ impl<'a> Canvas<'a> {
         let target =
             Target::new(scene.size.x, scene.size.y, &[])?.with_unorm8(pixels)?.with_samples(scene.samples)?;
         Ok(Self { rasterizer, target })
+    }
+
+    /// The same in memory of its own; see [`pixels`](Self::pixels).
+    ///
+    /// # Errors
+    /// [`TargetError`] when there cannot be one.
+    pub fn with_own_pixels(rasterizer: Rasterizer, scene: &Scene) -> Result<Canvas<'static>, TargetError> {
+        let target =
+            Target::new(scene.size.x, scene.size.y, &[Output::Unorm8])?.with_samples(scene.samples)?;
+        Ok(Canvas { rasterizer, target })
+    }
+
+    /// The picture as it was drawn last.
+    pub fn pixels(&self) -> &[[u8; 4]] {
+        self.target.unorm8().expect("every canvas has these pixels")
     }
 
     /// Draws one frame of a scene of the same size and samples, and tells what it

@@ -18,7 +18,8 @@ pub(super) fn measure(effort: Effort) -> Chapter {
     let times = nanoseconds(effort.rounds(), &AntiAliasing::ALL, |way| way.repeated(star));
     let row = |(way, time): (AntiAliasing, Spread)| {
         let error = way.error(star, &right);
-        let row = Row::new(CASE, way.name()).with(RMSE, error.rmse()).with(WORST, error.worst);
+        let row =
+            Row::new(CASE, way.name()).sized([side; 2]).with(RMSE, error.rmse()).with(WORST, error.worst);
         row.with(DELTA_E, error.delta_e()).timed(TIME, time.scaled(1.0 / (side * side) as f64))
     };
     let rows: Vec<Row> = AntiAliasing::ALL.into_iter().zip(times).map(row).collect();
@@ -27,7 +28,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         title: "How many samples does an edge need?",
         text: "White needles on black with the engine's samples, on finer grids, and by the exact area in each pixel, in the pixels \
                that are partly covered. The exact area is found triangle by triangle, for pictures in which none hides another.",
-        findings: findings(&rows),
+        findings: Vec::new(),
         plots: vec![Plot::trade("star", &rows, CASE, [TIME, RMSE])],
         pictures: vec![picture()],
         rows,
@@ -47,23 +48,13 @@ fn picture() -> Picture {
     Picture::new("star", caption, panels.chain(drawn.each_ref().map(error)).collect())
 }
 
-fn findings(rows: &[Row]) -> Vec<String> {
-    let of = |way: AntiAliasing, quantity: &str| value(rows, CASE, &way.name(), quantity);
-    let step = |few: u32, many: u32| {
-        let [few, many] = [few, many].map(AntiAliasing::Samples);
-        format!(
-            "{} of the time for {} of the error",
-            times(of(many, TIME), of(few, TIME)),
-            times(of(many, RMSE), of(few, RMSE))
-        )
-    };
+pub(super) fn headlines() -> Vec<Headline> {
+    let step =
+        |from: AntiAliasing, to: AntiAliasing| Headline::within(CASE, [to.name(), from.name()], [TIME, RMSE]);
+    let [one, four, sixteen] = [1, 4, 16].map(AntiAliasing::Samples);
     vec![
-        format!("**4 samples instead of 1** take {}; **16 instead of 4**, {}.", step(1, 4), step(4, 16)),
-        format!(
-            "A finer grid of 2x2 has {} of the error of 4 samples at their standard places, for {} of the time, as everything is \
-             shaded four times.",
-            times(of(AntiAliasing::Finer(2), RMSE), of(AntiAliasing::Samples(4), RMSE)),
-            times(of(AntiAliasing::Finer(2), TIME), of(AntiAliasing::Samples(4), TIME)),
-        ),
+        step(one, four),
+        step(four, sixteen),
+        step(four, AntiAliasing::Finer(2)).meaning("The finer grid shades everything four times."),
     ]
 }

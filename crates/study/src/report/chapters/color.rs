@@ -23,21 +23,20 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         row.timed(TIME, time.scaled(1.0 / 65536.0))
     };
     let rows: Vec<Row> = Mixing::ALL.into_iter().zip(times).map(row).collect();
-    let of = |mixing: Mixing, quantity: &str| number(value(&rows, CASE, mixing.name(), quantity));
-    let finding = format!(
-        "Averaging the bytes of sRGB is wrong by a ΔE of {} in the mean (black and white make a grey of 22 % of the light, not \
-         50 %); linear light takes {} ns for a value instead of {}.",
-        of(Mixing::GammaBytes, DELTA_E),
-        of(Mixing::Linear, TIME),
-        of(Mixing::GammaBytes, TIME),
-    );
     Chapter {
         name: "color",
         title: "What does it cost to mix light as the bytes of a file?",
         text: "All pairs of grey bytes, averaged: as bytes, in linear light kept in 8 bits, in linear light.",
-        findings: vec![finding],
+        findings: vec![
+            "The mean of the bytes of black and white is a grey with 22 % of the light of white instead of 50 %.".to_owned(),
+        ],
         plots: vec![Plot::trade("mixing", &rows, CASE, [TIME, DELTA_E])],
         pictures: Vec::new(),
         rows,
     }
+}
+
+pub(super) fn headlines() -> Vec<Headline> {
+    let [bytes, _, linear] = Mixing::ALL.map(Mixing::name);
+    vec![Headline::within(CASE, [linear, bytes], [TIME, DELTA_E])]
 }

@@ -41,7 +41,10 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         title: "How near may two surfaces be?",
         text: "Pairs of surfaces at 10,000 distances about 1, 10, 100 and 1000 metres, between planes at 0.1 and 10,000 metres, \
                through depths computed in `f32`. Misordered are pairs that come out as equal or the wrong way round.",
-        findings: findings(&rows),
+        findings: vec![
+            "Surfaces that should be told apart at a distance need the near plane as far out as it may be, or reversed depth."
+                .to_owned(),
+        ],
         plots: vec![plot],
         pictures: Vec::new(),
         rows,
@@ -60,22 +63,8 @@ fn row(distance: f64, format: DepthFormat, time: Spread) -> Row {
         .timed(TIME, time.scaled(1e-5))
 }
 
-fn findings(rows: &[Row]) -> Vec<String> {
-    let of = |distance: f64, format: DepthFormat, quantity: &str| {
-        value(rows, &case(distance), format.name(), quantity)
-    };
-    let [fixed16, fixed24, float, reversed] = DepthFormat::ALL;
-    vec![
-        format!(
-            "**Reversed depth** takes {} ns instead of {} and resolves {} of the distance everywhere; `f32` as it is, \
-             and 24 bits, need {} and {} at 1000 m, 16 bits {}.",
-            number(of(1.0, reversed, TIME)),
-            number(of(1.0, float, TIME)),
-            number(of(1000.0, reversed, RESOLVED)),
-            number(of(1000.0, float, RESOLVED)),
-            number(of(1000.0, fixed24, RESOLVED)),
-            number(of(1000.0, fixed16, RESOLVED)),
-        ),
-        "Surfaces that should be told apart at a distance want the near plane as far out as it may be, or reversed depth.".to_owned(),
-    ]
+pub(super) fn headlines() -> Vec<Headline> {
+    let [fixed16, fixed24, float, reversed] = DepthFormat::ALL.map(DepthFormat::name);
+    let at_1000 = |formats: [&'static str; 2]| Headline::within(case(1000.0), formats, [TIME, RESOLVED]);
+    vec![at_1000([reversed, float]), at_1000([float, fixed24]), at_1000([fixed16, fixed24])]
 }

@@ -61,6 +61,7 @@ fn of_case(case: Case, effort: Effort) -> Vec<Row> {
         }
         let per_mille = |count: usize| 1e3 * count as f64 / errors.edge_pixels as f64;
         Row::new(case.name(), fill.name())
+            .sized([SIDE; 2])
             .with(WRONG, errors.wrong_per_mille())
             .with(GAPS, per_mille(errors.gaps))
             .with(DOUBLES, per_mille(errors.doubles))
@@ -78,14 +79,15 @@ fn times_of(fills: &[Fill], triangles: &[Triangle], side: usize, effort: Effort)
             return Box::new(move || fill.paint(triangles, &mut canvas));
         }
         let (mut engine, mut target) = (Engine::default(), target([side; 2], &[Output::Triangle]));
-        Box::new(move || engine.draw(&Corners::flat(triangles, [side; 2]), &mut target))
+        let shape = Corners::flat(triangles, [side; 2]);
+        Box::new(move || engine.draw(&shape, &mut target))
     })
 }
 
 /// The time of a triangle by the size of its square.
 fn growth(effort: Effort) -> Vec<(String, Vec<[f64; 2]>)> {
     const FILLS: [Fill; 6] =
-        [Fill::Strips, Fill::Scanlines, Fill::EdgesInBox, Fill::FloatTopLeft, Fill::Fixed8, Fill::Engine];
+        [Fill::Strips, Fill::Scanlines, Fill::EdgesInBox, Fill::FloatHoisted, Fill::Fixed8, Fill::Engine];
     let mut lines: Vec<(String, Vec<[f64; 2]>)> =
         FILLS.iter().map(|fill| (fill.name().to_owned(), Vec::new())).collect();
     for square in [4.0, 8.0, 16.0, 32.0, 64.0, 128.0] {
@@ -123,20 +125,12 @@ fn picture() -> Picture {
 fn findings(rows: &[Row]) -> Vec<String> {
     let [tiles, fan, lattice] = [Case::Tiles, Case::Fan, Case::Lattice].map(Case::name);
     let of = |case: &str, fill: Fill, quantity: &str| value(rows, case, fill.name(), quantity);
-    let [float, exact, engine] = [Fill::FloatTopLeft, Fill::Fixed8, Fill::Engine];
+    let [float, exact] = [Fill::FloatFromCorners, Fill::Fixed8];
     vec![
         format!(
-            "**Exact coverage instead of float coverage** takes {} of the time: {} ns per triangle in integers, {} in `f32`; the \
-             engine, which sets up eight triangles at a time, takes {}.",
-            times(of(tiles, exact, TIME), of(tiles, float, TIME)),
-            number(of(tiles, exact, TIME)),
-            number(of(tiles, float, TIME)),
-            number(of(tiles, engine, TIME)),
-        ),
-        format!(
             "What a grid costs is accuracy against corners between its points: {}, {} and {} of a thousand edge pixels go to the \
-             neighbour with 4, 8 and 12 bits. With `f32` it is {}; but far corners leave {} gaps and {} doubles of a thousand \
-             there, where a grid has none, ever.",
+             neighbour with 4, 8 and 12 bits. With `f32` from corners it is {}; but far corners leave {} gaps and {} doubles of a \
+             thousand there, where a grid has none, ever.",
             number(of(tiles, Fill::Fixed4, WRONG)),
             number(of(tiles, exact, WRONG)),
             number(of(tiles, Fill::Fixed12, WRONG)),
@@ -150,9 +144,17 @@ fn findings(rows: &[Row]) -> Vec<String> {
             number(of(lattice, Fill::EdgesAtCenters, DOUBLES)),
             number(of(lattice, Fill::Strips, DOUBLES)),
         ),
-        format!(
-            "The bounding box is worth {} in time over the whole screen, and changes no pixel.",
-            times(of(tiles, Fill::EdgesOnScreen, TIME), of(tiles, Fill::EdgesInBox, TIME)),
-        ),
+    ]
+}
+
+pub(super) fn headlines() -> Vec<Headline> {
+    let tiles = |fills: [Fill; 2]| Headline::within(Case::Tiles.name(), fills.map(Fill::name), [TIME, WRONG]);
+    vec![
+        tiles([Fill::Fixed8, Fill::FloatHoisted]),
+        tiles([Fill::Fixed8Lanes, Fill::FloatLanes])
+            .meaning("Both walk the same boxes with edges that are set up once."),
+        tiles([Fill::Engine, Fill::Fixed8Lanes])
+            .meaning("The engine also sorts triangles into tiles and tests depth."),
+        tiles([Fill::EdgesOnScreen, Fill::EdgesInBox]).meaning("The bounding box changes no pixel."),
     ]
 }

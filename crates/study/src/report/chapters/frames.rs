@@ -24,10 +24,12 @@ const LEVELS: &str = "the built-in scene by vector instructions";
 const PROOFS: &str = "workloads, drawn and proven";
 const DRAWN: &str = "drawn";
 const PROVEN: &str = "drawn and proven";
+const MEANS: &str = "all scenes, geometric means";
 
 pub(super) fn measure(effort: Effort) -> Chapter {
     let size = effort.pick([160, 96], [480, 288]);
     let mut rows: Vec<Row> = Case::ALL.into_iter().flat_map(|case| front(case, size, effort)).collect();
+    rows.extend(means(&rows, size));
     rows.extend(Case::ALL.map(|case| flight(case, size, effort)));
     rows.extend(levels(size, effort));
     rows.extend(proofs(effort));
@@ -39,7 +41,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
                of a pixel, twice, and samples in each of those; presets also choose how shadows are found. Errors are against \
                the reference. On the flights a budget of 16 ms chooses for each frame the most accurate quality that fits, and \
                foresees its error; the time counts choosing, drawing, and looking again at a part of the picture.",
-        findings: findings(&rows, size),
+        findings: findings(&rows),
         plots: ["showcase", "shadows", "dense"].into_iter().zip(Case::ALL).map(plot).collect(),
         pictures: vec![heat_picture()],
         rows,
@@ -57,9 +59,29 @@ fn front(case: Case, size: [u32; 2], effort: Effort) -> Vec<Row> {
         })
     });
     let row = |((quality, error), time): ((&Quality, f64), Spread)| {
-        Row::new(case.name(), name(*quality)).with(RMSE, error).timed(TIME, time.scaled(1e-6))
+        whole(case.name(), name(*quality), size).with(RMSE, error).timed(TIME, time.scaled(1e-6))
     };
     variants.iter().zip(errors).zip(times).map(row).collect()
+}
+
+/// A row of pictures that all threads of the machine draw.
+fn whole(case: &str, variant: impl Into<String>, size: [u32; 2]) -> Row {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    Row::new(case, variant).sized(size.map(|side| side as usize)).with_threads(threads)
+}
+
+/// Each quality over all scenes.
+fn means(rows: &[Row], size: [u32; 2]) -> Vec<Row> {
+    let mean = |variant: &str, quantity: &str| {
+        let values = Case::ALL.map(|case| value(rows, case.name(), variant, quantity));
+        elementary::pow(values.iter().product(), 1.0 / values.len() as f64)
+    };
+    let row = |&quality: &Quality| {
+        let variant = name(quality);
+        let [time, error] = [TIME, RMSE].map(|quantity| mean(&variant, quantity));
+        whole(MEANS, variant, size).with(RMSE, error).with(TIME, time)
+    };
+    variants().iter().map(row).collect()
 }
 
 /// The budget on a case's flight.
@@ -70,7 +92,9 @@ fn flight(case: Case, size: [u32; 2], effort: Effort) -> Row {
     let mut times: Vec<f64> = steps.iter().map(|step: &Step| step.time.as_secs_f64() * 1e3).collect();
     times.sort_by(f64::total_cmp);
     let at = |part: usize| times[(times.len() - 1) * part / 4];
-    Row::new(FLIGHT, case.name())
+    whole(FLIGHT, case.name(), size)
+        .by("a budget of 16 ms")
+        .of(case.name())
         .timed(TIME, Spread { low: at(1), median: at(2), high: at(3) })
         .with(IN_TIME, kept.in_time * 100.0)
         .with(FORESEEN, 100.0 * kept.foreseen as f64 / kept.measured.max(1) as f64)
@@ -91,7 +115,10 @@ fn levels(size: [u32; 2], effort: Effort) -> Vec<Row> {
     let first = bytes(levels[0]);
     let row = |(&level, time): (&SimdLevel, Spread)| {
         let differ = bytes(level).iter().zip(&first).filter(|(a, b)| a != b).count();
-        Row::new(LEVELS, level.to_string()).timed(TIME, time.scaled(1e-6)).with(OTHER, differ as f64)
+        whole(LEVELS, level.to_string(), size)
+            .of(Case::Showcase.name())
+            .timed(TIME, time.scaled(1e-6))
+            .with(OTHER, differ as f64)
     };
     levels.iter().zip(times).map(row).collect()
 }
@@ -100,21 +127,26 @@ fn levels(size: [u32; 2], effort: Effort) -> Vec<Row> {
 fn proofs(effort: Effort) -> Vec<Row> {
     let shrink = effort.pick(8, 4);
     let rows = [Workload::KnotPhong, Workload::Cubes].map(|workload| {
-        let [mut drawn, mut proven] = [(); 2].map(|()| Prover::new(workload, shrink));
+        let [mut drawn, mut proven] =
+            [(); 2].map(|()| Prover::new(workload, shrink).expect("the size is in range"));
+        let size = drawn.size();
         let certified = proven.prove().expect("there is memory");
         let times = interleaved(
             effort.rounds().div_ceil(3),
             &mut [
-                Box::new(move || drawn.draw().expect("there is memory")),
+                Box::new(move || drawn.draw()),
                 Box::new(move || {
                     proven.prove().expect("there is memory");
                 }),
             ],
         );
-        let variant = |way: &str| format!("{}, {way}", workload.name());
+        let row = |way: &str| {
+            let variant = format!("{}, {way}", workload.name());
+            Row::new(PROOFS, variant).by(way).of(workload.name()).sized(size)
+        };
         [
-            Row::new(PROOFS, variant(DRAWN)).timed(TIME, times[0].scaled(1e-6)),
-            Row::new(PROOFS, variant(PROVEN))
+            row(DRAWN).timed(TIME, times[0].scaled(1e-6)),
+            row(PROVEN)
                 .timed(TIME, times[1].scaled(1e-6))
                 .with(CERTIFIED, certified.certified * 100.0)
                 .with(SEES, certified.visibility * 100.0),
@@ -149,66 +181,30 @@ fn heat_picture() -> Picture {
     Picture::new("presets", caption, panels)
 }
 
-fn findings(rows: &[Row], [width, height]: [u32; 2]) -> Vec<String> {
-    let of = |case: &str, variant: &str, quantity: &str| value(rows, case, variant, quantity);
-    let preset =
-        |case: Case, preset: Preset, quantity: &str| of(case.name(), &name(preset.quality()), quantity);
-    let [draft, standard, high, reference] = Preset::ALL;
-    // Geometric means over the scenes.
-    let step = |from: Preset, to: Preset, quantity: &str| {
-        let ratio = |case| preset(case, to, quantity) / preset(case, from, quantity);
-        elementary::cbrt(Case::ALL.into_iter().map(ratio).product())
-    };
-    let mean = |of: Preset, quantity: &str| {
-        number(elementary::cbrt(Case::ALL.into_iter().map(|case| preset(case, of, quantity)).product()))
-    };
-    let row = |case: Case, quantity: &str| number(of(FLIGHT, case.name(), quantity));
-    let list = |quantity: &str| Case::ALL.map(|case| row(case, quantity)).join(", ");
+fn findings(rows: &[Row]) -> Vec<String> {
+    let flight = |case: Case, quantity: &str| number(value(rows, FLIGHT, case.name(), quantity));
+    let list = |quantity: &str| Case::ALL.map(|case| flight(case, quantity)).join(", ");
+    let certified = [Workload::KnotPhong, Workload::Cubes]
+        .map(|workload| {
+            let share = value(rows, PROOFS, &format!("{}, {PROVEN}", workload.name()), CERTIFIED);
+            format!("{} % of {}", number(share), workload.name())
+        })
+        .join(", ");
     vec![
+        "`standard` is for pictures that move, `high` for those that stay; `draft` to find a view, `reference` to measure against."
+            .to_owned(),
         format!(
-            "**Which preset:** `standard` for pictures that move, `high` for those that stay; `draft` to find a view, `reference` to \
-             measure against. At {width}×{height} they take {}, {}, {} and {} ms with errors of {}, {}, {} and 0 (means of three \
-             scenes): `standard` has {} of the error of `draft` for {} of its time, `high` {} of that for {}, and `reference` takes \
-             {} of the time of `high`.",
-            mean(draft, TIME),
-            mean(standard, TIME),
-            mean(high, TIME),
-            mean(reference, TIME),
-            mean(draft, RMSE),
-            mean(standard, RMSE),
-            mean(high, RMSE),
-            times(step(draft, standard, RMSE), 1.0),
-            times(step(draft, standard, TIME), 1.0),
-            times(step(standard, high, RMSE), 1.0),
-            times(step(standard, high, TIME), 1.0),
-            times(step(high, reference, TIME), 1.0),
-        ),
-        format!(
-            "**A budget of 16 ms** is kept by {} % of the frames of the three flights, and the error foreseen before the frame is \
+            "A budget of 16 ms is kept by {} % of the frames of the three flights, and the error foreseen before the frame is \
              within a fifth of that measured afterwards in {} % of those measured.",
             list(IN_TIME),
             list(FORESEEN),
         ),
-        proof_finding(rows),
+        format!("Certified, of the pixels that show anything, are {certified}."),
         level_finding(rows),
     ]
 }
 
-/// What certifying costs.
-fn proof_finding(rows: &[Row]) -> String {
-    let said = [Workload::KnotPhong, Workload::Cubes].map(|workload| {
-        let of =
-            |way: &str, quantity: &str| value(rows, PROOFS, &format!("{}, {way}", workload.name()), quantity);
-        let slower = times(of(PROVEN, TIME), of(DRAWN, TIME));
-        format!("{} % of {} for {slower} the time", number(of(PROVEN, CERTIFIED)), workload.name())
-    });
-    format!(
-        "**Certified pixels** are, of those that show anything, {}, on one thread after the drawing itself.",
-        said.join(", ")
-    )
-}
-
-/// What the same bytes everywhere cost.
+/// What vectors of other widths change.
 fn level_finding(rows: &[Row]) -> String {
     let levels: Vec<&Row> = rows.iter().filter(|row| row.case == LEVELS).collect();
     let said = levels
@@ -216,9 +212,26 @@ fn level_finding(rows: &[Row]) -> String {
         .map(|row| format!("{} ms with {}", number(row.value(TIME).unwrap_or(f64::NAN)), row.variant));
     let differ: f64 = levels.iter().filter_map(|row| row.value(OTHER)).sum();
     format!(
-        "**The same bytes everywhere** do not hinder vectors: a frame takes {}, and {} bytes differ. What integers cost against \
-         floats at the edges is in the first question.",
+        "A frame takes {}, and {} bytes differ between them.",
         said.collect::<Vec<_>>().join(", "),
         number(differ),
     )
+}
+
+pub(super) fn headlines() -> Vec<Headline> {
+    let [draft, standard, high, reference] = Preset::ALL.map(|preset| name(preset.quality()));
+    let step = |to: &String, from: &String, quantities: &[&'static str]| {
+        Headline::within(MEANS, [to.clone(), from.clone()], quantities)
+    };
+    let proven = |workload: Workload| {
+        let variants = [PROVEN, DRAWN].map(|way| format!("{}, {way}", workload.name()));
+        Headline::within(PROOFS, variants, [TIME])
+    };
+    vec![
+        step(&standard, &draft, &[TIME, RMSE]),
+        step(&high, &standard, &[TIME, RMSE]),
+        step(&reference, &high, &[TIME]),
+        proven(Workload::KnotPhong),
+        proven(Workload::Cubes),
+    ]
 }

@@ -10,6 +10,7 @@ const TIME: &str = "ns per pixel of length";
 const OUTSIDE: &str = "outline beside the fill, ‰";
 
 const CASE: &str = "a star of lines";
+const OUTLINES: &str = "outlines of triangles";
 
 pub(super) fn measure(effort: Effort) -> Chapter {
     let mut rows = of_lines(effort);
@@ -36,7 +37,7 @@ fn of_lines(effort: Effort) -> Vec<Row> {
     let row = |(&line, time): (&Line, Spread)| {
         let mut errors = LineErrors::default();
         lines.iter().for_each(|&segment| errors += LineErrors::of(line, segment, SIZE));
-        let row = Row::new(CASE, line.name()).with(RMSE, errors.rmse());
+        let row = Row::new(CASE, line.name()).sized(SIZE).with(RMSE, errors.rmse());
         let is_sharp = ![Line::Wu, Line::EngineSmooth].contains(&line);
         let row = if is_sharp { row.with(WRONG, errors.wrong_per_mille()) } else { row };
         row.timed(TIME, time.scaled(1.0 / (lines.len() as f64 * f64::from(RADIUS))))
@@ -51,7 +52,7 @@ fn of_outlines() -> Vec<Row> {
             let corners = [[20 + i, 10], [230 - 2 * i, 40 + 4 * i], [60 + i, 240 - 3 * i]];
             errors += outline.errors(corners, [256; 2]);
         }
-        Row::new("outlines of triangles", outline.name()).with(OUTSIDE, errors.per_mille())
+        Row::new(OUTLINES, outline.name()).sized([256; 2]).with(OUTSIDE, errors.per_mille())
     };
     Outline::ALL.map(row).to_vec()
 }
@@ -78,20 +79,24 @@ fn picture() -> Picture {
     Picture::new("lines", caption, panels)
 }
 
+pub(super) fn headlines() -> Vec<Headline> {
+    let of = |lines: [Line; 2]| Headline::within(CASE, lines.map(Line::name), [TIME, RMSE]);
+    vec![
+        of([Line::Engine, Line::Bresenham])
+            .meaning("Both draw the same pixels; the engine also tests depth, sorts and resolves."),
+        of([Line::Wu, Line::Bresenham]),
+        of([Line::EngineSmooth, Line::Wu]),
+    ]
+}
+
 fn findings(rows: &[Row]) -> Vec<String> {
     let of = |line: Line, quantity: &str| value(rows, CASE, line.name(), quantity);
-    let outside = |outline: Outline| number(value(rows, "outlines of triangles", outline.name(), OUTSIDE));
+    let outside = |outline: Outline| number(value(rows, OUTLINES, outline.name(), OUTSIDE));
     vec![
         format!(
             "The naive form misses {} of a thousand steps; DDA and Bresenham draw the same pixels on lines this short. After \
              thousands of additions DDA strays, Bresenham never does.",
             number(of(Line::Naive, WRONG)),
-        ),
-        format!(
-            "Anti-aliasing brings the error of coverage from {} to {} (Wu) and {} (engine).",
-            number(of(Line::Bresenham, RMSE)),
-            number(of(Line::Wu, RMSE)),
-            number(of(Line::EngineSmooth, RMSE)),
         ),
         format!(
             "Of outlines over filled triangles {} ‰ lie beside the fill in source B's way, {} ‰ with the engine's own lines; if \

@@ -8,6 +8,7 @@ mod fill;
 mod frames;
 mod interpolation;
 mod line;
+mod same_bytes;
 mod shading;
 mod shadow;
 mod storage;
@@ -16,27 +17,29 @@ mod threads;
 mod transparency;
 mod visibility;
 
-use super::figures::{Row, number, times, value};
+use super::figures::{Row, number, value};
+use super::headline::Headline;
 use super::{Chapter, Effort, Picture, Plot, Question, grey, heat, tint, tinted};
 use crate::measure::{Spread, interleaved};
 
 /// The chapters in their order.
-pub(super) const CHAPTERS: [Question; 15] = [
-    ("fill", fill::measure),
-    ("visibility", visibility::measure),
-    ("line", line::measure),
-    ("shading", shading::measure),
-    ("interpolation", interpolation::measure),
-    ("depth", depth::measure),
-    ("antialiasing", antialiasing::measure),
-    ("texture", texture::measure),
-    ("transparency", transparency::measure),
-    ("shadow", shadow::measure),
-    ("color", color::measure),
-    ("coordinates", coordinates::measure),
-    ("storage", storage::measure),
-    ("threads", threads::measure),
-    ("frames", frames::measure),
+pub(super) const CHAPTERS: [Question; 16] = [
+    Question { name: "fill", measure: fill::measure, headlines: fill::headlines },
+    Question { name: "visibility", measure: visibility::measure, headlines: visibility::headlines },
+    Question { name: "line", measure: line::measure, headlines: line::headlines },
+    Question { name: "shading", measure: shading::measure, headlines: shading::headlines },
+    Question { name: "interpolation", measure: interpolation::measure, headlines: interpolation::headlines },
+    Question { name: "depth", measure: depth::measure, headlines: depth::headlines },
+    Question { name: "antialiasing", measure: antialiasing::measure, headlines: antialiasing::headlines },
+    Question { name: "texture", measure: texture::measure, headlines: texture::headlines },
+    Question { name: "transparency", measure: transparency::measure, headlines: transparency::headlines },
+    Question { name: "shadow", measure: shadow::measure, headlines: shadow::headlines },
+    Question { name: "color", measure: color::measure, headlines: color::headlines },
+    Question { name: "coordinates", measure: coordinates::measure, headlines: coordinates::headlines },
+    Question { name: "same-bytes", measure: same_bytes::measure, headlines: same_bytes::headlines },
+    Question { name: "storage", measure: storage::measure, headlines: storage::headlines },
+    Question { name: "threads", measure: threads::measure, headlines: threads::headlines },
+    Question { name: "frames", measure: frames::measure, headlines: frames::headlines },
 ];
 
 /// The nanoseconds that each variant takes, in turn.

@@ -11,20 +11,18 @@ const TIME: &str = "ns per pixel";
 
 pub(super) fn measure(effort: Effort) -> Chapter {
     let side = effort.pick(192, 512);
-    let cases: Vec<(String, Ball)> = (1..=4)
-        .map(|subdivisions| {
-            (format!("a ball of {} triangles", 20 << (2 * subdivisions)), Ball::new(side, subdivisions))
-        })
-        .collect();
+    let cases: Vec<(String, Ball)> =
+        (1..=4).map(|subdivisions| (case(subdivisions), Ball::new(side, subdivisions))).collect();
     let mut rows = Vec::new();
     for (name, ball) in &cases {
         let pixels = Shading::Flat.draw(ball).values().iter().flatten().count() as f64;
-        let times = nanoseconds(effort.rounds(), &Shading::ALL, |shading| -> Box<dyn FnMut()> {
-            Box::new(move || drop(shading.draw(ball)))
-        });
+        let times = nanoseconds(effort.rounds(), &Shading::ALL, |shading| shading.repeated(ball));
         for (shading, time) in Shading::ALL.into_iter().zip(times) {
             let error = shading.error(ball);
-            let row = Row::new(name, shading.name()).with(RMSE, error.rmse()).with(WORST, error.worst);
+            let row = Row::new(name, shading.name())
+                .sized([side; 2])
+                .with(RMSE, error.rmse())
+                .with(WORST, error.worst);
             rows.push(row.with(DELTA_E, error.delta_e()).timed(TIME, time.scaled(1.0 / pixels)));
         }
     }
@@ -33,7 +31,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         title: "What do normals in each pixel buy?",
         text: "Balls of triangles with a highlight, against a ball (source D compares the three in words). ΔE is the difference in \
                CIE lightness: below about 1 hardly anybody sees it.",
-        findings: findings(&rows, &cases),
+        findings: Vec::new(),
         plots: vec![Plot::trade("ball", &rows, &cases[1].0, [TIME, RMSE])],
         pictures: vec![picture()],
         rows,
@@ -53,25 +51,16 @@ fn picture() -> Picture {
     Picture::new("balls", caption, panels.collect())
 }
 
-fn findings(rows: &[Row], cases: &[(String, Ball)]) -> Vec<String> {
-    let of =
-        |case: usize, shading: Shading, quantity: &str| value(rows, &cases[case].0, shading.name(), quantity);
-    let [flat, gouraud, phong] = Shading::ALL;
+fn case(subdivisions: u32) -> String {
+    format!("a ball of {} triangles", 20 << (2 * subdivisions))
+}
+
+pub(super) fn headlines() -> Vec<Headline> {
+    let [flat, gouraud, phong] = Shading::ALL.map(Shading::name);
+    let of_320 = |ways: [&'static str; 2]| Headline::within(case(2), ways, [TIME, RMSE]);
     vec![
-        format!(
-            "**Light in each pixel over light at the corners:** {} of the time for {} of the error on {}; flat faces have {} of \
-             Gouraud's error.",
-            times(of(1, phong, TIME), of(1, gouraud, TIME)),
-            times(of(1, phong, RMSE), of(1, gouraud, RMSE)),
-            cases[1].0,
-            times(of(1, flat, RMSE), of(1, gouraud, RMSE)),
-        ),
-        format!(
-            "Triangles buy the same: Gouraud on {} has an error of {}, Phong on {} of {}.",
-            cases[3].0,
-            number(of(3, gouraud, RMSE)),
-            cases[1].0,
-            number(of(1, phong, RMSE)),
-        ),
+        of_320([phong, gouraud]),
+        of_320([flat, gouraud]),
+        Headline::between([case(4), case(2)], gouraud, [TIME, RMSE]).meaning("Triangles buy accuracy, too."),
     ]
 }

@@ -29,7 +29,7 @@ pub(super) fn measure(effort: Effort) -> Chapter {
         text: "The representations that source D weighs (its section 1.3): memory, and what it takes to find the edge nearest to a \
                point on a face, the faces whose planes change with a vertex, and a vertex's neighbours. A read is an index looked \
                at. All give the same answers.",
-        findings: findings(&rows),
+        findings: findings(),
         plots: Vec::new(),
         pictures: Vec::new(),
         rows,
@@ -83,29 +83,23 @@ fn walk(storage: &dyn Storage, _: &Triangles, vertex: u32) -> u64 {
     storage.neighbours(vertex).reads
 }
 
-fn findings(rows: &[Row]) -> Vec<String> {
-    let large = case(20 << 10);
-    let of = |index: usize, quantity: &str| number(value(rows, &large, REPRESENTATIONS[index].0, quantity));
+fn findings() -> Vec<String> {
     vec![
-        format!(
-            "Source D rejects vertex lists and face lists for want of edges, and winged edges as redundant. Measured: picking takes \
-             {} ns with face lists, {} with winged edges, {} with faces and edges, on 20,480 faces; vertex lists, {}. Memory: {}, \
-             {}, {} and {} bytes per face.",
-            of(1, PICK),
-            of(2, PICK),
-            of(4, PICK),
-            of(0, PICK),
-            of(1, BYTES),
-            of(2, BYTES),
-            of(4, BYTES),
-            of(0, BYTES),
-        ),
-        format!(
-            "What faces with edges lack is the way from a vertex to its faces: {} ns instead of {} with a corner table, which takes \
-             {} bytes per face. An editor that drags vertices of large meshes derives it once for the drag.",
-            of(4, MOVE),
-            of(3, MOVE),
-            of(3, BYTES),
-        ),
+        "Source D rejects vertex lists and face lists for want of edges, and winged edges as redundant.".to_owned(),
+        "Faces with edges have no way from a vertex to its faces. An editor that drags vertices of large meshes derives it \
+         once for the drag."
+            .to_owned(),
+    ]
+}
+
+pub(super) fn headlines() -> Vec<Headline> {
+    let [vertices, faces, winged, corners, own] = REPRESENTATIONS.map(|(name, _)| name);
+    let large =
+        |names: [&'static str; 2], task: &'static str| Headline::within(case(20 << 10), names, [task, BYTES]);
+    vec![
+        large([vertices, faces], PICK),
+        large([winged, faces], PICK),
+        large([own, faces], PICK),
+        large([own, corners], MOVE),
     ]
 }

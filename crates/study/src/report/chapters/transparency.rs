@@ -1,7 +1,7 @@
 //! In which order are translucent faces laid over each other?
 
 use super::*;
-use crate::transparency::Transparency;
+use crate::transparency::{Transparency, exact};
 use crate::visibility::Case;
 
 const RMSE: &str = "RMSE, linear light";
@@ -10,23 +10,26 @@ const DELTA_E: &str = "mean ΔE";
 const TIME: &str = "ms per frame";
 
 pub(super) fn measure(effort: Effort) -> Chapter {
+    let side = effort.pick(128, 256);
     let mut rows = Vec::new();
     for case in [Case::Balls, Case::Crossing] {
-        let scene = &case.scene(effort.pick(128, 256));
-        let times = nanoseconds(effort.rounds().div_ceil(2), &Transparency::ALL, |way| -> Box<dyn FnMut()> {
-            Box::new(move || drop(way.draw(scene)))
-        });
+        let scene = &case.scene(side);
+        let times = nanoseconds(effort.rounds().div_ceil(2), &Transparency::ALL, |way| way.repeated(scene));
+        let right = exact(scene);
         for (way, time) in Transparency::ALL.into_iter().zip(times) {
-            let error = way.error(scene);
-            let row = Row::new(case.name(), way.name()).with(RMSE, error.rmse()).with(WORST, error.worst);
+            let error = way.error(scene, &right);
+            let row = Row::new(case.name(), way.name())
+                .sized([side; 2])
+                .with(RMSE, error.rmse())
+                .with(WORST, error.worst);
             rows.push(row.with(DELTA_E, error.delta_e()).timed(TIME, time.scaled(1e-6)));
         }
     }
     Chapter {
         name: "transparency",
         title: "In which order are translucent faces laid over each other?",
-        text: "Bodies whose faces let half of the light through, against fragments sorted in each pixel.",
-        findings: findings(&rows),
+        text: "Bodies whose faces let half of the light through, against fragments in the order of their exact depths (`oracle::nearness`).",
+        findings: Vec::new(),
         plots: vec![Plot::trade("crossing", &rows, Case::Crossing.name(), [TIME, RMSE])],
         pictures: vec![picture()],
         rows,
@@ -40,15 +43,13 @@ fn picture() -> Picture {
     Picture::new("order", "Unsorted, sorted by body, sorted by face, the engine", ways.map(panel).to_vec())
 }
 
-fn findings(rows: &[Row]) -> Vec<String> {
-    let of = |way: Transparency, quantity: &str| value(rows, Case::Crossing.name(), way.name(), quantity);
-    vec![format!(
-        "Where bodies stick in each other, sorting them leaves a ΔE of {}, sorting faces {}, sorting nothing {}. Sorting \
-         fragments takes {} of the time of sorting faces here, the engine {}.",
-        number(of(Transparency::ByBody, DELTA_E)),
-        number(of(Transparency::ByFace, DELTA_E)),
-        number(of(Transparency::Unsorted, DELTA_E)),
-        times(of(Transparency::ByFragment, TIME), of(Transparency::ByFace, TIME)),
-        times(of(Transparency::Engine, TIME), of(Transparency::ByFace, TIME)),
-    )]
+pub(super) fn headlines() -> Vec<Headline> {
+    let of = |case: Case, ways: [Transparency; 2]| {
+        Headline::within(case.name(), ways.map(Transparency::name), [TIME, DELTA_E])
+    };
+    vec![
+        of(Case::Crossing, [Transparency::ByFace, Transparency::ByBody]),
+        of(Case::Crossing, [Transparency::ByFragment, Transparency::ByFace]),
+        of(Case::Crossing, [Transparency::Engine, Transparency::ByFragment]),
+    ]
 }

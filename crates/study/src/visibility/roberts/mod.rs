@@ -29,9 +29,9 @@ pub(super) fn draw(scene: &Scene) -> Result<Drawing, NotConvex> {
     let faces_toward_eye = bodies.iter().flat_map(|body| body.planes.iter().map(|plane| plane.faces_eye()));
     for ((number, face), _) in scene.faces().zip(faces_toward_eye).filter(|(_, faces_eye)| *faces_eye) {
         let Some(surface) = Surface::new(face) else { continue };
-        surface.each_pixel(scene.limits(), |pixel| {
+        surface.each_pixel(scene.limits(), |pixel, depth| {
             let [x, y] = pixel.map(|part| f64::from(part * STEPS + STEPS / 2));
-            let point = [x, y, surface.depth(pixel)];
+            let point = [x, y, depth];
             let others = bodies.iter().enumerate().filter(|(other, _)| *other != face.body);
             let mut hiding = others.filter(|(_, body)| body.hides(point, &mut drawing.tests));
             if hiding.next().is_none() {
