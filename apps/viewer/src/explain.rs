@@ -17,7 +17,7 @@ const REPETITIONS: usize = 5;
 
 /// Explains every source; the worst exit code is returned.
 pub(crate) fn run(request: &Request, explanation: Explanation, reporter: Reporter) -> u8 {
-    Source::visit_all(request, reporter, |source| explain(source, request, explanation, reporter))
+    Source::visit_all(request, reporter, |source, request| explain(source, request, explanation, reporter))
 }
 
 fn explain(

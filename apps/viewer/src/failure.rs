@@ -8,6 +8,9 @@ pub(crate) enum Failure {
     /// The flags make no sense for this model: exit code 2.
     #[error("{0}")]
     Usage(String),
+    /// A correct file with nothing to draw: exit code 1.
+    #[error("{0}")]
+    Empty(String),
     /// A picture is not the one that it should be: exit code 3.
     #[error("{0}")]
     Mismatch(String),
@@ -25,7 +28,7 @@ impl Failure {
     /// The exit code that `--help` promises.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
-            Self::Work(_) => 1,
+            Self::Work(_) | Self::Empty(_) => 1,
             Self::Usage(_) => 2,
             Self::Mismatch(_) => 3,
         }

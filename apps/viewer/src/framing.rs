@@ -4,6 +4,8 @@
 //! Turning (`azimuth`, `elevation`) comes before fitting, so that the model
 //! is in the picture whatever the angles are.
 
+use std::str::FromStr;
+
 use trigon_camera::{AxisView, Camera, Extent, Orbit, Projection};
 use trigon_math::{Bounds3, DQuat, DVec3};
 use trigon_scene::{OVERVIEW_DIRECTION, Scene};
@@ -29,6 +31,39 @@ pub(crate) struct Framing {
     /// Radians up over it.
     pub(crate) elevation: f64,
     pub(crate) orthographic: bool,
+    /// Then these, one after the other.
+    pub(crate) turns: Vec<Turn>,
+}
+
+/// A turn of the camera around what it looks at, in radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Turn {
+    /// To the right.
+    Azimuth(f64),
+    /// Up.
+    Elevation(f64),
+    /// About the line of sight, clockwise as the picture shows it turning the other way.
+    Roll(f64),
+    /// Back to before all turns.
+    Reset,
+}
+
+impl FromStr for Turn {
+    type Err = String;
+
+    /// `azimuth:30`, in degrees.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (kind, degrees) = text.split_once(':').unwrap_or((text, "0"));
+        let angle = degrees.trim().parse::<f64>().ok().filter(|angle| angle.is_finite());
+        let angle = angle.ok_or("write an angle in degrees, such as 45")?.to_radians();
+        Ok(match kind {
+            "azimuth" => Self::Azimuth(angle),
+            "elevation" => Self::Elevation(angle),
+            "roll" => Self::Roll(angle),
+            "reset" => Self::Reset,
+            _ => return Err("write azimuth, elevation, roll or reset".to_owned()),
+        })
+    }
 }
 
 /// How the camera's place is given.
@@ -65,7 +100,67 @@ impl Framing {
             Eye::SceneCamera(index) => self.borrowed(scene, index, center)?,
             Eye::Default | Eye::Direction(_) | Eye::Side(_) => self.fitted(points, center, aspect)?,
         };
+        let shot = self.scripted(shot);
         Ok(Shot { camera: shot.camera.with_clip_planes(&bounds), ..shot })
+    }
+
+    /// After all turns of scripts.
+    fn scripted(&self, shot: Shot) -> Shot {
+        let pivot = shot.camera.position + shot.camera.forward() * shot.distance;
+        let mut orientation = shot.camera.orientation;
+        for &turn in &self.turns {
+            orientation = match turn {
+                Turn::Reset => shot.camera.orientation,
+                Turn::Azimuth(angle) => orientation * DQuat::from_axis_angle(DVec3::Y, angle),
+                Turn::Elevation(angle) => orientation * DQuat::from_axis_angle(DVec3::NEG_X, angle),
+                Turn::Roll(angle) => orientation * DQuat::from_axis_angle(DVec3::Z, angle),
+            };
+        }
+        let orientation = orientation.normalize();
+        if self.turns.is_empty() || orientation == shot.camera.orientation {
+            return shot;
+        }
+        let position = pivot - orientation * DVec3::NEG_Z * shot.distance;
+        Shot { camera: Camera { position, orientation, ..shot.camera }, ..shot }
+    }
+
+    /// Views once around the model, all from the same distance: the camera of `shot`, turned
+    /// about the model's up axis through its middle.
+    pub(crate) fn turntable(&self, scene: &Scene, aspect: f64, views: u32) -> Result<Vec<Camera>, Failure> {
+        let points: Vec<DVec3> = scene.visible_points().filter(|point| point.is_finite()).collect();
+        let bounds = Bounds3::from_points(points.iter().copied());
+        let center = self.focal_point.unwrap_or_else(|| Extent::new(&bounds).center());
+        let first = self.shot(scene, aspect)?.camera;
+        // Around the axis nothing comes nearer than it is on one of the views; a ball holds all.
+        let reach = points.iter().map(|point| point.distance(center));
+        let radius = reach.fold(0.0, |farthest, reach| if reach > farthest { reach } else { farthest });
+        let keeps_place = matches!(self.eye, Eye::Position(_) | Eye::SceneCamera(_));
+        let first = if keeps_place { first } else { self.around_ball(first, center, radius, aspect) };
+        let axis = self.up.normalize();
+        let camera = |view: u32| {
+            let angle = std::f64::consts::TAU * f64::from(view) / f64::from(views);
+            let turn = DQuat::from_axis_angle(axis, angle);
+            let position = center + turn * (first.position - center);
+            let orientation = (turn * first.orientation).normalize();
+            Camera { position, orientation, ..first }.with_clip_planes(&bounds)
+        };
+        Ok((0..views).map(camera).collect())
+    }
+
+    /// The camera, moved along its line of sight, or zoomed, until it shows a ball.
+    fn around_ball(&self, camera: Camera, center: DVec3, radius: f64, aspect: f64) -> Camera {
+        let radius = if radius > 0.0 { radius } else { 1.0 };
+        let narrow = if aspect < 1.0 { aspect } else { 1.0 };
+        let back = camera.orientation * DVec3::Z;
+        if camera.projection.is_orthographic() {
+            let height = 2.0 * radius / (narrow * self.zoom);
+            let projection = Projection::orthographic(height, radius * 1e-3, radius * 10.0);
+            let projection = projection.unwrap_or(camera.projection);
+            return Camera { position: center + back * radius * 4.0, projection, ..camera };
+        }
+        let slope = camera.projection.height_at(1.0) * 0.5 * narrow * self.zoom;
+        let distance = radius * (1.0 + 1.0 / (slope * slope)).sqrt();
+        Camera { position: center + back * distance, ..camera }
     }
 
     /// A camera that shows the whole model from a direction.
@@ -227,6 +322,7 @@ mod tests {
             azimuth: 0.0,
             elevation: 0.0,
             orthographic: false,
+            turns: Vec::new(),
         }
     }
 

@@ -17,6 +17,18 @@ pub(crate) fn readers(reporter: Reporter) -> u8 {
     print_lines(trigon_io::readers().map(line), reporter)
 }
 
+/// `--list-rendering-backends`: the one that there is.
+pub(crate) fn backends(reporter: Reporter) -> u8 {
+    let levels = trigon_scene::SimdLevel::ALL.into_iter().filter(|level| level.is_supported());
+    let levels: Vec<String> = levels.map(|level| level.to_string()).collect();
+    print_lines([format!("cpu: available, with {} (--simd)", levels.join(", "))], reporter)
+}
+
+/// One JSON object on a line of standard output.
+pub(crate) fn json_line(value: &serde_json::Value, reporter: Reporter) -> u8 {
+    print_lines([value.to_string()], reporter)
+}
+
 /// `--list-bindings`: one line per key.
 pub(crate) fn bindings(reporter: Reporter) -> u8 {
     #[cfg(feature = "window")]
@@ -33,8 +45,12 @@ pub(crate) fn bindings(reporter: Reporter) -> u8 {
 /// `--no-render`: what is in each file.
 pub(crate) fn inspect(request: &Request, reporter: Reporter) -> u8 {
     let mut unwritten = 0;
-    let unread = Source::visit_all(request, reporter, |source| {
+    let unread = Source::visit_all(request, reporter, |source, request| {
         let model = loading::load_aloud(source, request, reporter)?;
+        if request.json {
+            unwritten = unwritten.max(json_line(&model.facts(), reporter));
+            return Ok(());
+        }
         let facts = model.summary().lines().into_iter().chain(model.choices());
         let facts = facts.map(|fact| format!("  {fact}"));
         let code = print_lines(std::iter::once(source.title()).chain(facts), reporter);
@@ -45,7 +61,7 @@ pub(crate) fn inspect(request: &Request, reporter: Reporter) -> u8 {
 }
 
 /// Writes lines to standard output; whoever closes it early wanted no more.
-fn print_lines(lines: impl IntoIterator<Item = String>, reporter: Reporter) -> u8 {
+pub(crate) fn print_lines(lines: impl IntoIterator<Item = String>, reporter: Reporter) -> u8 {
     let mut stdout = io::stdout().lock();
     let outcome = lines.into_iter().try_for_each(|line| writeln!(stdout, "{line}"));
     match outcome {

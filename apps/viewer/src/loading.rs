@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use trigon_io::{Limits, LoadOptions, Loaded, Warning};
+use trigon_io::{Limits, LoadError, LoadErrorKind, LoadOptions, Loaded, Warning};
 use trigon_scene::Scene;
 
 use crate::args::{Request, STDIN};
@@ -42,11 +42,12 @@ pub(crate) fn load(
             }
         }
     }
-    if let Some(moment) = &request.moment {
-        moment.apply(&mut scene)?;
-    }
+    let odd = match &request.moment {
+        Some(moment) => moment.apply(&mut scene)?,
+        None => None,
+    };
     let mut model = Model::new(scene, source.clone(), request)?;
-    (model.scene_names, model.files) = (scene_names, read);
+    (model.scene_names, model.files, model.odd) = (scene_names, read, odd);
     Ok((model, warnings))
 }
 
@@ -56,7 +57,7 @@ pub(crate) fn load_aloud(source: &Source, request: &Request, reporter: Reporter)
     let started = Instant::now();
     let bar = hidden_bar(source.title());
     let loaded = load(source, request, &|fraction| {
-        if bar.is_hidden() && started.elapsed() > PATIENCE {
+        if bar.is_hidden() && (request.shows_progress || started.elapsed() > PATIENCE) {
             // Draws nothing unless standard error is a terminal.
             bar.set_draw_target(ProgressDrawTarget::stderr());
         }
@@ -66,6 +67,9 @@ pub(crate) fn load_aloud(source: &Source, request: &Request, reporter: Reporter)
     bar.finish_and_clear();
     let (model, warnings) = loaded?;
     warnings.iter().for_each(|warning| reporter.warning(warning));
+    if let Some(odd) = &model.odd {
+        reporter.warning(format_args!("{}: {odd}", model.source.title()));
+    }
     let seconds = started.elapsed().as_secs_f64();
     reporter.debug(format_args!("loaded {} in {seconds:.3} s", model.source.title()));
     Ok(model)
@@ -103,9 +107,16 @@ fn load_file(path: &Path, request: &Request, progress: Progress<'_>) -> Result<L
     };
     if path.as_os_str() == STDIN {
         let bytes = read_stdin(request.max_bytes.unwrap_or(options.limits.file_bytes))?;
-        return trigon_io::load_from_slice("standard input", &bytes, &options).map_err(Failure::work);
+        return trigon_io::load_from_slice("standard input", &bytes, &options).map_err(refused);
     }
-    trigon_io::load(path, &options).map_err(Failure::work)
+    trigon_io::load(path, &options).map_err(refused)
+}
+
+fn refused(error: LoadError) -> Failure {
+    match error.kind {
+        LoadErrorKind::Empty => Failure::Empty(error.to_string()),
+        _ => Failure::work(error),
+    }
 }
 
 /// What another program sends, up to a number of bytes.

@@ -5,39 +5,52 @@
 //! wrong becomes one line on standard error and an exit code here.
 
 mod args;
+mod axes;
+mod check;
 mod explain;
 mod failure;
+mod folders;
 mod framing;
+mod lettering;
 mod lists;
 mod loading;
 mod look;
 mod model;
 mod moment;
+mod outlet;
 mod picture;
 mod replay;
 mod report;
+mod scenery;
+mod scripted;
+mod series;
 mod study;
 #[cfg(feature = "window")]
 mod window;
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::error::ErrorKind;
-use clap::{CommandFactory, Parser};
+use clap::CommandFactory;
 
-use crate::args::{Command, Mode, RawArgs, Request};
+use crate::args::{Command, CommandLine, HelpLength, Mode, RawArgs, Request};
 use crate::report::Reporter;
 
 fn main() -> ExitCode {
-    let raw = RawArgs::parse();
+    let line = CommandLine::new(std::env::args_os().skip(1)).unwrap_or_else(|error| error.exit());
+    let raw = line.raw(None).unwrap_or_else(|error| error.exit());
     if let Some(Command::Study(arguments)) = &raw.command {
         return ExitCode::from(study::run(arguments, Reporter::new(raw.verbose)));
     }
-    let mut request = Request::new(raw)
-        .unwrap_or_else(|message| RawArgs::command().error(ErrorKind::ArgumentConflict, message).exit());
+    if let Some(length) = raw.help {
+        return ExitCode::from(help(length, Reporter::new(raw.verbose)));
+    }
+    let file = raw.files.iter().chain(&raw.input).next();
+    let request = Request::from_line(&line, file.map(PathBuf::as_path));
+    let mut request = request.unwrap_or_else(|error| error.exit());
     let reporter = Reporter::new(request.level);
-    for flag in &request.ignored {
-        reporter.warning(format_args!("{flag} is ignored: trigon draws on the CPU and has no such choice"));
+    for warning in &request.ignored {
+        reporter.warning(warning);
     }
     if let Err(failure) = loading::light(&mut request, reporter) {
         reporter.error(&failure);
@@ -50,10 +63,22 @@ fn main() -> ExitCode {
         Mode::Replay { capture, output } => replay::run(capture, output.as_ref(), &request, reporter),
         Mode::Window => look_at(&request, reporter),
         Mode::Explain(explanation) => explain::run(&request, *explanation, reporter),
+        Mode::Check => check::run(&request, reporter),
         Mode::Inspect => lists::inspect(&request, reporter),
         Mode::ListReaders => lists::readers(reporter),
         Mode::ListBindings => lists::bindings(reporter),
+        Mode::ListBackends => lists::backends(reporter),
     })
+}
+
+/// The help on standard output.
+fn help(length: HelpLength, reporter: Reporter) -> u8 {
+    let mut command = RawArgs::command();
+    let text = match length {
+        HelpLength::Short => args::short_help(&command),
+        HelpLength::All => command.render_long_help().to_string(),
+    };
+    lists::print_lines(text.lines().map(str::to_owned), reporter)
 }
 
 #[cfg(feature = "window")]

@@ -3,6 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
+use regex::Regex;
+use serde_json::json;
+use trigon_camera::Camera;
 use trigon_math::{Bounds3, DVec3};
 use trigon_mesh::Mesh;
 use trigon_scene::Scene;
@@ -24,28 +27,63 @@ pub(crate) enum Source {
 impl Source {
     /// What the command line names, in the order in which it is shown.
     pub(crate) fn all(request: &Request) -> Vec<Self> {
-        match request.grouping {
-            _ if request.files.is_empty() => vec![Self::BuiltIn],
-            Grouping::Together => vec![Self::Files(request.files.clone())],
-            Grouping::OneByOne => request.files.iter().map(|file| Self::Files(vec![file.clone()])).collect(),
+        match Self::group(&request.files, &request.grouping) {
+            sources if sources.is_empty() => vec![Self::BuiltIn],
+            sources => sources,
         }
     }
 
-    /// Visits everything that is named; one that fails is reported and does not keep
-    /// the others from being visited. The worst exit code is returned.
+    /// Files that are shown together, in the order of the first of each group.
+    pub(crate) fn group(files: &[PathBuf], grouping: &Grouping) -> Vec<Self> {
+        let mut groups: Vec<(String, Vec<PathBuf>)> = Vec::new();
+        for (file, index) in files.iter().zip(0..) {
+            let name = file.to_string_lossy();
+            let key = match grouping {
+                Grouping::OneByOne => index.to_string(),
+                Grouping::Together => String::new(),
+                Grouping::ByFolder => {
+                    file.parent().map(|folder| folder.to_string_lossy().into_owned()).unwrap_or_default()
+                }
+                Grouping::ByName(pattern) => starred(pattern, &name).unwrap_or_else(|| name.into_owned()),
+            };
+            match groups.iter_mut().find(|(other, _)| *other == key) {
+                Some((_, group)) => group.push(file.clone()),
+                None => groups.push((key, vec![file.clone()])),
+            }
+        }
+        groups.into_iter().map(|(_, files)| Self::Files(files)).collect()
+    }
+
+    /// Visits everything that is named, with what is asked for it; one that fails is
+    /// reported and does not keep the others from being visited. The worst exit code is
+    /// returned.
     pub(crate) fn visit_all(
         request: &Request,
         reporter: Reporter,
-        mut visit: impl FnMut(&Self) -> Result<(), Failure>,
+        mut visit: impl FnMut(&Self, &Request) -> Result<(), Failure>,
     ) -> u8 {
         let mut worst = 0;
         for source in Self::all(request) {
-            if let Err(failure) = visit(&source) {
-                reporter.error(&failure);
-                worst = worst.max(failure.exit_code());
+            match request.for_source(&source).and_then(|request| visit(&source, &request)) {
+                Ok(()) => {}
+                Err(Failure::Empty(what)) if request.skip_empty => {
+                    reporter.info(format_args!("{what}; passed over"));
+                }
+                Err(failure) => {
+                    reporter.error(&failure);
+                    worst = worst.max(failure.exit_code());
+                }
             }
         }
         worst
+    }
+
+    /// What stands for it in names of pictures: the file, or that there are several.
+    pub(crate) fn picture_subject(&self) -> Option<&Path> {
+        match self {
+            Self::Files(files) if files.len() > 1 => Some(Path::new("multi_file")),
+            _ => self.first_file(),
+        }
     }
 
     /// The first file: it names pictures and windows.
@@ -69,6 +107,21 @@ impl Source {
     }
 }
 
+/// A name with a star for each group of an expression that is found in it.
+fn starred(pattern: &Regex, name: &str) -> Option<String> {
+    let found = pattern.captures(name)?;
+    let (mut text, mut from) = (String::new(), 0);
+    for group in found.iter().skip(1).flatten().filter(|group| !group.is_empty()) {
+        // Groups in groups are replaced with the outer one.
+        if group.start() >= from {
+            text += &name[from..group.start()];
+            text.push('*');
+            from = group.end();
+        }
+    }
+    Some(text + &name[from..])
+}
+
 /// A scene that has something to draw.
 pub(crate) struct Model {
     pub(crate) scene: Scene,
@@ -77,36 +130,52 @@ pub(crate) struct Model {
     pub(crate) scene_names: Vec<String>,
     /// All that were read for it: what to watch for changes.
     pub(crate) files: Vec<PathBuf>,
+    /// What is odd about the time at which it is shown.
+    pub(crate) odd: Option<String>,
     bounds: Bounds3,
 }
 
 impl Model {
     /// The model, or an error when nothing in it can be drawn.
     pub(crate) fn new(mut scene: Scene, source: Source, request: &Request) -> Result<Self, Failure> {
-        request.look.apply(&mut scene);
+        request.look.apply(&mut scene)?;
         let bounds = Bounds3::from_points(scene.visible_points());
         if bounds.is_empty() {
-            return Err(Failure::work(format!(
+            return Err(Failure::Empty(format!(
                 "{}: nothing to draw: there is no face, line or point in it; check that the right file was exported, with its meshes",
                 source.title()
             )));
         }
-        Ok(Self { scene, source, scene_names: Vec::new(), files: Vec::new(), bounds })
+        request.scenery.replace(&mut scene)?;
+        Ok(Self { scene, source, scene_names: Vec::new(), files: Vec::new(), odd: None, bounds })
     }
 
     /// The model of a scene that is shown already.
     #[cfg(feature = "window")]
     pub(crate) fn shown(scene: Scene, source: Source) -> Self {
         let bounds = Bounds3::from_points(scene.visible_points());
-        Self { scene, source, scene_names: Vec::new(), files: Vec::new(), bounds }
+        Self { scene, source, scene_names: Vec::new(), files: Vec::new(), odd: None, bounds }
     }
 
     /// The camera that the flags ask for. The built-in scene is composed for
     /// its own camera.
     pub(crate) fn shot(&self, framing: &Framing, aspect: f64) -> Result<Shot, Failure> {
-        let composed = Framing { eye: Eye::SceneCamera(0), ..framing.clone() };
+        self.composed(framing).shot(&self.scene, aspect)
+    }
+
+    /// Views once around it.
+    pub(crate) fn turntable(
+        &self,
+        framing: &Framing,
+        aspect: f64,
+        views: u32,
+    ) -> Result<Vec<Camera>, Failure> {
+        self.composed(framing).turntable(&self.scene, aspect, views)
+    }
+
+    fn composed(&self, framing: &Framing) -> Framing {
         let own = self.source == Source::BuiltIn && framing.eye == Eye::Default;
-        if own { &composed } else { framing }.shot(&self.scene, aspect)
+        if own { Framing { eye: Eye::SceneCamera(0), ..framing.clone() } } else { framing.clone() }
     }
 
     /// The mesh of each visible node.
@@ -129,6 +198,20 @@ impl Model {
             format!("animation {index} {:?}, {} s", animation.name, short(animation.duration()))
         });
         scenes.chain(animations).collect()
+    }
+
+    /// What is in it, for other programs.
+    pub(crate) fn facts(&self) -> serde_json::Value {
+        let Summary { vertices, edges, faces, nodes, materials, textures, size } = self.summary();
+        let animations = self.scene.animations.iter();
+        let animations =
+            animations.map(|animation| json!({"name": animation.name, "seconds": animation.duration()}));
+        json!({
+            "file": self.source.first_file(), "vertices": vertices, "edges": edges, "faces": faces,
+            "nodes": nodes, "materials": materials, "textures": textures,
+            "size": [size.x, size.y, size.z], "scenes": self.scene_names,
+            "animations": animations.collect::<Vec<_>>(),
+        })
     }
 
     /// Counts and sizes of what is visible.
@@ -193,7 +276,24 @@ pub(crate) fn short(length: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::short;
+    use super::*;
+
+    #[test]
+    fn files_are_grouped_by_folder_or_by_name() {
+        let files: Vec<PathBuf> = ["a/x1.obj", "b/x2.obj", "a/y.obj"].map(PathBuf::from).to_vec();
+        let names = |grouping| {
+            let groups = Source::group(&files, &grouping).into_iter().map(|source| match source {
+                Source::BuiltIn => Vec::new(),
+                Source::Files(files) => files.iter().map(|file| file.display().to_string()).collect(),
+            });
+            groups.collect::<Vec<Vec<String>>>()
+        };
+        assert_eq!(names(Grouping::OneByOne).len(), 3, "each alone");
+        assert_eq!(names(Grouping::Together), [["a/x1.obj", "b/x2.obj", "a/y.obj"]], "all");
+        assert_eq!(names(Grouping::ByFolder), [&["a/x1.obj", "a/y.obj"][..], &["b/x2.obj"]], "folders");
+        let pattern = Regex::new(r"^(.)/x(\d+)").expect("an expression");
+        assert_eq!(names(Grouping::ByName(pattern)), [&["a/x1.obj", "b/x2.obj"][..], &["a/y.obj"]], "x");
+    }
 
     #[test]
     fn lengths_are_short_and_true() {

@@ -1,20 +1,25 @@
 //! Picture mode: models in, files of pictures and outputs, a PNG stream or a capture
 //! out. No display needed.
 
-use std::collections::HashSet;
-use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use serde_json::json;
 use trigon_camera::Camera;
-use trigon_io::{Capture, Pixels, WriteError, encode_png, write_exr, write_npy, write_png, write_png16};
+use trigon_io::{Capture, Limits, Picture, Sequence, compare_pictures, load_image};
 use trigon_scene::{Frame, RenderSettings, Renderer};
 
-use crate::args::{Beside, Destination, Format, Limit, Request};
+use crate::args::{Destination, Limit, Mode, Reference, Request, Subject, Template};
+use crate::axes;
 use crate::failure::Failure;
+use crate::lettering::Lettering;
+use crate::lists::json_line;
 use crate::loading;
 use crate::model::{Model, Source};
+use crate::outlet::{Outlet, write_file};
 use crate::report::Reporter;
+use crate::scripted;
+use crate::series::Series;
 
 /// Draws and writes a picture of every source. A source that fails does not
 /// keep the others from being drawn; the worst exit code is returned.
@@ -24,11 +29,18 @@ pub(crate) fn run(
     capture: Option<&Path>,
     reporter: Reporter,
 ) -> u8 {
-    let mut outlet = Outlet { beside: &request.outputs, ..Outlet::new(output, reporter) };
-    Source::visit_all(request, reporter, |source| draw_one(source, request, capture, &mut outlet, reporter))
+    let mut outlet = Outlet::new(output, reporter);
+    outlet.beside = &request.outputs;
+    if request.script.is_some() {
+        return scripted::run(request, capture, &mut outlet, reporter);
+    }
+    Source::visit_all(request, reporter, |source, request| {
+        draw_source(source, request, capture, &mut outlet, reporter)
+    })
 }
 
-fn draw_one(
+/// Draws what is asked for of one source, and writes it.
+pub(crate) fn draw_source(
     source: &Source,
     request: &Request,
     capture: Option<&Path>,
@@ -36,24 +48,191 @@ fn draw_one(
     reporter: Reporter,
 ) -> Result<(), Failure> {
     outlet.refuse_terminal()?;
-    let model = loading::load_aloud(source, request, reporter)?;
-    let camera = model.shot(&request.framing, request.settings.aspect())?.camera;
-    let (frame, settings) = draw(&model, &camera, request, reporter)?;
-    outlet.put(source.first_file(), &frame)?;
-    let Some(path) = capture else { return Ok(()) };
-    let capture = Capture::new(model.scene, camera, settings, &frame);
+    let started = Instant::now();
+    let mut model = loading::load_aloud(source, request, reporter)?;
+    let loaded = started.elapsed().as_secs_f64();
+    let before = outlet.written.len();
+    let mut facts = if request.json { model.facts() } else { json!({}) };
+    match output_template(request) {
+        Some(template) if template.is_moving() || template.tells_frames_apart() => {
+            draw_series(&mut model, request, outlet)?;
+        }
+        _ => {
+            let camera = model.shot(&request.framing, request.settings.aspect())?.camera;
+            request.scenery.add_to(&mut model.scene);
+            let drawn = draw(&model, &camera, request, reporter)?;
+            if let Some(path) = capture {
+                keep(&model, camera, &drawn, path, reporter)?;
+            }
+            let frame = finished(drawn.frame, &model, &camera, request)?;
+            facts["draw_seconds"] = json!(drawn.seconds);
+            facts["pixels_shaded"] = json!(drawn.pixels_shaded);
+            facts["error"] = json!(deliver(source, &frame, request, outlet, reporter)?);
+        }
+    }
+    if request.json {
+        facts["width"] = json!(request.settings.width);
+        facts["height"] = json!(request.settings.height);
+        facts["load_seconds"] = json!(loaded);
+        facts["written"] = json!(outlet.written[before..]);
+        json_line(&facts, reporter);
+    }
+    Ok(())
+}
+
+fn output_template(request: &Request) -> Option<&Template> {
+    match &request.mode {
+        Mode::Picture { output: Some(Destination::File(template)), .. } => Some(template),
+        _ => None,
+    }
+}
+
+/// A picture, and how it came about.
+struct Drawn {
+    frame: Frame,
+    settings: RenderSettings,
+    seconds: f64,
+    pixels_shaded: u64,
+}
+
+/// Writes what draws the picture again.
+fn keep(
+    model: &Model,
+    camera: Camera,
+    drawn: &Drawn,
+    path: &Path,
+    reporter: Reporter,
+) -> Result<(), Failure> {
+    let capture = Capture::new(model.scene.clone(), camera, drawn.settings.clone(), &drawn.frame);
     capture.write(path).map_err(Failure::work)?;
     reporter.info(format_args!("captured {} ({:016x})", path.display(), capture.picture_hash()));
     Ok(())
 }
 
-/// A picture, and the settings that it was drawn with.
-fn draw(
-    model: &Model,
-    camera: &Camera,
+/// Writes a picture, if there is nothing to compare it with or it differs. Returns how far
+/// it is from that.
+fn deliver(
+    source: &Source,
+    frame: &Frame,
     request: &Request,
+    outlet: &mut Outlet<'_>,
     reporter: Reporter,
-) -> Result<(Frame, RenderSettings), Failure> {
+) -> Result<Option<f64>, Failure> {
+    let subject = Subject { model: source.picture_subject(), frame: 0 };
+    let Some(reference) = &request.reference else {
+        outlet.put(subject, frame)?;
+        return Ok(None);
+    };
+    let name = reference.file.display();
+    if !reference.file.exists() {
+        let written = outlet.put(subject, frame)?;
+        let remedy = match written {
+            Some(path) => format!("{} was written: give it that name if it is right", path.display()),
+            None => "write one with --output, look at it, and give it that name".to_owned(),
+        };
+        return Err(Failure::Mismatch(format!("{name}: there is no picture to compare with; {remedy}")));
+    }
+    compare(reference, frame, &mut |frame| outlet.put(subject, frame), reporter).map(Some)
+}
+
+/// Compares a picture; one that differs is written, and where it differs beside it.
+fn compare(
+    reference: &Reference,
+    frame: &Frame,
+    put: &mut dyn FnMut(&Frame) -> Result<Option<PathBuf>, Failure>,
+    reporter: Reporter,
+) -> Result<f64, Failure> {
+    let wanted = load_image(&reference.file, &Limits::default()).map_err(Failure::work)?;
+    let (name, threshold) = (reference.file.display(), reference.threshold);
+    let drawn = Picture { width: frame.width, height: frame.height, rgba: frame.color.clone() };
+    let difference = match compare_pictures(&drawn, &wanted) {
+        Ok(difference) => difference,
+        Err(sizes) => {
+            put(frame)?;
+            return Err(Failure::Mismatch(format!("{name}: {sizes}")));
+        }
+    };
+    let (error, pixels) = (difference.error, difference.different_pixels);
+    if error <= threshold {
+        reporter.info(format_args!(
+            "{name}: the error is {error:.6}, within {threshold} ({pixels} pixels differ)"
+        ));
+        return Ok(error);
+    }
+    let Picture { width, height, rgba } = difference.picture;
+    if let Some(path) = put(frame)? {
+        let path = path.with_extension("diff.png");
+        write_file(&path, &Frame { width, height, color: rgba, ..Frame::default() })?;
+        reporter.info(format_args!("wrote {} (where they differ)", path.display()));
+    }
+    Err(Failure::Mismatch(format!(
+        "{name}: the error is {error:.6}, more than --reference-threshold={threshold}; {pixels} pixels differ, by up to {} of 255",
+        difference.largest
+    )))
+}
+
+/// Draws picture after picture, to as many files or to one.
+fn draw_series(model: &mut Model, request: &Request, outlet: &mut Outlet<'_>) -> Result<(), Failure> {
+    let series = Series::new(model, request)?;
+    request.scenery.add_to(&mut model.scene);
+    let mut renderer = Renderer::new(request.settings.clone());
+    let subject = model.source.clone();
+    let subject = |frame| Subject { model: subject.picture_subject(), frame };
+    let mut draw = |number| -> Result<Frame, Failure> {
+        let camera = series.set(&mut model.scene, number);
+        let frame = renderer.render(&model.scene, &camera).map_err(Failure::work)?;
+        finished(frame, model, &camera, request)
+    };
+    if output_template(request).is_some_and(Template::is_moving) {
+        let sequence = Sequence {
+            width: request.settings.width,
+            height: request.settings.height,
+            frames: series.frames(),
+            frames_per_second: request.sequence.rate,
+        };
+        return outlet.put_moving(subject(0), &sequence, &mut draw);
+    }
+    (0..series.frames()).try_for_each(|number| outlet.put(subject(number), &draw(number)?).map(drop))
+}
+
+/// What is drawn and written over a picture.
+fn finished(mut frame: Frame, model: &Model, camera: &Camera, request: &Request) -> Result<Frame, Failure> {
+    if let Some(depths) = frame.depth.as_deref().filter(|_| request.display_depth) {
+        frame.color = grey_depths(depths);
+    }
+    let overlay = &request.overlay;
+    if let Some(colors) = overlay.axes {
+        axes::draw(&mut frame, camera, colors, &request.settings)?;
+    }
+    let environment = request.environment.as_ref().and_then(|file| file.file_name());
+    let environment =
+        environment.filter(|_| overlay.environment_name).map(|name| name.to_string_lossy().into_owned());
+    let text = Lettering {
+        top: overlay.name.then(|| model.source.title()).into_iter().collect(),
+        left: if overlay.metadata { model.summary().lines() } else { Vec::new() },
+        below: environment.into_iter().collect(),
+    };
+    text.write(&mut frame, overlay.text_scale)?;
+    Ok(frame)
+}
+
+/// Near is dark; nothing is white. Greys are in proportion to the distance.
+fn grey_depths(depths: &[f32]) -> Vec<u8> {
+    /// The farthest, so that it is told from the background.
+    const FAR: f32 = 235.0;
+    let finite = || depths.iter().copied().filter(|depth| depth.is_finite());
+    let nearest = finite().fold(f32::INFINITY, |least, depth| if depth < least { depth } else { least });
+    let farthest = finite().fold(0.0, |most: f32, depth| if depth > most { depth } else { most });
+    let range = if farthest > nearest { farthest - nearest } else { 1.0 };
+    let grey = |&depth: &f32| {
+        let grey = if depth.is_finite() { ((depth - nearest) / range * FAR) as u8 } else { 255 };
+        [grey, grey, grey, 255]
+    };
+    depths.iter().flat_map(grey).collect()
+}
+
+/// A picture, and the settings that it was drawn with.
+fn draw(model: &Model, camera: &Camera, request: &Request, reporter: Reporter) -> Result<Drawn, Failure> {
     let started = Instant::now();
     let mut renderer = Renderer::new(request.settings.clone());
     let frame = match &request.limit {
@@ -61,16 +240,16 @@ fn draw(
         Some(limit) => draw_within(limit, model, camera, (&mut renderer, reporter))?,
     };
     let title = model.source.title();
-    if renderer.stats().pixels_shaded == 0 {
+    let pixels_shaded = renderer.stats().pixels_shaded;
+    if pixels_shaded == 0 {
         reporter.warning(format_args!(
             "{title}: nothing of the model is in the picture; look from elsewhere (--view=back), or show faces that point away (--backface-type=visible)"
         ));
     }
-    let (milliseconds, faces) = (started.elapsed().as_secs_f64() * 1e3, model.face_count());
-    reporter.debug(format_args!("drew {title} ({faces} faces) in {milliseconds:.1} ms"));
-    Ok((frame, renderer.settings().clone()))
+    let (seconds, faces) = (started.elapsed().as_secs_f64(), model.face_count());
+    reporter.debug(format_args!("drew {title} ({faces} faces) in {:.1} ms", seconds * 1e3));
+    Ok(Drawn { frame, settings: renderer.settings().clone(), seconds, pixels_shaded })
 }
-
 /// The most accurate picture that fits into a time; says what that gives up.
 fn draw_within(
     limit: &Limit,
@@ -86,93 +265,4 @@ fn draw_within(
     let took = (started.elapsed() - drawing).as_secs_f64() * 1e3;
     reporter.info(format_args!("{}: {choice}; took {took:.1} ms", model.source.title()));
     Ok(frame)
-}
-
-/// Where finished pictures go.
-pub(crate) struct Outlet<'a> {
-    output: Option<&'a Destination>,
-    beside: &'a [Beside],
-    written: HashSet<PathBuf>,
-    reporter: Reporter,
-}
-
-impl<'a> Outlet<'a> {
-    pub(crate) fn new(output: Option<&'a Destination>, reporter: Reporter) -> Self {
-        Self { output, beside: &[], written: HashSet::new(), reporter }
-    }
-
-    /// Bytes of a picture would only garble a terminal.
-    pub(crate) fn refuse_terminal(&self) -> Result<(), Failure> {
-        if self.output == Some(&Destination::Stdout) && io::stdout().is_terminal() {
-            return Err(Failure::Usage(
-                "--output - writes a picture to standard output, which is a terminal; redirect it (> picture.png) or name a file (--output picture.png)".to_owned(),
-            ));
-        }
-        Ok(())
-    }
-
-    /// Writes a picture of what a file holds.
-    pub(crate) fn put(&mut self, file: Option<&Path>, frame: &Frame) -> Result<(), Failure> {
-        match self.output {
-            None => Ok(()),
-            Some(Destination::Stdout) => write_stream(frame),
-            Some(Destination::File(template)) => {
-                let path = template.unused(file);
-                self.save(&path, frame, write_file)?;
-                // OpenEXR has them in it.
-                let beside = if template.is_exr() { &[] } else { self.beside };
-                beside.iter().try_for_each(|beside| {
-                    self.save(&beside.path(&path), frame, |path, frame| write_beside(*beside, path, frame))
-                })
-            }
-        }
-    }
-
-    /// Writes a file and says so. Models of the same name in different folders must
-    /// not replace each other's files.
-    fn save(
-        &mut self,
-        path: &Path,
-        frame: &Frame,
-        write: impl FnOnce(&Path, &Frame) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
-        if !self.written.insert(path.to_owned()) {
-            return Err(Failure::Usage(format!(
-                "{}: two models would be written to it; write {{n}} in the name of --output (--output '{{model}}_{{n}}.png')",
-                path.display()
-            )));
-        }
-        write(path, frame)?;
-        let (width, height) = (frame.width, frame.height);
-        self.reporter.info(format_args!("wrote {} ({width}×{height})", path.display()));
-        Ok(())
-    }
-}
-
-fn write_stream(frame: &Frame) -> Result<(), Failure> {
-    encode_png(io::stdout().lock(), frame.width, frame.height, Pixels::Rgba8(&frame.color))
-        .map_err(Failure::work)
-}
-
-/// Writes a picture; an old file of that name is replaced at once or not at all.
-pub(crate) fn write_file(path: &Path, frame: &Frame) -> Result<(), Failure> {
-    let is_exr = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr"));
-    let written = if is_exr {
-        write_exr(path, frame)
-    } else {
-        write_png(path, frame.width, frame.height, Pixels::Rgba8(&frame.color))
-    };
-    written.map_err(Failure::work)
-}
-
-/// Writes one output to a file of its own.
-fn write_beside(beside: Beside, path: &Path, frame: &Frame) -> Result<(), Failure> {
-    let written = match beside.format() {
-        Format::Npy => write_npy(path, frame, beside.output),
-        Format::Png16 => write_png16(path, frame, beside.output),
-    };
-    written.map_err(|error| match error {
-        WriteError::File { .. } => Failure::work(error),
-        unwritable => Failure::work(format!("{}: {unwritable}", path.display())),
-    })
 }

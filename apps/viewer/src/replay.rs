@@ -5,9 +5,9 @@ use std::path::Path;
 use trigon_io::{Capture, Limits};
 use trigon_scene::{RenderSettings, render};
 
-use crate::args::{Destination, Request};
+use crate::args::{Destination, Request, Subject};
 use crate::failure::Failure;
-use crate::picture::Outlet;
+use crate::outlet::Outlet;
 use crate::report::Reporter;
 
 /// Draws a capture again; returns the exit code.
@@ -33,7 +33,7 @@ fn replay(
     let RenderSettings { threads, simd, .. } = request.settings;
     let settings = RenderSettings { threads, simd, ..capture.settings.clone() };
     let frame = render(&capture.scene, &capture.camera, &settings).map_err(Failure::work)?;
-    outlet.put(Some(path), &frame)?;
+    outlet.put(Subject { model: Some(path), frame: 0 }, &frame)?;
     match capture.mismatch(&frame) {
         None => {
             let (path, hash) = (path.display(), capture.picture_hash());

@@ -251,7 +251,10 @@ fn failures_are_one_line_that_names_the_file() {
         ("model.stl --output o.png", ["model.stl", "nothing to draw"]),
         ("model.fbx --output o.png", ["model.fbx", "supported"]),
         ("broken.gltf --output o.png", ["broken.gltf", ""]),
-        ("corner.obj --output no/such/folder/o.png", ["no/such/folder/o.png", "folder exists"]),
+        (
+            "corner.obj --output no/such/folder/o.png",
+            ["no/such/folder/o.png", "no/such/folder does not exist"],
+        ),
         ("corner.obj --output o.png --max-size=0.00001", ["corner.obj", "--max-size"]),
         ("corner.obj --output o.png --camera-index=0", ["--camera-index=0", "no camera"]),
     ] {
@@ -293,7 +296,7 @@ fn a_senseless_command_line_exits_with_2() {
     for (flags, words) in [
         ("--resolutoin 10,10", "--resolution"),
         ("--resolution 0,10", "1 to 16384"),
-        ("--output o.jpg", ".png"),
+        ("--output o.tiff", ".png"),
         ("--outputs depth corner.obj", "--output"),
         ("--output - --outputs depth corner.obj", "standard output"),
         ("--output o.exr --outputs depth.png corner.obj", "without an ending"),
@@ -381,6 +384,88 @@ fn a_list_that_cannot_be_written_says_so() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "said: {said}");
     assert!(said.contains("standard output cannot be written"), "said: {said}");
+}
+
+#[test]
+fn a_turntable_becomes_files_or_one_that_moves() {
+    let folder = Folder::new();
+    let draw = "corner.obj --resolution 40,30 --turntable=4 --frame-rate=10";
+    let said = folder.said(&format!("{draw} --output view_{{frame:2}}.png"), 0);
+    assert_eq!(said.lines().count(), 4, "a line each: {said}");
+    let views =
+        ["view_00.png", "view_01.png", "view_02.png", "view_03.png"].map(|name| picture(&folder.path(name)));
+    assert!((1..4).all(|view| views[view] != views[0]), "each from another side");
+    let said = folder.said(&format!("{draw} --output all.gif"), 0);
+    assert!(said.contains("wrote all.gif (40×30, 4 frames)"), "{said}");
+    folder.said(&format!("{draw} --output all.apng"), 0);
+    let [gif, apng] = ["all.gif", "all.apng"].map(|name| fs::read(folder.path(name)).expect("written"));
+    assert!(gif.starts_with(b"GIF89a") && gif.windows(11).any(|part| part == b"NETSCAPE2.0"), "endless");
+    assert!(apng.windows(4).any(|part| part == b"acTL"), "it moves");
+    assert!(picture(&folder.path("all.apng")) == views[0], "and its first frame is that of the files");
+}
+
+#[test]
+fn pictures_are_written_as_their_endings_say() {
+    let folder = Folder::new();
+    for (name, start) in [
+        ("o.jpg", &b"\xff\xd8\xff"[..]),
+        ("o.jpeg", b"\xff\xd8\xff"),
+        ("o.webp", b"RIFF"),
+        ("o.png", b"\x89PNG"),
+    ] {
+        folder.said(&format!("corner.obj --resolution 40,30 --output {name}"), 0);
+        assert!(fs::read(folder.path(name)).expect("written").starts_with(start), "{name}");
+    }
+    assert!(picture(&folder.path("o.webp")) == picture(&folder.path("o.png")), "WebP loses nothing");
+}
+
+#[test]
+fn facts_are_written_as_json() {
+    let folder = Folder::new();
+    let listed = |flags: &str, code: i32| {
+        let output = folder.run(flags);
+        assert_eq!(output.status.code(), Some(code), "{flags}: {output:?}");
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect::<Vec<serde_json::Value>>()
+    };
+    let facts = &listed("corner.obj --resolution 40,30 --output o.png --json", 0)[0];
+    assert_eq!(facts["faces"], 3, "{facts}");
+    assert_eq!((&facts["width"], &facts["written"][0]), (&40.into(), &"o.png".into()), "{facts}");
+    assert!(facts["draw_seconds"].as_f64().expect("a number") > 0.0, "{facts}");
+    assert_eq!(listed("corner.obj corner.obj --no-render --json", 0).len(), 2, "a line each");
+    folder.said("corner.obj --output - --json", 2);
+
+    folder.write("inside.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
+    let check = &listed("inside.obj --check --json", 1)[0];
+    assert_eq!(
+        (&check["ok"], &check["findings"][0]["fault"]),
+        (&false.into(), &"inside-out".into()),
+        "{check}"
+    );
+}
+
+#[test]
+fn a_check_lists_faults_with_remedies() {
+    let folder = Folder::new();
+    let checked = |flags: &str, code: i32| {
+        let output = folder.run(&format!("{flags} --check"));
+        assert_eq!(output.status.code(), Some(code), "{flags}: {output:?}");
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    assert_eq!(checked("corner.obj", 0), "corner.obj: no faults\n", "a sound model");
+    folder.write("gone.mtl", "newmtl a\nmap_Kd wood.png\n");
+    folder.write("gone.obj", "mtllib gone.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+    let said = checked("gone.obj", 1);
+    assert!(said.contains("wood.png") && said.contains("missing-file"), "a texture: {said}");
+    folder.write("wild.gltf", r#"{"asset": {"version": "2.0"}, "extensionsRequired": ["EXT_wild"], "extensionsUsed": ["EXT_wild"]}"#);
+    let said = checked("wild.gltf", 1);
+    assert!(said.contains("EXT_wild") && said.contains("not-loaded"), "an extension: {said}");
+    folder.write("empty.obj", "");
+    let said = checked("corner.obj empty.obj", 1);
+    assert!(
+        said.contains("corner.obj: no faults") && said.contains("nothing-to-draw"),
+        "each by itself: {said}"
+    );
 }
 
 /// What --capture wrote is drawn again without the model, and told from another.
@@ -510,10 +595,7 @@ fn scenes_and_moments_of_animations_are_chosen() {
     ] {
         assert_eq!(moved(flags), expected, "{flags}");
     }
-    assert!(
-        folder.failed("slide.gltf --animation-index 1 --output o.png").contains("has 1"),
-        "says how many"
-    );
+    assert!(folder.failed("slide.gltf --animation-index 1 --output o.png").contains("0 slide"), "lists them");
     assert!(folder.failed("corner.obj --animation-time 1 --output o.png").contains("no animation"), "none");
     assert!(folder.failed("slide.gltf --scene middle --output o.png").contains("middle"), "no such scene");
     let listed = folder.run("slide.gltf --no-render").stdout;
@@ -552,7 +634,7 @@ fn a_radiance_picture_lights_the_model() {
         "no picture"
     );
     folder.said("floor.obj --hdri-file room.hdr --sky --output o.png", 2);
-    folder.said("floor.obj --hdri-skybox --output o.png", 2);
+    folder.said("floor.obj --hdri-file room.hdr --hdri-skybox --hdri-ambient=false --output o.png", 2);
     folder
         .said("floor.obj --hdri-file room.hdr --hdri-skybox --view=top --resolution 60x40 --output o.png", 0);
     let corner = &picture(&folder.path("o.png")).rgba[..4];

@@ -38,6 +38,7 @@
 //! goes into the node. One node of the file is one node of the scene.
 
 mod capture;
+mod compare;
 mod environment;
 mod error;
 mod export;
@@ -49,6 +50,7 @@ mod layers;
 mod limits;
 mod load;
 mod loss;
+mod lossy;
 mod numbers;
 mod obj;
 mod off;
@@ -62,6 +64,7 @@ mod rebase;
 mod refusal;
 mod registry;
 mod rows;
+mod sequence;
 mod stl;
 mod texture_request;
 mod textures;
@@ -71,6 +74,7 @@ mod write;
 
 pub use self::gltf::{GltfSource, NativeDocument, NativeFile, encode_glb, write_glb};
 pub use capture::{Capture, Mismatch, PixelMismatch};
+pub use compare::{PictureDifference, SizeMismatch, compare_pictures};
 pub use environment::load_environment;
 pub use error::{LoadError, LoadErrorKind, Place};
 pub use export::{Encoding, Export, ExportOptions, ExportedFile, FaceExport, UpAxis, export};
@@ -78,6 +82,7 @@ pub use format::{Format, Reader, Writer};
 pub use limits::Limits;
 pub use load::{Loaded, load, load_from_slice};
 pub use loss::Loss;
+pub use lossy::{encode_jpeg, encode_webp, write_jpeg, write_webp};
 pub use options::{LoadOptions, Progress, ProgressHook, SceneChoice, Stage};
 pub use outputs::{
     Output, UnknownOutput, encode_exr, encode_npy, encode_png16, write_exr, write_npy, write_png16,
@@ -85,6 +90,7 @@ pub use outputs::{
 pub use picture::{Picture, load_image};
 pub use png::{Pixels, encode_png, write_png};
 pub use registry::{readers, writers};
+pub use sequence::{Sequence, write_apng, write_gif};
 pub use warning::Warning;
 pub use write::WriteError;
 

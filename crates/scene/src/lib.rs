@@ -31,6 +31,7 @@
 mod animation;
 mod arena;
 mod background;
+mod check;
 mod effects;
 mod elements;
 mod frame;
@@ -53,6 +54,7 @@ pub mod views;
 pub use animation::{Animation, Channel, Curve, Interpolation, NodePose, Pose, Property};
 pub use arena::{Arena, Id};
 pub use background::Background;
+pub use check::{Finding, Severity};
 pub use effects::{
     Absence, AmbientOcclusion, Cause, Decision, Effect, EffectCounts, EffectPlan, EffectSettings,
     Environment, EnvironmentError, Fog, MetalReflection, Named, Outline, Shadows, Sky, ToneMapping,

@@ -23,19 +23,19 @@ const USUAL_OCCLUSION_RAYS: u32 = 16;
 /// Flags of effects.
 #[derive(Debug, clap::Args)]
 pub(crate) struct EffectArgs {
-    /// Where on surfaces light is found: flat is once for each triangle, gouraud at its corners, phong at each pixel (not in F3D) [default: phong]
+    /// Where on surfaces light is found: flat is once for each triangle, gouraud at its corners, phong at each pixel [default: phong]
     #[arg(long, value_name = "MODEL", help_heading = "Effects")]
     pub(crate) shading: Option<ShadingArg>,
 
-    /// By which law surfaces answer to light, instead of the one that their materials name (not in F3D)
+    /// By which law surfaces answer to light, instead of the one that their materials name
     #[arg(long, value_name = "LAW", default_value = "material", help_heading = "Effects")]
     pub(crate) reflection: ReflectionArg,
 
-    /// How lamps cast shadows: maps are quick, rays exact, and on is as --preset says or else maps (not in F3D)
+    /// How lamps cast shadows: maps are quick, rays exact, and on is as --preset says or else maps
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "on", default_value = "off", value_name = "WAY", help_heading = "Effects")]
     pub(crate) shadows: ShadowsArg,
 
-    /// Width and height of shadow maps in texels (not in F3D) [default: 2048, or as --preset says]
+    /// Width and height of shadow maps in texels [default: 2048, or as --preset says]
     #[arg(long, value_name = "TEXELS", value_parser = clap::value_parser!(u32).range(16..=8192), allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) shadow_resolution: Option<u32>,
 
@@ -43,15 +43,15 @@ pub(crate) struct EffectArgs {
     #[arg(long, short = 'q', num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) ambient_occlusion: Option<bool>,
 
-    /// Rays of each sample for ambient occlusion (not in F3D) [default: 16, or as --preset says]
+    /// Rays of each sample for ambient occlusion [default: 16, or as --preset says]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=256), allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) ambient_occlusion_rays: Option<u32>,
 
-    /// How far surroundings count for ambient occlusion, in metres (not in F3D)
+    /// How far surroundings count for ambient occlusion, in metres
     #[arg(long, value_name = "METRES", default_value = "1", value_parser = values::intensity, allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) ambient_occlusion_distance: f32,
 
-    /// Light the model by a clear sky (not in F3D)
+    /// Light the model by a clear sky
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) sky: Option<bool>,
 
@@ -59,27 +59,31 @@ pub(crate) struct EffectArgs {
     #[arg(long, value_name = "FILE", conflicts_with = "sky", help_heading = "Effects")]
     pub(crate) hdri_file: Option<PathBuf>,
 
+    /// Light the model from all around, by the picture of --hdri-file or else a sky; =false keeps that picture from lighting it
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
+    pub(crate) hdri_ambient: Option<bool>,
+
     /// Show what lights the model behind it: the picture of --hdri-file, or the sky
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) hdri_skybox: Option<bool>,
 
-    /// What metals mirror where nothing else lights the model from all around: a clear sky, or ambient light, which leaves them dark (not in F3D)
+    /// What metals mirror where nothing else lights the model from all around: a clear sky, or ambient light, which leaves them dark
     #[arg(long, value_name = "WHAT", default_value = "sky", help_heading = "Effects")]
     pub(crate) metal_reflection: MetalReflectionArg,
 
-    /// Follow rays of sight so many times at mirrors (metals without roughness) and through glass (not in F3D)
+    /// Follow rays of sight so many times at mirrors (metals without roughness) and through glass
     #[arg(long, value_name = "N", default_value = "0", value_parser = clap::value_parser!(u32).range(0..=16), allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) bounces: u32,
 
-    /// Mist that leaves exp(-DENSITY × distance) of what is seen; per metre (not in F3D)
+    /// Mist that leaves exp(-DENSITY × distance) of what is seen; per metre
     #[arg(long, value_name = "DENSITY", value_parser = values::intensity, allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) fog: Option<f32>,
 
-    /// Colour of the mist (not in F3D)
+    /// Colour of the mist
     #[arg(long, value_name = "COLOR", default_value = "#b8bec6", value_parser = values::color, help_heading = "Effects")]
     pub(crate) fog_color: Vec3,
 
-    /// Make the picture brighter by so many stops; 1 is twice as bright (not in F3D)
+    /// Make the picture brighter by so many stops; 1 is twice as bright
     #[arg(long, value_name = "STOPS", default_value = "0", value_parser = values::stops, allow_hyphen_values = true, help_heading = "Effects")]
     pub(crate) exposure: f32,
 
@@ -87,7 +91,7 @@ pub(crate) struct EffectArgs {
     #[arg(long, short, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) tone_mapping: Option<bool>,
 
-    /// Say which effects the model calls for and why, instead of drawing; with =time also what each of them costs (not in F3D)
+    /// Say which effects the model calls for and why, instead of drawing; with =time also what each of them costs
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "reasons", value_name = "WHAT", help_heading = "Effects")]
     pub(crate) explain: Option<Explanation>,
 }
@@ -137,13 +141,26 @@ pub(crate) enum Explanation {
 impl EffectArgs {
     /// What is seen behind the model, if it is what lights it.
     pub(crate) fn skybox(&self) -> Result<Option<Background>, String> {
-        match (self.hdri_skybox, self.sky == Some(true) || self.hdri_file.is_some()) {
-            (Some(true), true) => Ok(Some(Background::Environment)),
-            (Some(true), false) => {
-                Err("--hdri-skybox shows what lights the model: add --sky or --hdri-file=FILE".to_owned())
-            }
+        match (self.hdri_skybox, self.hdri_ambient) {
+            (Some(true), Some(false)) => Err(
+                "--hdri-skybox shows what lights the model; leave out --hdri-ambient=false, or --hdri-skybox"
+                    .to_owned(),
+            ),
+            (Some(true), _) => Ok(Some(Background::Environment)),
             (None | Some(false), _) => Ok(None),
         }
+    }
+
+    /// Whether a clear sky lights the model: it was asked for, or light from all around was
+    /// and there is no picture of it.
+    fn is_lit_by_sky(&self) -> bool {
+        let around = self.hdri_ambient == Some(true) || self.hdri_skybox == Some(true);
+        self.sky == Some(true) || (around && self.hdri_file.is_none())
+    }
+
+    /// The picture that lights the model.
+    pub(crate) fn environment(&self) -> Option<PathBuf> {
+        self.hdri_file.clone().filter(|_| self.hdri_ambient != Some(false))
     }
 
     /// What they say about the quality.
@@ -191,7 +208,7 @@ impl EffectArgs {
                 rays: self.ambient_occlusion_rays.unwrap_or(USUAL_OCCLUSION_RAYS),
                 distance: self.ambient_occlusion_distance,
             }),
-            environment: (self.sky == Some(true)).then(|| Arc::new(Environment::from_sky(&Sky::default()))),
+            environment: self.is_lit_by_sky().then(|| Arc::new(Environment::from_sky(&Sky::default()))),
             metal_reflection: match self.metal_reflection {
                 MetalReflectionArg::Sky => MetalReflection::Sky,
                 MetalReflectionArg::Ambient => MetalReflection::Ambient,

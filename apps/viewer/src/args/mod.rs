@@ -1,20 +1,35 @@
 //! The command line, in two steps: [`RawArgs`] is what was typed, flag by flag;
 //! [`Request`] is what it means as a whole.
 
+mod animation;
 mod beside;
+mod config;
 mod effects;
+mod gpu;
+mod help;
+mod line;
+mod material;
+mod names;
 mod output;
 mod quality;
 mod raw;
 mod request;
+mod scenery;
+mod script;
 mod values;
 mod window;
+mod words;
 
+#[cfg(feature = "window")]
+pub(crate) use animation::AnimationProgress;
 pub(crate) use beside::{Beside, Format};
 pub(crate) use effects::Explanation;
-pub(crate) use output::Destination;
-#[cfg(feature = "window")]
-pub(crate) use output::Template;
+pub(crate) use help::short as short_help;
+pub(crate) use line::CommandLine;
+pub(crate) use output::{Destination, Subject, Template};
 pub(crate) use quality::Limit;
-pub(crate) use raw::{Command, RawArgs};
-pub(crate) use request::{Grouping, Mode, Request, STDIN};
+pub(crate) use raw::{Command, HelpLength, RawArgs};
+pub(crate) use request::{Grouping, Mode, Reference, Request, STDIN, plain};
+pub(crate) use script::{RANGES, Step, steps};
+#[cfg(feature = "window")]
+pub(crate) use window::InteractionStyle;

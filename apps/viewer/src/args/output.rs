@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
+use std::time::SystemTime;
 
 /// Where a picture goes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,13 +22,24 @@ impl FromStr for Destination {
             return Ok(Self::Stdout);
         }
         let ending = Path::new(text).extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        if !matches!(ending.as_deref(), Some("png" | "exr")) {
-            return Err(
-                "pictures are written as PNG or OpenEXR; use a name that ends in .png or .exr, or - for standard output"
-                    .to_owned(),
-            );
+        if !ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str())) {
+            return Err(format!(
+                "use a name that ends in .{}, or - for a PNG on standard output",
+                ENDINGS.join(", .")
+            ));
         }
         Template::parse(text).map(Self::File)
+    }
+}
+
+/// What the formats of pictures end in.
+const ENDINGS: [&str; 7] = ["png", "jpg", "jpeg", "webp", "exr", "gif", "apng"];
+
+/// The name of a picture that is one file.
+pub(crate) fn picture_name(text: &str) -> Result<Template, String> {
+    match text.parse()? {
+        Destination::Stdout => Err("name a file".to_owned()),
+        Destination::File(template) => Ok(template),
     }
 }
 
@@ -46,6 +58,19 @@ enum Piece {
     Extension,
     /// A number, padded to this many digits.
     Number(usize),
+    /// The number of a frame, padded to this many digits.
+    Frame(usize),
+    /// The date by a format of `strftime`.
+    Date(String),
+}
+
+/// Of what a picture is, for its name.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Subject<'a> {
+    /// `None` for the built-in scene.
+    pub(crate) model: Option<&'a Path>,
+    /// From 0.
+    pub(crate) frame: u32,
 }
 
 impl Template {
@@ -69,6 +94,18 @@ impl Template {
         matches!(self.0.last(), Some(Piece::Text(end)) if end.to_lowercase().ends_with(".exr"))
     }
 
+    /// Whether the name is that of a file that holds many frames.
+    pub(crate) fn is_moving(&self) -> bool {
+        let end =
+            |text: &str| text.to_lowercase().ends_with(".gif") || text.to_lowercase().ends_with(".apng");
+        matches!(self.0.last(), Some(Piece::Text(text)) if end(text))
+    }
+
+    /// Whether each frame gets its own name.
+    pub(crate) fn tells_frames_apart(&self) -> bool {
+        self.0.iter().any(|piece| matches!(piece, Piece::Frame(_)))
+    }
+
     /// Whether different models get different names.
     pub(crate) fn tells_models_apart(&self) -> bool {
         self.0
@@ -76,21 +113,21 @@ impl Template {
             .any(|piece| matches!(piece, Piece::Model | Piece::ModelWithExtension | Piece::Number(_)))
     }
 
-    /// The name for a model (`None` for the built-in scene), with the first
-    /// number whose file does not exist yet.
-    pub(crate) fn unused(&self, model: Option<&Path>) -> PathBuf {
-        self.unused_in(Path::new(""), model)
+    /// The name for a picture, with the first number whose file does not exist yet.
+    pub(crate) fn unused(&self, subject: Subject<'_>) -> PathBuf {
+        self.unused_in(Path::new(""), subject)
     }
 
     /// The same in a folder.
-    pub(crate) fn unused_in(&self, folder: &Path, model: Option<&Path>) -> PathBuf {
+    pub(crate) fn unused_in(&self, folder: &Path, subject: Subject<'_>) -> PathBuf {
         let numbered = self.0.iter().any(|piece| matches!(piece, Piece::Number(_)));
-        let mut names = (1..).map(|number| folder.join(self.fill(model, number)));
+        let now = SystemTime::now();
+        let mut names = (1..).map(|number| folder.join(self.fill(subject, number, now)));
         let free = names.find(|name| !numbered || !name.exists());
         free.expect("a folder holds fewer files than there are numbers")
     }
 
-    fn fill(&self, model: Option<&Path>, number: usize) -> PathBuf {
+    fn fill(&self, Subject { model, frame }: Subject<'_>, number: usize, now: SystemTime) -> PathBuf {
         let text = |part: Option<&std::ffi::OsStr>| part.map(|part| part.to_string_lossy().into_owned());
         let name: String = self
             .0
@@ -103,6 +140,8 @@ impl Template {
                 }
                 Piece::Extension => text(model.and_then(Path::extension)).unwrap_or_default(),
                 Piece::Number(digits) => format!("{number:0digits$}"),
+                Piece::Frame(digits) => format!("{frame:0digits$}"),
+                Piece::Date(format) => date(now, format),
             })
             .collect();
         expand_home(&name)
@@ -123,15 +162,19 @@ fn variable(text: &str) -> Result<(Piece, &str), String> {
     let (name, after) = text.split_once('}').ok_or("a { has no }")?;
     let piece = match (name, name.split_once(':')) {
         ("app", _) => Piece::Text("trigon-viewer".to_owned()),
-        ("version", _) => Piece::Text(env!("CARGO_PKG_VERSION").to_owned()),
+        ("version" | "version_full", _) => Piece::Text(env!("CARGO_PKG_VERSION").to_owned()),
         ("model", _) => Piece::Model,
         ("model.ext", _) => Piece::ModelWithExtension,
         ("model_ext", _) => Piece::Extension,
         ("n", _) => Piece::Number(1),
         (_, Some(("n", digits))) => Piece::Number(padding(digits)?),
+        ("frame", _) => Piece::Frame(1),
+        (_, Some(("frame", digits))) => Piece::Frame(padding(digits)?),
+        ("date", _) => Piece::Date("%Y%m%d".to_owned()),
+        (_, Some(("date", format))) => Piece::Date(format.to_owned()),
         _ => {
             return Err(format!(
-                "{{{name}}} is no variable; there are {{model}}, {{model.ext}}, {{model_ext}}, {{n}}, {{n:3}}, {{app}} and {{version}}"
+                "{{{name}}} is no variable; there are {{model}}, {{model.ext}}, {{model_ext}}, {{n}}, {{n:3}}, {{frame}}, {{frame:4}}, {{date}}, {{app}} and {{version}}"
             ));
         }
     };
@@ -141,7 +184,43 @@ fn variable(text: &str) -> Result<(Piece, &str), String> {
 fn padding(digits: &str) -> Result<usize, String> {
     const MOST: usize = 20;
     let digits = digits.parse::<usize>().ok().filter(|digits| (1..=MOST).contains(digits));
-    digits.ok_or_else(|| format!("after {{n: comes a number of digits from 1 to {MOST}"))
+    digits.ok_or_else(|| format!("after the colon comes a number of digits from 1 to {MOST}"))
+}
+
+/// A time in UTC, by the letters of `strftime` for its numbers; others stay as they are.
+fn date(time: SystemTime, format: &str) -> String {
+    let seconds = time.duration_since(SystemTime::UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let (days, second) = (seconds / 86_400, seconds % 86_400);
+    let (year, month, day) = civil(days);
+    let mut text = String::new();
+    let mut letters = format.chars();
+    while let Some(letter) = letters.next() {
+        match (letter == '%').then(|| letters.next()).flatten() {
+            Some('Y') => text += &format!("{year:04}"),
+            Some('m') => text += &format!("{month:02}"),
+            Some('d') => text += &format!("{day:02}"),
+            Some('H') => text += &format!("{:02}", second / 3600),
+            Some('M') => text += &format!("{:02}", second / 60 % 60),
+            Some('S') => text += &format!("{:02}", second % 60),
+            Some('F') => text += &format!("{year:04}-{month:02}-{day:02}"),
+            Some(other) => text.push(other),
+            None => text.push(letter),
+        }
+    }
+    text
+}
+
+/// Year, month and day of a day since 1970-01-01: years are counted from March, so that the
+/// leap day is the last one, in eras of 400 years that have 146,097 days.
+fn civil(days: u64) -> (u64, u64, u64) {
+    let days = days + 719_468;
+    let (era, day) = (days / 146_097, days % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let day = day - (153 * month + 2) / 5 + 1;
+    let (month, later) = if month < 10 { (month + 3, 0) } else { (month - 9, 1) };
+    (era * 400 + year + later, month, day)
 }
 
 /// `~/…` in the home folder: shells leave it alone after `--output=`.
@@ -158,7 +237,10 @@ mod tests {
 
     fn filled(template: &str, model: Option<&str>) -> String {
         let template = Template::parse(template).expect("a template");
-        template.fill(model.map(Path::new), 7).to_string_lossy().into_owned()
+        let subject = Subject { model: model.map(Path::new), frame: 12 };
+        // 2024-02-29 13:05:09.
+        let now = SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(1_709_211_909);
+        template.fill(subject, 7, now).to_string_lossy().into_owned()
     }
 
     #[test]
@@ -170,6 +252,8 @@ mod tests {
         assert_eq!(filled("{model_ext}.png", model), "obj.png", "ending alone");
         assert_eq!(filled("{{model}}_{app}.png", model), "{model}_trigon-viewer.png", "escaped");
         assert_eq!(filled("{model}.png", None), "trigon.png", "the built-in scene");
+        assert_eq!(filled("{frame}_{frame:04}.png", None), "12_0012.png", "a frame");
+        assert_eq!(filled("{date}_{date:%H-%M-%S}.png", None), "20240229_13-05-09.png", "a leap day");
     }
 
     #[test]
@@ -179,7 +263,7 @@ mod tests {
             ("{model.png", "no }"),
             ("{{model.png", "no }}"),
             ("{n:0}.png", "digits"),
-            ("a.jpg", ".png"),
+            ("a.tiff", ".png"),
             ("a", ".png"),
         ] {
             let error = text.parse::<Destination>().expect_err("refused");

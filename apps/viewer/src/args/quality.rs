@@ -11,7 +11,7 @@ use super::values;
 /// Flags of the quality as a whole.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct QualityArgs {
-    /// Set samples, shading, shadows and rays at once: draft, standard, high or reference (not in F3D)
+    /// Set samples, shading, shadows and rays at once: draft, standard, high or reference
     ///
     /// What another flag says, such as --samples, wins over it. Shadows and ambient occlusion
     /// are drawn only if they are asked for; the preset says how.
@@ -23,7 +23,7 @@ pub(crate) struct QualityArgs {
     )]
     pub(crate) preset: Option<Preset>,
 
-    /// Draw the picture as accurately as fits into this time, such as 16ms or 0.5s (not in F3D)
+    /// Draw the picture as accurately as fits into this time, such as 16ms or 0.5s
     ///
     /// Costs and errors are measured first, on parts of the picture, and do not count. It is
     /// said what was chosen, and what that gives up. What another flag says, such as

@@ -2,31 +2,37 @@
 //! together. What they mean as a whole is `Request`'s to say.
 //!
 //! Names and defaults follow F3D (<https://f3d.app>), so that its users and
-//! their scripts feel at home; what F3D does not have says so.
+//! their scripts feel at home.
 
 use std::path::PathBuf;
 
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
+use regex::Regex;
 use trigon_camera::Viewport;
 use trigon_io::{Format, SceneChoice};
 use trigon_math::{DVec3, Vec3};
 use trigon_scene::SimdLevel;
 
+use super::animation::AnimationArgs;
 use super::beside::Beside;
 use super::effects::EffectArgs;
-use super::output::Destination;
+use super::gpu::GpuOnly;
+use super::material::MaterialArgs;
+use super::output::{Destination, Template};
 use super::quality::QualityArgs;
+use super::scenery::SceneryArgs;
 use super::values;
 use super::window::WindowArgs;
+use crate::framing::Turn;
 use crate::report::Level;
 use crate::study::StudyArgs;
 
-const AFTER_HELP: &str = "\
+pub(crate) const AFTER_HELP: &str = "\
 Exit codes:
   0  all went well
   1  a model could not be loaded or drawn, or a picture could not be written
   2  the command line makes no sense
-  3  a captured picture was drawn again, and differs
+  3  a picture differs from the one that --reference or --replay names
 
 Values:
   COLOR      1,0.5,0 | #f80 | #ff8800 | a CSS name or function such as orange
@@ -47,7 +53,7 @@ Examples:
 /// Without --output a window opens; press H in it for its keys. With --output
 /// a picture is written instead. Without FILES the built-in scene is shown.
 #[derive(Debug, Parser)]
-#[command(name = "trigon-viewer", version, after_long_help = AFTER_HELP, after_help = "More with --help: every flag in full, exit codes, examples.")]
+#[command(name = "trigon-viewer", version, after_long_help = AFTER_HELP, disable_help_flag = true)]
 #[command(args_override_self = true, max_term_width = 100)]
 #[command(args_conflicts_with_subcommands = true, disable_help_subcommand = true)]
 pub(crate) struct RawArgs {
@@ -62,15 +68,18 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "FILE", action = ArgAction::Append, hide = true)]
     pub(crate) input: Vec<PathBuf>,
 
-    /// Write a PNG or an OpenEXR picture instead of opening a window; - is a PNG on standard output
+    /// Write a picture instead of opening a window (PNG, JPEG, WebP, OpenEXR); - is a PNG on standard output
     ///
-    /// OpenEXR holds linear light, premultiplied with alpha, before exposure and tone mapping. The name may hold {model} (the file's name without its ending),
+    /// JPEG has no alpha: what is transparent is white. OpenEXR holds linear light, premultiplied with alpha, before exposure and tone mapping. The name may hold {model} (the file's name without its ending),
     /// {model.ext} (with it), {model_ext} (the ending), {n:3} (the first number whose file does not
-    /// exist yet, padded to three digits), {app} and {version}; {{x}} stands for {x} itself.
-    #[arg(long, value_name = "FILE.png|FILE.exr|-", help_heading = "Files")]
+    /// exist yet, padded to three digits), {app}, {version}, {date} and {date:%H%M} (UTC); {{x}} stands for {x} itself.
+    /// With {frame} or {frame:4} each frame of an animation becomes a picture, as many as
+    /// --frame-rate says, from --animation-time on. A name that ends in .gif or .apng holds them
+    /// all, and those of --turntable.
+    #[arg(long, value_name = "FILE|-", help_heading = "Files")]
     pub(crate) output: Option<Destination>,
 
-    /// Write this, too: depth, normals and other outputs, with a comma between them (not in F3D)
+    /// Write this, too: depth, normals and other outputs, with a comma between them
     ///
     /// There are color, radiance (linear light, premultiplied), depth (metres along the view axis), object-ids, face-ids, material-ids,
     /// triangle-ids, barycentrics, positions, normals, geometric-normals, uvs and albedo. With
@@ -87,14 +96,14 @@ pub(crate) struct RawArgs {
     )]
     pub(crate) outputs: Vec<Beside>,
 
-    /// Write scene, camera, settings and picture to one file, to draw it again elsewhere (not in F3D)
+    /// Write scene, camera, settings and picture to one file, to draw it again elsewhere
     ///
     /// Nothing else is needed to draw it again: a bug report, or a test. With
     /// --output the picture is written, too.
     #[arg(long, value_name = "FILE.trigon", help_heading = "Files")]
     pub(crate) capture: Option<PathBuf>,
 
-    /// Draw what --capture wrote and tell whether the picture is the same, by exit code 3 if not (not in F3D)
+    /// Draw what --capture wrote and tell whether the picture is the same, by exit code 3 if not
     ///
     /// With --output the new picture is written. --threads and --simd may be
     /// given; all else is as it was captured.
@@ -113,37 +122,55 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "MODE", default_value = "single", help_heading = "Files")]
     pub(crate) multi_file_mode: MultiFileMode,
 
-    /// Refuse files larger than this many MiB
+    /// Files whose names differ only in what the groups of this regular expression match are shown together
+    #[arg(long, value_name = "REGEX", value_parser = values::regex, conflicts_with = "multi_file_mode", help_heading = "Files")]
+    pub(crate) multi_file_regex: Option<Regex>,
+
+    /// Take the models of folders in folders, too
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Files")]
+    pub(crate) recursive_dir_add: Option<bool>,
+
+    /// Pass over files with nothing to draw
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Files")]
+    pub(crate) remove_empty_file_groups: Option<bool>,
+
+    /// Refuse files larger than this many MiB; a negative number refuses none
     #[arg(long, value_name = "MIB", value_parser = values::mebibytes, allow_negative_numbers = true, help_heading = "Files")]
     pub(crate) max_size: Option<u64>,
+
+    /// Compare the picture with this one: exit code 3 if they differ too much
+    ///
+    /// With --output the picture is written only then, and where they differ to a file
+    /// beside it (chair.diff.png). Without the file to compare with, the picture is
+    /// written, to become it, and the exit code is 3, too.
+    #[arg(long, value_name = "FILE.png", conflicts_with_all = ["replay", "turntable"], help_heading = "Files")]
+    pub(crate) reference: Option<PathBuf>,
+
+    /// How much is too much: 0 only for the same look, 0.04 for what is hardly seen
+    #[arg(long, value_name = "ERROR", default_value = "0.04", value_parser = values::share, allow_negative_numbers = true, help_heading = "Files")]
+    pub(crate) reference_threshold: f64,
+
+    /// Say what is wrong with the files instead of drawing them: exit code 1 if anything is
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, conflicts_with_all = ["output", "capture", "replay"], help_heading = "Files")]
+    pub(crate) check: Option<bool>,
+
+    /// The name of the window's screenshots; as for --output
+    #[arg(long, value_name = "FILE", value_parser = super::output::picture_name, default_value = "{model}_{n}.png", help_heading = "Window")]
+    pub(crate) screenshot_filename: Template,
 
     /// Load the files and say what is in them, but draw nothing
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Files")]
     pub(crate) no_render: Option<bool>,
 
-    /// The scene to show of a file that has several, by its number from 0 or its name (not in F3D) [default: the file's own choice]
+    /// The scene to show of a file that has several, by its number from 0 or its name [default: the file's own choice]
     #[arg(long, value_name = "N|NAME", value_parser = values::scene, help_heading = "Files")]
     pub(crate) scene: Option<SceneChoice>,
-
-    /// The animation whose pose is shown, counted from 0; a negative one means all of them [default: 0 with --animation-time, else none]
-    #[arg(
-        long,
-        alias = "animation-indices",
-        value_name = "N",
-        allow_negative_numbers = true,
-        help_heading = "Files"
-    )]
-    pub(crate) animation_index: Option<i64>,
-
-    /// The time of that pose in seconds [default: 0 with --animation-index]
-    #[arg(long, value_name = "SECONDS", value_parser = values::seconds, allow_negative_numbers = true, help_heading = "Files")]
-    pub(crate) animation_time: Option<f64>,
 
     /// Which axis of the model points up
     #[arg(long, value_name = "DIRECTION", default_value = "+Y", value_parser = values::direction, allow_hyphen_values = true, help_heading = "Camera")]
     pub(crate) up: DVec3,
 
-    /// Look from a named side (not in F3D)
+    /// Look from a named side
     #[arg(long, value_name = "SIDE", help_heading = "Camera", conflicts_with_all = ["camera_direction", "camera_position"])]
     pub(crate) view: Option<View>,
 
@@ -191,7 +218,7 @@ pub(crate) struct RawArgs {
     #[arg(long, short, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Look", conflicts_with = "style")]
     pub(crate) edges: Option<bool>,
 
-    /// What is drawn of the model's polygons (not in F3D)
+    /// What is drawn of the model's polygons
     #[arg(long, value_name = "STYLE", help_heading = "Look")]
     pub(crate) style: Option<DrawStyle>,
 
@@ -203,21 +230,17 @@ pub(crate) struct RawArgs {
     #[arg(long, short, num_args = 0..=1, require_equals = true, default_missing_value = "ssaa", value_name = "METHOD", help_heading = "Look")]
     pub(crate) anti_aliasing: Option<AntiAliasing>,
 
-    /// Samples: along each side of a pixel with ssaa, 1 to 4, so 3 means 9; in all with msaa, 1, 2, 4, 8 or 16 (not in F3D) [default: 3, or 4 with msaa]
+    /// Samples: along each side of a pixel with ssaa, 1 to 4, so 3 means 9; in all with msaa, 1, 2, 4, 8 or 16 [default: 3, or 4 with msaa]
     #[arg(long, value_name = "1-16", value_parser = clap::value_parser!(u32).range(1..=16), allow_negative_numbers = true, help_heading = "Look")]
     pub(crate) samples: Option<u32>,
 
-    /// Colour of the model; textures are tinted by it
-    #[arg(long, value_name = "COLOR", value_parser = values::color, help_heading = "Look")]
-    pub(crate) color: Option<Vec3>,
+    /// How translucent surfaces are drawn: always exactly, in any order
+    #[arg(long, short = 'p', num_args = 0..=1, require_equals = true, default_missing_value = "ddp", value_name = "METHOD", hide = true, help_heading = "Look")]
+    pub(crate) blending: Option<Blending>,
 
-    /// Opacity of the model, 0 to 1 or 0% to 100%
-    #[arg(long, value_name = "RATIO", value_parser = values::unit_ratio, allow_negative_numbers = true, help_heading = "Look")]
-    pub(crate) opacity: Option<f32>,
-
-    /// Show the model's colours as they are, without light
-    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Look")]
-    pub(crate) unlit: Option<bool>,
+    /// Show how far everything is, in grey: near is dark
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, conflicts_with = "replay", help_heading = "Look")]
+    pub(crate) display_depth: Option<bool>,
 
     /// Make every light this many times as bright
     #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = values::intensity, allow_negative_numbers = true, help_heading = "Look")]
@@ -243,6 +266,50 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "LEVEL", value_parser = values::simd, help_heading = "Program")]
     pub(crate) simd: Option<SimdLevel>,
 
+    /// Read flags from this JSON file: a path, or a name in the folder of the user's own
+    ///
+    /// A list of blocks such as {"match": ".*stl", "options": {"up": "+Z"}}, as F3D has it. The
+    /// folder is $XDG_CONFIG_HOME/trigon; config.json and config.d/*.json in it are read without
+    /// this flag. What the command line says wins, unless a name in the file begins with !.
+    #[arg(long, value_name = "FILE", help_heading = "Program")]
+    pub(crate) config: Option<PathBuf>,
+
+    /// Read no configuration file
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Program")]
+    pub(crate) no_config: Option<bool>,
+
+    /// Do what is written in this file, line by line: set, toggle, set_camera, take_screenshot and others
+    #[arg(long, value_name = "FILE", help_heading = "Program")]
+    pub(crate) command_script: Option<PathBuf>,
+
+    /// Set an option by the name that it has in F3D's library
+    #[arg(short = 'D', long, value_name = "NAME=VALUE", help_heading = "Program")]
+    pub(crate) define: Vec<String>,
+
+    /// Leave an option of the configuration file out, by that name
+    #[arg(short = 'R', long, value_name = "NAME", help_heading = "Program")]
+    pub(crate) reset: Vec<String>,
+
+    /// A flag that a configuration file does not set.
+    #[arg(long, hide = true)]
+    pub(crate) unset: Vec<String>,
+
+    /// A turn of the camera, as command scripts say it.
+    #[arg(long, hide = true, allow_hyphen_values = true)]
+    pub(crate) camera_turn: Vec<Turn>,
+
+    /// Show a bar of progress at once when a file is loaded, not after a second
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Program")]
+    pub(crate) loading_progress: Option<bool>,
+
+    /// Write facts about what was drawn, loaded or checked to standard output, one JSON object a line
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Program")]
+    pub(crate) json: Option<bool>,
+
+    /// Show the help, or all of it with --help=all
+    #[arg(long, short = 'h', num_args = 0..=1, require_equals = true, default_missing_value = "short", value_name = "HOW", help_heading = "Program")]
+    pub(crate) help: Option<HelpLength>,
+
     /// How much to say on standard error
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "debug", default_value = "info", value_name = "LEVEL", help_heading = "Program")]
     pub(crate) verbose: Level,
@@ -255,9 +322,22 @@ pub(crate) struct RawArgs {
     #[arg(long, help_heading = "Program")]
     pub(crate) list_readers: bool,
 
+    /// List what draws: the processor, whatever --rendering-backend says
+    #[arg(long, help_heading = "Program")]
+    pub(crate) list_rendering_backends: bool,
+
     /// List the window's keys and mouse buttons
     #[arg(long, help_heading = "Program")]
     pub(crate) list_bindings: bool,
+
+    #[command(flatten)]
+    pub(crate) animation: AnimationArgs,
+
+    #[command(flatten)]
+    pub(crate) material: MaterialArgs,
+
+    #[command(flatten)]
+    pub(crate) scenery: SceneryArgs,
 
     #[command(flatten)]
     pub(crate) window: WindowArgs,
@@ -272,43 +352,19 @@ pub(crate) struct RawArgs {
     pub(crate) gpu_only: GpuOnly,
 }
 
-/// Flags of F3D that steer a GPU or a ray tracer. Scripts that use them keep
-/// running; a warning says that they do nothing.
-#[derive(Debug, clap::Args)]
-pub(crate) struct GpuOnly {
-    #[arg(long, hide = true)]
-    rendering_backend: Option<String>,
-    #[arg(long, hide = true, num_args = 0..=1, require_equals = true, default_missing_value = "true")]
-    raytracing: Option<String>,
-    #[arg(long, hide = true)]
-    raytracing_samples: Option<String>,
-    #[arg(long, hide = true, num_args = 0..=1, require_equals = true, default_missing_value = "true")]
-    raytracing_denoise: Option<String>,
-    #[arg(long, hide = true, num_args = 0..=1, require_equals = true, default_missing_value = "true")]
-    volume: Option<String>,
-    #[arg(long, hide = true, num_args = 0..=1, require_equals = true, default_missing_value = "true")]
-    volume_inverse: Option<String>,
-}
-
-impl GpuOnly {
-    /// The flags that were given, as they are spelled.
-    pub(crate) fn given(&self) -> Vec<&'static str> {
-        let flags = [
-            ("--rendering-backend", &self.rendering_backend),
-            ("--raytracing", &self.raytracing),
-            ("--raytracing-samples", &self.raytracing_samples),
-            ("--raytracing-denoise", &self.raytracing_denoise),
-            ("--volume", &self.volume),
-            ("--volume-inverse", &self.volume_inverse),
-        ];
-        flags.into_iter().filter(|(_, value)| value.is_some()).map(|(flag, _)| flag).collect()
-    }
-}
-
 /// What to do with several files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum MultiFileMode {
     Single,
+    All,
+    /// Those of a folder in one scene
+    Dir,
+}
+
+/// How much help.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum HelpLength {
+    Short,
     All,
 }
 
@@ -327,7 +383,7 @@ pub(crate) enum View {
 /// What to do instead of showing models.
 #[derive(Clone, Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Measure what accuracy costs in time on this machine, and write a report (not in F3D)
+    /// Measure what accuracy costs in time on this machine, and write a report
     #[cfg_attr(not(feature = "study"), command(hide = true))]
     Study(StudyArgs),
 }
@@ -351,9 +407,21 @@ pub(crate) enum AntiAliasing {
     /// One sample per pixel
     None,
     /// Several samples per pixel, each with a colour of its own, see --samples
+    #[value(aliases = ["fxaa", "taa"])]
     Ssaa,
-    /// Several samples per pixel, one colour for those of a triangle: quicker (not in F3D)
+    /// Several samples per pixel, one colour for those of a triangle: quicker
     Msaa,
+}
+
+/// F3D's ways of drawing translucent surfaces. All give what its best one gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Blending {
+    None,
+    Ddp,
+    Sort,
+    #[value(name = "sort_cpu")]
+    SortCpu,
+    Stochastic,
 }
 
 /// What happens to faces seen from behind.

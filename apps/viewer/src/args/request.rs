@@ -1,22 +1,33 @@
 //! What the command line asks for, as a whole and checked.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use clap::CommandFactory;
+use clap::error::ErrorKind;
+use regex::Regex;
 use trigon_camera::AxisView;
 use trigon_io::{Format, SceneChoice};
 use trigon_math::Vec3;
 use trigon_scene::{Background, RenderSettings, Style};
 
+use super::animation::{AnimationArgs, AnimationProgress};
 use super::beside::Beside;
 use super::effects::Explanation;
-use super::output::Destination;
+use super::line::CommandLine;
+use super::material::PointSprites;
+use super::output::{Destination, Template};
 use super::quality::{Insisted, Limit};
 use super::raw::{AntiAliasing, BackfaceType, DrawStyle, MultiFileMode, RawArgs, View};
+use super::scenery::SceneryArgs;
 use super::window::WindowArgs;
+use crate::failure::Failure;
+use crate::folders;
 use crate::framing::{Eye, Framing};
-use crate::look::{Backfaces, Look};
-use crate::moment::Moment;
+use crate::look::{Backfaces, Look, Textures};
+use crate::model::Source;
+use crate::moment::{Clip, Moment};
 use crate::report::Level;
+use crate::scenery::{Grid, Scenery, Sprites};
 
 /// What the command line asks for.
 #[derive(Clone, Debug)]
@@ -35,8 +46,30 @@ pub(crate) struct Request {
     pub(crate) scene: Option<SceneChoice>,
     /// The moment of an animation that is shown.
     pub(crate) moment: Option<Moment>,
+    /// Pictures that follow each other.
+    pub(crate) sequence: Frames,
     /// The picture that the model is lit by.
     pub(crate) environment: Option<PathBuf>,
+    /// What is shown beside the model.
+    pub(crate) scenery: Scenery,
+    /// What is drawn and written over the picture.
+    pub(crate) overlay: Overlay,
+    /// What the picture is compared with.
+    pub(crate) reference: Option<Reference>,
+    /// Whether far and near are drawn as grey.
+    pub(crate) display_depth: bool,
+    /// Commands to be done one after the other.
+    pub(crate) script: Option<PathBuf>,
+    /// Whether facts are written as JSON.
+    pub(crate) json: bool,
+    /// Whether files with nothing to draw are passed over.
+    pub(crate) skip_empty: bool,
+    /// Whether a bar of progress is shown at once.
+    pub(crate) shows_progress: bool,
+    /// The name of screenshots.
+    pub(crate) screenshot: Template,
+    /// What all of this was read from.
+    pub(crate) line: CommandLine,
     /// Where the camera stands.
     pub(crate) framing: Framing,
     /// What is changed about the model.
@@ -50,10 +83,51 @@ pub(crate) struct Request {
     /// What the window does beside showing models.
     #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
     pub(crate) window: WindowArgs,
+    /// Whether the window shows the time of a frame.
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
+    pub(crate) shows_frame_time: bool,
+    /// Whether the window says what keys did.
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
+    pub(crate) notifies: bool,
     /// How much is said.
     pub(crate) level: Level,
-    /// Flags that were accepted and do nothing.
-    pub(crate) ignored: Vec<&'static str>,
+    /// What was accepted and does nothing.
+    pub(crate) ignored: Vec<String>,
+}
+
+/// Pictures that follow each other.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Frames {
+    /// Views around the model, if it is to turn.
+    pub(crate) turntable: Option<u32>,
+    /// Frames of a second.
+    pub(crate) rate: f64,
+    /// How many times as fast animations play; negative is backwards.
+    pub(crate) speed: f64,
+    /// Whether they play when the window opens.
+    pub(crate) autoplay: bool,
+    /// What the window shows of the time.
+    pub(crate) progress: Option<AnimationProgress>,
+}
+
+/// What is drawn and written over the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Overlay {
+    /// Colours of arrows for X, Y and Z: linear RGB.
+    pub(crate) axes: Option<[Vec3; 3]>,
+    pub(crate) name: bool,
+    pub(crate) metadata: bool,
+    pub(crate) environment_name: bool,
+    /// How large text is.
+    pub(crate) text_scale: f32,
+}
+
+/// What a picture is compared with.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Reference {
+    pub(crate) file: PathBuf,
+    /// More of an error than this is a difference.
+    pub(crate) threshold: f64,
 }
 
 /// What to do.
@@ -79,6 +153,10 @@ pub(crate) enum Mode {
     Inspect,
     /// Say which effects the models call for.
     Explain(Explanation),
+    /// Say what is wrong with the models.
+    Check,
+    /// Say what draws.
+    ListBackends,
     /// List the formats that can be read.
     ListReaders,
     /// List the keys of the window.
@@ -86,29 +164,64 @@ pub(crate) enum Mode {
 }
 
 /// How several models are shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub(crate) enum Grouping {
     /// One after the other.
     OneByOne,
     /// In one scene.
     Together,
+    /// Those of a folder in one scene.
+    ByFolder,
+    /// In one scene what differs only in the groups of this expression.
+    ByName(Regex),
 }
 
 /// What stands for standard input among the files.
 pub(crate) const STDIN: &str = "-";
 
 impl Request {
+    /// The request of a command line for a file, `None` for the built-in scene.
+    ///
+    /// # Errors
+    /// When flags make no sense, or contradict each other.
+    pub(crate) fn from_line(line: &CommandLine, file: Option<&Path>) -> Result<Self, clap::Error> {
+        let raw = line.raw(file)?;
+        let request = Self::new(raw)
+            .map_err(|message| RawArgs::command().error(ErrorKind::ArgumentConflict, message))?;
+        let mut ignored = line.warnings().to_vec();
+        ignored.extend(request.ignored);
+        Ok(Self { line: line.clone(), ignored, ..request })
+    }
+
+    /// The request for one of several sources, of which configuration files may say
+    /// something of its own.
+    ///
+    /// # Errors
+    /// When what they say makes no sense.
+    pub(crate) fn for_source(&self, source: &Source) -> Result<Self, Failure> {
+        if !self.line.differs_by_file() {
+            return Ok(self.clone());
+        }
+        let of_file = Self::from_line(&self.line, source.first_file());
+        of_file.map_err(|error| Failure::Usage(plain(&error)))
+    }
+
     /// Puts the flags together, or says why they do not fit each other.
     pub(crate) fn new(raw: RawArgs) -> Result<Self, String> {
-        let files: Vec<PathBuf> = raw.files.iter().chain(&raw.input).cloned().collect();
-        let grouping = match raw.multi_file_mode {
-            MultiFileMode::Single => Grouping::OneByOne,
-            MultiFileMode::All => Grouping::Together,
-        };
+        let typed: Vec<PathBuf> = raw.files.iter().chain(&raw.input).cloned().collect();
+        let files = folders::expanded(&typed, raw.recursive_dir_add == Some(true))?;
+        let grouping = grouping(&raw);
         let mode = mode(&raw);
         check_stdin(&mode, &files)?;
-        check_output(&mode, files.len(), grouping)?;
+        let pictures = Source::group(&files, &grouping).len();
+        check_output(&mode, pictures)?;
         check_outputs(&mode, &raw.outputs)?;
+        check_frames(&raw, &mode)?;
+        if raw.json == Some(true) && raw.output == Some(Destination::Stdout) {
+            return Err(
+                "--json and --output - both write to standard output; name a file for the picture".to_owned()
+            );
+        }
         Ok(Self {
             limit: limit(&raw, &mode)?,
             mode,
@@ -118,15 +231,46 @@ impl Request {
             format: raw.force_reader,
             scene: raw.scene.clone(),
             moment: moment(&raw),
-            environment: raw.effects.hdri_file.clone(),
+            sequence: sequence(&raw.animation),
+            environment: raw.effects.environment(),
             framing: framing(&raw)?,
             look: look(&raw),
+            scenery: scenery(&raw),
+            overlay: overlay(&raw.scenery),
+            reference: reference(&raw),
+            display_depth: raw.display_depth == Some(true),
+            script: raw.command_script.clone(),
+            json: raw.json == Some(true),
+            skip_empty: raw.remove_empty_file_groups == Some(true),
+            shows_progress: raw.loading_progress == Some(true),
+            screenshot: raw.screenshot_filename.clone(),
             settings: settings(&raw)?,
             outputs: raw.outputs.clone(),
             window: raw.window.clone(),
+            shows_frame_time: raw.scenery.fps == Some(true),
+            notifies: raw.scenery.notifications != Some(false),
             level: raw.verbose,
-            ignored: raw.gpu_only.given(),
+            ignored: raw.gpu_only.warnings(),
+            line: CommandLine::default(),
         })
+    }
+}
+
+/// What clap says of a mistake, on one line.
+pub(crate) fn plain(error: &clap::Error) -> String {
+    let text = error.to_string();
+    let first = text.lines().next().unwrap_or_default();
+    first.trim_start_matches("error: ").to_owned()
+}
+
+fn grouping(raw: &RawArgs) -> Grouping {
+    if let Some(names) = &raw.multi_file_regex {
+        return Grouping::ByName(names.clone());
+    }
+    match raw.multi_file_mode {
+        MultiFileMode::Single => Grouping::OneByOne,
+        MultiFileMode::All => Grouping::Together,
+        MultiFileMode::Dir => Grouping::ByFolder,
     }
 }
 
@@ -135,10 +279,14 @@ fn mode(raw: &RawArgs) -> Mode {
     match (&raw.replay, raw.effects.explain) {
         _ if raw.list_readers => Mode::ListReaders,
         _ if raw.list_bindings => Mode::ListBindings,
+        _ if raw.list_rendering_backends => Mode::ListBackends,
+        _ if raw.check == Some(true) => Mode::Check,
         _ if raw.no_render == Some(true) => Mode::Inspect,
         (_, Some(explanation)) => Mode::Explain(explanation),
         (Some(replay), None) => Mode::Replay { capture: replay.clone(), output },
-        (None, None) if output.is_some() || capture.is_some() => Mode::Picture { output, capture },
+        (None, None) if output.is_some() || capture.is_some() || raw.reference.is_some() => {
+            Mode::Picture { output, capture }
+        }
         (None, None) => Mode::Window,
     }
 }
@@ -155,9 +303,9 @@ fn check_stdin(mode: &Mode, files: &[PathBuf]) -> Result<(), String> {
 
 /// Several pictures need several names. F3D draws the first model and only
 /// warns about the rest, which scripts do not notice.
-fn check_output(mode: &Mode, files: usize, grouping: Grouping) -> Result<(), String> {
+fn check_output(mode: &Mode, files: usize) -> Result<(), String> {
     let Mode::Picture { output, capture } = mode else { return Ok(()) };
-    if files < 2 || grouping == Grouping::Together {
+    if files < 2 {
         return Ok(());
     }
     if capture.is_some() {
@@ -201,12 +349,90 @@ fn check_outputs(mode: &Mode, outputs: &[Beside]) -> Result<(), String> {
     }
 }
 
+/// Frames need as many names, or a file that holds them all.
+fn check_frames(raw: &RawArgs, mode: &Mode) -> Result<(), String> {
+    let Mode::Picture { output, capture } = mode else { return Ok(()) };
+    let (moves, many) = match output {
+        Some(Destination::File(template)) => (template.is_moving(), template.tells_frames_apart()),
+        Some(Destination::Stdout) | None => (false, false),
+    };
+    let frames = moves || many;
+    if frames && (capture.is_some() || raw.reference.is_some() || !raw.outputs.is_empty()) {
+        return Err(
+            "--output with many frames goes without --capture, --reference and --outputs; name one picture"
+                .to_owned(),
+        );
+    }
+    if let (Some(views), false) = (raw.animation.turntable, frames) {
+        return Err(format!(
+            "--turntable={views} makes {views} pictures; write {{frame}} in the name of --output (--output 'view_{{frame:3}}.png'), or end it in .gif or .apng"
+        ));
+    }
+    Ok(())
+}
+
 fn moment(raw: &RawArgs) -> Option<Moment> {
-    if raw.animation_index.is_none() && raw.animation_time.is_none() {
+    let animation = &raw.animation;
+    if animation.animation_indices.is_none()
+        && animation.animation_time.is_none()
+        && animation.animation_jump.is_empty()
+    {
         return None;
     }
-    let animation = usize::try_from(raw.animation_index.unwrap_or(0)).ok();
-    Some(Moment { animation, seconds: raw.animation_time.unwrap_or(0.0) })
+    Some(Moment {
+        clips: animation.animation_indices.clone().unwrap_or_else(|| vec![Clip::Number(0)]),
+        seconds: animation.animation_time.unwrap_or(0.0),
+        jumps: animation.animation_jump.clone(),
+        frame_rate: animation.frame_rate,
+    })
+}
+
+fn sequence(animation: &AnimationArgs) -> Frames {
+    Frames {
+        turntable: animation.turntable,
+        rate: animation.frame_rate,
+        speed: animation.animation_speed_factor,
+        autoplay: animation.animation_autoplay == Some(true),
+        progress: animation.animation_progress,
+    }
+}
+
+fn scenery(raw: &RawArgs) -> Scenery {
+    /// The length of normals, as a part of the model's diagonal.
+    const NORMALS: f64 = 0.02;
+    let (flags, material) = (&raw.scenery, &raw.material);
+    let grid = Grid {
+        unit: flags.grid_unit,
+        subdivisions: flags.grid_subdivisions,
+        color: flags.grid_color,
+        absolute: flags.grid_absolute == Some(true),
+        up: raw.up,
+    };
+    let sprites = Sprites {
+        size: f64::from(material.point_sprites_size),
+        absolute: material.point_sprites_absolute_size == Some(true),
+    };
+    Scenery {
+        grid: (flags.grid == Some(true)).then_some(grid),
+        normals: (flags.normal_glyphs == Some(true)).then(|| NORMALS * f64::from(flags.normal_glyphs_scale)),
+        bones: flags.armature == Some(true),
+        sprites: matches!(material.point_sprites, Some(PointSprites::Sphere)).then_some(sprites),
+    }
+}
+
+fn overlay(flags: &SceneryArgs) -> Overlay {
+    Overlay {
+        axes: (flags.axis == Some(true)).then_some([flags.x_color, flags.y_color, flags.z_color]),
+        name: flags.filename == Some(true),
+        metadata: flags.metadata == Some(true),
+        environment_name: flags.hdri_filename == Some(true),
+        text_scale: flags.font_scale,
+    }
+}
+
+fn reference(raw: &RawArgs) -> Option<Reference> {
+    let threshold = raw.reference_threshold;
+    raw.reference.clone().map(|file| Reference { file, threshold })
 }
 
 fn framing(raw: &RawArgs) -> Result<Framing, String> {
@@ -233,6 +459,7 @@ fn framing(raw: &RawArgs) -> Result<Framing, String> {
         azimuth: raw.camera_azimuth_angle,
         elevation: raw.camera_elevation_angle,
         orthographic: raw.camera_orthographic.unwrap_or(false),
+        turns: raw.camera_turn.clone(),
     })
 }
 
@@ -249,10 +476,24 @@ fn axis_view(view: View) -> AxisView {
 }
 
 fn look(raw: &RawArgs) -> Look {
+    let material = &raw.material;
     Look {
-        color: raw.color,
-        opacity: raw.opacity,
-        unlit: raw.unlit.unwrap_or(false),
+        color: material.color,
+        opacity: material.opacity,
+        roughness: material.roughness,
+        metallic: material.metallic,
+        ior: material.base_ior,
+        emissive: material.emissive_factor,
+        normal_scale: material.normal_scale,
+        textures: Textures {
+            base_color: material.texture_base_color.clone(),
+            material: material.texture_material.clone(),
+            emissive: material.texture_emissive.clone(),
+            normal: material.texture_normal.clone(),
+        },
+        texture_transform: material.textures_transform,
+        checkerboard: material.checkerboard == Some(true),
+        unlit: material.unlit.unwrap_or(false),
         backfaces: match raw.backface_type {
             BackfaceType::Default => None,
             BackfaceType::Visible => Some(Backfaces::Visible),
@@ -280,19 +521,33 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
         (Some(DrawStyle::HiddenLine), _) => Style::HiddenLine,
         (Some(DrawStyle::Surface), _) | (None, _) => Style::Surface,
     };
-    settings.line_width = raw.line_width;
+    settings.line_width = line_width(raw, settings.style)?;
     settings.light_intensity = raw.light_intensity;
     raw.effects.apply(&mut settings);
     if let Some(preset) = raw.quality.preset {
         insisted(raw)?.change(preset.quality()).apply(&mut settings);
     }
     raw.outputs.iter().for_each(|beside| beside.output.ask_for(&mut settings.outputs));
+    settings.outputs.depth |= raw.display_depth == Some(true);
     // OpenEXR is for light: bytes would hold it to the display's range.
     settings.outputs.radiance |=
         matches!(&raw.output, Some(Destination::File(template)) if template.is_exr());
     settings.threads = raw.threads;
     settings.simd = raw.simd;
     Ok(settings)
+}
+
+/// The width of lines, of which points have three.
+fn line_width(raw: &RawArgs, style: Style) -> Result<f32, String> {
+    const POINT_TO_LINE: f32 = 3.0;
+    match raw.material.point_size {
+        Some(size) if style == Style::Surface => Ok(size / POINT_TO_LINE),
+        Some(_) => Err(
+            "--point-size is for pictures without edges, where points are three lines wide; leave out --point-size, or set --line-width"
+                .to_owned(),
+        ),
+        None => Ok(raw.line_width),
+    }
 }
 
 /// Samples along each side of a pixel by supersampling, and in each of those by
@@ -345,7 +600,7 @@ fn edges_before(background: Vec3, usual: Vec3) -> Vec3 {
 
 #[cfg(test)]
 mod tests {
-    use clap::{CommandFactory, Parser};
+    use clap::Parser;
     use trigon_math::DVec3;
     use trigon_scene::quality::{Preset, Quality};
     use trigon_scene::{MetalReflection, Outputs, ShadingModel, Shadows};
@@ -406,6 +661,16 @@ mod tests {
             [PathBuf::from("model.obj")],
             "the file"
         );
+    }
+
+    #[test]
+    fn many_frames_need_many_names_or_a_file_for_all() {
+        assert!(refusal("--turntable=8 --output a.png").contains("{frame}"), "says how");
+        assert!(refusal("--turntable=8").contains("--output"), "a window does not turn by itself");
+        for output in ["a.gif", "a.apng", "a_{frame:3}.png"] {
+            request(&format!("--turntable=8 --output {output}")).expect("a place for each");
+        }
+        assert!(refusal("--output a.gif --capture a.trigon").contains("--capture"), "one picture");
     }
 
     #[test]
@@ -518,7 +783,7 @@ mod tests {
             "--camera-view-angle",
             "--samples",
             "--threads",
-            "--max-size",
+            "--roughness",
         ] {
             let message = refusal(&format!("{flag} -1"));
             assert!(message.contains("invalid value '-1'"), "{flag}: {message}");
@@ -530,11 +795,15 @@ mod tests {
         let request =
             request("--rendering-backend egl --raytracing --raytracing-samples 4 --volume=true a.obj")
                 .expect("fine");
-        assert_eq!(
-            request.ignored,
-            ["--rendering-backend", "--raytracing", "--raytracing-samples", "--volume"],
-            "named"
-        );
+        for (warning, flag) in request.ignored.iter().zip([
+            "--rendering-backend",
+            "--raytracing is",
+            "--raytracing-samples",
+            "--volume",
+        ]) {
+            assert!(warning.starts_with(flag) && warning.contains("is ignored: "), "{warning}");
+        }
+        assert_eq!(request.ignored.len(), 4, "one each");
         assert_eq!(request.files, [PathBuf::from("a.obj")], "the file");
     }
 
@@ -558,6 +827,6 @@ mod tests {
     #[test]
     fn a_typing_error_gets_a_proposal() {
         assert!(refusal("--resolutoin 10,10").contains("--resolution"), "did you mean");
-        assert!(refusal("--output picture.jpg").contains(".png"), "the remedy");
+        assert!(refusal("--output picture.tiff").contains(".png"), "the remedy");
     }
 }

@@ -7,7 +7,8 @@ use std::time::Duration;
 
 use trigon_camera::Viewport;
 use trigon_io::{Format, SceneChoice};
-use trigon_math::{DVec3, Vec3, color};
+use trigon_math::glam::{Affine2, Vec2};
+use trigon_math::{DVec3, Vec3, color, elementary};
 use trigon_scene::{MAX_SIZE, SimdLevel, SimdLevelError};
 
 /// A switch: `--edges`, `--edges=false` and their spellings.
@@ -45,6 +46,9 @@ fn side(what: &str, text: &str) -> Result<u32, String> {
 /// A colour, written in sRGB, as linear RGB.
 pub(crate) fn color(text: &str) -> Result<Vec3, String> {
     const FORMS: &str = "write R,G,B with numbers from 0 to 1, #rgb, #rrggbb or a CSS name such as orange";
+    if let Some(rgb) = named(text).or_else(|| cmyk(text)) {
+        return Ok(to_linear(rgb));
+    }
     if let Some(channels) = three_numbers(text) {
         let inside = channels.cmpge(DVec3::ZERO).all() && channels.cmple(DVec3::ONE).all();
         return if inside { Ok(to_linear(channels.as_vec3())) } else { Err(FORMS.to_owned()) };
@@ -56,6 +60,51 @@ pub(crate) fn color(text: &str) -> Result<Vec3, String> {
         );
     }
     Ok(to_linear(Vec3::new(parsed.r, parsed.g, parsed.b).clamp(Vec3::ZERO, Vec3::ONE)))
+}
+
+/// F3D's own names, which CSS has not.
+fn named(text: &str) -> Option<Vec3> {
+    const NAMES: [(&str, [u8; 3]); 7] = [
+        ("f3d_red", [249, 67, 6]),
+        ("f3d_green", [77, 179, 77]),
+        ("f3d_blue", [59, 125, 216]),
+        ("f3d_yellow", [250, 200, 0]),
+        ("f3d_grey", [57, 57, 60]),
+        ("f3d_black", [25, 25, 25]),
+        ("f3d_white", [244, 244, 244]),
+    ];
+    let name = text.trim().to_ascii_lowercase();
+    let found = NAMES.iter().find(|(known, _)| *known == name)?;
+    Some(Vec3::from(found.1.map(f32::from)) / 255.0)
+}
+
+/// `cmyk(0%, 50%, 100%, 0%)`: what inks leave of white, in sRGB.
+fn cmyk(text: &str) -> Option<Vec3> {
+    let inks = text.trim().to_ascii_lowercase();
+    let inks = inks.strip_prefix("cmyk(")?.strip_suffix(')')?;
+    let shares: Vec<f32> =
+        inks.split(',').map(|ink| ratio(ink).map(|ink| ink as f32)).collect::<Option<_>>()?;
+    let [c, m, y, k] = shares.try_into().ok()?;
+    let left = Vec3::ONE - Vec3::new(c, m, y);
+    Some((left * (1.0 - k)).clamp(Vec3::ZERO, Vec3::ONE))
+}
+
+/// A colour that may be brighter than white, as linear RGB.
+pub(crate) fn bright_color(text: &str) -> Result<Vec3, String> {
+    match three_numbers(text)
+        .filter(|channels| channels.cmpge(DVec3::ZERO).all() && channels.max_element() <= 1e6)
+    {
+        Some(channels) => {
+            let [r, g, b] = channels.as_vec3().to_array().map(bright_to_linear);
+            Ok(Vec3::new(r, g, b))
+        }
+        None => color(text),
+    }
+}
+
+/// sRGB's curve up to 1, and in proportion beyond.
+fn bright_to_linear(channel: f32) -> f32 {
+    if channel <= 1.0 { color::srgb_to_linear(channel) } else { channel }
 }
 
 fn to_linear(srgb: Vec3) -> Vec3 {
@@ -125,8 +174,13 @@ pub(crate) fn zoom(text: &str) -> Result<f64, String> {
 
 /// A number from 0 to 1.
 pub(crate) fn unit_ratio(text: &str) -> Result<f32, String> {
+    share(text).map(|value| value as f32)
+}
+
+/// The same, as precise as it was typed.
+pub(crate) fn share(text: &str) -> Result<f64, String> {
     let inside = ratio(text).filter(|value| (0.0..=1.0).contains(value));
-    inside.map(|value| value as f32).ok_or_else(|| "write a number from 0 to 1, or 50%, or 1/2".to_owned())
+    inside.ok_or_else(|| "write a number from 0 to 1, or 50%, or 1/2".to_owned())
 }
 
 /// A factor for light.
@@ -175,15 +229,85 @@ pub(crate) fn scene(text: &str) -> Result<SceneChoice, Infallible> {
     Ok(text.parse().map_or_else(|_| SceneChoice::Name(text.to_owned()), SceneChoice::Index))
 }
 
-/// A number of MiB, as bytes.
+/// A number of MiB, as bytes; a negative one is no limit.
 pub(crate) fn mebibytes(text: &str) -> Result<u64, String> {
     const MIB: f64 = 1_048_576.0;
     // Float to integer saturates: more than any file can be.
     finite(text)
-        .filter(|mib| *mib >= 0.0)
-        .map(|mib| (mib * MIB) as u64)
+        .map(|mib| if mib < 0.0 { u64::MAX } else { (mib * MIB) as u64 })
         .ok_or_else(|| "write a number of MiB, such as 100".to_owned())
 }
+
+/// How many times as fast an animation plays; negative is backwards.
+pub(crate) fn speed(text: &str) -> Result<f64, String> {
+    let inside = ratio(text).filter(|speed| (1e-3..=1e3).contains(&speed.abs()));
+    inside.ok_or_else(|| "write a number such as 2, 50% or -1; from 0.001 to 1000 times".to_owned())
+}
+
+/// Frames of a second.
+pub(crate) fn frame_rate(text: &str) -> Result<f64, String> {
+    let inside = finite(text).filter(|rate| (0.02..=1000.0).contains(rate));
+    inside.ok_or_else(|| "write a number of frames a second from 0.02 to 1000".to_owned())
+}
+
+/// An index of refraction.
+pub(crate) fn refraction(text: &str) -> Result<f32, String> {
+    let inside = finite(text).filter(|index| (1.0..=2.5).contains(index));
+    inside
+        .map(|index| index as f32)
+        .ok_or_else(|| "write a number from 1 to 2.5, such as 1.5 for glass".to_owned())
+}
+
+/// Any factor.
+pub(crate) fn factor(text: &str) -> Result<f32, String> {
+    let inside = ratio(text).filter(|factor| factor.abs() <= 1e6);
+    inside.map(|factor| factor as f32).ok_or_else(|| "write a number such as 2 or 50%".to_owned())
+}
+
+/// A length greater than 0.
+pub(crate) fn length(text: &str) -> Result<f64, String> {
+    let inside = finite(text).filter(|length| (1e-12..=1e12).contains(length));
+    inside.ok_or_else(|| "write a length greater than 0, such as 0.5".to_owned())
+}
+
+/// How large text is.
+pub(crate) fn text_scale(text: &str) -> Result<f32, String> {
+    let inside = ratio(text).filter(|scale| (0.5..=4.0).contains(scale));
+    inside.map(|scale| scale as f32).ok_or_else(|| "write a number from 0.5 to 4, such as 1.5".to_owned())
+}
+
+/// A regular expression.
+pub(crate) fn regex(text: &str) -> Result<regex::Regex, String> {
+    regex::Regex::new(text).map_err(|error| error.to_string())
+}
+
+/// A map of texture coordinates: `scale:2;angle:45;translation:0.5,0` in any order, scaled
+/// first and moved last, or a matrix of nine numbers, row by row.
+pub(crate) fn transform(text: &str) -> Result<Affine2, String> {
+    let numbers: Option<Vec<f32>> =
+        text.split(',').map(|number| finite(number).map(|number| number as f32)).collect();
+    if let Some([a, b, c, d, e, f, _, _, _]) = numbers.as_deref() {
+        return Ok(Affine2::from_cols(Vec2::new(*a, *d), Vec2::new(*b, *e), Vec2::new(*c, *f)));
+    }
+    let (mut scale, mut angle, mut moved) = (Vec2::ONE, 0.0, Vec2::ZERO);
+    for part in text.split(';') {
+        let (name, value) = part.split_once(':').ok_or(TRANSFORM)?;
+        let pair = value.split(',').map(finite).collect::<Option<Vec<f64>>>().ok_or(TRANSFORM)?;
+        let pair: Vec<f32> = pair.into_iter().map(|number| number as f32).collect();
+        match (name.trim(), pair.as_slice()) {
+            ("scale", &[x, y]) => scale = Vec2::new(x, y),
+            ("scale", &[both]) => scale = Vec2::splat(both),
+            ("translation", &[x, y]) => moved = Vec2::new(x, y),
+            ("angle", &[degrees]) => angle = f64::from(degrees).to_radians(),
+            _ => return Err(TRANSFORM.to_owned()),
+        }
+    }
+    let (sin, cos) = elementary::sin_cos(angle);
+    let (sin, cos) = (sin as f32, cos as f32);
+    Ok(Affine2::from_cols(Vec2::new(cos, sin) * scale.x, Vec2::new(-sin, cos) * scale.y, moved))
+}
+
+const TRANSFORM: &str = "write scale:2;angle:45;translation:0.5,0 in any order, or nine numbers";
 
 /// A number of threads.
 pub(crate) fn threads(text: &str) -> Result<NonZeroUsize, String> {
@@ -224,6 +348,13 @@ mod tests {
         }
         assert_eq!(srgb("#f80"), Some([255, 136, 0]), "short");
         assert_eq!(srgb("Orange"), Some([255, 165, 0]), "a name in any case");
+        assert_eq!(srgb("f3d_red"), Some([249, 67, 6]), "F3D's");
+        for text in
+            ["hsl(30, 100%, 50%)", "hsv(30, 100%, 100%)", "hwb(30, 0%, 0%)", "cmyk(0%, 50%, 100%, 0%)"]
+        {
+            let [r, g, b] = srgb(text).expect("a colour");
+            assert!(r == 255 && (127..=128).contains(&g) && b == 0, "{text}: {r}, {g}, {b}");
+        }
         for text in [
             "",
             "1,2,3",
@@ -295,6 +426,21 @@ mod tests {
         for text in ["0", "1e-7", "1e7"] {
             let message = zoom(text).expect_err("out of range");
             assert!(message.contains("from 0.000001 to 1000000"), "{text}: {message}");
+        }
+    }
+
+    #[test]
+    fn transforms_of_textures_have_two_forms() {
+        let near = |text: &str, point: [f32; 2], expected: [f32; 2]| {
+            let mapped = transform(text).expect("a transform").transform_point2(Vec2::from(point));
+            // Sines are rounded to f32.
+            assert!(mapped.abs_diff_eq(Vec2::from(expected), 1e-6), "{text}: {mapped}");
+        };
+        near("scale:2,3", [1.0, 1.0], [2.0, 3.0]);
+        near("angle:90;translation:1,0;scale:2", [1.0, 0.0], [1.0, 2.0]);
+        near("1,0,5, 0,1,6, 0,0,1", [1.0, 1.0], [6.0, 7.0]);
+        for text in ["", "scale", "scale:a", "turn:3", "1,2,3"] {
+            assert!(transform(text).is_err(), "{text:?} is none");
         }
     }
 

@@ -38,7 +38,9 @@ impl Loading {
         let (sender, outcome) = channel();
         let theirs = Arc::clone(&shared);
         thread::spawn(move || {
-            let outcome = loading::load(&source, &request, &|fraction| theirs.follow(fraction, &waker));
+            let outcome = request.for_source(&source).and_then(|request| {
+                loading::load(&source, &request, &|fraction| theirs.follow(fraction, &waker))
+            });
             // Nobody waits for it any more when this fails.
             let _ = sender.send(outcome);
             waker.wake();

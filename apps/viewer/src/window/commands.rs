@@ -13,6 +13,9 @@ pub(super) enum Command {
     NextFileSameView,
     Reload,
     Open,
+    PlayOrPause,
+    PlayBackward,
+    CycleAnimation,
     CancelLoading,
     ResetView,
     ToggleName,
@@ -28,13 +31,16 @@ pub(super) enum Command {
 }
 
 impl Command {
-    const ALL: [Self; 18] = [
+    const ALL: [Self; 21] = [
         Self::PreviousFile,
         Self::NextFile,
         Self::PreviousFileSameView,
         Self::NextFileSameView,
         Self::Reload,
         Self::Open,
+        Self::PlayOrPause,
+        Self::PlayBackward,
+        Self::CycleAnimation,
         Self::CancelLoading,
         Self::ResetView,
         Self::ToggleName,
@@ -62,6 +68,13 @@ impl Command {
             Self::NextFileSameView => ("file.next.same_view", ctrl(Key::Right), "the same, keeping the view"),
             Self::Reload => ("file.reload", Key::Up.into(), "load the file again"),
             Self::Open => ("file.open", ctrl(Key::Character('o')), "open files"),
+            Self::PlayOrPause => ("animation.play", Key::Space.into(), "play, pause animations"),
+            Self::PlayBackward => (
+                "animation.play.backward",
+                Chord::new(Modifiers::CTRL | Modifiers::SHIFT, Key::Space),
+                "play them backwards",
+            ),
+            Self::CycleAnimation => ("animation.next", 'w'.into(), "next animation, all, none"),
             Self::CancelLoading => ("file.cancel", ctrl(Key::Character('.')), "cancel loading"),
             Self::ResetView => ("reset_view", Key::Enter.into(), "reset the view"),
             Self::ToggleName => ("file.name", 'n'.into(), "name of the file"),

@@ -5,6 +5,7 @@ mod background;
 mod classic;
 mod commands;
 mod open;
+mod playback;
 mod quality;
 mod recent;
 mod screenshot;
@@ -16,12 +17,13 @@ use std::path::Path;
 
 use trigon_camera::Viewport;
 use trigon_scene::ShadingModel;
-use trigon_window::{Application, DragBinding, Interaction, Refinement, WindowError};
+use trigon_window::{Application, DragBinding, Interaction, Refinement, Visibility, WindowError};
 
 use crate::args::Request;
 use crate::failure::Failure;
 use crate::model::Source;
 use crate::report::Reporter;
+use crate::scripted;
 use viewer::Viewer;
 
 /// Opens a window and returns the exit code when it is closed.
@@ -30,6 +32,13 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
         reporter.error(no_display(request));
         return 1;
     }
+    let request = &match scripted::changed(request, reporter) {
+        Ok(request) => request,
+        Err(failure) => {
+            reporter.error(&failure);
+            return failure.exit_code();
+        }
+    };
     let sources = Source::all(request);
     let mut application = Application::new(title(&sources[0]));
     let (width, height) = (request.settings.width, request.settings.height);
@@ -37,6 +46,10 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
     application.stage.settings = request.settings.clone();
     application.stage.refinement = refinement(request);
     application.stage.keymap = commands::keymap();
+    application.stage.text_scale = request.overlay.text_scale;
+    if request.shows_frame_time {
+        application.stage.frame_time = Visibility::Shown;
+    }
     if let Err(failure) = interactions(&mut application, request, reporter) {
         reporter.error(&failure);
         return failure.exit_code();

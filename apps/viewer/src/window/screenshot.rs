@@ -6,16 +6,18 @@ use std::path::{Path, PathBuf};
 
 use trigon_scene::Frame;
 
-use crate::args::Template;
+use crate::args::{Subject, Template};
 use crate::failure::Failure;
-use crate::picture::write_file;
+use crate::outlet::write_file;
 
 /// Writes a screenshot of a model (`None` for the built-in scene) under a name
 /// that is not in use, and returns the name.
-pub(super) fn save(frame: &Frame, model: Option<&Path>) -> Result<PathBuf, Failure> {
-    let template = Template::parse("{model}_{n}.png").expect("the template is well-formed");
-    let folder = folder();
-    let path = template.unused_in(&folder, model);
+pub(super) fn save(frame: &Frame, template: &Template, model: Option<&Path>) -> Result<PathBuf, Failure> {
+    let path = template.unused_in(&folder(), Subject { model, frame: 0 });
+    if let Some(folder) = path.parent() {
+        // What fails here is said when the file is written.
+        let _ = fs::create_dir_all(folder);
+    }
     write_file(&path, frame)?;
     Ok(path)
 }

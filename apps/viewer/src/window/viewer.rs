@@ -3,22 +3,23 @@
 
 use std::path::PathBuf;
 
-use trigon_camera::Orbit;
+use trigon_camera::{Orbit, OrbitStyle};
 use trigon_io::Warning;
 use trigon_math::DVec3;
-use trigon_scene::{Background, Frame, Scene};
-use trigon_window::{Corner, Handler, Modifiers, Stage, egui};
+use trigon_scene::{Background, Frame, NodeId, Scene};
+use trigon_window::{Animation, Corner, Handler, Hands, Input, Key, Modifiers, Stage, Taken, Tick, egui};
 
 use super::background::{Loading, Outcome};
 #[cfg(feature = "study")]
 use super::classic::Classics;
 use super::commands::Command;
 use super::open::{OpenWindow, SystemDialog};
+use super::playback::Playback;
 use super::quality::QualityPanel;
 use super::recent::Recent;
 use super::watch::Watch;
 use super::{screenshot, title};
-use crate::args::Request;
+use crate::args::{InteractionStyle, Request};
 use crate::failure::Failure;
 use crate::model::{Model, Source, Summary};
 use crate::report::Reporter;
@@ -38,6 +39,19 @@ struct Shown {
     source: Source,
     /// Once somebody wants to see it: counting edges takes its time.
     summary: Option<Summary>,
+    /// What is in the scene and not in the file.
+    scenery: Vec<NodeId>,
+}
+
+impl Shown {
+    /// The model alone. Meshes and textures are shared with the scene on the stage.
+    fn model(&self, stage: &Stage) -> Model {
+        let mut scene = Scene::clone(&stage.scene);
+        for &node in &self.scenery {
+            scene.remove(node);
+        }
+        Model::shown(scene, self.source.clone())
+    }
 }
 
 /// What a load under way is for.
@@ -61,6 +75,10 @@ pub(super) struct Viewer {
     #[cfg(feature = "study")]
     classics: Classics,
     recent: Recent,
+    /// If the model that is shown has animations.
+    playback: Option<Playback>,
+    /// What went wrong last, until it is dismissed or put right.
+    failure: Option<String>,
     /// If files are to be watched, and can be.
     watch: Option<Watch>,
 }
@@ -68,6 +86,7 @@ pub(super) struct Viewer {
 impl Viewer {
     /// A viewer of these sources; there is at least one.
     pub(super) fn new(request: Request, sources: Vec<Source>, reporter: Reporter) -> Self {
+        let (show_name, show_metadata) = (request.overlay.name, request.overlay.metadata);
         Self {
             request,
             reporter,
@@ -75,13 +94,15 @@ impl Viewer {
             current: 0,
             pending: None,
             shown: None,
-            show_name: false,
-            show_metadata: false,
+            show_name,
+            show_metadata,
             open: OpenWindow::default(),
             quality: QualityPanel::default(),
             #[cfg(feature = "study")]
             classics: Classics::default(),
             recent: Recent::load(),
+            playback: None,
+            failure: None,
             watch: None,
         }
     }
@@ -115,7 +136,25 @@ impl Viewer {
             self.show(stage, model, view)
         });
         if let Err(failure) = shown {
-            self.tell_failure(stage, &failure);
+            self.tell_unshown(&failure);
+        }
+    }
+
+    /// Shows what went wrong, with what to do about it.
+    fn show_failure(&mut self, context: &egui::Context) {
+        let Some(text) = &self.failure else { return };
+        let mut closed = false;
+        let area = egui::Area::new(egui::Id::unique("failure")).anchor(egui::Align2::CENTER_CENTER, [0.0; 2]);
+        area.fade_in(false).show(context, |ui| {
+            egui::Frame::popup(ui.style()).inner_margin(12).show(ui, |ui| {
+                ui.set_max_width((context.content_rect().width() - 80.0).clamp(120.0, 480.0));
+                ui.strong(format!("{} is not shown", self.sources[self.current].title()));
+                ui.label(text.replace("; ", ".\n"));
+                closed = ui.button("Close (Escape)").clicked();
+            });
+        });
+        if closed {
+            self.failure = None;
         }
     }
 
@@ -126,7 +165,17 @@ impl Viewer {
         }
         stage.set_title(title(&model.source));
         stage.selection = None;
-        stage.scene = model.scene.into();
+        let mut scene = model.scene;
+        self.playback = Playback::new(&scene, &self.request);
+        if self.playback.as_ref().is_some_and(Playback::is_playing) {
+            stage.animate();
+        }
+        if let Some(odd) = &model.odd {
+            self.notify(stage, odd.clone());
+        }
+        self.failure = None;
+        let scenery = self.request.scenery.add_to(&mut scene);
+        stage.scene = scene.into();
         if self.sources.len() > 1 && !self.show_name {
             stage.overlay.notify(self.name());
         }
@@ -134,7 +183,7 @@ impl Viewer {
         if let Some(file) = model.source.first_file() {
             self.recent.add(file);
         }
-        self.shown = Some(Shown { source: model.source, summary: None });
+        self.shown = Some(Shown { source: model.source, summary: None, scenery });
         Ok(())
     }
 
@@ -175,7 +224,11 @@ impl Viewer {
     /// The view that the command line asks for.
     fn home(&self, stage: &Stage, model: &Model) -> Result<Orbit, Failure> {
         let shot = model.shot(&self.request.framing, stage.viewport().aspect())?;
-        Ok(Orbit::from_camera(&shot.camera, shot.distance, self.request.framing.up))
+        let mut orbit = Orbit::from_camera(&shot.camera, shot.distance, self.request.framing.up);
+        if self.request.window.interaction_style == Some(InteractionStyle::Trackball) {
+            orbit.set_style(OrbitStyle::Trackball);
+        }
+        Ok(orbit)
     }
 
     fn tell_warnings(&self, stage: &mut Stage, warnings: &[Warning]) {
@@ -197,6 +250,31 @@ impl Viewer {
         stage.overlay.notify(format!("error: {failure}"));
     }
 
+    /// A file could not be shown: that stays on the screen until another one is, or it is
+    /// closed.
+    fn tell_unshown(&mut self, failure: &Failure) {
+        self.reporter.error(failure);
+        self.failure = Some(failure.to_string());
+    }
+
+    /// Says what a key did, unless nobody wants to know.
+    fn notify(&self, stage: &mut Stage, text: impl Into<String>) {
+        if self.request.notifies {
+            stage.overlay.notify(text);
+        }
+    }
+
+    /// Plays the animations of the model, or says that it has none.
+    fn play(&mut self, stage: &mut Stage, play: impl FnOnce(&mut Playback, &mut Stage) -> Option<String>) {
+        let said = match &mut self.playback {
+            Some(playback) => play(playback, stage),
+            None => Some("this model has no animation".to_owned()),
+        };
+        if let Some(said) = said {
+            self.notify(stage, said);
+        }
+    }
+
     /// "(2/5) chair.glb"
     fn name(&self) -> String {
         let title = self.sources[self.current].title();
@@ -211,9 +289,9 @@ impl Viewer {
     fn write_overlay(&mut self, stage: &mut Stage) {
         stage.overlay.set(Corner::Top, self.show_name.then(|| self.name()));
         let shown = self.shown.as_mut().filter(|_| self.show_metadata);
-        let lines = shown.map(|Shown { source, summary }| {
-            let count = || Model::shown(Scene::clone(&stage.scene), source.clone()).summary();
-            summary.get_or_insert_with(count).lines()
+        let lines = shown.map(|shown| {
+            let summary = shown.summary.unwrap_or_else(|| shown.model(stage).summary());
+            shown.summary.insert(summary).lines()
         });
         stage.overlay.set(Corner::TopLeft, lines.unwrap_or_default());
     }
@@ -245,8 +323,7 @@ impl Viewer {
 
     fn reset_view(&mut self, stage: &mut Stage) {
         let Some(shown) = &self.shown else { return };
-        // Only its bounds and cameras are asked for; meshes and textures are shared.
-        let model = Model::shown(Scene::clone(&stage.scene), shown.source.clone());
+        let model = shown.model(stage);
         match self.home(stage, &model) {
             Ok(orbit) => {
                 stage.orbit = orbit;
@@ -281,6 +358,15 @@ impl Viewer {
             Command::NextFileSameView => self.step(stage, 1, View::Keep),
             Command::Reload => self.load(stage, View::Keep),
             Command::Open => self.open.toggle(),
+            Command::PlayOrPause => self.play(stage, |playback, stage| {
+                playback.toggle(stage);
+                None
+            }),
+            Command::PlayBackward => self.play(stage, |playback, stage| {
+                playback.toggle_backward(stage);
+                None
+            }),
+            Command::CycleAnimation => self.play(stage, |playback, stage| Some(playback.cycle(stage))),
             Command::CancelLoading => self.cancel_loading(stage),
             Command::ResetView => self.reset_view(stage),
             Command::ToggleName => self.show_name = !self.show_name,
@@ -302,6 +388,19 @@ impl Handler for Viewer {
         stage.overlay.notify("H shows the keys");
         self.load(stage, View::Fit);
         self.write_overlay(stage);
+    }
+
+    fn frame(&mut self, stage: &mut Stage, tick: Tick) -> Animation {
+        let plays = self.playback.as_mut().is_some_and(|playback| playback.advance(stage, tick.delta));
+        if plays { Animation::Running } else { Animation::Resting }
+    }
+
+    fn input(&mut self, _: &mut Stage, input: &Input, _: Hands) -> Taken {
+        if self.failure.is_some() && is_escape(input) {
+            self.failure = None;
+            return Taken::Yes;
+        }
+        Taken::No
     }
 
     fn command(&mut self, stage: &mut Stage, name: &str) {
@@ -329,6 +428,10 @@ impl Handler for Viewer {
         self.quality.show(ui.ctx(), stage, |ui, stage| self.classics.show(ui, stage));
         #[cfg(not(feature = "study"))]
         self.quality.show(ui.ctx(), stage, |_, _| {});
+        if let Some(playback) = &mut self.playback {
+            playback.show(ui.ctx(), stage);
+        }
+        self.show_failure(ui.ctx());
         let waker = stage.waker();
         let files = self.open.show(ui.ctx(), &self.recent, |open| {
             open.browse(SystemDialog, move || waker.wake());
@@ -338,7 +441,7 @@ impl Handler for Viewer {
 
     fn picture(&mut self, stage: &mut Stage, frame: Frame) {
         let model = self.shown.as_ref().and_then(|shown| shown.source.first_file());
-        match screenshot::save(&frame, model) {
+        match screenshot::save(&frame, &self.request.screenshot, model) {
             Ok(path) => {
                 let path = std::path::absolute(&path).unwrap_or(path);
                 self.reporter.info(format_args!("wrote {}", path.display()));
@@ -361,4 +464,9 @@ impl Handler for Viewer {
         }
         self.write_overlay(stage);
     }
+}
+
+/// Whether Escape was pressed.
+fn is_escape(input: &Input) -> bool {
+    matches!(input, Input::Key { logical: Some(Key::Escape), .. })
 }

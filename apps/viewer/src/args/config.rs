@@ -1,0 +1,286 @@
+//! Configuration files: JSON as F3D has it, a list of blocks with flags for the files that
+//! a pattern matches.
+//!
+//! What the command line says wins over them, and what a name with `!` before it says wins
+//! over the command line. Of several blocks, the later one counts.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use regex::Regex;
+use serde_json::{Map, Value};
+
+use super::names;
+
+/// All blocks of all configuration files, in the order in which they count.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Config {
+    blocks: Vec<Block>,
+    /// The files that were read.
+    pub(crate) files: Vec<PathBuf>,
+    /// What in them does nothing, and why.
+    pub(crate) warnings: Vec<String>,
+}
+
+/// Flags for some files.
+#[derive(Clone, Debug)]
+struct Block {
+    /// `None` for all files.
+    files: Option<Regex>,
+    options: Vec<Setting>,
+}
+
+/// A flag, its value, and whether it wins over the command line.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Setting {
+    pub(crate) flag: String,
+    pub(crate) value: String,
+    pub(crate) imperative: bool,
+}
+
+impl Config {
+    /// Reads what `--config` names: a file, a folder of files, or the stem of those in the
+    /// user's folder. Without it, the user's own `config`, if there is one.
+    ///
+    /// # Errors
+    /// When it is named and not there, or says something that cannot be understood.
+    pub(crate) fn read(named: Option<&Path>) -> Result<Self, String> {
+        let places = match named {
+            Some(path) if path.exists() => vec![path.to_owned()],
+            Some(path) => users(path),
+            None => users(Path::new("config")),
+        };
+        let found: Vec<PathBuf> = places.iter().filter(|place| place.exists()).cloned().collect();
+        if let (Some(path), true) = (named, found.is_empty()) {
+            let tried: Vec<String> = places.iter().map(|place| place.display().to_string()).collect();
+            let path = path.display();
+            return Err(format!("--config={path}: there is no such file; looked for {}", tried.join(", ")));
+        }
+        let mut config = Self::default();
+        for place in found {
+            for file in json_files(&place)? {
+                config.add(&file)?;
+            }
+        }
+        Ok(config)
+    }
+
+    fn add(&mut self, file: &Path) -> Result<(), String> {
+        let name = file.display();
+        let text = fs::read_to_string(file).map_err(|error| format!("{name}: cannot be read ({error})"))?;
+        let mut warnings = Vec::new();
+        self.blocks.extend(blocks(&text, &mut warnings).map_err(|why| format!("{name}: {why}"))?);
+        self.warnings.extend(warnings.into_iter().map(|warning| format!("{name}: {warning}")));
+        self.files.push(file.to_owned());
+        Ok(())
+    }
+
+    /// The settings for a file (`None` for the built-in scene), those that win last.
+    pub(crate) fn settings(&self, file: Option<&Path>) -> Vec<Setting> {
+        let name = file.map(|file| std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
+        let name = name.map(|name| name.to_string_lossy().into_owned());
+        let matching = self.blocks.iter().filter(|block| match (&block.files, &name) {
+            (None, _) => true,
+            (Some(files), Some(name)) => files.is_match(name),
+            (Some(_), None) => false,
+        });
+        let mut settings: Vec<Setting> = Vec::new();
+        for setting in matching.flat_map(|block| &block.options) {
+            settings.retain(|other| other.flag != setting.flag);
+            settings.push(setting.clone());
+        }
+        settings
+    }
+}
+
+/// `trigon/NAME.json` and the folder `trigon/NAME.d` where users keep such files.
+fn users(name: &Path) -> Vec<PathBuf> {
+    let home = std::env::var_os("XDG_CONFIG_HOME").filter(|folder| !folder.is_empty()).map(PathBuf::from);
+    let home = home.or_else(|| std::env::home_dir().map(|home| home.join(".config")));
+    let Some(folder) = home.map(|home| home.join("trigon")) else { return Vec::new() };
+    vec![folder.join(name).with_extension("json"), folder.join(name).with_extension("d")]
+}
+
+/// A file itself, or those of a folder that end in `.json`, by name.
+fn json_files(place: &Path) -> Result<Vec<PathBuf>, String> {
+    if !place.is_dir() {
+        return Ok(vec![place.to_owned()]);
+    }
+    let entries =
+        fs::read_dir(place).map_err(|error| format!("{}: cannot be read ({error})", place.display()))?;
+    let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let mut files: Vec<PathBuf> =
+        files.filter(|file| file.extension().is_some_and(|end| end == "json")).collect();
+    files.sort();
+    Ok(files)
+}
+
+fn blocks(text: &str, warnings: &mut Vec<String>) -> Result<Vec<Block>, String> {
+    let json: Value = serde_json::from_str(text).map_err(|error| format!("it is no JSON ({error})"))?;
+    let Value::Array(list) = json else {
+        return Err("write a list of blocks, [{\"options\": {…}}]".to_owned());
+    };
+    let block = |(index, value)| block(value, warnings).map_err(|why| format!("block {index}: {why}"));
+    list.iter().enumerate().map(block).collect()
+}
+
+fn block(value: &Value, warnings: &mut Vec<String>) -> Result<Block, String> {
+    let Value::Object(fields) = value else { return Err("it is no object".to_owned()) };
+    if let Some(other) = fields.keys().find(|key| !KEYS.contains(&key.as_str())) {
+        return Err(format!("{other:?} is none of {}", KEYS.join(", ")));
+    }
+    if fields.contains_key("bindings") {
+        warnings.push("bindings are left out: keys cannot be changed by a file".to_owned());
+    }
+    let options = match fields.get("options") {
+        None => Vec::new(),
+        Some(Value::Object(options)) => settings(options, warnings)?,
+        Some(_) => return Err("options is no object".to_owned()),
+    };
+    Ok(Block { files: pattern(fields)?, options })
+}
+
+const KEYS: [&str; 4] = ["match", "match-type", "options", "bindings"];
+
+/// What files a block is for.
+fn pattern(fields: &Map<String, Value>) -> Result<Option<Regex>, String> {
+    let text = |key: &str| fields.get(key).and_then(Value::as_str);
+    let Some(wanted) = text("match") else { return Ok(None) };
+    let expression = match text("match-type").unwrap_or("regex") {
+        "regex" => format!("^(?:{wanted})$"),
+        "glob" => glob(wanted),
+        "exact" => format!("^{}$", regex::escape(wanted)),
+        other => return Err(format!("match-type is {other:?}; write regex, glob or exact")),
+    };
+    Regex::new(&expression).map(Some).map_err(|error| format!("match: {error}"))
+}
+
+/// A glob as a regular expression: `*` and `?` within a folder, `**` across folders, and
+/// `{a,b}` for one of several. Without a slash it is matched against the file's name.
+fn glob(wanted: &str) -> String {
+    let mut expression = if wanted.contains('/') { "^".to_owned() } else { "(?:^|/)".to_owned() };
+    let mut rest = wanted.chars().peekable();
+    let mut depth = 0;
+    while let Some(character) = rest.next() {
+        match character {
+            '*' if rest.next_if_eq(&'*').is_some() => {
+                let folders = rest.next_if_eq(&'/').is_some();
+                expression.push_str(if folders { "(?:.*/)?" } else { ".*" });
+            }
+            '*' => expression.push_str("[^/]*"),
+            '?' => expression.push_str("[^/]"),
+            '{' => {
+                depth += 1;
+                expression.push_str("(?:");
+            }
+            '}' if depth > 0 => {
+                depth -= 1;
+                expression.push(')');
+            }
+            ',' if depth > 0 => expression.push('|'),
+            other => expression.push_str(&regex::escape(other.encode_utf8(&mut [0; 4]))),
+        }
+    }
+    expression + "$"
+}
+
+fn settings(options: &Map<String, Value>, warnings: &mut Vec<String>) -> Result<Vec<Setting>, String> {
+    /// These say where settings come from, or what is done with none.
+    const NOT_HERE: [&str; 8] =
+        ["help", "version", "list-readers", "list-bindings", "config", "no-config", "define", "input"];
+    let mut settings = Vec::new();
+    for (key, value) in options {
+        let (name, imperative) = key.strip_prefix('!').map_or((key.as_str(), false), |name| (name, true));
+        if NOT_HERE.contains(&name) {
+            return Err(format!("{name} belongs on the command line"));
+        }
+        let value =
+            text(value).ok_or_else(|| format!("{name} is {value}; write a text, a number or true"))?;
+        match names::flag(name) {
+            Ok(flag) => settings.push(Setting { flag: flag.to_owned(), value, imperative }),
+            Err(why) => warnings.push(format!("{why}; it is left out")),
+        }
+    }
+    Ok(settings)
+}
+
+/// A value as it would be typed.
+fn text(value: &Value) -> Option<String> {
+    match value {
+        Value::String(text) => Some(text.clone()),
+        Value::Number(number) => Some(number.to_string()),
+        Value::Bool(on) => Some(on.to_string()),
+        Value::Array(list) => Some(list.iter().map(text).collect::<Option<Vec<_>>>()?.join(",")),
+        Value::Null | Value::Object(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn config(text: &str) -> Config {
+        Config { blocks: blocks(text, &mut Vec::new()).expect("a configuration"), ..Config::default() }
+    }
+
+    fn flags(config: &Config, file: &str) -> Vec<String> {
+        let settings = config.settings(Some(Path::new(file)));
+        settings.iter().map(|setting| format!("{}={}", setting.flag, setting.value)).collect()
+    }
+
+    #[test]
+    fn blocks_are_for_the_files_that_match() {
+        let config = config(
+            r#"[{"options": {"color": "0.5,0.1,0.1", "grid": true, "roughness": 0.2}},
+                {"match": ".*gl(tf|b)", "options": {"edges": true, "grid": false}},
+                {"match-type": "glob", "match": "*st?", "options": {"up": "+Z"}},
+                {"match-type": "exact", "match": "/a/b.ply", "options": {"!axis": true}}]"#,
+        );
+        let all = ["color=0.5,0.1,0.1", "roughness=0.2"];
+        assert_eq!(flags(&config, "/a/x.glb"), [all[0], all[1], "edges=true", "grid=false"], "later counts");
+        assert_eq!(flags(&config, "/a/x.stl"), [all[0], "grid=true", all[1], "up=+Z"], "glob");
+        assert_eq!(flags(&config, "/a/b.ply"), [all[0], "grid=true", all[1], "axis=true"], "exact");
+        assert!(config.settings(Some(Path::new("/a/b.ply")))[3].imperative, "it wins");
+        assert_eq!(config.settings(None).len(), 3, "the built-in scene matches nothing");
+    }
+
+    #[test]
+    fn globs_cross_folders_with_two_stars() {
+        for (wanted, path, matches) in [
+            ("**/*gl{tf,b}", "/a/b/c.glb", true),
+            ("**/*gl{tf,b}", "/a/b/c.gltf", true),
+            ("/a/*.obj", "/a/b/c.obj", false),
+            ("/a/**.obj", "/a/b/c.obj", true),
+            ("c.o?j", "/a/b/c.obj", true),
+            ("c.obj", "/a/b/xc.obj", false),
+        ] {
+            let expression = Regex::new(&glob(wanted)).expect("an expression");
+            assert_eq!(expression.is_match(path), matches, "{wanted} and {path}");
+        }
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        for (text, word) in [
+            ("{", "no JSON"),
+            ("{}", "list of blocks"),
+            ("[3]", "block 0"),
+            (r#"[{"option": {}}]"#, "\"option\" is none of"),
+            (r#"[{"match": "(", "options": {}}]"#, "match"),
+            (r#"[{"match": "a", "match-type": "like"}]"#, "regex, glob or exact"),
+            (r#"[{"options": {"config": "x"}}]"#, "command line"),
+            (r#"[{"options": {"grid": {}}}]"#, "grid is"),
+        ] {
+            let why = blocks(text, &mut Vec::new()).expect_err("refused");
+            assert!(why.contains(word), "{text}: {why}");
+        }
+    }
+
+    #[test]
+    fn what_does_nothing_is_said() {
+        let text = r#"[{"options": {"final-shader": "x", "edges": true}, "bindings": {"O": "exit"}}]"#;
+        let mut warnings = Vec::new();
+        assert_eq!(blocks(text, &mut warnings).expect("fine")[0].options.len(), 1, "the edges");
+        assert!(warnings[0].contains("bindings") && warnings[1].contains("no GPU"), "{warnings:?}");
+    }
+}

@@ -1,0 +1,258 @@
+//! The command line as a whole: what was typed, what configuration files add to it for a
+//! file, and what a command script has changed since.
+
+use std::ffi::{OsStr, OsString};
+use std::path::Path;
+
+use clap::error::{ContextKind, ErrorKind};
+use clap::parser::ValueSource;
+use clap::{ArgMatches, CommandFactory, FromArgMatches};
+
+use super::config::{Config, Setting};
+use super::raw::RawArgs;
+use super::{names, words};
+
+/// All words that flags are read from.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct CommandLine {
+    /// Without the program's name.
+    typed: Vec<OsString>,
+    config: Config,
+    /// Later ones count.
+    edits: Vec<String>,
+}
+
+impl CommandLine {
+    /// Reads words without the program's name, and the configuration files that they ask for.
+    ///
+    /// # Errors
+    /// When they make no sense, with what is meant where that can be told.
+    pub(crate) fn new(typed: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
+        let command = RawArgs::command();
+        let typed = words::prepared(&command, typed).map_err(conflict)?;
+        let line = Self { typed, ..Self::default() };
+        let raw = line.raw(None)?;
+        if raw.command.is_some() || raw.no_config == Some(true) {
+            return Ok(line);
+        }
+        let config = Config::read(raw.config.as_deref()).map_err(conflict)?;
+        Ok(Self { config, ..line })
+    }
+
+    /// The flags for a file, `None` for the built-in scene.
+    ///
+    /// # Errors
+    /// When they make no sense.
+    pub(crate) fn raw(&self, file: Option<&Path>) -> Result<RawArgs, clap::Error> {
+        RawArgs::from_arg_matches(&self.matches(file)?)
+    }
+
+    /// What in configuration files does nothing.
+    pub(crate) fn warnings(&self) -> &[String] {
+        &self.config.warnings
+    }
+
+    /// Whether each file may have flags of its own.
+    pub(crate) fn differs_by_file(&self) -> bool {
+        !self.config.files.is_empty()
+    }
+
+    /// The same with more flags, which count most.
+    pub(crate) fn with(&self, edits: impl IntoIterator<Item = String>) -> Self {
+        let mut line = self.clone();
+        line.edits.extend(edits);
+        line
+    }
+
+    /// The same without what was changed about a flag.
+    pub(crate) fn without(&self, flag: &str) -> Self {
+        let mut line = self.clone();
+        line.edits.retain(|edit| flag_of(edit) != flag);
+        line.edits.push(format!("--unset={flag}"));
+        line
+    }
+
+    /// What was typed, and what was changed since.
+    pub(crate) fn text(&self) -> String {
+        let typed = self.typed.iter().map(|word| word.to_string_lossy().into_owned());
+        typed.chain(self.edits.iter().cloned()).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The value of a flag as it was typed, or its default.
+    pub(crate) fn value(&self, flag: &str, file: Option<&Path>) -> Option<String> {
+        let matches = self.matches(file).ok()?;
+        let id = identifier(flag)?;
+        let values = matches.get_raw(&id)?;
+        Some(values.map(OsStr::to_string_lossy).collect::<Vec<_>>().join(","))
+    }
+
+    /// A flag with the value that follows one in the list of those that it takes, around the
+    /// end.
+    ///
+    /// # Errors
+    /// When it takes no such list.
+    pub(crate) fn next_value(&self, flag: &str, now: &str) -> Result<String, String> {
+        let command = RawArgs::command();
+        let argument = command.get_arguments().find(|argument| argument.get_long() == Some(flag));
+        let choices = argument.map(clap::Arg::get_possible_values).unwrap_or_default();
+        let index = choices.iter().position(|choice| choice.matches(now, true));
+        let next = choices.get(index.map_or(0, |index| (index + 1) % choices.len()));
+        let next = next.ok_or_else(|| format!("{flag} is no choice of a few values; write set {flag}"))?;
+        Ok(format!("--{flag}={}", next.get_name()))
+    }
+
+    fn matches(&self, file: Option<&Path>) -> Result<ArgMatches, clap::Error> {
+        let settings = self.config.settings(file);
+        let (imperative, usual): (Vec<_>, Vec<_>) =
+            settings.into_iter().partition(|setting| setting.imperative);
+        let mut words = vec![OsString::from("trigon-viewer")];
+        if !usual.is_empty() {
+            let typed = parsed(words.iter().chain(&self.typed))?;
+            let unset = |setting: &&Setting| self.edits.contains(&format!("--unset={}", setting.flag));
+            words
+                .extend(usual.iter().filter(|setting| is_free(setting, &typed) && !unset(setting)).map(word));
+        }
+        // After `--` there are no flags.
+        let end = self.typed.iter().position(|word| word == "--").unwrap_or(self.typed.len());
+        words.extend_from_slice(&self.typed[..end]);
+        words.extend(imperative.iter().map(word));
+        words.extend(self.edits.iter().map(OsString::from));
+        words.extend_from_slice(&self.typed[end..]);
+        parsed(&words)
+    }
+}
+
+/// The words as flags.
+fn parsed(words: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<ArgMatches, clap::Error> {
+    RawArgs::command().try_get_matches_from(words).map_err(explained)
+}
+
+/// A mistake with what is meant, or why trigon has not what F3D has.
+fn explained(error: clap::Error) -> clap::Error {
+    let unknown = match error.get(ContextKind::InvalidArg) {
+        Some(clap::error::ContextValue::String(flag)) if error.kind() == ErrorKind::UnknownArgument => {
+            flag.clone()
+        }
+        _ => return error,
+    };
+    let name = unknown.trim_start_matches('-').split('=').next().unwrap_or_default().to_owned();
+    if let Some(reason) = names::refusal(&name) {
+        return conflict(format!("{unknown}: {reason}"));
+    }
+    match words::meant(&unknown) {
+        Some(meant) => conflict(format!("there is no {unknown}; write {meant}")),
+        None => error,
+    }
+}
+
+fn conflict(message: impl std::fmt::Display) -> clap::Error {
+    RawArgs::command().error(ErrorKind::ArgumentConflict, message)
+}
+
+/// The flag of a word such as `--up=+Z`, without dashes; empty for others.
+fn flag_of(word: &str) -> &str {
+    word.strip_prefix("--").map_or("", |rest| rest.split('=').next().unwrap_or_default())
+}
+
+/// A setting as a word. `true` of a flag that takes no such value stands for it alone.
+fn word(setting: &Setting) -> OsString {
+    let command = RawArgs::command();
+    let argument = command.get_arguments().find(|argument| argument.get_long() == Some(&setting.flag));
+    let choices = argument.map(clap::Arg::get_possible_values).unwrap_or_default();
+    if setting.value == "true" && !choices.is_empty() {
+        return format!("--{}", setting.flag).into();
+    }
+    format!("--{}={}", setting.flag, setting.value).into()
+}
+
+/// Whether neither the flag nor one that contradicts it was typed.
+fn is_free(setting: &Setting, typed: &ArgMatches) -> bool {
+    let is_typed = |id: &str| typed.value_source(id) == Some(ValueSource::CommandLine);
+    let unset =
+        typed.get_many::<String>("unset").is_some_and(|mut flags| flags.any(|flag| *flag == setting.flag));
+    let command = RawArgs::command();
+    let argument = command.get_arguments().find(|argument| argument.get_long() == Some(&setting.flag));
+    let Some(argument) = argument else { return !unset };
+    let contradicted = command.get_arg_conflicts_with(argument);
+    let against = command.get_arguments().filter(|other| {
+        command.get_arg_conflicts_with(other).iter().any(|conflict| conflict.get_id() == argument.get_id())
+    });
+    let mut others = contradicted.into_iter().chain(against);
+    !unset && !is_typed(argument.get_id().as_str()) && !others.any(|other| is_typed(other.get_id().as_str()))
+}
+
+/// How clap calls a flag.
+fn identifier(flag: &str) -> Option<String> {
+    let command = RawArgs::command();
+    let found = command.get_arguments().find(|argument| {
+        let aliases = argument.get_all_aliases().unwrap_or_default();
+        argument.get_long() == Some(flag) || aliases.contains(&flag)
+    })?;
+    Some(found.get_id().to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(typed: &str, config: &str) -> CommandLine {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("c.json");
+        std::fs::write(&path, config).expect("written");
+        let mut words: Vec<OsString> = typed.split_whitespace().map(OsString::from).collect();
+        words.push(format!("--config={}", path.display()).into());
+        CommandLine::new(words).expect("it makes sense")
+    }
+
+    fn value(line: &CommandLine, flag: &str) -> Option<String> {
+        line.value(flag, Some(Path::new("/x/a.stl")))
+    }
+
+    #[test]
+    fn the_command_line_wins_over_files_but_for_what_is_imperative() {
+        let config = r#"[{"options": {"edges": true, "up": "+Z", "!grid": true, "anti-aliasing": true}}]"#;
+        let plain = line("a.stl", config);
+        assert_eq!(value(&plain, "edges").as_deref(), Some("true"), "from the file");
+        assert_eq!(value(&plain, "anti-aliasing").as_deref(), Some("ssaa"), "true is its usual value");
+        let typed = line("a.stl --edges=no --grid=false --up=+X", config);
+        assert_eq!(value(&typed, "edges").as_deref(), Some("no"), "typed");
+        assert_eq!(value(&typed, "up").as_deref(), Some("+X"), "typed");
+        assert_eq!(value(&typed, "grid").as_deref(), Some("true"), "imperative");
+        let reset = line("a.stl -R scene.up_direction", config);
+        assert_eq!(value(&reset, "up").as_deref(), Some("+Y"), "the default");
+    }
+
+    /// A direction in a file and a camera on the command line were told to contradict.
+    #[test]
+    fn what_is_typed_takes_the_place_of_what_contradicts_it() {
+        let config = r#"[{"options": {"camera-direction": "-1,-0.5,-1"}}]"#;
+        assert_eq!(value(&line("a.stl", config), "camera-direction").as_deref(), Some("-1,-0.5,-1"), "alone");
+        for typed in ["--view=top", "--camera-index=0", "--camera-direction=+X"] {
+            let line = line(typed, config);
+            line.raw(None).expect("no contradiction");
+            assert_ne!(value(&line, "camera-direction").as_deref(), Some("-1,-0.5,-1"), "{typed}");
+        }
+    }
+
+    #[test]
+    fn scripts_have_the_last_word() {
+        let edited = line("a.stl --up=+X", "[]").with(["--up=-Z".to_owned()]);
+        assert_eq!(value(&edited, "up").as_deref(), Some("-Z"), "the script's");
+        assert_eq!(value(&edited.without("up"), "up").as_deref(), Some("+X"), "as it was typed");
+    }
+
+    #[test]
+    fn unknown_flags_say_what_is_meant() {
+        for (typed, expected) in [
+            ("--bg-color red", "--background-color"),
+            ("--quiet", "--verbose=quiet"),
+            ("--final-shader x", "no GPU"),
+            ("-s", "values of a simulation"),
+            ("--resolutoin 1,1", "--resolution"),
+        ] {
+            let words = typed.split_whitespace().map(OsString::from);
+            let message = CommandLine::new(words).expect_err("unknown").to_string();
+            assert!(message.contains(expected), "{typed}: {message}");
+        }
+    }
+}

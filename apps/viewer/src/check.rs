@@ -1,0 +1,129 @@
+//! `--check`: what is wrong with models, each with what to do about it; for people, or as
+//! JSON for other programs.
+
+use std::fmt;
+use std::ops::ControlFlow;
+
+use serde_json::{Value, json};
+use trigon_io::Warning;
+use trigon_scene::{Finding, Severity};
+
+use crate::args::Request;
+use crate::failure::Failure;
+use crate::lists::{json_line, print_lines};
+use crate::loading;
+use crate::model::Source;
+use crate::report::Reporter;
+
+/// One thing that is wrong.
+struct Fault {
+    severity: Severity,
+    name: &'static str,
+    place: String,
+    what: String,
+    remedy: String,
+}
+
+/// Checks every source; 1 if anything is wrong with one, or it cannot be loaded.
+pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
+    let mut worst = 0;
+    for source in Source::all(request) {
+        let faults = match request.for_source(&source).and_then(|request| faults(&source, &request)) {
+            Ok(faults) => faults,
+            Err(failure @ Failure::Usage(_)) => {
+                reporter.error(&failure);
+                worst = worst.max(failure.exit_code());
+                continue;
+            }
+            Err(failure) => vec![Fault::unloadable(&failure)],
+        };
+        let is_wrong = faults.iter().any(|fault| fault.severity == Severity::Error);
+        worst = worst.max(u8::from(is_wrong));
+        let unwritten = if request.json {
+            json_line(&facts(&source, &faults), reporter)
+        } else {
+            print_lines(lines(&source, &faults), reporter)
+        };
+        worst = worst.max(unwritten);
+    }
+    worst
+}
+
+/// What the reader said, and what the scene says itself.
+fn faults(source: &Source, request: &Request) -> Result<Vec<Fault>, Failure> {
+    let (model, warnings) = loading::load(source, request, &|_| ControlFlow::Continue(()))?;
+    let own = source.first_file();
+    let mut faults: Vec<Fault> = warnings.iter().map(|warning| Fault::of_reader(warning, own)).collect();
+    faults.extend(model.scene.check().into_iter().map(Fault::of_scene));
+    faults.sort_by_key(|fault| std::cmp::Reverse(fault.severity));
+    Ok(faults)
+}
+
+impl Fault {
+    fn unloadable(failure: &Failure) -> Self {
+        let text = failure.to_string();
+        let (what, remedy) = text.split_once("; ").unwrap_or((&text, "check the file"));
+        Self {
+            severity: Severity::Error,
+            name: if matches!(failure, Failure::Empty(_)) { "nothing-to-draw" } else { "not-loaded" },
+            place: "file".to_owned(),
+            what: what.to_owned(),
+            remedy: remedy.to_owned(),
+        }
+    }
+
+    /// A file beside the model that is missing or broken is an error: the picture lacks it.
+    fn of_reader(warning: &Warning, own: Option<&std::path::Path>) -> Self {
+        let is_beside = own.is_some_and(|own| own != warning.file);
+        let more = if warning.more > 0 { format!(" … and {} more", warning.more) } else { String::new() };
+        Self {
+            severity: if is_beside { Severity::Error } else { Severity::Warning },
+            name: if is_beside { "missing-file" } else { "in-the-file" },
+            place: format!("{}{}", warning.file.display(), warning.place),
+            what: format!("{}{more}", warning.what),
+            remedy: warning.remedy.clone(),
+        }
+    }
+
+    fn of_scene(finding: Finding) -> Self {
+        let Finding { severity, fault, place, what, remedy } = finding;
+        Self { severity, name: fault, place, what, remedy: remedy.to_owned() }
+    }
+
+    fn facts(&self) -> Value {
+        json!({
+            "severity": severity(self.severity), "fault": self.name, "place": self.place,
+            "what": self.what, "remedy": self.remedy,
+        })
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, place, what, remedy, .. } = self;
+        write!(f, "{}: {place}: {what} ({name}); {remedy}", severity(self.severity))
+    }
+}
+
+fn severity(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Warning => "warning",
+        Severity::Error => "error",
+    }
+}
+
+fn lines(source: &Source, faults: &[Fault]) -> Vec<String> {
+    if faults.is_empty() {
+        return vec![format!("{}: no faults", source.title())];
+    }
+    let faults = faults.iter().map(|fault| format!("  {fault}"));
+    std::iter::once(source.title()).chain(faults).collect()
+}
+
+fn facts(source: &Source, faults: &[Fault]) -> Value {
+    let is_wrong = faults.iter().any(|fault| fault.severity == Severity::Error);
+    json!({
+        "file": source.first_file(), "ok": !is_wrong,
+        "findings": faults.iter().map(Fault::facts).collect::<Vec<_>>(),
+    })
+}

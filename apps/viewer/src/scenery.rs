@@ -1,0 +1,301 @@
+//! What is shown beside the model: a grid, normals and bones as lines, and vertices as
+//! balls in place of faces. All of it is geometry of the scene, hidden and lit like any.
+
+use trigon_camera::orientation_looking;
+use trigon_math::{Bounds3, DMat3, DVec3, Vec3, Vec4};
+use trigon_mesh::{Mesh, MeshBuilder, primitives};
+use trigon_scene::{Material, Node, NodeId, Scene, Shading, Transform};
+
+use crate::failure::Failure;
+
+/// What is shown beside the model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Scenery {
+    pub(crate) grid: Option<Grid>,
+    /// The length of lines along normals, as a part of the model's diagonal.
+    pub(crate) normals: Option<f64>,
+    pub(crate) bones: bool,
+    pub(crate) sprites: Option<Sprites>,
+}
+
+/// A grid of lines in the plane across the up axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Grid {
+    /// Side of a square; `None` for a power of ten that suits the model.
+    pub(crate) unit: Option<f64>,
+    /// Parts of that side.
+    pub(crate) subdivisions: u32,
+    /// Linear RGB.
+    pub(crate) color: Vec3,
+    /// Whether it goes through the origin, not below the model.
+    pub(crate) absolute: bool,
+    /// The direction that is up.
+    pub(crate) up: DVec3,
+}
+
+/// Balls in place of faces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sprites {
+    pub(crate) size: f64,
+    /// Whether the size is in metres, not in thousandths of the model's diagonal.
+    pub(crate) absolute: bool,
+}
+
+/// Vertices beyond this get no balls: they would take gigabytes.
+const MOST_SPRITES: usize = 1_000_000;
+
+/// Up to this many, balls are smooth.
+const SMOOTH_SPRITES: usize = 20_000;
+
+/// The most lines of a grid in one direction.
+const MOST_LINES: f64 = 1000.0;
+
+impl Scenery {
+    /// Replaces the model's faces, where that is wanted. To be done before a camera is fitted.
+    pub(crate) fn replace(&self, scene: &mut Scene) -> Result<(), Failure> {
+        let Some(sprites) = self.sprites else { return Ok(()) };
+        let points: Vec<DVec3> = scene.visible_points().filter(|point| point.is_finite()).collect();
+        if points.len() > MOST_SPRITES {
+            return Err(Failure::work(format!(
+                "--point-sprites: the model has {} vertices, and balls are drawn for {MOST_SPRITES} at most; leave it out",
+                points.len()
+            )));
+        }
+        let bounds = Bounds3::from_points(points.iter().copied());
+        let Some(center) = bounds.center() else { return Ok(()) };
+        let unit = if sprites.absolute { 1.0 } else { bounds.size().length() / 1000.0 };
+        let ball = primitives::icosphere(1.0, u32::from(points.len() <= SMOOTH_SPRITES));
+        let mesh = balls(&points, center, sprites.size * unit * 0.5, &ball);
+        let material = scene.materials.iter().next().map(|(id, _)| id);
+        let material = material.unwrap_or_else(|| scene.add_material(Material::default()));
+        scene.nodes_mut().for_each(|(_, node)| node.mesh = None);
+        let mesh = scene.add_mesh("vertices", mesh);
+        scene.add(Node::from_mesh(mesh, material).with_name("vertices").at(center));
+        Ok(())
+    }
+
+    /// Adds lines to a scene; returns their nodes.
+    pub(crate) fn add_to(&self, scene: &mut Scene) -> Vec<NodeId> {
+        let bounds = Bounds3::from_points(scene.visible_points());
+        let Some(center) = bounds.center() else { return Vec::new() };
+        let diagonal = bounds.size().length();
+        let mut added = Vec::new();
+        if let Some(length) = self.normals {
+            let mesh = normal_lines(scene, center, length * diagonal);
+            added.push(add_lines(scene, "normals", mesh, center, Vec3::new(0.0, 0.3, 0.9)));
+        }
+        if self.bones {
+            let mesh = bone_lines(scene, center);
+            added.push(add_lines(scene, "bones", mesh, center, Vec3::new(0.9, 0.5, 0.0)));
+        }
+        if let Some(grid) = &self.grid {
+            added.push(grid.add_to(scene, &bounds));
+        }
+        added
+    }
+}
+
+impl Grid {
+    fn add_to(&self, scene: &mut Scene, bounds: &Bounds3) -> NodeId {
+        // Columns: along the plane, along the plane, up.
+        let turned = DMat3::from_quat(orientation_looking(-self.up, self.up.any_orthonormal_vector()));
+        let to_plane = turned.transpose();
+        let corners = bounds.corners().map(|corner| to_plane * corner);
+        let flat = Bounds3::from_points(corners);
+        let unit = self.unit.unwrap_or_else(|| suitable_unit(flat.size()));
+        let height = if self.absolute { 0.0 } else { flat.min.z };
+        let step = unit / f64::from(self.subdivisions);
+        let origin = turned * DVec3::new(0.0, 0.0, height);
+        let [x, y] = [0, 1].map(|axis| {
+            // A square more than the model on either side.
+            let from = (flat.min[axis] / unit).floor() - 1.0;
+            let to = (flat.max[axis] / unit).ceil() + 1.0;
+            let parts = f64::from(self.subdivisions);
+            (from * parts, to * parts)
+        });
+        let mesh = grid_lines([x, y].map(|(from, to)| (from, to.min(from + MOST_LINES))), step, &turned);
+        add_lines(scene, "grid", mesh, origin, self.color)
+    }
+}
+
+/// The power of ten that gives a model five squares to fifty.
+fn suitable_unit(size: DVec3) -> f64 {
+    let width = if size.x > size.y { size.x } else { size.y };
+    let mut unit = 1.0;
+    if !(width.is_finite() && width > 0.0) {
+        return unit;
+    }
+    while unit * 10.0 <= width {
+        unit *= 10.0;
+    }
+    while unit > width {
+        unit /= 10.0;
+    }
+    unit
+}
+
+/// Lines along two axes of a plane, at whole numbers of steps.
+fn grid_lines(ranges: [(f64, f64); 2], step: f64, turned: &DMat3) -> Mesh {
+    let mut builder = MeshBuilder::new();
+    let mut line = |from: [f64; 2], to: [f64; 2]| {
+        let ends = [from, to].map(|[x, y]| (*turned * (DVec3::new(x, y, 0.0) * step)).as_vec3());
+        let [from, to] = ends.map(|end| builder.push_vertex(end));
+        builder.push_loose_edge(from, to).expect("its ends are two vertices");
+    };
+    let [(left, right), (near, far)] = ranges;
+    for x in 0..=(right - left) as u32 {
+        let x = left + f64::from(x);
+        line([x, near], [x, far]);
+    }
+    for y in 0..=(far - near) as u32 {
+        let y = near + f64::from(y);
+        line([left, y], [right, y]);
+    }
+    builder.build()
+}
+
+/// A line along the normal at each vertex of each visible mesh, relative to a point.
+fn normal_lines(scene: &Scene, center: DVec3, length: f64) -> Mesh {
+    let mut builder = MeshBuilder::new();
+    let visible = scene.visible_transforms();
+    for (id, node) in scene.nodes().iter() {
+        let Some(world) = visible[id.index()] else { continue };
+        let Some(asset) = node.mesh.and_then(|mesh| scene.meshes().get(mesh)) else { continue };
+        let mesh = asset.mesh();
+        let cofactor = world.matrix3.inverse().transpose();
+        for (position, normal) in mesh.positions().iter().zip(mesh.vertex_normals()) {
+            let foot = world.transform_point3(position.as_dvec3()) - center;
+            let Some(direction) = (cofactor * normal.as_dvec3()).try_normalize() else { continue };
+            push_line(&mut builder, foot, foot + direction * length);
+        }
+    }
+    builder.build()
+}
+
+/// A line from each joint to its parent, if that is a joint, too.
+fn bone_lines(scene: &Scene, center: DVec3) -> Mesh {
+    let mut builder = MeshBuilder::new();
+    let at = |id| scene.world_transform(id).translation - center;
+    for (_, skin) in scene.skins.iter() {
+        for &joint in &skin.joints {
+            let parent = scene.node(joint).and_then(Node::parent);
+            if let Some(parent) = parent.filter(|parent| skin.joints.contains(parent)) {
+                push_line(&mut builder, at(parent), at(joint));
+            }
+        }
+    }
+    builder.build()
+}
+
+fn push_line(builder: &mut MeshBuilder, from: DVec3, to: DVec3) {
+    let [from, to] = [from, to].map(|end| builder.push_vertex(end.as_vec3()));
+    builder.push_loose_edge(from, to).expect("its ends are two vertices");
+}
+
+fn add_lines(scene: &mut Scene, name: &str, mesh: Mesh, at: DVec3, color: Vec3) -> NodeId {
+    let material = Material {
+        base_color: Vec4::new(color.x, color.y, color.z, 1.0),
+        shading: Shading::Unlit,
+        ..Material::default()
+    };
+    let id = scene.add_object(name, mesh, material);
+    if let Some(node) = scene.node_mut(id) {
+        node.transform = Transform::from_translation(at);
+    }
+    id
+}
+
+/// One mesh of balls around points, relative to a point.
+fn balls(points: &[DVec3], center: DVec3, radius: f64, ball: &Mesh) -> Mesh {
+    let faces = points.len() * ball.face_count();
+    let mut builder = MeshBuilder::with_capacity(points.len() * ball.vertex_count(), faces, faces * 3);
+    for &point in points {
+        let first = builder.vertex_count() as u32;
+        for position in ball.positions() {
+            builder.push_vertex((point - center + position.as_dvec3() * radius).as_vec3());
+        }
+        for face in 0..ball.face_count() {
+            let vertices: Vec<u32> = ball.face_vertices(face).iter().map(|vertex| first + vertex).collect();
+            builder.push_face(&vertices).expect("a face of a ball");
+        }
+    }
+    builder.build()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene() -> Scene {
+        let mut scene = Scene::new();
+        let node = scene.add_object("cube", primitives::cube(3.0), Material::default());
+        scene.node_mut(node).expect("just added").transform =
+            Transform::from_translation(DVec3::new(100.0, 20.0, 0.0));
+        scene
+    }
+
+    fn grid() -> Grid {
+        Grid { unit: None, subdivisions: 1, color: Vec3::ZERO, absolute: false, up: DVec3::Y }
+    }
+
+    fn bounds_of(scene: &Scene, id: NodeId) -> Bounds3 {
+        let world = scene.world_transform(id);
+        let mesh = scene.node(id).and_then(|node| node.mesh).expect("it has a mesh");
+        let positions = scene.meshes().get(mesh).expect("it is there").mesh().positions().to_vec();
+        Bounds3::from_points(positions.iter().map(|position| world.transform_point3(position.as_dvec3())))
+    }
+
+    #[test]
+    fn a_grid_lies_below_the_model_or_at_the_origin() {
+        for (grid, expected) in [
+            (grid(), (DVec3::new(97.0, 18.5, -3.0), DVec3::new(103.0, 18.5, 3.0))),
+            (Grid { absolute: true, ..grid() }, (DVec3::new(97.0, 0.0, -3.0), DVec3::new(103.0, 0.0, 3.0))),
+            (
+                Grid { unit: Some(10.0), ..grid() },
+                (DVec3::new(80.0, 18.5, -20.0), DVec3::new(120.0, 18.5, 20.0)),
+            ),
+            (Grid { up: DVec3::Z, ..grid() }, (DVec3::new(97.0, 17.0, -1.5), DVec3::new(103.0, 23.0, -1.5))),
+        ] {
+            let mut scene = scene();
+            let scenery = Scenery { grid: Some(grid), ..Scenery::default() };
+            let added = scenery.add_to(&mut scene);
+            let bounds = bounds_of(&scene, added[0]);
+            // Positions are f32, of numbers up to 120.
+            assert!(bounds.min.abs_diff_eq(expected.0, 1e-4), "{grid:?}: {bounds:?}");
+            assert!(bounds.max.abs_diff_eq(expected.1, 1e-4), "{grid:?}: {bounds:?}");
+        }
+    }
+
+    #[test]
+    fn a_huge_unit_or_a_tiny_one_makes_no_endless_grid() {
+        for unit in [1e-9, 1e9] {
+            let mut scene = scene();
+            let scenery = Scenery { grid: Some(Grid { unit: Some(unit), ..grid() }), ..Scenery::default() };
+            scenery.add_to(&mut scene);
+            let lines = scene.meshes().iter().last().expect("the grid").1.mesh().edge_count();
+            assert!(lines <= 2 * (MOST_LINES as usize + 1), "{unit}: {lines} lines");
+        }
+    }
+
+    #[test]
+    fn normals_stand_on_the_vertices() {
+        let mut scene = scene();
+        let scenery = Scenery { normals: Some(0.1), ..Scenery::default() };
+        let added = scenery.add_to(&mut scene);
+        let bounds = bounds_of(&scene, added[0]);
+        // A tenth of 3·√3, along a diagonal of a corner.
+        assert!((bounds.size().x - (3.0 + 0.6)).abs() < 1e-5, "{bounds:?}");
+    }
+
+    #[test]
+    fn balls_take_the_place_of_faces() {
+        let mut scene = scene();
+        let sprites = Some(Sprites { size: 0.5, absolute: true });
+        Scenery { sprites, ..Scenery::default() }.replace(&mut scene).expect("few vertices");
+        let faces: usize =
+            scene.meshes().iter().last().map(|(_, asset)| asset.mesh().face_count()).expect("balls");
+        assert_eq!(faces, 8 * 80, "a ball of 80 faces at each corner");
+        let size = Bounds3::from_points(scene.visible_points()).size();
+        assert!((size.x - 3.5).abs() < 0.05, "half a metre larger: {size}");
+    }
+}

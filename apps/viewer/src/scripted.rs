@@ -1,0 +1,178 @@
+//! Command scripts: what each line changes, and the pictures that they ask for.
+
+use std::fs;
+use std::path::Path;
+
+use crate::args::{CommandLine, Destination, Mode, RANGES, Request, Step, Template, plain, steps};
+use crate::failure::Failure;
+use crate::lists::print_lines;
+use crate::loading;
+use crate::model::Source;
+use crate::outlet::Outlet;
+use crate::picture;
+use crate::report::Reporter;
+
+/// Where a script is: what it has changed, and which files there are.
+struct Session {
+    line: CommandLine,
+    sources: Vec<Source>,
+    current: usize,
+}
+
+/// Does what the script says, and then draws what --output asks for; returns the exit code.
+pub(crate) fn run(
+    request: &Request,
+    capture: Option<&Path>,
+    outlet: &mut Outlet<'_>,
+    reporter: Reporter,
+) -> u8 {
+    let done = done(request, outlet, reporter).and_then(|session| {
+        let request = session.request(reporter)?;
+        picture::draw_source(session.source(), &request, capture, outlet, reporter)
+    });
+    match done {
+        Ok(()) => 0,
+        Err(failure) => {
+            reporter.error(&failure);
+            failure.exit_code()
+        }
+    }
+}
+
+/// The request after a script, for a window: pictures that it asks for are not taken.
+#[cfg(feature = "window")]
+pub(crate) fn changed(request: &Request, reporter: Reporter) -> Result<Request, Failure> {
+    if request.script.is_none() {
+        return Ok(request.clone());
+    }
+    let mut outlet = Outlet::new(None, reporter);
+    let session = done(request, &mut outlet, reporter)?;
+    Ok(Request { script: None, ..session.request(reporter)? })
+}
+
+fn done(request: &Request, outlet: &mut Outlet<'_>, reporter: Reporter) -> Result<Session, Failure> {
+    let sources = Source::all(request);
+    let mut session = Session { line: request.line.clone(), sources, current: 0 };
+    let Some(file) = &request.script else { return Ok(session) };
+    let name = file.display();
+    let text = fs::read_to_string(file)
+        .map_err(|error| Failure::work(format!("{name}: cannot be read ({error}); check the name")))?;
+    let located = |line: usize, why: &str| Failure::Usage(format!("{name}, line {line}: {why}"));
+    // All is read before anything is done.
+    for (line, step) in steps(&text).map_err(|(line, why)| located(line, &why))? {
+        match step {
+            Step::Stop => break,
+            Step::Say(what) => reporter.info(what),
+            Step::Ignored(why) => reporter.warning(format_args!("{name}, line {line}: {why}")),
+            Step::SceneInfo => session.describe(reporter)?,
+            Step::Print(flag) => reporter.info(session.value(&flag)),
+            Step::Screenshot { file, background } => {
+                session.draw(file.as_deref(), background, outlet, reporter)?;
+            }
+            Step::Go(by) => session.go(by),
+            Step::Add(files) => {
+                session.sources.extend(files.into_iter().map(|file| Source::Files(vec![file])));
+            }
+            changing => session.change(changing).map_err(|why| located(line, &why))?,
+        }
+    }
+    Ok(session)
+}
+
+impl Session {
+    fn source(&self) -> &Source {
+        &self.sources[self.current]
+    }
+
+    fn go(&mut self, by: isize) {
+        let count = self.sources.len() as isize;
+        self.current = (self.current as isize + by).rem_euclid(count) as usize;
+    }
+
+    fn request(&self, reporter: Reporter) -> Result<Request, Failure> {
+        let request = Request::from_line(&self.line, self.source().first_file());
+        let mut request = request.map_err(|error| Failure::Usage(plain(&error)))?;
+        loading::light(&mut request, reporter)?;
+        Ok(request)
+    }
+
+    /// Changes flags.
+    fn change(&mut self, step: Step) -> Result<(), String> {
+        let changed = match step {
+            Step::Edit(words) => self.line.with(words),
+            Step::Reset(flag) => self.line.without(&flag),
+            Step::Toggle(flag) => {
+                let on = self.value(&flag).parse::<bool>().unwrap_or(false);
+                self.line.with([format!("--{flag}={}", !on)])
+            }
+            Step::Increase(flag, up) => self.line.with([self.increased(&flag, up)]),
+            Step::Cycle(flag) => self.line.with([self.line.next_value(&flag, &self.value(&flag))?]),
+            other => return Err(format!("{other:?} changes no flag; this is a defect of trigon")),
+        };
+        changed.raw(self.source().first_file()).map_err(|error| plain(&error))?;
+        self.line = changed;
+        Ok(())
+    }
+
+    fn increased(&self, flag: &str, up: bool) -> String {
+        let row = RANGES.iter().find(|row| row.0 == flag);
+        let &(_, least, most, step) = row.expect("the script was checked");
+        let now = self.value(flag).parse::<f64>().unwrap_or(1.0);
+        let next = (if up { now + step } else { now - step }).clamp(least, most);
+        // In steps, without what rounding adds.
+        format!("--{flag}={}", (next / step).round() * step)
+    }
+
+    /// The value of a flag as it would be typed; all that was typed for none.
+    fn value(&self, flag: &str) -> String {
+        if flag.is_empty() {
+            return self.line.text();
+        }
+        self.line.value(flag, self.source().first_file()).unwrap_or_default()
+    }
+
+    fn describe(&self, reporter: Reporter) -> Result<(), Failure> {
+        let request = self.request(reporter)?;
+        let model = loading::load_aloud(self.source(), &request, reporter)?;
+        let lines = model.summary().lines().into_iter().map(|line| format!("  {line}"));
+        let lines = std::iter::once(model.source.title()).chain(lines);
+        if matches!(&request.mode, Mode::Picture { output: Some(Destination::Stdout), .. }) {
+            lines.for_each(|line| reporter.info(line));
+        } else {
+            print_lines(lines, reporter);
+        }
+        Ok(())
+    }
+
+    /// Writes a picture of what there is.
+    fn draw(
+        &self,
+        file: Option<&str>,
+        background: bool,
+        outlet: &mut Outlet<'_>,
+        reporter: Reporter,
+    ) -> Result<(), Failure> {
+        let mut session =
+            Self { line: self.line.clone(), sources: self.sources.clone(), current: self.current };
+        if !background {
+            session.line = session.line.with(["--no-background".to_owned()]);
+        }
+        let mut request = session.request(reporter)?;
+        let template = match file {
+            None => request.screenshot.clone(),
+            Some(name) => {
+                match name.parse::<Destination>().map_err(|why| Failure::Usage(format!("{name}: {why}")))? {
+                    Destination::File(template) => template,
+                    Destination::Stdout => Template::parse("screenshot_{n}.png").map_err(Failure::Usage)?,
+                }
+            }
+        };
+        let output = Destination::File(template);
+        request.mode = Mode::Picture { output: Some(output.clone()), capture: None };
+        request.reference = None;
+        let mut own = Outlet::new(Some(&output), reporter);
+        picture::draw_source(session.source(), &request, None, &mut own, reporter)?;
+        outlet.written.append(&mut own.written);
+        Ok(())
+    }
+}

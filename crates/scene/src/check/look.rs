@@ -1,0 +1,133 @@
+//! What surfaces look like: black, invisible, metal with nothing to mirror, textures that
+//! are not shown, lights that give none.
+
+use std::collections::BTreeSet;
+
+use super::{Finding, Severity, place};
+use crate::material::{AlphaMode, Material, Shading, TextureBinding};
+use crate::scene::{MaterialId, Scene};
+
+/// Darker than this is black in a picture of 8 bits.
+const BLACK: f32 = 1.0 / 255.0 / 12.92;
+
+/// More transparent than this is not seen.
+const INVISIBLE: f32 = 1.0 / 255.0;
+
+pub(super) fn check(scene: &Scene, findings: &mut Vec<Finding>) {
+    let seen = seen_materials(scene);
+    for &id in &seen {
+        let Some(material) = scene.materials.get(id) else { continue };
+        one(material, &place("material", &material.name, id.index()), findings);
+    }
+    all_metal(scene, &seen, findings);
+    lights(scene, findings);
+    meshes(scene, findings);
+}
+
+/// The materials of visible nodes.
+fn seen_materials(scene: &Scene) -> BTreeSet<MaterialId> {
+    let visible = scene.visible_transforms();
+    let nodes =
+        scene.nodes().iter().filter(|(id, node)| visible[id.index()].is_some() && node.mesh.is_some());
+    nodes.flat_map(|(_, node)| node.materials.iter().copied()).collect()
+}
+
+fn one(material: &Material, place: &str, findings: &mut Vec<Finding>) {
+    let mut found = |severity, fault, what: &str, remedy| {
+        let (place, what) = (place.to_owned(), what.to_owned());
+        findings.push(Finding { severity, fault, place, what, remedy });
+    };
+    let color = material.base_color;
+    if material.alpha_mode == AlphaMode::Blend && color.w < INVISIBLE && material.transmission == 0.0 {
+        let what = "it is wholly transparent (its alpha is 0)";
+        found(Severity::Error, "invisible", what, "set its alpha to 1, or its alpha mode to opaque");
+    } else if color.truncate().max_element() <= BLACK && material.base_color_texture.is_some() {
+        let what = "its colour is black, and its texture is multiplied by that";
+        found(Severity::Error, "black", what, "set its colour to white");
+    } else if !color.truncate().is_finite() || !color.w.is_finite() {
+        found(Severity::Error, "not-a-number", "its colour is no number", "set its colour anew");
+    }
+}
+
+/// Metal shows nothing but what it mirrors.
+fn all_metal(scene: &Scene, seen: &BTreeSet<MaterialId>, findings: &mut Vec<Finding>) {
+    let materials: Vec<&Material> = seen.iter().filter_map(|&id| scene.materials.get(id)).collect();
+    let is_mirror = |material: &&Material| match &material.shading {
+        Shading::MetallicRoughness(surface) => {
+            surface.metallic > 0.95 && surface.texture.is_none() && surface.roughness < 0.3
+        }
+        _ => false,
+    };
+    if !materials.is_empty() && materials.iter().all(is_mirror) {
+        findings.push(Finding {
+            severity: Severity::Warning,
+            fault: "metal-without-environment",
+            place: "scene".to_owned(),
+            what: "everything is polished metal, which is black in programs without surroundings to mirror"
+                .to_owned(),
+            remedy: "show it with a picture of surroundings (--hdri-file), or set metallic to 0",
+        });
+    }
+}
+
+fn lights(scene: &Scene, findings: &mut Vec<Finding>) {
+    let mut lights = scene.nodes().iter().filter_map(|(_, node)| node.light.as_ref()).peekable();
+    if lights.peek().is_some() && lights.all(|light| light.color.max_element() * light.intensity <= 0.0) {
+        findings.push(Finding {
+            severity: Severity::Error,
+            fault: "no-light",
+            place: "scene".to_owned(),
+            what: "its lights give no light".to_owned(),
+            remedy: "raise their intensity, or leave them out of the export",
+        });
+    }
+}
+
+/// Textures without coordinates, and colours of vertices that make everything black.
+fn meshes(scene: &Scene, findings: &mut Vec<Finding>) {
+    let visible = scene.visible_transforms();
+    let mut known = BTreeSet::new();
+    for (id, node) in scene.nodes().iter().filter(|(id, _)| visible[id.index()].is_some()) {
+        let Some((mesh_id, asset)) = node.mesh.and_then(|mesh| Some((mesh, scene.meshes().get(mesh)?)))
+        else {
+            continue;
+        };
+        if !known.insert(mesh_id) || asset.mesh().face_count() == 0 {
+            continue;
+        }
+        let attributes = asset.mesh().attributes();
+        let place = place("mesh", &asset.name, id.index());
+        let materials = node.materials.iter().filter_map(|&id| scene.materials.get(id));
+        let mut textures = materials.flat_map(bindings);
+        if textures.any(|binding| binding.uv_set >= attributes.uv_sets.len()) {
+            findings.push(Finding {
+                severity: Severity::Error,
+                fault: "no-texture-coordinates",
+                place: place.clone(),
+                what: "its material has a texture, but the mesh has no coordinates for it".to_owned(),
+                remedy: "unwrap it and export UV coordinates, or take the texture off",
+            });
+        }
+        let colors = attributes.corner_colors.as_deref().unwrap_or_default();
+        if !colors.is_empty() && colors.iter().all(|color| color.truncate().max_element() <= BLACK) {
+            findings.push(Finding {
+                severity: Severity::Error,
+                fault: "black",
+                place,
+                what: "the colours of all its vertices are black".to_owned(),
+                remedy: "export it without vertex colours",
+            });
+        }
+    }
+}
+
+/// All textures that a material shows.
+fn bindings(material: &Material) -> Vec<TextureBinding> {
+    let mut bindings = vec![material.base_color_texture, material.emissive_texture];
+    bindings.push(material.normal_map.map(|map| map.binding));
+    bindings.push(material.occlusion.map(|map| map.binding));
+    if let Shading::MetallicRoughness(surface) = &material.shading {
+        bindings.push(surface.texture);
+    }
+    bindings.into_iter().flatten().collect()
+}
