@@ -1,6 +1,7 @@
 //! The window's interface by labels and keys, drawn by the window's own painter.
 
 mod keys;
+mod rows;
 mod sessions;
 mod tools;
 
