@@ -35,8 +35,8 @@ pub struct Mark {
     pub elements: Arc<ElementSet>,
     /// Linear RGB.
     pub color: Vec3,
-    /// From 0 to 1; at 0 edges are not painted, in no other colour either. Lines of
-    /// [`Style::Wireframe`](crate::Style::Wireframe) and vertices are always opaque.
+    /// From 0 to 1; at 0 edges and vertices are not painted, in no other colour either. Lines of
+    /// [`Style::Wireframe`](crate::Style::Wireframe) and other vertices are always opaque.
     pub opacity: f32,
 }
 

@@ -53,6 +53,9 @@ impl TransformTool {
                 let found = self.targets.as_ref().and_then(|targets| targets.find(target, view, place));
                 self.snapped = found;
                 let Some(found) = found else { return offset };
+                let kept = self.kept.iter().filter(|&&kept| kept != found);
+                let (sum, count) = kept.fold((found, 1.0), |(sum, count), kept| (sum + *kept, count + 1.0));
+                let found = sum / count;
                 let source = self.source;
                 found
                     - source.unwrap_or_else(|| self.settings.snap.source.point(&self.selected, offset, found))

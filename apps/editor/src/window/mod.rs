@@ -18,10 +18,12 @@ mod modal;
 mod navigation;
 mod open_file;
 mod pick;
+mod placing;
 mod pointing;
 mod recent;
 mod recovery;
 mod settings;
+mod surfaces;
 #[cfg(test)]
 mod tests;
 

@@ -1,5 +1,7 @@
 //! The window's interface by labels and keys, drawn by the window's own painter.
 
+mod keys;
+mod rows;
 mod selections;
 mod sessions;
 mod tools;

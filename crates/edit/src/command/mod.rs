@@ -6,6 +6,8 @@
 //! parameters.
 
 mod bevel;
+mod camera;
+mod clear_transform;
 mod cut;
 mod delete;
 mod dissolve;
@@ -27,7 +29,6 @@ mod parts;
 mod place;
 mod reference;
 mod repair;
-mod reveal;
 mod rotation;
 mod scale;
 mod scene;
@@ -45,6 +46,7 @@ mod texture;
 mod texture_slot;
 mod transform;
 mod uvs;
+mod visibility;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -53,6 +55,8 @@ use crate::document::Change;
 use crate::error::EditError;
 
 pub use bevel::Bevel;
+pub use camera::AddCamera;
+pub use clear_transform::ClearTransform;
 pub use cut::{LoopCut, SlideEdges, SlideVertices, Subdivide, edge_towards};
 pub use delete::{Delete, DeleteObjects, Deleted};
 pub use dissolve::{Dissolve, DissolveFlat};
@@ -74,7 +78,6 @@ pub use parts::{Duplicate, Separate, SplitOff};
 pub use place::{Rotate, Translate};
 pub use reference::{command_reference, command_schema};
 pub use repair::Repair;
-pub use reveal::RevealObjects;
 pub use rotation::Rotation;
 pub use scale::Scale;
 pub use scene::{AddEmpty, AddLight, AddObject, DuplicateObjects, LightShape, RenameObject, ShowObjects};
@@ -96,6 +99,7 @@ pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Shear, ShrinkFatten, ToSphere,
 };
 pub use uvs::{ProjectUvs, ProjectUvsOnBox};
+pub use visibility::{HideOthers, RevealObjects};
 
 /// What a command does to a document.
 pub(crate) trait Action {
@@ -291,10 +295,14 @@ commands! {
     AddEmpty("Add Empty", false),
     /// Adds a light.
     AddLight("Add Light", false),
+    /// Adds a camera.
+    AddCamera("Add Camera", false),
     /// Gives an object another name.
     RenameObject("Rename", false),
     /// Shows or hides objects.
     ShowObjects("Show/Hide Objects", false),
+    /// Hides all objects but the selected ones.
+    HideOthers("Hide Others", false),
     /// Shows all hidden objects and selects them.
     RevealObjects("Show Hidden Objects", false),
     /// Hangs objects on another one.
@@ -303,6 +311,8 @@ commands! {
     ReorderObject("Reorder", false),
     /// Places an object exactly.
     SetTransform("Set Transform", false),
+    /// Takes placements back.
+    ClearTransform("Clear Transform", false),
     /// Changes a light.
     SetLight("Set Light", false),
     /// Gives an object a new material.

@@ -361,14 +361,21 @@ impl<'s> Composer<'s> {
     fn vertices<'c>(&'c self, object: &Object<'s>) -> Option<Box<dyn Record + 'c>> {
         let shown = self.settings.vertices.filter(|_| self.purpose == Purpose::Colors)?;
         let used = object.asset.used_vertices();
-        let points: Vec<u32> = (0..used.len() as u32).filter(|&vertex| used[vertex as usize]).collect();
         let listed = &self.settings.marks.vertices;
-        let of_vertices = marks::numbers(listed, object.id);
+        let (of_vertices, colors) = (marks::numbers(listed, object.id), marks::colors(listed));
         let number = |&vertex: &u32| of_vertices.get(vertex as usize).copied().unwrap_or(0);
+        let is_shown = |vertex: &u32| {
+            let number = usize::from(number(vertex));
+            used[*vertex as usize] && (number == 0 || colors[number].w > 0.0)
+        };
+        let points: Vec<u32> = (0..used.len() as u32).filter(is_shown).collect();
+        if points.is_empty() {
+            return None;
+        }
         let numbers: Vec<u8> = points.iter().map(number).collect();
         let mut marked = FixedBitSet::with_capacity(points.len());
         marked.extend((0..points.len()).filter(|&point| numbers[point] != 0));
-        let marks = WireMarks { numbers, colors: marks::colors(listed) };
+        let marks = WireMarks { numbers, colors };
         Some(Box::new(Dots {
             pipeline: self.wire(object, shown.color, marks),
             geometry: object.geometry,

@@ -84,6 +84,8 @@ pub(crate) struct TransformTool {
     pub(super) source: Option<DVec3>,
     /// The last target that something snapped to.
     pub(super) snapped: Option<DVec3>,
+    /// Targets that a user kept: what is snapped goes to the middle of these and the next one.
+    pub(super) kept: Vec<DVec3>,
     /// Whether the next click chooses the source.
     is_choosing_source: bool,
     /// Whether the middle button is down: the movement chooses the axis.
@@ -115,6 +117,7 @@ impl TransformTool {
             targets: None,
             source: None,
             snapped: None,
+            kept: Vec::new(),
             is_choosing_source: false,
             is_choosing_axis: false,
             slide: None,
@@ -216,7 +219,11 @@ impl Tool for TransformTool {
         if let Some(near) = self.proportional() {
             text += &format!(" proportional {:.3} m", near.radius);
         }
+        if !self.kept.is_empty() {
+            text += &format!(" to the middle of {} points", self.kept.len() + 1);
+        }
         let keys = match self.kind {
+            TransformKind::Translate if self.snapped.is_some() => ", A: one more point, B: source",
             TransformKind::Translate | TransformKind::Scale | TransformKind::Rotate => ", X/Y/Z: lock",
             _ => "",
         };

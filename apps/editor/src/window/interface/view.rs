@@ -19,12 +19,14 @@ const SNAPPED: f32 = 7.0;
 /// Draws it, before the panels: they lie over it.
 pub(super) fn show(ui: &Ui, editor: &mut Editor, stage: &Stage) {
     let (painter, view) = (ui.painter(), editor.overlay_view(stage));
-    let distance = |at| stage.pick(at).map(|(_, point)| view.distance(point));
-    draw_grid(painter, &view, &distance);
-    draw_lights(painter, &editor.document, &view);
-    draw_cameras(painter, &editor.document, &view);
-    draw_origins(painter, &editor.document, &view);
-    draw_cursor(painter, &view, editor.tools.cursor);
+    if editor.view.overlays {
+        let distance = |at| stage.pick(at).map(|(_, point)| view.distance(point));
+        draw_grid(painter, &view, &distance);
+        draw_lights(painter, &editor.document, &view);
+        draw_cameras(painter, &editor.document, &view);
+        draw_origins(painter, &editor.document, &view);
+        draw_cursor(painter, &view, editor.tools.cursor);
+    }
     if let Some(gizmo) = editor.gizmo(stage) {
         let pointer = editor.pointer.map(|at| view.logical(at));
         gizmo.draw(painter, &view, pointer.and_then(|at| gizmo.handle_at(&view, at)));
