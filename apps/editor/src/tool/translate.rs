@@ -18,9 +18,8 @@ impl TransformTool {
             Some(offset) => offset,
             None => self.dragged_offset(view),
         };
-        let parts = axes.transpose() * offset;
-        self.text =
-            format!("Move ({:.4}, {:.4}, {:.4}) m, {:.4} m", parts.x, parts.y, parts.z, offset.length());
+        let [x, y, z] = (axes.transpose() * offset).to_array().map(shown);
+        self.text = format!("Move ({x}, {y}, {z}) m, {} m", shown(offset.length()));
         Ok(Translate {
             offset: offset.to_array(),
             space: TransformSpace::World,
@@ -61,6 +60,12 @@ impl TransformTool {
         };
         within_lock(snapped, self.constraint.freedom(), &axes)
     }
+}
+
+/// With four digits after the point, and no minus before a zero.
+fn shown(metres: f64) -> String {
+    let text = format!("{metres:.4}");
+    if text == "-0.0000" { "0.0000".into() } else { text }
 }
 
 /// What a lock leaves of an offset.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use trigon_window::scene::camera::Projector;
 use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton, Stage, Taken, egui};
 
+use super::actions::CONTEXT_MENU;
 use super::editor::Editor;
 use super::loading::Loading;
 use super::open_file::{Answer, Next};
@@ -31,6 +32,10 @@ impl Handler for Editor {
             Input::Clicked(PointerButton::Left) => self.clicked(stage, hands),
             Input::Clicked(PointerButton::Right) if hands.modifiers.contains(Modifiers::SHIFT) => {
                 self.place_cursor(stage, hands)
+            }
+            Input::Clicked(PointerButton::Right) => {
+                self.popup = Some(interface::Popup::new(CONTEXT_MENU));
+                Taken::Yes
             }
             Input::FocusLost => {
                 self.click = None;

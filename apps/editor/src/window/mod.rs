@@ -4,6 +4,7 @@
 //! carries it out on the document; [`look`] brings the document onto the stage.
 
 mod actions;
+mod button_start;
 mod dialog;
 mod editor;
 mod files;

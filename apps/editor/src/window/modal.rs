@@ -5,6 +5,7 @@ use trigon_edit::scene::Region;
 use trigon_edit::{SelectAction, Shear};
 use trigon_window::{Hands, Input, InputOwner, Key, Modifiers, PointerButton, Stage, Taken};
 
+use super::button_start::{ButtonStart, Passed};
 use super::editor::{Editor, Message};
 use super::pick::Click;
 use crate::request::{Request, ToolKind};
@@ -21,6 +22,8 @@ pub(crate) struct Running {
     pressed: Option<Click>,
     /// Whether the camera has taken the pointer: where that comes back is no movement.
     is_navigating: bool,
+    /// How far it is, if a button or a menu started it.
+    start: ButtonStart,
 }
 
 enum What {
@@ -32,13 +35,13 @@ enum What {
 
 impl Running {
     fn new(kind: ToolKind, what: What) -> Self {
-        Self { kind, what, pressed: None, is_navigating: false }
+        Self { kind, what, pressed: None, is_navigating: false, start: ButtonStart::Over }
     }
 
     /// Keys and numbers for the status line.
     pub(crate) fn status(&self) -> String {
         match &self.what {
-            What::Tool(tool) => tool.status(),
+            What::Tool(tool) => self.start.hint().to_owned() + &tool.status(),
             What::LoopCut(tool) => tool.status(),
             What::Gesture(gesture) => gesture.status().into(),
         }
@@ -127,7 +130,11 @@ impl Editor {
             return self.run(Shear::default().into());
         }
         match self.started(stage, kind, hands) {
-            Some(what) => self.follow(stage, Running::new(kind, what)),
+            Some(what) => {
+                let waits = matches!(what, What::Tool(_));
+                let start = if waits { ButtonStart::of(self, stage, hands) } else { ButtonStart::Over };
+                self.follow(stage, Running { start, ..Running::new(kind, what) });
+            }
             None => self.message = Message::Refusal(format!("{kind:?}: select something first")),
         }
     }
@@ -210,6 +217,19 @@ impl Editor {
         {
             running.pointer_jumped(to);
         }
+        let confirm = Input::Pressed(PointerButton::Left);
+        let input = match running.start.pass(self, stage, input, hands) {
+            Passed::On => input,
+            Passed::Confirms => &confirm,
+            Passed::Cancels => &Input::Pressed(PointerButton::Right),
+            passed => {
+                if let Passed::Begins(at) = passed {
+                    running.pointer_jumped(at);
+                }
+                self.tool = Some(running);
+                return Taken::Yes;
+            }
+        };
         let view = tool_view(stage);
         let before = self.entries();
         let state = match &mut running.what {
@@ -230,6 +250,11 @@ impl Editor {
         match state {
             ToolState::Running => self.tool = Some(running),
             ToolState::Confirmed | ToolState::Cancelled => self.tool_ended(stage, &running, before),
+            ToolState::ConfirmedThen(next) => {
+                self.tool_ended(stage, &running, before);
+                let is_turn = next == TransformKind::Rotate;
+                self.start_tool(stage, if is_turn { ToolKind::Rotate } else { ToolKind::Scale });
+            }
         }
         self.show(stage);
         Taken::Yes

@@ -54,9 +54,12 @@ fn frame_selected(editor: &mut Editor, stage: &mut Stage) {
     }
 }
 
-/// Takes the whole scene into the picture, seen from the same side.
+/// Takes the whole scene into the picture with its lights, cameras and empties, seen from the same side.
 pub(crate) fn frame_all(editor: &Editor, stage: &mut Stage) {
-    let points: Vec<DVec3> = stage.scene.visible_points().collect();
+    let scene = editor.document.nodes();
+    let drawn_over = scene.nodes().iter().filter(|(_, node)| node.visible && node.mesh.is_none());
+    let places = drawn_over.map(|(id, _)| scene.world_transform(id).translation);
+    let points: Vec<DVec3> = stage.scene.visible_points().chain(places).collect();
     frame(editor, stage, &points);
 }
 

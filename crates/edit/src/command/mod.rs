@@ -271,7 +271,7 @@ commands! {
     Mirror("Mirror", false),
     /// Makes faces symmetric.
     Symmetrize("Symmetrize", false),
-    /// Joins two loops of edges by faces.
+    /// Joins two loops of edges by faces; selected faces are removed and their outlines joined.
     Bridge("Bridge Edge Loops", false),
     /// Joins vertices by edges through faces.
     ConnectVertices("Connect Vertices", false),

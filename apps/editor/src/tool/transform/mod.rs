@@ -36,6 +36,22 @@ pub(crate) enum TransformKind {
     Slide,
 }
 
+impl TransformKind {
+    /// In the status line before anything has moved.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Translate => "Move",
+            Self::Rotate => "Rotate",
+            Self::Trackball => "Trackball",
+            Self::Scale => "Scale",
+            Self::ShrinkFatten => "Shrink/Fatten",
+            Self::PushPull => "Push/Pull",
+            Self::ToSphere => "To Sphere",
+            Self::Slide => "Slide",
+        }
+    }
+}
+
 /// What the editor's bars say about transforms.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct TransformSettings {
@@ -95,7 +111,7 @@ impl TransformTool {
             frames,
             turn: 0.0,
             turned_from: hands.pointer.unwrap_or(DVec2::ZERO),
-            text: String::new(),
+            text: kind.name().into(),
             targets: None,
             source: None,
             snapped: None,
@@ -200,7 +216,11 @@ impl Tool for TransformTool {
         if let Some(near) = self.proportional() {
             text += &format!(" proportional {:.3} m", near.radius);
         }
-        self.modal.status(text)
+        let keys = match self.kind {
+            TransformKind::Translate | TransformKind::Scale | TransformKind::Rotate => ", X/Y/Z: lock",
+            _ => "",
+        };
+        self.modal.status(text.trim_end().to_owned() + keys)
     }
 
     fn pointer_jumped(&mut self, to: DVec2) {
