@@ -21,6 +21,7 @@ mod pick;
 mod pointing;
 mod recent;
 mod recovery;
+mod running;
 mod settings;
 #[cfg(test)]
 mod tests;
