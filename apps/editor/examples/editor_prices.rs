@@ -78,7 +78,8 @@ impl Worked<'_> {
         act(self);
         let frames = self.window.take_frames();
         let finished = frames.iter().position(is_finished).expect("a picture follows");
-        let mut stages = Stages { events: Duration::ZERO, picture: Duration::ZERO, interface: Duration::ZERO };
+        let mut stages =
+            Stages { events: Duration::ZERO, picture: Duration::ZERO, interface: Duration::ZERO };
         let mut last = start;
         for frame in &frames[..=finished] {
             stages.events += frame.begun - last;
@@ -112,8 +113,7 @@ fn measure(name: &str, selected: &[u32], work: fn(&mut Worked<'_>)) {
     let middle = results[results.len() / 2];
     let all = [results[0].all(), middle.all(), results[results.len() - 1].all()];
     let [best, middle_all, worst] = all.map(milliseconds);
-    let [events, picture, interface] =
-        [middle.events, middle.picture, middle.interface].map(milliseconds);
+    let [events, picture, interface] = [middle.events, middle.picture, middle.interface].map(milliseconds);
     tell([name.to_owned(), best, middle_all, worst, events, picture, interface]);
 }
 
@@ -181,7 +181,8 @@ fn act_often(document: &mut Document) {
 /// The vertices of a block of the sheet.
 fn block(from: [u32; 2], size: [u32; 2]) -> Vec<u32> {
     let rows = from[1]..from[1] + size[1];
-    rows.flat_map(|row| (from[0]..from[0] + size[0]).map(move |column| row * (SIDES[0] + 1) + column)).collect()
+    rows.flat_map(|row| (from[0]..from[0] + size[0]).map(move |column| row * (SIDES[0] + 1) + column))
+        .collect()
 }
 
 /// The sheet in edit mode, with these vertices selected.

@@ -22,6 +22,7 @@ mod placing;
 mod pointing;
 mod recent;
 mod recovery;
+mod running;
 mod saving;
 mod settings;
 mod surfaces;

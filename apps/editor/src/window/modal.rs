@@ -1,6 +1,5 @@
 //! The tool that follows the pointer: how it is started, what it is given, and what becomes of what it did.
 
-use trigon_edit::mesh::math::DVec2;
 use trigon_edit::scene::Region;
 use trigon_edit::{SelectAction, Shear};
 use trigon_window::{Hands, Input, InputOwner, Key, Modifiers, PointerButton, Stage, Taken};
@@ -8,113 +7,12 @@ use trigon_window::{Hands, Input, InputOwner, Key, Modifiers, PointerButton, Sta
 use super::button_start::{ButtonStart, Passed};
 use super::editor::{Editor, Message};
 use super::pick::Click;
+use super::running::{Running, What, gesture_kind, transform_kind};
 use crate::request::{Request, ToolKind};
 use crate::tool::{
     BevelTool, ExtrudeTool, Freedom, Gesture, GestureKind, GestureState, InsetTool, LoopCutTool, RegionMode,
-    Tool, ToolMarks, ToolState, ToolView, TransformKind, TransformTool,
+    Tool, ToolState, ToolView, TransformKind, TransformTool,
 };
-
-/// A tool or a gesture that runs.
-pub(crate) struct Running {
-    kind: ToolKind,
-    what: What,
-    /// Where a press of the left button started it.
-    pressed: Option<Click>,
-    /// Whether the camera has taken the pointer: where that comes back is no movement.
-    is_navigating: bool,
-    /// How far it is, if a button or a menu started it.
-    start: ButtonStart,
-}
-
-enum What {
-    Tool(Box<dyn Tool>),
-    /// Which is told of faces under the pointer.
-    LoopCut(Box<LoopCutTool>),
-    Gesture(Gesture),
-}
-
-impl Running {
-    fn new(kind: ToolKind, what: What) -> Self {
-        Self { kind, what, pressed: None, is_navigating: false, start: ButtonStart::Over }
-    }
-
-    /// Keys and numbers for the status line.
-    pub(crate) fn status(&self) -> String {
-        match &self.what {
-            What::Tool(tool) => self.start.hint().to_owned() + &tool.status(),
-            What::LoopCut(tool) => tool.status(),
-            What::Gesture(gesture) => gesture.status().into(),
-        }
-    }
-
-    /// What it draws in the world.
-    pub(crate) fn marks(&self) -> ToolMarks {
-        match &self.what {
-            What::Tool(tool) => tool.marks(),
-            What::LoopCut(tool) => tool.marks(),
-            What::Gesture(_) => ToolMarks::default(),
-        }
-    }
-
-    /// The region that a gesture draws, in physical pixels; `None` where there is none.
-    pub(crate) fn region(&self) -> Option<Region> {
-        match &self.what {
-            What::Gesture(gesture) => gesture.shown(),
-            What::Tool(_) | What::LoopCut(_) => None,
-        }
-    }
-
-    /// Whether an input turns or zooms the view in the middle of the tool.
-    fn leaves_to_camera(&self, input: &Input, hands: Hands) -> bool {
-        use ToolKind::{Bevel, BevelVertices, Extrude, ExtrudeIndividual, Inset, LoopCut, SelectCircle};
-        match input {
-            Input::Pressed(PointerButton::Left) => hands.modifiers.contains(Modifiers::ALT),
-            Input::Pressed(PointerButton::Middle) => {
-                let has_no_use = matches!(
-                    self.kind,
-                    Extrude | ExtrudeIndividual | Inset | Bevel | BevelVertices | LoopCut
-                );
-                has_no_use || hands.modifiers.contains(Modifiers::ALT)
-            }
-            Input::Wheel(_) => {
-                let takes = matches!(self.kind, Bevel | BevelVertices | LoopCut | SelectCircle);
-                !takes && self.marks().circle.is_none()
-            }
-            Input::Pinch(_) => true,
-            _ => false,
-        }
-    }
-
-    fn pointer_jumped(&mut self, to: DVec2) {
-        match &mut self.what {
-            What::Tool(tool) => tool.pointer_jumped(to),
-            What::LoopCut(tool) => tool.pointer_jumped(to),
-            What::Gesture(_) => {}
-        }
-    }
-}
-
-/// What a transform is for the tool that does all of them.
-fn transform_kind(tool: ToolKind) -> Option<TransformKind> {
-    Some(match tool {
-        ToolKind::Move | ToolKind::EdgeSlide => TransformKind::Translate,
-        ToolKind::Rotate => TransformKind::Rotate,
-        ToolKind::Scale => TransformKind::Scale,
-        ToolKind::ShrinkFatten => TransformKind::ShrinkFatten,
-        ToolKind::PushPull => TransformKind::PushPull,
-        ToolKind::ToSphere => TransformKind::ToSphere,
-        _ => return None,
-    })
-}
-
-fn gesture_kind(tool: ToolKind) -> Option<GestureKind> {
-    Some(match tool {
-        ToolKind::SelectBox => GestureKind::Box,
-        ToolKind::SelectCircle => GestureKind::Circle,
-        ToolKind::SelectLasso => GestureKind::Lasso,
-        _ => return None,
-    })
-}
 
 /// How tools see the stage.
 pub(crate) fn tool_view(stage: &Stage) -> ToolView {

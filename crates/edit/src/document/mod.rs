@@ -10,7 +10,8 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use trigon_io::{
-    Export, ExportOptions, Format, LoadError, LoadOptions, Loaded, NativeDocument, NativeFile, Warning, WriteError,
+    Export, ExportOptions, Format, LoadError, LoadOptions, Loaded, NativeDocument, NativeFile, Warning,
+    WriteError,
 };
 use trigon_mesh::edit::EditMesh;
 use trigon_mesh::math::DAffine3;

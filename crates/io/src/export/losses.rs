@@ -64,10 +64,7 @@ pub(super) fn add(gathered: &mut Gathered<'_>, holds: &Holds) {
         HeldPoints::None => false,
     };
     add(!keeps_points && any(|object| !object.mesh.loose_points().is_empty()), "points");
-    add(
-        !holds.polygons && any(|object| has_polygons(object.mesh)),
-        POLYGONS,
-    );
+    add(!holds.polygons && any(|object| has_polygons(object.mesh)), POLYGONS);
     add(
         any(|object| object.mesh.positions().iter().any(|position| !position.is_finite())),
         "faces with vertices that are not finite",

@@ -9,17 +9,14 @@ use trigon_window::scene::math::{DVec2, DVec3};
 use trigon_window::scene::mesh::Mesh;
 
 use super::lens::{Answer, Lens, Seen, Triangle};
+use super::pixels::{AtPixel, at_pixels};
 use super::shape::Shape;
 
 /// An element: the index of its mesh in the scene, and its own.
 pub(super) type Key = (usize, u32);
 
-/// What the rasterizer moves corners by, in pixels: half a step of its grid in x and in y.
-const SNAPPING: f64 = 0.003;
 /// What a rounding in f64 moves points by, in pixels.
 const ROUNDING: f64 = 1e-6;
-/// Depths of f32 are equal if nearer than that, as a share.
-const SAME_DEPTH: f64 = 1e-5;
 /// Sides of the squares that triangles are sorted into, in pixels.
 const CELL: usize = 16;
 
@@ -27,14 +24,6 @@ const CELL: usize = 16;
 struct OwnPoint {
     seen: Seen,
     is_seen: Answer,
-}
-
-/// A face at a pixel.
-struct AtPixel {
-    at: DVec2,
-    face: Key,
-    wins: Answer,
-    covers: Answer,
 }
 
 /// What is asked for of an element.
@@ -72,7 +61,7 @@ impl Oracle {
         for (id, mesh, points) in &objects {
             oracle.add_points(*id, mesh, points);
         }
-        oracle.add_faces();
+        oracle.faces = at_pixels(&oracle.lens, &oracle.triangles);
         Ok(oracle)
     }
 
@@ -162,34 +151,6 @@ impl Oracle {
         }
     }
 
-    /// Which faces cover and win which pixels' centres.
-    fn add_faces(&mut self) {
-        let [width, height] = self.lens.size.to_array().map(|side| side as usize);
-        let mut nearest = vec![f64::INFINITY; width * height];
-        let mut met: Vec<(usize, DVec2, Key, Answer, f64)> = Vec::new();
-        for triangle in &self.triangles {
-            let [min, max] = triangle.bounds();
-            let [left, top] = (min - 1.0).max(DVec2::ZERO).to_array().map(|side| side as usize);
-            let [right, bottom] = (max + 1.0).max(DVec2::ZERO).to_array().map(|side| side as usize);
-            for y in top..bottom.min(height) {
-                for x in left..right.min(width) {
-                    let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-                    let covers = Answer::of(triangle.depth_within(at), SNAPPING);
-                    if covers == Answer::No {
-                        continue;
-                    }
-                    let distance =
-                        if triangle.is_drawn { triangle.distance(&self.lens, at) } else { f64::INFINITY };
-                    if covers == Answer::Yes {
-                        nearest[y * width + x] = nearest[y * width + x].min(distance);
-                    }
-                    met.push((y * width + x, at, triangle.face, covers, distance));
-                }
-            }
-        }
-        self.faces = winners(met, &nearest);
-    }
-
     /// For each element that may be in a region, whether it is; with `through` whatever hides it.
     pub(super) fn region(&self, kind: Kind, shape: &Shape, through: bool) -> BTreeMap<Key, Answer> {
         let mut answers: BTreeMap<Key, Answer> = BTreeMap::new();
@@ -244,26 +205,6 @@ impl Oracle {
 
 /// The index of a mesh, the mesh, and where its vertices are to the camera.
 type Object<'s> = (usize, &'s Mesh, Vec<DVec3>);
-
-/// The faces that may win their pixel, and those that cover it.
-fn winners(mut met: Vec<(usize, DVec2, Key, Answer, f64)>, nearest: &[f64]) -> Vec<AtPixel> {
-    met.sort_unstable_by_key(|(pixel, _, face, ..)| (*pixel, *face));
-    let mut found = Vec::new();
-    for all in met.chunk_by(|a, b| a.0 == b.0) {
-        let limit = nearest[all[0].0] * (1.0 + SAME_DEPTH);
-        let may_win = |of: &&(usize, DVec2, Key, Answer, f64)| of.4.is_finite() && of.4 <= limit;
-        let mut rivals: Vec<Key> = all.iter().filter(may_win).map(|of| of.2).collect();
-        rivals.dedup();
-        for of_face in all.chunk_by(|a, b| a.2 == b.2) {
-            let (_, at, face, ..) = of_face[0];
-            let covers = of_face.iter().map(|of| of.3).max().expect("one at least");
-            let best = of_face.iter().filter(may_win).map(|of| of.3).max().unwrap_or(Answer::No);
-            let wins = if rivals.len() > 1 { best.min(Answer::Open) } else { best };
-            found.push(AtPixel { at, face, wins, covers });
-        }
-    }
-    found
-}
 
 fn columns(size: DVec2) -> usize {
     size.x as usize / CELL + 1

@@ -1,5 +1,7 @@
 //! A mug with a handle: a surface of genus 1.
 
+use trigon_window::scene::math::elementary;
+
 use super::*;
 
 /// Places are those of the prism of 16 sides: a side's middle lies at (0.96194, y, 0.19134), and what is pulled out
@@ -59,10 +61,10 @@ fn a_mug_with_a_handle_is_closed_and_as_large_as_drawn() {
     saved_and_reopened(MUG, |document| {
         let mug = mesh(document, "Cylinder");
         assert_eq!((euler(mug), open_edges(mug)), (0, 0), "a closed surface with one handle");
-        let (angle, sides) = (std::f64::consts::PI / 16.0, 16.0);
-        let area = |radius: f64| sides * angle.sin() * angle.cos() * radius * radius;
-        let inner = (angle.cos() - 0.1) / angle.cos();
-        let width = 2.0 * angle.sin();
+        let (sin, cos) = elementary::sin_cos(std::f64::consts::PI / 16.0);
+        let area = |radius: f64| 16.0 * sin * cos * radius * radius;
+        let inner = (cos - 0.1) / cos;
+        let width = 2.0 * sin;
         let handle = width * (2.0 * 0.4 * 0.5 + 0.4 * 0.2);
         let drawn = 2.0 * area(1.0) - 1.8 * area(inner) + handle;
         assert!((volume(mug) / drawn - 1.0).abs() < 0.01, "{} of {drawn} m³", volume(mug));
