@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 
 use super::{Finding, Severity, place};
-use crate::material::{AlphaMode, Material, Shading, TextureBinding};
-use crate::scene::{MaterialId, Scene};
+use crate::material::{AlphaMode, Material, MaterialId, Shading, TextureBinding};
+use crate::scene::Scene;
 
 /// Darker than this is black in a picture of 8 bits.
 const BLACK: f32 = 1.0 / 255.0 / 12.92;
