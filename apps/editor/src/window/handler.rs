@@ -117,6 +117,9 @@ impl Editor {
         let found = chords.into_iter().find_map(|chord| self.keys.find(chord, is_editing));
         let Some(action) = found else { return Taken::No };
         self.choose(stage, action);
+        if let Some(tool) = &mut self.tool {
+            tool.follow_at_once();
+        }
         Taken::Yes
     }
 

@@ -34,6 +34,11 @@ impl Running {
         Self { kind, what, pressed: None, is_navigating: false, start: ButtonStart::Over }
     }
 
+    /// A key started it: the pointer counts from where it is.
+    pub(super) fn follow_at_once(&mut self) {
+        self.start = ButtonStart::Over;
+    }
+
     /// Keys and numbers for the status line.
     pub(crate) fn status(&self) -> String {
         match &self.what {

@@ -174,3 +174,37 @@ fn alt_h_shows_hidden_objects_again() {
     ",
     );
 }
+
+#[test]
+fn a_key_starts_a_tool_wherever_the_pointer_is() {
+    play(
+        "
+        press X-Ray                 # the pointer stays on the bar
+        keys G
+        move 0 200
+        see Move (
+        right click
+        title untitled - trigon
+    ",
+    );
+}
+
+#[test]
+fn keys_mean_what_they_mean_after_a_file_was_saved() {
+    play(
+        "
+        hover 0 1 0
+        keys Ctrl+S
+        type $FOLDER/saved
+        keys Enter
+        title saved.glb - trigon
+        keys F1
+        see Keys and Mouse
+        keys Escape
+        hidden Keys and Mouse
+        keys Ctrl+S                 # it has its file now
+        title saved.glb - trigon
+        see Saved
+    ",
+    );
+}
