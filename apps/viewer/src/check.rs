@@ -52,8 +52,7 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
 /// What the reader said, and what the scene says itself.
 fn faults(source: &Source, request: &Request) -> Result<Vec<Fault>, Failure> {
     let (model, warnings) = loading::load(source, request, &|_| ControlFlow::Continue(()))?;
-    let own = source.first_file();
-    let mut faults: Vec<Fault> = warnings.iter().map(|warning| Fault::of_reader(warning, own)).collect();
+    let mut faults: Vec<Fault> = warnings.iter().map(Fault::of_reader).collect();
     faults.extend(model.scene.check().into_iter().map(Fault::of_scene));
     faults.sort_by_key(|fault| std::cmp::Reverse(fault.severity));
     Ok(faults)
@@ -72,15 +71,18 @@ impl Fault {
         }
     }
 
-    /// A file beside the model that is missing or broken is an error: the picture lacks it.
-    fn of_reader(warning: &Warning, own: Option<&std::path::Path>) -> Self {
-        let is_beside = own.is_some_and(|own| own != warning.file);
+    /// A file beside the model that is missing or cannot be used is an error: the picture
+    /// lacks it.
+    fn of_reader(warning: &Warning) -> Self {
+        let is_missing = !warning.tried.is_empty();
         let more = if warning.more > 0 { format!(" … and {} more", warning.more) } else { String::new() };
+        let tried: Vec<String> = warning.tried.iter().map(|path| path.display().to_string()).collect();
+        let tried = if is_missing { format!(", looked for {}", tried.join(", ")) } else { String::new() };
         Self {
-            severity: if is_beside { Severity::Error } else { Severity::Warning },
-            name: if is_beside { "missing-file" } else { "in-the-file" },
+            severity: if is_missing { Severity::Error } else { Severity::Warning },
+            name: if is_missing { "missing-file" } else { "in-the-file" },
             place: format!("{}{}", warning.file.display(), warning.place),
-            what: format!("{}{more}", warning.what),
+            what: format!("{}{more}{tried}", warning.what),
             remedy: warning.remedy.clone(),
         }
     }

@@ -127,6 +127,18 @@ impl Folder {
         self.shown.join(within).join(name)
     }
 
+    /// Every path at which [`Folder::read`] looks for a name, in their order.
+    pub(crate) fn tried(&mut self, within: &Path, name: &str) -> Vec<PathBuf> {
+        let mut tried = vec![self.would_be(within, name)];
+        for (within, spelling) in self.other_spellings(within, name) {
+            let path = self.would_be(&within, &spelling);
+            if !tried.contains(&path) {
+                tried.push(path);
+            }
+        }
+        tried
+    }
+
     /// Counts bytes that did not come from a file of their own.
     pub(crate) fn account(&mut self, bytes: u64) -> Result<(), Refusal> {
         self.total = self.total.saturating_add(bytes);

@@ -23,6 +23,9 @@ pub struct Warning {
     pub remedy: String,
     /// How many more of the same there were.
     pub more: usize,
+    /// Of a file that the model names and that could not be used: every path at which it
+    /// was looked for. Empty for everything else.
+    pub tried: Vec<PathBuf>,
 }
 
 impl fmt::Display for Warning {
@@ -84,9 +87,31 @@ impl Warnings {
             self.list[index].more += 1;
         } else if self.list.len() < MOST_WARNINGS {
             self.known.insert(key, self.list.len());
-            self.list.push(Warning { file: file.to_owned(), place, what, remedy, more: 0 });
+            self.list.push(Warning {
+                file: file.to_owned(),
+                place,
+                what,
+                remedy,
+                more: 0,
+                tried: Vec::new(),
+            });
         } else if let Some(last) = self.list.last_mut() {
             last.more += 1;
+        }
+    }
+
+    /// A warning about a file that could not be used; `tried` is where it was looked for.
+    pub(crate) fn push_unusable(
+        &mut self,
+        file: &Path,
+        place: Place,
+        (what, remedy): (String, &str),
+        tried: Vec<PathBuf>,
+    ) {
+        let before = self.list.len();
+        self.push_about(file, place, what, remedy);
+        if let Some(new) = self.list.get_mut(before) {
+            new.tried = tried;
         }
     }
 
@@ -135,6 +160,18 @@ mod tests {
             "a.obj, line 5: a face was dropped … and 41 more; mend it",
             "counted"
         );
+    }
+
+    #[test]
+    fn what_was_looked_for_is_kept_and_not_shown() {
+        let mut warnings = Warnings::about(Path::new("a.obj"));
+        let tried = vec![PathBuf::from("maps/a.png"), PathBuf::from("a.png")];
+        let said = ("no picture".to_owned(), "mend it");
+        warnings.push_unusable(Path::new("a.mtl"), Place::Line(2), said.clone(), tried.clone());
+        warnings.push_unusable(Path::new("a.mtl"), Place::Line(3), said, Vec::new());
+        let list = warnings.into_list();
+        assert_eq!(list[0].tried, tried, "of the first");
+        assert_eq!(list[0].to_string(), "a.mtl, line 2: no picture … and 1 more; mend it", "one line");
     }
 
     #[test]

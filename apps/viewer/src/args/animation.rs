@@ -42,7 +42,7 @@ pub(crate) struct AnimationArgs {
     pub(crate) frame_rate: f64,
 
     /// Draw N views once around the model: to a .gif or .apng file, or to numbered files ({frame} in the name)
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=3600), allow_negative_numbers = true, requires = "output", help_heading = "Animation")]
+    #[arg(long, value_name = "N", value_parser = values::count::<1, 3600>, allow_negative_numbers = true, requires = "output", help_heading = "Animation")]
     pub(crate) turntable: Option<u32>,
 
     /// A jump in time, as command scripts say it.

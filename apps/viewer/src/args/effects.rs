@@ -36,7 +36,7 @@ pub(crate) struct EffectArgs {
     pub(crate) shadows: ShadowsArg,
 
     /// Width and height of shadow maps in texels [default: 2048, or as --preset says]
-    #[arg(long, value_name = "TEXELS", value_parser = clap::value_parser!(u32).range(16..=8192), allow_negative_numbers = true, help_heading = "Effects")]
+    #[arg(long, value_name = "TEXELS", value_parser = values::count::<16, 8192>, allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) shadow_resolution: Option<u32>,
 
     /// Darken ambient light where the surroundings are near, by rays
@@ -44,7 +44,7 @@ pub(crate) struct EffectArgs {
     pub(crate) ambient_occlusion: Option<bool>,
 
     /// Rays of each sample for ambient occlusion [default: 16, or as --preset says]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=256), allow_negative_numbers = true, help_heading = "Effects")]
+    #[arg(long, value_name = "N", value_parser = values::count::<1, 256>, allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) ambient_occlusion_rays: Option<u32>,
 
     /// How far surroundings count for ambient occlusion, in metres
@@ -72,7 +72,7 @@ pub(crate) struct EffectArgs {
     pub(crate) metal_reflection: MetalReflectionArg,
 
     /// Follow rays of sight so many times at mirrors (metals without roughness) and through glass
-    #[arg(long, value_name = "N", default_value = "0", value_parser = clap::value_parser!(u32).range(0..=16), allow_negative_numbers = true, help_heading = "Effects")]
+    #[arg(long, value_name = "N", default_value = "0", value_parser = values::count::<0, 16>, allow_negative_numbers = true, help_heading = "Effects")]
     pub(crate) bounces: u32,
 
     /// Mist that leaves exp(-DENSITY × distance) of what is seen; per metre

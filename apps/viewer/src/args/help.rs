@@ -16,7 +16,7 @@ const ESSENTIAL: [(&str, &[Row]); 7] = [
             ("output", ""),
             ("resolution", ""),
             ("outputs", "Write depth, normals and other outputs beside the picture"),
-            ("multi-file-mode", "Several files: one at a time (single), all together, by folder"),
+            ("multi-file-mode", "Several files: one at a time, all together, or by folder"),
             ("reference", ""),
             ("check", "Say what is wrong with the files; exit code 1 for errors"),
             ("no-render", ""),

@@ -231,7 +231,7 @@ pub(crate) struct RawArgs {
     pub(crate) anti_aliasing: Option<AntiAliasing>,
 
     /// Samples: along each side of a pixel with ssaa, 1 to 4, so 3 means 9; in all with msaa, 1, 2, 4, 8 or 16 [default: 3, or 4 with msaa]
-    #[arg(long, value_name = "1-16", value_parser = clap::value_parser!(u32).range(1..=16), allow_negative_numbers = true, help_heading = "Look")]
+    #[arg(long, value_name = "1-16", value_parser = values::count::<1, 16>, allow_negative_numbers = true, help_heading = "Look")]
     pub(crate) samples: Option<u32>,
 
     /// How translucent surfaces are drawn: always exactly, in any order

@@ -32,7 +32,7 @@ pub(crate) struct SceneryArgs {
     pub(crate) grid_unit: Option<f64>,
 
     /// Parts of each of those squares; 1 for none
-    #[arg(long, value_name = "N", default_value = "10", value_parser = clap::value_parser!(u32).range(1..=100), allow_negative_numbers = true, help_heading = "Scenery")]
+    #[arg(long, value_name = "N", default_value = "10", value_parser = values::count::<1, 100>, allow_negative_numbers = true, help_heading = "Scenery")]
     pub(crate) grid_subdivisions: u32,
 
     /// Colour of the grid

@@ -9,7 +9,7 @@ use trigon_camera::Viewport;
 use trigon_io::{Format, SceneChoice};
 use trigon_math::glam::{Affine2, Vec2};
 use trigon_math::{DVec3, Vec3, color, elementary};
-use trigon_scene::{MAX_SIZE, SimdLevel, SimdLevelError};
+use trigon_scene::{MAX_SIZE, SimdLevel};
 
 /// A switch: `--edges`, `--edges=false` and their spellings.
 pub(crate) fn switch(text: &str) -> Result<bool, String> {
@@ -309,15 +309,25 @@ pub(crate) fn transform(text: &str) -> Result<Affine2, String> {
 
 const TRANSFORM: &str = "write scale:2;angle:45;translation:0.5,0 in any order, or nine numbers";
 
+/// A whole number within limits.
+pub(crate) fn count<const LEAST: u32, const MOST: u32>(text: &str) -> Result<u32, String> {
+    let inside = text.trim().parse::<u32>().ok().filter(|count| (LEAST..=MOST).contains(count));
+    inside.ok_or_else(|| format!("write a whole number from {LEAST} to {MOST}"))
+}
+
 /// A number of threads.
 pub(crate) fn threads(text: &str) -> Result<NonZeroUsize, String> {
     text.parse().map_err(|_| "write a whole number from 1 up".to_owned())
 }
 
-/// A set of vector instructions that this processor has.
-pub(crate) fn simd(text: &str) -> Result<SimdLevel, SimdLevelError> {
-    let level: SimdLevel = text.parse()?;
-    if level.is_supported() { Ok(level) } else { Err(SimdLevelError::Unsupported(level)) }
+/// A set of vector instructions that this build and this processor have.
+pub(crate) fn simd(text: &str) -> Result<SimdLevel, String> {
+    let level = text.parse::<SimdLevel>().ok().filter(|level| level.is_supported());
+    level.ok_or_else(|| {
+        let levels = SimdLevel::ALL.into_iter().filter(|level| level.is_supported());
+        let levels: Vec<String> = levels.map(|level| level.to_string()).collect();
+        format!("{text} is not available here; write one of {}", levels.join(", "))
+    })
 }
 
 fn finite(text: &str) -> Option<f64> {
@@ -447,7 +457,8 @@ mod tests {
     #[test]
     fn simd_levels_are_those_of_the_processor() {
         assert_eq!(simd(&SimdLevel::best().to_string()), Ok(SimdLevel::best()), "the best is one of them");
-        assert_eq!(simd("sse9"), Err(SimdLevelError::Unknown), "nobody has it");
+        let message = simd("sse9").expect_err("nobody has it");
+        assert!(message.contains(&SimdLevel::best().to_string()), "what there is: {message}");
         for level in SimdLevel::ALL {
             assert_eq!(simd(&level.to_string()).is_ok(), level.is_supported(), "{level}");
         }

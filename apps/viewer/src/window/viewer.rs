@@ -470,3 +470,82 @@ impl Handler for Viewer {
 fn is_escape(input: &Input) -> bool {
     matches!(input, Input::Key { logical: Some(Key::Escape), .. })
 }
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use clap::Parser;
+
+    use super::*;
+    use crate::args::RawArgs;
+    use crate::report::Level;
+
+    fn viewer(flags: &str) -> Viewer {
+        let words = ["trigon-viewer"].into_iter().chain(flags.split_whitespace());
+        let request = Request::new(RawArgs::parse_from(words)).expect("consistent flags");
+        let sources = Source::all(&request);
+        Viewer::new(request, sources, Reporter::new(Level::Quiet))
+    }
+
+    fn model(viewer: &Viewer) -> Model {
+        Model::new(trigon_scene::showcase(), Source::BuiltIn, &viewer.request).expect("it can be drawn")
+    }
+
+    fn press(viewer: &mut Viewer, stage: &mut Stage, key: Key) -> Taken {
+        let input = Input::Key { logical: Some(key), physical: None, repeat: false };
+        let hands = Hands { pointer: None, modifiers: Modifiers::NONE };
+        viewer.input(stage, &input, hands)
+    }
+
+    /// Errors vanished after three seconds.
+    #[test]
+    fn a_file_that_cannot_be_shown_is_a_message_that_stays() {
+        let (mut viewer, mut stage) = (viewer("gone.obj"), Stage::new("test"));
+        viewer.loaded(&mut stage, Err(Failure::work("gone.obj: it is not there; check the name")), View::Fit);
+        for second in 0..60 {
+            let tick = Tick { time: Duration::from_secs(second), delta: Duration::from_secs(1) };
+            viewer.frame(&mut stage, tick);
+        }
+        assert!(viewer.failure.as_ref().is_some_and(|text| text.contains("gone.obj")), "a minute later");
+        assert_eq!(press(&mut viewer, &mut stage, Key::Enter), Taken::No, "other keys leave it");
+        assert_eq!(press(&mut viewer, &mut stage, Key::Escape), Taken::Yes, "it is closed");
+        assert_eq!(viewer.failure, None, "and gone");
+        assert_eq!(press(&mut viewer, &mut stage, Key::Escape), Taken::No, "then Escape is the window's");
+    }
+
+    #[test]
+    fn a_model_that_is_shown_takes_the_message_away() {
+        let (mut viewer, mut stage) = (viewer(""), Stage::new("test"));
+        viewer.loaded(&mut stage, Err(Failure::work("broken; mend it")), View::Fit);
+        let outcome = Ok((model(&viewer), Vec::new()));
+        viewer.loaded(&mut stage, outcome, View::Fit);
+        assert_eq!(viewer.failure, None, "it is put right");
+        assert!(viewer.shown.is_some(), "and shown");
+    }
+
+    #[test]
+    fn what_is_beside_the_model_does_not_count() {
+        let (mut viewer, mut stage) = (viewer("--grid --normal-glyphs"), Stage::new("test"));
+        let plain = model(&viewer).summary();
+        let outcome = Ok((model(&viewer), Vec::new()));
+        viewer.loaded(&mut stage, outcome, View::Fit);
+        let shown = viewer.shown.as_ref().expect("shown");
+        assert_eq!(shown.scenery.len(), 2, "grid and normals");
+        let counted = shown.model(&stage).summary();
+        assert_eq!(
+            (counted.vertices, counted.nodes, counted.size),
+            (plain.vertices, plain.nodes, plain.size),
+            "as the file has it"
+        );
+    }
+
+    #[test]
+    fn space_says_that_there_is_nothing_to_play() {
+        let (mut viewer, mut stage) = (viewer(""), Stage::new("test"));
+        viewer.run(&mut stage, Command::PlayOrPause);
+        assert!(viewer.playback.is_none(), "no animation");
+        let tick = Tick { time: Duration::ZERO, delta: Duration::from_millis(16) };
+        assert_eq!(viewer.frame(&mut stage, tick), Animation::Resting, "nothing moves");
+    }
+}

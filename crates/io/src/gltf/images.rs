@@ -131,7 +131,9 @@ fn read_image(
             Some(bytes)
         }
         Err(Unread { what, remedy, .. }) => {
-            import.warnings.push(place, format!("the picture is not drawn: {what}"), remedy);
+            let said = (format!("the picture is not drawn: {what}"), remedy);
+            let tried = import.folder.tried(Path::new(""), &image_name(root, image));
+            import.warnings.push_unusable(import.path, place, said, tried);
             None
         }
     }

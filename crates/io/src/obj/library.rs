@@ -89,7 +89,9 @@ fn read_libraries(import: &mut Import<'_>, record: &Record) -> (HashMap<String, 
                         "material library \"{}\" is not read ({refusal}), the default material is used",
                         tried.display()
                     );
-                    import.warnings.push(Place::Line(*line), what, refusal.remedy());
+                    let all = import.folder.tried(Path::new(""), &name);
+                    let said = (what, refusal.remedy());
+                    import.warnings.push_unusable(import.path, Place::Line(*line), said, all);
                     continue;
                 }
             };

@@ -186,7 +186,11 @@ fn find_picture(import: &mut Import<'_>, material: &MtlMaterial, map: &Map) -> O
         }
         Err(refusal) => {
             let what = format!("texture \"{name}\" is not drawn: {refusal}");
-            import.warnings.push_about(&material.file, place, what, refusal.remedy());
+            let mut tried = import.folder.tried(&beside, name);
+            if !beside.as_os_str().is_empty() {
+                tried.extend(import.folder.tried(Path::new(""), name));
+            }
+            import.warnings.push_unusable(&material.file, place, (what, refusal.remedy()), tried);
             None
         }
     }

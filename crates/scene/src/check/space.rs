@@ -49,7 +49,7 @@ fn not_finite(scene: &Scene, findings: &mut Vec<Finding>) {
                 severity: Severity::Error,
                 fault: "not-a-number",
                 place: place("mesh", &asset.name, id.index()),
-                what: format!("{} are not finite numbers", counted(broken, "vertex")),
+                what: format!("the coordinates of {} are no finite numbers", counted(broken, "vertex")),
                 remedy: "their faces are not drawn: repair the file where it was made",
             });
         }

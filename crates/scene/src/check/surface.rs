@@ -187,7 +187,7 @@ fn without_area(mesh: &Mesh, place: &str, findings: &mut Vec<Finding>) {
             severity: Severity::Warning,
             fault: "no-area",
             place: place.to_owned(),
-            what: format!("{} of {} have no area", counted(flat, "face"), mesh.face_count()),
+            what: format!("no area: {} of {}", counted(flat, "face"), mesh.face_count()),
             remedy: "merge vertices that lie at the same place",
         });
     }
@@ -209,12 +209,12 @@ fn normals(mesh: &Mesh, place: &str, findings: &mut Vec<Finding>) {
         findings.push(Finding { severity: Severity::Error, fault, place: place.to_owned(), what, remedy });
     };
     if useless * 2 > normals.len() {
-        let what = format!("{} of {} are zero or no numbers", counted(useless, "normal"), normals.len());
+        let what = format!("zero or no numbers: {} of {}", counted(useless, "normal"), normals.len());
         found("broken-normals", what, "export it without normals, or calculate them anew");
     }
     if against * 2 > normals.len() {
         let what =
-            format!("{} of {} point to the back of their faces", counted(against, "normal"), normals.len());
+            format!("turned to the back of their faces: {} of {}", counted(against, "normal"), normals.len());
         found("inverted-normals", what, "it is lit from the wrong side: flip the normals or the faces");
     }
 }
