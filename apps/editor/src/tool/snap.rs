@@ -47,12 +47,14 @@ pub(crate) struct SnapSettings {
     pub(crate) angle: f64,
     /// Steps of scales.
     pub(crate) factor: f64,
+    /// Whether what faces hide is snapped to: X-ray.
+    pub(crate) through: bool,
 }
 
 impl Default for SnapSettings {
     fn default() -> Self {
         let (target, source) = (SnapTarget::default(), SnapSource::default());
-        Self { is_on: false, target, source, step: 1.0, angle: 5.0, factor: 0.1 }
+        Self { is_on: false, target, source, step: 1.0, angle: 5.0, factor: 0.1, through: false }
     }
 }
 

@@ -3,10 +3,11 @@
 use trigon_edit::mesh::Mesh;
 use trigon_edit::mesh::edit::EditMesh;
 use trigon_edit::mesh::math::{DAffine3, DVec2, DVec3, Vec3};
+use trigon_edit::scene::camera::Ray;
 use trigon_edit::scene::{Node, NodeId};
 use trigon_edit::{Document, ElementKind, MeshSelection};
 
-use super::snap::{SnapTarget, nearest_on_screen};
+use super::snap::SnapTarget;
 use super::view::ToolView;
 
 /// Elements that stay, in the world. They are looked through at each move, so a search takes time in
@@ -17,6 +18,15 @@ pub(crate) struct SnapTargets {
     edges: Vec<[DVec3; 2]>,
     faces: Vec<Vec<DVec3>>,
 }
+
+/// A point of an element, and the ends of the edge on which it lies, or itself twice.
+struct Candidate {
+    point: DVec3,
+    ends: [DVec3; 2],
+}
+
+/// So many of the nearest elements are asked whether faces hide them, which takes a look at each face.
+const MOST_TRIED: usize = 8;
 
 /// An element is found when it is drawn within so many logical pixels of the pointer.
 const REACH: f64 = 20.0;
@@ -80,39 +90,68 @@ impl SnapTargets {
         self.faces.extend(faces.map(|face| mesh.face_vertices(face).iter().map(place).collect::<Vec<_>>()));
     }
 
-    /// The point of a target that is nearest to a place in the picture; `None` where none is near.
-    pub(crate) fn find(&self, target: SnapTarget, view: &ToolView, place: DVec2) -> Option<DVec3> {
-        let projector = view.projector();
-        let screen = |point| projector.to_screen(point);
-        let within = REACH * view.scale;
-        match target {
-            SnapTarget::Vertex => nearest_on_screen(&self.vertices, screen, place, within),
-            SnapTarget::Edge => {
-                let nearest = self.edges.iter().filter_map(|edge| nearest_on_edge(view, *edge, place));
-                let points: Vec<DVec3> = nearest.collect();
-                nearest_on_screen(&points, screen, place, within)
+    /// The point of a target that is nearest to a place in the picture; `None` where none is near. What faces
+    /// hide is left out unless `through` says that it is seen.
+    pub(crate) fn find(
+        &self,
+        target: SnapTarget,
+        view: &ToolView,
+        place: DVec2,
+        through: bool,
+    ) -> Option<DVec3> {
+        let points: Vec<Candidate> = match target {
+            SnapTarget::Vertex => {
+                self.vertices.iter().map(|&point| Candidate { point, ends: [point; 2] }).collect()
             }
-            SnapTarget::Face => self.face_under(view, place),
-            SnapTarget::Increment | SnapTarget::Grid => None,
-        }
+            SnapTarget::Edge => {
+                let nearest = |&ends| Some(Candidate { point: nearest_on_edge(view, ends, place)?, ends });
+                self.edges.iter().filter_map(nearest).collect()
+            }
+            SnapTarget::Face => return self.face_under(view, place),
+            SnapTarget::Increment | SnapTarget::Grid => return None,
+        };
+        let projector = view.projector();
+        let distance = |point| Some(projector.to_screen(point)?.distance(place));
+        let near = points.into_iter().filter_map(|candidate| Some((distance(candidate.point)?, candidate)));
+        let mut near: Vec<_> = near.filter(|(distance, _)| *distance <= REACH * view.scale).collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut seen = near.into_iter().take(MOST_TRIED).map(|(_, candidate)| candidate);
+        seen.find(|candidate| through || !self.hides(view, candidate)).map(|candidate| candidate.point)
+    }
+
+    /// Whether a face lies before a point.
+    fn hides(&self, view: &ToolView, Candidate { point, ends }: &Candidate) -> bool {
+        /// Of the distance: a face that the point lies on is met as far away, but for roundings.
+        const SAME: f64 = 1e-6;
+        let Some(place) = view.screen(*point) else { return true };
+        let Some(ray) = view.projector().ray(place) else { return true };
+        let distance = (*point - ray.origin).dot(ray.direction) / ray.direction.length_squared();
+        // Faces at the element itself do not hide it, however bent they are.
+        let others = self.faces.iter().filter(|face| !ends.iter().all(|end| face.contains(end)));
+        others
+            .filter_map(|face| distance_to_face(view, place, &ray, face))
+            .any(|hit| hit < distance * (1.0 - SAME))
     }
 
     fn face_under(&self, view: &ToolView, place: DVec2) -> Option<DVec3> {
         let ray = view.projector().ray(place)?;
-        let hits = self.faces.iter().filter_map(|face| {
-            let outline: Option<Vec<DVec2>> = face.iter().map(|&corner| view.screen(corner)).collect();
-            if !contains(&outline?, place) {
-                return None;
-            }
-            // Its area vector (M. E. Newell's method) is that of a plane also where a face is bent.
-            let center = face.iter().sum::<DVec3>() / face.len() as f64;
-            let next = face.iter().cycle().skip(1);
-            let normal: DVec3 = face.iter().zip(next).map(|(a, b)| (*a - center).cross(*b - center)).sum();
-            let distance = (center - ray.origin).dot(normal) / ray.direction.dot(normal);
-            (distance > 0.0 && distance.is_finite()).then_some(distance)
-        });
+        let hits = self.faces.iter().filter_map(|face| distance_to_face(view, place, &ray, face));
         hits.min_by(f64::total_cmp).map(|distance| ray.at(distance))
     }
+}
+
+/// How far along the ray through a place of the picture a face lies that is drawn there.
+fn distance_to_face(view: &ToolView, place: DVec2, ray: &Ray, face: &[DVec3]) -> Option<f64> {
+    let outline: Option<Vec<DVec2>> = face.iter().map(|&corner| view.screen(corner)).collect();
+    if !contains(&outline?, place) {
+        return None;
+    }
+    // Its area vector (M. E. Newell's method) is that of a plane also where a face is bent.
+    let center = face.iter().sum::<DVec3>() / face.len() as f64;
+    let next = face.iter().cycle().skip(1);
+    let normal: DVec3 = face.iter().zip(next).map(|(a, b)| (*a - center).cross(*b - center)).sum();
+    let distance = (center - ray.origin).dot(normal) / ray.direction.dot(normal);
+    (distance > 0.0 && distance.is_finite()).then_some(distance)
 }
 
 fn in_world(position: Vec3, placement: &DAffine3) -> DVec3 {
@@ -160,7 +199,7 @@ mod tests {
     #[test]
     fn what_is_near_the_pointer_is_found() {
         let (targets, view) = (cube(), front());
-        let find = |target, x, y| targets.find(target, &view, DVec2::new(x, y));
+        let find = |target, x, y| targets.find(target, &view, DVec2::new(x, y), false);
         let corner = find(SnapTarget::Vertex, 495.0, 205.0).expect("near (1, 1)");
         assert_eq!(corner.truncate(), DVec2::ONE, "the corner at (500, 200)");
         assert_eq!(find(SnapTarget::Vertex, 450.0, 250.0), None, "none is near");
@@ -169,5 +208,18 @@ mod tests {
         let face = find(SnapTarget::Face, 420.0, 280.0).expect("the front");
         assert!(face.abs_diff_eq(DVec3::new(0.2, 0.2, 1.0), 1e-9), "{face}, the nearer one of two");
         assert_eq!(find(SnapTarget::Face, 700.0, 280.0), None, "beside it");
+    }
+
+    #[test]
+    fn what_faces_hide_is_found_in_x_ray_only() {
+        let mut scene = Scene::new();
+        scene.add_object("cube", primitives::cube(2.0), Material::default());
+        scene.add_object("inside", primitives::grid(1.0, 1.0, 1, 1), Material::default());
+        let (targets, view) = (SnapTargets::of(&Document::new(scene)), front());
+        for target in [SnapTarget::Vertex, SnapTarget::Edge] {
+            let find = |through| targets.find(target, &view, DVec2::new(450.0, 302.0), through);
+            assert_eq!(find(false), None, "{target:?}: the cube is before it");
+            assert_eq!(find(true).map(|point| point.x), Some(0.5), "{target:?}: through the cube");
+        }
     }
 }

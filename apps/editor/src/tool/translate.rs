@@ -50,7 +50,9 @@ impl TransformTool {
             SnapTarget::Grid => rounded_along(from + offset, &DMat3::IDENTITY, step) - from,
             SnapTarget::Vertex | SnapTarget::Edge | SnapTarget::Face => {
                 let place = self.modal.pointer.in_window().unwrap_or_default();
-                let found = self.targets.as_ref().and_then(|targets| targets.find(target, view, place));
+                let through = self.settings.snap.through;
+                let found =
+                    self.targets.as_ref().and_then(|targets| targets.find(target, view, place, through));
                 self.snapped = found;
                 let Some(found) = found else { return offset };
                 let kept = self.kept.iter().filter(|&&kept| kept != found);

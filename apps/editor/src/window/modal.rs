@@ -38,17 +38,19 @@ impl Editor {
     }
 
     fn started(&mut self, stage: &Stage, kind: ToolKind, hands: Hands) -> Option<What> {
-        let (view, document) = (tool_view(stage), &mut self.document);
+        let (view, reach) = (tool_view(stage), self.reach());
+        let document = &mut self.document;
         if let Some(gesture) = gesture_kind(kind) {
             return Some(What::Gesture(Gesture::waiting(gesture, hands, stage.scale())));
         }
         if let Some(transform) = transform_kind(kind) {
-            let tool = TransformTool::start(transform, self.tools.transform(), document, hands, &view)?;
+            let settings = self.tools.transform(reach);
+            let tool = TransformTool::start(transform, settings, document, hands, &view)?;
             let slides = kind == ToolKind::EdgeSlide;
             let tool = if slides { tool.sliding(document, &view) } else { tool };
             return Some(What::Tool(Box::new(tool)));
         }
-        let snap = self.tools.snap();
+        let snap = self.tools.snap(reach);
         let tool: Box<dyn Tool> = match kind {
             ToolKind::Extrude => Box::new(ExtrudeTool::start(false, snap, document, hands, &view)?),
             ToolKind::ExtrudeIndividual => Box::new(ExtrudeTool::start(true, snap, document, hands, &view)?),
@@ -80,7 +82,7 @@ impl Editor {
         press: Click,
     ) {
         let hands = Hands { pointer: Some(press.at), modifiers: press.modifiers };
-        let (view, settings) = (tool_view(stage), self.tools.transform());
+        let (view, settings) = (tool_view(stage), self.tools.transform(self.reach()));
         let tool = transform_kind(kind)
             .and_then(|transform| TransformTool::start(transform, settings, &self.document, hands, &view));
         if let Some(tool) = tool {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use trigon_edit::Proportional;
-use trigon_edit::scene::NodeId;
+use trigon_edit::scene::{NodeId, Reach};
 use trigon_window::scene::camera::{Orbit, Viewport};
 use trigon_window::scene::math::DVec3;
 use trigon_window::{
@@ -45,16 +45,17 @@ impl Default for ToolSettings {
 }
 
 impl ToolSettings {
-    pub(crate) fn snap(&self) -> SnapSettings {
-        let (target, source) = (self.snap_target, self.snap_source);
-        SnapSettings { is_on: self.snapping, target, source, ..SnapSettings::default() }
+    /// How tools snap; `reach` tells whether they do to what faces hide.
+    pub(crate) fn snap(&self, reach: Reach) -> SnapSettings {
+        let (target, source, through) = (self.snap_target, self.snap_source, reach == Reach::Through);
+        SnapSettings { is_on: self.snapping, target, source, through, ..SnapSettings::default() }
     }
 
-    pub(crate) fn transform(&self) -> TransformSettings {
+    pub(crate) fn transform(&self, reach: Reach) -> TransformSettings {
         TransformSettings {
             orientation: self.orientation,
             pivot: self.pivot,
-            snap: self.snap(),
+            snap: self.snap(reach),
             cursor: self.cursor,
             proportional: self.proportional.then(Proportional::default),
         }
