@@ -5,7 +5,8 @@
 mod tests;
 
 use crate::random::Random;
-use trigon_math::{DMat3, DVec3, Mat4, elementary};
+use std::hint::black_box;
+use trigon_math::{DMat3, DMat4, DVec3, Mat4, Vec3, elementary};
 
 /// A way to hold places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -36,32 +37,76 @@ impl Coordinates {
     /// 1,000 points about three metres before a camera that stands `offset` metres from
     /// the origin, a whole number, on each axis.
     pub fn worst_error(self, offset: f64) -> f64 {
-        let mut random = Random::new(11);
-        let base = DVec3::splat(offset);
-        let errors = (0..1000).map(|_| {
-            // On a grid that any of the offsets leaves exact in f64.
-            let mut local = |low, high| (random.between(low, high) * 1024.0).round() / 1024.0;
-            let point = DVec3::new(local(-1.0, 1.0), local(-1.0, 1.0), local(-4.0, -3.0));
-            let eye = DVec3::new(local(-0.1, 0.1), local(-0.1, 0.1), local(-0.1, 0.1));
-            let [x, y] = self.place(base + point, base + eye);
-            let right = on_picture(turn() * (point - eye));
+        let view = View::new(self, offset);
+        let seen = view.points.iter().map(|&point| view.matrix().transform_point3(point));
+        let errors = seen.zip(&view.right).map(|(seen, right)| {
+            let [x, y] = on_picture(seen.as_dvec3());
             elementary::hypot(x - right[0], y - right[1])
         });
         errors.fold(0.0, f64::max)
     }
 
-    /// Where a point is on the picture.
-    fn place(self, point: DVec3, eye: DVec3) -> [f64; 2] {
-        let turn = turn();
-        let seen = match self {
-            Self::World => {
-                let eye = eye.as_vec3();
-                let view = Mat4::from_mat3(turn.as_mat3()) * Mat4::from_translation(-eye);
-                view.transform_point3(point.as_vec3())
+    /// What makes the matrix of the points' node and brings all points before the camera, again and
+    /// again.
+    pub fn repeated(self, offset: f64) -> Box<dyn FnMut()> {
+        let view = View::new(self, offset);
+        let mut seen = vec![Vec3::ZERO; POINTS];
+        Box::new(move || {
+            let matrix = black_box(&view).matrix();
+            for (seen, &point) in seen.iter_mut().zip(&view.points) {
+                *seen = matrix.transform_point3(point);
             }
-            Self::CameraRelative => turn.as_mat3() * (point - eye).as_vec3(),
+            black_box(&seen);
+        })
+    }
+}
+
+/// How many points are looked at.
+pub const POINTS: usize = 1000;
+
+/// Points before a camera, as they are stored.
+struct View {
+    way: Coordinates,
+    /// In world space, or relative to their node.
+    points: Vec<Vec3>,
+    node: DVec3,
+    eye: DVec3,
+    /// Where the points are on the picture.
+    right: Vec<[f64; 2]>,
+}
+
+impl View {
+    fn new(way: Coordinates, offset: f64) -> Self {
+        let mut random = Random::new(11);
+        // On a grid that any of the offsets leaves exact in f64.
+        let mut local = |low, high| (random.between(low, high) * 1024.0).round() / 1024.0;
+        let eye = DVec3::new(local(-0.1, 0.1), local(-0.1, 0.1), local(-0.1, 0.1));
+        let points: Vec<DVec3> =
+            (0..POINTS).map(|_| DVec3::new(local(-1.0, 1.0), local(-1.0, 1.0), local(-4.0, -3.0))).collect();
+        let node = DVec3::splat(offset);
+        let stored = |point: &DVec3| match way {
+            Coordinates::World => (node + point).as_vec3(),
+            Coordinates::CameraRelative => point.as_vec3(),
         };
-        on_picture(seen.as_dvec3())
+        Self {
+            way,
+            points: points.iter().map(stored).collect(),
+            node,
+            eye: node + eye,
+            right: points.iter().map(|point| on_picture(turn() * (point - eye))).collect(),
+        }
+    }
+
+    /// From stored points to camera space.
+    fn matrix(&self) -> Mat4 {
+        match self.way {
+            Coordinates::World => {
+                Mat4::from_mat3(turn().as_mat3()) * Mat4::from_translation(-self.eye.as_vec3())
+            }
+            Coordinates::CameraRelative => {
+                (DMat4::from_mat3(turn()) * DMat4::from_translation(self.node - self.eye)).as_mat4()
+            }
+        }
     }
 }
 

@@ -39,11 +39,26 @@ impl DepthFormat {
 
     /// What is stored for a distance in metres, as 32 bits that compare like it.
     pub fn encode(self, distance: f32) -> u32 {
+        self.store(if self == Self::FloatReversed { reversed(distance) } else { forward(distance) })
+    }
+
+    /// What is stored for a depth that was computed in `f32`.
+    pub fn store(self, depth: f32) -> u32 {
         match self {
-            Self::Fixed16 => fixed(forward(distance), 16),
-            Self::Fixed24 => fixed(forward(distance), 24),
-            Self::Float => forward(distance).max(0.0).to_bits(),
-            Self::FloatReversed => reversed(distance).max(0.0).to_bits(),
+            Self::Fixed16 => fixed(depth, 16),
+            Self::Fixed24 => fixed(depth, 24),
+            Self::Float | Self::FloatReversed => depth.max(0.0).to_bits(),
+        }
+    }
+
+    /// The depth at one over a distance, of which it is a linear function, so that it is linear on
+    /// the screen.
+    pub fn depth_at(self, inverse_distance: f64) -> f64 {
+        let [near, far] = [NEAR, FAR].map(f64::from);
+        if self == Self::FloatReversed {
+            near / (far - near) * (far * inverse_distance - 1.0)
+        } else {
+            far / (far - near) * (1.0 - near * inverse_distance)
         }
     }
 

@@ -2,11 +2,13 @@
 //! perspective with a near and a far plane.
 
 mod formats;
+mod road;
 
 #[cfg(test)]
 mod tests;
 
 pub use formats::DepthFormat;
+pub use road::Road;
 
 use crate::random::Random;
 use trigon_math::elementary;

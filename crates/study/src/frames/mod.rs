@@ -4,6 +4,7 @@
 mod cases;
 mod certified;
 mod flight;
+mod truth;
 
 #[cfg(test)]
 mod tests;
@@ -11,8 +12,9 @@ mod tests;
 pub use cases::Case;
 pub use certified::{Certified, Prover};
 pub use flight::{Kept, Step, fly};
+pub use truth::Truth;
 
-use trigon_scene::quality::{Preset, Quality, candidates, rmse};
+use trigon_scene::quality::{Preset, Quality, candidates};
 use trigon_scene::{Frame, RenderError, Renderer, Scene, ShadingModel, SimdLevel};
 
 /// What is compared: the budget's candidates, and the draft with light at fewer places.
@@ -69,14 +71,12 @@ impl Repeated {
     }
 }
 
-/// How far each of some qualities is from the reference at the start of a case's flight,
-/// as [`rmse`] measures it.
+/// How far each of some qualities is from the [`Truth`] at the start of a case's flight.
 ///
 /// # Errors
 /// A size that cannot be drawn.
 pub fn errors(case: Case, size: [u32; 2], qualities: &[Quality]) -> Result<Vec<f64>, RenderError> {
-    let mut reference = Repeated::new(case, size, Preset::Reference.quality());
-    let reference = reference.draw(0.0)?;
-    let error = |&quality: &Quality| Ok(rmse(Repeated::new(case, size, quality).draw(0.0)?, reference));
+    let truth = Truth::new(case, size)?;
+    let error = |&quality: &Quality| Ok(truth.error(Repeated::new(case, size, quality).draw(0.0)?));
     qualities.iter().map(error).collect()
 }

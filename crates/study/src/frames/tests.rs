@@ -8,14 +8,14 @@ use std::time::Duration;
 const SIZE: [u32; 2] = [60, 36];
 
 #[test]
-fn each_preset_has_less_than_two_thirds_of_the_error_of_the_one_before() {
+fn each_preset_is_nearer_than_the_one_before() {
     let presets = Preset::ALL.map(Preset::quality);
     for case in Case::ALL {
         let errors = errors(case, SIZE, &presets).unwrap();
-        assert_eq!(errors[3], 0.0, "{}: the reference is itself", case.name());
         for pair in errors.windows(2) {
-            assert!(pair[1] < pair[0] / 1.5, "{}: {errors:?}", case.name());
+            assert!(pair[1] < pair[0], "{}: {errors:?}", case.name());
         }
+        assert!(errors[3] > 0.0, "{}: the reference is none of its own", case.name());
     }
 }
 

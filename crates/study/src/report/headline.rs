@@ -120,8 +120,8 @@ fn ratio(a: f64, b: f64) -> String {
     let both = format!("({} / {})", number(a), number(b));
     if a == b || (a / b - 1.0).abs() <= SAME {
         format!("no measurable difference {both}")
-    } else if b == 0.0 {
-        format!("{} instead of 0", number(a))
+    } else if a == 0.0 || b == 0.0 {
+        format!("{} instead of {}", number(a), number(b))
     } else {
         format!("{}× {both}", number(a / b))
     }
@@ -154,6 +154,7 @@ mod tests {
         assert!(sentence(["c", "b"]).ends_with("no measurable difference (2.20 / 2.00)."), "1.10");
         assert!(sentence(["b", "c"]).ends_with("no measurable difference (2.00 / 2.20)."), "0.91");
         assert!(sentence(["a", "e"]).ends_with("3.00 instead of 0."), "nothing divides by 0");
+        assert!(sentence(["e", "a"]).ends_with("0 instead of 3.00."), "and no factor is 0");
     }
 
     #[test]

@@ -56,7 +56,7 @@ impl Rules {
             Self::SameBytes => dispatch!(level, simd => kernel::draw::<_, Ours>(simd, light.values_mut())),
             Self::Fused => dispatch!(level, simd => kernel::draw::<_, Fused>(simd, light.values_mut())),
             Self::FusedAndEstimated => {
-                dispatch!(level, simd => kernel::draw::<_, Fast>(simd, light.values_mut()))
+                dispatch!(level, simd => kernel::draw::<_, Fast>(simd, light.values_mut()));
             }
         }
     }
