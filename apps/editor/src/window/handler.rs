@@ -158,8 +158,11 @@ impl Editor {
     /// The 3D cursor goes to the surface under the pointer, or as far away as what the view turns around.
     fn place_cursor(&mut self, stage: &mut Stage, hands: Hands) -> Taken {
         let Some(at) = hands.pointer else { return Taken::No };
-        let beside =
-            || Projector::new(&stage.camera(), stage.viewport()).at_distance(at, stage.orbit.distance());
+        let beside = || {
+            let pane = stage.pane_at(at);
+            let projector = Projector::new(&stage.camera_of(&pane), pane.area.size);
+            projector.at_distance(at - pane.area.origin(), stage.orbit.distance())
+        };
         let Some(place) = stage.pick(at).map(|(_, place)| place).or_else(beside) else { return Taken::No };
         self.tools.cursor = place;
         Taken::Yes

@@ -16,6 +16,7 @@ mod look;
 mod modal;
 mod navigation;
 mod open_file;
+mod panes;
 mod pick;
 mod pointing;
 mod recent;

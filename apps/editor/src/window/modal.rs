@@ -2,15 +2,17 @@
 
 use trigon_edit::mesh::math::DVec2;
 use trigon_edit::scene::Region;
+use trigon_edit::scene::camera::AxisView;
 use trigon_edit::{SelectAction, Shear};
-use trigon_window::{Hands, Input, InputOwner, Key, Modifiers, PointerButton, Stage, Taken};
+use trigon_window::{Hands, Input, InputOwner, Key, Modifiers, Pane, PointerButton, Stage, Taken};
 
 use super::editor::{Editor, Message};
+use super::panes::{in_pane, pane_of, tool_view};
 use super::pick::Click;
 use crate::request::{Request, ToolKind};
 use crate::tool::{
     BevelTool, ExtrudeTool, Freedom, Gesture, GestureKind, GestureState, InsetTool, LoopCutTool, RegionMode,
-    Tool, ToolMarks, ToolState, ToolView, TransformKind, TransformTool,
+    Tool, ToolMarks, ToolState, TransformKind, TransformTool,
 };
 
 /// A tool or a gesture that runs.
@@ -21,6 +23,8 @@ pub(crate) struct Running {
     pressed: Option<Click>,
     /// Whether the camera has taken the pointer: where that comes back is no movement.
     is_navigating: bool,
+    /// Of the view that it was started in, in whose pixels it counts.
+    side: Option<AxisView>,
 }
 
 enum What {
@@ -31,8 +35,13 @@ enum What {
 }
 
 impl Running {
-    fn new(kind: ToolKind, what: What) -> Self {
-        Self { kind, what, pressed: None, is_navigating: false }
+    fn new(kind: ToolKind, what: What, pane: &Pane) -> Self {
+        Self { kind, what, pressed: None, is_navigating: false, side: pane.side }
+    }
+
+    /// The side that is seen in the view that it was started in; `None` for the camera's own.
+    pub(crate) fn side(&self) -> Option<AxisView> {
+        self.side
     }
 
     /// Keys and numbers for the status line.
@@ -113,11 +122,6 @@ fn gesture_kind(tool: ToolKind) -> Option<GestureKind> {
     })
 }
 
-/// How tools see the stage.
-pub(crate) fn tool_view(stage: &Stage) -> ToolView {
-    ToolView { camera: stage.camera(), viewport: stage.viewport(), scale: stage.scale() }
-}
-
 impl Editor {
     /// Starts a tool at the pointer, or says why it cannot.
     pub(crate) fn start_tool(&mut self, stage: &mut Stage, kind: ToolKind) {
@@ -126,14 +130,16 @@ impl Editor {
             // It has nothing that follows the pointer; its values can be adjusted.
             return self.run(Shear::default().into());
         }
-        match self.started(stage, kind, hands) {
-            Some(what) => self.follow(stage, Running::new(kind, what)),
+        let pane = hands.pointer.map_or_else(|| pane_of(stage, None), |at| stage.pane_at(at));
+        match self.started((stage, &pane), kind, in_pane(hands, &pane)) {
+            Some(what) => self.follow(stage, Running::new(kind, what, &pane)),
             None => self.message = Message::Refusal(format!("{kind:?}: select something first")),
         }
     }
 
-    fn started(&mut self, stage: &Stage, kind: ToolKind, hands: Hands) -> Option<What> {
-        let (view, document) = (tool_view(stage), &mut self.document);
+    fn started(&mut self, seen: (&Stage, &Pane), kind: ToolKind, hands: Hands) -> Option<What> {
+        let (stage, pane) = seen;
+        let (view, document) = (tool_view(stage, pane), &mut self.document);
         if let Some(gesture) = gesture_kind(kind) {
             return Some(What::Gesture(Gesture::waiting(gesture, hands, stage.scale())));
         }
@@ -152,7 +158,7 @@ impl Editor {
             ToolKind::BevelVertices => Box::new(BevelTool::start(true, document, hands, &view)?),
             _ => {
                 let mut tool = LoopCutTool::start(document, hands)?;
-                let face = hands.pointer.and_then(|at| self.pointing.face(document, stage, at));
+                let face = hands.pointer.and_then(|at| self.pointing.face(document, seen, at));
                 tool.hover(document, &view, face);
                 return Some(What::LoopCut(Box::new(tool)));
             }
@@ -174,13 +180,14 @@ impl Editor {
         freedom: Option<Freedom>,
         press: Click,
     ) {
-        let hands = Hands { pointer: Some(press.at), modifiers: press.modifiers };
-        let (view, settings) = (tool_view(stage), self.tools.transform());
+        let pane = stage.pane_at(press.at);
+        let hands = in_pane(Hands { pointer: Some(press.at), modifiers: press.modifiers }, &pane);
+        let (view, settings) = (tool_view(stage, &pane), self.tools.transform());
         let tool = transform_kind(kind)
             .and_then(|transform| TransformTool::start(transform, settings, &self.document, hands, &view));
         if let Some(tool) = tool {
             let what = What::Tool(Box::new(tool.held(freedom)));
-            self.follow(stage, Running { pressed: Some(press), ..Running::new(kind, what) });
+            self.follow(stage, Running { pressed: Some(press), ..Running::new(kind, what, &pane) });
         }
     }
 
@@ -191,15 +198,18 @@ impl Editor {
             true => (ToolKind::SelectLasso, GestureKind::Lasso),
             false => (ToolKind::SelectBox, GestureKind::Box),
         };
-        let start = Hands { pointer: Some(press.at), modifiers: press.modifiers };
+        let pane = stage.pane_at(press.at);
+        let start = in_pane(Hands { pointer: Some(press.at), modifiers: press.modifiers }, &pane);
         let gesture = Gesture::drawing(gesture, PointerButton::Left, start, stage.scale());
-        self.follow(stage, Running::new(tool, What::Gesture(gesture)));
+        self.follow(stage, Running::new(tool, What::Gesture(gesture), &pane));
         self.tool_input(stage, &Input::PointerMoved, hands);
     }
 
     /// Gives an input to the tool.
     pub(crate) fn tool_input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
         let Some(mut running) = self.tool.take() else { return Taken::No };
+        let pane = pane_of(stage, running.side);
+        let hands = in_pane(hands, &pane);
         if running.leaves_to_camera(input, hands) {
             running.is_navigating = true;
             self.tool = Some(running);
@@ -210,14 +220,15 @@ impl Editor {
         {
             running.pointer_jumped(to);
         }
-        let view = tool_view(stage);
+        let view = tool_view(stage, &pane);
         let before = self.entries();
         let state = match &mut running.what {
             What::Tool(tool) => tool.input(input, hands, &view, &mut self.document),
             What::LoopCut(tool) => {
                 let state = tool.input(input, hands, &view, &mut self.document);
                 if tool.wants_face() {
-                    let face = hands.pointer.and_then(|at| self.pointing.face(&self.document, stage, at));
+                    let face =
+                        hands.pointer.and_then(|at| self.pointing.face(&self.document, (stage, &pane), at));
                     tool.hover(&self.document, &view, face);
                 }
                 state
@@ -255,6 +266,7 @@ impl Editor {
     }
 
     fn gesture_did(&mut self, stage: &mut Stage, running: Running, state: GestureState) -> Taken {
+        let side = running.side;
         let (region, goes_on) = match state {
             GestureState::Running => (None, true),
             GestureState::Selects(region, mode) => (Some((region, mode)), true),
@@ -266,21 +278,28 @@ impl Editor {
             stage.input_owner = InputOwner::Interface;
         }
         if let Some((region, mode)) = region {
-            self.select_region(stage, &region, mode);
+            self.select_region(stage, side, &region, mode);
         }
         Taken::Yes
     }
 
-    fn select_region(&mut self, stage: &mut Stage, region: &Region, mode: RegionMode) {
+    fn select_region(
+        &mut self,
+        stage: &mut Stage,
+        side: Option<AxisView>,
+        region: &Region,
+        mode: RegionMode,
+    ) {
         let action = match mode {
             RegionMode::Set => SelectAction::Replace,
             RegionMode::Extend => SelectAction::Add,
             RegionMode::Subtract => SelectAction::Remove,
             RegionMode::Intersect => SelectAction::Intersect,
         };
-        let reach = self.reach();
-        let command =
-            self.pointing.ask(&self.document, stage, reach, |picks| picks.region(region, action)).flatten();
+        let (reach, pane) = (self.reach(), pane_of(stage, side));
+        let asked =
+            self.pointing.ask(&self.document, (stage, &pane), reach, |picks| picks.region(region, action));
+        let command = asked.flatten();
         if let Some(command) = command {
             self.perform(stage, Request::Run(command));
         }
