@@ -94,6 +94,9 @@ pub struct Stage {
     pub keymap: Keymap,
     /// Who is asked first what mouse and keys mean.
     pub input_owner: InputOwner,
+    /// Whether the pointer goes on from the other side where it reaches a border of the window, as for drags without
+    /// end; where the system does not let programs move the pointer, it stays.
+    pub wraps_pointer: bool,
     /// The object that keys move and turn.
     pub selection: Option<NodeId>,
     /// Whether the list of keys is shown.
@@ -141,6 +144,7 @@ impl Stage {
             overlay: Overlay::default(),
             keymap: Keymap::default(),
             input_owner: InputOwner::default(),
+            wraps_pointer: false,
             selection: None,
             cheat_sheet: Visibility::Hidden,
             frame_time: Visibility::Hidden,

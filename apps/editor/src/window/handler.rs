@@ -3,11 +3,14 @@
 use std::path::PathBuf;
 
 use trigon_window::scene::camera::Projector;
+use trigon_window::scene::math::DVec2;
 use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton, Stage, Taken, egui};
 
 use super::editor::Editor;
 use super::loading::Loading;
+use super::modal::Running;
 use super::open_file::{Answer, Next};
+use super::panes::pane_of;
 use super::pick::{self, Click};
 use super::{files, interface};
 use crate::request::{FileAction, FileRequest, Request};
@@ -20,23 +23,19 @@ impl Handler for Editor {
 
     fn input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
         self.pointer = hands.pointer.or(self.pointer);
-        if self.tool.is_some() {
-            return self.tool_input(stage, input, hands);
-        }
-        match *input {
-            Input::Key { logical, physical, repeat: false } => self.key(stage, hands, [logical, physical]),
-            Input::Pressed(PointerButton::Left) => self.pressed(stage, hands),
-            Input::PointerMoved => self.pointer_moved(stage, hands),
-            Input::Released(PointerButton::Left) => self.released(stage),
-            Input::Clicked(PointerButton::Left) => self.clicked(stage, hands),
-            Input::Clicked(PointerButton::Right) if hands.modifiers.contains(Modifiers::SHIFT) => {
-                self.place_cursor(stage, hands)
-            }
-            Input::FocusLost => {
-                self.click = None;
-                Taken::No
-            }
-            _ => Taken::No,
+        let taken = match self.tool {
+            Some(_) => self.tool_input(stage, input, hands),
+            None => self.own_input(stage, input, hands),
+        };
+        stage.wraps_pointer = self.tool.as_ref().is_some_and(Running::goes_on_beyond_borders);
+        taken
+    }
+
+    fn pointer_jumped(&mut self, stage: &mut Stage, to: DVec2) {
+        self.pointer = Some(to);
+        if let Some(running) = &mut self.tool {
+            let pane = pane_of(stage, running.side());
+            running.pointer_jumped(to - pane.area.origin());
         }
     }
 
@@ -76,6 +75,25 @@ impl Handler for Editor {
 }
 
 impl Editor {
+    /// An input while no tool runs.
+    fn own_input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
+        match *input {
+            Input::Key { logical, physical, repeat: false } => self.key(stage, hands, [logical, physical]),
+            Input::Pressed(PointerButton::Left) => self.pressed(stage, hands),
+            Input::PointerMoved => self.pointer_moved(stage, hands),
+            Input::Released(PointerButton::Left) => self.released(stage),
+            Input::Clicked(PointerButton::Left) => self.clicked(stage, hands),
+            Input::Clicked(PointerButton::Right) if hands.modifiers.contains(Modifiers::SHIFT) => {
+                self.place_cursor(stage, hands)
+            }
+            Input::FocusLost => {
+                self.click = None;
+                Taken::No
+            }
+            _ => Taken::No,
+        }
+    }
+
     fn begin(&mut self, stage: &mut Stage) {
         let mut files = std::mem::take(&mut self.to_open).into_iter();
         match files.next() {

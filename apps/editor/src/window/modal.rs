@@ -91,7 +91,13 @@ impl Running {
         }
     }
 
-    fn pointer_jumped(&mut self, to: DVec2) {
+    /// Whether it follows how far the pointer goes, and not where it is in the picture.
+    pub(crate) fn goes_on_beyond_borders(&self) -> bool {
+        matches!(self.what, What::Tool(_))
+    }
+
+    /// The pointer was put somewhere else in its view: that was no movement.
+    pub(crate) fn pointer_jumped(&mut self, to: DVec2) {
         match &mut self.what {
             What::Tool(tool) => tool.pointer_jumped(to),
             What::LoopCut(tool) => tool.pointer_jumped(to),

@@ -40,6 +40,7 @@ impl Session<'_> {
     }
 
     fn pointer_moved(&mut self, to: DVec2, now: Duration) {
+        self.wrap(to);
         let gesture = self.pointer.moved(to, self.stage.scale());
         if self.pointer.is_held() || self.offer(Input::PointerMoved, now) == Taken::No {
             self.gesture(gesture, now);

@@ -97,3 +97,25 @@ fn four_views_fill_what_no_panel_covers() {
     assert_eq!(area.min, [free.min.x, free.min.y].map(|at| at.round() as u32), "beside the tools");
     assert!((f64::from(free.width()) - f64::from(area.size.width)).abs() <= 1.0, "up to the panels");
 }
+
+/// The window puts its pointer to the other side of a border.
+#[test]
+fn a_move_goes_on_when_the_pointer_jumps() {
+    let mut worked = Worked::in_four_views();
+    let side = Some(AxisView::Top);
+    let from = worked.shown(side, DVec3::ZERO);
+    worked.pointer(Input::PointerMoved, from);
+    assert!(!worked.stage.wraps_pointer, "no tool runs");
+    worked.character('g');
+    let half = worked.shown(side, DVec3::X * 0.5);
+    worked.pointer(Input::PointerMoved, half);
+    assert!(worked.stage.wraps_pointer, "as far as it goes");
+    let Worked { editor, stage } = &mut worked;
+    editor.pointer_jumped(stage, DVec2::new(4.0, half.y));
+    worked.pointer(Input::PointerMoved, DVec2::new(4.0, half.y) + (half - from));
+    worked.key(WindowKey::Enter, Modifiers::NONE);
+    assert!(!worked.stage.wraps_pointer, "it is over");
+    let cube = worked.editor.document.selection().active.expect("the cube");
+    let place = worked.editor.document.nodes().world_transform(cube).translation;
+    assert!(place.distance(DVec3::X) < 1e-6, "twice half a metre: {place}");
+}
