@@ -87,9 +87,12 @@ pub(crate) enum ViewRequest {
     ToggleLocal,
     /// Looks through the first camera of the scene, or back.
     Camera,
+    /// Puts the active camera, or else the first, where the view looks from.
+    CameraToView,
     Display(DisplayMode),
     ToggleWireframe,
     ToggleXRay,
+    ToggleOverlays,
 }
 
 /// How surfaces are shown.
@@ -99,6 +102,8 @@ pub(crate) enum DisplayMode {
     /// Plain shading by studio lights.
     #[default]
     Solid,
+    /// Everything in clay, whose look depends on the direction of its surface alone.
+    Matcap,
     /// Materials and textures in studio lights.
     Textured,
     /// The scene's own lights and effects.
@@ -155,6 +160,11 @@ pub(crate) enum UiRequest {
     Orientation(Orientation),
     Gizmo(Option<GizmoKind>),
     Rename,
+    /// Hangs the selected objects on the active one.
+    Parent {
+        /// Whether they stay where they are in the world.
+        keeps_place: bool,
+    },
     /// Selects what hangs together with what is under the pointer.
     LinkedAtPointer,
     LargerText,
@@ -164,6 +174,6 @@ pub(crate) enum UiRequest {
 impl UiRequest {
     /// Whether it leaves the document and its picture as they are.
     pub(crate) fn is_about_window(self) -> bool {
-        !matches!(self, Self::ToggleEditMode | Self::Select(_) | Self::LinkedAtPointer)
+        !matches!(self, Self::ToggleEditMode | Self::Select(_) | Self::LinkedAtPointer | Self::Parent { .. })
     }
 }

@@ -48,6 +48,7 @@ mod import;
 mod layers;
 mod limits;
 mod load;
+mod loss;
 mod numbers;
 mod obj;
 mod off;
@@ -59,27 +60,31 @@ mod png;
 mod polygons;
 mod rebase;
 mod refusal;
+mod registry;
 mod rows;
 mod stl;
+mod texture_request;
 mod textures;
 mod uri;
 mod warning;
 mod write;
 
-pub use self::gltf::{GltfSource, Loss, NativeDocument, NativeFile, encode_glb, write_glb};
+pub use self::gltf::{GltfSource, NativeDocument, NativeFile, encode_glb, write_glb};
 pub use capture::{Capture, Mismatch, PixelMismatch};
 pub use environment::load_environment;
 pub use error::{LoadError, LoadErrorKind, Place};
 pub use export::{Encoding, Export, ExportOptions, ExportedFile, FaceExport, UpAxis, export};
-pub use format::{Format, Reader, Writer, readers, writers};
+pub use format::{Format, Reader, Writer};
 pub use limits::Limits;
 pub use load::{Loaded, load, load_from_slice};
+pub use loss::Loss;
 pub use options::{LoadOptions, Progress, ProgressHook, SceneChoice, Stage};
 pub use outputs::{
     Output, UnknownOutput, encode_exr, encode_npy, encode_png16, write_exr, write_npy, write_png16,
 };
 pub use picture::{Picture, load_image};
 pub use png::{Pixels, encode_png, write_png};
+pub use registry::{readers, writers};
 pub use warning::Warning;
 pub use write::WriteError;
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use fixedbitset::FixedBitSet;
 
-use crate::scene::NodeId;
+use crate::node::NodeId;
 
 /// Elements of one kind (vertices, edges or faces) of nodes, as one bit for each element
 /// of a node's mesh. Nodes of which there is none are left out.

@@ -7,7 +7,7 @@ use trigon_raster::TargetError;
 
 use crate::arena::Arena;
 use crate::node::Node;
-use crate::scene::NodeId;
+use crate::node::NodeId;
 use crate::settings::RenderSettings;
 
 /// A finished picture. Rows run from the top, pixels from the left.

@@ -46,6 +46,7 @@ mod scene;
 mod settings;
 mod showcase;
 mod skin;
+mod texture_asset;
 mod transform;
 pub mod views;
 
@@ -62,16 +63,17 @@ pub use fixedbitset::FixedBitSet;
 pub use frame::{Frame, Hit};
 pub use light::{Light, LightKind};
 pub use marks::{Mark, Marks, VertexPoints};
-pub use material::{AlphaMode, Material, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding};
-pub use node::Node;
+pub use material::{
+    AlphaMode, Material, MaterialId, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding,
+};
+pub use node::{Node, NodeId};
 pub use pick::{Nearest, Pick, Picker, Reach, Region};
 pub use render::{RenderError, Renderer, RendererBuilder, render};
-pub use scene::{
-    MaterialId, MeshAsset, MeshId, NodeId, Scene, SceneError, SceneParts, SkinId, TextureAsset, TextureId,
-};
+pub use scene::{MeshAsset, MeshId, Scene, SceneError, SceneParts, SkinPose};
 pub use settings::{Lighting, MAX_SIZE, Outputs, Reflection, RenderSettings, ShadingModel, Style};
 pub use showcase::showcase;
-pub use skin::{Skin, SkinPose};
+pub use skin::{Skin, SkinId};
+pub use texture_asset::{TextureAsset, TextureId};
 pub use transform::Transform;
 pub use trigon_raster::simd::{SimdLevel, SimdLevelError};
 pub use trigon_raster::{

@@ -6,7 +6,7 @@ use trigon_math::{Vec3, Vec4};
 use trigon_raster::MarkColors;
 
 use crate::elements::ElementSet;
-use crate::scene::NodeId;
+use crate::node::NodeId;
 
 /// Vertices, edges and faces in colours of their own.
 ///
@@ -35,8 +35,8 @@ pub struct Mark {
     pub elements: Arc<ElementSet>,
     /// Linear RGB.
     pub color: Vec3,
-    /// From 0 to 1; at 0 edges are not painted, in no other colour either. Lines of
-    /// [`Style::Wireframe`](crate::Style::Wireframe) and vertices are always opaque.
+    /// From 0 to 1; at 0 edges and vertices are not painted, in no other colour either. Lines of
+    /// [`Style::Wireframe`](crate::Style::Wireframe) and other vertices are always opaque.
     pub opacity: f32,
 }
 

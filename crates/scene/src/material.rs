@@ -8,7 +8,11 @@ use trigon_math::{Vec3, Vec4};
 pub use shading::{MetallicRoughness, Shading};
 pub use texture_binding::{NormalMap, Occlusion, TextureBinding};
 
-use crate::scene::TextureId;
+use crate::arena::Id;
+use crate::texture_asset::TextureId;
+
+/// Names a material.
+pub type MaterialId = Id<Material>;
 
 /// What the alpha of the base colour means.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,9 +3,15 @@
 use trigon_camera::Projection;
 use trigon_math::DVec3;
 
+use crate::arena::Id;
 use crate::light::Light;
-use crate::scene::{MaterialId, MeshId, NodeId, SkinId};
+use crate::material::MaterialId;
+use crate::scene::MeshId;
+use crate::skin::SkinId;
 use crate::transform::Transform;
+
+/// Names a node.
+pub type NodeId = Id<Node>;
 
 /// A place in the scene. What it holds moves, turns and scales with it, and so
 /// do its children.

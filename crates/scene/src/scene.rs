@@ -5,6 +5,7 @@ mod mesh_asset;
 mod order;
 mod parts;
 mod placed;
+mod skin_pose;
 
 use std::sync::Arc;
 
@@ -15,33 +16,15 @@ use trigon_mesh::{ChangeError, Mesh, MeshChange};
 use trigon_raster::Texture;
 
 use crate::animation::Animation;
-use crate::arena::{Arena, Id};
-use crate::material::Material;
-use crate::node::Node;
+use crate::arena::Arena;
+use crate::material::{Material, MaterialId};
+use crate::node::{Node, NodeId};
 use crate::skin::Skin;
-pub use mesh_asset::MeshAsset;
+use crate::texture_asset::{TextureAsset, TextureId};
+pub use mesh_asset::{MeshAsset, MeshId};
 pub use parts::SceneParts;
 pub(crate) use placed::PlacedMesh;
-
-/// Names a node.
-pub type NodeId = Id<Node>;
-/// Names a mesh.
-pub type MeshId = Id<MeshAsset>;
-/// Names a material.
-pub type MaterialId = Id<Material>;
-/// Names a skin.
-pub type SkinId = Id<Skin>;
-/// Names a texture.
-pub type TextureId = Id<TextureAsset>;
-
-/// A texture as the scene shares it between materials.
-#[derive(Clone, Debug)]
-pub struct TextureAsset {
-    /// For people; need not be unique.
-    pub name: String,
-    /// The picture.
-    pub texture: Arc<Texture>,
-}
+pub use skin_pose::SkinPose;
 
 /// Where a node is in the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -41,6 +41,8 @@ mod drawer;
 mod egui_painter;
 mod error;
 mod handler;
+#[cfg(any(test, feature = "kittest"))]
+mod headless;
 mod input;
 mod interaction;
 mod interface;
@@ -67,6 +69,8 @@ pub use egui_painter::EguiTestRenderer;
 pub use egui_painter::{ChannelOrder, EguiPainter, MAX_TEXTURE_SIDE};
 pub use error::WindowError;
 pub use handler::{Animation, Handler, Tick};
+#[cfg(any(test, feature = "kittest"))]
+pub use headless::{HeadlessWindow, Widget};
 pub use input::{Chord, ChordError, Hands, Input, InputOwner, Key, Modifiers, PointerButton, Taken};
 pub use interaction::{Interaction, InteractionError};
 pub use keymap::{

@@ -2,7 +2,7 @@
 //! and return requests.
 //!
 //! `outliner` lists the objects. `properties`, `information`, `add` and `development` are
-//! the tabs. `adjust` shows the parameters of the last command; its widgets are made from the
+//! the tabs; `history` is part of the second. `adjust` shows the parameters of the last command; its widgets are made from the
 //! schema of the commands (`form` says what there is, `parameters` shows it), so that a new command
 //! has its panel without a line of code here.
 
@@ -10,6 +10,7 @@ mod add;
 mod adjust;
 mod development;
 mod form;
+mod history;
 mod information;
 mod key_order;
 mod outliner;
@@ -24,6 +25,8 @@ mod unit;
 pub(crate) use add::{AddState, add};
 pub(crate) use adjust::adjust;
 pub(crate) use development::{DevelopmentState, DrawnView, development};
+pub(crate) use history::history;
 pub(crate) use information::{InformationState, information};
 pub(crate) use outliner::{OutlinerState, outliner};
 pub(crate) use properties::{PropertiesState, properties};
+pub(crate) use row::select_all_at_first;

@@ -155,6 +155,15 @@ pub(super) fn text(ui: &mut Ui, width: f32, text: &mut String) -> Response {
     response
 }
 
+/// Selects all of a field that has just got the keyboard: what is typed replaces it.
+pub(crate) fn select_all_at_first(field: &mut egui::text_edit::TextEditOutput) {
+    if field.response.gained_focus() {
+        let all = egui::text::CCursorRange::select_all(&field.galley);
+        field.state.cursor.set_char_range(Some(all));
+        field.state.clone().store(&field.response.ctx, field.response.id);
+    }
+}
+
 /// A list of names to choose from.
 pub(super) fn choice<T: Copy + PartialEq>(
     ui: &mut Ui,

@@ -113,6 +113,8 @@ fn apply(document: &mut Document, request: &Request) {
     match request {
         Request::Run(command) => drop(document.run(command.clone())),
         Request::Adjust(command) => drop(document.adjust_last(command.clone())),
+        Request::Undo => drop(document.undo()),
+        Request::Redo => drop(document.redo()),
         _ => {}
     }
 }

@@ -13,7 +13,7 @@ use super::selected::Selected;
 use super::snap::{SnapSettings, rounded, rounded_along};
 use super::translate::typed_offset;
 use super::view::ToolView;
-use super::{Tool, ToolState};
+use super::{Tool, ToolState, TransformKind};
 
 /// An extrusion that runs.
 #[derive(Debug)]
@@ -103,6 +103,13 @@ impl ExtrudeTool {
         Ok(if self.snaps() { rounded_along(offset, &axes, step) } else { offset })
     }
 
+    /// E S and E R: what is extruded stays where it is, and is scaled or turned.
+    fn confirm_in_place(&mut self, key: char, document: &mut Document) -> ToolState {
+        self.modal.show(document, self.extrusion(0.0, DVec3::ZERO));
+        document.confirm();
+        ToolState::ConfirmedThen(if key == 's' { TransformKind::Scale } else { TransformKind::Rotate })
+    }
+
     fn key(&mut self, key: char, document: &mut Document, view: &ToolView) -> ToolState {
         let across = self.modal.modifiers().contains(Modifiers::SHIFT);
         match (key, Axis::of_key(key)) {
@@ -114,6 +121,7 @@ impl ExtrudeTool {
             }
             ('c', _) => self.constraint.clear(),
             ('i', _) => self.individual = !self.individual,
+            ('s' | 'r', _) => return self.confirm_in_place(key, document),
             _ => return ToolState::Running,
         }
         let count = match self.constraint.freedom() {

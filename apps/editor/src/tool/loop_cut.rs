@@ -7,6 +7,7 @@ use trigon_edit::{Document, LoopCut, ObjectName, edge_ring, face_loop};
 use trigon_window::{Hands, Input, PointerButton};
 
 use super::expression::Quantity;
+use super::extrude::on;
 use super::modal::{Modal, Step};
 use super::numeric::NumericEntry;
 use super::selected::placed;
@@ -26,6 +27,9 @@ pub(crate) struct LoopCutTool {
     /// Once a click has cut: where the edge runs in the picture.
     sliding: Option<DVec2>,
     position: f64,
+    /// Whether the cuts keep their distance in place of their part of each edge, and from which side.
+    even: bool,
+    flipped: bool,
 }
 
 /// As many as the parameter allows that are still drawn in time.
@@ -42,6 +46,8 @@ impl LoopCutTool {
             lines: Vec::new(),
             sliding: None,
             position: 0.0,
+            even: false,
+            flipped: false,
         })
     }
 
@@ -101,9 +107,14 @@ impl LoopCutTool {
         let Some((id, edge)) = self.hovered else { return ToolState::Running };
         let nodes = document.nodes().nodes();
         let object = nodes.iter().find(|(_, node)| node.mesh == Some(id)).map(|(object, _)| object);
-        let (cuts, position) = (self.cuts, self.position);
-        let command =
-            LoopCut { cuts, position, edge: Some(edge.index()), object: object.map(ObjectName::of) };
+        let command = LoopCut {
+            cuts: self.cuts,
+            position: self.position,
+            even: self.even,
+            flipped: self.flipped,
+            edge: Some(edge.index()),
+            object: object.map(ObjectName::of),
+        };
         self.modal.show(document, command.into())
     }
 
@@ -187,6 +198,14 @@ impl Tool for LoopCutTool {
             Step::Confirm if self.sliding.is_none() => self.begin_to_slide(document, hands, view),
             Step::Confirm => Modal::confirm(document),
             Step::Cancel => Modal::cancel(document),
+            Step::Key('e') => {
+                self.even = !self.even;
+                self.update(document)
+            }
+            Step::Key('f') => {
+                self.flipped = !self.flipped;
+                self.update(document)
+            }
             Step::Wheel(lines) if self.sliding.is_none() => {
                 self.set_cuts(f64::from(self.cuts) + lines, document);
                 ToolState::Running
@@ -199,7 +218,13 @@ impl Tool for LoopCutTool {
         let typed = self.modal.typed();
         self.modal.status(match self.sliding {
             None => format!("Loop Cut: {} {typed} Wheel or digits: cuts, click: cut", self.cuts),
-            Some(_) => format!("Loop Cut: slide {:.4} {typed} Right button: in the middle", self.position),
+            Some(_) => format!(
+                "Loop Cut: slide {:.4} {typed} E: even ({}), F: from the other side ({}), right button: in the \
+                 middle",
+                self.position,
+                on(self.even),
+                on(self.flipped),
+            ),
         })
     }
 

@@ -70,6 +70,8 @@ pub(crate) enum ToolState {
     Running,
     /// It is over: what it showed is done.
     Confirmed,
+    /// As [`Confirmed`](Self::Confirmed), and what it made is turned or scaled next.
+    ConfirmedThen(TransformKind),
     /// It is over: the document is as it was.
     Cancelled,
 }

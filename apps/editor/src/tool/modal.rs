@@ -88,11 +88,13 @@ impl Modal {
                 return Step::Update;
             }
         }
+        // Undo or save in the middle of a tool is no lock of an axis.
+        let is_plain = !modifiers.contains(Modifiers::CTRL) && !modifiers.contains(Modifiers::ALT);
         match (logical.or(physical), repeat) {
             (Some(Key::Enter | Key::Space), false) => Step::Confirm,
             (Some(Key::Escape), false) => Step::Cancel,
             (Some(Key::Tab), false) if modifiers.contains(Modifiers::SHIFT) => Step::ToggleSnapping,
-            (Some(Key::Character(key)), false) => Step::Key(key),
+            (Some(Key::Character(key)), false) if is_plain => Step::Key(key),
             _ => Step::Nothing,
         }
     }
@@ -139,11 +141,12 @@ impl Modal {
         if self.numeric.is_active() { self.numeric.status() } else { String::new() }
     }
 
-    /// A line for the status bar: the tool's, and why nothing happens.
+    /// A line for the status bar: the tool's, and why nothing happens or how it ends.
     pub(crate) fn status(&self, text: String) -> String {
         match &self.refusal {
             Some(refusal) => format!("{text} — {refusal}"),
-            None => text,
+            None if self.confirms_on_release => format!("{text} — let go: done, right click: cancel"),
+            None => format!("{text} — click: done, right click: cancel"),
         }
     }
 

@@ -18,9 +18,8 @@ impl TransformTool {
             Some(offset) => offset,
             None => self.dragged_offset(view),
         };
-        let parts = axes.transpose() * offset;
-        self.text =
-            format!("Move ({:.4}, {:.4}, {:.4}) m, {:.4} m", parts.x, parts.y, parts.z, offset.length());
+        let [x, y, z] = (axes.transpose() * offset).to_array().map(shown);
+        self.text = format!("Move ({x}, {y}, {z}) m, {} m", shown(offset.length()));
         Ok(Translate {
             offset: offset.to_array(),
             space: TransformSpace::World,
@@ -54,6 +53,9 @@ impl TransformTool {
                 let found = self.targets.as_ref().and_then(|targets| targets.find(target, view, place));
                 self.snapped = found;
                 let Some(found) = found else { return offset };
+                let kept = self.kept.iter().filter(|&&kept| kept != found);
+                let (sum, count) = kept.fold((found, 1.0), |(sum, count), kept| (sum + *kept, count + 1.0));
+                let found = sum / count;
                 let source = self.source;
                 found
                     - source.unwrap_or_else(|| self.settings.snap.source.point(&self.selected, offset, found))
@@ -61,6 +63,12 @@ impl TransformTool {
         };
         within_lock(snapped, self.constraint.freedom(), &axes)
     }
+}
+
+/// With four digits after the point, and no minus before a zero.
+fn shown(metres: f64) -> String {
+    let text = format!("{metres:.4}");
+    if text == "-0.0000" { "0.0000".into() } else { text }
 }
 
 /// What a lock leaves of an offset.

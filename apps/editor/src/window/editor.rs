@@ -20,7 +20,7 @@ use super::pointing::Pointing;
 use super::recent::Recent;
 use super::recovery::Recovery;
 use super::settings::{self, Layout, ToolSettings, ViewState};
-use super::{actions, look, navigation};
+use super::{actions, look, navigation, placing};
 use crate::request::{Request, ToolKind, UiRequest};
 
 /// What the status line says until the next action.
@@ -230,6 +230,7 @@ impl Editor {
             UiRequest::Gizmo(kind) => self.tools.gizmo = kind,
             UiRequest::Orientation(orientation) => self.tools.orientation = orientation,
             UiRequest::LinkedAtPointer => self.select_linked(stage),
+            UiRequest::Parent { keeps_place } => self.set_parent(keeps_place),
             UiRequest::Rename => self.rename = Rename::of_active(&self.document),
             UiRequest::LargerText => stage.text_scale = (stage.text_scale * 1.25).min(4.0),
             UiRequest::SmallerText => stage.text_scale = (stage.text_scale / 1.25).max(0.5),
@@ -261,7 +262,11 @@ impl Editor {
             Some(reason) => self.message = Message::Refusal(format!("{}: {reason}", action.label)),
             None => {
                 let before = self.entries();
-                self.perform(stage, action.request());
+                let request = match action.request() {
+                    Request::Run(command) => Request::Run(placing::at_cursor(command, self.tools.cursor)),
+                    request => request,
+                };
+                self.perform(stage, request);
                 if action.makes_copies() && self.entries() > before {
                     self.start_tool(stage, ToolKind::Move);
                 }

@@ -128,8 +128,9 @@ impl Editor {
             Next::New => {
                 self.start_new();
                 self.look_at_all(stage);
-                // Room for what will be added.
-                stage.orbit.zoom(0.5);
+                // The view turns around what is modelled first, and has room for what will be added.
+                stage.orbit.set_target(DVec3::ZERO);
+                stage.orbit.zoom(0.55);
                 stage.set_home(stage.orbit);
             }
             Next::Open(path) => {

@@ -24,7 +24,7 @@ pub(crate) struct Place {
 impl Editor {
     /// The gizmo in a view, while something is selected that it could move.
     pub(crate) fn gizmo(&mut self, stage: &Stage, pane: &Pane) -> Option<Gizmo> {
-        let kind = self.tools.gizmo.filter(|_| self.tool.is_none())?;
+        let kind = self.tools.gizmo.filter(|_| self.tool.is_none() && self.view.overlays)?;
         let revision = self.document.revision();
         if self.place.known.as_ref().is_none_or(|(known, _)| *known != revision) {
             self.place.known = Some((revision, Selected::of(&self.document)));
@@ -39,7 +39,7 @@ impl Editor {
     /// Where the axes in the corner are; `None` where there is no room for them.
     pub(crate) fn axes_center(&self) -> Option<Pos2> {
         let free: Rect = self.free?;
-        let has_room = free.width() >= LEAST_VIEW && free.height() >= LEAST_VIEW;
+        let has_room = self.view.overlays && free.width() >= LEAST_VIEW && free.height() >= LEAST_VIEW;
         has_room.then(|| free.right_top() + vec2(-AXES, AXES))
     }
 

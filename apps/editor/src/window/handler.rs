@@ -6,6 +6,7 @@ use trigon_window::scene::camera::Projector;
 use trigon_window::scene::math::DVec2;
 use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton, Stage, Taken, egui};
 
+use super::actions::CONTEXT_MENU;
 use super::editor::Editor;
 use super::loading::Loading;
 use super::modal::Running;
@@ -85,6 +86,10 @@ impl Editor {
             Input::Clicked(PointerButton::Left) => self.clicked(stage, hands),
             Input::Clicked(PointerButton::Right) if hands.modifiers.contains(Modifiers::SHIFT) => {
                 self.place_cursor(stage, hands)
+            }
+            Input::Clicked(PointerButton::Right) => {
+                self.popup = Some(interface::Popup::new(CONTEXT_MENU));
+                Taken::Yes
             }
             Input::FocusLost => {
                 self.click = None;

@@ -8,6 +8,7 @@ use trigon_window::Stage;
 use trigon_window::scene::{Lighting, Reflection};
 
 use super::editor::Editor;
+use super::surfaces::Surfaces;
 use crate::request::DisplayMode;
 use crate::show::show;
 
@@ -17,14 +18,18 @@ pub(crate) struct Look {
     marks: DisplayMarks,
     /// The only objects that the stage shows.
     local: Option<BTreeSet<NodeId>>,
+    surfaces: Surfaces,
 }
 
 /// Shows the document as it is now.
 pub(crate) fn onto_stage(editor: &mut Editor, stage: &mut Stage) {
     let changed = show(&mut editor.document, &mut stage.scene);
-    let is_same_part = editor.look.local == editor.view.local;
-    if !is_same_part || (changed.nodes && editor.view.local.is_some()) {
-        show_locally(editor, stage);
+    let (local, surfaces) = (&editor.view.local, Surfaces::of(editor.view.display));
+    let is_same_part = editor.look.local == *local;
+    let is_same = is_same_part && editor.look.surfaces == surfaces;
+    let is_own = local.is_none() && surfaces == Surfaces::Own;
+    if !is_same || (changed.nodes && !is_own) {
+        show_partly(editor, stage, surfaces);
     }
     if changed.anything || !is_same_part {
         editor.pointing.forget();
@@ -33,15 +38,18 @@ pub(crate) fn onto_stage(editor: &mut Editor, stage: &mut Stage) {
     set_look(editor, stage);
 }
 
-/// Hides what the local view leaves out. Only the stage's nodes are changed, which follow the
-/// document's as a whole.
-fn show_locally(editor: &mut Editor, stage: &mut Stage) {
+/// Hides what the local view leaves out, and gives surfaces the materials of the display mode. Only the
+/// stage's nodes and materials are changed, which follow the document's as a whole.
+fn show_partly(editor: &mut Editor, stage: &mut Stage, surfaces: Surfaces) {
     stage.scene.swap_parts(&mut editor.document.nodes().parts());
     editor.look.local.clone_from(&editor.view.local);
-    let Some(only) = &editor.view.local else { return };
-    for (id, node) in stage.scene.nodes_mut() {
-        node.visible &= node.mesh.is_none() || only.contains(&id);
+    editor.look.surfaces = surfaces;
+    if let Some(only) = &editor.view.local {
+        for (id, node) in stage.scene.nodes_mut() {
+            node.visible &= node.mesh.is_none() || only.contains(&id);
+        }
     }
+    surfaces.dress(&mut stage.scene);
 }
 
 /// Style, lights and marks of the mode that the editor is in.

@@ -4,6 +4,7 @@
 //! carries it out on the document; [`look`] brings the document onto the stage.
 
 mod actions;
+mod button_start;
 mod dialog;
 mod editor;
 mod files;
@@ -18,10 +19,12 @@ mod navigation;
 mod open_file;
 mod panes;
 mod pick;
+mod placing;
 mod pointing;
 mod recent;
 mod recovery;
 mod settings;
+mod surfaces;
 #[cfg(test)]
 mod tests;
 

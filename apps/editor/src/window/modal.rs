@@ -6,6 +6,7 @@ use trigon_edit::scene::camera::AxisView;
 use trigon_edit::{SelectAction, Shear};
 use trigon_window::{Hands, Input, InputOwner, Key, Modifiers, Pane, PointerButton, Stage, Taken};
 
+use super::button_start::{ButtonStart, Passed};
 use super::editor::{Editor, Message};
 use super::panes::{in_pane, pane_of, tool_view};
 use super::pick::Click;
@@ -25,6 +26,8 @@ pub(crate) struct Running {
     is_navigating: bool,
     /// Of the view that it was started in, in whose pixels it counts.
     side: Option<AxisView>,
+    /// How far it is, if a button or a menu started it.
+    start: ButtonStart,
 }
 
 enum What {
@@ -36,7 +39,7 @@ enum What {
 
 impl Running {
     fn new(kind: ToolKind, what: What, pane: &Pane) -> Self {
-        Self { kind, what, pressed: None, is_navigating: false, side: pane.side }
+        Self { kind, what, pressed: None, is_navigating: false, side: pane.side, start: ButtonStart::Over }
     }
 
     /// The side that is seen in the view that it was started in; `None` for the camera's own.
@@ -47,7 +50,7 @@ impl Running {
     /// Keys and numbers for the status line.
     pub(crate) fn status(&self) -> String {
         match &self.what {
-            What::Tool(tool) => tool.status(),
+            What::Tool(tool) => self.start.hint().to_owned() + &tool.status(),
             What::LoopCut(tool) => tool.status(),
             What::Gesture(gesture) => gesture.status().into(),
         }
@@ -93,7 +96,7 @@ impl Running {
 
     /// Whether it follows how far the pointer goes, and not where it is in the picture.
     pub(crate) fn goes_on_beyond_borders(&self) -> bool {
-        matches!(self.what, What::Tool(_))
+        matches!(self.what, What::Tool(_)) && !matches!(self.start, ButtonStart::Waits)
     }
 
     /// The pointer was put somewhere else in its view: that was no movement.
@@ -138,7 +141,11 @@ impl Editor {
         }
         let pane = hands.pointer.map_or_else(|| pane_of(stage, None), |at| stage.pane_at(at));
         match self.started((stage, &pane), kind, in_pane(hands, &pane)) {
-            Some(what) => self.follow(stage, Running::new(kind, what, &pane)),
+            Some(what) => {
+                let waits = matches!(what, What::Tool(_));
+                let start = if waits { ButtonStart::of(self, stage, hands) } else { ButtonStart::Over };
+                self.follow(stage, Running { start, ..Running::new(kind, what, &pane) });
+            }
             None => self.message = Message::Refusal(format!("{kind:?}: select something first")),
         }
     }
@@ -215,7 +222,7 @@ impl Editor {
     pub(crate) fn tool_input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
         let Some(mut running) = self.tool.take() else { return Taken::No };
         let pane = pane_of(stage, running.side);
-        let hands = in_pane(hands, &pane);
+        let (in_window, hands) = (hands, in_pane(hands, &pane));
         if running.leaves_to_camera(input, hands) {
             running.is_navigating = true;
             self.tool = Some(running);
@@ -226,6 +233,21 @@ impl Editor {
         {
             running.pointer_jumped(to);
         }
+        let confirm = Input::Pressed(PointerButton::Left);
+        let input = match running.start.pass(self, stage, input, in_window) {
+            Passed::On => input,
+            Passed::Confirms => &confirm,
+            Passed::Cancels => &Input::Pressed(PointerButton::Right),
+            passed => {
+                if let Passed::Begins(at) = passed {
+                    let pane = stage.pane_at(at);
+                    running.side = pane.side;
+                    running.pointer_jumped(at - pane.area.origin());
+                }
+                self.tool = Some(running);
+                return Taken::Yes;
+            }
+        };
         let view = tool_view(stage, &pane);
         let before = self.entries();
         let state = match &mut running.what {
@@ -247,6 +269,11 @@ impl Editor {
         match state {
             ToolState::Running => self.tool = Some(running),
             ToolState::Confirmed | ToolState::Cancelled => self.tool_ended(stage, &running, before),
+            ToolState::ConfirmedThen(next) => {
+                self.tool_ended(stage, &running, before);
+                let is_turn = next == TransformKind::Rotate;
+                self.start_tool(stage, if is_turn { ToolKind::Rotate } else { ToolKind::Scale });
+            }
         }
         self.show(stage);
         Taken::Yes

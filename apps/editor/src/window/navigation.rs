@@ -1,8 +1,8 @@
 //! Changes of the view that come from keys and menus; drags are the window's own.
 
-use trigon_edit::Document;
-use trigon_edit::scene::Scene;
-use trigon_window::scene::camera::{DEFAULT_MARGIN, Orbit};
+use trigon_edit::scene::NodeId;
+use trigon_edit::{Document, ObjectName, Rotation, SetTransform, TransformSpace};
+use trigon_window::scene::camera::{Camera, DEFAULT_MARGIN, Orbit};
 use trigon_window::scene::math::{DVec2, DVec3, Vec3};
 use trigon_window::{Area, Stage};
 
@@ -26,10 +26,12 @@ pub(crate) fn apply(editor: &mut Editor, stage: &mut Stage, request: ViewRequest
         ViewRequest::FrameAll => frame_all(editor, stage),
         ViewRequest::ToggleLocal => toggle_local(editor, stage),
         ViewRequest::Camera => look_through_camera(editor, stage),
+        ViewRequest::CameraToView => camera_to_view(editor, stage),
         ViewRequest::Display(mode) => editor.view.display = mode,
         ViewRequest::ToggleWireframe => toggle_wireframe(editor),
         ViewRequest::ToggleFourViews => editor.toggle_four_views(stage),
         ViewRequest::ToggleXRay => editor.view.x_ray = !editor.view.x_ray,
+        ViewRequest::ToggleOverlays => editor.view.overlays = !editor.view.overlays,
     }
 }
 
@@ -55,9 +57,12 @@ fn frame_selected(editor: &mut Editor, stage: &mut Stage) {
     }
 }
 
-/// Takes the whole scene into the picture, seen from the same side.
+/// Takes the whole scene into the picture with its lights, cameras and empties, seen from the same side.
 pub(crate) fn frame_all(editor: &Editor, stage: &mut Stage) {
-    let points: Vec<DVec3> = stage.scene.visible_points().collect();
+    let scene = editor.document.nodes();
+    let drawn_over = scene.nodes().iter().filter(|(_, node)| node.visible && node.mesh.is_none());
+    let places = drawn_over.map(|(id, _)| scene.world_transform(id).translation);
+    let points: Vec<DVec3> = stage.scene.visible_points().chain(places).collect();
     frame(editor, stage, &points);
 }
 
@@ -127,11 +132,34 @@ fn look_through_camera(editor: &mut Editor, stage: &mut Stage) {
         stage.orbit = before;
         return;
     }
-    let scene: &Scene = editor.document.nodes();
-    let Some((_, camera)) = scene.cameras().into_iter().next() else {
-        editor.message = Message::Refusal("Camera: the scene has no camera".into());
+    let Some((_, camera)) = camera(&editor.document) else {
+        editor.message = Message::Refusal("Camera: the scene has no camera; Add has one".into());
         return;
     };
     editor.view.before_camera = Some(stage.orbit);
     stage.orbit = Orbit::from_camera(&camera, stage.orbit.distance(), DVec3::Y);
+}
+
+/// The active object, if it is a camera, or else the first camera of the scene.
+fn camera(document: &Document) -> Option<(NodeId, Camera)> {
+    let (cameras, active) = (document.nodes().cameras(), document.selection().active);
+    let is_active = |(id, _): &&(NodeId, Camera)| Some(*id) == active;
+    cameras.iter().find(is_active).or(cameras.first()).copied()
+}
+
+/// The camera goes where the view looks from, and the view looks through it.
+fn camera_to_view(editor: &mut Editor, stage: &mut Stage) {
+    let Some((id, _)) = camera(&editor.document) else {
+        editor.message = Message::Refusal("Camera to View: the scene has no camera; Add has one".into());
+        return;
+    };
+    let seen = stage.camera();
+    let command = SetTransform {
+        object: Some(ObjectName::of(id)),
+        space: TransformSpace::World,
+        location: Some(seen.position.to_array()),
+        rotation: Some(Rotation::Quaternion { xyzw: seen.orientation.to_array() }),
+        scale: None,
+    };
+    editor.run(command.into());
 }

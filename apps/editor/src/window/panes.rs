@@ -3,8 +3,9 @@
 //! The window has one scene and one camera; `trigon_window::Pane` says where its views are. A tool keeps to the
 //! view that it was started in, and counts in that view's own pixels.
 
-use trigon_window::egui::{Align2, FontId, Painter, Rect, Stroke, Visuals, vec2};
+use trigon_window::egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, Visuals, pos2, vec2};
 use trigon_window::scene::camera::{AxisView, Viewport};
+use trigon_window::scene::math::DVec2;
 use trigon_window::{Area, Hands, Pane, Stage};
 
 use super::editor::Editor;
@@ -34,6 +35,12 @@ pub(crate) fn pane_of(stage: &Stage, side: Option<AxisView>) -> Pane {
 /// The same hands in the pixels of a view.
 pub(crate) fn in_pane(hands: Hands, pane: &Pane) -> Hands {
     Hands { pointer: hands.pointer.map(|at| at - pane.area.origin()), ..hands }
+}
+
+/// The point of the interface at physical pixels of the window.
+pub(crate) fn point(stage: &Stage, at: DVec2) -> Pos2 {
+    let at = at / points(stage);
+    pos2(at.x as f32, at.y as f32)
 }
 
 /// Physical pixels to a point of the interface.

@@ -62,7 +62,7 @@ impl ToolSettings {
 }
 
 /// How the document is seen, apart from the camera.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct ViewState {
     pub(crate) display: DisplayMode,
     /// What was shown before the wireframe.
@@ -72,6 +72,15 @@ pub(crate) struct ViewState {
     pub(crate) local: Option<BTreeSet<NodeId>>,
     /// The view that the scene's camera replaced.
     pub(crate) before_camera: Option<Orbit>,
+    /// Whether what lies over the picture is drawn: grid, axes, lights, cameras, the gizmo.
+    pub(crate) overlays: bool,
+}
+
+impl Default for ViewState {
+    fn default() -> Self {
+        let (display, before_wireframe) = (DisplayMode::default(), DisplayMode::default());
+        Self { display, before_wireframe, x_ray: false, local: None, before_camera: None, overlays: true }
+    }
 }
 
 /// Which parts of the window are shown.

@@ -1,6 +1,9 @@
 //! The window's interface by labels and keys, drawn by the window's own painter.
 
 mod four_views;
+mod keys;
+mod rows;
+mod sessions;
 mod tools;
 
 use egui_kittest::Harness;

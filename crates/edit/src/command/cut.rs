@@ -52,6 +52,11 @@ pub struct LoopCut {
     /// How far they are moved together: −1 to 1 from side to side, 0 in the middle.
     #[schemars(range(min = -1.0, max = 1.0))]
     pub position: f64,
+    /// Whether the loops have the same distances on all edges of the ring, as on the given one, instead of the
+    /// same parts of each.
+    pub even: bool,
+    /// Whether even distances count from the other side.
+    pub flipped: bool,
     /// The number of the edge; the last selected one of each mesh if it is not given.
     pub edge: Option<u32>,
     /// The object whose edge is meant, if several are edited.
@@ -60,7 +65,7 @@ pub struct LoopCut {
 
 impl Default for LoopCut {
     fn default() -> Self {
-        Self { cuts: 1, position: 0.0, edge: None, object: None }
+        Self { cuts: 1, position: 0.0, even: false, flipped: false, edge: None, object: None }
     }
 }
 
@@ -88,7 +93,12 @@ impl LoopCut {
 impl Action for LoopCut {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let kind = change.selection().kind();
-        let settings = LoopCutSettings { cuts: self.cuts as usize, position: self.position };
+        let settings = LoopCutSettings {
+            cuts: self.cuts as usize,
+            position: self.position,
+            even: self.even,
+            flipped: self.flipped,
+        };
         if let Some(edge) = self.edge {
             let edges = self.cut_given(change, edge, &settings)?;
             return Ok(Outcome::counted("cut", edges, ["edge", "edges"]));

@@ -134,12 +134,24 @@ impl Action for AssignMaterial {
 /// Hides what is selected; it is selected no more.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-pub struct Hide {}
+pub struct Hide {
+    /// Whether what is not selected is hidden instead.
+    pub unselected: bool,
+}
 
 impl Action for Hide {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
-        let kind = change.selection().kind();
+        let (kind, others) = (change.selection().kind(), self.unselected);
         change.edit_selected("hiding", "something selected", |mesh, selection| {
+            if others {
+                let (vertices, faces) = (selection.vertices(mesh, kind), selection.faces(mesh, kind));
+                match kind {
+                    ElementKind::Face => mesh.hide_faces(&but(mesh.faces(), &faces))?,
+                    // Hidden edges would take the selected ones along, whose faces go with them.
+                    _ => mesh.hide_vertices(&but(mesh.vertices(), &vertices))?,
+                };
+                return Ok(AfterEdit::Keep);
+            }
             match kind {
                 ElementKind::Vertex => mesh.hide_vertices(&selection.vertices(mesh, kind))?,
                 ElementKind::Edge => mesh.hide_edges(&selection.edges(mesh, kind))?,
@@ -149,6 +161,11 @@ impl Action for Hide {
         })?;
         Ok(Outcome::silent())
     }
+}
+
+/// All elements but some, which are in ascending order.
+fn but<T: Ord>(all: impl Iterator<Item = T>, left_out: &[T]) -> Vec<T> {
+    all.filter(|element| left_out.binary_search(element).is_err()).collect()
 }
 
 /// Shows all that is hidden of the meshes that are edited.

@@ -6,6 +6,8 @@
 //! parameters.
 
 mod bevel;
+mod camera;
+mod clear_transform;
 mod cut;
 mod delete;
 mod dissolve;
@@ -44,6 +46,7 @@ mod texture;
 mod texture_slot;
 mod transform;
 mod uvs;
+mod visibility;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -52,6 +55,8 @@ use crate::document::Change;
 use crate::error::EditError;
 
 pub use bevel::Bevel;
+pub use camera::AddCamera;
+pub use clear_transform::ClearTransform;
 pub use cut::{LoopCut, SlideEdges, SlideVertices, Subdivide, edge_towards};
 pub use delete::{Delete, DeleteObjects, Deleted};
 pub use dissolve::{Dissolve, DissolveFlat};
@@ -94,6 +99,7 @@ pub use transform::{
     Proportional, ProportionalShape, PushPull, ResetVertices, Shear, ShrinkFatten, ToSphere,
 };
 pub use uvs::{ProjectUvs, ProjectUvsOnBox};
+pub use visibility::{HideOthers, RevealObjects};
 
 /// What a command does to a document.
 pub(crate) trait Action {
@@ -271,7 +277,7 @@ commands! {
     Mirror("Mirror", false),
     /// Makes faces symmetric.
     Symmetrize("Symmetrize", false),
-    /// Joins two loops of edges by faces.
+    /// Joins two loops of edges by faces; selected faces are removed and their outlines joined.
     Bridge("Bridge Edge Loops", false),
     /// Joins vertices by edges through faces.
     ConnectVertices("Connect Vertices", false),
@@ -289,16 +295,24 @@ commands! {
     AddEmpty("Add Empty", false),
     /// Adds a light.
     AddLight("Add Light", false),
+    /// Adds a camera.
+    AddCamera("Add Camera", false),
     /// Gives an object another name.
     RenameObject("Rename", false),
     /// Shows or hides objects.
     ShowObjects("Show/Hide Objects", false),
+    /// Hides all objects but the selected ones.
+    HideOthers("Hide Others", false),
+    /// Shows all hidden objects.
+    RevealObjects("Show Hidden Objects", false),
     /// Hangs objects on another one.
     SetParent("Set Parent", false),
     /// Lists an object at another place.
     ReorderObject("Reorder", false),
     /// Places an object exactly.
     SetTransform("Set Transform", false),
+    /// Takes placements back.
+    ClearTransform("Clear Transform", false),
     /// Changes a light.
     SetLight("Set Light", false),
     /// Gives an object a new material.

@@ -121,7 +121,7 @@ impl Action for AddEmpty {
     }
 }
 
-fn select_only(change: &mut Change<'_>, id: NodeId) {
+pub(super) fn select_only(change: &mut Change<'_>, id: NodeId) {
     let selection = change.selection_mut();
     selection.objects = [id].into();
     selection.active = Some(id);

@@ -44,7 +44,7 @@ impl Action for SetTransform {
 
 impl SetTransform {
     /// A placement with what is given here.
-    fn placed(&self, transform: Transform) -> Transform {
+    pub(super) fn placed(&self, transform: Transform) -> Transform {
         let mut placed = transform;
         if self.rotation.is_some() || self.scale.is_some() {
             let (scale, rotation, translation) = parts(&transform);

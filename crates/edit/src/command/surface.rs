@@ -133,7 +133,8 @@ impl Action for Fill {
     }
 }
 
-/// Joins two selected loops or chains of edges by a band of faces.
+/// Joins two selected loops or chains of edges by a band of faces. Selected faces are removed, and their outlines
+/// are joined: so two faces become a handle or a hole.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bridge {}
@@ -142,7 +143,11 @@ impl Action for Bridge {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let kind = change.selection().kind();
         change.edit_selected("bridging", "two loops of edges", |mesh, selection| {
-            let made = mesh.bridge_edges(&selection.edges(mesh, kind))?;
+            let (faces, edges) = (selection.faces(mesh, kind), selection.edges(mesh, kind));
+            let made = match &faces[..] {
+                [] => mesh.bridge_edges(&edges)?,
+                faces => mesh.bridge_faces(faces, &edges)?,
+            };
             Ok(AfterEdit::Select(Elements::Faces(made.faces)))
         })?;
         Ok(Outcome::silent())

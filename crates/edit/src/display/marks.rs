@@ -106,6 +106,7 @@ fn outline(document: &Document) -> Option<Outline> {
 struct Sets {
     /// Of objects that are not edited.
     plain_edges: ElementSet,
+    plain_vertices: ElementSet,
     active: [ElementSet; 3],
     selected: [ElementSet; 3],
     sharp: ElementSet,
@@ -125,7 +126,7 @@ fn edit_marks(document: &Document) -> Marks {
         let Some(mesh) = content.mesh else { continue };
         match document.selection().of(mesh) {
             Some(selected) => sets.add(document, node, mesh, selected),
-            None => sets.hide_edges(scene, node, mesh),
+            None => sets.hide_elements(scene, node, mesh),
         }
     }
     sets.into_marks()
@@ -153,12 +154,16 @@ impl Sets {
         self.creases.add(node, numbered(&marked.creases));
     }
 
-    /// Only what is edited shows its edges.
-    fn hide_edges(&mut self, scene: &Scene, node: NodeId, id: MeshId) {
+    /// Only what is edited shows its edges and vertices.
+    fn hide_elements(&mut self, scene: &Scene, node: NodeId, id: MeshId) {
         let Some(asset) = scene.meshes().get(id) else { return };
-        let mut all = FixedBitSet::with_capacity(asset.mesh().edge_count());
-        all.insert_range(..);
-        self.plain_edges.add(node, all);
+        let all = |count: usize| {
+            let mut all = FixedBitSet::with_capacity(count);
+            all.insert_range(..);
+            all
+        };
+        self.plain_edges.add(node, all(asset.mesh().edge_count()));
+        self.plain_vertices.add(node, all(asset.mesh().vertex_count()));
     }
 
     /// In the order of priority.
@@ -182,7 +187,11 @@ impl Sets {
         ];
         let faces =
             [mark(active_faces, ACTIVE_FACE, ACTIVE_FACE_OPACITY), mark(faces, SELECTED_FACE, FACE_OPACITY)];
-        let vertices = [mark(active_vertices, ACTIVE, 1.0), mark(vertices, SELECTED_VERTEX, 1.0)];
+        let vertices = [
+            mark(self.plain_vertices, [0; 3], 0.0),
+            mark(active_vertices, ACTIVE, 1.0),
+            mark(vertices, SELECTED_VERTEX, 1.0),
+        ];
         Marks {
             edges: edges.into_iter().flatten().collect(),
             faces: faces.into_iter().flatten().collect(),

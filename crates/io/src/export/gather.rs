@@ -8,7 +8,7 @@ use trigon_scene::{MaterialId, Node, NodeId, Scene};
 
 use super::{ExportOptions, FaceExport, Precision};
 use crate::error::Place;
-use crate::gltf::Loss;
+use crate::loss::Loss;
 use crate::rebase::offset_for;
 
 /// What is to be written.

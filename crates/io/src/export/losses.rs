@@ -1,8 +1,8 @@
 //! What of a scene a format cannot hold, as data.
 
 use super::gather::place;
-use super::{Gathered, Object, loss};
-use crate::gltf::Loss;
+use super::{Gathered, Object};
+use crate::loss::Loss;
 
 /// Which single vertices that are to be seen a format holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub(super) fn add(gathered: &mut Gathered<'_>, holds: &Holds) {
     let scene = gathered.scene;
     add_of_nodes(gathered);
     let mut losses = Vec::new();
-    let mut add = |is_lost: bool, what: &str| losses.extend(is_lost.then(|| loss(what)));
+    let mut add = |is_lost: bool, what: &str| losses.extend(is_lost.then(|| Loss::of_scene(what)));
     let any = |has: fn(&Object<'_>) -> bool| gathered.objects.iter().any(has);
     add(!holds.materials && scene.materials.iter().next().is_some(), "materials and their textures");
     add(!holds.objects && gathered.objects.len() > 1, "which faces belong to which object: all become one");

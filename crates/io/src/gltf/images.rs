@@ -17,7 +17,8 @@ use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::folder::{Folder, Lookup};
 use crate::import::Import;
 use crate::layers::Role;
-use crate::textures::{PictureBytes, Purpose, Request, add_textures};
+use crate::texture_request::{PictureBytes, Purpose, Request};
+use crate::textures::add_textures;
 
 /// The textures that images of the document became: one for colours, one for
 /// data, as they are used.

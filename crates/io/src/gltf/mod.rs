@@ -21,6 +21,7 @@ mod hash;
 mod hierarchy;
 mod images;
 mod instances;
+mod keep;
 mod lights;
 mod materials;
 mod mesh;
@@ -52,7 +53,7 @@ use reader::Reader;
 pub use source::GltfSource;
 pub(crate) use source::SourceDraft;
 pub(crate) use write::mime_type;
-pub use write::{Loss, NativeDocument, NativeFile, encode_glb, write_glb};
+pub use write::{NativeDocument, NativeFile, encode_glb, write_glb};
 
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::import::Import;
@@ -91,15 +92,15 @@ fn import_parts(import: &mut Import<'_>, json: &[u8], binary: Option<&[u8]>) -> 
         meshes.iter().flatten().flat_map(|mesh| mesh.materials.iter().copied()).collect();
     let used: Vec<Option<usize>> = used.into_iter().collect();
     let materials = materials::add_materials(import, &document, &mut buffers, &used)?;
-    let primitives = source::take_primitives(import, &mut meshes);
+    let primitives = keep::take_primitives(import, &mut meshes);
     let placed = nodes::add_nodes(import, &document, &hierarchy, meshes, &materials);
-    source::keep_placed(import, &placed, primitives, &materials);
-    source::keep_scene(import, hierarchy.scene);
+    keep::keep_placed(import, &placed, primitives, &materials);
+    keep::keep_scene(import, hierarchy.scene);
     let mut reader = Reader { root, buffers, spent };
     nodes::add_instances(import, &mut reader, &placed)?;
     skins::add_skins(import, &mut reader, &placed)?;
     animations::add_animations(import, &mut reader, &placed)?;
-    source::keep_file(import, json, &placed, &mut reader.buffers);
+    keep::keep_file(import, json, &placed, &mut reader.buffers);
     Ok(())
 }
 

@@ -7,7 +7,7 @@ use serde_json::{Map, Value};
 use trigon_math::glam::{Affine2, Mat2};
 use trigon_math::{Vec2, elementary};
 
-use crate::textures::Purpose;
+use crate::texture_request::Purpose;
 
 /// What a texture of a material says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

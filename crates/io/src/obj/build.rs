@@ -7,6 +7,7 @@ use trigon_math::{DVec3, Vec2, Vec3, Vec4, color::srgb_to_linear};
 use trigon_mesh::{Attributes, Mesh, MeshBuilder};
 
 use super::content::Content;
+use super::follow::{Follow, STRIDE};
 use super::index::NONE;
 use super::parse::Parsed;
 use super::passed::Passed;
@@ -33,12 +34,6 @@ struct Span {
     material: Option<u32>,
     smoothing: u32,
 }
-
-/// Is told which share of the elements has been built, and may end it.
-pub(super) type Follow<'a> = &'a dyn Fn(f32) -> Result<(), LoadError>;
-
-/// So many elements are built before [`Follow`] is asked again: some milliseconds.
-pub(super) const STRIDE: usize = 1 << 17;
 
 /// Cuts the file into parts. The offset is to be added to every position.
 pub(crate) fn build_parts(

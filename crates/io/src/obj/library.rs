@@ -9,6 +9,7 @@ use trigon_scene::{Material, MaterialId};
 use super::mtl::{MapKind, MtlMaterial, parse_mtl};
 use super::oddities::Oddity;
 use super::record::Record;
+use super::respelled::note_respelled;
 use super::textures::Textures;
 use crate::error::{LoadError, Place};
 use crate::folder::{Found, Lookup};
@@ -147,12 +148,4 @@ fn find_libraries(import: &mut Import<'_>, line: u64, names: &str) -> Vec<(Strin
         (name, result)
     };
     each.into_iter().map(&mut read).collect()
-}
-
-/// `from` and `place` are the file and the line that have the name.
-pub(super) fn note_respelled(import: &mut Import<'_>, name: &str, found: &Found, from: &Path, place: Place) {
-    if found.respelled {
-        let what = format!("{name} was not found; \"{}\" is used instead", found.path.display());
-        import.warnings.push_about(from, place, what, "correct the name there");
-    }
 }

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use trigon_math::Vec3;
 use trigon_mesh::Mesh;
 
-use super::build::STRIDE;
+use super::follow::STRIDE;
 use crate::error::LoadError;
 
 /// Fills in the normals of smooth faces where none is given (zero). Faces of

@@ -10,15 +10,16 @@ use trigon_math::glam::Affine2;
 use trigon_raster::{Sampler, Wrap};
 use trigon_scene::{Material, NormalMap, Shading, TextureBinding, TextureId};
 
-use super::library::note_respelled;
 use super::map_options::MapStatement;
 use super::mtl::{Map, MapKind, MtlMaterial};
+use super::respelled::note_respelled;
 use crate::error::{LoadError, Place};
 use crate::folder::{Found, Lookup};
 use crate::import::Import;
 use crate::layers::Role;
 use crate::refusal::Refusal;
-use crate::textures::{PictureBytes, Purpose, Request, add_textures};
+use crate::texture_request::{PictureBytes, Purpose, Request};
+use crate::textures::add_textures;
 
 /// The textures that a material of the scene can have from MTL.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -1,9 +1,11 @@
 //! The first lines of an OFF: what vertices have, and how many vertices and faces there are.
 
-use super::REMEDY;
 use crate::error::{LoadError, LoadErrorKind, Place};
 use crate::import::Import;
 use crate::rows::{Rows, quoted, words};
+
+/// What helps against most faults.
+pub(super) const REMEDY: &str = "mend the line, or export the model again";
 
 #[derive(Debug, Default)]
 pub(super) struct Header {

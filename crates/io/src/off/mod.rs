@@ -12,7 +12,7 @@ use std::borrow::Cow;
 
 use trigon_math::{DVec3, Vec2, Vec4};
 
-use self::header::{Header, read_header};
+use self::header::{Header, REMEDY, read_header};
 use self::rows::Numbers;
 use crate::error::{LoadError, Place};
 use crate::import::Import;
@@ -24,8 +24,6 @@ use crate::rows::Rows;
 
 pub(crate) use header::is_off;
 pub(crate) use write::write_off;
-
-const REMEDY: &str = "mend the line, or export the model again";
 
 /// So many rows are read before the caller is asked again whether to go on.
 const STRIDE: u64 = 1 << 16;

@@ -3,10 +3,10 @@
 use trigon_math::Vec2;
 
 use super::header::{Element, Kind};
+use super::outcome::{Outcome, report, skip, stopped};
 use super::scalar::Scalar;
 use super::values::{Fault, Values};
 use super::vertices::{color, full_channel};
-use super::{Outcome, report, skip, stopped};
 use crate::import::Import;
 use crate::polygons::{Polygons, most_corners};
 

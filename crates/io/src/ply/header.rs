@@ -1,16 +1,10 @@
 //! The header of a PLY: which elements there are, how many, and what each has.
 
-use super::scalar::Scalar;
+use super::scalar::{ByteOrder, Scalar};
 use crate::error::{LoadError, Place};
 use crate::import::Import;
 use crate::polygons::check_vertices;
 use crate::rows::{quoted, words};
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ByteOrder {
-    Little,
-    Big,
-}
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {

@@ -11,6 +11,7 @@
 
 mod faces;
 mod header;
+mod outcome;
 mod scalar;
 mod strips;
 mod values;
@@ -20,14 +21,15 @@ mod write;
 use std::borrow::Cow;
 
 use self::faces::{read_edges, read_faces};
-use self::header::{Element, Encoding, Header, read_header};
+use self::header::{Encoding, Header, read_header};
+use self::outcome::skip;
 use self::strips::read_strips;
-use self::values::{Binary, Ended, Fault, Text, Values};
+use self::values::{Binary, Ended, Text, Values};
 use self::vertices::read_vertices;
-use crate::error::{LoadError, LoadErrorKind};
+use crate::error::LoadError;
 use crate::import::Import;
 use crate::options::Stage;
-use crate::polygons::{Polygons, add_polygons, too_many_corners};
+use crate::polygons::{Polygons, add_polygons};
 
 pub(crate) use write::write_ply;
 
@@ -53,22 +55,6 @@ pub(crate) fn import_ply(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Resul
     }
     drop(bytes);
     add_polygons(import, vec![polygons])
-}
-
-/// An element to its end, or to that of the file.
-type Outcome = Result<Result<(), Ended>, LoadError>;
-
-/// So many rows are read before the caller is asked again whether to go on.
-const STRIDE: u64 = 1 << 16;
-
-/// Tells how far reading has come.
-fn report(import: &Import<'_>, row: u64, values: &impl Values) -> Result<(), LoadError> {
-    if row.is_multiple_of(STRIDE) {
-        let (done, left) = values.progress();
-        let share = 0.9 * done as f32 / (done + left).max(1) as f32;
-        import.options.report(import.path, Stage::Geometry, share)?;
-    }
-    Ok(())
 }
 
 fn read_elements<V: Values>(
@@ -114,46 +100,4 @@ fn read_elements<V: Values>(
         "export the model again",
     );
     Ok(())
-}
-
-/// Passes over an element that means nothing here.
-fn skip<V: Values>(import: &Import<'_>, element: &Element, values: &mut V) -> Outcome {
-    // Rows without properties take no room, however many there are said to be.
-    let rows = if element.properties.is_empty() { 0 } else { element.count };
-    for row in 0..rows {
-        report(import, row, values)?;
-        if let Err(fault) = skip_row(element, values) {
-            return stopped(import, element, row, values, fault);
-        }
-    }
-    Ok(Ok(()))
-}
-
-fn skip_row<V: Values>(element: &Element, values: &mut V) -> Result<(), Fault> {
-    values.begin_row()?;
-    element.properties.iter().try_for_each(|property| values.skip(property.kind))?;
-    values.end_row();
-    Ok(())
-}
-
-/// What becomes of an element of which a row cannot be read.
-fn stopped<V: Values>(import: &Import<'_>, element: &Element, row: u64, values: &V, fault: Fault) -> Outcome {
-    match fault {
-        Fault::Ended => Ok(Err(Ended { rows: row })),
-        Fault::Bad(what) => Err(broken(import, element, row, values, &what)),
-        Fault::TooMany => Err(too_many_corners(import)),
-    }
-}
-
-/// The error of a row that contradicts its header.
-fn broken(import: &Import<'_>, element: &Element, row: u64, values: &impl Values, what: &str) -> LoadError {
-    let what = format!("{} {row} {what}", element.name);
-    LoadError::malformed(import.path, what, "export the model again").at(values.place())
-}
-
-/// The error of a file that ends before its vertices do.
-fn cut_off(import: &Import<'_>, element: &Element, rows: u64, values: &impl Values) -> LoadError {
-    let what = format!("the header claims {} vertices, and the file ends after {rows}", element.count);
-    LoadError::new(LoadErrorKind::Malformed, import.path, what, "copy or export the file again")
-        .at(values.place())
 }

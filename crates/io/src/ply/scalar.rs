@@ -1,6 +1,10 @@
 //! The types of numbers in a PLY.
 
-use super::header::ByteOrder;
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ByteOrder {
+    Little,
+    Big,
+}
 
 /// A type of number. All values of all types are f64 values, too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 
 use super::faces::{INDICES, checked};
 use super::header::{Element, Kind};
+use super::outcome::{Outcome, report, skip, stopped};
 use super::values::{Fault, Values};
-use super::{Outcome, report, skip, stopped};
 use crate::import::Import;
 use crate::polygons::{Polygons, most_corners};
 

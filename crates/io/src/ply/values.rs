@@ -1,7 +1,7 @@
 //! The numbers of a PLY, row by row, in text and in both byte orders.
 
-use super::header::{ByteOrder, Kind};
-use super::scalar::Scalar;
+use super::header::Kind;
+use super::scalar::{ByteOrder, Scalar};
 use crate::error::Place;
 use crate::numbers::number;
 use crate::rows::{Rows, words};

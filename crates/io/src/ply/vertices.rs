@@ -3,8 +3,8 @@
 use trigon_math::{DVec3, Vec2, Vec3, Vec4};
 
 use super::header::{Element, Kind};
+use super::outcome::{cut_off, report, stopped};
 use super::values::{Fault, Values};
-use super::{cut_off, report, stopped};
 use crate::error::{LoadError, LoadErrorKind};
 use crate::import::Import;
 use crate::polygons::{Polygons, light_from_srgb};

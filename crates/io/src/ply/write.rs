@@ -4,8 +4,9 @@
 use trigon_math::color::{linear_to_srgba8, srgba8_to_linear};
 
 use crate::export::{
-    Columns, Encoding, ExportOptions, ExportedFile, Gathered, Precision, VertexTable, loss, push_number,
+    Columns, Encoding, ExportOptions, ExportedFile, Gathered, Precision, VertexTable, push_number,
 };
+use crate::loss::Loss;
 use crate::write::WriteError;
 
 /// Numbers on their way into a file.
@@ -111,11 +112,11 @@ fn note_losses(gathered: &mut Gathered<'_>, table: &VertexTable, columns: Column
             "that {} at seams and sharp edges are one: they are written again for other normals, colours or texture coordinates",
             crate::warning::counted(table.split, "vertex")
         );
-        gathered.losses.push(loss(what));
+        gathered.losses.push(Loss::of_scene(what));
     }
     let is_rounded = |color| srgba8_to_linear(linear_to_srgba8(color)) != color;
     if columns.colors && table.values.iter().any(|values| is_rounded(values.color)) {
-        gathered.losses.push(loss("digits of vertex colours: they are rounded to 8 bits"));
+        gathered.losses.push(Loss::of_scene("digits of vertex colours: they are rounded to 8 bits"));
     }
 }
 

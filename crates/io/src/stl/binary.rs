@@ -3,7 +3,7 @@
 use trigon_math::color::srgb_to_linear;
 use trigon_math::{DVec3, Vec3, Vec4};
 
-use super::Solid;
+use super::solid::Solid;
 use crate::error::{LoadError, Place};
 use crate::import::Import;
 use crate::options::Stage;

@@ -9,18 +9,16 @@
 //! several, and refuses a file for one line without saying which.
 
 mod binary;
+mod solid;
 mod text;
 mod write;
 
 use std::borrow::Cow;
-use std::collections::HashMap;
-
-use trigon_math::DVec3;
 
 use crate::error::LoadError;
 use crate::import::Import;
 use crate::options::Stage;
-use crate::polygons::{Polygons, add_polygons, check_vertices};
+use crate::polygons::add_polygons;
 
 pub(crate) use write::write_stl;
 
@@ -51,36 +49,4 @@ pub(crate) fn import_stl(import: &mut Import<'_>, bytes: Cow<'_, [u8]>) -> Resul
         if is_text(&bytes) { text::read(import, &bytes)? } else { vec![binary::read(import, &bytes)?] };
     drop(bytes);
     add_polygons(import, solids)
-}
-
-/// The triangles of a solid, whose vertices are united.
-#[derive(Default)]
-struct Solid {
-    polygons: Polygons,
-    /// Vertices by the bits of their coordinates.
-    known: HashMap<[u64; 3], u32>,
-}
-
-impl Solid {
-    fn named(name: String) -> Self {
-        Self { polygons: Polygons { name, ..Polygons::default() }, known: HashMap::new() }
-    }
-
-    fn vertex(&mut self, place: DVec3) -> u32 {
-        // Adding zero makes −0 and +0 the same.
-        let bits = (place + DVec3::ZERO).to_array().map(f64::to_bits);
-        *self.known.entry(bits).or_insert_with(|| {
-            self.polygons.positions.push(place);
-            self.polygons.positions.len() as u32 - 1
-        })
-    }
-
-    fn push(&mut self, import: &Import<'_>, corners: &[DVec3]) -> Result<(), LoadError> {
-        for &corner in corners {
-            let vertex = self.vertex(corner);
-            self.polygons.corner_vertices.push(vertex);
-        }
-        self.polygons.face_sizes.push(corners.len() as u32);
-        check_vertices(import, self.polygons.positions.len() as u64)
-    }
 }

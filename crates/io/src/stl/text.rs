@@ -2,7 +2,7 @@
 
 use trigon_math::DVec3;
 
-use super::Solid;
+use super::solid::Solid;
 use crate::error::{LoadError, Place};
 use crate::import::Import;
 use crate::numbers::number;

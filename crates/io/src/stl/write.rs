@@ -3,9 +3,8 @@
 use trigon_math::DVec3;
 
 use super::binary::{HEADER, TRIANGLE};
-use crate::export::{
-    Encoding, ExportOptions, ExportedFile, Gathered, Precision, loss, plain_name, push_number,
-};
+use crate::export::{Encoding, ExportOptions, ExportedFile, Gathered, Precision, plain_name, push_number};
+use crate::loss::Loss;
 use crate::write::WriteError;
 
 /// Writes an STL.
@@ -36,7 +35,9 @@ fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
 
 fn binary(gathered: &mut Gathered<'_>) -> Result<Vec<u8>, WriteError> {
     if gathered.precision == Precision::Double {
-        gathered.losses.push(loss("digits of positions far from the origin: they are rounded to f32"));
+        gathered
+            .losses
+            .push(Loss::of_scene("digits of positions far from the origin: they are rounded to f32"));
     }
     let count: usize = gathered.objects.iter().map(|object| object.face_sizes.len()).sum();
     let room = HEADER + TRIANGLE * count;

@@ -1,6 +1,6 @@
 //! The tree answers as a look at every triangle does.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use super::triangle::ShearedRay;
 use super::*;
@@ -10,6 +10,82 @@ fn vector() -> impl Strategy<Value = Vec3> {
     // A coarse grid, too: rays then meet edges, vertices and sides of boxes.
     let coordinate = prop_oneof![-4.0_f32..4.0, (-4_i8..=4).prop_map(f32::from)];
     [coordinate.clone(), coordinate.clone(), coordinate].prop_map(Vec3::from_array)
+}
+
+/// Triangles and rays at any distance from the origin and of any size.
+#[derive(Debug)]
+struct FarScene {
+    triangles: Vec<[Vec3; 3]>,
+    rays: Vec<Ray>,
+}
+
+fn far_scene() -> impl Strategy<Value = FarScene> {
+    let size = (-20_i32..20).prop_map(|exponent| (exponent as f32).exp2());
+    let far = [-1e6_f32..1e6, -1e6_f32..1e6, -1e6_f32..1e6].prop_map(Vec3::from_array);
+    let middle = prop_oneof![Just(Vec3::ZERO), vector().prop_map(|v| v * 100.0), far];
+    // Along a plane of two axes, as floors and walls are: their boxes have no thickness.
+    let flat = prop::option::of(0_usize..3);
+    let triangles = prop::collection::vec(([vector(), vector(), vector()], flat), 1..60);
+    // From anywhere, at a point within a triangle or on its outline, or in any direction.
+    let share = || prop_oneof![Just(0.0_f32), Just(1.0), 0.0_f32..=1.0];
+    let target = prop::option::of((any::<prop::sample::Index>(), share(), share()));
+    let rays = prop::collection::vec((vector(), vector(), 1.0_f32..1e4, target), 20);
+    (size, middle, triangles, rays).prop_map(|(size, middle, triangles, rays)| {
+        let placed = |(corners, flat): ([Vec3; 3], Option<usize>)| {
+            corners.map(|mut corner| {
+                if let Some(axis) = flat {
+                    corner[axis] = corners[0][axis];
+                }
+                middle + corner * size
+            })
+        };
+        let triangles: Vec<[Vec3; 3]> = triangles.into_iter().map(placed).collect();
+        let ray =
+            |(from, towards, away, target): (Vec3, Vec3, f32, Option<(prop::sample::Index, f32, f32)>)| {
+                let origin = middle + from * size * away;
+                let direction = target.map_or(towards, |(index, along, across)| {
+                    let [a, b, c] = triangles[index.index(triangles.len())];
+                    a + (b - a) * along + (c - b) * (along * across) - origin
+                });
+                Ray { origin, direction }
+            };
+        let rays = rays.into_iter().map(ray).collect();
+        FarScene { triangles, rays }
+    })
+}
+
+/// Corners are rounded to f32 when the ray's origin is subtracted, by 2^-24 of their distance from it, and by as
+/// much twice when they are sheared. A triangle of a thousandth of that size, seen at more than a thousandth of a
+/// right angle, moves by less than this share of itself.
+const TOLERANCE: f64 = 0.25;
+
+/// What f64 says of a ray and a triangle.
+struct InF64 {
+    /// The distance, if the ray meets it whatever is rounded.
+    certain: Option<f64>,
+    /// Whether the ray may meet it.
+    is_possible: bool,
+}
+
+/// None of triangles that are too small or too steep for f32.
+fn in_f64(corners: &[Vec3; 3], ray: &Ray) -> Option<InF64> {
+    let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+    let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+    let normal = (b - a).cross(c - a);
+    let slant = normal.dot(direction);
+    let longest = (b - a).length().max((c - a).length()).max((c - b).length());
+    let thinnest = normal.length() / longest;
+    let farthest = [a, b, c].map(|corner| (corner - origin).length()).into_iter().fold(0.0, f64::max);
+    if slant.abs() < 1e-3 * normal.length() * direction.length() || thinnest < 1e-3 * farthest {
+        return None;
+    }
+    let distance = (a - origin).dot(normal) / slant;
+    let point = origin + direction * distance;
+    let weight =
+        |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) / normal.length_squared();
+    let least = weight(a, b).min(weight(b, c)).min(weight(c, a));
+    let is_certain = least > TOLERANCE && distance > 0.0;
+    Some(InF64 { certain: is_certain.then_some(distance), is_possible: least > -TOLERANCE })
 }
 
 fn by_brute_force(triangles: &[[Vec3; 3]], ray: &Ray) -> Option<RayHit> {
@@ -38,6 +114,34 @@ proptest! {
             let expected = by_brute_force(&triangles, &ray);
             prop_assert_eq!(bvh.nearest(&ray, 0.0..f32::INFINITY), expected, "{:?}", ray);
             prop_assert_eq!(bvh.meets_any(&ray, 0.0..f32::INFINITY), expected.is_some(), "{:?}", ray);
+        }
+    }
+
+    #[test]
+    fn a_tree_answers_as_a_look_at_every_triangle_far_from_the_origin(scene in far_scene()) {
+        let bvh = Bvh::new(&scene.triangles);
+        for ray in scene.rays.iter().filter(|ray| ray.direction != Vec3::ZERO) {
+            let expected = by_brute_force(&scene.triangles, ray);
+            prop_assert_eq!(bvh.nearest(ray, 0.0..f32::INFINITY), expected, "{:?}", ray);
+            prop_assert_eq!(bvh.meets_any(ray, 0.0..f32::INFINITY), expected.is_some(), "{:?}", ray);
+        }
+    }
+
+    /// By the cross products of Möller and Trumbore in f64, where rounding leaves no doubt.
+    #[test]
+    fn what_is_met_is_what_f64_says(scene in far_scene()) {
+        let bvh = Bvh::new(&scene.triangles);
+        for ray in scene.rays.iter().filter(|ray| ray.direction != Vec3::ZERO) {
+            let found = bvh.nearest(ray, 0.0..f32::INFINITY);
+            let certain = scene.triangles.iter().filter_map(|corners| Some(in_f64(corners, ray)?.certain?));
+            let nearest = certain.fold(f64::INFINITY, f64::min);
+            let distance = found.map_or(f64::INFINITY, |hit| hit.distance.into());
+            prop_assert!(distance <= nearest * (1.0 + TOLERANCE), "{:?}: {:?}, and one at {}", ray, found, nearest);
+            if let Some(hit) = found
+                && let Some(exact) = in_f64(&scene.triangles[hit.triangle as usize], ray)
+            {
+                prop_assert!(exact.is_possible, "{:?} is said to meet triangle {}", ray, hit.triangle);
+            }
         }
     }
 

@@ -12,6 +12,17 @@ use super::{Bvh, Ray, RayHit};
 /// rounding of four operations, twice (Ize 2013, section 4).
 const WIDENED: f32 = 1.0 + 8.0 * f32::EPSILON;
 
+/// How far a triangle may be met outside of its box, as a share of the distance at which the ray leaves the
+/// whole tree.
+///
+/// The test of triangles moves corners to the ray and shears them so that it runs along z, each in f32. For the
+/// place x of a corner with the difference z along the ray, and a shear S of at most 1, that is
+/// `fl(fl(x − o) − fl(S · z))`, with errors of u·|x − o| and 2u·|S|·|z|, u being half of `EPSILON`; those of the
+/// last subtraction and of the products of edges are as if corners were scaled by 1 ± 3u. Scaling takes no corner to
+/// the ray's other side, so the ray passes the box at most by what |S|·|z| is wrong by: less than 16u·|S|·|z|. Along
+/// the ray that is 16u times the distance of z, whatever the direction. Twice that is left for distances.
+const OUTSIDE: f32 = 16.0 * f32::EPSILON;
+
 impl Bvh {
     /// What the ray meets first within a range of distances; of equally near
     /// triangles that with the smallest number.
@@ -44,6 +55,13 @@ impl Bvh {
         found
     }
 
+    /// At most how far along the ray anything in the tree lies.
+    fn leaving(&self, ray: &ShearedRay) -> f32 {
+        let sides = self.nodes.last().map_or([0.0; 2], |root| root.sides[ray.axis()].map(|side| side[0]));
+        let [low, high] = sides.map(|side| ray.distance_along(side).abs());
+        if low > high { low } else { high }
+    }
+
     /// Calls `found` with what the ray meets, in some order, until it says that
     /// this is enough; it may move the end of the range.
     #[inline(always)]
@@ -53,11 +71,11 @@ impl Bvh {
             return;
         }
         let sheared = ShearedRay::new(ray);
-        let slabs = Slabs::new(ray);
+        let slabs = Slabs::new(ray, self.leaving(&sheared) * OUTSIDE);
         let mut waiting = Waiting::new((start, Child::node(self.nodes.len() - 1)));
         while let Some((near, child)) = waiting.pop() {
             // What was found meanwhile may be nearer.
-            if near > *end * WIDENED {
+            if near > *end * WIDENED + slabs.outside {
                 continue;
             }
             match child.inside() {
@@ -93,16 +111,19 @@ struct Slabs {
     wider: [f32; 3],
     /// Which side of a box it meets first: 0 is the lower one.
     first: [usize; 3],
+    /// How far along the ray a triangle may be met outside of its box.
+    outside: f32,
 }
 
 impl Slabs {
-    fn new(ray: &Ray) -> Self {
+    fn new(ray: &Ray, outside: f32) -> Self {
         let inverse = ray.direction.recip().to_array();
         Self {
             origin: ray.origin.to_array(),
             inverse,
             wider: inverse.map(|inverse| inverse * WIDENED),
             first: inverse.map(|inverse| usize::from(inverse < 0.0)),
+            outside,
         }
     }
 
@@ -122,7 +143,8 @@ impl Slabs {
                 to[place] = if far < to[place] { far } else { to[place] };
             }
         }
-        std::array::from_fn(|place| if from[place] <= to[place] { from[place] } else { f32::NAN })
+        let outside = self.outside;
+        std::array::from_fn(|place| if from[place] <= to[place] + outside { from[place] } else { f32::NAN })
     }
 }
 

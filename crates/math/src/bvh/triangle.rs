@@ -41,42 +41,54 @@ impl ShearedRay {
         Self { origin: ray.origin, axes: [x, y, z], shear }
     }
 
+    /// The axis along which the ray runs fastest.
+    pub(super) fn axis(&self) -> usize {
+        self.axes[2]
+    }
+
+    /// How far along the ray a place of that axis is.
+    pub(super) fn distance_along(&self, place: f32) -> f32 {
+        (place - self.origin[self.axes[2]]) * self.shear[2]
+    }
+
     /// Where the ray meets four triangles.
     #[inline(always)]
     pub(super) fn meet(&self, corners: &[[Four; 3]; 3]) -> MetFour {
-        let [a, b, c] = [0, 1, 2].map(|corner| self.sheared(&corners[corner]));
-        let mut edges = [crossed(&c, &b), crossed(&a, &c), crossed(&b, &a)];
-        if edges.as_flattened().contains(&0.0) {
-            self.decide_exactly([&a, &b, &c], &mut edges);
-        }
-        let (mut distances, mut weights) = ([0.0; WIDTH], [[0.0; WIDTH]; 3]);
+        let corners = [0, 1, 2].map(|corner| self.sheared(&corners[corner]));
+        let [a, b, c] = &corners;
+        let edges = [crossed(c, b), crossed(a, c), crossed(b, a)];
+        let mut met = MetFour { distances: [f32::NAN; WIDTH], weights: [[0.0; WIDTH]; 3] };
         for i in 0..WIDTH {
             let [u, v, w] = edges.map(|edge| edge[i]);
-            let inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
-            let sum = u + v + w;
-            let along = u * a[2][i] + v * b[2][i] + w * c[2][i];
-            let inverse = 1.0 / sum;
-            let distance = along * self.shear[2] * inverse;
-            distances[i] = if inside && sum != 0.0 && distance.is_finite() { distance } else { f32::NAN };
-            weights[0][i] = u * inverse;
-            weights[1][i] = v * inverse;
-            weights[2][i] = w * inverse;
+            // What may have any sign counts for both.
+            if (u.high >= 0.0 && v.high >= 0.0 && w.high >= 0.0)
+                || (u.low <= 0.0 && v.low <= 0.0 && w.low <= 0.0)
+            {
+                self.meet_exactly(corners.map(|corner| corner.map(|axis| axis[i])), i, &mut met);
+            }
         }
-        MetFour { distances, weights }
+        met
     }
 
-    /// Exact products decide what lies on an edge.
+    /// Where the ray meets one triangle, if it does. Products of two f32 are exact in f64, so
+    /// the signs of their differences are right, and weights are within a rounding of f32 even
+    /// where the triangle is seen from its edge.
     #[cold]
-    fn decide_exactly(&self, [a, b, c]: [&[Four; 3]; 3], edges: &mut [Four; 3]) {
-        let exact = |p: &[Four; 3], q: &[Four; 3], i: usize| {
-            let [px, py, qx, qy] = [p[0][i], p[1][i], q[0][i], q[1][i]].map(f64::from);
-            (px * qy - py * qx) as f32
-        };
-        for i in 0..WIDTH {
-            if edges.iter().any(|edge| edge[i] == 0.0) {
-                edges[0][i] = exact(c, b, i);
-                edges[1][i] = exact(a, c, i);
-                edges[2][i] = exact(b, a, i);
+    fn meet_exactly(&self, [a, b, c]: [[f32; 3]; 3], place: usize, met: &mut MetFour) {
+        let exact =
+            |p: [f32; 3], q: [f32; 3]| f64::from(p[0]) * f64::from(q[1]) - f64::from(p[1]) * f64::from(q[0]);
+        let [u, v, w] = [exact(c, b), exact(a, c), exact(b, a)];
+        let inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+        let sum = u + v + w;
+        if !inside || sum == 0.0 {
+            return;
+        }
+        let along = u * f64::from(a[2]) + v * f64::from(b[2]) + w * f64::from(c[2]);
+        let distance = (along / sum * f64::from(self.shear[2])) as f32;
+        if distance.is_finite() {
+            met.distances[place] = distance;
+            for (weights, edge) in met.weights.iter_mut().zip([u, v, w]) {
+                weights[place] = (edge / sum) as f32;
             }
         }
     }
@@ -94,7 +106,21 @@ impl ShearedRay {
     }
 }
 
+/// An edge function: which values it may have.
+#[derive(Clone, Copy)]
+struct Edge {
+    low: f32,
+    high: f32,
+}
+
+/// The edge function of two corners. Two products and their difference are each rounded
+/// once: it is wrong by less than 2u of the one product and u of the other, and where its
+/// sign is in doubt the two are nearly equal.
 #[inline(always)]
-fn crossed(p: &[Four; 3], q: &[Four; 3]) -> Four {
-    std::array::from_fn(|i| p[0][i] * q[1][i] - p[1][i] * q[0][i])
+fn crossed(p: &[Four; 3], q: &[Four; 3]) -> [Edge; WIDTH] {
+    std::array::from_fn(|i| {
+        let (first, second) = (p[0][i] * q[1][i], p[1][i] * q[0][i]);
+        let (edge, doubt) = (first - second, first.abs() * (2.0 * f32::EPSILON) + f32::MIN_POSITIVE);
+        Edge { low: edge - doubt, high: edge + doubt }
+    })
 }

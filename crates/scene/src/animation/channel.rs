@@ -1,7 +1,7 @@
 //! What an animation changes, and in which nodes.
 
 use super::Curve;
-use crate::scene::NodeId;
+use crate::node::NodeId;
 
 /// What of a node changes, and how wide the curve's vectors are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

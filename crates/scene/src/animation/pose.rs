@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use trigon_math::{DQuat, DVec3};
 
 use super::{Animation, Channel, Property};
-use crate::scene::{NodeId, Scene};
+use crate::node::NodeId;
+use crate::scene::Scene;
 use crate::transform::Transform;
 
 /// One node in a pose.

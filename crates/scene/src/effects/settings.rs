@@ -6,7 +6,7 @@ use std::sync::Arc;
 use trigon_math::Vec3;
 
 use super::Environment;
-use crate::scene::NodeId;
+use crate::node::NodeId;
 
 /// What a picture asks for beyond surfaces in plain light.
 #[derive(Clone, Debug, Default, PartialEq)]

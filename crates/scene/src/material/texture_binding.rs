@@ -3,7 +3,7 @@
 use trigon_math::glam::Affine2;
 use trigon_raster::Sampler;
 
-use crate::scene::TextureId;
+use crate::texture_asset::TextureId;
 
 /// A texture, how its coordinates are found, and how it is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]

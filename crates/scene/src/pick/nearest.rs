@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use trigon_math::DVec2;
 
-use crate::scene::NodeId;
+use crate::node::NodeId;
 
 /// The elements nearest to a point of a picture, each with its node.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

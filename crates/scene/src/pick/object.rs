@@ -10,8 +10,9 @@ use trigon_mesh::Mesh;
 
 use super::screen::{Screen, Spot};
 use crate::material::AlphaMode;
+use crate::node::NodeId;
 use crate::render::{Onlookers, Run, Shape, Shapes};
-use crate::scene::{NodeId, PlacedMesh, Scene};
+use crate::scene::{PlacedMesh, Scene};
 
 /// Points that a thread takes at a time.
 pub(super) const POINTS: usize = 4096;

@@ -18,7 +18,8 @@ use super::screen::Screen;
 use super::search::for_each_pixel;
 use crate::elements::ElementSet;
 use crate::frame::{Frame, Hit};
-use crate::scene::{NodeId, Scene};
+use crate::node::NodeId;
+use crate::scene::Scene;
 
 /// Whether what is hidden counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -12,16 +12,18 @@ use trigon_raster::{Culling, EdgeFlags, Outline};
 
 use super::backdrop::Backdrop;
 use super::geometry::{Geometry, Run};
+use super::placement::Rays;
 use super::placement::{Eye, Placement};
 use super::record::{Dots, MarkNumbers, ObjectMarks, Record, Segments, Triangles};
 use super::shapes::{Shape, Shapes};
-use super::surface::{Dressed, Occasion, Rays, Surface};
+use super::surface::{Dressed, Occasion, Surface};
 use super::wire::{HiddenLine, Wire, WireMarks};
 use crate::effects::{Counts, Effect, Scenery};
 use crate::marks;
 use crate::material::{AlphaMode, Material, Shading};
 use crate::node::Node;
-use crate::scene::{MeshAsset, NodeId, Scene};
+use crate::node::NodeId;
+use crate::scene::{MeshAsset, Scene};
 use crate::settings::{RenderSettings, Style};
 
 /// Size of loose points, in line widths.
@@ -359,14 +361,21 @@ impl<'s> Composer<'s> {
     fn vertices<'c>(&'c self, object: &Object<'s>) -> Option<Box<dyn Record + 'c>> {
         let shown = self.settings.vertices.filter(|_| self.purpose == Purpose::Colors)?;
         let used = object.asset.used_vertices();
-        let points: Vec<u32> = (0..used.len() as u32).filter(|&vertex| used[vertex as usize]).collect();
         let listed = &self.settings.marks.vertices;
-        let of_vertices = marks::numbers(listed, object.id);
+        let (of_vertices, colors) = (marks::numbers(listed, object.id), marks::colors(listed));
         let number = |&vertex: &u32| of_vertices.get(vertex as usize).copied().unwrap_or(0);
+        let is_shown = |vertex: &u32| {
+            let number = usize::from(number(vertex));
+            used[*vertex as usize] && (number == 0 || colors[number].w > 0.0)
+        };
+        let points: Vec<u32> = (0..used.len() as u32).filter(is_shown).collect();
+        if points.is_empty() {
+            return None;
+        }
         let numbers: Vec<u8> = points.iter().map(number).collect();
         let mut marked = FixedBitSet::with_capacity(points.len());
         marked.extend((0..points.len()).filter(|&point| numbers[point] != 0));
-        let marks = WireMarks { numbers, colors: marks::colors(listed) };
+        let marks = WireMarks { numbers, colors };
         Some(Box::new(Dots {
             pipeline: self.wire(object, shown.color, marks),
             geometry: object.geometry,

@@ -8,10 +8,11 @@ use trigon_raster::{Background, Cancel, ExecuteSettings, Pass, Rasterizer, Stats
 use super::RenderError;
 use super::backdrop::Backdrop;
 use super::compose::Composer;
+use super::kept::Kept;
 use super::last_picture::{LastPicture, Step};
 use super::placement::DepthToDistance;
 use super::record::Record;
-use super::stage::{Kept, Stage};
+use super::stage::Stage;
 use crate::effects::{Counts, Effect, EffectCounts, EffectPlan, Scenery};
 use crate::frame::Frame;
 use crate::outputs::{self, Needed};

@@ -20,8 +20,8 @@ use crate::frame::{Frame, resize};
 use crate::material::Material;
 use crate::node::Node;
 use crate::outputs::{Needed, Seen};
-use crate::scene::TextureId;
 use crate::settings::RenderSettings;
+use crate::texture_asset::TextureId;
 
 /// Effects with which what a tile shows may depend on what others do, on geometry out of
 /// view, or on another pass. Pictures with them do not follow.

@@ -9,6 +9,7 @@ mod columns;
 mod compose;
 mod engine;
 mod geometry;
+mod kept;
 pub(crate) mod lanes;
 mod last_picture;
 pub(crate) mod lighting;

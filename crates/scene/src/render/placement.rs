@@ -6,7 +6,6 @@ use trigon_raster::Culling;
 use trigon_raster::simd::{F32, Simd};
 
 use super::lanes::{V3, difference, mapped, moved, splat};
-use super::surface::Side;
 use crate::scene::Place;
 
 /// The maps of one node, ready for the vertex stage.
@@ -51,6 +50,22 @@ impl Placement {
     pub(crate) fn handedness(&self) -> f32 {
         if self.front == Side::Front { 1.0 } else { -1.0 }
     }
+}
+
+/// A side of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Side {
+    Front,
+    Back,
+}
+
+/// How rays of view run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Rays {
+    /// Perspective.
+    Meeting,
+    /// Orthographic.
+    Parallel,
 }
 
 /// Everything about the camera that placements need.

@@ -12,7 +12,8 @@ use trigon_math::{Bounds3, DAffine3, is_mirroring};
 use super::geometry::Geometry;
 use super::placement::Eye;
 use crate::node::Node;
-use crate::scene::{MeshAsset, NodeId, Place, Scene};
+use crate::node::NodeId;
+use crate::scene::{MeshAsset, Place, Scene};
 
 /// A mesh at a place.
 #[derive(Clone, Debug)]

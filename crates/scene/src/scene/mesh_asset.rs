@@ -5,7 +5,11 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use trigon_math::{Bounds3, Vec3};
 use trigon_mesh::{ChangeError, ChangedElements, Mesh, MeshChange};
 
+use crate::arena::Id;
 use crate::render::{Geometry, box_around};
+
+/// Names a mesh.
+pub type MeshId = Id<MeshAsset>;
 
 /// A mesh as the scene shares it between nodes.
 #[derive(Clone, Debug)]

@@ -12,7 +12,8 @@ use trigon_mesh::primitives::{self, TorusKnot};
 use crate::light::Light;
 use crate::material::{AlphaMode, Material, Shading, TextureBinding};
 use crate::node::Node;
-use crate::scene::{Scene, TextureId};
+use crate::scene::Scene;
+use crate::texture_asset::TextureId;
 use crate::transform::Transform;
 
 /// A scene to look at, to measure and to test with: the teapot among standard

@@ -96,9 +96,9 @@ impl Interface {
         covered || self.context.egui_is_using_pointer()
     }
 
-    /// Whether a widget has the keyboard.
+    /// Whether a widget has the keyboard, or a menu is open, which Escape closes.
     pub(crate) fn wants_keyboard(&self) -> bool {
-        self.context.egui_wants_keyboard_input()
+        self.context.egui_wants_keyboard_input() || egui::Popup::is_any_open(&self.context)
     }
 
     /// Gives the keyboard to the first widget.

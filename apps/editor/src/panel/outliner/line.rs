@@ -6,6 +6,7 @@ use trigon_window::egui::{
     self, Key, Rect, Response, RichText, Role, Sense, Ui, Vec2, WidgetInfo, collapsing_header,
 };
 
+use super::super::row::select_all_at_first;
 use super::icon::{self, Kind};
 use super::rows::{Row, Rows};
 use super::{OutlinerState, drop, menu, select};
@@ -116,9 +117,11 @@ fn name(ui: &mut Ui, width: f32, document: &Document, id: NodeId, node: &Node) -
 fn rename(ui: &mut Ui, width: f32, state: &mut OutlinerState, requests: &mut Vec<Request>) {
     let Some(renaming) = &mut state.renaming else { return };
     let field = egui::TextEdit::singleline(&mut renaming.text).desired_width(width);
-    let response = ui.add(field).accessible_name("New name");
+    let mut field = field.show(ui);
+    let response = Response::clone(&field.response).accessible_name("New name");
     if !renaming.is_open {
         response.request_focus();
+        select_all_at_first(&mut field);
         renaming.is_open = true;
     } else if response.lost_focus() {
         if !ui.input(|input| input.key_pressed(Key::Escape)) {

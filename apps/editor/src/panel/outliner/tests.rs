@@ -68,12 +68,16 @@ fn names_are_typed_in_place() {
     case.harness.key_press(Key::F2);
     case.run();
     case.take_requests();
-    case.harness.event(egui::Event::Text(" 2".to_owned()));
+    case.harness.event(egui::Event::Text("Lamp 2".to_owned()));
     case.run();
     case.harness.key_press(Key::Enter);
     case.run();
     let rename = RenameObject { object: ObjectName::of(lamp), name: "Lamp 2".to_owned() };
-    assert_eq!(case.take_requests(), [Request::Run(rename.into())], "F2, and Enter takes it");
+    assert_eq!(
+        case.take_requests(),
+        [Request::Run(rename.into())],
+        "F2: what is typed replaces the name, and Enter takes it"
+    );
     let place = case.harness.get_by_label("Chair");
     place.click();
     place.click();

@@ -149,3 +149,34 @@ fn a_loop_cut_shows_its_ring_cuts_and_slides() {
     session.document.undo().expect("one entry");
     assert_eq!(session.bytes(), first, "undone");
 }
+
+#[test]
+fn a_loop_cut_keeps_an_even_distance_from_either_side() {
+    let session = Session::editing("cube", "vertex", &[]).at(400.0, 205.0);
+    let mesh = session.mesh().1;
+    let lower = mesh.vertices().filter(|&vertex| mesh.position(vertex).y < 0.0);
+    let lower: Vec<u32> = lower.map(|vertex| vertex.index()).collect();
+    // The upper edges are 2 m long, the lower ones 4 m.
+    let mut session = session.run(&[
+        &format!(r#"{{ "op": "select", "elements": {lower:?} }}"#),
+        r#"{ "op": "scale", "factors": [2, 1, 1] }"#,
+    ]);
+    let (id, mesh) = session.mesh();
+    let front = mesh.faces().find(|&face| mesh.face_center(face).z == 1.0).expect("a front");
+    let mut tool = LoopCutTool::start(&session.document, session.hands).expect("edit mode");
+    tool.hover(&session.document, &session.view, Some((id, front)));
+    session.input(&mut tool, Input::Pressed(PointerButton::Left));
+    let cut = |session: &Session| {
+        let mut places: Vec<f32> = session.positions()[8..].iter().map(|place| place.x).collect();
+        places.sort_by(f32::total_cmp);
+        places
+    };
+    assert_eq!(cut(&session), [0.0; 4], "in the middle of each");
+    session.keys(&mut tool, "e");
+    let even = cut(&session);
+    assert!(even == [-1.0, -1.0, 0.0, 0.0] || even == [0.0, 0.0, 1.0, 1.0], "1 m from one side: {even:?}");
+    session.keys(&mut tool, "f");
+    let flipped: Vec<f32> = even.iter().rev().map(|place| -place).collect();
+    assert_eq!(cut(&session), flipped, "from the other");
+    assert!(tool.status().contains("E: even (on), F: from the other side (on)"), "{}", tool.status());
+}

@@ -131,3 +131,19 @@ fn a_chosen_point_snaps_to_a_vertex_that_stays() {
     let way = session.positions()[0] - before[0];
     assert_eq!((way.x, way.y), (1.0, -1.0), "the cube's corner at (1, 1) lies on it");
 }
+
+#[test]
+fn kept_points_are_snapped_to_in_their_middle() {
+    let mut session = Session::editing("cube", "vertex", &[]).at(490.0, 210.0);
+    let before = session.positions();
+    let mut tool = session.transform(TransformKind::Translate, settings());
+    session.keys(&mut tool, "b");
+    session.input(&mut tool, Input::Pressed(PointerButton::Left));
+    // Corners of the grid at (2, 0) and (-2, 0).
+    session.drag(&mut tool, 600.0, 300.0);
+    session.keys(&mut tool, "a");
+    session.drag(&mut tool, 200.0, 300.0);
+    assert!(tool.status().contains("the middle of 2 points"), "{}", tool.status());
+    let way = session.positions()[0] - before[0];
+    assert_eq!((way.x, way.y), (-1.0, -1.0), "the cube's corner at (1, 1) lies between them");
+}

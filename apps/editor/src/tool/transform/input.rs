@@ -104,6 +104,9 @@ impl TransformTool {
                 self.renew_numbers();
             }
             ('o', ..) if self.selected.is_editing => self.toggle_proportional(),
+            ('a', ..) if self.kind == TransformKind::Translate && self.snaps() => {
+                self.kept.extend(self.snapped);
+            }
             ('b', ..) if self.kind == TransformKind::Translate => {
                 document.cancel();
                 self.is_choosing_source = true;

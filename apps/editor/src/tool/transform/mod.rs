@@ -36,6 +36,22 @@ pub(crate) enum TransformKind {
     Slide,
 }
 
+impl TransformKind {
+    /// In the status line before anything has moved.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Translate => "Move",
+            Self::Rotate => "Rotate",
+            Self::Trackball => "Trackball",
+            Self::Scale => "Scale",
+            Self::ShrinkFatten => "Shrink/Fatten",
+            Self::PushPull => "Push/Pull",
+            Self::ToSphere => "To Sphere",
+            Self::Slide => "Slide",
+        }
+    }
+}
+
 /// What the editor's bars say about transforms.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct TransformSettings {
@@ -68,6 +84,8 @@ pub(crate) struct TransformTool {
     pub(super) source: Option<DVec3>,
     /// The last target that something snapped to.
     pub(super) snapped: Option<DVec3>,
+    /// Targets that a user kept: what is snapped goes to the middle of these and the next one.
+    pub(super) kept: Vec<DVec3>,
     /// Whether the next click chooses the source.
     is_choosing_source: bool,
     /// Whether the middle button is down: the movement chooses the axis.
@@ -95,10 +113,11 @@ impl TransformTool {
             frames,
             turn: 0.0,
             turned_from: hands.pointer.unwrap_or(DVec2::ZERO),
-            text: String::new(),
+            text: kind.name().into(),
             targets: None,
             source: None,
             snapped: None,
+            kept: Vec::new(),
             is_choosing_source: false,
             is_choosing_axis: false,
             slide: None,
@@ -200,7 +219,15 @@ impl Tool for TransformTool {
         if let Some(near) = self.proportional() {
             text += &format!(" proportional {:.3} m", near.radius);
         }
-        self.modal.status(text)
+        if !self.kept.is_empty() {
+            text += &format!(" to the middle of {} points", self.kept.len() + 1);
+        }
+        let keys = match self.kind {
+            TransformKind::Translate if self.snapped.is_some() => ", A: one more point, B: source",
+            TransformKind::Translate | TransformKind::Scale | TransformKind::Rotate => ", X/Y/Z: lock",
+            _ => "",
+        };
+        self.modal.status(text.trim_end().to_owned() + keys)
     }
 
     fn pointer_jumped(&mut self, to: DVec2) {

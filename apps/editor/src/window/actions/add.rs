@@ -17,6 +17,7 @@ actions! {
     "Add" "add.pyramid" "Pyramid" "" ObjectMode Run(r#"{"op":"add_object","object":{"shape":"pyramid","edge":2.0,"height":2.0}}"#) => "Adds a pyramid.";
     "Add" "add.teapot" "Teapot" "" ObjectMode Run(r#"{"op":"add_object","object":{"shape":"teapot","subdivisions":8}}"#) => "Adds Newell's teapot.";
     "Add" "add.empty" "Empty" "" ObjectMode Run(r#"{"op":"add_empty"}"#) => "Adds a place without a surface, to hang others on.";
+    "Add" "add.camera" "Camera" "" ObjectMode Run(r#"{"op":"add_camera","position":[6.0,4.5,6.0],"rotation":{"by":"euler","angles":[-28.0,45.0,0.0]}}"#) => "Adds a camera that looks at the 3D cursor.";
     "Add/Solids" "add.tetrahedron" "Tetrahedron" "" ObjectMode Run(r#"{"op":"add_object","object":{"shape":"tetrahedron","edge":2.0}}"#) => "Adds a solid of 4 triangles.";
     "Add/Solids" "add.octahedron" "Octahedron" "" ObjectMode Run(r#"{"op":"add_object","object":{"shape":"octahedron","edge":2.0}}"#) => "Adds a solid of 8 triangles.";
     "Add/Solids" "add.dodecahedron" "Dodecahedron" "" ObjectMode Run(r#"{"op":"add_object","object":{"shape":"dodecahedron","edge":1.0}}"#) => "Adds a solid of 12 pentagons.";

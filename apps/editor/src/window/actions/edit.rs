@@ -22,8 +22,18 @@ actions! {
     "Edit" "edit.duplicate" "Duplicate Objects" "Shift+D" Objects Run(r#"{"op":"duplicate_objects"}"#) => "Copies objects with their meshes, and moves the copies.";
     "Edit" "edit.duplicate_linked" "Duplicate Linked" "Alt+D" Objects Run(r#"{"op":"duplicate_objects","linked":true}"#) => "Copies objects that go on sharing their meshes.";
     "Edit" "edit.join" "Join Objects" "Ctrl+J" TwoObjects Run(r#"{"op":"join_objects"}"#) => "Puts the selected objects into the active one.";
-    "Edit" "edit.parent_clear" "Clear Parent" "Alt+P" Objects Run(r#"{"op":"set_parent"}"#) => "Takes objects off what they hang on; they stay where they are.";
+    "Edit/Parent" "parent.menu" "Parent Menu" "Ctrl+P" Objects Ui(UiRequest::Popup("Edit/Parent")) => "Chooses how objects hang on the active one.";
+    "Edit/Parent" "parent.keep" "Object, Stay in Place" "" TwoObjects Ui(UiRequest::Parent { keeps_place: true }) => "Hangs the selected objects on the active one; they stay where they are.";
+    "Edit/Parent" "parent.take" "Object, Take Its Space" "" TwoObjects Ui(UiRequest::Parent { keeps_place: false }) => "Hangs the selected objects on the active one; their values count from there, so that they move.";
+    "Edit/Clear Parent" "parent.clear_menu" "Clear Parent Menu" "Alt+P" Objects Ui(UiRequest::Popup("Edit/Clear Parent")) => "Chooses how objects are taken off what they hang on.";
+    "Edit/Clear Parent" "edit.parent_clear" "Clear Parent, Stay in Place" "" Objects Run(r#"{"op":"set_parent","keep_transform":true}"#) => "Takes objects off what they hang on; they stay where they are.";
+    "Edit/Clear Parent" "parent.clear" "Clear Parent, Keep Values" "" Objects Run(r#"{"op":"set_parent"}"#) => "Takes objects off what they hang on; their values count from the world, so that they move.";
+    "Edit/Clear" "clear.location" "Clear Location" "Alt+G" Objects Run(r#"{"op":"clear_transform","location":true}"#) => "Moves objects back to the origin.";
+    "Edit/Clear" "clear.rotation" "Clear Rotation" "Alt+R" Objects Run(r#"{"op":"clear_transform","rotation":true}"#) => "Turns objects back.";
+    "Edit/Clear" "clear.scale" "Clear Scale" "Alt+S" Objects Run(r#"{"op":"clear_transform","scale":true}"#) => "Gives objects their own size again.";
     "Edit" "edit.hide" "Hide Objects" "H" Objects Run(r#"{"op":"show_objects","visible":false}"#) => "Hides the selected objects.";
+    "Edit" "edit.hide_others" "Hide Other Objects" "Shift+H" Objects Run(r#"{"op":"hide_others"}"#) => "Hides all objects but the selected ones.";
+    "Edit" "edit.reveal" "Show Hidden Objects" "Alt+H" ObjectMode Run(r#"{"op":"reveal_objects"}"#) => "Shows all hidden objects, and selects them.";
     "Edit" "edit.delete" "Delete Objects" "X Delete" Objects Run(r#"{"op":"delete_objects"}"#) => "Deletes the selected objects and what hangs on them.";
 
     "Edit/Snap To" "snap.toggle" "Snapping" "Shift+Tab" Nothing Ui(UiRequest::Snapping) => "Whether moves snap; Ctrl turns it round while moving.";

@@ -10,16 +10,16 @@ actions! {
     "Mesh" "mesh.bevel" "Bevel Edges" "Ctrl+B" Elements Tool(ToolKind::Bevel) => "Replaces edges by faces; the wheel changes the segments.";
     "Mesh" "mesh.bevel_vertices" "Bevel Vertices" "Ctrl+Shift+B" Elements Tool(ToolKind::BevelVertices) => "Replaces vertices by faces.";
     "Mesh" "mesh.loop_cut" "Loop Cut" "Ctrl+R" EditMode Tool(ToolKind::LoopCut) => "Cuts a loop across a ring of quads; the wheel changes how many.";
-    "Mesh" "mesh.edge_slide" "Edge Slide" "" Elements Tool(ToolKind::EdgeSlide) => "Slides edges along their neighbours (G G).";
+    "Mesh" "mesh.edge_slide" "Slide" "Shift+V" Elements Tool(ToolKind::EdgeSlide) => "Slides edges along their neighbours, or vertices along their edges (G G).";
     "Mesh" "mesh.subdivide" "Subdivide" "" Elements Run(r#"{"op":"subdivide"}"#) => "Cuts the selected edges in halves.";
     "Mesh" "mesh.catmull_clark" "Catmull-Clark" "" EditMode Run(r#"{"op":"catmull_clark"}"#) => "Subdivides meshes to smooth surfaces.";
     "Mesh" "mesh.duplicate" "Duplicate" "Shift+D" Elements Run(r#"{"op":"duplicate"}"#) => "Copies what is selected, and moves the copy.";
-    "Mesh" "mesh.split" "Split" "Y" Elements Run(r#"{"op":"split_off"}"#) => "Splits the selected faces off.";
+    "Mesh" "mesh.split" "Split" "Y Alt+M" Elements Run(r#"{"op":"split_off"}"#) => "Splits the selected faces off.";
     "Mesh" "mesh.separate" "Separate" "P" Elements Run(r#"{"op":"separate"}"#) => "Makes the selected faces an object.";
     "Mesh" "mesh.fill" "Make Face / Fill" "F Alt+F" Elements Run(r#"{"op":"fill"}"#) => "Makes faces where there are none.";
     "Mesh" "mesh.grid_fill" "Grid Fill" "" Elements Run(r#"{"op":"grid_fill"}"#) => "Fills a closed loop of edges with a grid of quads.";
     "Mesh" "mesh.connect" "Connect Vertices" "J" Elements Run(r#"{"op":"connect_vertices"}"#) => "Joins vertices by edges through faces.";
-    "Mesh" "mesh.bridge" "Bridge Edge Loops" "" Elements Run(r#"{"op":"bridge"}"#) => "Joins two loops of edges by faces.";
+    "Mesh" "mesh.bridge" "Bridge Edge Loops" "" Elements Run(r#"{"op":"bridge"}"#) => "Joins two loops of edges, or the outlines of two faces, by faces.";
     "Mesh" "mesh.triangulate" "Triangulate" "Ctrl+T" Elements Run(r#"{"op":"triangulate"}"#) => "Cuts faces into triangles.";
     "Mesh" "mesh.tris_to_quads" "Tris to Quads" "Alt+J" Elements Run(r#"{"op":"tris_to_quads"}"#) => "Joins triangles to quads.";
     "Mesh" "mesh.symmetrize" "Symmetrize" "" Elements Run(r#"{"op":"symmetrize"}"#) => "Makes faces symmetric about x = 0; adjust the plane with F9.";
@@ -52,6 +52,8 @@ actions! {
     "Mesh/Edge" "edge.crease" "Crease" "Shift+E" Elements Run(r#"{"op":"crease","crease":1.0}"#) => "Keeps edges sharp when they are subdivided.";
     "Mesh/Edge" "edge.clear_crease" "Clear Crease" "" Elements Run(r#"{"op":"crease"}"#) => "Lets edges become smooth when they are subdivided.";
 
+    "Mesh/Vertex" "vertex.menu" "Vertex Menu" "Ctrl+V" EditMode Ui(UiRequest::Popup("Mesh/Vertex")) => "Shows what can be done with vertices.";
+
     "Mesh/Face" "face.menu" "Face Menu" "Ctrl+F" EditMode Ui(UiRequest::Popup("Mesh/Face")) => "Shows what can be done with faces.";
     "Mesh/Face" "face.smooth" "Shade Smooth" "" Elements Run(r#"{"op":"shade"}"#) => "Shades faces smoothly.";
     "Mesh/Face" "face.flat" "Shade Flat" "" Elements Run(r#"{"op":"shade","smooth":false}"#) => "Shades each face by itself.";
@@ -60,6 +62,7 @@ actions! {
     "Mesh/Normals" "normals.inside" "Recalculate Inside" "Ctrl+Shift+N" Elements Run(r#"{"op":"recalculate_normals","inside":true}"#) => "Lets faces look inwards.";
     "Mesh/Normals" "normals.flip" "Flip" "" Elements Run(r#"{"op":"flip_normals"}"#) => "Turns faces over.";
     "Mesh" "mesh.hide" "Hide" "H" Elements Run(r#"{"op":"hide"}"#) => "Hides what is selected.";
+    "Mesh" "mesh.hide_others" "Hide Unselected" "Shift+H" Elements Run(r#"{"op":"hide","unselected":true}"#) => "Hides what is not selected.";
     "Mesh" "mesh.reveal" "Reveal Hidden" "Alt+H" EditMode Run(r#"{"op":"reveal"}"#) => "Shows all that is hidden.";
 
     "UV" "uv.project" "Project from Front" "" Elements Run(r#"{"op":"project_uvs"}"#) => "Projects a picture along z; adjust the side with F9.";

@@ -107,6 +107,74 @@ const TOOLS: [&str; 12] = [
     "tool.shrink_fatten",
 ];
 
+/// The menu of a click with the right button.
+pub(crate) const CONTEXT_MENU: &str = "Context";
+
+/// What that menu offers, of both modes.
+const CONTEXT: [&str; 19] = [
+    "edit.mode",
+    "tool.move",
+    "tool.rotate",
+    "tool.scale",
+    "edit.duplicate",
+    "edit.rename",
+    "edit.join",
+    "edit.hide",
+    "edit.delete",
+    "mesh.extrude",
+    "mesh.inset",
+    "mesh.bevel",
+    "mesh.loop_cut",
+    "mesh.subdivide",
+    "mesh.fill",
+    "mesh.bridge",
+    "merge.menu",
+    "mesh.duplicate",
+    "delete.menu",
+];
+
+/// What menus at the pointer offer beside their own entries.
+const ALSO: [(&str, &[&str]); 3] = [
+    (
+        "Mesh/Vertex",
+        &[
+            "mesh.connect",
+            "mesh.fill",
+            "mesh.bevel_vertices",
+            "mesh.edge_slide",
+            "merge.menu",
+            "mesh.reset_vertices",
+        ],
+    ),
+    (
+        "Mesh/Edge",
+        &["mesh.bevel", "mesh.loop_cut", "mesh.subdivide", "mesh.bridge", "mesh.edge_slide", "mesh.fill"],
+    ),
+    (
+        "Mesh/Face",
+        &[
+            "mesh.extrude",
+            "mesh.extrude_individual",
+            "mesh.inset",
+            "mesh.fill",
+            "mesh.grid_fill",
+            "mesh.triangulate",
+            "mesh.tris_to_quads",
+        ],
+    ),
+];
+
+/// What a menu at the pointer offers first, which stands elsewhere in the bar's menus.
+pub(crate) fn also_in(menu: &str) -> impl Iterator<Item = &'static Action> {
+    let names = ALSO.iter().find(|(name, _)| *name == menu).map_or(&[][..], |(_, names)| names);
+    names.iter().filter_map(|name| named(name))
+}
+
+/// What is often done with what is selected, in this mode.
+pub(crate) fn context(is_editing: bool) -> impl Iterator<Item = &'static Action> {
+    CONTEXT.iter().filter_map(|name| named(name)).filter(move |action| action.fits_mode(is_editing))
+}
+
 /// The tools that have a button, of both modes.
 pub(crate) fn tools() -> impl Iterator<Item = &'static Action> {
     TOOLS.iter().filter_map(|name| named(name))

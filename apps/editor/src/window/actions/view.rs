@@ -12,6 +12,7 @@ actions! {
     "View" "view.orthographic" "Perspective/Orthographic" "Numpad5" Nothing View(ViewRequest::ToggleOrthographic) => "Switches between perspective and parallel lines of sight.";
     "View" "view.four" "Four Views" "Ctrl+Alt+Q" Nothing View(ViewRequest::ToggleFourViews) => "Shows top, front and right side beside the view, or one view again.";
     "View" "view.camera" "Camera" "Numpad0" Nothing View(ViewRequest::Camera) => "Looks through the scene's camera.";
+    "View" "view.camera_to_view" "Camera to View" "Ctrl+Alt+Numpad0" ObjectMode View(ViewRequest::CameraToView) => "Puts the active camera, or the scene's first, where the view looks from.";
     "View/Viewpoint" "viewpoint.menu" "View Menu" "` ~ Shift+`" Nothing Ui(UiRequest::Popup("View/Viewpoint")) => "Chooses a side to look from.";
     "View/Viewpoint" "view.front" "Front" "Numpad1" Nothing View(ViewRequest::Axis(AxisView::Front)) => "Looks from the front.";
     "View/Viewpoint" "view.back" "Back" "Ctrl+Numpad1" Nothing View(ViewRequest::Axis(AxisView::Back)) => "Looks from behind.";
@@ -35,10 +36,12 @@ actions! {
     "View/Display" "display.menu" "Display Menu" "Z" Nothing Ui(UiRequest::Popup("View/Display")) => "Chooses how surfaces are shown.";
     "View/Display" "display.wireframe" "Wireframe" "" Nothing View(ViewRequest::Display(DisplayMode::Wireframe)) => "Shows edges alone.";
     "View/Display" "display.solid" "Solid" "" Nothing View(ViewRequest::Display(DisplayMode::Solid)) => "Shows surfaces in plain shading.";
+    "View/Display" "display.matcap" "Matcap" "" Nothing View(ViewRequest::Display(DisplayMode::Matcap)) => "Shows all surfaces as clay, whose look depends on their direction alone.";
     "View/Display" "display.textured" "Textured" "" Nothing View(ViewRequest::Display(DisplayMode::Textured)) => "Shows materials in studio lights.";
     "View/Display" "display.rendered" "Rendered" "" Nothing View(ViewRequest::Display(DisplayMode::Rendered)) => "Shows the scene in its own lights.";
     "View/Display" "display.toggle_wireframe" "Toggle Wireframe" "Shift+Z" Nothing View(ViewRequest::ToggleWireframe) => "Switches between wireframe and what was before.";
     "View" "view.x_ray" "X-Ray" "Alt+Z" Nothing View(ViewRequest::ToggleXRay) => "Shows and selects what lies behind faces, too.";
+    "View" "view.overlays" "Overlays" "Alt+Shift+Z" Nothing View(ViewRequest::ToggleOverlays) => "Shows or hides grid, axes, lights, cameras and the gizmo.";
     "View" "view.tool_bar" "Tool Bar" "T" Nothing Ui(UiRequest::ToolBar) => "Shows or hides the tools on the left.";
     "View" "view.side_bar" "Side Bar" "N" Nothing Ui(UiRequest::SideBar) => "Shows or hides the panels on the right.";
     "View/Input" "input.mouse" "Emulate Three-Button Mouse" "" Nothing Ui(UiRequest::EmulateMouse) => "Alt+left drag orbits, with Shift it pans, with Ctrl it zooms.";

@@ -50,6 +50,7 @@ fn view(ui: &mut Ui, editor: &Editor, stage: &Stage, requests: &mut Vec<Request>
     let modes = [
         ("Wireframe", DisplayMode::Wireframe),
         ("Solid", DisplayMode::Solid),
+        ("Matcap", DisplayMode::Matcap),
         ("Textured", DisplayMode::Textured),
         ("Rendered", DisplayMode::Rendered),
     ];

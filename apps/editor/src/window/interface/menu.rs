@@ -7,7 +7,7 @@ use trigon_window::egui::{
 };
 
 use super::{focus_first, label};
-use crate::window::actions::{self, Action, MENUS};
+use crate::window::actions::{self, Action, CONTEXT_MENU, MENUS};
 use crate::window::editor::Editor;
 
 /// In points.
@@ -76,8 +76,14 @@ fn entry(ui: &mut Ui, editor: &Editor, action: &Action) -> Response {
 
 /// A menu with those within it below one another, as few movements of the hand as can be.
 fn all_entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Action> {
+    if menu == CONTEXT_MENU {
+        return context_entries(ui, editor);
+    }
     let (mut chosen, mut current) = (None, menu);
     ui.strong(menu.rsplit('/').next().unwrap_or(menu));
+    for action in actions::also_in(menu) {
+        chosen = focusable_entry(ui, editor, action).or(chosen);
+    }
     for action in actions::all().filter(|action| !action.opens_menu()) {
         let within = action.menu.strip_prefix(menu);
         if !within.is_some_and(|rest| rest.is_empty() || rest.starts_with('/')) {
@@ -87,17 +93,30 @@ fn all_entries(ui: &mut Ui, editor: &Editor, menu: &str) -> Option<&'static Acti
             current = action.menu;
             ui.separator();
         }
-        let shown = entry(ui, editor, action);
-        if shown.enabled() {
-            // Arrows and Enter choose, too.
-            focus_first(&shown);
-        }
-        chosen = shown.clicked().then_some(action).or(chosen);
+        chosen = focusable_entry(ui, editor, action).or(chosen);
     }
     chosen
 }
 
-/// The menu that a key opened, at the pointer.
+/// An entry that arrows and Enter choose, too; itself if it was chosen.
+fn focusable_entry(ui: &mut Ui, editor: &Editor, action: &'static Action) -> Option<&'static Action> {
+    let shown = entry(ui, editor, action);
+    if shown.enabled() {
+        focus_first(&shown);
+    }
+    shown.clicked().then_some(action)
+}
+
+/// What is often done with what is selected.
+fn context_entries(ui: &mut Ui, editor: &Editor) -> Option<&'static Action> {
+    let (mut chosen, is_editing) = (None, editor.document.selection().is_editing());
+    for action in actions::context(is_editing) {
+        chosen = focusable_entry(ui, editor, action).or(chosen);
+    }
+    chosen
+}
+
+/// The menu that a key or the right button opened, at the pointer.
 pub(super) fn popup(context: &Context, editor: &mut Editor, stage: &mut Stage) {
     let Some(Popup { menu, at }) = &mut editor.popup else { return };
     let is_new = at.is_none();

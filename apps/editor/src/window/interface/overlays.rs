@@ -1,9 +1,10 @@
 //! The list of keys, and the field for another name.
 
 use trigon_edit::{Document, ObjectName, RenameObject};
-use trigon_window::egui::{self, Align2, Context, Grid, Key, RichText, ScrollArea};
+use trigon_window::egui::{self, Align2, Context, Grid, Key, RichText, ScrollArea, TextEdit};
 
 use super::label;
+use crate::panel::select_all_at_first;
 use crate::request::Request;
 use crate::window::actions::{self, MENUS};
 use crate::window::editor::Editor;
@@ -73,13 +74,15 @@ pub(super) fn rename(context: &Context, editor: &mut Editor, requests: &mut Vec<
     let (mut is_open, mut is_done) = (true, false);
     let window = egui::Window::new("Rename").open(&mut is_open).collapsible(false).resizable(false);
     window.anchor(Align2::CENTER_CENTER, [0.0; 2]).show(context, |ui| {
-        let typed = ui.text_edit_singleline(&mut rename.name);
-        label(&typed, "name of the object");
+        let mut field = TextEdit::singleline(&mut rename.name).show(ui);
+        let typed = &field.response;
+        label(typed, "name of the object");
         is_done = typed.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         is_done |= ui.button("Rename").clicked();
         if !is_done {
             typed.request_focus();
         }
+        select_all_at_first(&mut field);
     });
     if is_done {
         let (object, name) = (rename.object.clone(), rename.name.clone());

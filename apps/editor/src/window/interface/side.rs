@@ -73,6 +73,9 @@ fn tabs(ui: &mut Ui, editor: &mut Editor, stage: &Stage, requests: &mut Vec<Requ
                 let controls = of_mode.map(|action| (keys.text_of(action), action.label.to_owned()));
                 let controls: Vec<_> = controls.filter(|(keys, _)| !keys.is_empty()).collect();
                 panel::information(ui, document, &mut panels.information, &controls);
+                egui::CollapsingHeader::new("History").default_open(true).show_unindented(ui, |ui| {
+                    panel::history(ui, document, requests);
+                });
             }
             Tab::Add => panel::add(ui, document, &mut panels.add, tools.cursor.to_array(), requests),
             Tab::Properties => panel::properties(ui, document, &mut panels.properties, requests),

@@ -33,12 +33,14 @@ pub(super) fn show(ui: &Ui, editor: &mut Editor, stage: &Stage) {
 /// Draws what lies over one view.
 fn show_pane(painter: &Painter, editor: &mut Editor, (stage, pane): (&Stage, &Pane), view: &OverlayView) {
     let origin = pane.area.origin();
-    let distance = |at| stage.pick(at + origin).map(|(_, point)| view.distance(point));
-    draw_grid(painter, view, &distance);
-    draw_lights(painter, &editor.document, view);
-    draw_cameras(painter, &editor.document, view);
-    draw_origins(painter, &editor.document, view);
-    draw_cursor(painter, view, editor.tools.cursor);
+    if editor.view.overlays {
+        let distance = |at| stage.pick(at + origin).map(|(_, point)| view.distance(point));
+        draw_grid(painter, view, &distance);
+        draw_lights(painter, &editor.document, view);
+        draw_cameras(painter, &editor.document, view);
+        draw_origins(painter, &editor.document, view);
+        draw_cursor(painter, view, editor.tools.cursor);
+    }
     if let Some(gizmo) = editor.gizmo(stage, pane) {
         let pointer = editor.pointer.filter(|at| pane.area.contains(*at));
         let pointer = pointer.map(|at| view.logical(at - origin));

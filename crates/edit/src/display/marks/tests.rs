@@ -103,6 +103,10 @@ fn vertices_are_points_in_vertex_mode() {
     assert!(settings.vertices.is_some());
     assert_eq!(of_color(&settings.marks.vertices, ACTIVE).len(), 1);
     assert_eq!(of_color(&settings.marks.vertices, SELECTED_VERTEX).len(), 2);
+    let unseen = &settings.marks.vertices[0];
+    assert_eq!(unseen.opacity, 0.0, "it comes first");
+    let of_cube = unseen.elements.iter().filter(|(node, _)| node.index() == 1).count();
+    assert_eq!(of_cube, 8, "the cube is not edited");
 }
 
 #[test]

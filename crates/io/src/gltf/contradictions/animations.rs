@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use gltf::json::Animation;
 use gltf::json::animation::{Channel, Property};
 
-use super::REMEDY;
+use super::remedy::REMEDY;
 use crate::error::Place;
 use crate::gltf::accessor::valid;
 use crate::gltf::document::Document;

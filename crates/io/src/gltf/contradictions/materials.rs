@@ -7,7 +7,7 @@ use gltf::json::validation::Checked;
 use gltf::json::{Material, Root};
 use serde_json::{Map, Value};
 
-use super::REMEDY;
+use super::remedy::REMEDY;
 use crate::error::Place;
 use crate::gltf::images::image_of;
 use crate::gltf::slots::slot_textures;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use gltf::json::Root;
 
-use super::REMEDY;
+use super::remedy::REMEDY;
 use crate::error::Place;
 use crate::gltf::document::Document;
 use crate::gltf::hierarchy::Hierarchy;

@@ -7,18 +7,17 @@
 mod animations;
 mod materials;
 mod meshes;
+mod remedy;
 
 use std::collections::BTreeSet;
 
 use gltf::json::Root;
 
+use self::remedy::REMEDY;
 use super::document::Document;
 use super::hierarchy::Hierarchy;
 use crate::error::Place;
 use crate::warning::Warnings;
-
-/// What helps against most of it.
-const REMEDY: &str = "export the model again";
 
 pub(crate) fn warn_of_contradictions(document: &Document, hierarchy: &Hierarchy, warnings: &mut Warnings) {
     let root = &document.root;

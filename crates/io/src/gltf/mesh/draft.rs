@@ -6,7 +6,7 @@ use std::ops::Range;
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Attributes, Deltas, MeshBuilder, MorphTarget, SkinWeights};
 
-use super::BuiltMesh;
+use super::built::BuiltMesh;
 use super::movement::delta;
 use super::part::Part;
 

@@ -4,7 +4,7 @@ use gltf::json::mesh::Semantic;
 use gltf::json::validation::Checked;
 use trigon_math::Vec3;
 
-use super::part::Optional;
+use super::optional::Optional;
 use crate::gltf::buffers::Unplaced;
 use crate::gltf::formats::{JOINTS, TARGET_NORMAL, TARGET_POSITION, TARGET_TANGENT, Usage, WEIGHTS};
 

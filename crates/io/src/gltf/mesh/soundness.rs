@@ -2,7 +2,7 @@
 //! primitive; `draft` mends what is not so.
 
 use super::movement::PartTarget;
-use super::part::Optional;
+use super::optional::Optional;
 
 /// How far a colour may be out of 0 to 1 before it is worth a warning: half a
 /// step of eight bits, which no picture shows.

@@ -1,7 +1,7 @@
 //! Mode 0: elements as differences from the one before, byte by byte, in
 //! groups of sixteen that take as many bits as they need.
 
-use super::Broken;
+use super::broken::Broken;
 use super::stream::Stream;
 
 /// Elements of a group.

@@ -1,6 +1,6 @@
 //! Mode 2: each index is a difference from one of two earlier ones.
 
-use super::Broken;
+use super::broken::Broken;
 use super::stream::{Stream, unzigzag};
 
 const HEADER: u8 = 0xd1;

@@ -7,11 +7,13 @@
 //! decoded, never with what was claimed.
 
 mod attributes;
+mod broken;
 mod filters;
 mod indices;
 mod stream;
 mod triangles;
 
+pub(crate) use broken::Broken;
 pub(crate) use filters::Filter;
 
 /// How a view is compressed.
@@ -35,9 +37,6 @@ pub(crate) struct Layout {
     /// Bytes of an element.
     pub(crate) stride: usize,
 }
-
-/// Why a stream is none.
-pub(crate) type Broken = &'static str;
 
 /// Decodes a view: `count · stride` bytes.
 pub(crate) fn decode(layout: &Layout, bytes: &[u8]) -> Result<Vec<u8>, Broken> {

@@ -1,6 +1,6 @@
 //! Bytes that are read one after the other.
 
-use super::Broken;
+use super::broken::Broken;
 
 /// What is left of a stream.
 pub(super) struct Stream<'b>(pub(super) &'b [u8]);

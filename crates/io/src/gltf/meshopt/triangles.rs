@@ -1,7 +1,7 @@
 //! Mode 1: each triangle is a byte that says which edge and which vertex of
 //! recent ones it has again, and few bytes where that does not do.
 
-use super::Broken;
+use super::broken::Broken;
 use super::stream::{Stream, unzigzag};
 
 const HEADER: u8 = 0xe1;

@@ -5,7 +5,7 @@
 //! read, objects that nothing uses, numbers with more digits than an f64 has. An editor takes
 //! all of these from here, as text and bytes, so that none is rounded, sorted or lost.
 //!
-//! `draft` gathers it during a load, `origins` maps ids to indices, `text` finds parts of the
+//! `draft` gathers it during a load (`keep` of the reader fills it), `origins` maps ids to indices, `text` finds parts of the
 //! JSON. Without [`LoadOptions::keep_source`](crate::LoadOptions::keep_source) none of it runs.
 
 mod draft;
@@ -18,10 +18,12 @@ use std::sync::Arc;
 
 use trigon_scene::{MaterialId, MeshId, NodeId, SkinId, TextureId};
 
-pub(crate) use draft::{SourceDraft, keep_file, keep_placed, keep_scene, take_primitives};
+pub(crate) use draft::SourceDraft;
+pub(super) use draft::share;
+pub(super) use origins::MeshOrigin;
 use origins::Origins;
 pub(crate) use origins::PrimitiveFaces;
-use text::JsonText;
+pub(super) use text::JsonText;
 
 /// A glTF or GLB file as it was read, beside the scene that was made of it.
 ///
@@ -60,7 +62,7 @@ pub struct GltfSource {
 
 /// A part of bytes that others may share.
 #[derive(Clone)]
-struct SharedBytes {
+pub(super) struct SharedBytes {
     bytes: Arc<[u8]>,
     range: Range<usize>,
 }

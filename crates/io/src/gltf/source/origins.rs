@@ -6,25 +6,25 @@ use trigon_scene::{MaterialId, MeshId, NodeId, SkinId, TextureId};
 
 /// Indices of the file by ids of the scene.
 #[derive(Default)]
-pub(super) struct Origins {
-    pub(super) nodes: BTreeMap<NodeId, usize>,
-    pub(super) meshes: BTreeMap<MeshId, MeshOrigin>,
-    pub(super) materials: BTreeMap<MaterialId, usize>,
-    pub(super) textures: BTreeMap<TextureId, BTreeSet<usize>>,
-    pub(super) skins: BTreeMap<SkinId, usize>,
+pub(in crate::gltf) struct Origins {
+    pub(in crate::gltf) nodes: BTreeMap<NodeId, usize>,
+    pub(in crate::gltf) meshes: BTreeMap<MeshId, MeshOrigin>,
+    pub(in crate::gltf) materials: BTreeMap<MaterialId, usize>,
+    pub(in crate::gltf) textures: BTreeMap<TextureId, BTreeSet<usize>>,
+    pub(in crate::gltf) skins: BTreeMap<SkinId, usize>,
     /// By their place in the scene.
-    pub(super) animations: Vec<usize>,
-    pub(super) cameras: BTreeMap<NodeId, usize>,
-    pub(super) lights: BTreeMap<NodeId, usize>,
+    pub(in crate::gltf) animations: Vec<usize>,
+    pub(in crate::gltf) cameras: BTreeMap<NodeId, usize>,
+    pub(in crate::gltf) lights: BTreeMap<NodeId, usize>,
     /// The scene that was loaded, if the file has scenes.
-    pub(super) scene: Option<usize>,
+    pub(in crate::gltf) scene: Option<usize>,
 }
 
 /// A mesh of the file.
-pub(super) struct MeshOrigin {
-    pub(super) index: usize,
+pub(in crate::gltf) struct MeshOrigin {
+    pub(in crate::gltf) index: usize,
     /// In the order of their faces.
-    pub(super) primitives: Vec<PrimitiveFaces>,
+    pub(in crate::gltf) primitives: Vec<PrimitiveFaces>,
 }
 
 /// The faces of a mesh that a primitive became: from where those of the one before end.

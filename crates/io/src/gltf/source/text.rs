@@ -32,14 +32,14 @@ const LISTS: &[&str] = &[
 type Lists = BTreeMap<&'static str, Vec<Range<usize>>>;
 
 /// The text, and where the items of its lists begin and end.
-pub(super) struct JsonText {
+pub(in crate::gltf) struct JsonText {
     text: Box<str>,
     lists: Lists,
 }
 
 impl JsonText {
     /// Finds the lists of a document.
-    pub(super) fn new(text: &str) -> serde_json::Result<Self> {
+    pub(in crate::gltf) fn new(text: &str) -> serde_json::Result<Self> {
         let lists = serde_json::Deserializer::from_str(text).deserialize_map(FindLists(text))?;
         Ok(Self { text: text.into(), lists })
     }

@@ -14,11 +14,12 @@ use trigon_scene::{MeshAsset, MeshId};
 
 use super::draft::Draft;
 use super::geometry::{Part, write_geometry};
+use super::kept_file::KeptFile;
 use super::raw::{RawObject, raw};
-use super::{KeptFile, Loss};
 use crate::error::Place;
 use crate::gltf::native::{self, Header, columns_of_mesh};
 use crate::gltf::triangle_hash::TriangleHash;
+use crate::loss::Loss;
 
 /// A mesh as it is now.
 pub(super) struct Shape<'a> {

@@ -11,6 +11,7 @@ mod freed;
 mod geometry;
 mod glb_file;
 mod kept;
+mod kept_file;
 mod materials;
 mod meshes;
 mod movement;
@@ -20,19 +21,14 @@ mod raw;
 mod scene;
 mod textures;
 
-use std::collections::BTreeMap;
-use std::fmt;
 use std::path::Path;
 
-use trigon_mesh::edit::Marks;
-use trigon_scene::{MeshId, Scene};
+use trigon_scene::Scene;
 
 pub use native_document::{NativeDocument, NativeFile};
 use scene::{Input, write_scene};
 pub(crate) use textures::mime_type;
 
-use super::source::GltfSource;
-use crate::error::Place;
 use crate::export::ExportOptions;
 use crate::write::{WriteError, write_atomically};
 
@@ -83,33 +79,5 @@ fn export<'a>(scene: &'a Scene, options: &'a ExportOptions<'a>) -> Input<'a> {
         pictures: options.pictures,
         nodes: options.nodes.as_deref(),
         root: options.root(),
-    }
-}
-
-/// A file, and what was made of it: what is the same in a scene is the same in the file.
-#[derive(Debug)]
-struct KeptFile {
-    source: GltfSource,
-    scene: Scene,
-    marks: BTreeMap<MeshId, Marks>,
-}
-
-/// Something that a file holds, or a scene, and that would not be there any more after saving.
-/// Its `Display` is one line.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Loss {
-    /// Where it is in the file that was loaded, or in the scene.
-    pub place: Place,
-    /// What it is.
-    pub what: String,
-}
-
-impl fmt::Display for Loss {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let place = self.place.to_string();
-        match place.strip_prefix(", ") {
-            Some(place) => write!(f, "{place}: {}", self.what),
-            None => f.write_str(&self.what),
-        }
     }
 }

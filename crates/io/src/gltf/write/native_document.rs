@@ -8,13 +8,14 @@ use trigon_mesh::edit::EditMesh;
 use trigon_scene::{MeshId, Scene};
 
 use super::glb_file::GlbFile;
+use super::kept_file::KeptFile;
 use super::meshes::Shape;
 use super::scene::{Input, write_scene};
-use super::{KeptFile, Loss};
 use crate::error::{LoadError, Place};
 use crate::export::{Export, ExportOptions, export};
 use crate::format::Format;
 use crate::load::{Loaded, load, load_from_slice};
+use crate::loss::Loss;
 use crate::options::LoadOptions;
 use crate::warning::{Warning, Warnings};
 use crate::write::{WriteError, write_atomically};

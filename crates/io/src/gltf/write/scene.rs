@@ -14,15 +14,16 @@ use super::draft::Draft;
 use super::freed::Replaced;
 use super::glb_file::GlbFile;
 use super::kept::draft_of;
+use super::kept_file::KeptFile;
 use super::materials::{plain, write_material};
 use super::meshes::{Shape, Written, losses};
 use super::movement::write_skin;
 use super::nodes::{camera, matrix, write_node};
 use super::raw::RawObject;
 use super::textures::Textures;
-use super::{KeptFile, Loss};
 use crate::error::Place;
 use crate::gltf::source::GltfSource;
+use crate::loss::Loss;
 use crate::write::WriteError;
 use choice::{Choice, unchanged_copies};
 

@@ -6,7 +6,7 @@ use trigon_math::color::linear_to_srgb;
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_scene::MaterialId;
 
-use super::MaterialNames;
+use super::names::MaterialNames;
 use crate::export::{Gathered, Object, Precision, push_number};
 
 /// The text so far, and how many of each kind there are: indices count through the whole file.

@@ -4,11 +4,11 @@ use trigon_math::Vec3;
 use trigon_math::color::linear_to_srgb;
 use trigon_scene::{AlphaMode, Material, Shading, TextureBinding, Wrap};
 
-use super::MaterialNames;
+use super::names::MaterialNames;
 use super::pictures::Pictures;
 use crate::error::Place;
 use crate::export::{Gathered, Precision, push_number};
-use crate::gltf::Loss;
+use crate::loss::Loss;
 
 /// The text of the library.
 pub(super) fn write(

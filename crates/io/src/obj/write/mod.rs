@@ -5,16 +5,16 @@
 
 mod elements;
 mod materials;
+mod names;
 mod pictures;
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use trigon_scene::MaterialId;
-
 use self::elements::Elements;
+use self::names::{Names, name_materials};
 use self::pictures::Pictures;
 use crate::export::{ExportOptions, ExportedFile, Gathered, plain_name};
+use crate::loss::Loss;
 use crate::write::WriteError;
 
 /// Writes an OBJ with its MTL and its pictures.
@@ -40,7 +40,7 @@ pub(crate) fn write_obj(
     let mut pictures = Pictures::new(&stem, gathered.scene, options.pictures);
     let mtl = materials::write(gathered, &materials, &mut pictures);
     if has_varying_colors {
-        gathered.losses.push(crate::export::loss("vertex colours that differ between the faces of a vertex"));
+        gathered.losses.push(Loss::of_scene("vertex colours that differ between the faces of a vertex"));
     }
     let mut files = pictures.into_files();
     if !materials.is_empty() {
@@ -48,39 +48,4 @@ pub(crate) fn write_obj(
     }
     files.push(ExportedFile { name: name.to_owned(), bytes: text.into_bytes() });
     Ok(files)
-}
-
-/// Names that are each used once: readers unite what has the same.
-#[derive(Default)]
-struct Names {
-    known: BTreeSet<String>,
-}
-
-impl Names {
-    fn unique(&mut self, name: &str, otherwise: &str) -> String {
-        let plain = plain_name(name, otherwise);
-        let mut unique = plain.clone();
-        let mut number = 1;
-        while !self.known.insert(unique.clone()) {
-            number += 1;
-            unique = format!("{plain}_{number}");
-        }
-        unique
-    }
-}
-
-/// The names of the materials that faces have: of the default one if others have one of their own.
-type MaterialNames = BTreeMap<Option<MaterialId>, String>;
-
-fn name_materials(gathered: &Gathered<'_>) -> MaterialNames {
-    let (mut names, mut materials) = (Names::default(), BTreeMap::new());
-    for object in &gathered.objects {
-        for &face in &object.sources {
-            let id = object.material(face);
-            let name =
-                id.and_then(|id| gathered.scene.materials.get(id)).map_or("default", |found| &found.name);
-            materials.entry(id).or_insert_with(|| names.unique(name, "material"));
-        }
-    }
-    if materials.keys().all(Option::is_none) { MaterialNames::new() } else { materials }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use trigon_scene::{Scene, TextureId};
 
-use super::Names;
+use super::names::Names;
 use crate::export::{ExportedFile, plain_name};
 use crate::gltf::{GltfSource, mime_type};
 use crate::png::{Pixels, encode_png};

@@ -32,7 +32,8 @@ impl EditMesh {
     /// compared for both directions and every start, at up to 64 places that are spread evenly. New
     /// faces are wound like the neighbours of both loops; without neighbours they face away from
     /// the middle of the strip. They have the material of the first neighbour, and its values at the
-    /// corners there. Faces that fill a loop stay: to bridge two faces, delete them first.
+    /// corners there. Faces that fill a loop stay;
+    /// [`bridge_faces`](Self::bridge_faces) removes them.
     ///
     /// # Errors
     /// No edge is given, one does not exist, or they are not two loops or two chains without a common

@@ -20,11 +20,16 @@ pub struct LoopCutSettings {
     /// loop lies on the side of the given edge's second vertex, at −1 the first one on that of its
     /// first vertex; 0 is even.
     pub position: f64,
+    /// Whether the loops keep on all edges of the ring the distances that they have on the given one,
+    /// instead of the same parts of each edge.
+    pub even: bool,
+    /// With `even`: whether distances count from the side of the given edge's second vertex.
+    pub flipped: bool,
 }
 
 impl Default for LoopCutSettings {
     fn default() -> Self {
-        Self { cuts: 1, position: 0.0 }
+        Self { cuts: 1, position: 0.0, even: false, flipped: false }
     }
 }
 
@@ -92,7 +97,7 @@ impl EditMesh {
     pub fn loop_cut(&mut self, edge: EdgeId, settings: &LoopCutSettings) -> Result<LoopCut, Refusal> {
         const MOST_CUTS: usize = 1000;
         self.check_edge(edge)?;
-        let LoopCutSettings { cuts, position } = *settings;
+        let LoopCutSettings { cuts, position, .. } = *settings;
         if !(1..=MOST_CUTS).contains(&cuts) {
             let (parameter, range) = ("the number of cuts", "1 to 1000");
             return Err(Refusal::OutOfRange { parameter, value: cuts as f64, range });
@@ -103,7 +108,23 @@ impl EditMesh {
         }
         let ring = self.ring_of_quads(edge)?;
         let places: Vec<f64> = (1..=cuts).map(|k| (k as f64 + position) / (cuts + 1) as f64).collect();
+        let places: Vec<Vec<f64>> =
+            ring.rungs.iter().map(|rung| self.places_on(rung.edge, edge, &places, settings)).collect();
         self.whole(|mesh| mesh.cut_ring_of_quads(&ring, &places))
+    }
+
+    /// Where the cuts lie on an edge of a ring, as parts of its length, for those on the ring's first edge.
+    fn places_on(&self, edge: EdgeId, first: EdgeId, places: &[f64], settings: &LoopCutSettings) -> Vec<f64> {
+        let ratio = self.edge_length(first) / self.edge_length(edge);
+        if !settings.even || !ratio.is_finite() {
+            return places.to_vec();
+        }
+        let place = |place: f64| match settings.flipped {
+            false => place * ratio,
+            true => 1.0 - (1.0 - place) * ratio,
+        };
+        // A shorter edge has no room for the distance.
+        places.iter().map(|&of_first| place(of_first).clamp(0.0, 1.0)).collect()
     }
 
     /// The ring of an edge that exists.
@@ -171,14 +192,16 @@ impl EditMesh {
         vertices[0] != vertices[2] && vertices[1] != vertices[3]
     }
 
-    fn cut_ring_of_quads(&mut self, ring: &EdgeRing, places: &[f64]) -> Result<LoopCut, Refusal> {
-        let mut vertices = Vec::with_capacity(ring.rungs.len() * places.len());
-        for rung in &ring.rungs {
+    /// Cuts a ring at places on each of its edges, of which each has as many.
+    fn cut_ring_of_quads(&mut self, ring: &EdgeRing, places: &[Vec<f64>]) -> Result<LoopCut, Refusal> {
+        let cuts = places.first().map_or(0, Vec::len);
+        let mut vertices = Vec::with_capacity(ring.rungs.len() * cuts);
+        for (rung, places) in ring.rungs.iter().zip(places) {
             vertices.extend(self.cut_rung(rung.edge, rung.from, places)?);
         }
-        let mut edges = Vec::with_capacity(ring.crossings.len() * places.len());
+        let mut edges = Vec::with_capacity(ring.crossings.len() * cuts);
         for crossing in &ring.crossings {
-            self.cut_quad(crossing, places.len(), &mut edges)?;
+            self.cut_quad(crossing, cuts, &mut edges)?;
         }
         Ok(LoopCut { edges, vertices, is_closed: ring.is_closed })
     }
@@ -268,7 +291,7 @@ mod tests {
     }
 
     fn cut(cuts: usize, position: f64) -> LoopCutSettings {
-        LoopCutSettings { cuts, position }
+        LoopCutSettings { cuts, position, ..LoopCutSettings::default() }
     }
 
     /// The edge between two neighbouring vertices.
@@ -293,6 +316,33 @@ mod tests {
                 assert!(mesh.faces().all(|face| mesh.face_size(face) == 4), "all are quads");
                 keeps_affine_values(&mesh).expect("interpolated along the edges");
             }
+        }
+    }
+
+    #[test]
+    fn even_loops_keep_their_distance_from_one_side() {
+        let (mut whole, _) = EditMesh::from_mesh(&primitives::grid(4.0, 2.0, 1, 1));
+        let at = |x: f32, z: f32| {
+            let place = Vec3::new(x, 0.0, z);
+            whole.vertices().find(|&vertex| whole.position(vertex) == place).expect("a corner")
+        };
+        let (low, high, corner) = (at(-2.0, -1.0), at(-2.0, 1.0), at(2.0, 1.0));
+        // The left edge stays 2 m long, the right one is 4 m.
+        whole.set_position(corner, Vec3::new(2.0, 0.0, 3.0));
+        let left = edge(&whole, low.0, high.0);
+        let upwards = whole.edge_vertices(left)[0] == low;
+        for (flipped, expected) in [(false, -0.5), (true, 1.5)] {
+            let position = if upwards { -0.5 } else { 0.5 };
+            let settings = LoopCutSettings { even: true, flipped: flipped == upwards, ..cut(1, position) };
+            let mut mesh = whole.clone();
+            let made = mesh.loop_cut(left, &settings).expect("a quad");
+            let mut found: Vec<f32> = made.vertices.iter().map(|&vertex| mesh.position(vertex).z).collect();
+            found.sort_by(f32::total_cmp);
+            assert_eq!(
+                found,
+                [-0.5, expected],
+                "half a metre from one end, or a metre and a half from the other"
+            );
         }
     }
 

@@ -6,6 +6,7 @@
 
 mod bevel;
 mod bridge;
+mod bridge_faces;
 mod catmull_clark;
 mod connect;
 mod copy;

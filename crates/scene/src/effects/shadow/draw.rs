@@ -8,7 +8,8 @@ use crate::effects::Scenery;
 use crate::effects::casters::{Caster, Casters};
 use crate::material::{AlphaMode, Material, Shading};
 use crate::render::placement::Eye;
-use crate::render::surface::{Dressed, Occasion, Rays, Surface};
+use crate::render::placement::Rays;
+use crate::render::surface::{Dressed, Occasion, Surface};
 use crate::scene::Scene;
 use crate::settings::{Reflection, ShadingModel};
 

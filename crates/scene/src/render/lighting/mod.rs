@@ -2,13 +2,14 @@
 
 mod brdf;
 mod lamp;
+mod points;
 mod reflectance;
 mod studio;
 mod sum;
 
 pub(crate) use brdf::Microfacets;
 pub(crate) use lamp::{Arriving, Lamp, Source};
-pub(crate) use sum::{Answer, LitPoints, Reflected};
+pub(crate) use points::{Answer, LitPoints, Reflected};
 
 use trigon_math::{DAffine3, Vec3};
 

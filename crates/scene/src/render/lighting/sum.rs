@@ -3,57 +3,10 @@
 use trigon_math::Vec3;
 use trigon_raster::simd::{Each, F32, Simd, prelude::*};
 
-use super::Microfacets;
 use super::lamp::BRIGHTEST;
+use super::points::{Answer, LitPoints, Reflected};
 use crate::effects::Scenery;
-use crate::render::lanes::{V3, dot, lesser_of, normalized, positive, pow, product, scaled, sum, tinted};
-
-/// Eight points of a surface, in camera space.
-#[derive(Clone, Copy)]
-pub(crate) struct LitPoints<S: Simd> {
-    pub(crate) position: V3<S>,
-    /// Of unit length, or zero, which no light reaches.
-    pub(crate) normal: V3<S>,
-    /// The same before a normal map bent it: which way the surface lies.
-    pub(crate) facing: V3<S>,
-    /// Unit vectors towards the eye.
-    pub(crate) view: V3<S>,
-}
-
-/// How a surface answers to light at eight points.
-#[derive(Clone, Copy)]
-pub(crate) enum Answer<S: Simd> {
-    /// Base colour × N·L.
-    Lambert,
-    /// See [`Shading::BlinnPhong`](crate::Shading::BlinnPhong).
-    BlinnPhong { specular: V3<S>, shininess: F32<S> },
-    /// See [`Shading::MetallicRoughness`](crate::Shading::MetallicRoughness).
-    Microfacets(Microfacets<S>),
-}
-
-/// Light on its way to the eye.
-#[derive(Clone, Copy)]
-pub(crate) struct Reflected<S: Simd> {
-    /// To be multiplied by the diffuse colour.
-    pub(crate) diffuse: V3<S>,
-    /// Highlights.
-    pub(crate) specular: V3<S>,
-}
-
-impl<S: Simd> Reflected<S> {
-    #[inline(always)]
-    pub(crate) fn none(simd: S) -> Self {
-        let zero = F32::splat(simd, 0.0);
-        Self { diffuse: [zero; 3], specular: [zero; 3] }
-    }
-
-    /// Adds light of which `diffuse` and `specular` go to the eye.
-    #[inline(always)]
-    fn add(&mut self, light: V3<S>, diffuse: V3<S>, specular: V3<S>) {
-        self.diffuse = sum(self.diffuse, product(light, diffuse));
-        self.specular = sum(self.specular, product(light, specular));
-    }
-}
+use crate::render::lanes::{V3, dot, lesser_of, normalized, positive, pow, scaled, sum, tinted};
 
 impl Scenery {
     /// The light of all lamps that a surface sends to the eye.

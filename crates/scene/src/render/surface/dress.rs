@@ -5,10 +5,11 @@
 use trigon_math::Vec3;
 
 use super::reflection::head_on;
-use super::{Coverage, Illumination, Layout, LightSlots, Look, Map, MicrofacetModel, Model, Rays};
+use super::{Coverage, Illumination, Layout, LightSlots, Look, Map, MicrofacetModel, Model};
 use crate::effects::{Optics, Scenery};
 use crate::material::{AlphaMode, Material, Shading, TextureBinding};
 use crate::render::columns::Columns;
+use crate::render::placement::Rays;
 use crate::scene::Scene;
 use crate::settings::{Reflection, ShadingModel};
 

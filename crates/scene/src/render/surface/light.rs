@@ -7,21 +7,6 @@ use super::{LightSlots, Surface, Values, load, shown};
 use crate::render::lanes::{V3, dot, mixed, negated, normalized, product, scaled, splat, sum, turned};
 use crate::render::lighting::{Answer, LitPoints, Reflected};
 
-/// Where light is found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Illumination {
-    /// It does not matter.
-    None,
-    /// At the vertices, and interpolated (H. Gouraud, "Continuous Shading of Curved
-    /// Surfaces", 1971).
-    AtVertices,
-    /// At each pixel, for an interpolated normal (B. T. Phong, "Illumination for
-    /// Computer Generated Pictures", 1975).
-    InPixels,
-    /// Once for each triangle, in its middle.
-    OnFacets,
-}
-
 impl<const FLAT: bool> Surface<'_, FLAT> {
     /// Light at eight vertices. Textures but that of the base colour are left out.
     #[inline(always)]

@@ -7,6 +7,7 @@
 
 mod dress;
 mod facet;
+mod illumination;
 mod layout;
 mod light;
 mod look;
@@ -17,8 +18,8 @@ mod traced;
 mod values;
 
 pub(crate) use dress::{Dressed, Occasion};
+pub(crate) use illumination::Illumination;
 pub(crate) use layout::{Layout, LightSlots};
-pub(crate) use light::Illumination;
 pub(crate) use look::{Coverage, Look, Map, MicrofacetModel, Model};
 pub(crate) use values::{Values, three};
 
@@ -29,7 +30,7 @@ use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
 use super::columns::Columns;
 use super::lanes::{V3, normalized, saturated, splat, sum, turned};
 use super::lighting::Reflected;
-use super::placement::Placement;
+use super::placement::{Placement, Rays};
 use crate::effects::Scenery;
 
 /// Faces of one mesh in one material.
@@ -44,22 +45,6 @@ pub(crate) struct Surface<'a, const FLAT: bool> {
     /// Whether rays of view meet in the camera, or run parallel.
     pub(crate) rays: Rays,
     pub(crate) scenery: &'a Scenery,
-}
-
-/// A side of a face.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Side {
-    Front,
-    Back,
-}
-
-/// How rays of view run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Rays {
-    /// Perspective.
-    Meeting,
-    /// Orthographic.
-    Parallel,
 }
 
 impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {

@@ -4,9 +4,10 @@ use trigon_math::Vec3;
 use trigon_raster::FragmentLanes;
 use trigon_raster::simd::{F32, Mask, Simd, prelude::*};
 
-use super::{Map, Rays, Side, Surface, three};
+use super::{Map, Surface, three};
 use crate::render::lanes::{V3, cross, negated, normalized, scaled, select, splat, sum};
 use crate::render::lighting::LitPoints;
+use crate::render::placement::{Rays, Side};
 
 impl<const FLAT: bool> Surface<'_, FLAT> {
     /// Where the pixels lie and how the surface is turned there.

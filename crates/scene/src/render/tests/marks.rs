@@ -211,6 +211,16 @@ fn lines_of_wireframes_have_the_colours_of_their_marks() {
 }
 
 #[test]
+fn vertices_with_a_mark_of_no_opacity_are_not_shown() {
+    let mut view = View::new(primitives::cube(1.4));
+    view.settings.style = Style::Surface;
+    let plain = view.frame(&view.settings);
+    view.settings.vertices = Some(VertexPoints::default());
+    view.settings.marks.vertices = vec![Mark { opacity: 0.0, ..view.mark(0..8, RED) }];
+    assert!(view.frame(&view.settings).color == plain.color, "as without points");
+}
+
+#[test]
 fn vertices_are_points_where_no_face_hides_them() {
     let mut view = View::new(primitives::cube(1.4));
     view.settings.style = Style::Surface;

@@ -7,9 +7,9 @@ use trigon_scene::Animation;
 
 use super::SceneWriter;
 use crate::error::Place;
-use crate::gltf::write::Loss;
 use crate::gltf::write::movement::write_animation;
 use crate::gltf::write::raw::RawObject;
+use crate::loss::Loss;
 
 impl SceneWriter<'_> {
     /// Animations that are in the file stay; others are written, and those that were removed go.

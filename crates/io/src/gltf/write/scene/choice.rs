@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use trigon_scene::{Node, NodeId, Scene};
 
-use crate::gltf::write::KeptFile;
+use crate::gltf::write::kept_file::KeptFile;
 
 /// Which nodes are written.
 pub(super) struct Choice {

@@ -504,7 +504,7 @@ proptest! {
                 (0, _) => mesh.bevel_edges(&chosen_edges, &settings).map(drop),
                 (1, _) => mesh.bevel_vertices(&chosen_vertices, &settings).map(drop),
                 (2, Some(&edge)) => {
-                    let cut = crate::edit::LoopCutSettings { cuts: segments, position: t };
+                    let cut = crate::edit::LoopCutSettings { cuts: segments, position: t, ..Default::default() };
                     mesh.loop_cut(edge, &cut).map(drop)
                 }
                 _ => mesh.slide_edges(&chosen_edges, t).map(drop),

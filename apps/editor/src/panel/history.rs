@@ -1,0 +1,66 @@
+//! The list of what was done, the last at the top; a click goes back or forth to just after an entry.
+
+use trigon_edit::{Document, Entry};
+use trigon_window::egui::{self, Ui};
+
+use crate::request::Request;
+
+/// Of so many entries the list consists at most, on each side of now: nobody reads more.
+const MOST: usize = 50;
+
+/// Shows it. Each click asks for as many undos or redos as lead there.
+pub(crate) fn history(ui: &mut Ui, document: &Document, requests: &mut Vec<Request>) {
+    let history = document.history();
+    let (done, undone) = (history.done(), history.undone());
+    for (index, entry) in undone.iter().enumerate().take(MOST).rev() {
+        if line(ui, entry, false).on_hover_text("Does again what was taken back up to here").clicked() {
+            requests.extend(std::iter::repeat_n(Request::Redo, index + 1));
+        }
+    }
+    for (undos, entry) in done.iter().rev().enumerate().take(MOST) {
+        if line(ui, entry, undos == 0).on_hover_text("Takes back what was done after this").clicked() {
+            requests.extend(std::iter::repeat_n(Request::Undo, undos));
+        }
+    }
+    let more = done.len().saturating_sub(MOST) + history.dropped();
+    match (done.len(), more) {
+        (0, 0) => drop(ui.weak("Nothing was done yet.")),
+        (_, 0) if ui.selectable_label(false, "Start").clicked() => {
+            requests.extend(std::iter::repeat_n(Request::Undo, done.len()));
+        }
+        (_, 0) => {}
+        _ => drop(ui.weak(format!("and {more} before"))),
+    }
+}
+
+fn line(ui: &mut Ui, entry: &Entry, is_now: bool) -> egui::Response {
+    ui.selectable_label(is_now, entry.command().name())
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+    use trigon_edit::scene::Scene;
+
+    use super::super::testing::Case;
+    use super::*;
+
+    #[test]
+    fn a_click_leads_back_and_forth() {
+        let document = Document::new(Scene::new());
+        let mut case = Case::new([260.0, 400.0], document, (), |ui, document, (), requests| {
+            history(ui, document, requests);
+        });
+        for op in ["add_empty", "add_light", "select_all", "delete_objects"] {
+            case.command(json!({ "op": op }));
+        }
+        case.click("Add Light");
+        assert_eq!(case.take_requests(), [Request::Undo, Request::Undo], "what came after it");
+        assert_eq!(case.document().nodes().nodes().len(), 2, "before they were deleted");
+        case.click("Start");
+        assert_eq!(case.document().nodes().nodes().len(), 0, "before all");
+        case.click("Delete Objects");
+        assert_eq!(case.document().history().done().len(), 4, "all again");
+        case.picture("history");
+    }
+}

@@ -1,0 +1,73 @@
+//! Tools that a button or a menu started: the way from there to the model is no movement. They wait for a press in
+//! the view. A drag from there is the whole tool; after a click it follows the pointer, as by its key.
+
+use trigon_window::scene::math::DVec2;
+use trigon_window::{Hands, Input, Modifiers, PointerButton, Stage};
+
+use super::editor::Editor;
+use super::panes::point;
+use super::pick::Click;
+
+/// Where a tool is between the button that started it and the movement that counts.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum ButtonStart {
+    /// The pointer's movements count.
+    Over,
+    /// They do not count before a press in the view.
+    Waits,
+    /// The press that they count from.
+    Pressed(Click),
+}
+
+/// What becomes of an input.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Passed {
+    /// It is the tool's.
+    On,
+    /// It means nothing to the tool.
+    No,
+    /// Movements count from here.
+    Begins(DVec2),
+    /// A drag has ended: the tool is confirmed.
+    Confirms,
+    /// A press beside the view: the tool is over.
+    Cancels,
+}
+
+impl ButtonStart {
+    /// Of a tool that starts where the pointer is.
+    pub(super) fn of(editor: &Editor, stage: &Stage, hands: Hands) -> Self {
+        if is_in_view(editor, stage, hands) { Self::Over } else { Self::Waits }
+    }
+
+    /// What the status line says beside the tool's own.
+    pub(super) fn hint(self) -> &'static str {
+        if matches!(self, Self::Waits) { "Press in the view and drag, or type a number. " } else { "" }
+    }
+
+    /// What an input means, and what comes next.
+    pub(super) fn pass(&mut self, editor: &Editor, stage: &Stage, input: &Input, hands: Hands) -> Passed {
+        match (*self, input) {
+            (Self::Waits, Input::PointerMoved) => Passed::No,
+            (Self::Waits, Input::Pressed(PointerButton::Left))
+                if !hands.modifiers.contains(Modifiers::ALT) =>
+            {
+                let press = Click::new(hands).filter(|_| is_in_view(editor, stage, hands));
+                let Some(press) = press else { return Passed::Cancels };
+                *self = Self::Pressed(press);
+                Passed::Begins(press.at)
+            }
+            (Self::Pressed(press), Input::Released(PointerButton::Left)) => {
+                *self = Self::Over;
+                if press.is_drag(hands, stage.scale()) { Passed::Confirms } else { Passed::No }
+            }
+            _ => Passed::On,
+        }
+    }
+}
+
+/// Whether the pointer is on the picture, beside all panels.
+fn is_in_view(editor: &Editor, stage: &Stage, hands: Hands) -> bool {
+    let Some((free, at)) = editor.free.zip(hands.pointer) else { return true };
+    free.contains(point(stage, at))
+}

@@ -1,0 +1,150 @@
+//! Recorded sessions: whole models made by mouse and keyboard alone, in a window without a display. A session is a
+//! text with one action in each line, as `script` describes; what it asserts is what its user would see.
+
+mod chair;
+mod habits;
+mod light;
+mod mug;
+mod script;
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use trigon_edit::Document;
+use trigon_edit::mesh::edit::EditMesh;
+use trigon_window::scene::Frame;
+use trigon_window::scene::camera::Viewport;
+use trigon_window::{Animation, Handler, Hands, HeadlessWindow, Input, Modifiers, Stage, Taken, Tick, egui};
+
+use crate::window::editor::Editor;
+use crate::window::keys::Keys;
+use crate::window::settings;
+
+const SIZE: Viewport = Viewport { width: 1280, height: 800 };
+
+/// The window's editor, at which a test looks meanwhile.
+struct Watched(Rc<RefCell<Editor>>);
+
+impl Handler for Watched {
+    fn start(&mut self, stage: &mut Stage) {
+        self.0.borrow_mut().start(stage);
+    }
+
+    fn frame(&mut self, stage: &mut Stage, tick: Tick) -> Animation {
+        self.0.borrow_mut().frame(stage, tick)
+    }
+
+    fn input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
+        self.0.borrow_mut().input(stage, input, hands)
+    }
+
+    fn command(&mut self, stage: &mut Stage, name: &str) {
+        self.0.borrow_mut().command(stage, name);
+    }
+
+    fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {
+        self.0.borrow_mut().interface(stage, ui);
+    }
+
+    fn dropped(&mut self, stage: &mut Stage, paths: Vec<PathBuf>, modifiers: Modifiers) {
+        self.0.borrow_mut().dropped(stage, paths, modifiers);
+    }
+
+    fn close_requested(&mut self, stage: &mut Stage) {
+        self.0.borrow_mut().close_requested(stage);
+    }
+
+    fn picture(&mut self, stage: &mut Stage, frame: Frame) {
+        self.0.borrow_mut().picture(stage, frame);
+    }
+
+    fn woken(&mut self, stage: &mut Stage) {
+        self.0.borrow_mut().woken(stage);
+    }
+}
+
+/// Somebody at the editor.
+struct User<'a> {
+    window: HeadlessWindow<'a>,
+    editor: Rc<RefCell<Editor>>,
+    /// What `$FOLDER` in a script is.
+    folder: &'a Path,
+}
+
+/// Opens the editor with these files, and lets somebody work.
+fn at_the_editor(folder: &Path, files: &[PathBuf], work: impl FnOnce(&mut User<'_>)) {
+    let mut stage = Stage::new("test");
+    settings::prepare(&mut stage);
+    // The pictures' edges are not what is tested.
+    stage.settings.samples_per_axis = 1;
+    let editor = Editor::new(Keys::default(), Some(folder.join("state")), files.to_vec());
+    let editor = Rc::new(RefCell::new(editor));
+    let mut handler = Watched(Rc::clone(&editor));
+    let window = HeadlessWindow::open(stage, &mut handler, SIZE);
+    work(&mut User { window, editor, folder });
+}
+
+/// Does what a script says, which ends with the document saved as `$FOLDER/saved.glb`, and opens that in another
+/// editor: it is the same to the last byte.
+fn saved_and_reopened(script: &str, finished: impl Fn(&Document)) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut before = Vec::new();
+    at_the_editor(folder.path(), &[], |user| {
+        user.play(script);
+        finished(&user.editor.borrow().document);
+        before = user.bytes();
+    });
+    at_the_editor(folder.path(), &[folder.path().join("saved.glb")], |user| {
+        user.wait_for_title("saved.glb - trigon");
+        finished(&user.editor.borrow().document);
+        assert!(user.bytes() == before, "what was saved is what was opened");
+    });
+}
+
+impl User<'_> {
+    /// All that a file holds of the document.
+    fn bytes(&self) -> Vec<u8> {
+        self.editor.borrow().document.encode().expect("it is small").to_bytes().to_vec()
+    }
+
+    /// Lets other threads do what they are at until the window is called so.
+    fn wait_for_title(&mut self, title: &str) {
+        while self.window.stage().title() != title {
+            let editor = self.editor.borrow();
+            let is_waiting = editor.loading.is_some();
+            assert!(is_waiting, "{:?} instead: {:?}", self.window.stage().title(), editor.message);
+            drop(editor);
+            self.window.wait();
+        }
+    }
+}
+
+/// The mesh of the object of this name.
+fn mesh<'a>(document: &'a Document, name: &str) -> &'a EditMesh {
+    let nodes = document.nodes().nodes();
+    let (_, node) = nodes.iter().find(|(_, node)| node.name == name).expect("an object of this name");
+    document.mesh(node.mesh.expect("it has a mesh")).expect("the mesh is there")
+}
+
+/// By the divergence theorem over fans of the faces, in cubic metres: the mesh is closed, its faces look
+/// outwards, and each is flat and seen whole from its first corner or its volume does not depend on the fan.
+fn volume(mesh: &EditMesh) -> f64 {
+    let mut volume = 0.0;
+    for face in mesh.faces() {
+        let corners: Vec<_> =
+            mesh.face_vertices(face).map(|vertex| mesh.position(vertex).as_dvec3()).collect();
+        volume += corners.windows(2).skip(1).map(|pair| corners[0].dot(pair[0].cross(pair[1]))).sum::<f64>();
+    }
+    volume / 6.0
+}
+
+/// Vertices minus edges plus faces.
+fn euler(mesh: &EditMesh) -> i64 {
+    mesh.vertex_count() as i64 - mesh.edge_count() as i64 + mesh.face_count() as i64
+}
+
+/// Edges that do not have exactly two faces.
+fn open_edges(mesh: &EditMesh) -> usize {
+    mesh.edges().filter(|edge| mesh.edge_faces(*edge).count() != 2).count()
+}

@@ -1,0 +1,37 @@
+//! What becomes of a mesh of the document, and what its materials want of it.
+
+use trigon_mesh::Mesh;
+use trigon_mesh::edit::Marks;
+
+use crate::gltf::slots::{Slot, SlotTexture};
+use crate::gltf::source::PrimitiveFaces;
+
+/// A mesh, and what its slots hold.
+pub(crate) struct BuiltMesh {
+    pub(crate) mesh: Mesh,
+    /// The material of each slot: an index of the document, or the default.
+    pub(crate) materials: Vec<Option<usize>>,
+    /// Which faces each primitive became.
+    pub(crate) primitives: Vec<PrimitiveFaces>,
+    /// Of a native file, if the mesh was being edited.
+    pub(crate) marks: Option<Marks>,
+}
+
+/// What a material wants of the meshes that it covers.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Needs {
+    /// The UV sets that its textures are looked up in.
+    pub(crate) uv_sets: Vec<u32>,
+    /// The one of its normal map.
+    pub(crate) tangents_of: Option<u32>,
+}
+
+impl Needs {
+    pub(crate) fn of(textures: &[SlotTexture]) -> Self {
+        let mut uv_sets: Vec<u32> = textures.iter().map(|texture| texture.uv_set).collect();
+        uv_sets.sort_unstable();
+        uv_sets.dedup();
+        let normal = textures.iter().find(|texture| texture.slot == Slot::Normal);
+        Self { uv_sets, tangents_of: normal.map(|texture| texture.uv_set) }
+    }
+}

@@ -1,0 +1,214 @@
+//! What a renderer keeps from picture to picture, and draws with.
+
+use trigon_math::Vec4;
+use trigon_raster::{Pass, Rasterizer, Stats, Target, TargetError};
+
+use super::stage::Stage;
+use crate::effects::{
+    AmbientRays, Casters, Counts, Effect, EffectPlan, LampPose, Mist, RayCache, Scenery, ShadowCache,
+    Shadows, draw_outline, lay_on_background, map_picture,
+};
+use crate::frame::{Frame, resize};
+use crate::outputs::{Needed, Seen};
+use crate::settings::RenderSettings;
+
+/// What a renderer keeps from picture to picture. It changes no byte of one.
+#[derive(Default)]
+pub(super) struct Kept {
+    shadows: ShadowCache,
+    rays: RayCache,
+    /// The picture before its tones are mapped.
+    linear: Vec<Vec4>,
+    /// What shows through its faces, likewise.
+    beneath: Vec<Vec4>,
+    /// What each pixel sees, as far as outputs and outlines need it.
+    pub(super) seen: Seen,
+}
+
+impl Kept {
+    /// What all surfaces have around them, as far as the plan asks for it.
+    pub(super) fn scenery(
+        &mut self,
+        stage: &Stage<'_>,
+        plan: &EffectPlan,
+        rasterizer: &mut Rasterizer,
+    ) -> Result<Scenery, TargetError> {
+        let effects = &stage.settings.effects;
+        let on = |effect| plan.is_on(effect);
+        let mut scenery = Scenery {
+            lights: stage.lights.clone(),
+            surroundings: stage.surroundings().filter(|_| on(Effect::Environment)),
+            metal_sky: on(Effect::MetalSky).then(|| stage.metal_sky()),
+            mist: effects.fog.as_ref().and_then(Mist::new),
+            shadow_rays: on(Effect::ShadowRays),
+            ambient_rays: effects
+                .ambient_occlusion
+                .filter(|_| on(Effect::AmbientOcclusion))
+                .map(AmbientRays::new),
+            ..Scenery::default()
+        };
+        let sight = on(Effect::Reflection) || on(Effect::Refraction);
+        scenery.bounces = if sight { effects.bounces } else { 0 };
+        let rays = sight || scenery.shadow_rays || scenery.ambient_rays.is_some();
+        if !rays && !on(Effect::ShadowMaps) {
+            return Ok(scenery);
+        }
+        let casters = Casters::gather(stage.scene, &stage.shapes);
+        if let (true, Shadows::Maps { resolution }) = (on(Effect::ShadowMaps), effects.shadows) {
+            let poses: Vec<LampPose> = stage.lights.lamps.iter().map(|lamp| stage.pose(lamp)).collect();
+            let (seen, to_world) = ((stage.scene, &casters), &stage.camera_to_world);
+            let resolution = resolution.clamp(16, 8192);
+            scenery.shadow_maps = Some(self.shadows.maps(&poses, seen, resolution, to_world, rasterizer)?);
+        }
+        if rays {
+            scenery.rays =
+                Some(self.rays.scene(&casters, sight.then_some(stage.scene), &stage.camera_to_world));
+        }
+        Ok(scenery)
+    }
+
+    /// The picture was cancelled: what was drawn for it may not be whole.
+    pub(super) fn forget_unfinished(&mut self) {
+        if self.shadows.drawn() > 0 {
+            self.shadows = ShadowCache::default();
+        }
+    }
+
+    /// Adds what the scenery took.
+    pub(super) fn count(&self, scenery: &Scenery, plan: &EffectPlan, counts: &mut Counts) {
+        if let Some(maps) = &scenery.shadow_maps {
+            counts.of(Effect::ShadowMaps).bytes = maps.byte_count() as u64;
+            counts.of(Effect::ShadowMaps).passes = self.shadows.drawn() as u64;
+        }
+        if let Some(surroundings) = &scenery.surroundings {
+            counts.of(Effect::Environment).bytes = surroundings.environment.byte_count() as u64;
+        }
+        if let Some(sky) = &scenery.metal_sky {
+            counts.of(Effect::MetalSky).bytes = sky.byte_count() as u64;
+        }
+        if let Some(rays) = &scenery.rays {
+            let [to_lamps, around, sight] = rays.cast();
+            // Mirrors and glass share their rays.
+            for (effect, cast) in [
+                (Effect::ShadowRays, to_lamps),
+                (Effect::AmbientOcclusion, around),
+                (Effect::Reflection, sight),
+                (Effect::Refraction, sight),
+            ] {
+                if plan.is_on(effect) {
+                    counts.of(effect).bytes = rays.byte_count() as u64;
+                    counts.of(effect).rays = cast;
+                }
+            }
+        }
+    }
+
+    /// Draws the pass of colours, and what is laid over the picture afterwards. Leaves
+    /// in `seen` and in the frame's depth what is needed of the pass beside colours.
+    pub(super) fn draw(
+        &mut self,
+        pass: &Pass<'_>,
+        (settings, plan): (&RenderSettings, &EffectPlan),
+        (blank, frame, needed): (Target<'_>, &mut Frame, Needed),
+        (rasterizer, counts): (&mut Rasterizer, &mut Counts),
+    ) -> Result<Stats, TargetError> {
+        let Frame { color, radiance, depth, .. } = frame;
+        let (colors, pixels) = (color.as_chunks_mut().0, settings.width as usize * settings.height as usize);
+        let needed = needed.with_objects(plan.is_on(Effect::Outline));
+        let full = TargetError::Memory { width: settings.width, height: settings.height };
+        self.seen.make_room(pixels, needed).ok_or(full)?;
+        // The lists are borrowed for as long as the target lives.
+        let mut seen = std::mem::take(&mut self.seen);
+        let target = seen.with(blank, depth.as_mut())?;
+        let pictures = (colors, radiance.as_mut());
+        let is_mapped = plan.is_on(Effect::ToneMapping);
+        if is_mapped {
+            counts.of(Effect::ToneMapping).passes = 1;
+            counts.of(Effect::ToneMapping).bytes = (pixels * size_of::<Vec4>()) as u64;
+        }
+        let stats = if is_mapped || settings.share_through_faces().is_some() {
+            self.draw_mapped(pass, settings, (target, pictures), rasterizer)?
+        } else {
+            draw_directly(pass, (target, pictures), rasterizer)?
+        };
+        if let (true, Some(outline)) = (plan.is_on(Effect::Outline), &settings.effects.outline) {
+            counts.of(Effect::Outline).passes = 1;
+            counts.of(Effect::Outline).bytes = size_of_val(seen.objects.as_slice()) as u64;
+            draw_outline(outline, &seen.objects, settings.width as usize, color.as_chunks_mut().0);
+        }
+        self.seen = seen;
+        Ok(stats)
+    }
+
+    /// Draws a pass of which only depth and ids are kept.
+    pub(super) fn draw_seen(
+        &mut self,
+        pass: &Pass<'_>,
+        settings: &RenderSettings,
+        (blank, frame, needed): (Target<'_>, &mut Frame, Needed),
+        rasterizer: &mut Rasterizer,
+    ) -> Result<Stats, TargetError> {
+        let RenderSettings { width, height, .. } = *settings;
+        let pixels = width as usize * height as usize;
+        self.seen.make_room(pixels, needed).ok_or(TargetError::Memory { width, height })?;
+        Ok(rasterizer.draw(pass, &mut self.seen.with(blank, frame.depth.as_mut())?))
+    }
+
+    /// Draws what shows through the faces of the next picture.
+    pub(super) fn draw_beneath(
+        &mut self,
+        pass: &Pass<'_>,
+        settings: &RenderSettings,
+        blank: Target<'_>,
+        rasterizer: &mut Rasterizer,
+    ) -> Result<Stats, TargetError> {
+        let RenderSettings { width, height, .. } = *settings;
+        let pixels = width as usize * height as usize;
+        resize(&mut self.beneath, pixels, Vec4::ZERO).ok_or(TargetError::Memory { width, height })?;
+        Ok(rasterizer.draw(pass, &mut blank.with_linear(&mut self.beneath)?))
+    }
+
+    /// Draws linear light, lets show what is beneath, and maps the tones into the picture.
+    fn draw_mapped(
+        &mut self,
+        pass: &Pass<'_>,
+        settings: &RenderSettings,
+        (target, (colors, radiance)): (Target<'_>, Pictures<'_>),
+        rasterizer: &mut Rasterizer,
+    ) -> Result<Stats, TargetError> {
+        let RenderSettings { width, height, .. } = *settings;
+        let (is_asked_for, linear) = (radiance.is_some(), radiance.unwrap_or(&mut self.linear));
+        let pixels = width as usize * height as usize;
+        resize(linear, pixels, Vec4::ZERO).ok_or(TargetError::Memory { width, height })?;
+        let stats = rasterizer.draw(pass, &mut target.with_linear(linear)?);
+        if let Some(share) = settings.share_through_faces() {
+            for (light, beneath) in linear.iter_mut().zip(&self.beneath) {
+                *light = *light * (1.0 - share) + *beneath * share;
+            }
+        }
+        map_picture(linear, settings, colors, rasterizer);
+        if is_asked_for {
+            lay_on_background(linear, settings);
+        }
+        Ok(stats)
+    }
+}
+
+/// The pictures of a pass of colours, as far as they are asked for: bytes, or none, and
+/// light.
+type Pictures<'a> = (&'a mut [[u8; 4]], Option<&'a mut Vec<Vec4>>);
+
+/// Draws what is not changed afterwards.
+fn draw_directly(
+    pass: &Pass<'_>,
+    (mut target, (colors, radiance)): (Target<'_>, Pictures<'_>),
+    rasterizer: &mut Rasterizer,
+) -> Result<Stats, TargetError> {
+    if let Some(radiance) = radiance {
+        target = target.with_linear(radiance)?;
+    }
+    if !colors.is_empty() {
+        target = target.with_srgb8(colors)?;
+    }
+    Ok(rasterizer.draw(pass, &mut target))
+}

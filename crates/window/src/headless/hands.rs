@@ -1,0 +1,134 @@
+//! What hands do to a window without a display. Each tells the interface and the session what the window system
+//! would tell them, in its order.
+
+use egui::{Event, MouseWheelSource, MouseWheelUnit, TouchPhase};
+use trigon_math::DVec2;
+
+use super::HeadlessWindow;
+use crate::input::{Chord, InputEvent, Key, KeyCode, KeyPress, Modifiers, PointerButton, Press};
+
+/// A way of the pointer has so many places in between: tools see where it came from.
+const STEPS: u32 = 4;
+
+impl HeadlessWindow<'_> {
+    /// Moves the pointer to a place in physical pixels, on a straight way.
+    pub fn move_to(&mut self, to: DVec2) {
+        let from = self.pointer;
+        for step in 1..=STEPS {
+            self.pointer = from.lerp(to, f64::from(step) / f64::from(STEPS));
+            let at = self.in_points();
+            self.interface(Event::PointerMoved(at));
+            self.event(InputEvent::PointerMoved(self.pointer));
+        }
+        self.rest();
+    }
+
+    /// Holds these modifier keys and no others from now on.
+    pub fn hold(&mut self, modifiers: Modifiers) {
+        if self.modifiers != modifiers {
+            self.modifiers = modifiers;
+            self.event(InputEvent::Modifiers(modifiers));
+            self.rest();
+        }
+    }
+
+    /// Presses a button where the pointer is.
+    pub fn press(&mut self, button: PointerButton) {
+        self.button(button, Press::Down);
+    }
+
+    /// Releases a button where the pointer is.
+    pub fn release(&mut self, button: PointerButton) {
+        self.button(button, Press::Up);
+    }
+
+    /// Turns the wheel by lines away from the user.
+    pub fn wheel(&mut self, lines: f64) {
+        let (delta, modifiers) = (egui::vec2(0.0, lines as f32), self.of_interface());
+        let (unit, phase, source) = (MouseWheelUnit::Line, TouchPhase::Move, MouseWheelSource::Wheel);
+        self.interface(Event::MouseWheel { unit, delta, phase, source, modifiers });
+        self.event(InputEvent::Wheel(lines));
+        self.rest();
+    }
+
+    /// Presses and releases a key with its modifiers. A key that types something types it, too.
+    pub fn key(&mut self, chord: Chord) {
+        let held = self.modifiers;
+        self.hold(chord.modifiers);
+        let typed = typed(chord.key).filter(|_| !chord.modifiers.contains(Modifiers::CTRL));
+        let press =
+            |code| KeyPress { code, logical: Some(chord.key), physical: on_pad(chord.key), repeat: false };
+        // One hand presses one key at a time.
+        let code = KeyCode(1);
+        self.key_to_interface(chord.key, true);
+        if let Some(typed) = typed {
+            self.interface(Event::Text(typed.to_string()));
+        }
+        self.event(InputEvent::KeyDown(press(code)));
+        self.rest();
+        self.key_to_interface(chord.key, false);
+        self.event(InputEvent::KeyUp(code));
+        self.rest();
+        self.hold(held);
+    }
+
+    fn button(&mut self, button: PointerButton, press: Press) {
+        let (pos, modifiers, pressed) = (self.in_points(), self.of_interface(), press == Press::Down);
+        let theirs = match button {
+            PointerButton::Left => egui::PointerButton::Primary,
+            PointerButton::Right => egui::PointerButton::Secondary,
+            PointerButton::Middle => egui::PointerButton::Middle,
+        };
+        self.interface(Event::PointerButton { pos, button: theirs, pressed, modifiers });
+        self.event(InputEvent::Button(button, press));
+        self.rest();
+    }
+
+    fn key_to_interface(&mut self, key: Key, pressed: bool) {
+        let name = match key {
+            Key::Numpad(typed) => typed.to_string(),
+            other => other.to_string(),
+        };
+        let Some(key) = egui::Key::from_name(&name) else { return };
+        let modifiers = self.of_interface();
+        self.interface(Event::Key { key, physical_key: None, pressed, repeat: false, modifiers });
+    }
+
+    fn interface(&mut self, event: Event) {
+        self.event(InputEvent::Interface(event));
+    }
+
+    fn in_points(&mut self) -> egui::Pos2 {
+        let at = self.pointer / f64::from(self.session.interface().context().pixels_per_point());
+        egui::pos2(at.x as f32, at.y as f32)
+    }
+
+    fn of_interface(&self) -> egui::Modifiers {
+        let has = |modifier| self.modifiers.contains(modifier);
+        let (ctrl, command) = (has(Modifiers::CTRL), has(Modifiers::CTRL));
+        egui::Modifiers {
+            alt: has(Modifiers::ALT),
+            ctrl,
+            shift: has(Modifiers::SHIFT),
+            mac_cmd: false,
+            command,
+        }
+    }
+}
+
+/// What a key writes into a text.
+fn typed(key: Key) -> Option<char> {
+    match key {
+        Key::Character(typed) | Key::Numpad(typed) => Some(typed),
+        Key::Space => Some(' '),
+        _ => None,
+    }
+}
+
+/// A key of the pad is one of the main block, too.
+fn on_pad(key: Key) -> Option<Key> {
+    match key {
+        Key::Numpad(typed) => Some(Key::Character(typed)),
+        _ => None,
+    }
+}

@@ -1,0 +1,69 @@
+//! Files that need each other.
+
+use crate::module::Crate;
+use petgraph::algo::tarjan_scc;
+use petgraph::graph::{DiGraph, NodeIndex};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+use std::path::PathBuf;
+
+/// Files each of which needs all others, if by way of others.
+#[derive(Debug)]
+pub struct Circle {
+    /// Sorted, relative to `src`.
+    pub files: Vec<PathBuf>,
+    /// How many folders they lie in.
+    pub folder_count: usize,
+    /// Which file names what of which, once for each pair.
+    pub reasons: Vec<String>,
+}
+
+impl fmt::Display for Circle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{} files in {} folders:", self.files.len(), self.folder_count)?;
+        self.reasons.iter().try_for_each(|reason| writeln!(f, "  {reason}"))
+    }
+}
+
+/// All circles of two files or more, the largest first.
+pub fn circles(of: &Crate) -> Vec<Circle> {
+    let needs = needs(of);
+    let mut graph = DiGraph::<(), ()>::new();
+    let nodes: Vec<NodeIndex> = of.files.iter().map(|_| graph.add_node(())).collect();
+    for &(from, to) in needs.keys() {
+        graph.add_edge(nodes[from], nodes[to], ());
+    }
+    let mut circles: Vec<Circle> = tarjan_scc(&graph)
+        .into_iter()
+        .filter(|circle| circle.len() > 1)
+        .map(|circle| of_files(of, &needs, circle.into_iter().map(NodeIndex::index).collect()))
+        .collect();
+    circles.sort_by(|a, b| b.files.len().cmp(&a.files.len()).then_with(|| a.files.cmp(&b.files)));
+    circles
+}
+
+/// Which file needs which, and an item for which it does.
+fn needs(of: &Crate) -> BTreeMap<(usize, usize), String> {
+    let mut needs = BTreeMap::new();
+    for (number, module) in of.modules.iter().enumerate() {
+        for path in &module.references {
+            let Some(definition) = of.definition(number, path) else { continue };
+            let (from, to) = (module.file, of.modules[definition].file);
+            if from != to {
+                needs.entry((from, to)).or_insert_with(|| path.join("::"));
+            }
+        }
+    }
+    needs
+}
+
+fn of_files(of: &Crate, needs: &BTreeMap<(usize, usize), String>, files: BTreeSet<usize>) -> Circle {
+    let name = |file: usize| of.files[file].display();
+    let within = needs.iter().filter(|((from, to), _)| files.contains(from) && files.contains(to));
+    let reasons =
+        within.map(|(&(from, to), item)| format!("{} -> {} ({item})", name(from), name(to))).collect();
+    let folders: BTreeSet<PathBuf> = files.iter().map(|&file| of.folder(file)).collect();
+    let mut files: Vec<PathBuf> = files.into_iter().map(|file| of.files[file].clone()).collect();
+    files.sort();
+    Circle { files, folder_count: folders.len(), reasons }
+}
