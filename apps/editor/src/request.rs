@@ -71,6 +71,8 @@ pub(crate) enum ViewRequest {
     /// The same from the other side.
     Opposite,
     ToggleOrthographic,
+    /// Shows three sides beside the camera's view, or that alone again.
+    ToggleFourViews,
     /// By degrees to the right and up.
     Orbit(f64, f64),
     /// In shares of the picture's height to the right and up.

@@ -4,6 +4,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use trigon_math::DVec2;
 use trigon_scene::Frame;
 
 use crate::Stage;
@@ -50,6 +51,12 @@ pub trait Handler {
     fn input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
         let _ = (stage, input, hands);
         Taken::No
+    }
+
+    /// The window put its pointer to the other side, as [`Stage::wraps_pointer`] asks for: in physical pixels. That
+    /// was no movement.
+    fn pointer_jumped(&mut self, stage: &mut Stage, to: DVec2) {
+        let _ = (stage, to);
     }
 
     /// A key was pressed that is bound to [`crate::Action::Command`] under this name.

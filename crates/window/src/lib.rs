@@ -50,6 +50,7 @@ mod keymap;
 mod motion;
 mod overlay;
 mod pacing;
+mod panes;
 mod present;
 mod refinement;
 mod session;
@@ -77,6 +78,7 @@ pub use keymap::{
     ObjectMotion,
 };
 pub use overlay::{Corner, Overlay};
+pub use panes::{Area, Pane};
 pub use refinement::{Comparison, Difference, QualityReport, Refinement};
 pub use shared_scene::SharedScene;
 pub use stage::{FrameReport, Stage, Visibility};

@@ -21,15 +21,17 @@ const ZOOM_PER_LINE: f64 = 0.14;
 /// The pointer went from one place to another with a button down. `anchor` is
 /// the point of the world that zooming to the pointer keeps in place.
 pub(crate) fn drag(stage: &mut Stage, action: DragAction, from: DVec2, to: DVec2, anchor: Option<DVec3>) {
-    let Viewport { width, height } = stage.viewport();
+    let pane = stage.pane_at(from);
+    let Viewport { width, height } = pane.area.size;
     let size = DVec2::new(width.max(1).into(), height.max(1).into());
     let way = (to - from) / size.y;
     match action {
         // The scene follows the hand, so the eye goes the other way; y is down.
         DragAction::Orbit => stage.orbit.orbit(-way.x * TURN_PER_HEIGHT, way.y * TURN_PER_HEIGHT),
         DragAction::Pan => {
-            let height = stage.orbit.height_at_target();
-            stage.orbit.pan(-way.x * height, way.y * height);
+            let (mut orbit, height) = (pane.orbit, stage.orbit.height_at_target());
+            orbit.pan(-way.x * height, way.y * height);
+            stage.orbit.set_target(orbit.target());
         }
         DragAction::Roll => {
             let angle = |at: DVec2| elementary::atan2(at.y - size.y * 0.5, at.x - size.x * 0.5);

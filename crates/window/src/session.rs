@@ -5,6 +5,7 @@
 mod controls;
 mod offers;
 mod pictures;
+mod wrapping;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -26,6 +27,7 @@ use crate::shown::DrawnNodes;
 use crate::stage::{FrameReport, Stage, Subject, Visibility};
 use crate::worker::Worker;
 use offers::TakenInput;
+use wrapping::Wrapping;
 
 /// The step of an animation's first frame.
 const FIRST_STEP: Duration = Duration::from_micros(16_667);
@@ -41,6 +43,7 @@ pub(crate) struct Session<'a> {
     held: HeldKeys,
     /// The buttons and keys that the application took.
     taken: TakenInput,
+    wrapping: Wrapping,
     pacing: Pacing,
     animation: Animation,
     /// When frames were last stepped; `None` while nothing moves by itself.
@@ -82,6 +85,7 @@ impl<'a> Session<'a> {
             pointer: Pointer::default(),
             held: HeldKeys::default(),
             taken: TakenInput::default(),
+            wrapping: Wrapping::default(),
             pacing: Pacing::new(),
             animation: Animation::Resting,
             stepped: None,

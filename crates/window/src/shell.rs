@@ -9,10 +9,10 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use winit::application::ApplicationHandler;
-use winit::dpi::{LogicalSize, PhysicalSize};
+use winit::dpi::{LogicalSize, PhysicalPosition, PhysicalSize};
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
-use winit::window::{Window, WindowId};
+use winit::window::{CursorGrabMode, Window, WindowId};
 
 use crate::egui_painter::MAX_TEXTURE_SIDE;
 use crate::input::{InputEvent, translate::translate};
@@ -48,6 +48,8 @@ struct Open {
     minimised: bool,
     /// Whether the next frame was asked for by this program.
     asked: bool,
+    /// Whether the pointer is to stay in it.
+    keeps_pointer: bool,
 }
 
 /// An application between its start and its end.
@@ -141,7 +143,15 @@ impl<'a> Shell<'a> {
         let size = window.inner_size();
         self.session.event(InputEvent::Resized { width: size.width, height: size.height }, now);
         self.session.start(now);
-        self.open = Some(Open { presenter, egui, window, title, minimised: false, asked: false });
+        self.open = Some(Open {
+            presenter,
+            egui,
+            window,
+            title,
+            minimised: false,
+            asked: false,
+            keeps_pointer: false,
+        });
         Ok(())
     }
 
@@ -278,6 +288,17 @@ impl ApplicationHandler<Ring> for Shell<'_> {
             event_loop.set_control_flow(ControlFlow::Wait);
             return;
         };
+        let keeps = self.session.keeps_pointer();
+        if keeps != std::mem::replace(&mut open.keeps_pointer, keeps) {
+            // Not every system can; then the pointer may leave the window, as always.
+            let grab = if keeps { CursorGrabMode::Confined } else { CursorGrabMode::None };
+            let _ = open.window.set_cursor_grab(grab);
+        }
+        if let Some(place) = self.session.take_pointer_place()
+            && open.window.set_cursor_position(PhysicalPosition::new(place.x, place.y)).is_err()
+        {
+            self.session.pointer_stays();
+        }
         let title = self.session.stage().title();
         if open.title != title {
             open.window.set_title(title);

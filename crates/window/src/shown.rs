@@ -6,12 +6,13 @@
 
 use std::sync::{Arc, Weak};
 
-use trigon_camera::{Camera, Projector, Viewport};
+use trigon_camera::Viewport;
 use trigon_math::{DVec2, DVec3};
 use trigon_mesh::Mesh;
 use trigon_scene::{Frame, Hit, NodeId, Outputs, Scene};
 
 use crate::canvas::source_pixel;
+use crate::panes::Views;
 
 /// What the window's pictures hold.
 pub(crate) const OUTPUTS: Outputs = Outputs { color: true, depth: true, ids: true, ..Outputs::NONE };
@@ -35,7 +36,7 @@ impl DrawnNodes {
 #[derive(Clone, Debug)]
 pub(crate) struct Shown {
     pub(crate) frame: Arc<Frame>,
-    pub(crate) camera: Camera,
+    pub(crate) views: Views,
     pub(crate) nodes: Arc<DrawnNodes>,
 }
 
@@ -58,9 +59,7 @@ impl Shown {
         let face = value(&self.frame.face_ids).filter(|&face| face != u32::MAX);
         let face = face.filter(|_| drawn.ptr_eq(&mesh(scene, *node))).map(|face| face as usize);
         let distance = *self.frame.depth.as_ref()?.get(pixel)?;
-        let size = Viewport { width, height };
-        let on_frame = at * size.size() / window.size();
-        let point = Projector::new(&self.camera, size).at_distance(on_frame, distance.into())?;
+        let point = self.views.at_distance(at, window, distance.into())?;
         Some((Hit { node: *node, face }, point))
     }
 }

@@ -14,6 +14,7 @@ use crate::input::InputOwner;
 use crate::keymap::Keymap;
 use crate::overlay::Overlay;
 use crate::pacing::{Progress, USUAL_BUDGET};
+use crate::panes::{self, Area, Pane};
 use crate::refinement::{self, Comparison, QualityReport, Refinement, Wanted};
 use crate::shared_scene::{Revision, SharedScene};
 use crate::shown::{self, Shown};
@@ -84,12 +85,18 @@ pub struct Stage {
     /// What a picture may take while something moves: it is made as small as that asks
     /// for. 33 ms when nothing else is said; less than 1 ms counts as that.
     pub frame_budget: Duration,
+    /// Where in the window four views stand in the place of one, which then fills all of it: from the top, from
+    /// the front and from the right, and that of the camera at the upper right.
+    pub four_views: Option<Area>,
     /// What is written over it.
     pub overlay: Overlay,
     /// What keys and drags do.
     pub keymap: Keymap,
     /// Who is asked first what mouse and keys mean.
     pub input_owner: InputOwner,
+    /// Whether the pointer goes on from the other side where it reaches a border of the window, as for drags without
+    /// end; where the system does not let programs move the pointer, it stays.
+    pub wraps_pointer: bool,
     /// The object that keys move and turn.
     pub selection: Option<NodeId>,
     /// Whether the list of keys is shown.
@@ -133,9 +140,11 @@ impl Stage {
             comparison: Comparison::default(),
             drawer: None,
             frame_budget: USUAL_BUDGET,
+            four_views: None,
             overlay: Overlay::default(),
             keymap: Keymap::default(),
             input_owner: InputOwner::default(),
+            wraps_pointer: false,
             selection: None,
             cheat_sheet: Visibility::Hidden,
             frame_time: Visibility::Hidden,
@@ -200,6 +209,27 @@ impl Stage {
     #[must_use]
     pub fn camera(&self) -> Camera {
         self.orbit.camera(&self.scene.bounds())
+    }
+
+    /// The views in the window, none over another: one, or four with [`Stage::four_views`].
+    #[must_use]
+    pub fn panes(&self) -> Vec<Pane> {
+        panes::panes(self.orbit, self.viewport, self.four_views)
+    }
+
+    /// The view at a point of the window, in physical pixels; the camera's own between and beside views.
+    #[must_use]
+    pub fn pane_at(&self, at: DVec2) -> Pane {
+        let mut panes = self.panes();
+        let found = panes.iter().position(|pane| pane.area.contains(at));
+        let found = found.or_else(|| panes.iter().position(|pane| pane.side.is_none()));
+        panes.swap_remove(found.unwrap_or_default())
+    }
+
+    /// The camera of a view, its planes around the scene.
+    #[must_use]
+    pub fn camera_of(&self, pane: &Pane) -> Camera {
+        pane.orbit.camera(&self.scene.bounds())
     }
 
     /// Makes this the view to begin with and to return to: the whole scene,
@@ -364,9 +394,9 @@ impl Stage {
 
     /// All that the window's picture depends on.
     pub(crate) fn subject(&self) -> Subject {
-        let Self { orbit, viewport, scale, .. } = *self;
+        let Self { orbit, viewport, scale, four_views, .. } = *self;
         let (settings, drawer) = (self.settings.clone(), DrawnBy(self.drawer.clone()));
-        Subject { scene: self.scene.revision(), orbit, settings, drawer, viewport, scale }
+        Subject { scene: self.scene.revision(), orbit, four_views, settings, drawer, viewport, scale }
     }
 }
 
@@ -375,6 +405,7 @@ impl Stage {
 pub(crate) struct Subject {
     scene: Revision,
     orbit: Orbit,
+    four_views: Option<Area>,
     settings: RenderSettings,
     drawer: DrawnBy,
     viewport: Viewport,

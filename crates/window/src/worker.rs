@@ -11,6 +11,7 @@ use trigon_scene::{Cancel, Frame, Outputs, RenderError, RenderSettings, Renderer
 
 use crate::drawer::Drawer;
 use crate::pacing::Quality;
+use crate::panes::Views;
 use crate::refinement::{Compared, compare};
 use crate::shared_scene::{Revision, SceneUpdate};
 
@@ -26,8 +27,8 @@ pub(crate) enum Purpose {
 /// What is to be done.
 pub(crate) struct Job {
     pub(crate) purpose: Purpose,
-    /// What pictures are drawn with.
-    pub(crate) camera: Camera,
+    /// From where pictures are drawn.
+    pub(crate) views: Views,
     pub(crate) task: Task,
 }
 
@@ -63,7 +64,7 @@ pub(crate) enum Unfinished {
 /// What became of a job.
 pub(crate) struct Finished {
     pub(crate) purpose: Purpose,
-    pub(crate) camera: Camera,
+    pub(crate) views: Views,
     pub(crate) took: Duration,
     pub(crate) product: Result<Product, Unfinished>,
 }
@@ -85,7 +86,7 @@ pub(crate) struct Worker {
 struct UnderWay {
     number: u64,
     purpose: Purpose,
-    camera: Camera,
+    views: Views,
     cancel: Cancel,
 }
 
@@ -168,8 +169,8 @@ impl Worker {
         }
         self.begun += 1;
         let (number, cancel) = (self.begun, Cancel::default());
-        let Job { purpose, camera, .. } = job;
-        self.under_way = Some(UnderWay { number, purpose, camera, cancel: cancel.clone() });
+        let Job { purpose, ref views, .. } = job;
+        self.under_way = Some(UnderWay { number, purpose, views: views.clone(), cancel: cancel.clone() });
         self.holder(purpose).hands.begin((number, job, cancel));
     }
 
@@ -178,7 +179,7 @@ impl Worker {
     fn forget_others(&mut self, purpose: Purpose) {
         let Some(second) = self.second.as_mut().filter(|_| !purpose.is_refinement()) else { return };
         if second.held.take().is_some() {
-            let forget = Job { purpose, camera: Camera::default(), task: Task::Forget };
+            let forget = Job { purpose, views: Camera::default().into(), task: Task::Forget };
             second.hands.begin((0, forget, Cancel::default()));
         }
     }
@@ -194,10 +195,10 @@ impl Worker {
 
     /// The job that was under way, if it is finished.
     pub(crate) fn collect(&mut self) -> Option<Finished> {
-        if let Some(UnderWay { purpose, camera, .. }) = self.abandoned.take() {
+        if let Some(UnderWay { purpose, views, .. }) = self.abandoned.take() {
             return Some(Finished {
                 purpose,
-                camera,
+                views,
                 took: Duration::ZERO,
                 product: Err(Unfinished::Cancelled),
             });
@@ -287,18 +288,20 @@ impl Drawing {
         Self { renderer: Renderer::builder().build(), scene: Scene::new(), clock: Box::new(clock) }
     }
 
-    fn run(&mut self, Job { purpose, camera, task }: Job, cancel: &Cancel) -> Finished {
+    fn run(&mut self, Job { purpose, views, task }: Job, cancel: &Cancel) -> Finished {
         let begun = (self.clock)();
         let product = match task {
             Task::Draw { scene, settings, drawer } => {
                 // Also for a picture that was cancelled: the next update counts on it.
                 scene.apply(&mut self.scene);
-                let seen = (&self.scene, &camera);
-                let drawn = match drawer {
-                    None => render(seen, *settings, &mut self.renderer, cancel),
-                    Some(drawer) => draw_otherwise(&*drawer, seen, &settings, cancel)
-                        .and_then(|frame| with_ids(frame, seen, *settings, (&mut self.renderer, cancel))),
-                };
+                let drawn = views.draw(*settings, |camera, settings| {
+                    let seen = (&self.scene, camera);
+                    match &drawer {
+                        None => render(seen, settings, &mut self.renderer, cancel),
+                        Some(drawer) => draw_otherwise(&**drawer, seen, &settings, cancel)
+                            .and_then(|frame| with_ids(frame, seen, settings, (&mut self.renderer, cancel))),
+                    }
+                });
                 drawn.map(Product::Picture)
             }
             Task::Compare([found, right]) => {
@@ -309,7 +312,7 @@ impl Drawing {
                 Err(Unfinished::Cancelled)
             }
         };
-        Finished { purpose, camera, took: (self.clock)().saturating_sub(begun), product }
+        Finished { purpose, views, took: (self.clock)().saturating_sub(begun), product }
     }
 }
 

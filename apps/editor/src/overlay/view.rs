@@ -3,7 +3,7 @@
 use trigon_edit::scene::camera::{Camera, Projector, Ray, Viewport};
 use trigon_edit::scene::math::{DVec2, DVec3};
 use trigon_window::clip_line;
-use trigon_window::egui::{Pos2, pos2};
+use trigon_window::egui::{Pos2, Rect, pos2};
 
 /// A camera, the picture that it sees, and how large its pixels are.
 #[derive(Debug, Clone, Copy)]
@@ -11,12 +11,19 @@ pub(crate) struct OverlayView {
     projector: Projector,
     /// Physical pixels to a logical one.
     scale: f64,
+    /// Where the picture is in the window, in physical pixels.
+    origin: DVec2,
 }
 
 impl OverlayView {
     /// For a picture in physical pixels.
     pub(crate) fn new(camera: &Camera, viewport: Viewport, scale: f64) -> Self {
-        Self { projector: Projector::new(camera, viewport), scale }
+        Self { projector: Projector::new(camera, viewport), scale, origin: DVec2::ZERO }
+    }
+
+    /// The same picture at another place of the window, in physical pixels.
+    pub(crate) fn placed_at(self, origin: DVec2) -> Self {
+        Self { origin, ..self }
     }
 
     pub(crate) fn camera(&self) -> &Camera {
@@ -75,14 +82,20 @@ impl OverlayView {
         self.projector.ray(pixel)
     }
 
-    /// Physical pixels of a logical point.
+    /// Physical pixels of the picture at a logical point of the window.
     pub(crate) fn physical(&self, at: Pos2) -> DVec2 {
-        DVec2::new(f64::from(at.x), f64::from(at.y)) * self.scale
+        DVec2::new(f64::from(at.x), f64::from(at.y)) * self.scale - self.origin
     }
 
-    /// The logical point of physical pixels.
+    /// The logical point of the window at physical pixels of the picture.
     pub(crate) fn logical(&self, at: DVec2) -> Pos2 {
-        pos2((at.x / self.scale) as f32, (at.y / self.scale) as f32)
+        let at = (at + self.origin) / self.scale;
+        pos2(at.x as f32, at.y as f32)
+    }
+
+    /// The part of the window that the picture fills, in logical pixels.
+    pub(crate) fn rect(&self) -> Rect {
+        Rect::from_two_pos(self.logical(DVec2::ZERO), self.logical(self.projector.viewport().size()))
     }
 }
 

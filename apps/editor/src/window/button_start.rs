@@ -5,6 +5,7 @@ use trigon_window::scene::math::DVec2;
 use trigon_window::{Hands, Input, Modifiers, PointerButton, Stage};
 
 use super::editor::Editor;
+use super::panes::point;
 use super::pick::Click;
 
 /// Where a tool is between the button that started it and the movement that counts.
@@ -68,5 +69,5 @@ impl ButtonStart {
 /// Whether the pointer is on the picture, beside all panels.
 fn is_in_view(editor: &Editor, stage: &Stage, hands: Hands) -> bool {
     let Some((free, at)) = editor.free.zip(hands.pointer) else { return true };
-    free.contains(editor.overlay_view(stage).logical(at))
+    free.contains(point(stage, at))
 }

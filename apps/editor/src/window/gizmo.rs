@@ -1,12 +1,12 @@
 //! The gizmo on what is selected, the axes in the corner, and presses on them.
 
 use trigon_window::egui::{Pos2, Rect, vec2};
-use trigon_window::{Hands, Stage};
+use trigon_window::{Hands, Pane, Stage};
 
 use super::editor::Editor;
-use super::modal::tool_view;
+use super::panes::{overlay_view, tool_view};
 use super::pick::Click;
-use crate::overlay::{Gizmo, GizmoKind, Handle, OverlayView, axis_view_at};
+use crate::overlay::{Gizmo, GizmoKind, Handle, axis_view_at};
 use crate::request::{Request, ToolKind, ViewRequest};
 use crate::tool::{Axis, Frames, Freedom, Selected};
 
@@ -22,14 +22,8 @@ pub(crate) struct Place {
 }
 
 impl Editor {
-    /// The view in points, as everything over the picture is drawn.
-    pub(crate) fn overlay_view(&self, stage: &Stage) -> OverlayView {
-        let scale = stage.scale() * f64::from(stage.text_scale.clamp(0.5, 4.0));
-        OverlayView::new(&stage.camera(), stage.viewport(), scale)
-    }
-
-    /// The gizmo, while something is selected that it could move.
-    pub(crate) fn gizmo(&mut self, stage: &Stage) -> Option<Gizmo> {
+    /// The gizmo in a view, while something is selected that it could move.
+    pub(crate) fn gizmo(&mut self, stage: &Stage, pane: &Pane) -> Option<Gizmo> {
         let kind = self.tools.gizmo.filter(|_| self.tool.is_none() && self.view.overlays)?;
         let revision = self.document.revision();
         if self.place.known.as_ref().is_none_or(|(known, _)| *known != revision) {
@@ -37,7 +31,7 @@ impl Editor {
         }
         let selected = self.place.known.as_ref()?.1.as_ref()?;
         let center = self.tools.pivot.point(selected, self.tools.cursor);
-        let view = tool_view(stage);
+        let view = tool_view(stage, pane);
         let axes = Frames::new(self.tools.orientation, selected.local, selected.normal, &view).chosen;
         Some(Gizmo { kind, center, axes })
     }
@@ -51,13 +45,19 @@ impl Editor {
 
     /// A press on one of them; tells whether it was.
     pub(crate) fn press_gizmo(&mut self, stage: &mut Stage, hands: Hands) -> bool {
-        let (view, Some(press)) = (self.overlay_view(stage), Click::new(hands)) else { return false };
-        let at = view.logical(press.at);
-        if let Some(axis) = self.axes_center().and_then(|center| axis_view_at(&view, center, at)) {
+        let Some(press) = Click::new(hands) else { return false };
+        let pane = stage.pane_at(press.at);
+        let view = overlay_view(stage, &pane);
+        let at = view.logical(press.at - pane.area.origin());
+        if let Some(axis) = self
+            .axes_center()
+            .filter(|_| pane.side.is_none())
+            .and_then(|center| axis_view_at(&view, center, at))
+        {
             self.perform(stage, Request::View(ViewRequest::Axis(axis)));
             return true;
         }
-        let Some(gizmo) = self.gizmo(stage) else { return false };
+        let Some(gizmo) = self.gizmo(stage, &pane) else { return false };
         let Some(handle) = gizmo.handle_at(&view, at) else { return false };
         let tool = match gizmo.kind {
             GizmoKind::Move => ToolKind::Move,

@@ -3,12 +3,15 @@
 use std::path::PathBuf;
 
 use trigon_window::scene::camera::Projector;
+use trigon_window::scene::math::DVec2;
 use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton, Stage, Taken, egui};
 
 use super::actions::CONTEXT_MENU;
 use super::editor::Editor;
 use super::loading::Loading;
+use super::modal::Running;
 use super::open_file::{Answer, Next};
+use super::panes::pane_of;
 use super::pick::{self, Click};
 use super::saving::Saving;
 use super::{files, interface};
@@ -22,27 +25,19 @@ impl Handler for Editor {
 
     fn input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
         self.pointer = hands.pointer.or(self.pointer);
-        if self.tool.is_some() {
-            return self.tool_input(stage, input, hands);
-        }
-        match *input {
-            Input::Key { logical, physical, repeat: false } => self.key(stage, hands, [logical, physical]),
-            Input::Pressed(PointerButton::Left) => self.pressed(stage, hands),
-            Input::PointerMoved => self.pointer_moved(stage, hands),
-            Input::Released(PointerButton::Left) => self.released(stage),
-            Input::Clicked(PointerButton::Left) => self.clicked(stage, hands),
-            Input::Clicked(PointerButton::Right) if hands.modifiers.contains(Modifiers::SHIFT) => {
-                self.place_cursor(stage, hands)
-            }
-            Input::Clicked(PointerButton::Right) => {
-                self.popup = Some(interface::Popup::new(CONTEXT_MENU));
-                Taken::Yes
-            }
-            Input::FocusLost => {
-                self.click = None;
-                Taken::No
-            }
-            _ => Taken::No,
+        let taken = match self.tool {
+            Some(_) => self.tool_input(stage, input, hands),
+            None => self.own_input(stage, input, hands),
+        };
+        stage.wraps_pointer = self.tool.as_ref().is_some_and(Running::goes_on_beyond_borders);
+        taken
+    }
+
+    fn pointer_jumped(&mut self, stage: &mut Stage, to: DVec2) {
+        self.pointer = Some(to);
+        if let Some(running) = &mut self.tool {
+            let pane = pane_of(stage, running.side());
+            running.pointer_jumped(to - pane.area.origin());
         }
     }
 
@@ -85,6 +80,29 @@ impl Handler for Editor {
 }
 
 impl Editor {
+    /// An input while no tool runs.
+    fn own_input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
+        match *input {
+            Input::Key { logical, physical, repeat: false } => self.key(stage, hands, [logical, physical]),
+            Input::Pressed(PointerButton::Left) => self.pressed(stage, hands),
+            Input::PointerMoved => self.pointer_moved(stage, hands),
+            Input::Released(PointerButton::Left) => self.released(stage),
+            Input::Clicked(PointerButton::Left) => self.clicked(stage, hands),
+            Input::Clicked(PointerButton::Right) if hands.modifiers.contains(Modifiers::SHIFT) => {
+                self.place_cursor(stage, hands)
+            }
+            Input::Clicked(PointerButton::Right) => {
+                self.popup = Some(interface::Popup::new(CONTEXT_MENU));
+                Taken::Yes
+            }
+            Input::FocusLost => {
+                self.click = None;
+                Taken::No
+            }
+            _ => Taken::No,
+        }
+    }
+
     fn begin(&mut self, stage: &mut Stage) {
         let mut files = std::mem::take(&mut self.to_open).into_iter();
         match files.next() {
@@ -171,8 +189,11 @@ impl Editor {
     /// The 3D cursor goes to the surface under the pointer, or as far away as what the view turns around.
     fn place_cursor(&mut self, stage: &mut Stage, hands: Hands) -> Taken {
         let Some(at) = hands.pointer else { return Taken::No };
-        let beside =
-            || Projector::new(&stage.camera(), stage.viewport()).at_distance(at, stage.orbit.distance());
+        let beside = || {
+            let pane = stage.pane_at(at);
+            let projector = Projector::new(&stage.camera_of(&pane), pane.area.size);
+            projector.at_distance(at - pane.area.origin(), stage.orbit.distance())
+        };
         let Some(place) = stage.pick(at).map(|(_, place)| place).or_else(beside) else { return Taken::No };
         self.tools.cursor = place;
         Taken::Yes

@@ -17,6 +17,7 @@ mod look;
 mod modal;
 mod navigation;
 mod open_file;
+mod panes;
 mod pick;
 mod placing;
 mod pointing;

@@ -1,23 +1,20 @@
 //! The tool that follows the pointer: how it is started, what it is given, and what becomes of what it did.
 
 use trigon_edit::scene::Region;
+use trigon_edit::scene::camera::AxisView;
 use trigon_edit::{SelectAction, Shear};
-use trigon_window::{Hands, Input, InputOwner, Key, Modifiers, PointerButton, Stage, Taken};
+use trigon_window::{Hands, Input, InputOwner, Key, Modifiers, Pane, PointerButton, Stage, Taken};
 
 use super::button_start::{ButtonStart, Passed};
 use super::editor::{Editor, Message};
+use super::panes::{in_pane, pane_of, tool_view};
 use super::pick::Click;
 use super::running::{Running, What, gesture_kind, transform_kind};
 use crate::request::{Request, ToolKind};
 use crate::tool::{
     BevelTool, ExtrudeTool, Freedom, Gesture, GestureKind, GestureState, InsetTool, LoopCutTool, RegionMode,
-    Tool, ToolState, ToolView, TransformKind, TransformTool,
+    Tool, ToolState, TransformKind, TransformTool,
 };
-
-/// How tools see the stage.
-pub(crate) fn tool_view(stage: &Stage) -> ToolView {
-    ToolView { camera: stage.camera(), viewport: stage.viewport(), scale: stage.scale() }
-}
 
 impl Editor {
     /// Starts a tool at the pointer, or says why it cannot.
@@ -27,18 +24,20 @@ impl Editor {
             // It has nothing that follows the pointer; its values can be adjusted.
             return self.run(Shear::default().into());
         }
-        match self.started(stage, kind, hands) {
+        let pane = hands.pointer.map_or_else(|| pane_of(stage, None), |at| stage.pane_at(at));
+        match self.started((stage, &pane), kind, in_pane(hands, &pane)) {
             Some(what) => {
                 let waits = matches!(what, What::Tool(_));
                 let start = if waits { ButtonStart::of(self, stage, hands) } else { ButtonStart::Over };
-                self.follow(stage, Running { start, ..Running::new(kind, what) });
+                self.follow(stage, Running { start, ..Running::new(kind, what, &pane) });
             }
             None => self.message = Message::Refusal(format!("{kind:?}: select something first")),
         }
     }
 
-    fn started(&mut self, stage: &Stage, kind: ToolKind, hands: Hands) -> Option<What> {
-        let (view, reach) = (tool_view(stage), self.reach());
+    fn started(&mut self, seen: (&Stage, &Pane), kind: ToolKind, hands: Hands) -> Option<What> {
+        let (stage, pane) = seen;
+        let (view, reach) = (tool_view(stage, pane), self.reach());
         let document = &mut self.document;
         if let Some(gesture) = gesture_kind(kind) {
             return Some(What::Gesture(Gesture::waiting(gesture, hands, stage.scale())));
@@ -59,7 +58,7 @@ impl Editor {
             ToolKind::BevelVertices => Box::new(BevelTool::start(true, document, hands, &view)?),
             _ => {
                 let mut tool = LoopCutTool::start(document, hands)?;
-                let face = hands.pointer.and_then(|at| self.pointing.face(document, stage, at));
+                let face = hands.pointer.and_then(|at| self.pointing.face(document, seen, at));
                 tool.hover(document, &view, face);
                 return Some(What::LoopCut(Box::new(tool)));
             }
@@ -81,13 +80,14 @@ impl Editor {
         freedom: Option<Freedom>,
         press: Click,
     ) {
-        let hands = Hands { pointer: Some(press.at), modifiers: press.modifiers };
-        let (view, settings) = (tool_view(stage), self.tools.transform(self.reach()));
+        let pane = stage.pane_at(press.at);
+        let hands = in_pane(Hands { pointer: Some(press.at), modifiers: press.modifiers }, &pane);
+        let (view, settings) = (tool_view(stage, &pane), self.tools.transform(self.reach()));
         let tool = transform_kind(kind)
             .and_then(|transform| TransformTool::start(transform, settings, &self.document, hands, &view));
         if let Some(tool) = tool {
             let what = What::Tool(Box::new(tool.held(freedom)));
-            self.follow(stage, Running { pressed: Some(press), ..Running::new(kind, what) });
+            self.follow(stage, Running { pressed: Some(press), ..Running::new(kind, what, &pane) });
         }
     }
 
@@ -98,15 +98,18 @@ impl Editor {
             true => (ToolKind::SelectLasso, GestureKind::Lasso),
             false => (ToolKind::SelectBox, GestureKind::Box),
         };
-        let start = Hands { pointer: Some(press.at), modifiers: press.modifiers };
+        let pane = stage.pane_at(press.at);
+        let start = in_pane(Hands { pointer: Some(press.at), modifiers: press.modifiers }, &pane);
         let gesture = Gesture::drawing(gesture, PointerButton::Left, start, stage.scale());
-        self.follow(stage, Running::new(tool, What::Gesture(gesture)));
+        self.follow(stage, Running::new(tool, What::Gesture(gesture), &pane));
         self.tool_input(stage, &Input::PointerMoved, hands);
     }
 
     /// Gives an input to the tool.
     pub(crate) fn tool_input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
         let Some(mut running) = self.tool.take() else { return Taken::No };
+        let pane = pane_of(stage, running.side);
+        let (in_window, hands) = (hands, in_pane(hands, &pane));
         if running.leaves_to_camera(input, hands) {
             running.is_navigating = true;
             self.tool = Some(running);
@@ -118,26 +121,29 @@ impl Editor {
             running.pointer_jumped(to);
         }
         let confirm = Input::Pressed(PointerButton::Left);
-        let input = match running.start.pass(self, stage, input, hands) {
+        let input = match running.start.pass(self, stage, input, in_window) {
             Passed::On => input,
             Passed::Confirms => &confirm,
             Passed::Cancels => &Input::Pressed(PointerButton::Right),
             passed => {
                 if let Passed::Begins(at) = passed {
-                    running.pointer_jumped(at);
+                    let pane = stage.pane_at(at);
+                    running.side = pane.side;
+                    running.pointer_jumped(at - pane.area.origin());
                 }
                 self.tool = Some(running);
                 return Taken::Yes;
             }
         };
-        let view = tool_view(stage);
+        let view = tool_view(stage, &pane);
         let before = self.entries();
         let state = match &mut running.what {
             What::Tool(tool) => tool.input(input, hands, &view, &mut self.document),
             What::LoopCut(tool) => {
                 let state = tool.input(input, hands, &view, &mut self.document);
                 if tool.wants_face() {
-                    let face = hands.pointer.and_then(|at| self.pointing.face(&self.document, stage, at));
+                    let face =
+                        hands.pointer.and_then(|at| self.pointing.face(&self.document, (stage, &pane), at));
                     tool.hover(&self.document, &view, face);
                 }
                 state
@@ -180,6 +186,7 @@ impl Editor {
     }
 
     fn gesture_did(&mut self, stage: &mut Stage, running: Running, state: GestureState) -> Taken {
+        let side = running.side;
         let (region, goes_on) = match state {
             GestureState::Running => (None, true),
             GestureState::Selects(region, mode) => (Some((region, mode)), true),
@@ -191,21 +198,28 @@ impl Editor {
             stage.input_owner = InputOwner::Interface;
         }
         if let Some((region, mode)) = region {
-            self.select_region(stage, &region, mode);
+            self.select_region(stage, side, &region, mode);
         }
         Taken::Yes
     }
 
-    fn select_region(&mut self, stage: &mut Stage, region: &Region, mode: RegionMode) {
+    fn select_region(
+        &mut self,
+        stage: &mut Stage,
+        side: Option<AxisView>,
+        region: &Region,
+        mode: RegionMode,
+    ) {
         let action = match mode {
             RegionMode::Set => SelectAction::Replace,
             RegionMode::Extend => SelectAction::Add,
             RegionMode::Subtract => SelectAction::Remove,
             RegionMode::Intersect => SelectAction::Intersect,
         };
-        let reach = self.reach();
-        let command =
-            self.pointing.ask(&self.document, stage, reach, |picks| picks.region(region, action)).flatten();
+        let (reach, pane) = (self.reach(), pane_of(stage, side));
+        let asked =
+            self.pointing.ask(&self.document, (stage, &pane), reach, |picks| picks.region(region, action));
+        let command = asked.flatten();
         if let Some(command) = command {
             self.perform(stage, Request::Run(command));
         }

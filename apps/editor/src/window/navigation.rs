@@ -2,9 +2,9 @@
 
 use trigon_edit::scene::NodeId;
 use trigon_edit::{Document, ObjectName, Rotation, SetTransform, TransformSpace};
-use trigon_window::Stage;
 use trigon_window::scene::camera::{Camera, DEFAULT_MARGIN, Orbit};
 use trigon_window::scene::math::{DVec2, DVec3, Vec3};
+use trigon_window::{Area, Stage};
 
 use super::editor::{Editor, Message};
 use crate::request::{DisplayMode, ViewRequest};
@@ -29,6 +29,7 @@ pub(crate) fn apply(editor: &mut Editor, stage: &mut Stage, request: ViewRequest
         ViewRequest::CameraToView => camera_to_view(editor, stage),
         ViewRequest::Display(mode) => editor.view.display = mode,
         ViewRequest::ToggleWireframe => toggle_wireframe(editor),
+        ViewRequest::ToggleFourViews => editor.toggle_four_views(stage),
         ViewRequest::ToggleXRay => editor.view.x_ray = !editor.view.x_ray,
         ViewRequest::ToggleOverlays => editor.view.overlays = !editor.view.overlays,
     }
@@ -69,6 +70,10 @@ fn frame(editor: &Editor, stage: &mut Stage, points: &[DVec3]) {
     const USUAL: DVec2 = DVec2::new(0.55, 0.85);
     /// However much is covered.
     const LEAST: f64 = 0.2;
+    if let Some(Area { size, .. }) = stage.four_views {
+        // No panel covers any of them.
+        return stage.orbit.fit_points(points, size.aspect(), DEFAULT_MARGIN);
+    }
     let points_to_pixels = stage.scale() * f64::from(stage.text_scale);
     let (size, viewport) = (stage.viewport().size() / points_to_pixels, stage.viewport());
     let room = editor.free.map_or(USUAL, |free| {

@@ -3,9 +3,10 @@
 use trigon_edit::scene::NodeId;
 use trigon_edit::{Command, ObjectName, PICK_RADIUS, Picks, Select, SelectAction};
 use trigon_window::scene::math::DVec2;
-use trigon_window::{Hands, Modifiers, Stage};
+use trigon_window::{Hands, Modifiers, Pane, Stage};
 
 use super::editor::Editor;
+use super::panes::overlay_view;
 use crate::overlay::{camera_at, light_at};
 use crate::request::Request;
 
@@ -45,7 +46,9 @@ fn command(editor: &mut Editor, stage: &Stage, at: DVec2, modifiers: Modifiers) 
         return Some(Select { objects: vec![ObjectName::of(object)], action, ..Select::default() }.into());
     }
     let (alt, ctrl) = (has(Modifiers::ALT), has(Modifiers::CTRL));
-    ask(editor, stage, |picks, radius| match (is_editing && alt, is_editing && ctrl) {
+    let pane = stage.pane_at(at);
+    let at = at - pane.area.origin();
+    ask(editor, (stage, &pane), |picks, radius| match (is_editing && alt, is_editing && ctrl) {
         (true, true) => picks.edge_ring(at, radius, action),
         (true, false) => picks.edge_loop(at, radius, action),
         (false, true) => picks.path(at, radius),
@@ -56,21 +59,24 @@ fn command(editor: &mut Editor, stage: &Stage, at: DVec2, modifiers: Modifiers) 
 /// Asks the picture; the question is given how near is near enough, in physical pixels.
 fn ask<T>(
     editor: &mut Editor,
-    stage: &Stage,
+    (stage, pane): (&Stage, &Pane),
     question: impl FnOnce(&Picks<'_>, f64) -> Option<T>,
 ) -> Option<T> {
     let (reach, radius) = (editor.reach(), PICK_RADIUS * stage.scale());
-    editor.pointing.ask(&editor.document, stage, reach, |picks| question(picks, radius)).flatten()
+    editor.pointing.ask(&editor.document, (stage, pane), reach, |picks| question(picks, radius)).flatten()
 }
 
 /// The light or the camera whose lines are at a place.
 fn overlay_at(editor: &Editor, stage: &Stage, at: DVec2) -> Option<NodeId> {
-    let view = editor.overlay_view(stage);
-    let place = view.logical(at);
+    let pane = stage.pane_at(at);
+    let view = overlay_view(stage, &pane);
+    let place = view.logical(at - pane.area.origin());
     light_at(&editor.document, &view, place).or_else(|| camera_at(&editor.document, &view, place))
 }
 
 /// Adds what hangs together with what is at a place; nothing where no edited mesh is.
 pub(crate) fn linked(editor: &mut Editor, stage: &Stage, at: DVec2) -> Option<Command> {
-    ask(editor, stage, |picks, radius| picks.linked(at, radius, SelectAction::Add))
+    let pane = stage.pane_at(at);
+    let at = at - pane.area.origin();
+    ask(editor, (stage, &pane), |picks, radius| picks.linked(at, radius, SelectAction::Add))
 }

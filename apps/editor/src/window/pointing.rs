@@ -7,8 +7,8 @@ use trigon_edit::mesh::edit::FaceId;
 use trigon_edit::scene::camera::{Camera, Projector, Viewport};
 use trigon_edit::scene::{Frame, MeshId, Outputs, Picker, Reach, RenderSettings, Renderer, Scene};
 use trigon_edit::{Document, Picks};
-use trigon_window::Stage;
 use trigon_window::scene::math::DVec2;
+use trigon_window::{Pane, Stage};
 
 /// A picture of ids, drawn when somebody asks.
 pub(crate) struct Pointing {
@@ -50,23 +50,29 @@ impl Pointing {
         self.known.as_ref()
     }
 
-    /// Asks what is under the pointer or in a region of the stage, in physical pixels; `None` while the window
+    /// Asks what is under the pointer or in a region of a view, in its physical pixels; `None` while the window
     /// has no size.
     pub(crate) fn ask<T>(
         &mut self,
         document: &Document,
-        stage: &Stage,
+        (stage, pane): (&Stage, &Pane),
         reach: Reach,
         question: impl FnOnce(&Picks<'_>) -> T,
     ) -> Option<T> {
-        let Known { camera, viewport, frame } = self.known(&stage.scene, stage.camera(), stage.viewport())?;
+        let (camera, viewport) = (stage.camera_of(pane), pane.area.size);
+        let Known { camera, viewport, frame } = self.known(&stage.scene, camera, viewport)?;
         let picker = Picker::new(&stage.scene, camera, frame);
         Some(question(&Picks::new(document, &picker, Projector::new(camera, *viewport), reach)))
     }
 
-    /// The face of an edited mesh that is seen at a place.
-    pub(crate) fn face(&mut self, document: &Document, stage: &Stage, at: DVec2) -> Option<(MeshId, FaceId)> {
-        let known = self.known(&stage.scene, stage.camera(), stage.viewport())?;
+    /// The face of an edited mesh that is seen at a place of a view.
+    pub(crate) fn face(
+        &mut self,
+        document: &Document,
+        (stage, pane): (&Stage, &Pane),
+        at: DVec2,
+    ) -> Option<(MeshId, FaceId)> {
+        let known = self.known(&stage.scene, stage.camera_of(pane), pane.area.size)?;
         if at.cmplt(DVec2::ZERO).any() {
             return None;
         }

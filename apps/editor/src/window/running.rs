@@ -2,7 +2,8 @@
 
 use trigon_edit::mesh::math::DVec2;
 use trigon_edit::scene::Region;
-use trigon_window::{Hands, Input, Modifiers, PointerButton};
+use trigon_edit::scene::camera::AxisView;
+use trigon_window::{Hands, Input, Modifiers, Pane, PointerButton};
 
 use super::button_start::ButtonStart;
 use super::pick::Click;
@@ -17,6 +18,8 @@ pub(crate) struct Running {
     pub(super) pressed: Option<Click>,
     /// Whether the camera has taken the pointer: where that comes back is no movement.
     pub(super) is_navigating: bool,
+    /// Of the view that it was started in, in whose pixels it counts.
+    pub(super) side: Option<AxisView>,
     /// How far it is, if a button or a menu started it.
     pub(super) start: ButtonStart,
 }
@@ -30,8 +33,13 @@ pub(super) enum What {
 }
 
 impl Running {
-    pub(super) fn new(kind: ToolKind, what: What) -> Self {
-        Self { kind, what, pressed: None, is_navigating: false, start: ButtonStart::Over }
+    pub(super) fn new(kind: ToolKind, what: What, pane: &Pane) -> Self {
+        Self { kind, what, pressed: None, is_navigating: false, side: pane.side, start: ButtonStart::Over }
+    }
+
+    /// The side that is seen in the view that it was started in; `None` for the camera's own.
+    pub(crate) fn side(&self) -> Option<AxisView> {
+        self.side
     }
 
     /// A key started it: the pointer counts from where it is.
@@ -86,7 +94,13 @@ impl Running {
         }
     }
 
-    pub(super) fn pointer_jumped(&mut self, to: DVec2) {
+    /// Whether it follows how far the pointer goes, and not where it is in the picture.
+    pub(crate) fn goes_on_beyond_borders(&self) -> bool {
+        matches!(self.what, What::Tool(_)) && !matches!(self.start, ButtonStart::Waits)
+    }
+
+    /// The pointer was put somewhere else in its view: that was no movement.
+    pub(crate) fn pointer_jumped(&mut self, to: DVec2) {
         match &mut self.what {
             What::Tool(tool) => tool.pointer_jumped(to),
             What::LoopCut(tool) => tool.pointer_jumped(to),

@@ -1,5 +1,6 @@
 //! The window's interface by labels and keys, drawn by the window's own painter.
 
+mod four_views;
 mod keys;
 mod rows;
 mod saving;

@@ -8,14 +8,15 @@ use trigon_scene::Frame;
 
 use super::{Compared, QualityReport};
 use crate::pacing::Quality;
+use crate::panes::Views;
 use crate::shown::{DrawnNodes, Shown};
 
 /// Pictures of one state of the scene: a draft, the one that the settings give, the best
 /// so far, and what lies between the last two.
 #[derive(Default)]
 pub(crate) struct Gallery {
-    /// The one that all were drawn with.
-    camera: Option<Camera>,
+    /// From where all were drawn.
+    views: Option<Views>,
     /// What all are of.
     nodes: Arc<DrawnNodes>,
     draft: Option<Arc<Frame>>,
@@ -38,7 +39,7 @@ pub(crate) enum Wanted {
 
 impl Gallery {
     /// A new picture. Those of other states of the scene are given back.
-    pub(crate) fn add(&mut self, quality: Quality, Shown { frame, camera, nodes }: Shown, took: Duration) {
+    pub(crate) fn add(&mut self, quality: Quality, Shown { frame, views, nodes }: Shown, took: Duration) {
         match quality {
             Quality::Draft { .. } => *self = Self { draft: Some(frame), ..Self::default() },
             Quality::Full(0) => {
@@ -51,7 +52,7 @@ impl Gallery {
                 self.report.best = Some(took);
             }
         }
-        (self.camera, self.nodes) = (Some(camera), nodes);
+        (self.views, self.nodes) = (Some(views), nodes);
     }
 
     /// The picture of the settings and the best one, which is the reference, are compared.
@@ -80,12 +81,12 @@ impl Gallery {
     pub(crate) fn picked(&self, wanted: Wanted) -> Option<Shown> {
         let shown = self.shown(wanted).filter(|frame| frame.object_ids.is_some());
         let frame = Arc::clone(shown.or(self.settings.as_ref())?);
-        Some(Shown { frame, camera: self.camera?, nodes: Arc::clone(&self.nodes) })
+        Some(Shown { frame, views: self.views.clone()?, nodes: Arc::clone(&self.nodes) })
     }
 
     /// The camera of what is shown.
     pub(crate) fn camera(&self) -> Option<&Camera> {
-        self.camera.as_ref()
+        self.views.as_ref().map(|views| &views.main)
     }
 
     /// What was measured of pictures at rest; `None` for drafts.

@@ -40,6 +40,7 @@ impl Session<'_> {
     }
 
     fn pointer_moved(&mut self, to: DVec2, now: Duration) {
+        self.wrap(to);
         let gesture = self.pointer.moved(to, self.stage.scale());
         if self.pointer.is_held() || self.offer(Input::PointerMoved, now) == Taken::No {
             self.gesture(gesture, now);
@@ -174,8 +175,9 @@ impl Session<'_> {
         }
         let hit = self.stage.pick(at).map(|(_, point)| point);
         let anchor = hit.or_else(|| {
-            let projector = trigon_camera::Projector::new(&self.stage.camera(), self.stage.viewport());
-            projector.at_distance(at, self.stage.orbit.distance())
+            let pane = self.stage.pane_at(at);
+            let projector = trigon_camera::Projector::new(&self.stage.camera_of(&pane), pane.area.size);
+            projector.at_distance(at - pane.area.origin(), self.stage.orbit.distance())
         });
         self.anchor = Some((at, anchor));
         anchor

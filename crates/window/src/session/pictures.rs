@@ -8,6 +8,7 @@ use trigon_scene::RenderSettings;
 
 use super::Session;
 use crate::pacing::{Change, Quality};
+use crate::panes::Views;
 use crate::shown::{DrawnNodes, Shown};
 use crate::stage::FrameReport;
 use crate::worker::{Finished, Job, Product, Purpose, Task, Unfinished};
@@ -29,12 +30,12 @@ impl Session<'_> {
     }
 
     fn window_finished(&mut self, quality: Quality, finished: Finished) {
-        let Finished { camera, took, product, .. } = finished;
+        let Finished { views, took, product, .. } = finished;
         match product {
             Ok(Product::Picture(frame)) => {
                 self.pacing.finished(took);
                 let nodes = self.nodes.as_ref().map_or_else(Arc::default, |(_, nodes)| Arc::clone(nodes));
-                self.gallery.add(quality, Shown { frame: Arc::new(frame), camera, nodes }, took);
+                self.gallery.add(quality, Shown { frame: Arc::new(frame), views, nodes }, took);
                 self.pictured.clone_from(&self.subject);
                 if matches!(quality, Quality::Draft { .. } | Quality::Full(0)) {
                     self.stage.set_report(FrameReport { render: took, ..self.stage.report() });
@@ -161,7 +162,10 @@ impl Session<'_> {
         let revision = self.stage.scene.revision();
         let known = self.bounds.filter(|(known, _)| *known == revision);
         let (_, bounds) = *self.bounds.insert(known.unwrap_or_else(|| (revision, self.stage.scene.bounds())));
-        let camera = self.stage.orbit.camera(&bounds);
-        self.worker.begin(Job { purpose, camera, task });
+        let views = match purpose {
+            Purpose::Window(_) => Views::new(&self.stage.panes(), self.stage.viewport(), &bounds),
+            Purpose::Picture => self.stage.orbit.camera(&bounds).into(),
+        };
+        self.worker.begin(Job { purpose, views, task });
     }
 }

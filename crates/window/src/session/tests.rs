@@ -6,6 +6,7 @@ mod ownership;
 mod picks;
 mod refinement;
 mod replay;
+mod wrapping;
 
 use std::sync::mpsc::Receiver;
 

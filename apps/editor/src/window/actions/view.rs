@@ -10,6 +10,7 @@ actions! {
     "View" "view.frame_all" "Frame All" "Home" Nothing View(ViewRequest::FrameAll) => "Looks at the whole scene.";
     "View" "view.local" "Local View" "Numpad/ /" ObjectMode View(ViewRequest::ToggleLocal) => "Shows only what is selected, or all again.";
     "View" "view.orthographic" "Perspective/Orthographic" "Numpad5" Nothing View(ViewRequest::ToggleOrthographic) => "Switches between perspective and parallel lines of sight.";
+    "View" "view.four" "Four Views" "Ctrl+Alt+Q" Nothing View(ViewRequest::ToggleFourViews) => "Shows top, front and right side beside the view, or one view again.";
     "View" "view.camera" "Camera" "Numpad0" Nothing View(ViewRequest::Camera) => "Looks through the scene's camera.";
     "View" "view.camera_to_view" "Camera to View" "Ctrl+Alt+Numpad0" ObjectMode View(ViewRequest::CameraToView) => "Puts the active camera, or the scene's first, where the view looks from.";
     "View/Viewpoint" "viewpoint.menu" "View Menu" "` ~ Shift+`" Nothing Ui(UiRequest::Popup("View/Viewpoint")) => "Chooses a side to look from.";

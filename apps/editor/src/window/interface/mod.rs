@@ -36,6 +36,7 @@ pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<R
     }
     let free = ui.available_rect_before_wrap();
     editor.free = Some(free);
+    editor.fit_four_views(stage);
     side::adjust(ui.ctx(), editor, free, &mut requests);
     search::show(ui.ctx(), editor, stage);
     menu::popup(ui.ctx(), editor, stage);

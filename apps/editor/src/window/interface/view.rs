@@ -1,8 +1,8 @@
 //! What lies over the picture: the grid, lights, cameras, the cursor, gizmos, and what tools and gestures draw.
 
 use trigon_edit::scene::Region;
-use trigon_window::Stage;
 use trigon_window::egui::{Color32, Painter, Shape, Stroke, Ui};
+use trigon_window::{Pane, Stage};
 
 use crate::overlay::{
     Gesture, OverlayView, draw_axes, draw_cameras, draw_cursor, draw_gesture, draw_grid, draw_lights,
@@ -10,6 +10,7 @@ use crate::overlay::{
 };
 use crate::tool::ToolMarks;
 use crate::window::editor::Editor;
+use crate::window::panes::{draw_name, overlay_view};
 
 /// Of what tools draw.
 const INK: Color32 = Color32::from_rgb(255, 240, 120);
@@ -18,27 +19,41 @@ const SNAPPED: f32 = 7.0;
 
 /// Draws it, before the panels: they lie over it.
 pub(super) fn show(ui: &Ui, editor: &mut Editor, stage: &Stage) {
-    let (painter, view) = (ui.painter(), editor.overlay_view(stage));
-    if editor.view.overlays {
-        let distance = |at| stage.pick(at).map(|(_, point)| view.distance(point));
-        draw_grid(painter, &view, &distance);
-        draw_lights(painter, &editor.document, &view);
-        draw_cameras(painter, &editor.document, &view);
-        draw_origins(painter, &editor.document, &view);
-        draw_cursor(painter, &view, editor.tools.cursor);
-    }
-    if let Some(gizmo) = editor.gizmo(stage) {
-        let pointer = editor.pointer.map(|at| view.logical(at));
-        gizmo.draw(painter, &view, pointer.and_then(|at| gizmo.handle_at(&view, at)));
-    }
-    if let Some(tool) = &editor.tool {
-        draw_marks(painter, &view, &tool.marks());
-        if let Some(region) = tool.region() {
-            draw_gesture(painter, &outline(&view, &region));
+    let panes = stage.panes();
+    for pane in &panes {
+        let view = overlay_view(stage, pane);
+        let painter = ui.painter().with_clip_rect(view.rect());
+        show_pane(&painter, editor, (stage, pane), &view);
+        if panes.len() > 1 {
+            draw_name(&painter, ui.visuals(), &view, pane);
         }
     }
-    if let Some(center) = editor.axes_center() {
-        draw_axes(painter, &view, center);
+}
+
+/// Draws what lies over one view.
+fn show_pane(painter: &Painter, editor: &mut Editor, (stage, pane): (&Stage, &Pane), view: &OverlayView) {
+    let origin = pane.area.origin();
+    if editor.view.overlays {
+        let distance = |at| stage.pick(at + origin).map(|(_, point)| view.distance(point));
+        draw_grid(painter, view, &distance);
+        draw_lights(painter, &editor.document, view);
+        draw_cameras(painter, &editor.document, view);
+        draw_origins(painter, &editor.document, view);
+        draw_cursor(painter, view, editor.tools.cursor);
+    }
+    if let Some(gizmo) = editor.gizmo(stage, pane) {
+        let pointer = editor.pointer.filter(|at| pane.area.contains(*at));
+        let pointer = pointer.map(|at| view.logical(at - origin));
+        gizmo.draw(painter, view, pointer.and_then(|at| gizmo.handle_at(view, at)));
+    }
+    if let Some(tool) = &editor.tool {
+        draw_marks(painter, view, &tool.marks());
+        if let Some(region) = tool.region().filter(|_| tool.side() == pane.side) {
+            draw_gesture(painter, &outline(view, &region));
+        }
+    }
+    if let Some(center) = editor.axes_center().filter(|_| pane.side.is_none()) {
+        draw_axes(painter, view, center);
     }
 }
 

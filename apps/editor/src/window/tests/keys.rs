@@ -309,9 +309,10 @@ fn display_modes_change_style_lights_and_surfaces() {
     assert_eq!(style(&worked).1, Lighting::Automatic, "the scene's own lights");
     assert_eq!(worked.stage.scene.materials.len(), own, "and materials");
     assert_eq!(worked.editor.view.display, DisplayMode::Rendered);
-    assert!(worked.editor.gizmo(&worked.stage).is_some(), "overlays are there");
+    let pane = worked.stage.panes()[0];
+    assert!(worked.editor.gizmo(&worked.stage, &pane).is_some(), "overlays are there");
     worked.chords("Alt+Shift+Z");
-    assert!(worked.editor.gizmo(&worked.stage).is_none(), "and not");
+    assert!(worked.editor.gizmo(&worked.stage, &pane).is_none(), "and not");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use trigon_window::scene::math::{DVec2, DVec3};
 use trigon_window::{InputOwner, PointerButton};
 
 use super::*;
+use crate::window::panes::overlay_view;
 
 impl Worked {
     /// Where a place in the world is seen.
@@ -195,8 +196,9 @@ fn the_panel_of_the_last_operation_changes_it() {
 #[test]
 fn a_handle_of_the_gizmo_moves_along_its_axis() {
     let mut worked = Worked::new();
-    let gizmo = worked.editor.gizmo(&worked.stage).expect("the cube is selected");
-    let view = worked.editor.overlay_view(&worked.stage);
+    let gizmo =
+        worked.editor.gizmo(&worked.stage, &worked.stage.pane_at(DVec2::ZERO)).expect("the cube is selected");
+    let view = overlay_view(&worked.stage, &worked.stage.pane_at(DVec2::ZERO));
     let arm = gizmo.center + DVec3::X * view.pixel_size(gizmo.center) * 60.0;
     let from = worked.seen(arm);
     worked.drag(from, worked.seen(arm + DVec3::X), Modifiers::NONE);

@@ -131,3 +131,25 @@ fn what_another_drawer_shows_is_picked_all_the_same() {
     assert!(session.shown.as_deref().is_some_and(|frame| frame.color[0] == 9), "its picture is shown");
     assert!(before.is_some() && session.stage.pick(AT) == before, "the renderer tells what is where");
 }
+
+/// In each of four views the point is where it was asked for, as that view's camera sees it.
+#[test]
+fn each_of_four_views_shows_and_picks_the_scene_from_its_side() {
+    let mut handler = Recorder::default();
+    let mut session = begun(&mut handler);
+    session.stage.four_views = Some(crate::Area { min: [0, 0], size: SIZE });
+    session.note(ms(1000));
+    run(&mut session, ms(1000));
+    let panes = session.stage.panes();
+    assert_eq!(panes.len(), 4);
+    for pane in &panes {
+        let projector = Projector::new(&session.stage.camera_of(pane), pane.area.size);
+        // The middle of the cube on the right.
+        let at = projector.to_screen(DVec3::X * 2.0).expect("before the eye") + pane.area.origin();
+        let (name, point) = picked(&session, at).expect("a cube");
+        let seen = projector.to_screen(point).expect("before the eye") + pane.area.origin();
+        assert!(seen.distance(at) < 1e-3, "{:?}: {at} and {seen}", pane.side);
+        assert_eq!(name, "right", "{:?}", pane.side);
+    }
+    assert_eq!(session.stage.pick(SIZE.size() * 0.5), None, "between them is nothing");
+}

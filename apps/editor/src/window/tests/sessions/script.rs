@@ -168,7 +168,9 @@ impl User<'_> {
         const GRIP: f64 = 60.0;
         let (axis, way) = rest.split_once(" by ").ok_or("which axis, and by how far?")?;
         let axis = axis.to_lowercase().chars().next().and_then(Axis::of_key).ok_or("no axis")?;
-        let gizmo = self.editor.borrow_mut().gizmo(self.window.stage()).ok_or("there is no gizmo")?;
+        let stage = self.window.stage();
+        let pane = stage.pane_at(stage.viewport().size() * 0.5);
+        let gizmo = self.editor.borrow_mut().gizmo(stage, &pane).ok_or("there is no gizmo")?;
         let arm = gizmo.axes.col(axis.index());
         let center = self.seen(gizmo.center)?;
         let direction = (self.seen(gizmo.center + arm)? - center).normalize();

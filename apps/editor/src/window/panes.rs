@@ -1,0 +1,90 @@
+//! One view or four: which of them the pointer is in, and what tools and drawings over the picture see of it.
+//!
+//! The window has one scene and one camera; `trigon_window::Pane` says where its views are. A tool keeps to the
+//! view that it was started in, and counts in that view's own pixels.
+
+use trigon_window::egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, Visuals, pos2, vec2};
+use trigon_window::scene::camera::{AxisView, Viewport};
+use trigon_window::scene::math::DVec2;
+use trigon_window::{Area, Hands, Pane, Stage};
+
+use super::editor::Editor;
+use crate::overlay::OverlayView;
+use crate::tool::ToolView;
+
+/// Of the names of views, in points.
+const NAME: f32 = 13.0;
+
+/// A view in points, as everything over the picture is drawn.
+pub(crate) fn overlay_view(stage: &Stage, pane: &Pane) -> OverlayView {
+    OverlayView::new(&stage.camera_of(pane), pane.area.size, points(stage)).placed_at(pane.area.origin())
+}
+
+/// How tools see a view.
+pub(crate) fn tool_view(stage: &Stage, pane: &Pane) -> ToolView {
+    ToolView { camera: stage.camera_of(pane), viewport: pane.area.size, scale: stage.scale() }
+}
+
+/// The view that shows a side, or the camera's own; that of the camera where no view shows the side any more.
+pub(crate) fn pane_of(stage: &Stage, side: Option<AxisView>) -> Pane {
+    let panes = stage.panes();
+    let found = panes.iter().find(|pane| pane.side == side).or(panes.iter().find(|pane| pane.side.is_none()));
+    *found.expect("one view is the camera's own")
+}
+
+/// The same hands in the pixels of a view.
+pub(crate) fn in_pane(hands: Hands, pane: &Pane) -> Hands {
+    Hands { pointer: hands.pointer.map(|at| at - pane.area.origin()), ..hands }
+}
+
+/// The point of the interface at physical pixels of the window.
+pub(crate) fn point(stage: &Stage, at: DVec2) -> Pos2 {
+    let at = at / points(stage);
+    pos2(at.x as f32, at.y as f32)
+}
+
+/// Physical pixels to a point of the interface.
+fn points(stage: &Stage) -> f64 {
+    stage.scale() * f64::from(stage.text_scale.clamp(0.5, 4.0))
+}
+
+impl Editor {
+    /// Shows four views, or one again.
+    pub(crate) fn toggle_four_views(&mut self, stage: &mut Stage) {
+        stage.four_views = match stage.four_views {
+            Some(_) => None,
+            None => Some(area(stage, self.free)),
+        };
+    }
+
+    /// Four views fill what no panel covers.
+    pub(crate) fn fit_four_views(&self, stage: &mut Stage) {
+        if stage.four_views.is_some() {
+            stage.four_views = Some(area(stage, self.free));
+        }
+    }
+}
+
+fn area(stage: &Stage, free: Option<Rect>) -> Area {
+    let Some(free) = free else { return Area { min: [0, 0], size: stage.viewport() } };
+    let pixels = |points_of: f32| (f64::from(points_of.max(0.0)) * points(stage)).round() as u32;
+    let (min, max) = (free.min, free.max);
+    let [left, top] = [pixels(min.x), pixels(min.y)];
+    let (width, height) = (pixels(max.x).saturating_sub(left), pixels(max.y).saturating_sub(top));
+    Area { min: [left, top], size: Viewport { width, height } }
+}
+
+/// Names a view among four, and draws its border.
+pub(crate) fn draw_name(painter: &Painter, visuals: &Visuals, view: &OverlayView, pane: &Pane) {
+    let name = match pane.side {
+        Some(AxisView::Top) => "Top",
+        Some(AxisView::Front) => "Front",
+        Some(AxisView::Right) => "Right",
+        _ if pane.orbit.is_orthographic() => "Orthographic",
+        _ => "Perspective",
+    };
+    let (rect, color) = (view.rect(), visuals.strong_text_color());
+    let stroke = Stroke::new(1.0, visuals.window_stroke.color);
+    painter.rect_stroke(rect, 0.0, stroke, trigon_window::egui::StrokeKind::Inside);
+    painter.text(rect.min + vec2(8.0, 6.0), Align2::LEFT_TOP, name, FontId::proportional(NAME), color);
+}

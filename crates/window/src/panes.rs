@@ -1,0 +1,252 @@
+//! Four views of the scene in one window: three along its axes with parallel lines of sight, and the camera's
+//! own at the upper right.
+//!
+//! There is still one camera, [`Stage::orbit`](crate::Stage::orbit). The three others look at the same target from
+//! as far, so whatever moves or zooms one view does so to all, and there is no second state to keep. Each
+//! view is drawn by itself into its part of one [`Frame`], with its ids and depths. So all that follows, from
+//! refinement to picking, goes on to have one picture.
+
+use trigon_camera::{AxisView, Camera, Orbit, Projector, Viewport};
+use trigon_math::{Bounds3, DVec2, DVec3};
+use trigon_scene::{Frame, Outputs, RenderSettings};
+
+/// Columns and rows between two views, in physical pixels.
+const GAP: u32 = 2;
+
+/// A part of the window, in physical pixels from its upper left corner.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Area {
+    /// The upper left corner.
+    pub min: [u32; 2],
+    /// How large it is.
+    pub size: Viewport,
+}
+
+/// One view of a window; see [`Stage::panes`](crate::Stage::panes).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pane {
+    /// The side that it shows; `None` for the camera's own view.
+    pub side: Option<AxisView>,
+    /// Where it looks from.
+    pub orbit: Orbit,
+    /// Where it is in the window.
+    pub area: Area,
+}
+
+impl Area {
+    /// The upper left corner.
+    #[must_use]
+    pub fn origin(&self) -> DVec2 {
+        DVec2::new(self.min[0].into(), self.min[1].into())
+    }
+
+    /// Whether a point of the window is in it.
+    #[must_use]
+    pub fn contains(&self, at: DVec2) -> bool {
+        let within = at - self.origin();
+        within.cmpge(DVec2::ZERO).all() && within.cmplt(self.size.size()).all()
+    }
+
+    /// What of it lies in a window of this size.
+    fn within(self, window: Viewport) -> Self {
+        let min = [self.min[0].min(window.width), self.min[1].min(window.height)];
+        let width = self.size.width.min(window.width - min[0]);
+        let height = self.size.height.min(window.height - min[1]);
+        Self { min, size: Viewport { width, height } }
+    }
+
+    /// The same part of a picture that is stretched to the window.
+    fn scaled(self, window: Viewport, picture: Viewport) -> Self {
+        let scaled = |at: u32, from: u32, to: u32| {
+            u32::try_from(u64::from(at) * u64::from(to) / u64::from(from.max(1))).unwrap_or(to).min(to)
+        };
+        let across = |x| scaled(x, window.width, picture.width);
+        let down = |y| scaled(y, window.height, picture.height);
+        let min = [across(self.min[0]), down(self.min[1])];
+        let width = across(self.min[0] + self.size.width) - min[0];
+        let height = down(self.min[1] + self.size.height) - min[1];
+        Self { min, size: Viewport { width, height } }
+    }
+}
+
+/// The views of a window: one in all of it, or four in a part.
+pub(crate) fn panes(orbit: Orbit, window: Viewport, four: Option<Area>) -> Vec<Pane> {
+    let Some(area) = four.map(|area| area.within(window)) else {
+        return vec![Pane { side: None, orbit, area: Area { min: [0, 0], size: window } }];
+    };
+    let Viewport { width, height } = area.size;
+    let size = Viewport { width: width.saturating_sub(GAP) / 2, height: height.saturating_sub(GAP) / 2 };
+    let [left, top] = area.min;
+    let (right, bottom) = (left + size.width + GAP, top + size.height + GAP);
+    let places = [
+        (Some(AxisView::Top), [left, top]),
+        (None, [right, top]),
+        (Some(AxisView::Front), [left, bottom]),
+        (Some(AxisView::Right), [right, bottom]),
+    ];
+    places
+        .map(|(side, min)| Pane {
+            side,
+            orbit: side.map_or(orbit, |side| seen_from(orbit, side)),
+            area: Area { min, size },
+        })
+        .into()
+}
+
+/// The same target as large, from a side, with parallel lines of sight.
+fn seen_from(mut orbit: Orbit, side: AxisView) -> Orbit {
+    orbit.set_view(side);
+    if !orbit.is_orthographic() {
+        orbit.toggle_orthographic();
+    }
+    orbit
+}
+
+/// What a picture of the window shows.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Views {
+    /// The camera's own.
+    pub(crate) main: Camera,
+    window: Viewport,
+    /// The cameras of all views and where they are, where there is more than one.
+    parts: Vec<(Camera, Area)>,
+}
+
+impl From<Camera> for Views {
+    fn from(main: Camera) -> Self {
+        Self { main, window: Viewport { width: 0, height: 0 }, parts: Vec::new() }
+    }
+}
+
+impl Views {
+    /// Those of a window.
+    pub(crate) fn new(panes: &[Pane], window: Viewport, bounds: &Bounds3) -> Self {
+        let cameras: Vec<_> = panes.iter().map(|pane| (pane.orbit.camera(bounds), pane.area)).collect();
+        let main = panes.iter().position(|pane| pane.side.is_none()).map_or_else(Camera::default, |own| {
+            let (camera, _) = cameras[own];
+            camera
+        });
+        Self { main, window, parts: if panes.len() > 1 { cameras } else { Vec::new() } }
+    }
+
+    /// Where in the world something is that a picture shows at a point of the window, so far from the eye.
+    pub(crate) fn at_distance(&self, at: DVec2, window: Viewport, distance: f64) -> Option<DVec3> {
+        if self.parts.is_empty() {
+            return Projector::new(&self.main, window).at_distance(at, distance);
+        }
+        let (camera, area) = self.parts.iter().find(|(_, area)| area.contains(at))?;
+        Projector::new(camera, area.size).at_distance(at - area.origin(), distance)
+    }
+
+    /// Draws all views, each by `draw`, and puts them together.
+    pub(crate) fn draw<E>(
+        &self,
+        settings: RenderSettings,
+        mut draw: impl FnMut(&Camera, RenderSettings) -> Result<Frame, E>,
+    ) -> Result<Frame, E> {
+        if self.parts.is_empty() {
+            return draw(&self.main, settings);
+        }
+        let mut whole = empty(&settings);
+        let picture = Viewport { width: settings.width, height: settings.height };
+        for (camera, area) in &self.parts {
+            let area = area.scaled(self.window, picture);
+            let Viewport { width, height } = area.size;
+            if width > 0 && height > 0 {
+                let part = draw(camera, RenderSettings { width, height, ..settings.clone() })?;
+                copy(&part, area, &mut whole);
+            }
+        }
+        Ok(whole)
+    }
+}
+
+/// A picture of nothing with colours, depths and ids as far as the settings ask for them.
+fn empty(settings: &RenderSettings) -> Frame {
+    let RenderSettings { width, height, outputs, .. } = *settings;
+    let Outputs { color, depth, ids, .. } = outputs;
+    let pixels = width as usize * height as usize;
+    Frame {
+        width,
+        height,
+        color: if color { vec![0; 4 * pixels] } else { Vec::new() },
+        depth: depth.then(|| vec![f32::INFINITY; pixels]),
+        object_ids: ids.then(|| vec![u32::MAX; pixels]),
+        face_ids: ids.then(|| vec![u32::MAX; pixels]),
+        ..Frame::default()
+    }
+}
+
+/// Puts a view into its place.
+fn copy(part: &Frame, area: Area, whole: &mut Frame) {
+    copy_rows(&part.color, 4, area, whole.width, &mut whole.color);
+    let (width, to) = (whole.width, &mut whole.depth);
+    if let (Some(from), Some(to)) = (&part.depth, to) {
+        copy_rows(from, 1, area, width, to);
+    }
+    let ids = [(&part.object_ids, &mut whole.object_ids), (&part.face_ids, &mut whole.face_ids)];
+    for (from, to) in ids {
+        if let (Some(from), Some(to)) = (from, to) {
+            copy_rows(from, 1, area, width, to);
+        }
+    }
+}
+
+/// `values` for each pixel.
+fn copy_rows<T: Copy>(from: &[T], values: usize, area: Area, width: u32, to: &mut [T]) {
+    let row = area.size.width as usize * values;
+    for (y, from) in from.chunks_exact(row).enumerate() {
+        let start = ((area.min[1] as usize + y) * width as usize + area.min[0] as usize) * values;
+        if let Some(to) = to.get_mut(start..start + row) {
+            to.copy_from_slice(from);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn four_views_look_at_the_same_target_as_large() {
+        let (orbit, window) = (Orbit::new(DVec3::Y), Viewport { width: 202, height: 102 });
+        assert_eq!(panes(orbit, window, None).len(), 1, "usually one");
+        let area = Area { min: [0, 0], size: window };
+        let four = panes(orbit, window, Some(area));
+        let sides: Vec<_> = four.iter().map(|pane| pane.side).collect();
+        assert_eq!(sides, [Some(AxisView::Top), None, Some(AxisView::Front), Some(AxisView::Right)]);
+        for pane in &four {
+            assert_eq!(pane.area.size, Viewport { width: 100, height: 50 }, "a quarter");
+            assert_eq!(pane.orbit.target(), orbit.target());
+            assert_eq!(pane.orbit.height_at_target(), orbit.height_at_target(), "as large");
+            assert_eq!(pane.orbit.is_orthographic(), pane.side.is_some());
+        }
+        assert_eq!(four[1].orbit, orbit, "the camera's own");
+    }
+
+    proptest! {
+        /// Whatever a panel leaves, also beside the window.
+        #[test]
+        fn views_lie_in_the_window_and_apart(
+            min in prop::array::uniform2(0u32..300), size in prop::array::uniform2(0u32..300),
+            picture in prop::array::uniform2(1u32..250)
+        ) {
+            let window = Viewport { width: 200, height: 100 };
+            let picture = Viewport { width: picture[0], height: picture[1] };
+            let area = Area { min, size: Viewport { width: size[0], height: size[1] } };
+            let mut taken = vec![false; (picture.width * picture.height) as usize];
+            for pane in panes(Orbit::new(DVec3::Y), window, Some(area)) {
+                let Area { min, size } = pane.area.scaled(window, picture);
+                prop_assert!(min[0] + size.width <= picture.width && min[1] + size.height <= picture.height);
+                for y in min[1]..min[1] + size.height {
+                    for x in min[0]..min[0] + size.width {
+                        let pixel = &mut taken[(y * picture.width + x) as usize];
+                        prop_assert!(!std::mem::replace(pixel, true), "({x}, {y}) is in two");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Drags without end: at a border of the window the pointer is put to the other side, where the system lets
+//! programs do that.
+//!
+//! The session asks for a place, the shell puts the pointer there, and the first movement from there on is told
+//! apart from those that were still under way. A replay has both from its recording.
+
+use trigon_math::DVec2;
+
+use super::Session;
+
+/// So near to a border the pointer goes to the other side, in physical pixels.
+const MARGIN: f64 = 2.0;
+/// Windows narrower than this are left alone.
+const LEAST: f64 = 16.0 * MARGIN;
+
+/// What is known of the pointer's way to the other side.
+#[derive(Debug, Default)]
+pub(super) struct Wrapping {
+    /// Where the pointer is to be put, until the shell does.
+    asked: Option<DVec2>,
+    /// Where it will come from next.
+    expected: Option<DVec2>,
+    /// The system does not let it be put anywhere.
+    is_refused: bool,
+}
+
+impl Session<'_> {
+    /// Where in the window the pointer is to be put, in physical pixels.
+    pub(crate) fn take_pointer_place(&mut self) -> Option<DVec2> {
+        self.wrapping.asked.take()
+    }
+
+    /// The system does not let the pointer be put anywhere: it is not asked again.
+    pub(crate) fn pointer_stays(&mut self) {
+        self.wrapping = Wrapping { is_refused: true, ..Wrapping::default() };
+    }
+
+    /// Whether the pointer has to stay in the window.
+    pub(crate) fn keeps_pointer(&self) -> bool {
+        self.stage.wraps_pointer && !self.wrapping.is_refused
+    }
+
+    /// The pointer is about to move to a place.
+    pub(super) fn wrap(&mut self, to: DVec2) {
+        if !self.keeps_pointer() || self.pointer.is_held() {
+            (self.wrapping.asked, self.wrapping.expected) = (None, None);
+            return;
+        }
+        if let (Some(place), Some(from)) = (self.wrapping.expected, self.pointer.position()) {
+            if to.distance(place) < to.distance(from) {
+                self.wrapping.expected = None;
+                self.handler.pointer_jumped(&mut self.stage, place);
+            }
+            return;
+        }
+        let place = other_side(to, self.stage.viewport().size());
+        if place != to {
+            (self.wrapping.asked, self.wrapping.expected) = (Some(place), Some(place));
+        }
+    }
+}
+
+/// The place across a window from a border; the same place elsewhere.
+fn other_side(at: DVec2, size: DVec2) -> DVec2 {
+    let across = |at: f64, size: f64| match size {
+        _ if size < LEAST => at,
+        _ if at < MARGIN => size - 1.0 - 2.0 * MARGIN,
+        _ if at > size - 1.0 - MARGIN => 2.0 * MARGIN,
+        _ => at,
+    };
+    DVec2::new(across(at.x, size.x), across(at.y, size.y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_borders_have_another_side() {
+        let size = DVec2::new(200.0, 100.0);
+        assert_eq!(other_side(DVec2::new(100.0, 50.0), size), DVec2::new(100.0, 50.0));
+        assert_eq!(other_side(DVec2::new(199.0, 50.0), size), DVec2::new(4.0, 50.0));
+        assert_eq!(other_side(DVec2::new(0.0, 99.0), size), DVec2::new(195.0, 4.0), "a corner");
+        for at in [0.0, 1.0, 198.0, 199.0] {
+            let place = other_side(DVec2::new(at, 50.0), size);
+            assert_eq!(other_side(place, size), place, "it does not go back at once");
+        }
+        assert_eq!(other_side(DVec2::ZERO, DVec2::splat(10.0)), DVec2::ZERO, "no room");
+    }
+}
