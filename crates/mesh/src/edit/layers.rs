@@ -232,6 +232,15 @@ impl Layer {
         }
     }
 
+    /// [`Self::turn_over`] for many corners.
+    pub(super) fn turn_over_all(&mut self, corners: &[u32]) {
+        use LayerKind::{MorphNormal, Normal, Tangent};
+        if matches!(self.kind, Normal | MorphNormal(_) | Tangent) {
+            for_column!(&mut self.values, column => drop(column.write_all()));
+            corners.iter().for_each(|&corner| self.turn_over(corner));
+        }
+    }
+
     /// Of a corner whose face turns over: normals point the other way, so bitangents would, too.
     pub(super) fn turn_over(&mut self, index: u32) {
         match (&mut self.values, self.kind) {

@@ -10,6 +10,7 @@ mod merge;
 mod relink;
 mod remove;
 mod split;
+mod turn;
 
 pub(super) use add::check_outline;
 pub use split::{SplitEdge, SplitFace};
