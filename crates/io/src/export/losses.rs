@@ -1,8 +1,13 @@
 //! What of a scene a format cannot hold, as data.
 
+use trigon_mesh::Mesh;
+use trigon_scene::{Node, NodeId, Scene};
+
 use super::gather::place;
-use super::{Gathered, Object};
+use super::{ExportOptions, FaceExport, Gathered, Object};
 use crate::loss::Loss;
+
+const POLYGONS: &str = "polygons: they are cut into triangles";
 
 /// Which single vertices that are to be seen a format holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,15 +64,25 @@ pub(super) fn add(gathered: &mut Gathered<'_>, holds: &Holds) {
         HeldPoints::None => false,
     };
     add(!keeps_points && any(|object| !object.mesh.loose_points().is_empty()), "points");
-    add(
-        !holds.polygons && any(|object| object.mesh.corner_count() > 3 * object.mesh.face_count()),
-        "polygons: they are cut into triangles",
-    );
+    add(!holds.polygons && any(|object| has_polygons(object.mesh)), POLYGONS);
     add(
         any(|object| object.mesh.positions().iter().any(|position| !position.is_finite())),
         "faces with vertices that are not finite",
     );
     gathered.losses.append(&mut losses);
+}
+
+/// What will not be in a file that holds all of a scene but polygons.
+pub(super) fn of_whole(scene: &Scene, options: &ExportOptions<'_>) -> Vec<Loss> {
+    let is_wanted = |id: NodeId| options.nodes.as_ref().is_none_or(|wanted| wanted.contains(&id));
+    let mesh = |node: &Node| scene.meshes().get(node.mesh?).map(|asset| asset.mesh());
+    let mut meshes = scene.nodes().iter().filter(|(id, _)| is_wanted(*id)).filter_map(|(_, node)| mesh(node));
+    let are_cut = options.faces == FaceExport::Polygons && meshes.any(has_polygons);
+    are_cut.then(|| Loss::of_scene(POLYGONS)).into_iter().collect()
+}
+
+fn has_polygons(mesh: &Mesh) -> bool {
+    mesh.corner_count() > 3 * mesh.face_count()
 }
 
 fn add_of_nodes(gathered: &mut Gathered<'_>) {

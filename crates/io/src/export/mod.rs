@@ -61,7 +61,7 @@ pub fn export(
         Writing::Unwritten => Err(WriteError::Unwritten { name: name.to_owned(), writers: endings() }),
         Writing::Scene(write) => {
             let files = vec![ExportedFile { name: name.to_owned(), bytes: write(scene, options)? }];
-            Ok(Export { files, losses: Vec::new() })
+            Ok(Export { files, losses: losses::of_whole(scene, options) })
         }
         Writing::Objects(holds, write) => {
             let mut gathered = Gathered::new(scene, options);

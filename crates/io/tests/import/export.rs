@@ -274,6 +274,19 @@ fn what_a_format_cannot_hold_is_told() {
     assert!(matches!(refused, Err(WriteError::Unwritten { .. })), "{refused:?}");
 }
 
+#[test]
+fn a_glb_tells_that_it_cuts_polygons() {
+    let lost = |mesh: Mesh, faces| {
+        let options = ExportOptions { faces, ..ExportOptions::default() };
+        let export = written(&scene_of(mesh), (Format::Glb, "a.glb"), &options);
+        export.what_would_be_lost().iter().map(ToString::to_string).collect::<Vec<String>>()
+    };
+    let told = lost(primitives::cube(1.0), FaceExport::Polygons);
+    assert_eq!(told, ["polygons: they are cut into triangles"], "squares");
+    assert!(lost(primitives::cube(1.0), FaceExport::Triangles).is_empty(), "as it was asked for");
+    assert!(lost(primitives::icosphere(1.0, 1), FaceExport::Polygons).is_empty(), "triangles stay");
+}
+
 /// Files beside the model, found again by its reader.
 #[test]
 fn materials_and_pictures_lie_beside_an_obj() {
