@@ -6,7 +6,7 @@ usage: round_trips.py EDITOR [--blender PROGRAM] [--keep FOLDER]
 EDITOR is the program trigon-editor. Each model is written by it in each format, read by the other
 program, written by that in the same format, read by trigon-editor and written as PLY. Both ends, and what the
 other program itself counted, have to have the same geometry: as many faces, of the same sizes, with the
-same positions to f32, or to the decimals that the other program writes. Exit code 0 if they have, 1 if any differs. Needs numpy and trimesh; Blender only
+same positions to f32, or to the decimals that the other program writes, and as many distinct positions. Exit code 0 if they have, 1 if any differs. Needs numpy and trimesh; Blender only
 for --blender.
 """
 import argparse
@@ -113,6 +113,13 @@ def is_near(first, second, most):
     return any(abs(first - numpy.roll(second, turn, axis=0)).max() <= most for turn in turns)
 
 
+def differ_in_positions(before, after):
+    """None if two lists of faces have as many distinct positions, or how many each has. What a program rounds it rounds
+    everywhere alike: positions that were one stay one."""
+    counts = [len(numpy.unique(numpy.concatenate(faces), axis=0)) for faces in (before, after)]
+    return None if counts[0] == counts[1] else f"{counts[0]} positions became {counts[1]}"
+
+
 def through_trimesh(source, target, kind):
     scene = trimesh.load(source, process=False, force="scene")
     counts = {"faces": sum(len(mesh.faces) for mesh in scene.geometry.values())}
@@ -151,7 +158,7 @@ def check(editor, peer, through, model, kind, folder):
     before, after = read_ply(folder / "before.ply"), read_ply(folder / "after.ply")
     if counts["faces"] != len(before):
         return f"{peer} read {counts['faces']} faces of {len(before)}"
-    return differs(before, after, STEPS.get((peer, kind)))
+    return differs(before, after, STEPS.get((peer, kind))) or differ_in_positions(before, after)
 
 
 def main():
