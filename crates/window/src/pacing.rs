@@ -153,6 +153,12 @@ impl Pacing {
         Some(Progress { step: next + 1, of: self.wanted.len() })
     }
 
+    /// Whether the right picture is shown, as the settings say.
+    #[cfg(any(test, feature = "kittest"))]
+    pub(crate) fn shows_full(&self) -> bool {
+        matches!(self.shown, Shown::Full(_))
+    }
+
     /// Whether the picture under way is only better than the one that is shown.
     pub(crate) fn is_refining(&self) -> bool {
         self.under_way.is_some_and(|picture| matches!(picture.quality, Quality::Full(1..)))

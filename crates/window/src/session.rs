@@ -189,6 +189,18 @@ impl<'a> Session<'a> {
         self.canvas.paint(&mut self.interface.painter).then_some(&self.canvas)
     }
 
+    /// When the picture of the last frame was there, by the clock that the frame was given.
+    #[cfg(any(test, feature = "kittest"))]
+    pub(crate) fn composed_at(&self) -> Duration {
+        self.composed
+    }
+
+    /// Whether the right picture is shown, as the settings say.
+    #[cfg(any(test, feature = "kittest"))]
+    pub(crate) fn shows_full(&self) -> bool {
+        self.pacing.shows_full()
+    }
+
     /// What was last drawn; of no size before.
     pub(crate) fn canvas(&self) -> &Canvas {
         &self.canvas

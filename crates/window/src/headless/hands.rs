@@ -23,6 +23,16 @@ impl HeadlessWindow<'_> {
         self.rest();
     }
 
+    /// Moves the pointer to a place in physical pixels at once, and draws one frame: a hand that goes on. What
+    /// waits for the hand to rest is not done.
+    pub fn move_on_to(&mut self, to: DVec2) {
+        self.pointer = to;
+        let at = self.in_points();
+        self.interface(Event::PointerMoved(at));
+        self.event(InputEvent::PointerMoved(to));
+        self.frame();
+    }
+
     /// Holds these modifier keys and no others from now on.
     pub fn hold(&mut self, modifiers: Modifiers) {
         if self.modifiers != modifiers {

@@ -22,6 +22,9 @@ use crate::{Handler, Stage};
 /// What a hand takes for one movement, press or release. Twice within it is no double click of egui's.
 const HAND: Duration = Duration::from_millis(400);
 
+/// Frames of a hand that goes on are so far apart: 60 a second.
+const FRAME: Duration = Duration::from_micros(16_667);
+
 /// An application that is worked without a display.
 pub struct HeadlessWindow<'a> {
     session: Session<'a>,
@@ -31,6 +34,22 @@ pub struct HeadlessWindow<'a> {
     /// What the interface says to screen readers.
     tree: Option<State>,
     rings: Receiver<()>,
+    /// What frames are measured by.
+    clock: Box<dyn Fn() -> Duration>,
+    frames: Vec<DrawnFrame>,
+}
+
+/// A frame that was drawn: when that began and ended. The window's own time stands still meanwhile.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DrawnFrame {
+    /// When all that happened before was dealt with.
+    pub begun: Duration,
+    /// When the picture of the scene was there, if another one was due.
+    pub drawn: Duration,
+    /// When the interface lay over it.
+    pub ended: Duration,
+    /// Whether the picture is the right one, drawn in full: neither a draft nor an older one.
+    pub is_full: bool,
 }
 
 /// Something on the interface, as a screen reader would tell of it.
@@ -54,6 +73,18 @@ impl<'a> HeadlessWindow<'a> {
     /// Opens a window of a size in physical pixels, and draws until it rests.
     #[must_use]
     pub fn open(stage: Stage, handler: &'a mut dyn Handler, size: Viewport) -> Self {
+        Self::open_measured(stage, handler, size, || Duration::ZERO)
+    }
+
+    /// The same, its frames measured by a clock: the time since any fixed moment. Nothing that it does depends
+    /// on that: drafts are drawn in the window's full size however long they take.
+    #[must_use]
+    pub fn open_measured(
+        stage: Stage,
+        handler: &'a mut dyn Handler,
+        size: Viewport,
+        clock: impl Fn() -> Duration + 'static,
+    ) -> Self {
         let (ring, rings) = channel();
         stage.waker().connect(move || {
             // Nobody waits any more when this fails.
@@ -63,7 +94,9 @@ impl<'a> HeadlessWindow<'a> {
         session.interface().context().enable_accesskit();
         session.record();
         let (pointer, modifiers) = (DVec2::ZERO, Modifiers::NONE);
-        let mut window = Self { session, now: Duration::ZERO, pointer, modifiers, tree: None, rings };
+        let (clock, frames) = (Box::new(clock), Vec::new());
+        let mut window =
+            Self { session, now: Duration::ZERO, pointer, modifiers, tree: None, rings, clock, frames };
         window.event(InputEvent::Resized { width: size.width, height: size.height });
         window.session.start(window.now);
         window.rest();
@@ -92,6 +125,11 @@ impl<'a> HeadlessWindow<'a> {
         let recorded = self.session.take_recorded();
         self.session.record();
         recorded.unwrap_or_default()
+    }
+
+    /// The frames since the last call, in their order.
+    pub fn take_frames(&mut self) -> Vec<DrawnFrame> {
+        std::mem::take(&mut self.frames)
     }
 
     /// Waits until another thread of the application wakes the window.
@@ -148,11 +186,25 @@ impl<'a> HeadlessWindow<'a> {
         }
     }
 
+    /// Lets the time of a frame pass, and draws what is due then.
+    fn frame(&mut self) {
+        self.session.settle(self.now);
+        if let Wake::At(later) = self.session.next(self.now) {
+            self.now = later.min(self.now + FRAME);
+        }
+        if self.session.next(self.now) == Wake::Now {
+            self.draw();
+        }
+    }
+
     fn draw(&mut self) {
         let now = self.now;
-        if self.session.draw(now, &|| now).is_some() {
-            self.session.presented(now);
+        let begun = (self.clock)();
+        if self.session.draw(now, &*self.clock).is_some() {
+            self.session.presented((self.clock)());
         }
+        let (drawn, is_full) = (self.session.composed_at(), self.session.shows_full());
+        self.frames.push(DrawnFrame { begun, drawn, ended: (self.clock)(), is_full });
         while self.rings.try_recv().is_ok() {
             self.session.woken(now);
         }
