@@ -1,8 +1,12 @@
 //! The editor's state, and what becomes of requests.
 
+use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
-use trigon_edit::{Command, Document, EditObjects, ElementKind, LeaveEditMode, SetElementKind};
+use trigon_edit::{
+    Command, Disk, Document, EditError, EditObjects, ElementKind, LeaveEditMode, Outcome, SetElementKind,
+    Storage,
+};
 use trigon_window::Stage;
 use trigon_window::egui::Rect;
 use trigon_window::scene::math::DVec2;
@@ -19,6 +23,7 @@ use super::pick::{self, Click};
 use super::pointing::Pointing;
 use super::recent::Recent;
 use super::recovery::Recovery;
+use super::saving::{SaveOrder, Saving};
 use super::settings::{self, Layout, ToolSettings, ViewState};
 use super::{actions, look, navigation};
 use crate::request::{Request, ToolKind, UiRequest};
@@ -49,8 +54,16 @@ pub(crate) struct Editor {
     pub(crate) rename: Option<Rename>,
     pub(crate) question: Option<Question>,
     pub(crate) dialog: FileWindow,
-    /// The document that will replace this one.
+    /// The file that is being loaded.
     pub(crate) loading: Option<Loading>,
+    /// Files to be imported after it.
+    pub(crate) to_import: VecDeque<PathBuf>,
+    /// The document as it is being saved.
+    pub(crate) saving: Option<Saving>,
+    /// What is to be saved after that.
+    pub(crate) to_save: Option<SaveOrder>,
+    /// Where files are saved.
+    pub(crate) storage: Box<dyn Fn() -> Box<dyn Storage + Send>>,
     /// What follows when a document without a file has got one.
     pub(crate) after_save: Option<Next>,
     pub(crate) recent: Recent,
@@ -91,6 +104,10 @@ impl Editor {
             question: None,
             dialog: FileWindow::default(),
             loading: None,
+            to_import: VecDeque::new(),
+            saving: None,
+            to_save: None,
+            storage: Box::new(|| Box::new(Disk)),
             after_save: None,
             recent: Recent::load(folder.as_deref()),
             recovery: None,
@@ -146,7 +163,13 @@ impl Editor {
     /// Runs a command, and says what has come of it.
     pub(crate) fn run(&mut self, command: Command) {
         let (selects, name) = (command.is_selection(), command.name());
-        match self.document.run(command) {
+        let outcome = self.document.run(command);
+        self.ended(name, selects, outcome);
+    }
+
+    /// Says what has come of a command.
+    pub(crate) fn ended(&mut self, name: &str, selects: bool, outcome: Result<Outcome, EditError>) {
+        match outcome {
             Ok(outcome) => {
                 self.file.ran(selects);
                 self.done(name, &outcome.message);

@@ -3,9 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use trigon_edit::scene::{Light, Material, Node, Scene};
-use trigon_edit::{
-    AssignTexture, Disk, Document, ImportFile, LeaveEditMode, ObjectName, Select, TextureSource, save,
-};
+use trigon_edit::{AssignTexture, Document, LeaveEditMode, ObjectName, Select, TextureSource};
 use trigon_io::ExportOptions;
 use trigon_window::Stage;
 use trigon_window::scene::math::DVec3;
@@ -13,11 +11,12 @@ use trigon_window::scene::mesh::primitives;
 
 use super::dialog::Purpose;
 use super::editor::{Editor, Message, WELCOME};
-use super::loading::{Loading, Outcome};
+use super::loading::{Found, LoadPurpose, Loading, Outcome};
 use super::look::Look;
 use super::navigation;
 use super::open_file::{Answer, Next, OpenFile, Question};
 use super::recovery::{Left, Recovery};
+use super::saving::{SaveOrder, Saved, Saving};
 use crate::export;
 use crate::request::{FileAction, FileRequest};
 
@@ -51,7 +50,8 @@ impl Editor {
         self.message = Message::Info(WELCOME.into());
     }
 
-    fn take_document(&mut self, document: Document, path: Option<PathBuf>) {
+    /// Another document takes the place of the one that is open.
+    pub(crate) fn take_document(&mut self, document: Document, path: Option<PathBuf>) {
         self.replace_document(document);
         let folder = self.recovery_folder.as_deref();
         self.recovery =
@@ -115,15 +115,19 @@ impl Editor {
     }
 
     fn unless_unsaved(&mut self, stage: &mut Stage, next: Next) {
-        if self.file.is_unsaved() {
+        if self.file.is_unsaved() && !self.file.is_being_saved() {
             self.question = Some(Question::Unsaved(next));
         } else {
             self.go_on(stage, next);
         }
     }
 
-    /// Replaces the document, or closes the window.
+    /// Replaces the document, or closes the window; once it is saved, if that is under way.
     pub(crate) fn go_on(&mut self, stage: &mut Stage, next: Next) {
+        if let Some(saving) = &mut self.saving {
+            saving.order.next = Some(next);
+            return;
+        }
         match next {
             Next::New => {
                 self.start_new();
@@ -133,10 +137,7 @@ impl Editor {
                 stage.orbit.zoom(0.55);
                 stage.set_home(stage.orbit);
             }
-            Next::Open(path) => {
-                let waker = stage.waker();
-                self.loading = Some(Loading::start(path, move || waker.wake()));
-            }
+            Next::Open(path) => self.load(stage, path, LoadPurpose::Open),
             Next::Quit => {
                 if let Some(recovery) = self.recovery.take() {
                     recovery.close();
@@ -146,18 +147,24 @@ impl Editor {
         }
     }
 
-    fn look_at_all(&mut self, stage: &mut Stage) {
+    /// Takes the whole scene into view, which becomes the one to return to.
+    pub(crate) fn look_at_all(&mut self, stage: &mut Stage) {
         self.show(stage);
         stage.orbit.look_along(HOME_DIRECTION);
         navigation::frame_all(self, stage);
         stage.set_home(stage.orbit);
     }
 
-    /// A load has ended.
+    fn load(&mut self, stage: &Stage, path: PathBuf, purpose: LoadPurpose) {
+        let waker = stage.waker();
+        self.loading = Some(Loading::start(path, purpose, move || waker.wake()));
+    }
+
+    /// A load has ended; the next one begins.
     pub(crate) fn loaded(&mut self, stage: &mut Stage, path: &Path, outcome: Outcome) {
         match outcome {
-            Ok((document, warnings)) => {
-                self.take_document(document, Some(path.to_owned()));
+            Ok(Found::Document(document, warnings)) => {
+                self.take_document(*document, Some(path.to_owned()));
                 self.recent.add(path);
                 let warned = match &warnings[..] {
                     [] => String::new(),
@@ -166,7 +173,15 @@ impl Editor {
                 self.message = Message::Info(format!("Opened {}{warned}", path.display()));
                 self.look_at_all(stage);
             }
+            Ok(Found::Import(loaded)) => {
+                let imported = self.document.import(path.to_string_lossy().into_owned(), &loaded);
+                self.ended("Import", false, imported);
+                self.show(stage);
+            }
             Err(error) => self.give_up_loading(stage, Message::Refusal(error)),
+        }
+        if let Some(path) = self.to_import.pop_front() {
+            self.load(stage, path, LoadPurpose::Import);
         }
     }
 
@@ -179,36 +194,60 @@ impl Editor {
     }
 
     /// Saves, unless something would be lost that nobody was asked about.
-    fn save_to(&mut self, stage: &mut Stage, path: PathBuf, next: Option<Next>) {
-        let losses: Vec<String> = match self.document.encode() {
-            Ok(file) => file.what_would_be_lost().iter().map(ToString::to_string).collect(),
-            Err(error) => {
-                self.message = Message::Refusal(error.to_string());
-                return;
-            }
-        };
-        if losses.is_empty() {
-            self.write(stage, path, next);
-        } else {
-            self.question = Some(Question::Losses { path, losses, next });
-        }
+    fn save_to(&mut self, stage: &Stage, path: PathBuf, next: Option<Next>) {
+        self.save(stage, SaveOrder { path, accepts_losses: false, next });
     }
 
-    fn write(&mut self, stage: &mut Stage, path: PathBuf, next: Option<Next>) {
-        let encoded = self.document.encode().map_err(|error| error.to_string());
-        let written = encoded
-            .and_then(|file| save(&mut Disk, &path, &file.to_bytes()).map_err(|error| error.to_string()));
-        match written {
-            Ok(()) => {
+    /// Starts to save the document as it is now, or once the save that is under way has ended.
+    fn save(&mut self, stage: &Stage, order: SaveOrder) {
+        if self.saving.is_some() {
+            self.to_save = Some(order);
+            return;
+        }
+        let waker = stage.waker();
+        self.file.begins_save();
+        self.saving =
+            Some(Saving::start(order, self.document.snapshot(), (self.storage)(), move || waker.wake()));
+    }
+
+    /// A save has ended; what waited for that follows.
+    pub(crate) fn saved(&mut self, stage: &mut Stage, outcome: Saved) {
+        let Some(Saving { order: SaveOrder { path, next, .. }, .. }) = self.saving.take() else { return };
+        self.file.ended_save((outcome == Saved::Written).then(|| path.clone()));
+        let next = match outcome {
+            Saved::Written => {
                 self.message = Message::Info(format!("Saved {}", path.display()));
                 self.recent.add(&path);
-                self.file.saved_as(path);
-                if let Some(next) = next {
-                    self.go_on(stage, next);
-                }
+                next
             }
-            Err(error) => self.message = Message::Refusal(error),
+            Saved::WouldLose(losses) => {
+                self.question = Some(Question::Losses { path, losses, next });
+                None
+            }
+            Saved::Failed(error) => {
+                self.message = Message::Refusal(error);
+                None
+            }
+        };
+        if let Some(order) = self.to_save.take() {
+            self.save(stage, order);
         }
+        if let Some(next) = next {
+            self.go_on(stage, next);
+        }
+        self.show(stage);
+    }
+
+    /// Whether the document is closed as soon as it is saved: what was done now would be lost.
+    pub(crate) fn closes_after_save(&self) -> bool {
+        let orders = self.saving.iter().map(|saving| &saving.order).chain(&self.to_save);
+        orders.into_iter().any(|order| order.next.is_some())
+    }
+
+    /// Saves, and closes nothing.
+    pub(crate) fn stay_open(&mut self) {
+        let orders = self.saving.iter_mut().map(|saving| &mut saving.order).chain(&mut self.to_save);
+        orders.for_each(|order| order.next = None);
     }
 
     fn export(&mut self, path: &Path) {
@@ -229,9 +268,12 @@ impl Editor {
         let path = std::path::absolute(&path).unwrap_or(path);
         if self.document.selection().is_editing() {
             self.run(LeaveEditMode {}.into());
+            self.show(stage);
         }
-        self.run(ImportFile { path: path.to_string_lossy().into_owned() }.into());
-        self.show(stage);
+        match self.loading {
+            Some(_) => self.to_import.push_back(path),
+            None => self.load(stage, path, LoadPurpose::Import),
+        }
     }
 
     /// Goes on after a question.
@@ -240,7 +282,9 @@ impl Editor {
         match (question, answer) {
             (Question::Unsaved(next), Answer::Yes) => self.save_then(stage, next),
             (Question::Unsaved(next), Answer::No) => self.go_on(stage, next),
-            (Question::Losses { path, next, .. }, Answer::Yes) => self.write(stage, path, next),
+            (Question::Losses { path, next, .. }, Answer::Yes) => {
+                self.save(stage, SaveOrder { path, accepts_losses: true, next });
+            }
             (Question::Recover(left), Answer::Yes) => self.recover(stage, &left),
             (Question::Recover(left), Answer::No) => left.discard(),
             (_, Answer::No | Answer::Cancel) => {}

@@ -10,6 +10,7 @@ use super::editor::Editor;
 use super::loading::Loading;
 use super::open_file::{Answer, Next};
 use super::pick::{self, Click};
+use super::saving::Saving;
 use super::{files, interface};
 use crate::request::{FileAction, FileRequest, Request};
 
@@ -69,6 +70,9 @@ impl Handler for Editor {
         {
             self.loaded(stage, &loading.path, outcome);
         }
+        if let Some(outcome) = self.saving.as_ref().and_then(Saving::outcome) {
+            self.saved(stage, outcome);
+        }
         if let Some(request) = self.dialog.picked() {
             self.perform(stage, Request::File(request));
         }
@@ -85,6 +89,7 @@ impl Editor {
         let mut files = std::mem::take(&mut self.to_open).into_iter();
         match files.next() {
             Some(first) => self.go_on(stage, Next::Open(first)),
+            None if !self.document.nodes().nodes().is_empty() => self.look_at_all(stage),
             None => self.go_on(stage, Next::New),
         }
         files.for_each(|file| self.file_request(stage, FileRequest::Import(file)));
@@ -94,7 +99,7 @@ impl Editor {
     }
 
     fn key(&mut self, stage: &mut Stage, hands: Hands, keys: [Option<Key>; 2]) -> Taken {
-        if self.loading.is_some() {
+        if self.loading.is_some() || self.closes_after_save() {
             // What was done now would be lost.
             return Taken::Yes;
         }

@@ -4,36 +4,64 @@
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 
 use trigon_edit::Document;
-use trigon_io::{LoadOptions, Warning};
+use trigon_io::{LoadOptions, Loaded, Progress, Warning, load};
 
-/// What a load ends with: a document, or why there is none.
-pub(crate) type Outcome = Result<(Document, Vec<Warning>), String>;
+/// What becomes of the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LoadPurpose {
+    /// It takes the place of the document.
+    Open,
+    /// What it holds is added to the document.
+    Import,
+}
+
+/// What a load ends with, if it ends well.
+#[derive(Debug)]
+pub(crate) enum Found {
+    Document(Box<Document>, Vec<Warning>),
+    Import(Box<Loaded>),
+}
+
+/// What a load ends with, or why there is nothing.
+pub(crate) type Outcome = Result<Found, String>;
 
 /// A load under way. Dropping it cancels it.
 #[derive(Debug)]
 pub(crate) struct Loading {
     pub(crate) path: PathBuf,
+    purpose: LoadPurpose,
     outcome: Receiver<Outcome>,
-    is_cancelled: Arc<AtomicBool>,
+    state: Arc<State>,
+}
+
+/// What both threads know.
+#[derive(Debug, Default)]
+struct State {
+    is_cancelled: AtomicBool,
+    percent: AtomicU32,
 }
 
 impl Loading {
-    /// Starts to load; `wake` is called at the end.
-    pub(crate) fn start(path: PathBuf, wake: impl FnOnce() + Send + 'static) -> Self {
-        let is_cancelled = Arc::new(AtomicBool::new(false));
+    /// Starts to load; `wake` is called at the end, and when there is progress to be shown.
+    pub(crate) fn start(
+        path: PathBuf,
+        purpose: LoadPurpose,
+        wake: impl Fn() + Send + Sync + 'static,
+    ) -> Self {
+        let state = Arc::new(State::default());
         let (sender, outcome) = channel();
-        let (theirs, file) = (Arc::clone(&is_cancelled), path.clone());
+        let (theirs, file) = (Arc::clone(&state), path.clone());
         thread::spawn(move || {
             // Nobody waits for it any more when this fails.
-            drop(sender.send(load(&file, &theirs)));
+            drop(sender.send(read(&file, purpose, &theirs, &wake)));
             wake();
         });
-        Self { path, outcome, is_cancelled }
+        Self { path, purpose, outcome, state }
     }
 
     /// What it ended with; `None` while it runs.
@@ -45,7 +73,16 @@ impl Loading {
         }
     }
 
-    /// The same, once it is there.
+    /// What is being done, for people.
+    pub(crate) fn text(&self) -> String {
+        let doing = match self.purpose {
+            LoadPurpose::Open => "Opening",
+            LoadPurpose::Import => "Importing",
+        };
+        format!("{doing} {}: {} %", self.path.display(), self.state.percent.load(Ordering::Relaxed))
+    }
+
+    /// What it ended with, once that is there.
     #[cfg(test)]
     pub(crate) fn wait(&self) -> Outcome {
         self.outcome.recv().unwrap_or_else(|_| Err(NO_RESULT.into()))
@@ -54,17 +91,28 @@ impl Loading {
 
 const NO_RESULT: &str = "loading ended without a result; this is a defect of trigon";
 
-fn load(path: &Path, is_cancelled: &AtomicBool) -> Outcome {
-    let follow = |_| match is_cancelled.load(Ordering::Relaxed) {
-        true => ControlFlow::Break(()),
-        false => ControlFlow::Continue(()),
+fn read(path: &Path, purpose: LoadPurpose, state: &State, wake: &(impl Fn() + Sync)) -> Outcome {
+    let follow = |progress: Progress| {
+        if state.is_cancelled.load(Ordering::Relaxed) {
+            return ControlFlow::Break(());
+        }
+        let percent = (progress.fraction * 100.0) as u32;
+        if state.percent.swap(percent, Ordering::Relaxed) != percent {
+            wake();
+        }
+        ControlFlow::Continue(())
     };
     let options = LoadOptions { progress: Some(&follow), ..LoadOptions::default() };
-    Document::open(path, &options).map_err(|error| error.to_string())
+    let found = match purpose {
+        LoadPurpose::Open => Document::open(path, &options)
+            .map(|(document, warnings)| Found::Document(Box::new(document), warnings)),
+        LoadPurpose::Import => load(path, &options).map(|loaded| Found::Import(Box::new(loaded))),
+    };
+    found.map_err(|error| error.to_string())
 }
 
 impl Drop for Loading {
     fn drop(&mut self) {
-        self.is_cancelled.store(true, Ordering::Relaxed);
+        self.state.is_cancelled.store(true, Ordering::Relaxed);
     }
 }

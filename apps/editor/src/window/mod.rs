@@ -21,11 +21,15 @@ mod pick;
 mod pointing;
 mod recent;
 mod recovery;
+mod saving;
 mod settings;
 #[cfg(test)]
 mod tests;
 
-use trigon_window::{Application, WindowError};
+use std::path::PathBuf;
+
+use trigon_edit::Document;
+use trigon_window::{Application, Handler, Stage, WindowError};
 
 use crate::arguments::Arguments;
 use editor::Editor;
@@ -53,6 +57,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
         WindowError::NoDisplay { .. } => format!("{error}; run a script instead: --run script.json"),
         other => other.to_string(),
     })
+}
+
+/// The editor on a document, and the stage that shows it, as the program opens them: for a window without a
+/// display that is worked by a program. What a crash would lose is written to this folder, if there is one.
+#[must_use]
+pub fn measured_editor(document: Document, folder: Option<PathBuf>) -> (Stage, Box<dyn Handler>) {
+    let mut stage = Stage::new("trigon");
+    let mut editor = Editor::new(Keys::default(), folder, Vec::new());
+    settings::prepare(&mut stage);
+    editor.take_document(document, None);
+    (stage, Box::new(editor))
 }
 
 /// The keys of the user's file, if there is one, and what in it is not known.

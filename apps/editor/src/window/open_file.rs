@@ -12,16 +12,20 @@ pub(crate) struct OpenFile {
     position: i64,
     /// The position that the file holds; `None` if no undo leads there.
     saved: Option<i64>,
+    /// The position that is being written now, likewise.
+    saving: Option<i64>,
 }
 
 impl OpenFile {
     pub(crate) fn opened(path: Option<PathBuf>) -> Self {
-        Self { path, position: 0, saved: Some(0) }
+        Self { path, position: 0, saved: Some(0), saving: None }
     }
 
     /// A command was run. One that only selects is no change, but what was undone before cannot be done again.
     pub(crate) fn ran(&mut self, selects: bool) {
-        self.saved = self.saved.filter(|saved| *saved <= self.position);
+        for position in [&mut self.saved, &mut self.saving] {
+            *position = position.filter(|saved| *saved <= self.position);
+        }
         self.position += i64::from(!selects);
     }
 
@@ -37,17 +41,30 @@ impl OpenFile {
 
     /// Something was done that no count of commands tells.
     pub(crate) fn changed(&mut self) {
-        self.saved = None;
+        (self.saved, self.saving) = (None, None);
     }
 
-    /// It was written to this file.
-    pub(crate) fn saved_as(&mut self, path: PathBuf) {
-        (self.saved, self.path) = (Some(self.position), Some(path));
+    /// It is being written as it is now.
+    pub(crate) fn begins_save(&mut self) {
+        self.saving = Some(self.position);
     }
 
-    /// Whether closing the document would lose something.
+    /// What was being written is in this file; `None` if it could not be written.
+    pub(crate) fn ended_save(&mut self, path: Option<PathBuf>) {
+        let saving = self.saving.take();
+        if path.is_some() {
+            (self.saved, self.path) = (saving, path);
+        }
+    }
+
+    /// Whether something was done that the file does not hold.
     pub(crate) fn is_unsaved(&self) -> bool {
         self.saved != Some(self.position)
+    }
+
+    /// Whether it would not be lost once what is being written is in the file.
+    pub(crate) fn is_being_saved(&self) -> bool {
+        self.saving == Some(self.position)
     }
 
     pub(crate) fn name(&self) -> String {
@@ -96,7 +113,9 @@ mod tests {
         file.ran(true);
         assert!(!file.is_unsaved(), "a selection is no change");
         file.ran(false);
-        file.saved_as("/a.glb".into());
+        file.begins_save();
+        assert!(file.is_unsaved() && file.is_being_saved(), "not yet");
+        file.ended_save(Some("/a.glb".into()));
         file.undid(false);
         assert!(file.is_unsaved(), "what was saved is undone");
         file.redid(false);
@@ -107,5 +126,23 @@ mod tests {
         file.undid(false);
         file.ran(true);
         assert!(file.is_unsaved(), "nothing leads there any more");
+    }
+
+    #[test]
+    fn what_is_done_during_a_save_is_not_saved_by_it() {
+        let mut file = OpenFile::opened(None);
+        file.ran(false);
+        file.begins_save();
+        file.ran(false);
+        assert!(!file.is_being_saved(), "the second is not");
+        file.ended_save(Some("/a.glb".into()));
+        assert!(file.is_unsaved(), "the second is missing in the file");
+        file.undid(false);
+        assert!(!file.is_unsaved(), "the first is in it");
+        file.begins_save();
+        file.undid(false);
+        file.ran(false);
+        file.ended_save(Some("/a.glb".into()));
+        assert!(file.is_unsaved(), "what was saved was undone, and something else done in its place");
     }
 }

@@ -1,5 +1,6 @@
 //! The window's interface by labels and keys, drawn by the window's own painter.
 
+mod saving;
 mod sessions;
 mod tools;
 
@@ -52,6 +53,18 @@ impl Worked {
             Message::Info(text) => panic!("done: {text}"),
         }
     }
+}
+
+/// Waits for the load that is under way.
+fn finish_load(editor: &mut Editor, stage: &mut Stage) {
+    let loading = editor.loading.take().expect("it was begun");
+    editor.loaded(stage, &loading.path, loading.wait());
+}
+
+/// Waits for the save that is under way.
+fn finish_save(editor: &mut Editor, stage: &mut Stage) {
+    let outcome = editor.saving.as_ref().expect("it was begun").wait();
+    editor.saved(stage, outcome);
 }
 
 fn harness() -> Harness<'static, Worked> {
@@ -162,12 +175,12 @@ fn a_document_is_saved_and_opened_again() {
     worked.key(WindowKey::Character('d'), Modifiers::SHIFT);
     let Worked { editor, stage } = &mut worked;
     editor.perform(stage, Request::File(FileRequest::SaveAs(path.clone())));
+    finish_save(editor, stage);
     assert_eq!(stage.title(), "chair.glb - trigon", "saved: {:?}", editor.message);
     editor.perform(stage, Request::File(FileRequest::Ask(crate::request::FileAction::New)));
     assert_eq!(editor.document.nodes().nodes().len(), 2, "another document");
     editor.perform(stage, Request::File(FileRequest::Open(path.with_extension("glb"))));
-    let loading = editor.loading.take().expect("nothing was unsaved");
-    editor.loaded(stage, &loading.path, loading.wait());
+    finish_load(editor, stage);
     assert_eq!(editor.document.nodes().nodes().len(), 4, "again: {:?}", editor.message);
     assert!(!editor.file.is_unsaved(), "as it was saved");
     editor.loaded(stage, &path, Err("it is broken".into()));
@@ -185,14 +198,15 @@ fn what_has_no_mesh_is_saved_and_opened_again_and_another_file_imported() {
     worked.character('x');
     let Worked { editor, stage } = &mut worked;
     editor.perform(stage, Request::File(FileRequest::SaveAs(path.clone())));
+    finish_save(editor, stage);
     assert_eq!(stage.title(), "light.glb - trigon", "saved: {:?}", editor.message);
     editor.perform(stage, Request::File(FileRequest::Open(path.clone())));
-    let loading = editor.loading.take().expect("nothing was unsaved");
-    editor.loaded(stage, &loading.path, loading.wait());
+    finish_load(editor, stage);
     assert_eq!(editor.document.nodes().nodes().len(), 1, "the light: {:?}", editor.message);
     let square = folder.path().join("square.obj");
     std::fs::write(&square, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n").expect("written");
     editor.perform(stage, Request::File(FileRequest::Import(square)));
+    finish_load(editor, stage);
     assert_eq!(worked.objects(), 2, "the square, too");
     let Worked { editor, stage } = &mut worked;
     let exported = folder.path().join("both.stl");

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trigon_io::{LoadOptions, load};
+use trigon_io::{LoadOptions, Loaded, load};
 
 use super::{Action, Outcome};
 use crate::document::Change;
@@ -21,11 +21,18 @@ pub struct ImportFile {
 
 impl Action for ImportFile {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
+        let loaded = load(Path::new(&self.path), &LoadOptions::default())
+            .map_err(|error| EditError::Import(error.to_string()))?;
+        self.add(change, &loaded)
+    }
+}
+
+impl ImportFile {
+    /// Adds what the file holds.
+    pub(crate) fn add(&self, change: &mut Change<'_>, loaded: &Loaded) -> Result<Outcome, EditError> {
         if change.selection().is_editing() {
             return Err(EditError::Editing("importing a file"));
         }
-        let loaded = load(Path::new(&self.path), &LoadOptions::default())
-            .map_err(|error| EditError::Import(error.to_string()))?;
         let scene = change.scene_mut();
         let added = scene.append(&loaded.scene);
         let is_root = |id: &_| scene.node(*id).is_some_and(|node| node.parent().is_none());

@@ -10,13 +10,14 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use trigon_io::{
-    Export, ExportOptions, Format, LoadError, LoadOptions, NativeDocument, NativeFile, Warning, WriteError,
+    Export, ExportOptions, Format, LoadError, LoadOptions, Loaded, NativeDocument, NativeFile, Warning,
+    WriteError,
 };
 use trigon_mesh::edit::EditMesh;
 use trigon_mesh::math::DAffine3;
 use trigon_scene::{MeshId, NodeId, Scene};
 
-use crate::command::{Command, Outcome};
+use crate::command::{Command, ImportFile, Outcome};
 use crate::error::EditError;
 use crate::history::{Entry, History};
 use crate::recovery::Event;
@@ -105,6 +106,27 @@ impl Document {
         self.file.encode()
     }
 
+    /// The document as it is now, to be encoded on another thread while this one goes on changing. It takes the time
+    /// of copying the meshes that are or were edited.
+    #[must_use]
+    pub fn snapshot(&self) -> NativeDocument {
+        self.file.clone()
+    }
+
+    /// Adds what was loaded of a file, as [`ImportFile`](crate::ImportFile) does with its path, without reading it
+    /// again.
+    ///
+    /// # Errors
+    /// As those of the command, but that the file cannot be read.
+    pub fn import(&mut self, path: String, loaded: &Loaded) -> Result<Outcome, EditError> {
+        self.confirm();
+        let import = ImportFile { path };
+        let (entry, outcome) =
+            self.attempt_as(import.clone().into(), |_, change| import.add(change, loaded))?;
+        self.enter(entry);
+        Ok(outcome)
+    }
+
     /// The document for other programs, not written yet; see [`trigon_io::export()`].
     ///
     /// # Errors
@@ -180,10 +202,19 @@ impl Document {
 
     /// Runs a command without a trace in the history. A refusal leaves the document as it was.
     fn attempt(&mut self, command: Command) -> Result<(Entry, Outcome), EditError> {
+        self.attempt_as(command, |command, change| command.action().run(change))
+    }
+
+    /// The same for a command whose work is done by a function.
+    fn attempt_as(
+        &mut self,
+        command: Command,
+        work: impl FnOnce(&Command, &mut Change<'_>) -> Result<Outcome, EditError>,
+    ) -> Result<(Entry, Outcome), EditError> {
         self.revision = next_revision();
         let selection = self.selection.clone();
         let mut change = Change { document: self, meshes: Vec::new(), parts: None };
-        let result = command.action().run(&mut change);
+        let result = work(&command, &mut change);
         let Change { meshes, parts, .. } = change;
         let mut entry = Entry { command, meshes, parts, selection };
         match result {

@@ -45,6 +45,7 @@ pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<R
     let chosen = editor.dialog.show(ui.ctx(), &editor.recent, move || waker.wake());
     requests.extend(chosen.map(Request::File));
     questions::loading(ui.ctx(), editor, stage);
+    questions::saving(ui.ctx(), editor);
     questions::show(ui.ctx(), editor, stage);
     requests
 }

@@ -27,14 +27,29 @@ pub(super) fn show(context: &Context, editor: &mut Editor, stage: &mut Stage) {
 /// What is being loaded, and a way to end it.
 pub(super) fn loading(context: &Context, editor: &mut Editor, stage: &mut Stage) {
     let Some(loading) = &editor.loading else { return };
-    let text = format!("Loading {}", loading.path.display());
+    let text = loading.text();
     let modal = Modal::new(Id::unique("loading")).show(context, |ui| {
         ui.label(text);
         ui.button("Cancel").clicked()
     });
     if modal.inner {
         editor.loading = None;
+        editor.to_import.clear();
         editor.give_up_loading(stage, Message::Info("Loading was cancelled".into()));
+    }
+}
+
+/// What closes the document waits until that is saved, or is given up.
+pub(super) fn saving(context: &Context, editor: &mut Editor) {
+    if !editor.closes_after_save() {
+        return;
+    }
+    let modal = Modal::new(Id::unique("saving")).show(context, |ui| {
+        ui.label("It is closed as soon as it is saved");
+        ui.button("Keep It Open").clicked()
+    });
+    if modal.inner {
+        editor.stay_open();
     }
 }
 

@@ -5,6 +5,7 @@ use trigon_edit::{Document, ElementKind};
 use trigon_window::egui::{Align, Color32, Layout, RichText, Ui};
 
 use crate::window::editor::{Editor, Message};
+use crate::window::loading::Loading;
 
 /// Readable on the panel's dark grey.
 const REFUSAL: Color32 = Color32::from_rgb(255, 170, 90);
@@ -15,6 +16,10 @@ pub(super) fn line(ui: &mut Ui, editor: &Editor) {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.label(counts(&editor.document));
             ui.separator();
+            if let Some(text) = under_way(editor) {
+                ui.label(text);
+                ui.separator();
+            }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 let text = match (&editor.tool, &editor.message) {
                     (Some(tool), _) => RichText::new(tool.status()),
@@ -25,6 +30,12 @@ pub(super) fn line(ui: &mut Ui, editor: &Editor) {
             });
         });
     });
+}
+
+/// What other threads are at.
+fn under_way(editor: &Editor) -> Option<String> {
+    let loading = editor.loading.as_ref().map(Loading::text);
+    loading.or_else(|| editor.saving.as_ref().map(|saving| format!("Saving {}", saving.order.path.display())))
 }
 
 /// As "3 of 8 vertices".

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use trigon_mesh::edit::EditMesh;
 use trigon_scene::{MeshId, Scene};
@@ -54,13 +55,15 @@ use crate::write::{WriteError, write_atomically};
 /// assert!(*again == cube, "also where the corner was before");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Default)]
+///
+/// A clone shares textures and the file that was loaded; meshes that are being edited are copied.
+#[derive(Debug, Clone, Default)]
 pub struct NativeDocument {
     /// What there is. A mesh that is being edited may be an older one here.
     pub scene: Scene,
     /// The meshes that are being edited: these are saved in place of the scene's.
     pub edited: BTreeMap<MeshId, EditMesh>,
-    kept: Option<KeptFile>,
+    kept: Option<Arc<KeptFile>>,
 }
 
 impl NativeDocument {
@@ -110,7 +113,7 @@ impl NativeDocument {
             }
         }
         warnings.extend(about.into_list());
-        let kept = source.map(|source| KeptFile { source, scene: scene.clone(), marks });
+        let kept = source.map(|source| Arc::new(KeptFile { source, scene: scene.clone(), marks }));
         (Self { scene, edited, kept }, warnings)
     }
 
@@ -123,7 +126,7 @@ impl NativeDocument {
         let written = write_scene(&Input {
             scene: &self.scene,
             edited: Some(&self.edited),
-            kept: self.kept.as_ref(),
+            kept: self.kept.as_deref(),
             pictures: self.kept.as_ref().map(|kept| &kept.source),
             nodes: None,
             root: None,

@@ -112,7 +112,7 @@ impl User<'_> {
     fn wait_for_title(&mut self, title: &str) {
         while self.window.stage().title() != title {
             let editor = self.editor.borrow();
-            let is_waiting = editor.loading.is_some();
+            let is_waiting = editor.loading.is_some() || editor.saving.is_some();
             assert!(is_waiting, "{:?} instead: {:?}", self.window.stage().title(), editor.message);
             drop(editor);
             self.window.wait();
