@@ -122,7 +122,7 @@ fn hidden() -> Scene {
 }
 
 fn flat_faces() -> Mesh {
-    mesh(&[Vec3::ZERO, Vec3::X, Vec3::X * 2.0, Vec3::Y], &[&[0, 1, 2], &[0, 1, 3]])
+    mesh(&[Vec3::ZERO, Vec3::X, Vec3::X * 2.0, Vec3::Y], &[&[0, 1, 2], &[1, 0, 3]])
 }
 
 #[test]
