@@ -14,6 +14,8 @@ pub struct Entry {
     pub(crate) parts: Option<Box<SceneParts>>,
     /// What was selected in the other state.
     pub(crate) selection: Selection,
+    /// The memory that it takes; found when it comes into the history.
+    pub(crate) bytes: usize,
 }
 
 impl Entry {
@@ -23,11 +25,18 @@ impl Entry {
         &self.command
     }
 
-    /// The memory that the entry takes, in bytes.
+    /// The memory that the entry takes, in bytes. A selection that it shares with the entry before is not
+    /// counted.
     #[must_use]
     pub fn bytes(&self) -> usize {
+        self.bytes
+    }
+
+    /// The same after an entry, if there is one.
+    fn bytes_after(&self, before: Option<&Self>) -> usize {
         let meshes: usize = self.meshes.iter().map(|(_, difference)| difference.bytes()).sum();
-        meshes + self.parts.as_ref().map_or(0, |parts| parts.bytes()) + self.selection.bytes()
+        let selection = self.selection.bytes_beside(before.map(|before| &before.selection));
+        meshes + self.parts.as_ref().map_or(0, |parts| parts.bytes()) + selection
     }
 }
 
@@ -40,11 +49,13 @@ pub struct History {
     budget: usize,
     /// How many of the oldest were dropped to stay within the budget.
     dropped: usize,
+    /// The memory that all of them take.
+    bytes: usize,
 }
 
 impl Default for History {
     fn default() -> Self {
-        Self { entries: Vec::new(), done: 0, budget: Self::DEFAULT_BUDGET, dropped: 0 }
+        Self { entries: Vec::new(), done: 0, budget: Self::DEFAULT_BUDGET, dropped: 0, bytes: 0 }
     }
 }
 
@@ -79,12 +90,14 @@ impl History {
     /// The memory that all entries take, in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.entries.iter().map(Entry::bytes).sum()
+        self.bytes
     }
 
     /// Adds what was just done; what was undone before cannot be done again then.
-    pub(crate) fn push(&mut self, entry: Entry) {
-        self.entries.truncate(self.done);
+    pub(crate) fn push(&mut self, mut entry: Entry) {
+        self.bytes -= self.entries.drain(self.done..).map(|undone| undone.bytes).sum::<usize>();
+        entry.bytes = entry.bytes_after(self.entries.last());
+        self.bytes += entry.bytes;
         self.entries.push(entry);
         self.done += 1;
         self.keep_budget();
@@ -104,10 +117,9 @@ impl History {
     }
 
     fn keep_budget(&mut self) {
-        let mut bytes = self.bytes();
         let mut gone = 0;
-        while bytes > self.budget && gone + 1 < self.done {
-            bytes -= self.entries[gone].bytes();
+        while self.bytes > self.budget && gone + 1 < self.done {
+            self.bytes -= self.entries[gone].bytes;
             gone += 1;
         }
         self.entries.drain(..gone);

@@ -265,6 +265,33 @@ fn the_history_stays_within_its_budget() {
     assert!(history.dropped() > 0 && !history.done().is_empty(), "the oldest are gone, the newest not");
 }
 
+/// Each of ten thousand entries had a copy of what was selected, an eighth of a byte for each vertex of the mesh.
+#[test]
+fn entries_of_moves_share_what_is_selected() {
+    let mut scene = Scene::new();
+    scene.add_object("sheet", primitives::grid(1.0, 1.0, 200, 200), Material::default());
+    let mut document = Document::new(scene);
+    run_all(&mut document, &[json!({ "op": "edit_objects", "objects": ["sheet"] })]);
+    // The last vertex, so that there is a bit for each of them.
+    run_all(&mut document, &[json!({ "op": "select", "elements": [40_400] })]);
+    let up = json!({ "op": "translate", "offset": [0, 0.5, 0] });
+    run_all(&mut document, std::slice::from_ref(&up));
+    let (first, before) = (document.history().bytes(), state(&document));
+    for _ in 0..500 {
+        run_all(&mut document, std::slice::from_ref(&up));
+    }
+    let each = (document.history().bytes() - first) / 500;
+    assert!(each < 40_400 / 8, "{each} bytes for each move of one vertex");
+    for _ in 0..500 {
+        document.undo().expect("none was dropped");
+    }
+    assert!(state(&document) == before, "as it was before them");
+    run_all(&mut document, &[up]);
+    let entries = document.history().done().iter().chain(document.history().undone());
+    let sum: usize = entries.map(Entry::bytes).sum();
+    assert_eq!(document.history().bytes(), sum, "what can no more be done again counts no more");
+}
+
 #[test]
 fn a_parameter_that_does_not_exist_is_refused() {
     let wrong = r#"{ "version": 1, "commands": [

@@ -216,7 +216,7 @@ impl Document {
         let mut change = Change { document: self, meshes: Vec::new(), parts: None };
         let result = work(&command, &mut change);
         let Change { meshes, parts, .. } = change;
-        let mut entry = Entry { command, meshes, parts, selection };
+        let mut entry = Entry { command, meshes, parts, selection, bytes: 0 };
         match result {
             Ok(mut outcome) => {
                 outcome.warnings.append(&mut self.untold);

@@ -2,60 +2,60 @@
 
 use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
 
-use super::{ElementKind, Elements, MeshSelection, bits};
+use super::{ElementKind, Elements, MeshSelection, bits, each_once};
 
 impl MeshSelection {
     /// The selected vertices that exist and are not hidden, increasing. It takes time
     /// proportional to what is selected, and so do the others.
     #[must_use]
     pub fn vertices(&self, mesh: &EditMesh, kind: ElementKind) -> Vec<VertexId> {
-        let mut vertices: Vec<VertexId> = match kind {
+        let vertices: Vec<u32> = match kind {
             ElementKind::Vertex => return self.own_vertices(mesh).collect(),
-            ElementKind::Edge => self.own_edges(mesh).flat_map(|edge| mesh.edge_vertices(edge)).collect(),
-            ElementKind::Face => self.own_faces(mesh).flat_map(|face| mesh.face_vertices(face)).collect(),
+            ElementKind::Edge => {
+                self.own_edges(mesh).flat_map(|edge| mesh.edge_vertices(edge)).map(VertexId::index).collect()
+            }
+            ElementKind::Face => {
+                self.own_faces(mesh).flat_map(|face| mesh.face_vertices(face)).map(VertexId::index).collect()
+            }
         };
-        vertices.sort_unstable();
-        vertices.dedup();
-        vertices
+        each_once(mesh.vertex_capacity(), vertices).into_iter().map(VertexId::new).collect()
     }
 
     /// The selected edges that exist and are not hidden, increasing.
     #[must_use]
     pub fn edges(&self, mesh: &EditMesh, kind: ElementKind) -> Vec<EdgeId> {
-        let mut edges: Vec<EdgeId> = match kind {
+        let edges: Vec<u32> = match kind {
             ElementKind::Vertex => {
                 let at = self.own_vertices(mesh).flat_map(|vertex| mesh.vertex_edges(vertex));
                 let is_whole =
                     |edge: &EdgeId| mesh.edge_vertices(*edge).iter().all(|v| self.contains(v.index()));
-                at.filter(|edge| is_whole(edge) && !mesh.is_edge_hidden(*edge)).collect()
+                at.filter(|edge| is_whole(edge) && !mesh.is_edge_hidden(*edge)).map(EdgeId::index).collect()
             }
             ElementKind::Edge => return self.own_edges(mesh).collect(),
-            ElementKind::Face => self.own_faces(mesh).flat_map(|face| mesh.face_edges(face)).collect(),
+            ElementKind::Face => {
+                self.own_faces(mesh).flat_map(|face| mesh.face_edges(face)).map(EdgeId::index).collect()
+            }
         };
-        edges.sort_unstable();
-        edges.dedup();
-        edges
+        each_once(mesh.edge_capacity(), edges).into_iter().map(EdgeId::new).collect()
     }
 
     /// The selected faces that exist and are not hidden, increasing.
     #[must_use]
     pub fn faces(&self, mesh: &EditMesh, kind: ElementKind) -> Vec<FaceId> {
-        let mut faces: Vec<FaceId> = match kind {
+        let faces: Vec<u32> = match kind {
             ElementKind::Vertex => {
                 let at = self.own_vertices(mesh).flat_map(|vertex| mesh.vertex_faces(vertex));
                 let is_whole = |face: FaceId| mesh.face_vertices(face).all(|v| self.contains(v.index()));
-                at.filter(|&face| !mesh.is_face_hidden(face) && is_whole(face)).collect()
+                at.filter(|&face| !mesh.is_face_hidden(face) && is_whole(face)).map(FaceId::index).collect()
             }
             ElementKind::Edge => {
                 let at = self.own_edges(mesh).flat_map(|edge| mesh.edge_faces(edge));
                 let is_whole = |face: FaceId| mesh.face_edges(face).all(|e| self.contains(e.index()));
-                at.filter(|&face| !mesh.is_face_hidden(face) && is_whole(face)).collect()
+                at.filter(|&face| !mesh.is_face_hidden(face) && is_whole(face)).map(FaceId::index).collect()
             }
             ElementKind::Face => return self.own_faces(mesh).collect(),
         };
-        faces.sort_unstable();
-        faces.dedup();
-        faces
+        each_once(mesh.face_capacity(), faces).into_iter().map(FaceId::new).collect()
     }
 
     fn own_vertices<'a>(&'a self, mesh: &'a EditMesh) -> impl Iterator<Item = VertexId> + 'a {

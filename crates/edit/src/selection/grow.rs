@@ -44,7 +44,7 @@ impl MeshSelection {
     /// common vertex.
     pub fn grow(&mut self, mesh: &EditMesh, kind: ElementKind) {
         let vertices = self.vertices(mesh, kind);
-        let mut grown = self.bits.clone();
+        let mut grown = self.bits().clone();
         match kind {
             ElementKind::Vertex => {
                 grown.grow(mesh.vertex_capacity());
@@ -77,7 +77,7 @@ impl MeshSelection {
     /// Selects no more what touches something that is not selected, in the sense of
     /// [`Self::grow`]. The border of a mesh is no such thing.
     pub fn shrink(&mut self, mesh: &EditMesh, kind: ElementKind) {
-        let mut shrunk = self.bits.clone();
+        let mut shrunk = self.bits().clone();
         let is_border = |vertex: VertexId| match kind {
             ElementKind::Vertex => around(mesh, vertex).any(|other| !self.contains(other.index())),
             ElementKind::Edge => mesh.vertex_edges(vertex).any(|edge| !self.contains(edge.index())),

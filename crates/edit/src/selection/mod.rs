@@ -7,6 +7,7 @@ mod path;
 mod properties;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use fixedbitset::FixedBitSet;
 use schemars::JsonSchema;
@@ -49,7 +50,8 @@ pub struct Selection {
 /// them exist and none is hidden.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MeshSelection {
-    bits: FixedBitSet,
+    /// Shared by copies until one of them changes: a history of moves holds a selection once.
+    bits: Arc<FixedBitSet>,
     /// Those that were selected one by one, the last at the end; bulk selections clear it.
     order: Vec<u32>,
 }
@@ -113,10 +115,18 @@ impl Selection {
         }
     }
 
-    /// Roughly the memory that it takes, in bytes.
-    pub(crate) fn bytes(&self) -> usize {
-        let of_mesh = |selection: &MeshSelection| selection.bits.len() / 8 + selection.order.len() * 4;
-        self.objects.len() * 16 + self.elements.values().map(of_mesh).sum::<usize>()
+    /// Roughly the memory that it takes beside another one, in bytes: what both share is not counted.
+    pub(crate) fn bytes_beside(&self, other: Option<&Self>) -> usize {
+        let is_shared = |id: MeshId, selection: &MeshSelection| {
+            other
+                .and_then(|other| other.of(id))
+                .is_some_and(|other| Arc::ptr_eq(&other.bits, &selection.bits))
+        };
+        let of_mesh = |(id, selection): (MeshId, &MeshSelection)| {
+            let bits = if is_shared(id, selection) { 0 } else { selection.bits.len() / 8 };
+            bits + selection.order.len() * 4
+        };
+        self.objects.len() * 16 + self.meshes().map(of_mesh).sum::<usize>()
     }
 }
 
@@ -153,9 +163,10 @@ impl MeshSelection {
     /// Selects more elements one by one.
     pub fn insert(&mut self, indices: &[u32]) {
         self.forget_order(indices);
+        let bits = Arc::make_mut(&mut self.bits);
         for &index in indices {
-            self.bits.grow(index as usize + 1);
-            if !self.bits.put(index as usize) {
+            bits.grow(index as usize + 1);
+            if !bits.put(index as usize) {
                 self.order.push(index);
             }
         }
@@ -168,9 +179,10 @@ impl MeshSelection {
 
     /// Takes elements out of the bits and out of the order.
     fn forget_order(&mut self, indices: &[u32]) {
-        let length = self.bits.len();
+        let bits = Arc::make_mut(&mut self.bits);
+        let length = bits.len();
         for index in indices.iter().map(|&index| index as usize).filter(|&index| index < length) {
-            self.bits.remove(index);
+            bits.remove(index);
         }
         self.order.retain(|&index| self.bits.contains(index as usize));
     }
@@ -185,13 +197,13 @@ impl MeshSelection {
 
     /// Selects nothing.
     pub fn clear(&mut self) {
-        self.bits.clear();
+        Arc::make_mut(&mut self.bits).clear();
         self.order.clear();
     }
 
     /// Selects these elements and no others.
     pub fn set(&mut self, bits: FixedBitSet) {
-        self.bits = bits;
+        self.bits = Arc::new(bits);
         self.order.clear();
     }
 
@@ -246,6 +258,18 @@ impl ElementKind {
             Self::Face => mesh.face_capacity(),
         }
     }
+}
+
+/// The indices of a list, each once and increasing; there are so many at most. Time grows with the list.
+fn each_once(capacity: usize, mut indices: Vec<u32>) -> Vec<u32> {
+    /// Setting and reading a bit for each index that there may be takes less time than sorting from here on.
+    const DENSE: usize = 16;
+    if indices.len() * DENSE < capacity {
+        indices.sort_unstable();
+        indices.dedup();
+        return indices;
+    }
+    bits(capacity, indices.into_iter()).ones().map(|index| index as u32).collect()
 }
 
 /// Elements as bits by index.
