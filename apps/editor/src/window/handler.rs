@@ -9,10 +9,10 @@ use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton,
 use super::actions::CONTEXT_MENU;
 use super::editor::Editor;
 use super::loading::Loading;
-use super::modal::Running;
 use super::open_file::{Answer, Next};
 use super::panes::pane_of;
 use super::pick::{self, Click};
+use super::running::Running;
 use super::saving::Saving;
 use super::{files, interface};
 use crate::request::{FileAction, FileRequest, Request};
