@@ -32,7 +32,7 @@ fn main() {
     let part = std::env::args().nth(1).unwrap_or_default();
     let compact = || block([450, 200], [100, 100]);
     let scattered = || (0..10_000).map(|index| index * 50).collect();
-    let rows: [(&str, Vec<u32>, fn(&mut Worked<'_>)); 6] = [
+    let rows: [(&str, Vec<u32>, Work); 6] = [
         ("click", Vec::new(), click),
         ("box of half", Vec::new(), box_of_half),
         ("drag 10000 vertices, compact", compact(), drag),
@@ -48,6 +48,9 @@ fn main() {
     }
     tell_memory();
 }
+
+/// What is done and measured.
+type Work = fn(&mut Worked<'_>);
 
 /// A window on the sheet, and what was measured in it.
 struct Worked<'a> {
