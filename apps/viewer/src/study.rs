@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{ArgAction, Args};
 
 use crate::report::Reporter;
 
@@ -16,6 +16,11 @@ pub(crate) struct StudyArgs {
     /// The folder for report.md, results.csv and images; what is in it under these names is replaced
     #[arg(long, value_name = "DIR", default_value = "study")]
     pub(crate) out: PathBuf,
+
+    // The viewer's own help has two lengths, so that clap's is off there, and with it here.
+    /// Print this help
+    #[arg(long, short, action = ArgAction::Help)]
+    help: Option<bool>,
 }
 
 /// Measures and writes; returns the exit code.
@@ -65,6 +70,7 @@ pub(crate) fn run(_: &StudyArgs, reporter: Reporter) -> u8 {
 #[cfg(test)]
 mod tests {
     use clap::Parser;
+    use clap::error::ErrorKind;
 
     use super::*;
     use crate::args::{Command, RawArgs};
@@ -73,7 +79,9 @@ mod tests {
     fn study_is_a_command_and_models_are_none() {
         let typed = RawArgs::parse_from(["trigon-viewer", "study", "--quick", "--out", "here"]);
         let Some(Command::Study(arguments)) = typed.command else { panic!("a command: {typed:?}") };
-        assert_eq!(arguments, StudyArgs { quick: true, out: PathBuf::from("here") }, "as typed");
+        assert_eq!((arguments.quick, arguments.out), (true, PathBuf::from("here")), "as typed");
+        let help = RawArgs::try_parse_from(["trigon-viewer", "study", "--help"]).expect_err("it is printed");
+        assert_eq!(help.kind(), ErrorKind::DisplayHelp, "of the command itself");
         let model = RawArgs::parse_from(["trigon-viewer", "chair.glb"]);
         assert!(model.command.is_none() && model.files.len() == 1, "a file is a model: {model:?}");
     }
