@@ -35,6 +35,10 @@ pub enum Surface {
     /// the mask draws is as smooth as a triangle's, for as many questions as
     /// there are samples. The colour is still found once for each pixel.
     MaskedPerSample,
+    /// Opaque to the eye alone: hides what is behind in the colours, and writes no depth and no
+    /// ids, which stay those of the opaque and masked surfaces below. For marks that are shown
+    /// on a surface and must not be in the way of picking it.
+    Overlay,
     /// Laid over what is behind, by alpha. Fragments of all translucent draws
     /// are ordered per sample, whatever order they were recorded in. They write
     /// no depth and no ids.
@@ -62,7 +66,7 @@ pub struct Draw<'a, P> {
     pub object: u32,
     /// Which sides are dropped.
     pub culling: Culling,
-    /// Opaque, masked or translucent.
+    /// Opaque, masked, overlay or translucent.
     pub surface: Surface,
 }
 
@@ -151,7 +155,7 @@ pub struct Lines<'a, P> {
     /// and held to 1: with a perspective, 0.001 moves the line by a thousandth
     /// of its distance. Clamped to `0..=1`.
     pub toward_eye: f32,
-    /// Opaque, masked or translucent.
+    /// Opaque, masked, overlay or translucent.
     pub surface: Surface,
 }
 
@@ -218,7 +222,7 @@ pub struct Points<'a, P> {
     pub shape: PointShape,
     /// As [`Lines::toward_eye`].
     pub toward_eye: f32,
-    /// Opaque, masked or translucent.
+    /// Opaque, masked, overlay or translucent.
     pub surface: Surface,
 }
 

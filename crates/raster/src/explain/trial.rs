@@ -98,7 +98,7 @@ impl<'f> Trial<'f> {
             fragment.is_covered = true;
             fragment.depth = Some(covering.depth.at(point));
             let is_there = match fragment.surface {
-                Surface::Opaque | Surface::Translucent => true,
+                Surface::Opaque | Surface::Overlay | Surface::Translucent => true,
                 Surface::Masked => ask::mask(self.frame, pixel, None, *place),
                 Surface::MaskedPerSample => ask::mask(self.frame, pixel, Some(number), *place),
             };

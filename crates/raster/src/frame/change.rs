@@ -21,10 +21,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub struct DrawChange<'a> {
     /// Vertices for which the pipeline may answer otherwise, in any order.
     pub vertices: &'a [u32],
-    /// Triangles that may have other corners, [`edge_flags`](crate::Draw::edge_flags) or
-    /// [`marks`](crate::Draw::marks), increasing; none of lines and points, which can move
-    /// but not have other vertices.
-    pub triangles: &'a [u32],
+    /// Triangles that may have other corners or [`edge_flags`](crate::Draw::edge_flags), and
+    /// points that may have another [size](crate::Points::marked); increasing. None of lines:
+    /// they, like points, can move but not have other vertices.
+    pub reshaped: &'a [u32],
+    /// Primitives that lie where they did and may have other colours, by their
+    /// [`marks`](crate::Draw::marks) or as the pipeline answers for them; increasing.
+    pub recolored: &'a [u32],
 }
 
 /// What [`Rasterizer::redraw`](crate::Rasterizer::redraw) has done.
@@ -90,7 +93,8 @@ pub(super) fn can_follow(plan: &Plan, pass: &Pass<'_>, changes: &[DrawChange<'_>
             let is_mesh = matches!(geometry.shape, Shape::Triangles { .. });
             // Other corners could use other vertices.
             let uses_all = draw.used == UsedVertices::Range(0..pipeline.vertex_count());
-            changes[draw.draw].triangles.is_empty() || is_mesh && uses_all
+            let is_points = matches!(geometry.shape, Shape::Points { .. });
+            changes[draw.draw].reshaped.is_empty() || is_points || is_mesh && uses_all
         })
 }
 

@@ -144,7 +144,7 @@ impl Touched {
             let search = Search {
                 slots: plan.slots(draw),
                 geometry: &pass[draw.draw].geometry,
-                listed: changes[draw.draw].triangles,
+                change: changes[draw.draw],
                 reach: self.reaches[number],
                 changed: &self.changed[words.clone()],
                 moved: &self.moved[words],
@@ -164,8 +164,8 @@ impl Touched {
 struct Search<'a> {
     slots: Slots<'a>,
     geometry: &'a Geometry<'a>,
-    /// Triangles that are known to.
-    listed: &'a [u32],
+    /// With the primitives that are known to.
+    change: DrawChange<'a>,
     /// Between which vertices those lie that may have other values.
     reach: [u32; 2],
     changed: &'a [u64],
@@ -203,10 +203,10 @@ impl Search<'_> {
                 }
             }
         }
-        let at = |at: u32| self.listed.partition_point(|&triangle| triangle < at);
-        let listed = &self.listed[at(range.start)..at(range.end)];
-        listed.iter().for_each(|&triangle| note_moved(triangle));
-        seeds.extend(listed);
+        let reshaped = within(self.change.reshaped, &range);
+        reshaped.iter().for_each(|&triangle| note_moved(triangle));
+        seeds.extend(reshaped);
+        seeds.extend(within(self.change.recolored, &range));
         if has_edges {
             self.add_beside(&range, &mut seeds);
         }
@@ -223,6 +223,17 @@ impl Search<'_> {
 
     /// Flags some of the lines or points. The flags of the first one are given by their place.
     fn flag_quads(&self, range: Range<u32>, (found, first): (&mut Found, usize)) {
+        let place = |quad: u32| first + (quad - range.start) as usize;
+        for &quad in within(self.change.recolored, &range) {
+            (found.differ[place(quad)], found.any) = (true, true);
+        }
+        for &quad in within(self.change.reshaped, &range) {
+            (found.differ[place(quad)], found.any) = (true, true);
+            (found.moved[place(quad)], found.any_moved) = (true, true);
+        }
+        if self.changed.iter().all(|&word| word == 0) {
+            return;
+        }
         for (quad, place) in range.zip(first..) {
             let corners = self.geometry.corners(quad);
             if self.has(self.changed, corners) {
@@ -239,8 +250,11 @@ impl Search<'_> {
         let ends = [range.start, range.end - 1].map(|end| parts(self.geometry, end));
         let is_beside = |triangle: &u32| {
             let corners = self.geometry.corners(*triangle);
+            let is_listed = |list: &[u32]| list.binary_search(triangle).is_ok();
             !range.contains(triangle)
-                && (self.has(self.changed, corners) || self.listed.binary_search(triangle).is_ok())
+                && (self.has(self.changed, corners)
+                    || is_listed(self.change.reshaped)
+                    || is_listed(self.change.recolored))
         };
         seeds.extend(ends.into_iter().flatten().filter(is_beside));
     }
@@ -304,6 +318,12 @@ impl Piece<'_> {
             }
         }
     }
+}
+
+/// Those of some increasing numbers that lie in a range.
+fn within<'a>(list: &'a [u32], range: &Range<u32>) -> &'a [u32] {
+    let at = |at: u32| list.partition_point(|&number| number < at);
+    &list[at(range.start)..at(range.end)]
 }
 
 #[inline(always)]

@@ -18,7 +18,7 @@ use crate::tile::{NOBODY, Scratch, TileArea};
 use background::fill_background;
 use trigon_math::Vec4;
 
-/// Writes all outputs of a tile, bytes when tiles beside it are finished, too; `early` if
+/// Writes the outputs of colour of a tile, bytes when tiles beside it are finished, too; `early` if
 /// its pixels are bytes already.
 pub(crate) fn resolve(
     frame: &FrameView<'_>,
@@ -40,9 +40,6 @@ pub(crate) fn resolve(
         } else {
             store_colors(frame, area, scratch, bands);
         }
-    }
-    if frame.wants.depth || frame.wants.ids {
-        store_visibility(frame, area, scratch, bands);
     }
 }
 
@@ -80,8 +77,11 @@ fn store_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands
     });
 }
 
-/// Writes depth and ids, each from one sample of the pixel, row by row.
-fn store_visibility(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: &Bands<'_>) {
+/// Writes depth and ids, if they are asked for, each from one sample of the pixel, row by row.
+pub(crate) fn store_visibility(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: &Bands<'_>) {
+    if !(frame.wants.depth || frame.wants.ids) {
+        return;
+    }
     let axis = frame.supersampling as usize;
     let (mut band, first) = bands.lock(area.own_origin().map(|v| v as u32 / frame.supersampling));
     let band = &mut *band;

@@ -73,7 +73,7 @@ impl<'f> ShadeContext<'f> {
         let Geometry { shape, surface, .. } = self.geometry();
         self.frame.pipeline(self.draw).is_flat()
             && !matches!(shape, Shape::Triangles { .. })
-            && matches!(surface, Surface::Opaque | Surface::Translucent)
+            && matches!(surface, Surface::Opaque | Surface::Overlay | Surface::Translucent)
     }
 
     /// How many varyings a vertex has.

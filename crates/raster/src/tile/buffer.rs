@@ -101,6 +101,13 @@ impl VisibilityBuffer {
         self.blocks.fill(BlockBounds { farthest: depth, nearest: depth, writes: 0 });
     }
 
+    /// Notes that samples anywhere were written, and lie nobody knows how near.
+    pub(super) fn forget_nearest(&mut self) {
+        for bounds in &mut self.blocks {
+            (bounds.nearest, bounds.writes) = (f32::INFINITY, 1);
+        }
+    }
+
     /// Lets nobody win outside of the picture.
     pub(crate) fn blank_outside(&mut self, area: &TileArea) {
         if area.size == area.padded() {

@@ -18,6 +18,8 @@ pub(crate) struct Cover<'f> {
     /// Whether those of a draw come one after the other.
     pub(crate) by_draws: bool,
     pub(crate) ties: &'f Ties,
+    /// Whether all begins again in another order where ties are too many.
+    pub(crate) may_give_up: bool,
     /// Whether bounds of depths are asked before samples are.
     pub(crate) hierarchical: bool,
     /// Whether the first place is seen before the second at equal depth.

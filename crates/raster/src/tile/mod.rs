@@ -47,6 +47,7 @@ use std::ops::Range;
 pub(crate) struct Surfaces {
     pub(crate) opaque: Range<usize>,
     pub(crate) masked: Range<usize>,
+    pub(crate) overlay: Range<usize>,
     pub(crate) translucent: Range<usize>,
 }
 
@@ -63,6 +64,13 @@ pub(crate) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
     scratch.ties.reset(scratch.places.len());
     visibility::resolve_visibility(frame, &area, scratch, &surfaces);
     scratch.stats.times.visibility += clock.lap();
+    // Depth and ids know nothing of what is shown over the surfaces.
+    resolve::store_visibility(frame, &area, scratch, bands);
+    scratch.stats.times.resolve += clock.lap();
+    if frame.wants.color {
+        visibility::cover_overlay(frame, &area, scratch, &surfaces);
+        scratch.stats.times.visibility += clock.lap();
+    }
     let mut early = None;
     if frame.wants.color {
         early = surfaces.translucent.is_empty().then_some(frame.wants.bytes).flatten();
@@ -86,6 +94,7 @@ pub(crate) fn outer_ink(frame: &FrameView<'_>, index: u32) -> OuterInk {
         scratch.buffer.clear(&area, frame.grid.pattern.count());
         scratch.ties.reset(scratch.places.len());
         visibility::resolve_visibility(frame, &area, &mut scratch, &surfaces);
+        visibility::cover_overlay(frame, &area, &mut scratch, &surfaces);
         let Scratch { buffer, places, shading, .. } = &mut scratch;
         shade::list_visible(frame, &area, (buffer, places), shading);
     }
@@ -95,16 +104,22 @@ pub(crate) fn outer_ink(frame: &FrameView<'_>, index: u32) -> OuterInk {
 /// Lists the triangles of a tile.
 fn collect(frame: &FrameView<'_>, scratch: &mut Scratch, tile: u32) -> Surfaces {
     scratch.places.clear();
-    let mut ends = [0; 3];
+    let mut ends = [0; 4];
     for chunk in frame.chunks.iter().filter(|chunk| !chunk.is_empty()) {
         chunk.collect(&frame.grid, tile, &mut scratch.places);
         let first = match chunk.surface {
             Surface::Opaque => 0,
             Surface::Masked | Surface::MaskedPerSample => 1,
-            Surface::Translucent => 2,
+            Surface::Overlay => 2,
+            Surface::Translucent => 3,
         };
         ends[first..].fill(scratch.places.len());
     }
-    let [opaque, masked, translucent] = ends;
-    Surfaces { opaque: 0..opaque, masked: opaque..masked, translucent: masked..translucent }
+    let [opaque, masked, overlay, translucent] = ends;
+    Surfaces {
+        opaque: 0..opaque,
+        masked: opaque..masked,
+        overlay: masked..overlay,
+        translucent: overlay..translucent,
+    }
 }

@@ -1,4 +1,5 @@
-//! Who is seen at each sample of a tile: opaque triangles, then masked ones.
+//! Who is seen at each sample of a tile: opaque triangles, then masked ones, then what is shown
+//! over them.
 
 use super::cover::Cover;
 use super::eight::Eight;
@@ -34,6 +35,42 @@ pub(crate) fn resolve_visibility(
     scratch.stats.add_counts(&counts);
 }
 
+/// Lets what is shown over surfaces compete with them.
+///
+/// The buffer may not begin again as for [`cover_opaque`]: it holds what masks have let
+/// through. So ties are decided one by one, however many there are.
+pub(crate) fn cover_overlay(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    scratch: &mut Scratch,
+    surfaces: &Surfaces,
+) {
+    if surfaces.overlay.is_empty() {
+        return;
+    }
+    let Scratch { places, buffer, ties, .. } = scratch;
+    if !surfaces.masked.is_empty() {
+        buffer.forget_nearest();
+    }
+    let precedes = |ours: u32, theirs: u32| frame.precedes(places[ours as usize], places[theirs as usize]);
+    let cover = Cover {
+        area: *area,
+        offsets: frame.grid.pattern.offsets(),
+        in_order: false,
+        by_draws: true,
+        ties,
+        may_give_up: false,
+        hierarchical: frame.hierarchical,
+        precedes: &precedes,
+    };
+    let mut counts = Counts::default();
+    let end = surfaces.overlay.end;
+    cover_all(frame, &cover, (&places[..end], surfaces.overlay.start), (buffer, &mut counts));
+    buffer.settle();
+    buffer.blank_outside(area);
+    scratch.stats.add_counts(&counts);
+}
+
 /// Lets the first so many of the tile's triangles compete.
 fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch, opaque: usize) -> Counts {
     let Scratch { places, buffer, ties, key_order, reordered, .. } = scratch;
@@ -56,11 +93,12 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch, o
         in_order: frame.plan.ordinals_are_keys,
         by_draws: true,
         ties,
+        may_give_up: true,
         hierarchical: frame.hierarchical,
         precedes: &precedes,
     };
     let mut counts = Counts::default();
-    if cover_all(frame, &cover, places, (buffer, &mut counts)) {
+    if cover_all(frame, &cover, (places, 0), (buffer, &mut counts)) {
         return counts;
     }
     key_order.sort(frame, places);
@@ -69,22 +107,22 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch, o
     buffer.clear(area, cover.offsets.len());
     counts = Counts { tiles_reordered: 1, ..Counts::default() };
     let cover = Cover { in_order: true, by_draws: false, ..cover };
-    cover_all(frame, &cover, reordered, (buffer, &mut counts));
+    cover_all(frame, &cover, (reordered, 0), (buffer, &mut counts));
     buffer.settle();
     key_order.name_winners(buffer);
     counts
 }
 
-/// Lets triangles compete one after the other; false if ties became too many.
+/// Lets triangles, from the one of this number on, compete one after the other; false if ties became too many.
 fn cover_all(
     frame: &FrameView<'_>,
     cover: &Cover<'_>,
-    places: &[Place],
+    (places, first): (&[Place], usize),
     (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
 ) -> bool {
     at_level!(frame.token, simd => match frame.grid.pattern.count() {
-        1 => cover_places::<_, false>(simd, frame, cover, places, (buffer, counts)),
-        _ => cover_places::<_, true>(simd, frame, cover, places, (buffer, counts)),
+        1 => cover_places::<_, false>(simd, frame, cover, (places, first), (buffer, counts)),
+        _ => cover_places::<_, true>(simd, frame, cover, (places, first), (buffer, counts)),
     })
 }
 
@@ -93,7 +131,7 @@ fn cover_places<S: Simd, const MULTI: bool>(
     simd: S,
     frame: &FrameView<'_>,
     cover: &Cover<'_>,
-    places: &[Place],
+    (places, first): (&[Place], usize),
     (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
 ) -> bool {
     // A copy of its own, which may stay in registers.
@@ -101,7 +139,7 @@ fn cover_places<S: Simd, const MULTI: bool>(
     let mut starts = Starts::new(cover.offsets);
     let mut covered = Covered::new();
     let mut edges = QuadEdges::new(frame.grid.pattern);
-    let mut start = 0;
+    let mut start = first;
     while start < places.len() {
         let together = side_by_side(frame, cover, &places[start..]);
         let eight = (together > 0).then(|| eight(simd, frame, cover, &places[start..start + together]));
@@ -129,7 +167,7 @@ fn cover_places<S: Simd, const MULTI: bool>(
                 cover_one::<S, MULTI>(simd, frame, cover, ready, (place, start + lane), (buffer, counts));
             }
         }
-        if !cover.in_order && cover.ties.are_many() {
+        if !cover.in_order && cover.may_give_up && cover.ties.are_many() {
             return false;
         }
         start = end;

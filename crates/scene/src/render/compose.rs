@@ -8,7 +8,7 @@ use std::sync::Arc;
 use fixedbitset::FixedBitSet;
 use trigon_camera::Camera;
 use trigon_math::Vec3;
-use trigon_raster::{Culling, EdgeFlags, Outline};
+use trigon_raster::{Culling, EdgeFlags};
 
 use super::backdrop::Backdrop;
 use super::geometry::{Geometry, Run};
@@ -350,14 +350,14 @@ impl<'s> Composer<'s> {
             object: object.index,
             size: self.settings.line_width * POINT_TO_LINE,
             marked: None,
-            outline: Outline::Sharp,
+            surface: trigon_raster::Surface::Opaque,
             toward_eye: 0.0,
         };
         (!points.is_empty()).then(|| Box::new(dots()) as Box<dyn Record>)
     }
 
-    /// The vertices of faces, edges and points. Smoothed, they write neither depth nor ids:
-    /// what is seen below them can be picked.
+    /// The vertices of faces, edges and points. They write neither depth nor ids: what is seen
+    /// below them can be picked.
     fn vertices<'c>(&'c self, object: &Object<'s>) -> Option<Box<dyn Record + 'c>> {
         let shown = self.settings.vertices.filter(|_| self.purpose == Purpose::Colors)?;
         let used = object.asset.used_vertices();
@@ -384,7 +384,7 @@ impl<'s> Composer<'s> {
             object: object.index,
             size: shown.size,
             marked: Some((marked, shown.marked_size)),
-            outline: Outline::AntiAliased,
+            surface: trigon_raster::Surface::Overlay,
             toward_eye: VERTEX_TOWARD_EYE,
         }))
     }

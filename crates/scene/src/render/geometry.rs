@@ -220,6 +220,11 @@ impl Geometry {
             Arc::new(sides)
         })
     }
+
+    /// The same if a picture has asked for it.
+    pub(crate) fn sides_if_known(&self) -> Option<&[[u32; 3]]> {
+        self.side_edges.get().map(|sides| sides.as_slice())
+    }
 }
 
 /// The least and the greatest of some numbers, leaving out NaN. Several at a time, since

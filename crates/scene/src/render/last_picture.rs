@@ -3,13 +3,16 @@
 //!
 //! A picture that is kept is drawn here and copied to the frame, as frames are their users':
 //! nobody knows what they hold when they come back. So it takes its memory twice. Pictures of
-//! meshes that were never changed keep nothing, nor do those from a camera that moves.
+//! meshes that were never changed and of which nothing is marked keep nothing.
+
+mod marked;
 
 use std::sync::Arc;
 
 use trigon_camera::Camera;
 use trigon_raster::{DrawChange, Pass, Rasterizer, Rect, Stats, Target, TargetError, Texture};
 
+use self::marked::{MarkOrigin, MarkPalette, MarkedPrimitives};
 use super::geometry::GeometryState;
 use super::placement::{DepthToDistance, Placement};
 use super::record::{Record, Source};
@@ -17,6 +20,7 @@ use super::stage::Stage;
 use crate::arena::Arena;
 use crate::effects::{Effect, EffectPlan, Environment};
 use crate::frame::{Frame, resize};
+use crate::marks::Marks;
 use crate::material::Material;
 use crate::node::Node;
 use crate::outputs::{Needed, Seen};
@@ -53,8 +57,9 @@ pub(super) struct LastPicture {
 
 /// Everything that a picture is made from, but for the values of meshes.
 struct Origin {
-    /// Without the environment, which takes long to compare.
+    /// Without the environment, which takes long to compare, and without marks.
     settings: RenderSettings,
+    palette: MarkPalette,
     environment: Option<Same<Environment>>,
     camera: Camera,
     nodes: Arena<Node>,
@@ -71,6 +76,7 @@ struct DrawOrigin {
     first_triangle: usize,
     triangle_count: usize,
     place: Placement,
+    marks: MarkOrigin,
 }
 
 /// How a picture comes from the last one.
@@ -87,7 +93,8 @@ pub(super) enum Step {
 #[derive(Default)]
 pub(super) struct ChangedDraw {
     vertices: Vec<u32>,
-    triangles: Vec<u32>,
+    reshaped: Vec<u32>,
+    recolored: Vec<u32>,
 }
 
 impl LastPicture {
@@ -104,19 +111,22 @@ impl LastPicture {
             || stage.settings.share_through_faces().is_some();
         let sources: Vec<Source<'_>> = draws.iter().map(|draw| draw.source()).collect();
         let was_changed = sources.iter().any(|source| source.geometry.can_follow());
-        if !is_plain || is_coupled || !was_changed {
+        // Other marks may follow at any time.
+        let is_marked = stage.settings.vertices.is_some() || !stage.settings.marks.is_plain();
+        if !is_plain || is_coupled || !(was_changed || is_marked) {
             *self = Self::default();
             return Step::Apart;
         }
         let is_whole = std::mem::take(&mut self.is_whole);
+        let unlike = if is_marked { Step::Whole } else { Step::Apart };
         let Some(origin) = &mut self.origin else {
             self.origin = Some(Box::new(Origin::new((stage, camera, plan), &sources)));
-            return Step::Apart;
+            return unlike;
         };
         let is_same = origin.update((stage, camera, plan));
         let changes = origin.replace_draws(&sources);
         match changes {
-            _ if !is_same => Step::Apart,
+            _ if !is_same => unlike,
             Some(changes) if is_whole => Step::Changed(changes),
             _ => Step::Whole,
         }
@@ -224,7 +234,8 @@ impl Origin {
     fn new((stage, camera, plan): (&Stage<'_>, &Camera, &EffectPlan), sources: &[Source<'_>]) -> Self {
         let scene = stage.scene;
         Self {
-            settings: without_environment(stage.settings),
+            settings: without_environment_and_marks(stage.settings),
+            palette: MarkPalette::new(&stage.settings.marks),
             environment: environment_of(stage),
             camera: *camera,
             nodes: scene.nodes().clone(),
@@ -239,7 +250,8 @@ impl Origin {
     fn update(&mut self, (stage, camera, plan): (&Stage<'_>, &Camera, &EffectPlan)) -> bool {
         // Each of them is brought up to date.
         let are_same = [
-            keep(&mut self.settings, &without_environment(stage.settings)),
+            keep(&mut self.settings, &without_environment_and_marks(stage.settings)),
+            keep(&mut self.palette, &MarkPalette::new(&stage.settings.marks)),
             keep(&mut self.environment, &environment_of(stage)),
             keep(&mut self.camera, camera),
             keep(&mut self.nodes, stage.scene.nodes()),
@@ -266,46 +278,46 @@ impl Origin {
 }
 
 impl<'a> From<&'a ChangedDraw> for DrawChange<'a> {
-    fn from(ChangedDraw { vertices, triangles }: &'a ChangedDraw) -> Self {
-        Self { vertices, triangles }
+    fn from(ChangedDraw { vertices, reshaped, recolored }: &'a ChangedDraw) -> Self {
+        Self { vertices, reshaped, recolored }
     }
 }
 
 impl DrawOrigin {
     fn new(source: &Source<'_>) -> Self {
-        let Source { geometry, triangles, place } = source;
+        let Source { geometry, triangles, place, marked } = source;
         Self {
             state: geometry.state.clone(),
             first_triangle: triangles.start,
             triangle_count: triangles.len(),
             place: *place,
+            marks: MarkOrigin::new(marked),
         }
     }
 
-    /// The vertices and triangles in which the draw differs from another one; `None` if that
-    /// is not known.
+    /// In what the draw differs from another one; `None` if that is not known.
     fn change(&self, now: &Self, source: &Source<'_>) -> Option<ChangedDraw> {
-        if self == now {
-            return Some(ChangedDraw::default());
-        }
         let Self { first_triangle, triangle_count, place, .. } = self;
         let is_alike =
             (first_triangle, triangle_count, place) == (&now.first_triangle, &now.triangle_count, &now.place);
-        let change = source.geometry.change.as_ref().filter(|change| change.before == self.state)?;
         if !is_alike {
             return None;
         }
+        let MarkedPrimitives { recolored, resized } = self.marks.difference(&now.marks, source)?;
+        let change = ChangedDraw { vertices: Vec::new(), reshaped: resized, recolored };
+        if self.state == now.state {
+            return Some(change);
+        }
+        let moved = source.geometry.change.as_ref().filter(|change| change.before == self.state)?;
         // Lines and points have the vertices of the mesh.
         if *triangle_count == 0 {
-            return Some(ChangedDraw { vertices: change.mesh_vertices.clone(), triangles: Vec::new() });
+            return Some(ChangedDraw { vertices: moved.mesh_vertices.clone(), ..change });
         }
         let first = *first_triangle as u32;
-        let at = |triangle: u32| change.triangles.partition_point(|&other| other < triangle);
-        let own = &change.triangles[at(first)..at(first + *triangle_count as u32)];
-        Some(ChangedDraw {
-            vertices: change.vertices.clone(),
-            triangles: own.iter().map(|triangle| triangle - first).collect(),
-        })
+        let at = |triangle: u32| moved.triangles.partition_point(|&other| other < triangle);
+        let own = &moved.triangles[at(first)..at(first + *triangle_count as u32)];
+        let reshaped = own.iter().map(|triangle| triangle - first).collect();
+        Some(ChangedDraw { vertices: moved.vertices.clone(), reshaped, ..change })
     }
 }
 
@@ -318,8 +330,8 @@ fn keep<T: PartialEq + Clone>(own: &mut T, other: &T) -> bool {
     is_same
 }
 
-fn without_environment(settings: &RenderSettings) -> RenderSettings {
-    let mut settings = settings.clone();
+fn without_environment_and_marks(settings: &RenderSettings) -> RenderSettings {
+    let mut settings = RenderSettings { marks: Marks::default(), ..settings.clone() };
     settings.effects.environment = None;
     settings
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use fixedbitset::FixedBitSet;
 use trigon_raster::{
-    Culling, Draw, EdgeFlags, LanePipeline, Lines, MarkedPoints, Marks, Outline, Pass, Points, Surface,
+    Culling, Draw, EdgeFlags, LanePipeline, Lines, MarkedPoints, Marks, Pass, Points, Surface,
 };
 
 use super::geometry::Geometry;
@@ -27,6 +27,26 @@ pub(super) struct Source<'s> {
     /// Those of the geometry's triangles that are drawn; none of lines and points.
     pub(super) triangles: Range<usize>,
     pub(super) place: Placement,
+    pub(super) marked: Marked<'s>,
+}
+
+/// The marks of a draw's primitives.
+#[derive(Clone, Copy)]
+pub(super) enum Marked<'s> {
+    /// Of triangles, by their faces and their sides.
+    Faces(Option<&'s ObjectMarks<'s>>),
+    /// Of lines and points, by their indices.
+    Wires(WireNumbers<'s>),
+}
+
+/// The marks of lines or points.
+#[derive(Clone, Copy)]
+pub(super) struct WireNumbers<'s> {
+    pub(super) numbers: &'s [u8],
+    /// The vertices that the points are; none of lines.
+    pub(super) points: &'s [u32],
+    /// The points that are larger.
+    pub(super) large: Option<&'s FixedBitSet>,
 }
 
 /// Triangles of one mesh.
@@ -49,7 +69,8 @@ pub(super) struct ObjectMarks<'s> {
     pub(super) numbers: Arc<MarkNumbers>,
 }
 
-/// The marks of edges and of faces, as [`Marks`] has them.
+/// The marks of edges and of faces, by their numbers in the mesh, as [`Marks`] has them.
+#[derive(PartialEq)]
 pub(super) struct MarkNumbers {
     pub(super) edges: Vec<u8>,
     pub(super) faces: Vec<u8>,
@@ -73,7 +94,8 @@ impl<P: LanePipeline> Record for Triangles<'_, P> {
     }
 
     fn source(&self) -> Source<'_> {
-        Source { geometry: self.geometry, triangles: self.range.clone(), place: self.place }
+        let marked = Marked::Faces(self.marks.as_ref());
+        Source { geometry: self.geometry, triangles: self.range.clone(), place: self.place, marked }
     }
 }
 
@@ -94,7 +116,8 @@ impl Record for Segments<'_> {
     }
 
     fn source(&self) -> Source<'_> {
-        Source { geometry: self.geometry, triangles: 0..0, place: self.pipeline.place }
+        let wires = WireNumbers { numbers: &self.pipeline.marks.numbers, points: &[], large: None };
+        self.pipeline.source(self.geometry, wires)
     }
 }
 
@@ -108,7 +131,7 @@ pub(super) struct Dots<'s> {
     pub(super) size: f32,
     /// Those of another size.
     pub(super) marked: Option<(FixedBitSet, f32)>,
-    pub(super) outline: Outline,
+    pub(super) surface: Surface,
     /// See [`Points::toward_eye`].
     pub(super) toward_eye: f32,
 }
@@ -120,13 +143,21 @@ impl Record for Dots<'_> {
             ids: Some(&self.no_face),
             object: self.object,
             marked,
-            outline: self.outline,
+            surface: self.surface,
             toward_eye: self.toward_eye,
             ..Points::new(&self.pipeline, &self.points, self.size)
         });
     }
 
     fn source(&self) -> Source<'_> {
-        Source { geometry: self.geometry, triangles: 0..0, place: self.pipeline.place }
+        let large = self.marked.as_ref().map(|(set, _)| set);
+        let numbers = &self.pipeline.marks.numbers;
+        self.pipeline.source(self.geometry, WireNumbers { numbers, points: &self.points, large })
+    }
+}
+
+impl Wire<'_> {
+    fn source<'s>(&self, geometry: &'s Geometry, wires: WireNumbers<'s>) -> Source<'s> {
+        Source { geometry, triangles: 0..0, place: self.place, marked: Marked::Wires(wires) }
     }
 }

@@ -4,9 +4,10 @@
 use crate::simd::SimdLevel;
 use crate::{
     Background, Cancel, Culling, Draw, DrawChange, EdgeFlags, ExecuteSettings, FaceEdges, Fragment, Lines,
-    MarkColors, Marks, Outline, Output, Pass, Pipeline, Points, Rasterizer, Stats, Surface, Target, TileSize,
-    VertexOutput,
+    MarkColors, MarkedPoints, Marks, Outline, Output, Pass, Pipeline, Points, Rasterizer, Stats, Surface,
+    Target, TileSize, VertexOutput,
 };
+use fixedbitset::FixedBitSet;
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_math::{Vec3, Vec4};
@@ -22,6 +23,8 @@ struct Model {
     sides: Vec<[u32; 3]>,
     edge_marks: Vec<u8>,
     face_marks: Vec<u8>,
+    /// Its points that are larger.
+    large: FixedBitSet,
     surface: Surface,
 }
 
@@ -74,6 +77,7 @@ impl Model {
             sides: triangles.iter().map(|&[a, b, c]| [edge(a, b), edge(b, c), edge(c, a)]).collect(),
             edge_marks: (0..2 * side * side).map(|edge| (edge % 3) as u8).collect(),
             face_marks: (0..QUADS * QUADS).map(|face| (face % 5 / 3) as u8).collect(),
+            large: FixedBitSet::with_capacity(4),
             triangles,
             faces: (0..2 * QUADS * QUADS).map(|triangle| triangle / 2).collect(),
             flags: (0..QUADS * QUADS).flat_map(|_| flags).collect(),
@@ -106,11 +110,21 @@ struct Delta {
     turned: Vec<u32>,
     /// Edges and faces with other marks.
     marked: [Vec<(u32, u8)>; 2],
+    /// Points with another size.
+    resized: Vec<u32>,
+}
+
+/// What is to be told of a model that has changed.
+struct Told {
+    vertices: Vec<u32>,
+    reshaped: Vec<u32>,
+    recolored: Vec<u32>,
+    resized: Vec<u32>,
 }
 
 impl Delta {
     /// Changes the model; what is to be told of it.
-    fn apply(&self, model: &mut Model) -> [Vec<u32>; 2] {
+    fn apply(&self, model: &mut Model) -> Told {
         for &(vertex, way) in &self.moved {
             model.vertices[vertex as usize].0 += Vec4::from_array(way);
         }
@@ -127,9 +141,11 @@ impl Delta {
         }
         let painted = self.painted.iter().map(|&(vertex, _)| vertex);
         let vertices = self.moved.iter().map(|&(vertex, _)| vertex).chain(painted).collect();
-        let marked = self.mark(model);
-        let is_listed = |triangle: &u32| turned.contains(triangle) || marked.contains(triangle);
-        [vertices, (0..model.triangles.len() as u32).filter(is_listed).collect()]
+        let mut resized = self.resized.clone();
+        resized.sort_unstable();
+        resized.dedup();
+        resized.iter().for_each(|&point| model.large.toggle(point as usize));
+        Told { vertices, reshaped: turned, recolored: self.mark(model), resized }
     }
 
     /// Changes marks; the triangles that have them.
@@ -160,13 +176,17 @@ fn delta() -> impl Strategy<Value = Delta> {
     let turned = prop::collection::vec(0..2 * QUADS * QUADS, 0..3);
     let marked = [2 * (QUADS + 1) * (QUADS + 1), QUADS * QUADS]
         .map(|elements| prop::collection::vec((0..elements, 0..4_u8), 0..3));
-    (0..2_usize, moved, painted, turned, marked).prop_map(|(model, moved, painted, turned, marked)| Delta {
-        model,
-        moved,
-        painted,
-        turned,
-        marked,
-    })
+    let resized = prop::collection::vec(0..4_u32, 0..3);
+    (0..2_usize, moved, painted, turned, marked, resized).prop_map(
+        |(model, moved, painted, turned, marked, resized)| Delta {
+            model,
+            moved,
+            painted,
+            turned,
+            marked,
+            resized,
+        },
+    )
 }
 
 /// How the pictures are drawn.
@@ -256,8 +276,13 @@ impl View {
         let lines = Lines::new(&models[0], segments);
         pass.lines(Lines { object: 9, width: 3.0, ..lines });
         let points: &[u32] = if self.has_lines { &[0, 12, 34, 60] } else { &[] };
-        let outline = Outline::AntiAliased;
-        pass.points(Points { object: 10, outline, ..Points::new(&models[0], points, 4.0) });
+        let (outline, surface) = match self.background {
+            0 => (Outline::AntiAliased, Surface::Opaque),
+            _ => (Outline::Sharp, Surface::Overlay),
+        };
+        let marked = Some(MarkedPoints { set: &models[0].large, size: 7.0 });
+        let points = Points { outline, surface, marked, ..Points::new(&models[0], points, 4.0) };
+        pass.points(Points { object: 10, ..points });
         if let Some(width) = self.edges {
             pass.edges(FaceEdges { width, color: Vec3::X, opacity: 0.7 });
         }
@@ -301,12 +326,15 @@ fn check(view: &View, mut models: Vec<Model>, deltas: &[Delta]) -> Result<(), Te
     let mut target = view.target();
     rasterizer.redraw(&view.pass(&models), &mut target, None);
     for delta in deltas {
-        let [vertices, triangles] = delta.apply(&mut models[delta.model]);
-        let mut changes = [DrawChange::default(); 6];
-        changes[delta.model] = DrawChange { vertices: &vertices, triangles: &triangles };
+        let Told { vertices, reshaped, recolored, resized } = delta.apply(&mut models[delta.model]);
+        let (vertices, mut changes) = (vertices.as_slice(), [DrawChange::default(); 6]);
+        changes[delta.model] = DrawChange { vertices, reshaped: &reshaped, recolored: &recolored };
         if delta.model == 0 {
             // The lines and the points have its vertices.
-            changes[4..].fill(DrawChange { vertices: &vertices, triangles: &[] });
+            changes[4..].fill(DrawChange { vertices, ..DrawChange::default() });
+            if view.has_lines {
+                changes[5].reshaped = &resized;
+            }
         }
         let redraw = rasterizer.redraw(&view.pass(&models), &mut target, Some(&changes));
         let counts = view.counts(&models);
@@ -328,6 +356,7 @@ fn surface() -> impl Strategy<Value = Surface> {
         Surface::Opaque,
         Surface::Masked,
         Surface::MaskedPerSample,
+        Surface::Overlay,
         Surface::Translucent,
     ])
 }
@@ -365,6 +394,7 @@ fn one_vertex() -> Delta {
         painted: Vec::new(),
         turned: Vec::new(),
         marked: [Vec::new(), Vec::new()],
+        resized: Vec::new(),
     }
 }
 
@@ -385,7 +415,7 @@ fn only_tiles_around_what_moved_are_drawn() {
     let unchanged = [DrawChange::default(); 6];
     let same = rasterizer.redraw(&view.pass(&models), &mut target, Some(&unchanged));
     assert!(same.parts.is_empty(), "nothing differs");
-    let [vertices, _] = one_vertex().apply(&mut models[0]);
+    let Told { vertices, .. } = one_vertex().apply(&mut models[0]);
     let mut changes = unchanged;
     for draw in [0, 4, 5] {
         changes[draw].vertices = &vertices;
@@ -405,9 +435,9 @@ fn only_tiles_around_other_marks_are_drawn() {
     rasterizer.redraw(&view.pass(&models), &mut target, None);
     let before = target.srgb8().map(<[_]>::to_vec);
     let marked = [vec![(44, 3)], vec![(40, 3)]];
-    let [_, triangles] = Delta { moved: Vec::new(), marked, ..one_vertex() }.apply(&mut models[0]);
+    let Told { recolored, .. } = Delta { moved: Vec::new(), marked, ..one_vertex() }.apply(&mut models[0]);
     let mut changes = [DrawChange::default(); 6];
-    changes[0].triangles = &triangles;
+    changes[0].recolored = &recolored;
     let redraw = rasterizer.redraw(&view.pass(&models), &mut target, Some(&changes));
     let drawn = share(&view, &redraw.parts);
     assert!(drawn > 0.0 && drawn < 0.3, "three quads of {}: {drawn}", QUADS * QUADS);
@@ -423,7 +453,7 @@ fn draws_without_triangles_broke_the_redraws_look_up_of_draws() {
     let view = plain(&[Output::Srgb8]);
     let mut after = Model::sheet(Surface::Opaque, 0.0);
     let (before, behind) = (after.clone(), Model::sheet(Surface::Opaque, 0.5));
-    let [vertices, _] = one_vertex().apply(&mut after);
+    let Told { vertices, .. } = one_vertex().apply(&mut after);
     // The changed sheet lies before the third one, which stays as it is.
     for [empty, changed] in [[0, 1], [0, 2], [1, 0], [1, 2], [2, 0], [2, 1]] {
         let record = |sheet| {

@@ -73,13 +73,20 @@ struct Sampling {
 }
 
 fn draw(draws: &[Marks], surface: Surface, settings: ExecuteSettings, sampling: Sampling) -> Pictures {
+    let draws: Vec<_> = draws.iter().map(|draw| (draw, surface)).collect();
+    draw_on(&draws, settings, sampling)
+}
+
+/// Each with a surface of its own.
+fn draw_on(draws: &[(&Marks, Surface)], settings: ExecuteSettings, sampling: Sampling) -> Pictures {
     let segments: Vec<Vec<[u32; 2]>> = draws
         .iter()
-        .map(|draw| (0..draw.positions.len() as u32 / 2).map(|i| [2 * i, 2 * i + 1]).collect())
+        .map(|(draw, _)| (0..draw.positions.len() as u32 / 2).map(|i| [2 * i, 2 * i + 1]).collect())
         .collect();
-    let points: Vec<Vec<u32>> = draws.iter().map(|draw| (0..draw.positions.len() as u32).collect()).collect();
+    let points: Vec<Vec<u32>> =
+        draws.iter().map(|(draw, _)| (0..draw.positions.len() as u32).collect()).collect();
     let mut pass = Pass::new();
-    for ((draw, segments), points) in draws.iter().zip(&segments).zip(&points) {
+    for ((&(draw, surface), segments), points) in draws.iter().zip(&segments).zip(&points) {
         let (ids, object, toward_eye) = (draw.ids.as_deref(), draw.object, draw.toward_eye);
         match draw.mark {
             Mark::Line(width) => {
@@ -342,6 +349,37 @@ proptest! {
         prop_assert!(opaque == masked, "{:?}", settings);
         let reference = draw(&draws, Surface::Opaque, ExecuteSettings::default(), sampling);
         prop_assert!(opaque == reference, "{:?}", settings);
+    }
+}
+
+proptest! {
+    /// Whatever lies below: colours are those of opaque draws, depth and ids those of a
+    /// picture without the overlay.
+    #[test]
+    fn an_overlay_hides_as_opaque_draws_do_and_writes_no_depth_and_no_ids(
+        mut draws in draws(),
+        settings in settings(),
+        threads in 1..4_usize,
+        sampling in sampling(3),
+        below in prop::sample::select(vec![Surface::Opaque, Surface::Masked, Surface::MaskedPerSample]),
+    ) {
+        let settings = ExecuteSettings { threads: NonZeroUsize::new(threads), ..settings };
+        // Keys that do not depend on the order of draws.
+        (0..).zip(&mut draws).for_each(|(object, draw)| draw.object = object);
+        let on = |over: Surface| {
+            let surface = move |draw: &Marks| if draw.object % 2 == 1 { over } else { below };
+            draws.iter().map(|draw| (draw, surface(draw))).collect::<Vec<_>>()
+        };
+        let [overlay, opaque] =
+            [Surface::Overlay, Surface::MaskedPerSample].map(|over| draw_on(&on(over), settings, sampling));
+        prop_assert!(overlay.linear == opaque.linear, "{:?}", settings);
+        let bare: Vec<_> = on(below).into_iter().step_by(2).collect();
+        let bare = draw_on(&bare, settings, sampling);
+        prop_assert!(
+            (&overlay.depth, &overlay.objects, &overlay.faces, &overlay.triangles)
+                == (&bare.depth, &bare.objects, &bare.faces, &bare.triangles),
+            "{:?}", settings
+        );
     }
 }
 

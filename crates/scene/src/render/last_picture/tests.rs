@@ -94,6 +94,8 @@ enum Event {
     Settings(usize),
     /// Elements of a mesh are marked in a colour of this level: edges, faces or vertices.
     Marked(usize, usize, Vec<u8>, f32),
+    /// Other elements are in the first mark of edges, faces or vertices.
+    Selected(usize, usize, Vec<u8>),
     VerticesShown(Option<f32>),
     XRay(f32),
 }
@@ -116,6 +118,8 @@ fn event() -> impl Strategy<Value = Event> {
         2 => (0..SETTINGS.len()).prop_map(Event::Settings),
         2 => (0..3_usize, 0..4_usize, prop::collection::vec(any::<u8>(), 0..6), 0.0_f32..1.0)
             .prop_map(|(kind, node, elements, level)| Event::Marked(kind, node, elements, level)),
+        8 => (0..3_usize, 0..4_usize, prop::collection::vec(any::<u8>(), 0..6))
+            .prop_map(|(kind, node, elements)| Event::Selected(kind, node, elements)),
         1 => prop::option::of(0.5_f32..6.0).prop_map(Event::VerticesShown),
         1 => prop_oneof![Just(0.0), 0.0_f32..1.0].prop_map(Event::XRay),
     ]
@@ -225,6 +229,13 @@ impl Sequence {
                 let Marks { edges, faces, vertices } = &mut renderer.settings_mut().marks;
                 let list = [edges, faces, vertices].into_iter().nth(*kind).expect("one of three");
                 list.insert(0, mark(model.nodes[*node], elements, *level));
+            }
+            Event::Selected(kind, node, elements) => {
+                let Marks { edges, faces, vertices } = &mut renderer.settings_mut().marks;
+                let list = [edges, faces, vertices].into_iter().nth(*kind).expect("one of three");
+                if let Some(first) = list.first_mut() {
+                    first.elements = mark(model.nodes[*node], elements, 0.0).elements;
+                }
             }
             Event::VerticesShown(size) => {
                 let points = |size| VertexPoints { size, ..VertexPoints::default() };
@@ -350,7 +361,7 @@ fn effects_that_reach_over_tiles_draw_everything() {
 }
 
 #[test]
-fn what_is_marked_follows_and_other_marks_draw_everything() {
+fn what_is_marked_follows_and_other_colours_draw_everything() {
     let settings = RenderSettings {
         samples_per_axis: 1,
         style: Style::SurfaceWithEdges,
@@ -369,8 +380,7 @@ fn what_is_marked_follows_and_other_marks_draw_everything() {
         assert!((1..all / 2).contains(&tiles(&sequence)), "{} of {all} tiles", tiles(&sequence));
         assert!(sequence.frame == sequence.fresh(), "the bytes of a fresh picture");
     }
-    let others: [fn(&mut RenderSettings); 3] = [
-        |settings| Arc::make_mut(&mut settings.marks.faces[0].elements).clone_from(&ElementSet::default()),
+    let others: [fn(&mut RenderSettings); 2] = [
         |settings| settings.marks.edges[0].color = Vec3::Z,
         |settings| settings.vertices = Some(VertexPoints::default()),
     ];
@@ -381,5 +391,45 @@ fn what_is_marked_follows_and_other_marks_draw_everything() {
         assert!(tiles(&sequence) > all / 2, "change {number}: {} of {all} tiles", tiles(&sequence));
         assert!(sequence.frame.color != before, "change {number} is seen");
         assert!(sequence.frame == sequence.fresh(), "change {number}: the bytes of a fresh picture");
+    }
+}
+
+/// A click marks another element, and a box of half of a mesh draws no more than what it changes.
+#[test]
+fn where_other_elements_are_marked_alone_is_drawn() {
+    for style in [Style::SurfaceWithEdges, Style::HiddenLine, Style::Wireframe] {
+        let settings = RenderSettings {
+            samples_per_axis: 1,
+            style,
+            vertices: Some(VertexPoints::default()),
+            ..RenderSettings::new(640, 480)
+        };
+        let mut sequence = Sequence::new(model(AlphaMode::Opaque), settings);
+        for kind in 0..3 {
+            sequence.apply(&Event::Marked(kind, 0, vec![0], 0.2));
+        }
+        sequence.draw();
+        let all = tiles(&sequence);
+        let mut seen = [0; 3];
+        for round in 0..12 {
+            let kind = round % 3;
+            // Far apart: some lie on the side that is seen.
+            let elements = (0..4).map(|number| (7 * round + 31 * number) as u8).collect();
+            let before = sequence.frame.color.clone();
+            sequence.apply(&Event::Selected(kind, 0, elements));
+            sequence.draw();
+            seen[kind] += usize::from(sequence.frame.color != before);
+            assert!(tiles(&sequence) < all / 2, "{style:?}, {kind}: {} of {all}", tiles(&sequence));
+            assert!(sequence.frame == sequence.fresh(), "{style:?}, {kind}: the bytes of a fresh picture");
+        }
+        let faces_show = usize::from(style == Style::SurfaceWithEdges);
+        let least = [2, 2 * faces_show, 2];
+        assert!(seen.iter().zip(least).all(|(&seen, least)| seen >= least), "{style:?}: {seen:?} were seen");
+        for kind in 0..3 {
+            sequence.apply(&Event::Selected(kind, 0, Vec::new()));
+            sequence.draw();
+            assert!(tiles(&sequence) < all / 2, "{style:?}, no {kind}: {} of {all}", tiles(&sequence));
+            assert!(sequence.frame == sequence.fresh(), "{style:?}, no {kind}: the bytes of a fresh picture");
+        }
     }
 }

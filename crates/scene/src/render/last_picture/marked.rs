@@ -1,0 +1,137 @@
+//! Which primitives have other marks than in the last picture.
+
+use std::sync::Arc;
+
+use fixedbitset::FixedBitSet;
+use trigon_math::Vec4;
+use trigon_raster::MarkColors;
+
+use crate::marks::{self, Marks};
+use crate::render::record::{MarkNumbers, Marked, Source, WireNumbers};
+
+/// The colours of marks, by their numbers.
+#[derive(Clone, PartialEq)]
+pub(super) struct MarkPalette {
+    edges: [Vec4; MarkColors::COUNT],
+    faces: [Vec4; MarkColors::COUNT],
+    vertices: [Vec4; MarkColors::COUNT],
+}
+
+impl MarkPalette {
+    pub(super) fn new(marks: &Marks) -> Self {
+        let MarkColors { edges, faces } = marks.colors();
+        Self { edges, faces, vertices: marks::colors(&marks.vertices) }
+    }
+}
+
+/// The marks that a draw's primitives had.
+#[derive(PartialEq)]
+pub(super) enum MarkOrigin {
+    Faces(Option<Arc<MarkNumbers>>),
+    Wires { numbers: Vec<u8>, points: Vec<u32>, large: FixedBitSet },
+}
+
+/// Primitives whose marks are others; increasing.
+#[derive(Default)]
+pub(super) struct MarkedPrimitives {
+    pub(super) recolored: Vec<u32>,
+    pub(super) resized: Vec<u32>,
+}
+
+impl MarkOrigin {
+    pub(super) fn new(marked: &Marked<'_>) -> Self {
+        match *marked {
+            Marked::Faces(marks) => Self::Faces(marks.map(|marks| Arc::clone(&marks.numbers))),
+            Marked::Wires(WireNumbers { numbers, points, large }) => Self::Wires {
+                numbers: numbers.to_vec(),
+                points: points.to_vec(),
+                large: large.cloned().unwrap_or_default(),
+            },
+        }
+    }
+
+    /// The primitives of a draw whose marks are not what they were; `None` if that is not
+    /// known.
+    pub(super) fn difference(&self, now: &Self, source: &Source<'_>) -> Option<MarkedPrimitives> {
+        match (self, now) {
+            (Self::Faces(before), Self::Faces(now)) => {
+                let recolored = triangles([before, now].map(Option::as_deref), source)?;
+                Some(MarkedPrimitives { recolored, resized: Vec::new() })
+            }
+            (
+                Self::Wires { numbers, points, large },
+                Self::Wires { numbers: now, points: points_now, large: large_now },
+            ) if points == points_now => Some(MarkedPrimitives {
+                recolored: differing(numbers, now),
+                resized: large.symmetric_difference(large_now).map(|point| point as u32).collect(),
+            }),
+            _ => None,
+        }
+    }
+}
+
+/// The triangles of a draw whose faces, or sides, have other marks.
+fn triangles(marks: [Option<&MarkNumbers>; 2], source: &Source<'_>) -> Option<Vec<u32>> {
+    let numbers = |of: fn(&MarkNumbers) -> &Vec<u8>| {
+        let [before, now] = marks.map(|marks| marks.map_or(&[][..], |marks| of(marks)));
+        Elements::new(&differing(before, now))
+    };
+    let (edges, faces) = (numbers(|marks| &marks.edges), numbers(|marks| &marks.faces));
+    let (range, mut listed) = (source.triangles.clone(), Vec::new());
+    if let Some(faces) = &faces {
+        let own = source.geometry.faces[range.clone()].iter();
+        listed.extend((0..).zip(own).filter(|&(_, &face)| faces.has(face)).map(|(triangle, _)| triangle));
+    }
+    if let Some(edges) = &edges {
+        let own = match &source.marked {
+            Marked::Faces(Some(marks)) if !marks.sides.is_empty() => marks.sides,
+            _ => &source.geometry.sides_if_known()?[range],
+        };
+        let own = own.iter();
+        let is_other = |sides: &[u32; 3]| sides.iter().any(|&side| edges.has(side));
+        listed.extend((0..).zip(own).filter(|(_, sides)| is_other(sides)).map(|(triangle, _)| triangle));
+        listed.sort_unstable();
+        listed.dedup();
+    }
+    Some(listed)
+}
+
+/// Some elements of a mesh.
+struct Elements {
+    least: u32,
+    bits: FixedBitSet,
+}
+
+impl Elements {
+    /// Those listed, increasing; `None` if there are none.
+    fn new(listed: &[u32]) -> Option<Self> {
+        let (&least, &greatest) = (listed.first()?, listed.last()?);
+        let mut bits = FixedBitSet::with_capacity((greatest - least) as usize + 1);
+        bits.extend(listed.iter().map(|element| (element - least) as usize));
+        Some(Self { least, bits })
+    }
+
+    #[inline]
+    fn has(&self, element: u32) -> bool {
+        // Elements before the first wrap around to numbers beyond the last.
+        self.bits.contains(element.wrapping_sub(self.least) as usize)
+    }
+}
+
+/// Where two lists of marks differ; beyond their ends there are none.
+fn differing(before: &[u8], now: &[u8]) -> Vec<u32> {
+    /// Marks that are compared together.
+    const BLOCK: usize = 256;
+    let mut listed = Vec::new();
+    let common = before.len().min(now.len());
+    let blocks = before[..common].chunks(BLOCK).zip(now[..common].chunks(BLOCK));
+    for ((before, now), first) in blocks.zip((0..).step_by(BLOCK)) {
+        if before != now {
+            let pairs = (first..).zip(before.iter().zip(now));
+            listed.extend(pairs.filter(|(_, (before, now))| before != now).map(|(index, _)| index));
+        }
+    }
+    let rest = if before.len() > common { &before[common..] } else { &now[common..] };
+    listed.extend((common as u32..).zip(rest).filter(|&(_, &mark)| mark != 0).map(|(index, _)| index));
+    listed
+}
