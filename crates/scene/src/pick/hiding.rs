@@ -85,9 +85,10 @@ impl<'p> Hiding<'p> {
         for (facing, run) in triangles.drawn.runs() {
             let wins = |face: u32, at: DVec2| facing.is_opaque || self.wins(nearby.object, face, at);
             let hides = |face: u32, point: &Candidate| wins(face, point.spot.at) && !is_own(face, point);
-            let starts: Vec<usize> = run.clone().step_by(TRIANGLES).collect();
+            let places = triangles.places(run);
+            let starts: Vec<usize> = places.clone().step_by(TRIANGLES).collect();
             starts.into_par_iter().for_each(|start| {
-                let share = start..run.end.min(start + TRIANGLES);
+                let share = start..places.end.min(start + TRIANGLES);
                 self.visit_all(&triangles, facing, share, &hides);
             });
         }
@@ -111,18 +112,19 @@ impl<'p> Hiding<'p> {
         &self,
         triangles: &NearbyTriangles<'_>,
         facing: Facing,
-        share: Range<usize>,
+        places: Range<usize>,
         hides: &impl Fn(u32, &Candidate) -> bool,
     ) {
         let mut group = Group::new();
-        for triangle in share {
-            triangles.pieces(triangle, |piece| {
+        for place in places {
+            triangles.pieces(place, |piece| {
                 let [a, b, c] = piece.map(|spot| spot.at);
                 if !facing.draws((b - a).perp_dot(c - a)) {
                     return;
                 }
                 let Some(pixels) = self.pixels(piece) else { return };
-                let occluder = Occluder { piece: *piece, face: triangles.drawn.face(triangle) };
+                let occluder =
+                    Occluder { piece: *piece, face: triangles.drawn.face(triangles.number(place)) };
                 if !group.takes(&pixels) {
                     self.visit(&group, hides);
                     group.clear();

@@ -3,11 +3,13 @@
 //!
 //! The rule of what is hit stands at [`Picker`]. Faces that are seen are read from the ids of a
 //! picture (`search`); all else is decided in f64: `screen` and `object` tell where points of
-//! elements are, `nearby` what may lie in a region (`region`, `lasso`), `kind` what does, `hiding` (with
+//! elements are, `nearby` (in small regions `few`, `beyond`) what may lie in a region (`region`, `lasso`), `kind` what does, `hiding` (with
 //! `occluders`) which of that a face hides, and `covering` which pixels' centres a face covers.
 
+mod beyond;
 mod covering;
 mod elements;
+mod few;
 mod hiding;
 mod kind;
 mod lasso;

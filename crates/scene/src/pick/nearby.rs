@@ -1,14 +1,17 @@
-//! The objects of a scene beside an area of a picture: on which side of it each of their
-//! points lies, so that what lies beside it as a whole is passed over at once.
+//! The objects of a scene beside an area of a picture, and what of them may lie in it.
 //!
-//! A byte a point is all that elements and triangles look up before they are near. In a small area,
-//! such as around a cursor, few are: where their points are is found again for each of them, and
-//! nothing else is kept. In a large one many are, and where all points are is kept.
+//! In a small area, such as around a cursor, little lies: whole boxes of triangles are passed
+//! over, and nothing is kept (`few`). In a large one much does: where all points are is found and
+//! kept, and a byte a point, on which side of the area it lies, is all that elements and triangles
+//! look up before they are near.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
+use super::few::Few;
+use super::kind::Kind;
 use super::object::{Drawn, Object, POINTS};
 use super::region::Area;
 use super::screen::{Screen, Spot};
@@ -30,7 +33,7 @@ impl Sides {
     /// Before the near plane: not on the screen.
     const NOWHERE: u8 = 32;
 
-    fn of(spot: &Spot, area: &Area<'_>) -> Self {
+    pub(super) fn of(spot: &Spot, area: &Area<'_>) -> Self {
         if !spot.is_somewhere() {
             return Self(Self::NOWHERE);
         }
@@ -57,7 +60,7 @@ impl Sides {
     }
 
     /// Whether all that is between some points lies on one side.
-    fn is_beside(points: &[Self]) -> bool {
+    pub(super) fn is_beside(points: &[Self]) -> bool {
         points.iter().fold(u8::MAX, |sides, point| sides & point.0) != 0
     }
 }
@@ -67,26 +70,61 @@ pub(super) struct Nearby<'q> {
     pub(super) object: &'q Object<'q>,
     pub(super) area: &'q Area<'q>,
     screen: &'q Screen,
-    /// Of the mesh's vertices.
-    vertices: Vec<Sides>,
-    /// Which of these belong to something.
-    used: &'q [AtomicBool],
+    /// What may lie in it.
+    near: Near<'q>,
+}
+
+enum Near<'q> {
+    Few(Few),
+    /// All of it.
+    All {
+        /// Of the mesh's vertices.
+        vertices: Vec<Sides>,
+        /// Which of these belong to something.
+        used: &'q [AtomicBool],
+    },
 }
 
 impl<'q> Nearby<'q> {
     pub(super) fn new(object: &'q Object<'q>, screen: &'q Screen, area: &'q Area<'q>) -> Self {
-        if is_large(screen, area) {
+        let near = if is_large(screen, area) {
             object.keep_vertices(screen);
+            let vertices = sides(object.mesh().vertex_count(), area, object.vertices(screen));
+            Near::All { vertices, used: object.used() }
+        } else {
+            Near::Few(Few::new(object, screen, area))
+        };
+        Self { object, area, screen, near }
+    }
+
+    /// How many elements may lie in the area.
+    pub(super) fn count(&self, kind: Kind) -> usize {
+        match (&self.near, kind) {
+            (Near::Few(few), Kind::Vertex) => few.vertices.len(),
+            (Near::Few(few), Kind::Edge) => few.edges.len(),
+            (Near::All { .. }, _) => kind.count(self.object.mesh()),
         }
-        let vertex = object.vertices(screen);
-        let vertices = sides(object.mesh().vertex_count(), area, vertex);
-        Self { object, area, screen, vertices, used: object.used() }
+    }
+
+    /// One of them.
+    #[inline]
+    pub(super) fn element(&self, kind: Kind, number: usize) -> usize {
+        match (&self.near, kind) {
+            (Near::Few(few), Kind::Vertex) => few.vertices[number] as usize,
+            (Near::Few(few), Kind::Edge) => few.edges[number] as usize,
+            (Near::All { .. }, _) => number,
+        }
     }
 
     /// Where a vertex is that may be in the area and is drawn.
     #[inline]
     pub(super) fn vertex(&self, vertex: usize) -> Option<Spot> {
-        let is_near = self.vertices[vertex].is_inside() && self.used[vertex].load(Ordering::Relaxed);
+        let is_near = match &self.near {
+            Near::Few(_) => true,
+            Near::All { vertices, used } => {
+                vertices[vertex].is_inside() && used[vertex].load(Ordering::Relaxed)
+            }
+        };
         is_near.then(|| self.object.vertices(self.screen)(vertex))
     }
 
@@ -94,24 +132,31 @@ impl<'q> Nearby<'q> {
     #[inline]
     pub(super) fn edge(&self, edge: usize) -> Option<[Spot; 2]> {
         let ends = self.object.mesh().edges()[edge];
-        let sides = ends.map(|end| self.vertices[end as usize]);
+        let spot = |end: u32| self.object.vertices(self.screen)(end as usize);
+        let sides = ends.map(|end| match &self.near {
+            Near::Few(_) => Sides::of(&spot(end), self.area),
+            Near::All { vertices, .. } => vertices[end as usize],
+        });
         if Sides::is_beside(&sides) {
             return None;
         }
         if Sides::is_cut(&sides) {
             return self.object.cut_line(self.screen, ends);
         }
-        Some(ends.map(|end| self.object.vertices(self.screen)(end as usize)))
+        Some(ends.map(spot))
     }
 
     /// Its triangles, if any can be in view.
-    pub(super) fn triangles(&self) -> Option<NearbyTriangles<'q>> {
+    pub(super) fn triangles(&self) -> Option<NearbyTriangles<'_>> {
         let drawn = self.object.drawn()?;
-        if is_large(self.screen, self.area) {
-            drawn.keep_corners(self.screen);
-        }
-        let corners = sides(drawn.corner_count(), self.area, drawn.corners(self.screen));
-        Some(NearbyTriangles { drawn, screen: self.screen, corners })
+        let near = match &self.near {
+            Near::Few(few) => NearTriangles::Few(&few.triangles),
+            Near::All { .. } => {
+                drawn.keep_corners(self.screen);
+                NearTriangles::All(sides(drawn.corner_count(), self.area, drawn.corners(self.screen)))
+            }
+        };
+        Some(NearbyTriangles { drawn, screen: self.screen, near })
     }
 }
 
@@ -119,16 +164,49 @@ impl<'q> Nearby<'q> {
 pub(super) struct NearbyTriangles<'q> {
     pub(super) drawn: &'q Drawn,
     screen: &'q Screen,
-    corners: Vec<Sides>,
+    near: NearTriangles<'q>,
+}
+
+enum NearTriangles<'q> {
+    /// Those that may lie in it.
+    Few(&'q [u32]),
+    /// The sides of all corners.
+    All(Vec<Sides>),
 }
 
 impl NearbyTriangles<'_> {
-    /// Calls `visit` with a triangle if it may be in the area, or with those that the near
-    /// plane leaves of it.
+    /// The places in the list of those that may lie in the area, of a range of triangles.
+    pub(super) fn places(&self, triangles: Range<usize>) -> Range<usize> {
+        match &self.near {
+            NearTriangles::Few(few) => {
+                let at = |end: usize| few.partition_point(|&triangle| (triangle as usize) < end);
+                at(triangles.start)..at(triangles.end)
+            }
+            NearTriangles::All(_) => triangles,
+        }
+    }
+
+    /// The number of the triangle at a place.
     #[inline]
-    pub(super) fn pieces(&self, triangle: usize, visit: impl FnMut(&[Spot; 3])) {
-        let sides = self.drawn.triangle(triangle).map(|corner| self.corners[corner]);
-        if !Sides::is_beside(&sides) {
+    pub(super) fn number(&self, place: usize) -> usize {
+        match &self.near {
+            NearTriangles::Few(few) => few[place] as usize,
+            NearTriangles::All(_) => place,
+        }
+    }
+
+    /// Calls `visit` with the triangle at a place if it may be in the area, or with those that
+    /// the near plane leaves of it.
+    #[inline]
+    pub(super) fn pieces(&self, place: usize, visit: impl FnMut(&[Spot; 3])) {
+        let triangle = self.number(place);
+        let is_near = match &self.near {
+            NearTriangles::Few(_) => true,
+            NearTriangles::All(sides) => {
+                !Sides::is_beside(&self.drawn.triangle(triangle).map(|corner| sides[corner]))
+            }
+        };
+        if is_near {
             self.drawn.pieces(self.screen, triangle, visit);
         }
     }

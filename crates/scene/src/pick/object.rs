@@ -11,7 +11,7 @@ use trigon_mesh::Mesh;
 use super::screen::{Screen, Spot};
 use crate::material::AlphaMode;
 use crate::node::NodeId;
-use crate::render::{Onlookers, Run, Shape, Shapes};
+use crate::render::{Blocks, Onlookers, Run, Shape, Shapes};
 use crate::scene::{PlacedMesh, Scene};
 
 /// Points that a thread takes at a time.
@@ -142,6 +142,16 @@ impl Drawn {
     /// The triangles of each material.
     pub(super) fn runs(&self) -> impl Iterator<Item = (Facing, std::ops::Range<usize>)> + '_ {
         self.facings.iter().copied().zip(self.shape.geometry.runs.iter().map(|run| run.triangles.clone()))
+    }
+
+    /// Of its corners, to clip space.
+    pub(super) fn map(&self) -> &DMat4 {
+        &self.map
+    }
+
+    /// Boxes around its triangles.
+    pub(super) fn blocks(&self) -> &Blocks {
+        self.shape.geometry.blocks()
     }
 
     pub(super) fn triangle_count(&self) -> usize {

@@ -8,7 +8,6 @@ use trigon_camera::{Camera, Projector, Viewport};
 use trigon_math::DVec2;
 use trigon_mesh::Mesh;
 
-use super::covering::Centers;
 use super::elements::Sets;
 use super::kind::Kind;
 use super::nearest::{Best, Nearest};
@@ -61,7 +60,8 @@ pub enum Reach {
 /// # What it costs
 /// It finds out where all vertices are on the screen when a question about a large region
 /// first needs that, and keeps it: ask one picker for as long as scene and camera stay. For a small
-/// region, such as around a cursor, it keeps only which vertices are used.
+/// region, such as around a cursor, it passes over most of a mesh in boxes of 64 triangles, which
+/// the scene keeps until the mesh changes.
 ///
 /// ```
 /// use trigon_scene::math::DVec2;
@@ -170,7 +170,7 @@ impl<'p> Picker<'p> {
                 self.winners(&area, |object, face, _| sets.insert(object, face));
                 sets.finish()
             }
-            Reach::Through => self.faces_through(&Centers::new(&area)),
+            Reach::Through => self.faces_through(&area),
         }
     }
 

@@ -82,6 +82,11 @@ impl Screen {
         size.x as usize * size.y as usize
     }
 
+    /// Half of the picture's size, in pixels.
+    pub(super) fn half_size(&self) -> DVec2 {
+        self.half_size
+    }
+
     /// The map of an object's points to clip space.
     pub(super) fn map(&self, world: &DAffine3) -> DMat4 {
         self.projection * DMat4::from(self.eye.to_camera(world))

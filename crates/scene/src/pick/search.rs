@@ -71,7 +71,7 @@ impl<'p> Picker<'p> {
             }
             Reach::Through => {
                 for nearby in &nearby {
-                    let found: Vec<Vec<u32>> = shares(kind.count(nearby.object.mesh()))
+                    let found: Vec<Vec<u32>> = shares(nearby.count(kind))
                         .into_par_iter()
                         .map(|share| with_points(kind, nearby, share))
                         .collect();
@@ -120,9 +120,9 @@ impl<'p> Picker<'p> {
 
     /// Calls `decide` with all points of elements in an area, many at a time.
     fn candidates(&self, kind: Kind, nearby: &[Nearby<'_>], mut decide: impl FnMut(&[Vec<Candidate>])) {
-        let shares = nearby.iter().flat_map(|nearby| {
-            shares(kind.count(nearby.object.mesh())).into_iter().map(move |share| (nearby, share))
-        });
+        let shares = nearby
+            .iter()
+            .flat_map(|nearby| shares(nearby.count(kind)).into_iter().map(move |share| (nearby, share)));
         let mut waiting: VecDeque<(&Nearby<'_>, Range<usize>)> = shares.collect();
         let (mut lists, mut count) = (Vec::new(), 0);
         while !waiting.is_empty() {
@@ -172,9 +172,11 @@ impl<'p> Picker<'p> {
     }
 
     /// The faces that cover a pixel's centre.
-    pub(super) fn faces_through(&self, centers: &Centers) -> ElementSet {
+    pub(super) fn faces_through(&self, area: &Area<'_>) -> ElementSet {
+        let centers = &Centers::new(area);
         let mut sets = ElementSet::default();
-        for object in self.objects().iter().flatten() {
+        for nearby in self.nearby(area) {
+            let object = nearby.object;
             let none = || FixedBitSet::with_capacity(object.mesh().face_count());
             let add = |set: &mut FixedBitSet, face: u32, _: [u32; 2], _: f64| {
                 set.insert(face as usize);
@@ -185,7 +187,7 @@ impl<'p> Picker<'p> {
                 one.union_with(&other);
                 one
             };
-            sets.add(object.node, self.covered(centers, object, Visit { none, known, add, merged }));
+            sets.add(object.node, self.covered(&nearby, centers, Visit { none, known, add, merged }));
         }
         sets
     }
@@ -208,8 +210,8 @@ impl<'p> Picker<'p> {
             }
             Reach::Through => {
                 let centers = Centers::new(area);
-                for object in self.objects().iter().flatten() {
-                    let index = object.node.index() as u32;
+                for nearby in self.nearby(area) {
+                    let index = nearby.object.node.index() as u32;
                     let none = || Best::new(target);
                     let add = |best: &mut Best, face: u32, [x, y]: [u32; 2], depth: f64| {
                         best.offer(center(x, y), depth, index, face);
@@ -217,7 +219,7 @@ impl<'p> Picker<'p> {
                     };
                     let known = |_: &Best, _: u32| false;
                     let visit = Visit { none, known, add, merged: Best::merged };
-                    best = best.merged(self.covered(&centers, object, visit));
+                    best = best.merged(self.covered(&nearby, &centers, visit));
                 }
             }
         }
@@ -227,8 +229,8 @@ impl<'p> Picker<'p> {
     /// Visits the pixels that an object's faces cover, on all threads.
     fn covered<T: Send>(
         &self,
+        nearby: &Nearby<'_>,
         centers: &Centers,
-        object: &Object<'_>,
         visit: Visit<
             impl Fn() -> T + Sync + Send,
             impl Fn(&T, u32) -> bool + Sync + Send,
@@ -237,13 +239,12 @@ impl<'p> Picker<'p> {
         >,
     ) -> T {
         let Visit { none, known, add, merged } = visit;
-        let Some(drawn) = object.drawn().filter(|_| !centers.is_empty()) else { return none() };
-        drawn.keep_corners(&self.screen);
-        let triangles = (0..drawn.triangle_count()).into_par_iter().with_min_len(TRIANGLES);
-        let visited = triangles.fold(&none, |mut found, triangle| {
-            let face = drawn.face(triangle);
+        let Some(triangles) = nearby.triangles().filter(|_| !centers.is_empty()) else { return none() };
+        let places = triangles.places(0..triangles.drawn.triangle_count());
+        let visited = places.into_par_iter().with_min_len(TRIANGLES).fold(&none, |mut found, place| {
+            let face = triangles.drawn.face(triangles.number(place));
             if !known(&found, face) {
-                drawn.pieces(&self.screen, triangle, |piece| {
+                triangles.pieces(place, |piece| {
                     let _ = centers.covered(piece, |pixel, depth| add(&mut found, face, pixel, depth));
                 });
             }
@@ -272,22 +273,23 @@ fn shares(count: usize) -> Vec<Range<usize>> {
 /// The points of some elements, and what is left of these for later.
 fn points(kind: Kind, nearby: &Nearby<'_>, share: Range<usize>) -> (Vec<Candidate>, Range<usize>) {
     let (mut points, object) = (Vec::new(), nearby.object.node.index() as u32);
-    for element in share.clone() {
+    for number in share.clone() {
+        let element = nearby.element(kind, number);
         kind.points(nearby, element, |spot| {
             points.push(Candidate { spot, object, element: element as u32 });
         });
         if points.len() >= SHARE_POINTS {
-            return (points, element + 1..share.end);
+            return (points, number + 1..share.end);
         }
     }
     (points, share.end..share.end)
 }
 
 /// Those of some elements that have a point in an area.
-fn with_points(kind: Kind, nearby: &Nearby<'_>, elements: Range<usize>) -> Vec<u32> {
+fn with_points(kind: Kind, nearby: &Nearby<'_>, share: Range<usize>) -> Vec<u32> {
     let mut found = Vec::new();
-    for element in elements {
-        let mut is_there = false;
+    for number in share {
+        let (element, mut is_there) = (nearby.element(kind, number), false);
         kind.points(nearby, element, |_| is_there = true);
         found.extend(is_there.then_some(element as u32));
     }

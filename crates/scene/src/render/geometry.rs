@@ -3,6 +3,7 @@
 //! Made once per mesh, at its first picture, and shared by all nodes that draw
 //! the mesh. After a change of few of the mesh's values it follows: see `change`.
 
+mod blocks;
 mod change;
 mod edge_flags;
 mod side_edges;
@@ -17,6 +18,7 @@ use trigon_mesh::{Attributes, Deformed, Mesh, RenderLinks, RenderMesh};
 use trigon_raster::EdgeFlags;
 
 use super::columns::Columns;
+pub(crate) use blocks::{BlockBox, Blocks};
 use edge_flags::flags_of_mesh;
 use side_edges::sides_of_mesh;
 
@@ -39,6 +41,7 @@ pub(crate) struct Geometry {
     /// Differs from that of any other geometry, and from its own before a change.
     pub(crate) state: GeometryState,
     bounds: OnceLock<Bounds3>,
+    blocks: OnceLock<Blocks>,
     edge_flags: OnceLock<Vec<EdgeFlags>>,
     /// Poses share it.
     side_edges: OnceLock<Arc<Vec<[u32; 3]>>>,
@@ -119,6 +122,7 @@ impl Geometry {
             rest: mesh.is_deformable().then(|| Box::new(mesh)),
             state: GeometryState::default(),
             bounds: OnceLock::new(),
+            blocks: OnceLock::new(),
             edge_flags: OnceLock::new(),
             side_edges: OnceLock::new(),
             pose: None,
@@ -151,6 +155,7 @@ impl Geometry {
             order: self.order.clone(),
             state: GeometryState::default(),
             bounds: OnceLock::new(),
+            blocks: OnceLock::new(),
             edge_flags: self.edge_flags.clone(),
             side_edges: self.side_edges.clone(),
             rest: None,
@@ -174,6 +179,15 @@ impl Geometry {
             let [min, max] = [0, 1].map(|end| Vec3::new(x[end], y[end], z[end]));
             box_between(min, max)
         })
+    }
+
+    /// Boxes around its triangles.
+    pub(crate) fn blocks(&self) -> &Blocks {
+        if self.blocks.get().is_none() {
+            // Without a lock: a thread that waits for others may be given work that asks for the same.
+            let _ = self.blocks.set(Blocks::new(&self.triangles, &self.columns.positions));
+        }
+        self.blocks.get().expect("they were just made")
     }
 
     /// The mesh as a normal map on a UV set needs it: with the tangents that it

@@ -24,7 +24,7 @@ mod tests;
 mod wire;
 
 pub use builder::RendererBuilder;
-pub(crate) use geometry::{Geometry, GeometryState, Run, box_around};
+pub(crate) use geometry::{BlockBox, Blocks, Geometry, GeometryState, Run, box_around};
 pub use renderer::Renderer;
 pub(crate) use shapes::{Onlookers, Shape, Shapes};
 pub(crate) use stage::Stage;

@@ -56,6 +56,7 @@ impl Geometry {
         let update = self.links.as_mut()?.follow(mesh, changed);
         self.state = GeometryState::default();
         self.bounds = OnceLock::new();
+        self.blocks = OnceLock::new();
         self.tangential = places_for(&self.columns);
         let mut columns = take(&mut self.columns);
         let (triangles, ()) =

@@ -1,0 +1,47 @@
+//! What of an object may lie in a small area: all else is passed over in whole boxes.
+
+use super::beyond::Beyond;
+use super::nearby::Sides;
+use super::object::{Drawn, Object};
+use super::region::Area;
+use super::screen::Screen;
+
+/// The elements of an object that may lie in an area, each list increasing.
+#[derive(Default)]
+pub(super) struct Few {
+    pub(super) vertices: Vec<u32>,
+    pub(super) edges: Vec<u32>,
+    pub(super) triangles: Vec<u32>,
+}
+
+impl Few {
+    pub(super) fn new(object: &Object<'_>, screen: &Screen, area: &Area<'_>) -> Self {
+        let mesh = object.mesh();
+        let triangles = object.drawn().map_or_else(Vec::new, |drawn| triangles(drawn, screen, area));
+        let face = |&triangle: &u32| object.drawn().map(|drawn| drawn.face(triangle as usize));
+        let faces = each_once(triangles.iter().filter_map(face).collect());
+        let corners = || faces.iter().flat_map(|&face| mesh.face_corners(face as usize));
+        let loose_vertices = mesh.loose_edges().as_flattened().iter().chain(mesh.loose_points()).copied();
+        let loose_edges = mesh.face_edge_count() as u32..mesh.edge_count() as u32;
+        let vertices = corners().map(|corner| mesh.corner_vertices()[corner]).chain(loose_vertices);
+        let edges = corners().filter_map(|corner| mesh.corner_edge(corner)).chain(loose_edges);
+        Self { vertices: each_once(vertices.collect()), edges: each_once(edges.collect()), triangles }
+    }
+}
+
+/// The triangles that may lie in an area.
+fn triangles(drawn: &Drawn, screen: &Screen, area: &Area<'_>) -> Vec<u32> {
+    let beyond = Beyond::new(drawn.map(), screen.half_size(), area);
+    let blocks = drawn.blocks().within(|block| beyond.may_hold(block));
+    let corner = drawn.corners(screen);
+    let is_near = |triangle: &usize| {
+        !Sides::is_beside(&drawn.triangle(*triangle).map(|at| Sides::of(&corner(at), area)))
+    };
+    blocks.flatten().filter(is_near).map(|triangle| triangle as u32).collect()
+}
+
+fn each_once(mut numbers: Vec<u32>) -> Vec<u32> {
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers
+}

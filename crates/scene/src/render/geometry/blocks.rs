@@ -1,0 +1,57 @@
+//! Boxes around triangles that follow each other in a mesh, and so mostly lie side by side: a
+//! question about a small part of space passes over 64 triangles at a time.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+/// Triangles in a box.
+const BLOCK: usize = 64;
+
+/// Boxes that a thread makes at a time.
+const SHARE: usize = 64;
+
+/// Boxes around all triangles of a mesh, in its own space.
+#[derive(Clone, Debug)]
+pub(crate) struct Blocks {
+    boxes: Vec<BlockBox>,
+    triangles: usize,
+}
+
+/// The least and the greatest coordinates, leaving out NaN; infinite without any.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct BlockBox {
+    pub(crate) min: [f32; 3],
+    pub(crate) max: [f32; 3],
+}
+
+impl Blocks {
+    pub(super) fn new(triangles: &[[u32; 3]], positions: &[Vec<f32>; 3]) -> Self {
+        let blocks = triangles.par_chunks(BLOCK).with_min_len(SHARE);
+        Self {
+            boxes: blocks.map(|block| BlockBox::around(block, positions)).collect(),
+            triangles: triangles.len(),
+        }
+    }
+
+    /// The triangles in each box that passes a test, from the first one on.
+    pub(crate) fn within(&self, may_hold: impl Fn(&BlockBox) -> bool) -> impl Iterator<Item = Range<usize>> {
+        let starts = (0..self.triangles).step_by(BLOCK);
+        let near = starts.zip(&self.boxes).filter(move |(_, block)| may_hold(block));
+        near.map(|(start, _)| start..self.triangles.min(start + BLOCK))
+    }
+}
+
+impl BlockBox {
+    fn around(triangles: &[[u32; 3]], positions: &[Vec<f32>; 3]) -> Self {
+        let (mut min, mut max) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+        for &corner in triangles.as_flattened() {
+            for axis in 0..3 {
+                let value = positions[axis][corner as usize];
+                min[axis] = if value < min[axis] { value } else { min[axis] };
+                max[axis] = if value > max[axis] { value } else { max[axis] };
+            }
+        }
+        Self { min, max }
+    }
+}
