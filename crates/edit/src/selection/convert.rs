@@ -1,5 +1,6 @@
 //! From selected elements of one kind to those of another that follow from them.
 
+use rayon::prelude::*;
 use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
 
 use super::{ElementKind, Elements, MeshSelection, bits, each_once};
@@ -26,10 +27,16 @@ impl MeshSelection {
     pub fn edges(&self, mesh: &EditMesh, kind: ElementKind) -> Vec<EdgeId> {
         let edges: Vec<u32> = match kind {
             ElementKind::Vertex => {
+                let is_whole = |edge: EdgeId| {
+                    mesh.edge_vertices(edge).iter().all(|v| self.contains(v.index()))
+                        && !mesh.is_edge_hidden(edge)
+                };
+                if self.is_much_of(mesh.vertex_capacity()) {
+                    let is_whole = |edge: EdgeId| mesh.has_edge(edge) && is_whole(edge);
+                    return those(mesh.edge_capacity(), |edge| is_whole(EdgeId::new(edge)), EdgeId::new);
+                }
                 let at = self.own_vertices(mesh).flat_map(|vertex| mesh.vertex_edges(vertex));
-                let is_whole =
-                    |edge: &EdgeId| mesh.edge_vertices(*edge).iter().all(|v| self.contains(v.index()));
-                at.filter(|edge| is_whole(edge) && !mesh.is_edge_hidden(*edge)).map(EdgeId::index).collect()
+                at.filter(|&edge| is_whole(edge)).map(EdgeId::index).collect()
             }
             ElementKind::Edge => return self.own_edges(mesh).collect(),
             ElementKind::Face => {
@@ -44,14 +51,26 @@ impl MeshSelection {
     pub fn faces(&self, mesh: &EditMesh, kind: ElementKind) -> Vec<FaceId> {
         let faces: Vec<u32> = match kind {
             ElementKind::Vertex => {
+                let is_whole = |face: FaceId| {
+                    !mesh.is_face_hidden(face) && mesh.face_vertices(face).all(|v| self.contains(v.index()))
+                };
+                if self.is_much_of(mesh.vertex_capacity()) {
+                    let is_whole = |face: FaceId| mesh.has_face(face) && is_whole(face);
+                    return those(mesh.face_capacity(), |face| is_whole(FaceId::new(face)), FaceId::new);
+                }
                 let at = self.own_vertices(mesh).flat_map(|vertex| mesh.vertex_faces(vertex));
-                let is_whole = |face: FaceId| mesh.face_vertices(face).all(|v| self.contains(v.index()));
-                at.filter(|&face| !mesh.is_face_hidden(face) && is_whole(face)).map(FaceId::index).collect()
+                at.filter(|&face| is_whole(face)).map(FaceId::index).collect()
             }
             ElementKind::Edge => {
+                let is_whole = |face: FaceId| {
+                    !mesh.is_face_hidden(face) && mesh.face_edges(face).all(|e| self.contains(e.index()))
+                };
+                if self.is_much_of(mesh.edge_capacity()) {
+                    let is_whole = |face: FaceId| mesh.has_face(face) && is_whole(face);
+                    return those(mesh.face_capacity(), |face| is_whole(FaceId::new(face)), FaceId::new);
+                }
                 let at = self.own_edges(mesh).flat_map(|edge| mesh.edge_faces(edge));
-                let is_whole = |face: FaceId| mesh.face_edges(face).all(|e| self.contains(e.index()));
-                at.filter(|&face| !mesh.is_face_hidden(face) && is_whole(face)).map(FaceId::index).collect()
+                at.filter(|&face| is_whole(face)).map(FaceId::index).collect()
             }
             ElementKind::Face => return self.own_faces(mesh).collect(),
         };
@@ -71,6 +90,14 @@ impl MeshSelection {
     fn own_faces<'a>(&'a self, mesh: &'a EditMesh) -> impl Iterator<Item = FaceId> + 'a {
         let all = self.indices().map(FaceId::new);
         all.filter(|&face| mesh.has_face(face) && !mesh.is_face_hidden(face))
+    }
+
+    /// Whether so much is selected that it takes less time to ask each element of another kind than
+    /// to go through the neighbours of what is selected.
+    fn is_much_of(&self, capacity: usize) -> bool {
+        /// Of all, the part from which on it is.
+        const PART: usize = 16;
+        self.len() * PART > capacity
     }
 
     /// Selects elements of another kind: those that followed from what was selected.
@@ -100,6 +127,61 @@ impl MeshSelection {
         self.retain(|index| given.is_selectable(mesh, index));
         if given != kind {
             self.convert(mesh, given, kind);
+        }
+    }
+}
+
+/// The elements for which something is so, increasing, found on all threads.
+fn those<T: Send>(capacity: usize, is_so: impl Fn(u32) -> bool + Sync, name: fn(u32) -> T) -> Vec<T> {
+    /// Elements that a thread asks at a time.
+    const SHARE: usize = 1 << 14;
+    let starts: Vec<usize> = (0..capacity).step_by(SHARE).collect();
+    let found = starts.into_par_iter().map(|start| {
+        let share = start as u32..capacity.min(start + SHARE) as u32;
+        share.filter(|&element| is_so(element)).map(name).collect::<Vec<T>>()
+    });
+    found.collect::<Vec<_>>().into_iter().flatten().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use trigon_mesh::primitives;
+
+    use super::*;
+
+    /// Few and many selected elements are asked in different ways, which find the same.
+    #[test]
+    fn what_follows_from_many_elements_is_what_follows_from_few() {
+        let mut mesh = EditMesh::from_mesh(&primitives::grid(1.0, 1.0, 9, 7)).0;
+        let hidden: Vec<FaceId> = mesh.faces().step_by(11).collect();
+        hidden.into_iter().for_each(|face| mesh.set_face_hidden(face, true));
+        for kind in [ElementKind::Vertex, ElementKind::Edge] {
+            let capacity = kind.capacity(&mesh);
+            for left_out in 0..7 {
+                let mut many = MeshSelection::default();
+                many.set(bits(capacity, (0..capacity as u32).filter(|index| index % 7 != left_out)));
+                assert!(many.is_much_of(capacity), "{kind:?}: asked element by element");
+                let contains = |index: u32| many.contains(index);
+                let edges: Vec<EdgeId> = mesh
+                    .edges()
+                    .filter(|&edge| match kind {
+                        ElementKind::Vertex => mesh.edge_vertices(edge).iter().all(|v| contains(v.index())),
+                        _ => contains(edge.index()),
+                    })
+                    .filter(|&edge| !mesh.is_edge_hidden(edge))
+                    .collect();
+                let faces: Vec<FaceId> = mesh
+                    .faces()
+                    .filter(|&face| match kind {
+                        ElementKind::Vertex => mesh.face_vertices(face).all(|v| contains(v.index())),
+                        _ => mesh.face_edges(face).all(|e| contains(e.index())),
+                    })
+                    .filter(|&face| !mesh.is_face_hidden(face))
+                    .collect();
+                assert!(!faces.is_empty() && !edges.is_empty(), "{kind:?}: something follows");
+                assert_eq!(many.edges(&mesh, kind), edges, "{kind:?} without {left_out}");
+                assert_eq!(many.faces(&mesh, kind), faces, "{kind:?} without {left_out}");
+            }
         }
     }
 }
