@@ -165,13 +165,18 @@ fn identity(vertex: &ScreenVertex) -> [i32; 3] {
 }
 
 /// The other triangles of a face: those around one of them that have its number. Each of
-/// them finds this one, too.
+/// them finds this one, too. A triangle whose corners are one vertex is none: it only keeps a
+/// place.
 pub(crate) fn parts(geometry: &Geometry<'_>, primitive: u32) -> impl Iterator<Item = u32> {
     let face = geometry.face(primitive);
     let end = (geometry.len() as u32).min(primitive + 1 + MOST_PARTS);
     let is_part = move |part: &u32| geometry.face(*part) == face;
     let before = (primitive.saturating_sub(MOST_PARTS)..primitive).rev().take_while(is_part);
-    before.chain((primitive + 1..end).take_while(is_part))
+    let is_triangle = |part: &u32| {
+        let [a, b, c] = geometry.corners(*part);
+        a != b || b != c
+    };
+    before.chain((primitive + 1..end).take_while(is_part)).filter(is_triangle)
 }
 
 /// The corner of the primitive that is opposite its side on which two vertices lie.

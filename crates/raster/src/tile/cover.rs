@@ -333,10 +333,17 @@ impl Cover<'_> {
         seen
     }
 
+    /// Counts so much work for ties; whether they are to be decided. They are not where the tile
+    /// has too many and is drawn again.
+    #[inline(always)]
+    pub(super) fn may_decide(&self, units: u32) -> bool {
+        self.ties.spend(units) || !self.may_give_up
+    }
+
     /// Which of the lanes of equal depth have the smaller key.
     #[cold]
     fn won_ties(&self, place: u32, ties: u64, winners: &[u32]) -> u64 {
-        if !self.ties.spend(ties.count_ones()) {
+        if !self.may_decide(ties.count_ones()) {
             // The tile is drawn again.
             return 0;
         }

@@ -192,7 +192,7 @@ impl Cover<'_> {
         if self.in_order {
             winner != NOBODY && place < winner
         } else {
-            self.ties.spend(1) && winner != NOBODY && (self.precedes)(place, winner)
+            self.may_decide(1) && winner != NOBODY && (self.precedes)(place, winner)
         }
     }
 }

@@ -124,7 +124,7 @@ impl Cover<'_> {
         let Some(covering) = eight.covering(lane, self.offsets) else { return };
         let [columns, rows] = [covering.columns, covering.rows];
         let pixels = (columns[1] + 1 - columns[0]) * (rows[1] + 1 - rows[0]);
-        if !self.ties.spend(COVERING + pixels as u32 * self.offsets.len() as u32) {
+        if !self.may_decide(COVERING + pixels as u32 * self.offsets.len() as u32) {
             // The tile is drawn again.
             return;
         }

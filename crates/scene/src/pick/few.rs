@@ -5,6 +5,7 @@ use super::nearby::Sides;
 use super::object::{Drawn, Object};
 use super::region::Area;
 use super::screen::Screen;
+use crate::render::Blocks;
 
 /// The elements of an object that may lie in an area, each list increasing.
 #[derive(Default)]
@@ -17,9 +18,14 @@ pub(super) struct Few {
 impl Few {
     pub(super) fn new(object: &Object<'_>, screen: &Screen, area: &Area<'_>) -> Self {
         let mesh = object.mesh();
-        let triangles = object.drawn().map_or_else(Vec::new, |drawn| triangles(drawn, screen, area));
-        let face = |&triangle: &u32| object.drawn().map(|drawn| drawn.face(triangle as usize));
-        let faces = each_once(triangles.iter().filter_map(face).collect());
+        let (mut triangles, mut faces) = (Vec::new(), Vec::new());
+        if let Some(drawn) = object.drawn() {
+            let blocks = drawn.blocks(mesh);
+            triangles = near_triangles(drawn, blocks, (screen, area));
+            faces.extend(triangles.iter().map(|&triangle| drawn.face(triangle as usize)));
+            faces.extend(&blocks.scant_faces);
+        }
+        let faces = each_once(faces);
         let corners = || faces.iter().flat_map(|&face| mesh.face_corners(face as usize));
         let loose_vertices = mesh.loose_edges().as_flattened().iter().chain(mesh.loose_points()).copied();
         let loose_edges = mesh.face_edge_count() as u32..mesh.edge_count() as u32;
@@ -30,14 +36,14 @@ impl Few {
 }
 
 /// The triangles that may lie in an area.
-fn triangles(drawn: &Drawn, screen: &Screen, area: &Area<'_>) -> Vec<u32> {
+fn near_triangles(drawn: &Drawn, blocks: &Blocks, (screen, area): (&Screen, &Area<'_>)) -> Vec<u32> {
     let beyond = Beyond::new(drawn.map(), screen.half_size(), area);
-    let blocks = drawn.blocks().within(|block| beyond.may_hold(block));
     let corner = drawn.corners(screen);
     let is_near = |triangle: &usize| {
         !Sides::is_beside(&drawn.triangle(*triangle).map(|at| Sides::of(&corner(at), area)))
     };
-    blocks.flatten().filter(is_near).map(|triangle| triangle as u32).collect()
+    let near = blocks.within(|block| beyond.may_hold(block)).flatten().filter(is_near);
+    near.map(|triangle| triangle as u32).collect()
 }
 
 fn each_once(mut numbers: Vec<u32>) -> Vec<u32> {

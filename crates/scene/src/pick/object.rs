@@ -150,8 +150,8 @@ impl Drawn {
     }
 
     /// Boxes around its triangles.
-    pub(super) fn blocks(&self) -> &Blocks {
-        self.shape.geometry.blocks()
+    pub(super) fn blocks(&self, mesh: &Mesh) -> &Blocks {
+        self.shape.geometry.blocks(mesh)
     }
 
     pub(super) fn triangle_count(&self) -> usize {

@@ -38,6 +38,9 @@ pub(crate) struct Geometry {
     pub(crate) runs: Vec<Run>,
     /// Where each triangle was in the triangulation; `None` when in place.
     order: Option<Vec<u32>>,
+    /// Places in the triangulation of triangles that a change has taken from their faces,
+    /// increasing. The three corners of such a triangle are one.
+    fillers: Vec<u32>,
     /// Differs from that of any other geometry, and from its own before a change.
     pub(crate) state: GeometryState,
     bounds: OnceLock<Bounds3>,
@@ -119,6 +122,7 @@ impl Geometry {
             triangles,
             faces,
             order,
+            fillers: Vec::new(),
             rest: mesh.is_deformable().then(|| Box::new(mesh)),
             state: GeometryState::default(),
             bounds: OnceLock::new(),
@@ -153,6 +157,7 @@ impl Geometry {
             faces: self.faces.clone(),
             runs: self.runs.clone(),
             order: self.order.clone(),
+            fillers: self.fillers.clone(),
             state: GeometryState::default(),
             bounds: OnceLock::new(),
             blocks: OnceLock::new(),
@@ -169,7 +174,32 @@ impl Geometry {
 
     /// The index in the mesh's triangulation of a triangle of this list.
     pub(crate) fn triangulated(&self, triangle: usize) -> u32 {
+        let place = self.place_in_triangulation(triangle);
+        place - self.fillers.partition_point(|&filler| filler < place) as u32
+    }
+
+    /// The same with the places of fillers.
+    fn place_in_triangulation(&self, triangle: usize) -> u32 {
         self.order.as_ref().map_or(triangle as u32, |order| order[triangle])
+    }
+
+    /// Whether a triangle is none of the triangulation.
+    fn is_filler(&self, triangle: usize) -> bool {
+        self.fillers.binary_search(&self.place_in_triangulation(triangle)).is_ok()
+    }
+
+    /// Has fillers where another geometry of the same mesh has them.
+    fn filled_like(mut self, other: &Self) -> Self {
+        if !other.fillers.is_empty() {
+            let mut own = take(&mut self.triangles).into_iter();
+            let of = |place| if other.is_filler(place) { None } else { own.next() };
+            self.triangles = (0..other.triangles.len()).map(of).map(Option::unwrap_or_default).collect();
+            self.faces.clone_from(&other.faces);
+            self.runs.clone_from(&other.runs);
+            self.order.clone_from(&other.order);
+            self.fillers.clone_from(&other.fillers);
+        }
+        self
     }
 
     /// The box around all vertices that faces use.
@@ -182,10 +212,10 @@ impl Geometry {
     }
 
     /// Boxes around its triangles.
-    pub(crate) fn blocks(&self) -> &Blocks {
+    pub(crate) fn blocks(&self, source: &Mesh) -> &Blocks {
         if self.blocks.get().is_none() {
             // Without a lock: a thread that waits for others may be given work that asks for the same.
-            let _ = self.blocks.set(Blocks::new(&self.triangles, &self.columns.positions));
+            let _ = self.blocks.set(Blocks::new(source, self));
         }
         self.blocks.get().expect("they were just made")
     }
@@ -207,7 +237,7 @@ impl Geometry {
             let corner_tangents = source.generate_tangents(uv_set);
             let attributes = Attributes { corner_tangents, ..source.attributes().clone() };
             mesh.set_attributes(attributes).expect("there is a tangent for each corner");
-            Box::new(Self::new(&mesh))
+            Box::new(Self::new(&mesh).filled_like(self))
         })
     }
 

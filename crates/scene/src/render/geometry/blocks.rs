@@ -4,6 +4,9 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
+use trigon_mesh::Mesh;
+
+use super::Geometry;
 
 /// Triangles in a box.
 const BLOCK: usize = 64;
@@ -16,6 +19,9 @@ const SHARE: usize = 64;
 pub(crate) struct Blocks {
     boxes: Vec<BlockBox>,
     triangles: usize,
+    /// Faces some of whose corners are corners of no triangle: such as cross themselves, or
+    /// have no area. Increasing.
+    pub(crate) scant_faces: Vec<u32>,
 }
 
 /// The least and the greatest coordinates, leaving out NaN; infinite without any.
@@ -26,11 +32,13 @@ pub(crate) struct BlockBox {
 }
 
 impl Blocks {
-    pub(super) fn new(triangles: &[[u32; 3]], positions: &[Vec<f32>; 3]) -> Self {
+    pub(super) fn new(source: &Mesh, geometry: &Geometry) -> Self {
+        let (triangles, positions) = (&geometry.triangles, &geometry.columns.positions);
         let blocks = triangles.par_chunks(BLOCK).with_min_len(SHARE);
         Self {
             boxes: blocks.map(|block| BlockBox::around(block, positions)).collect(),
             triangles: triangles.len(),
+            scant_faces: scant_faces(source, geometry),
         }
     }
 
@@ -54,4 +62,15 @@ impl BlockBox {
         }
         Self { min, max }
     }
+}
+
+/// Faces with fewer than two triangles less than they have corners: of so many, each cuts a
+/// corner off, and the last has three.
+fn scant_faces(source: &Mesh, geometry: &Geometry) -> Vec<u32> {
+    let mut counts = vec![0; source.face_count()];
+    for (&[a, b, c], &face) in geometry.triangles.iter().zip(&geometry.faces) {
+        counts[face as usize] += usize::from(a != b || b != c);
+    }
+    let faces = (0..).zip(counts.iter().zip(source.faces()));
+    faces.filter(|(_, (count, corners))| *count + 2 < corners.len()).map(|(face, _)| face).collect()
 }

@@ -3,8 +3,9 @@
 //! Whatever it holds afterwards draws the bytes of geometry made from the changed mesh:
 //! each triangle shows the same values. Only the numbers of vertices may differ. What is
 //! made anew as a whole: tangents that were generated, when a normal map asks for them;
-//! the geometry of a mesh that a pose can bend; and all of it when a polygon gets more or
-//! fewer triangles than it had.
+//! the geometry of a mesh that a pose can bend; and all of it when a polygon gets more
+//! triangles than there are places for. One that folds, and gets fewer, keeps its places, filled
+//! with triangles whose corners are one.
 
 use std::mem::{replace, take};
 use std::ops::Range;
@@ -15,7 +16,7 @@ use trigon_mesh::{ChangedElements, Mesh, RenderMesh, RenderUpdate};
 use trigon_raster::EdgeFlags;
 
 use super::edge_flags::flags_of_face;
-use super::side_edges::sides_of_triangle;
+use super::side_edges::{NO_EDGE, sides_of_triangle};
 use super::{Geometry, GeometryChange, GeometryState, places_for};
 
 impl Geometry {
@@ -66,12 +67,12 @@ impl Geometry {
     }
 
     /// Replaces the triangles of faces; those that are other ones now, or have other flags or
-    /// sides, increasing. `None`, and nothing is replaced, where a face has more or fewer than
-    /// before.
+    /// sides, increasing. `None`, and nothing is replaced, where a face has more than places.
     fn replace_triangles(&mut self, mesh: &Mesh, update: &RenderUpdate) -> Option<Vec<u32>> {
         /// Faces that a thread takes at a time.
         const PIECE: usize = 1024;
         let cuts = self.cuts(mesh, update)?;
+        self.note_fillers(&cuts);
         let vertex_of_corner = self.links.as_ref()?.vertex_of_corner();
         let mut lists = TriangleLists {
             triangles: &mut self.triangles,
@@ -81,7 +82,7 @@ impl Geometry {
         let mut first = 0;
         let mut pieces = Vec::with_capacity(cuts.len().div_ceil(PIECE));
         for cuts in cuts.chunks(PIECE) {
-            let end = cuts[cuts.len() - 1].end();
+            let end = cuts[cuts.len() - 1].place.end;
             pieces.push((cuts, first, lists.split_off(end - first)));
             first = end;
         }
@@ -100,10 +101,14 @@ impl Geometry {
     }
 
     /// How the changed faces are cut, by the place of their triangles.
+    ///
+    /// Places may be filled only where flags and sides are known: those that are asked for later
+    /// are made from the triangulation, which knows no fillers.
     fn cuts<'a>(&self, mesh: &Mesh, update: &'a RenderUpdate) -> Option<Vec<Cut<'a>>> {
         let slots = mesh.attributes().face_materials.as_deref();
         let (mut triangles, mut faces) =
             (update.triangulation.triangles.as_slice(), update.triangulation.triangle_faces.as_slice());
+        let may_fill = self.edge_flags.get().is_some() && self.side_edges.get().is_some();
         let mut cuts = Vec::with_capacity(update.faces.len());
         for &face in &update.faces {
             let count = faces.iter().take_while(|&&of| of == face).count();
@@ -111,16 +116,37 @@ impl Geometry {
             let own = triangles.split_off(..count)?;
             let slot = slots.map_or(0, |slots| slots[face as usize]);
             let place = self.place_of(face, slot, mesh.face_count());
-            if place.len() != count {
+            if place.len() < count || (place.len() > count && !may_fill) {
                 return None;
             }
-            if count > 0 {
-                cuts.push(Cut { face, triangles: own, place: place.start });
+            if !place.is_empty() {
+                cuts.push(Cut { face, triangles: own, place });
             }
         }
         // Out of order where faces of several slots change.
-        cuts.sort_by_key(|cut| cut.place);
+        cuts.sort_by_key(|cut| cut.place.start);
         Some(cuts)
+    }
+
+    /// Brings the list of fillers up to date.
+    fn note_fillers(&mut self, cuts: &[Cut<'_>]) {
+        let is_full = |cut: &Cut<'_>| cut.triangles.len() == cut.place.len();
+        if self.fillers.is_empty() && cuts.iter().all(is_full) {
+            return;
+        }
+        // The places of a face lie side by side in the triangulation, too.
+        let in_triangulation = |cut: &Cut<'_>| {
+            let start = self.place_in_triangulation(cut.place.start);
+            (start..start + cut.place.len() as u32, cut.triangles.len() as u32)
+        };
+        let mut places: Vec<_> = cuts.iter().map(in_triangulation).collect();
+        places.sort_unstable_by_key(|(places, _)| places.start);
+        self.fillers.retain(|filler| {
+            let next = places.partition_point(|(places, _)| places.end <= *filler);
+            !places.get(next).is_some_and(|(places, _)| places.contains(filler))
+        });
+        self.fillers.extend(places.into_iter().flat_map(|(places, count)| places.start + count..places.end));
+        self.fillers.sort_unstable();
     }
 
     /// Where the triangles of a face of a slot lie; empty where it has none.
@@ -142,14 +168,8 @@ struct Cut<'a> {
     face: u32,
     /// Over the corners of the mesh.
     triangles: &'a [[u32; 3]],
-    /// Where they lie in the geometry.
-    place: usize,
-}
-
-impl Cut<'_> {
-    fn end(&self) -> usize {
-        self.place + self.triangles.len()
-    }
+    /// Where they lie in the geometry; there may be more places.
+    place: Range<usize>,
 }
 
 /// What geometry has for each triangle, of some triangles one after the other; or nothing
@@ -182,19 +202,23 @@ impl<'a> TriangleLists<'a> {
         (cut, first): (&Cut<'_>, usize),
         (made_flags, replaced): (&[EdgeFlags], &mut Vec<u32>),
     ) {
-        for (number, triangle) in cut.triangles.iter().enumerate() {
-            let at = cut.place - first + number;
-            let corners = triangle.map(|corner| vertex_of_corner[corner as usize]);
+        let filler = mesh.face_corners(cut.face as usize).start as u32;
+        for (number, place) in cut.place.clone().enumerate() {
+            let (at, triangle) = (place - first, cut.triangles.get(number));
+            let corners = triangle.copied().unwrap_or([filler; 3]);
+            let corners = corners.map(|corner| vertex_of_corner[corner as usize]);
             let mut differs = replace(&mut self.triangles[at], corners) != corners;
-            if let Some((own, &made)) = self.flags.get_mut(at).zip(made_flags.get(number)) {
+            if let Some(own) = self.flags.get_mut(at) {
+                let made = made_flags.get(number).copied().unwrap_or(EdgeFlags::NONE);
                 differs |= replace(own, made) != made;
             }
             if let Some(own) = self.sides.get_mut(at) {
-                let sides = sides_of_triangle(mesh, cut.face, triangle);
+                let of_triangle = |triangle| sides_of_triangle(mesh, cut.face, triangle);
+                let sides = triangle.map_or([NO_EDGE; 3], of_triangle);
                 differs |= replace(own, sides) != sides;
             }
             if differs {
-                replaced.push((cut.place + number) as u32);
+                replaced.push(place as u32);
             }
         }
     }

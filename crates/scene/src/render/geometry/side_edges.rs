@@ -3,7 +3,7 @@
 use trigon_mesh::Mesh;
 
 /// Stands for a diagonal of a triangulation.
-const NO_EDGE: u32 = u32::MAX;
+pub(super) const NO_EDGE: u32 = u32::MAX;
 
 /// For each triangle of a mesh's triangulation the edges that its sides are, from the first
 /// corner on.

@@ -17,8 +17,9 @@ use crate::{
 struct Contents {
     triangles: Vec<[Vec<u32>; 3]>,
     faces: Vec<u32>,
-    runs: Vec<super::super::Run>,
-    order: Option<Vec<u32>>,
+    /// The slot of each run, and its triangles.
+    runs: Vec<(u32, usize)>,
+    triangulated: Vec<u32>,
     edge_flags: Vec<EdgeFlags>,
     side_edges: Vec<[u32; 3]>,
     bounds: [[u64; 6]; 2],
@@ -32,13 +33,21 @@ impl Contents {
         let lists: Vec<&Vec<f32>> = lists.chain(columns.colors.iter().flatten()).collect();
         let corner =
             |vertex: u32| lists.iter().map(|column| column[vertex as usize].to_bits()).collect::<Vec<_>>();
+        let (flags, sides) = (geometry.edge_flags(asset.mesh()), geometry.side_edges(asset.mesh()));
+        let is_real = |triangle: &usize| !geometry.is_filler(*triangle);
+        let all: Vec<usize> = (0..geometry.triangles.len()).filter(is_real).collect();
+        for filler in (0..geometry.triangles.len()).filter(|triangle| !is_real(triangle)) {
+            let [a, b, c] = geometry.triangles[filler];
+            assert!(a == b && b == c && sides[filler] == [u32::MAX; 3], "filler {filler} is seen");
+        }
+        let runs = geometry.runs.iter().map(|run| (run.slot, run.triangles.clone().filter(is_real).count()));
         Self {
-            triangles: geometry.triangles.iter().map(|triangle| triangle.map(corner)).collect(),
-            faces: geometry.faces.clone(),
-            runs: geometry.runs.clone(),
-            order: geometry.order.clone(),
-            edge_flags: geometry.edge_flags(asset.mesh()).to_vec(),
-            side_edges: geometry.side_edges(asset.mesh()).to_vec(),
+            triangles: all.iter().map(|&triangle| geometry.triangles[triangle].map(corner)).collect(),
+            faces: all.iter().map(|&triangle| geometry.faces[triangle]).collect(),
+            runs: runs.filter(|&(_, count)| count > 0).collect(),
+            triangulated: all.iter().map(|&triangle| geometry.triangulated(triangle)).collect(),
+            edge_flags: all.iter().map(|&triangle| flags[triangle]).collect(),
+            side_edges: all.iter().map(|&triangle| sides[triangle]).collect(),
             bounds: [asset.bounds(), geometry.bounds()].map(|bounds| {
                 let ends = bounds.min.to_array().into_iter().chain(bounds.max.to_array());
                 ends.map(f64::to_bits).collect::<Vec<_>>().try_into().expect("six numbers")
@@ -271,7 +280,8 @@ proptest! {
             let change = change(asset.mesh(), &edits);
             scene.change_mesh(id, &change).expect("the mesh has it all");
             let kept = warm.render(&scene, &camera).expect("drawn");
-            prop_assert!(kept == render(&fresh(&scene), &camera, &settings).expect("drawn"), "{:?}", change);
+            let fresh = render(&fresh(&scene), &camera, &settings).expect("drawn");
+            prop_assert!(kept == fresh, "{:?}", change);
         }
     }
 }
@@ -332,7 +342,30 @@ fn kept_shadows_do_not_hold_geometry() {
     assert!(kept == render(&fresh(&scene), &camera, renderer.settings()).expect("drawn"), "new shadows");
 }
 
-/// A polygon that folds has fewer triangles; then all are made anew.
+/// Whoever drags vertices over their neighbours folds polygons, which have fewer triangles then.
+#[test]
+fn folded_polygons_made_all_geometry_anew() {
+    let mut scene = scene_of(primitives::grid(4.0, 2.0, 20, 10));
+    is_in_place(&mut scene, &MeshChange::default());
+    Contents::of(asset(&scene).1);
+    let places = asset(&scene).1.mesh().positions().to_vec();
+    let mut counts = Vec::new();
+    for step in [1.5, 0.0, -2.5, 0.4] {
+        let moved = (0..places.len()).step_by(5);
+        let to = |vertex: usize| (vertex as u32, places[vertex] + Vec3::new(0.2 * step, 0.15 * step, 0.0));
+        let change = MeshChange { positions: moved.map(to).collect(), ..MeshChange::default() };
+        let id = asset(&scene).0;
+        scene.change_mesh(id, &change).expect("the grid has these vertices");
+        let geometry = asset(&scene).1.geometry();
+        assert!(geometry.change.is_some(), "it followed where vertices moved by {step}");
+        counts.push(geometry.fillers.len());
+        assert_eq!(Contents::of(asset(&scene).1), Contents::of(asset(&fresh(&scene)).1), "moved by {step}");
+    }
+    assert!(counts[0] > 10 && counts[2] > 10, "some fold: {counts:?}");
+    assert!(counts[1] == 0 && counts[3] == 0, "none does: {counts:?}");
+}
+
+/// A polygon without area has no triangle; if it gets some back, all are made anew.
 #[test]
 fn a_polygon_may_lose_its_area_and_get_it_back() {
     let mut scene = scene_of(primitives::dodecahedron(1.0));
