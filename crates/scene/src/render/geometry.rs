@@ -20,7 +20,7 @@ use trigon_raster::EdgeFlags;
 use super::columns::Columns;
 pub(crate) use blocks::{BlockBox, Blocks};
 use edge_flags::flags_of_mesh;
-use side_edges::sides_of_mesh;
+use side_edges::{NO_EDGE, sides_of_mesh};
 
 /// The UV sets for which tangents are made: as many as the glTF reader takes. Each set
 /// with a normal map takes as much memory as the mesh, and a file may have thousands.
@@ -188,6 +188,17 @@ impl Geometry {
         self.fillers.binary_search(&self.place_in_triangulation(triangle)).is_ok()
     }
 
+    /// What was made for each triangle of the triangulation, with something in the places of fillers.
+    fn with_fillers<T: Copy>(&self, made: Vec<T>, filler: T) -> Vec<T> {
+        let mut fillers = self.fillers.iter().peekable();
+        let (count, mut made) = (made.len() + self.fillers.len(), made.into_iter());
+        let of = |place: usize| match fillers.next_if(|&&next| next as usize == place) {
+            Some(_) => filler,
+            None => made.next().unwrap_or(filler),
+        };
+        if self.fillers.is_empty() { made.collect() } else { (0..count).map(of).collect() }
+    }
+
     /// Has fillers where another geometry of the same mesh has them.
     fn filled_like(mut self, other: &Self) -> Self {
         if !other.fillers.is_empty() {
@@ -245,7 +256,7 @@ impl Geometry {
     /// pictures that show edges ask for it.
     pub(crate) fn edge_flags(&self, source: &Mesh) -> &[EdgeFlags] {
         self.edge_flags.get_or_init(|| {
-            let mut flags = flags_of_mesh(source);
+            let mut flags = self.with_fillers(flags_of_mesh(source), EdgeFlags::NONE);
             if let Some(order) = &self.order {
                 permute(&mut flags, order);
             }
@@ -257,7 +268,7 @@ impl Geometry {
     /// Only pictures with marked edges ask for it: it takes 12 bytes for each triangle.
     pub(crate) fn side_edges(&self, source: &Mesh) -> &[[u32; 3]] {
         self.side_edges.get_or_init(|| {
-            let mut sides = sides_of_mesh(source);
+            let mut sides = self.with_fillers(sides_of_mesh(source), [NO_EDGE; 3]);
             if let Some(order) = &self.order {
                 permute(&mut sides, order);
             }

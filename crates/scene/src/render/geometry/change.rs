@@ -3,16 +3,16 @@
 //! Whatever it holds afterwards draws the bytes of geometry made from the changed mesh:
 //! each triangle shows the same values. Only the numbers of vertices may differ. What is
 //! made anew as a whole: tangents that were generated, when a normal map asks for them;
-//! the geometry of a mesh that a pose can bend; and all of it when a polygon gets more
-//! triangles than there are places for. One that folds, and gets fewer, keeps its places, filled
-//! with triangles whose corners are one.
+//! the geometry of a mesh that a pose can bend. Each polygon has places for two triangles less
+//! than it has corners; one that folds, and has fewer, fills them with triangles whose corners
+//! are one.
 
 use std::mem::{replace, take};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
-use trigon_mesh::{ChangedElements, Mesh, RenderMesh, RenderUpdate};
+use trigon_mesh::{ChangedElements, Mesh, RenderLinks, RenderMesh, RenderUpdate};
 use trigon_raster::EdgeFlags;
 
 use super::edge_flags::flags_of_face;
@@ -22,8 +22,9 @@ use super::{Geometry, GeometryChange, GeometryState, places_for};
 impl Geometry {
     /// Geometry that can follow changes of its mesh.
     pub(crate) fn that_follows(mesh: &Mesh) -> Self {
-        let (render_mesh, links) = RenderMesh::with_links(mesh);
-        Self { links, ..Self::of(render_mesh) }
+        let (mut render_mesh, links) = RenderMesh::with_links(mesh);
+        let fillers = links.as_ref().map(|links| fill(&mut render_mesh, mesh, links));
+        Self { links, fillers: fillers.unwrap_or_default(), ..Self::of(render_mesh) }
     }
 
     /// Whether it can follow changes of its mesh.
@@ -101,14 +102,10 @@ impl Geometry {
     }
 
     /// How the changed faces are cut, by the place of their triangles.
-    ///
-    /// Places may be filled only where flags and sides are known: those that are asked for later
-    /// are made from the triangulation, which knows no fillers.
     fn cuts<'a>(&self, mesh: &Mesh, update: &'a RenderUpdate) -> Option<Vec<Cut<'a>>> {
         let slots = mesh.attributes().face_materials.as_deref();
         let (mut triangles, mut faces) =
             (update.triangulation.triangles.as_slice(), update.triangulation.triangle_faces.as_slice());
-        let may_fill = self.edge_flags.get().is_some() && self.side_edges.get().is_some();
         let mut cuts = Vec::with_capacity(update.faces.len());
         for &face in &update.faces {
             let count = faces.iter().take_while(|&&of| of == face).count();
@@ -116,7 +113,7 @@ impl Geometry {
             let own = triangles.split_off(..count)?;
             let slot = slots.map_or(0, |slots| slots[face as usize]);
             let place = self.place_of(face, slot, mesh.face_count());
-            if place.len() < count || (place.len() > count && !may_fill) {
+            if place.len() < count {
                 return None;
             }
             if !place.is_empty() {
@@ -161,6 +158,33 @@ impl Geometry {
         let count = faces[first..].iter().take_while(|&&other| other == face).count();
         start + first..start + first + count
     }
+}
+
+/// Gives each face places for as many triangles as it can ever have; those of fillers,
+/// increasing. A polygon that crosses itself or has no area has fewer triangles than places.
+fn fill(render_mesh: &mut RenderMesh, mesh: &Mesh, links: &RenderLinks) -> Vec<u32> {
+    let most = mesh.corner_count() - 2 * mesh.face_count();
+    let mut fillers = Vec::new();
+    if render_mesh.triangles.len() == most {
+        return fillers;
+    }
+    let mut own = take(&mut render_mesh.triangles).into_iter();
+    let mut of_faces = take(&mut render_mesh.triangle_faces).into_iter().peekable();
+    let slots = mesh.attributes().face_materials.as_deref();
+    render_mesh.triangle_materials.clear();
+    for (face, corners) in (0_u32..).zip(mesh.faces()) {
+        let filler = links.vertex_of_corner()[corners.start];
+        for _ in 2..corners.len() {
+            let triangle = of_faces.next_if_eq(&face).and_then(|_| own.next());
+            if triangle.is_none() {
+                fillers.push(render_mesh.triangles.len() as u32);
+            }
+            render_mesh.triangles.push(triangle.unwrap_or([filler; 3]));
+            render_mesh.triangle_faces.push(face);
+            render_mesh.triangle_materials.push(slots.map_or(0, |slots| slots[face as usize]));
+        }
+    }
+    fillers
 }
 
 /// A changed face and its triangles.

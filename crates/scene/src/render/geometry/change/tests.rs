@@ -347,10 +347,9 @@ fn kept_shadows_do_not_hold_geometry() {
 fn folded_polygons_made_all_geometry_anew() {
     let mut scene = scene_of(primitives::grid(4.0, 2.0, 20, 10));
     is_in_place(&mut scene, &MeshChange::default());
-    Contents::of(asset(&scene).1);
     let places = asset(&scene).1.mesh().positions().to_vec();
     let mut counts = Vec::new();
-    for step in [1.5, 0.0, -2.5, 0.4] {
+    for step in [1.5, 0.0, -2.5, 0.4, 1.7] {
         let moved = (0..places.len()).step_by(5);
         let to = |vertex: usize| (vertex as u32, places[vertex] + Vec3::new(0.2 * step, 0.15 * step, 0.0));
         let change = MeshChange { positions: moved.map(to).collect(), ..MeshChange::default() };
@@ -365,7 +364,7 @@ fn folded_polygons_made_all_geometry_anew() {
     assert!(counts[1] == 0 && counts[3] == 0, "none does: {counts:?}");
 }
 
-/// A polygon without area has no triangle; if it gets some back, all are made anew.
+/// A polygon without area has no triangle.
 #[test]
 fn a_polygon_may_lose_its_area_and_get_it_back() {
     let mut scene = scene_of(primitives::dodecahedron(1.0));
@@ -378,7 +377,8 @@ fn a_polygon_may_lose_its_area_and_get_it_back() {
     let mut counts = Vec::new();
     for change in [all(&|_| Vec3::ZERO), all(&|vertex| places[vertex])] {
         scene.change_mesh(id, &change).expect("a dodecahedron has 20 vertices");
-        counts.push(asset(&scene).1.geometry().triangles.len());
+        let geometry = asset(&scene).1.geometry();
+        counts.push(geometry.triangles.len() - geometry.fillers.len());
         assert_eq!(Contents::of(asset(&scene).1), Contents::of(asset(&fresh(&scene)).1), "as made anew");
     }
     assert_eq!(counts, [0, 36], "nothing, and twelve pentagons");
