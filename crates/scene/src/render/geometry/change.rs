@@ -12,7 +12,7 @@ use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
-use trigon_mesh::{ChangedElements, Mesh, RenderLinks, RenderMesh, RenderUpdate};
+use trigon_mesh::{ChangedElements, Mesh, RenderLinks, RenderMesh, RenderUpdate, Triangulation};
 use trigon_raster::EdgeFlags;
 
 use super::edge_flags::flags_of_face;
@@ -168,23 +168,55 @@ fn fill(render_mesh: &mut RenderMesh, mesh: &Mesh, links: &RenderLinks) -> Vec<u
     if render_mesh.triangles.len() == most {
         return fillers;
     }
-    let mut own = take(&mut render_mesh.triangles).into_iter();
-    let mut of_faces = take(&mut render_mesh.triangle_faces).into_iter().peekable();
+    // Those of the render mesh, over corners.
+    let Triangulation { triangles, triangle_faces } = mesh.triangulation();
+    let (mut rest, mut faces) = (triangles.as_slice(), triangle_faces.as_slice());
+    (render_mesh.triangles, render_mesh.triangle_faces) =
+        (Vec::with_capacity(most), Vec::with_capacity(most));
     let slots = mesh.attributes().face_materials.as_deref();
     render_mesh.triangle_materials.clear();
     for (face, corners) in (0_u32..).zip(mesh.faces()) {
-        let filler = links.vertex_of_corner()[corners.start];
-        for _ in 2..corners.len() {
-            let triangle = of_faces.next_if_eq(&face).and_then(|_| own.next());
-            if triangle.is_none() {
+        let count = faces.iter().take_while(|&&of| of == face).count();
+        let own;
+        (own, rest) = rest.split_at(count);
+        faces = &faces[count..];
+        let mut made = fillers_of(mesh, face, own);
+        for number in 0..corners.len() - 2 {
+            let triangle = own.get(number).copied().unwrap_or_else(|| {
                 fillers.push(render_mesh.triangles.len() as u32);
-            }
-            render_mesh.triangles.push(triangle.unwrap_or([filler; 3]));
+                [made.next(); 3]
+            });
+            render_mesh.triangles.push(triangle.map(|corner| links.vertex_of_corner()[corner as usize]));
             render_mesh.triangle_faces.push(face);
             render_mesh.triangle_materials.push(slots.map_or(0, |slots| slots[face as usize]));
         }
     }
     fillers
+}
+
+/// The corners of which the fillers of a face consist.
+struct Fillers {
+    /// Those that no triangle of the face has, so that none is without a triangle.
+    unused: std::vec::IntoIter<u32>,
+    first: u32,
+}
+
+fn fillers_of(mesh: &Mesh, face: u32, triangles: &[[u32; 3]]) -> Fillers {
+    let corners = mesh.face_corners(face as usize);
+    let first = corners.start as u32;
+    let mut unused = Vec::new();
+    if triangles.len() + 2 < corners.len() {
+        let mut is_used = vec![false; corners.len()];
+        triangles.as_flattened().iter().for_each(|corner| is_used[(corner - first) as usize] = true);
+        unused.extend((first..).zip(is_used).filter(|(_, is_used)| !is_used).map(|(corner, _)| corner));
+    }
+    Fillers { unused: unused.into_iter(), first }
+}
+
+impl Fillers {
+    fn next(&mut self) -> u32 {
+        self.unused.next().unwrap_or(self.first)
+    }
 }
 
 /// A changed face and its triangles.
@@ -226,10 +258,10 @@ impl<'a> TriangleLists<'a> {
         (cut, first): (&Cut<'_>, usize),
         (made_flags, replaced): (&[EdgeFlags], &mut Vec<u32>),
     ) {
-        let filler = mesh.face_corners(cut.face as usize).start as u32;
+        let mut fillers = fillers_of(mesh, cut.face, cut.triangles);
         for (number, place) in cut.place.clone().enumerate() {
             let (at, triangle) = (place - first, cut.triangles.get(number));
-            let corners = triangle.copied().unwrap_or([filler; 3]);
+            let corners = triangle.copied().unwrap_or_else(|| [fillers.next(); 3]);
             let corners = corners.map(|corner| vertex_of_corner[corner as usize]);
             let mut differs = replace(&mut self.triangles[at], corners) != corners;
             if let Some(own) = self.flags.get_mut(at) {
