@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use trigon_camera::Viewport;
+use trigon_math::Bounds3;
 use trigon_scene::RenderSettings;
 
 use super::Session;
@@ -163,9 +164,60 @@ impl Session<'_> {
         let known = self.bounds.filter(|(known, _)| *known == revision);
         let (_, bounds) = *self.bounds.insert(known.unwrap_or_else(|| (revision, self.stage.scene.bounds())));
         let views = match purpose {
-            Purpose::Window(_) => Views::new(&self.stage.panes(), self.stage.viewport(), &bounds),
+            Purpose::Window(_) => Views::new(&self.stage.panes(), self.stage.viewport(), &steady(&bounds)),
             Purpose::Picture => self.stage.orbit.camera(&bounds).into(),
         };
         self.worker.begin(Job { purpose, views, task });
+    }
+}
+
+/// A box around bounds that mostly stays while they change a little: the clip planes follow
+/// from it, and with other planes nothing of the last picture can be kept. Whoever drags the
+/// outermost vertex changes the bounds with every movement.
+fn steady(bounds: &Bounds3) -> Bounds3 {
+    /// Of the bounds' size, the part that the box is rounded to, up to a factor of two.
+    const PART: f64 = 8.0;
+    let size = bounds.size().max_element() / PART;
+    if !(size.is_normal() && size > 0.0) {
+        return *bounds;
+    }
+    // A power of two: its logarithm is in the exponent's bits, alike on all machines.
+    let step = f64::from_bits(size.to_bits() & f64::INFINITY.to_bits());
+    let (min, max) = ((bounds.min / step).floor() * step, (bounds.max / step).ceil() * step);
+    if min.is_finite() && max.is_finite() { Bounds3 { min, max } } else { *bounds }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use trigon_math::DVec3;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn steady_bounds_hold_the_bounds_and_are_hardly_larger(
+            corner in prop::array::uniform3(-1e6..1e6_f64),
+            size in prop::array::uniform3(0.0..1e5_f64),
+        ) {
+            let min = DVec3::from_array(corner);
+            let bounds = Bounds3 { min, max: min + DVec3::from_array(size) };
+            let box_around = steady(&bounds);
+            prop_assert!(box_around.min.cmple(bounds.min).all() && box_around.max.cmpge(bounds.max).all());
+            let largest = bounds.size().max_element();
+            prop_assert!((box_around.size() - bounds.size()).max_element() <= largest / 4.0);
+        }
+    }
+
+    #[test]
+    fn dragging_the_outermost_vertex_moved_the_clip_planes() {
+        let bounds = |x: f64| Bounds3 { min: DVec3::splat(-1.0), max: DVec3::new(x, 1.0, 1.0) };
+        let mut boxes: Vec<_> =
+            (0..200).map(|step| steady(&bounds(1.01 + 0.001 * f64::from(step)))).collect();
+        boxes.dedup();
+        assert!(boxes.len() <= 2, "200 movements: {boxes:?}");
+        for odd in [Bounds3::EMPTY, Bounds3 { min: DVec3::ZERO, max: DVec3::ZERO }, bounds(f64::INFINITY)] {
+            assert_eq!(steady(&odd), odd, "nothing to be rounded to");
+        }
     }
 }
