@@ -107,7 +107,7 @@ impl Rasterizer {
     /// let after = Triangle([[-0.9, -0.9], [-0.7, -0.9], [-0.8, -0.8]]);
     /// let mut pass = Pass::new();
     /// pass.triangles(Draw::new(&after, &[[0, 1, 2]]));
-    /// let changes = [DrawChange { vertices: &[1], triangles: &[] }];
+    /// let changes = [DrawChange { vertices: &[1], ..DrawChange::default() }];
     /// let redraw = rasterizer.redraw(&pass, &mut target, Some(&changes));
     /// assert!(redraw.parts.iter().all(|part| part.max[0] < 200), "the left part alone");
     ///

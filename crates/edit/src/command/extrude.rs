@@ -1,18 +1,20 @@
 //! Extruding and insetting.
 
+use std::collections::BTreeSet;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trigon_mesh::edit::{ExtrudeOffset, Inset as InsetSettings};
+use trigon_mesh::edit::{ExtrudeOffset, Inset as InsetSettings, VertexId};
 use trigon_mesh::math::{DAffine3, DVec3};
 
 use super::space::TransformSpace;
 use super::{Action, Outcome};
 use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
-use crate::selection::{ElementKind, Elements};
+use crate::selection::Elements;
 
-/// Extrudes what is selected: faces as a region, edges to faces, vertices to edges. What was extruded
-/// is selected, and moves.
+/// Extrudes what is selected: faces as a region; where there are none, edges to faces, and vertices at
+/// none of these edges to edges. What was extruded is selected, and moves.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Extrude {
@@ -48,11 +50,18 @@ impl Action for Extrude {
                 return Ok(AfterEdit::Select(Elements::Faces(faces)));
             }
             let edges = selection.edges(mesh, kind);
-            if !edges.is_empty() && kind != ElementKind::Vertex || edges.len() > 1 {
+            let ends: BTreeSet<VertexId> = edges.iter().flat_map(|&edge| mesh.edge_vertices(edge)).collect();
+            let mut alone = selection.vertices(mesh, kind);
+            alone.retain(|vertex| !ends.contains(vertex));
+            if alone.is_empty() {
                 return Ok(AfterEdit::Select(Elements::Edges(mesh.extrude_edges(&edges, offset)?.edges)));
             }
-            let made = mesh.extrude_vertices(&selection.vertices(mesh, kind), offset)?;
-            Ok(AfterEdit::Select(Elements::Vertices(made.vertices)))
+            let mut vertices = mesh.extrude_vertices(&alone, offset)?.vertices;
+            if !edges.is_empty() {
+                let made = mesh.extrude_edges(&edges, offset)?.edges;
+                vertices.extend(made.iter().flat_map(|&edge| mesh.edge_vertices(edge)));
+            }
+            Ok(AfterEdit::Select(Elements::Vertices(vertices)))
         })?;
         Ok(Outcome::silent())
     }

@@ -136,3 +136,33 @@ fn corners_that_are_left_out_are_told() {
     let again = document.run(command(json!({ "op": "select_all" }))).expect("edited");
     assert!(again.warnings.is_empty(), "told once");
 }
+
+/// In vertex mode two joined vertices are an edge, which becomes a face; a vertex apart becomes an edge.
+#[test]
+fn two_joined_vertices_were_extruded_to_two_edges() {
+    for (elements, faces, edges, selected) in
+        [(vec![0, 1], 1, 3, 2), (vec![0, 2], 0, 2, 2), (vec![0, 1, 3], 1, 4, 3), (vec![2], 0, 1, 1)]
+    {
+        let mut scene = Scene::new();
+        scene.add_object("grid", primitives::grid(1.0, 1.0, 3, 3), Material::default());
+        let mut document = Document::new(scene);
+        run_all(
+            &mut document,
+            &[
+                json!({ "op": "edit_objects", "objects": ["grid"] }),
+                json!({ "op": "select", "elements": elements }),
+            ],
+        );
+        let counts = |document: &Document| {
+            let (id, _) = document.selection().meshes().next().expect("one is edited");
+            let mesh = document.mesh(id).expect("it is edited");
+            [mesh.face_count(), mesh.edge_count()]
+        };
+        let before = counts(&document);
+        run_all(&mut document, &[json!({ "op": "extrude", "offset": [0.0, 1.0, 0.0] })]);
+        let after = counts(&document);
+        assert_eq!([after[0] - before[0], after[1] - before[1]], [faces, edges], "{elements:?}");
+        let (_, selection) = document.selection().meshes().next().expect("it still is");
+        assert_eq!(selection.len(), selected, "{elements:?}: what was extruded is selected");
+    }
+}

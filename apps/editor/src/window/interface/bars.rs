@@ -59,6 +59,10 @@ fn view(ui: &mut Ui, editor: &Editor, stage: &Stage, requests: &mut Vec<Request>
     if ui.selectable_label(editor.view.x_ray, "X-Ray").clicked() {
         requests.push(Request::View(ViewRequest::ToggleXRay));
     }
+    let four_views = ui.selectable_label(stage.four_views.is_some(), "Four Views");
+    if four_views.on_hover_text("Top, front and right side beside the view").clicked() {
+        requests.push(Request::View(ViewRequest::ToggleFourViews));
+    }
 }
 
 fn tool_settings(ui: &mut Ui, editor: &Editor, requests: &mut Vec<Request>) {

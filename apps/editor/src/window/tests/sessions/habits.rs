@@ -208,3 +208,14 @@ fn keys_mean_what_they_mean_after_a_file_was_saved() {
     ",
     );
 }
+
+#[test]
+fn four_views_have_a_button_for_those_who_know_no_key() {
+    let folder = tempfile::tempdir().expect("a folder");
+    at_the_editor(folder.path(), &[], SIZE, |user| {
+        for expected in [true, false] {
+            user.play("press Four Views");
+            assert_eq!(user.window.stage().four_views.is_some(), expected, "a press of the button");
+        }
+    });
+}
