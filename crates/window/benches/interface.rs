@@ -5,7 +5,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use egui::{ClippedPrimitive, Context};
 use std::hint::black_box;
-use trigon_scene::{Cancel, RenderSettings, Renderer, showcase};
+use trigon_scene::{Cancel, Frame, RenderSettings, Renderer, showcase};
 use trigon_window::{ChannelOrder, EguiPainter, MAX_TEXTURE_SIDE};
 
 const SIZE: [u32; 2] = [1920, 1080];
@@ -101,8 +101,8 @@ fn beside_a_picture(run: impl FnOnce()) {
     std::thread::scope(|scope| {
         // Again and again: how long one takes does not matter.
         scope.spawn(|| {
-            let mut renderer = Renderer::new(settings);
-            while renderer.render_cancellable(&scene, &camera, &cancel).is_ok() {}
+            let (mut renderer, mut frame) = (Renderer::new(settings), Frame::default());
+            while renderer.render_cancellable(&scene, &camera, &cancel, &mut frame).is_ok() {}
         });
         run();
         cancel.cancel();

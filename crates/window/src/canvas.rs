@@ -1,6 +1,8 @@
 //! The pixels of the window: the scene's picture, and over it the interface.
 //! Opaque, 8-bit sRGB, in the order that windows have them in memory.
 
+use std::ops::Range;
+
 use trigon_raster::paint2d::Rect;
 use trigon_scene::Frame;
 
@@ -22,21 +24,27 @@ pub(crate) struct Canvas {
 }
 
 impl Canvas {
-    /// Takes this size and the frame's colours under the interface. A frame of another
-    /// size is stretched by repeating or leaving out pixels; what is transparent in it
-    /// is black. Without a frame it is dark.
-    pub(crate) fn show(&mut self, frame: Option<&Frame>, [width, height]: [u32; 2]) {
+    /// Takes this size and the frame's colours under the interface, and calls `changed` with the
+    /// parts that look different. A frame of another size is stretched by repeating or leaving out
+    /// pixels; what is transparent in it is black. Without a frame it is dark.
+    pub(crate) fn show(
+        &mut self,
+        frame: Option<&Frame>,
+        [width, height]: [u32; 2],
+        mut changed: impl FnMut(Rect),
+    ) {
         self.size = [width, height];
         let count = width as usize * height as usize;
         self.pixels.resize(count, EMPTY);
-        match frame.filter(|frame| !frame.color.is_empty()) {
-            Some(frame) => {
-                self.beneath.resize(count, EMPTY);
-                stretch(frame, [width as usize, height as usize], &mut self.beneath);
-            }
-            None => {
-                self.beneath.clear();
-                self.beneath.resize(count, EMPTY);
+        self.beneath.resize(count, EMPTY);
+        let frame = frame.filter(|frame| !frame.color.is_empty());
+        let mut rows = Rows::new(frame, [width as usize, height as usize]);
+        for (y, shown) in self.beneath.chunks_exact_mut((width as usize).max(1)).enumerate() {
+            let row = rows.row(y);
+            for columns in differing(shown, row) {
+                shown[columns.clone()].copy_from_slice(&row[columns.clone()]);
+                let [left, right] = [columns.start as i32, columns.end as i32];
+                changed(Rect::new([left, y as i32], [right, y as i32 + 1]));
             }
         }
     }
@@ -65,24 +73,60 @@ impl Canvas {
     }
 }
 
-/// Writes a frame into a picture of this size.
-fn stretch(frame: &Frame, [width, height]: [usize; 2], to: &mut [[u8; 4]]) {
-    let (from, across, down) = (frame.color.as_chunks::<4>().0, frame.width as usize, frame.height as usize);
-    if [across, down] == [width, height] {
-        to.iter_mut().zip(from).for_each(|(to, &rgba)| *to = over_black(rgba));
-        return;
-    }
-    let columns: Vec<usize> = (0..width).map(|x| source_pixel(x, width, across)).collect();
-    let source = |y: usize| source_pixel(y, height, down);
-    for y in 0..height {
-        let (above, row) = to.split_at_mut(y * width);
-        let row = &mut row[..width];
-        if y > 0 && source(y) == source(y - 1) {
-            row.copy_from_slice(&above[(y - 1) * width..]);
+/// Pixels of a row that are compared at a time.
+const PIECE: usize = 64;
+
+/// The columns in which two rows of one length differ, in pieces.
+fn differing(a: &[[u8; 4]], b: &[[u8; 4]]) -> Vec<Range<usize>> {
+    let mut ranges: Vec<Range<usize>> = Vec::new();
+    for (piece, (a_piece, b_piece)) in a.chunks(PIECE).zip(b.chunks(PIECE)).enumerate() {
+        if a_piece == b_piece {
             continue;
         }
-        let source = &from[source(y) * across..][..across];
-        row.iter_mut().zip(&columns).for_each(|(to, &x)| *to = over_black(source[x]));
+        let (start, end) = (piece * PIECE, piece * PIECE + a_piece.len());
+        match ranges.last_mut() {
+            Some(last) if last.end == start => last.end = end,
+            _ => ranges.push(start..end),
+        }
+    }
+    ranges
+}
+
+/// The rows of a frame as a picture of some size shows them, from the top.
+struct Rows<'f> {
+    frame: Option<&'f Frame>,
+    size: [usize; 2],
+    /// The frame's column for each one of the picture, unless they are the same.
+    columns: Option<Vec<usize>>,
+    /// The last row, and the frame's row that it shows.
+    row: Vec<[u8; 4]>,
+    source: Option<usize>,
+}
+
+impl<'f> Rows<'f> {
+    fn new(frame: Option<&'f Frame>, size: [usize; 2]) -> Self {
+        let [width, _] = size;
+        let across = frame.map(|frame| frame.width as usize).filter(|&across| across != width);
+        let columns = across.map(|across| (0..width).map(|x| source_pixel(x, width, across)).collect());
+        Self { frame, size, columns, row: vec![EMPTY; width], source: None }
+    }
+
+    fn row(&mut self, y: usize) -> &[[u8; 4]] {
+        let Some(frame) = self.frame else { return &self.row };
+        let source = source_pixel(y, self.size[1], frame.height as usize);
+        if self.source != Some(source) {
+            self.source = Some(source);
+            let across = frame.width as usize;
+            let from = &frame.color.as_chunks::<4>().0[source * across..][..across];
+            match &self.columns {
+                None => over_black(from, &mut self.row),
+                Some(columns) => {
+                    let picked: Vec<[u8; 4]> = columns.iter().map(|&column| from[column]).collect();
+                    over_black(&picked, &mut self.row);
+                }
+            }
+        }
+        &self.row
     }
 }
 
@@ -92,10 +136,17 @@ pub(crate) fn source_pixel(at: usize, to: usize, from: usize) -> usize {
     at * from / to
 }
 
-/// From straight alpha to an opaque pixel over black, as windows have it.
-fn over_black(rgba: [u8; 4]) -> [u8; 4] {
-    let [r, g, b] = refinement::over_black(rgba);
-    ChannelOrder::Bgra.arrange([r, g, b, 255])
+/// From straight alpha to opaque pixels over black, as windows have them.
+fn over_black(from: &[[u8; 4]], to: &mut [[u8; 4]]) {
+    // Nearly all rows are opaque: the compiler turns this loop into vectors, that below not.
+    if from.iter().fold(255, |alpha, rgba| alpha & rgba[3]) == 255 {
+        to.iter_mut().zip(from).for_each(|(to, &rgba)| *to = ChannelOrder::Bgra.arrange(rgba));
+        return;
+    }
+    for (to, &rgba) in to.iter_mut().zip(from) {
+        let [r, g, b] = refinement::over_black(rgba);
+        *to = ChannelOrder::Bgra.arrange([r, g, b, 255]);
+    }
 }
 
 #[cfg(test)]
@@ -108,8 +159,8 @@ mod tests {
 
     fn shown(frame: Option<&Frame>, size: [u32; 2]) -> Vec<[u8; 4]> {
         let mut canvas = Canvas::default();
-        canvas.show(frame, size);
         let mut painter = EguiPainter::new(ChannelOrder::Bgra);
+        canvas.show(frame, size, |part| painter.invalidate_part(part));
         assert!(canvas.paint(&mut painter), "all of it is new");
         assert!(!canvas.paint(&mut painter), "and then nothing");
         canvas.pixels().to_vec()
@@ -132,6 +183,31 @@ mod tests {
             [[0, 0, 0, 255], [51, 51, 51, 255]],
             "straight alpha over black"
         );
+    }
+
+    #[test]
+    fn only_what_looks_different_is_painted_again() {
+        let (size, mut canvas) = ([200, 3], Canvas::default());
+        let mut painter = EguiPainter::new(ChannelOrder::Bgra);
+        let mut color = vec![255; 4 * 600];
+        let mut show = |color: &[u8]| {
+            let frame = frame(200, 3, color.to_vec());
+            let mut parts = Vec::new();
+            canvas.show(Some(&frame), size, |part| parts.push(part));
+            parts.iter().for_each(|part| painter.invalidate_part(*part));
+            canvas.paint(&mut painter);
+            (parts, canvas.painted().to_vec(), canvas.pixels().to_vec())
+        };
+        let (parts, painted, _) = show(&color);
+        assert_eq!(parts.len(), 3, "white instead of dark in every row: {parts:?}");
+        assert_eq!(painted, [Rect::new([0, 0], [200, 3])], "all is painted at first");
+        assert!(show(&color).0.is_empty(), "the same picture");
+        color[4 * (200 + 70)] = 9;
+        let (parts, painted, pixels) = show(&color);
+        assert_eq!(parts, [Rect::new([64, 1], [128, 2])], "a piece of the middle row");
+        assert!(painted.iter().map(|rect| (rect.max[0] - rect.min[0]) * 3).sum::<i32>() < 300, "{painted:?}");
+        assert_eq!(pixels[200 + 70], [255, 255, 9, 255], "the one pixel");
+        assert_eq!(pixels.iter().filter(|&&pixel| pixel != [255; 4]).count(), 1, "and no other");
     }
 
     #[test]

@@ -45,6 +45,28 @@ impl Shown {
     /// as it is now: a node that was removed since is not found, and a polygon only if the
     /// node still has the same mesh.
     pub(crate) fn pick(&self, at: DVec2, window: Viewport, scene: &Scene) -> Option<(Hit, DVec3)> {
+        let pixel = self.pixel(at, window)?;
+        let value = |ids: &Option<Vec<u32>>| ids.as_ref().and_then(|ids| ids.get(pixel).copied());
+        let (node, drawn) = self.nodes.0.get(value(&self.frame.object_ids)? as usize)?.as_ref()?;
+        scene.node(*node)?;
+        let face = value(&self.frame.face_ids).filter(|&face| face != u32::MAX);
+        let face = face.filter(|_| drawn.ptr_eq(&mesh(scene, *node))).map(|face| face as usize);
+        let point = self.views.at_distance(at, window, self.depth(pixel)?)?;
+        Some((Hit { node: *node, face }, point))
+    }
+
+    /// How far away what is seen at a point of a window of this size is, in metres along the line
+    /// of sight. `None` for background and outside the window.
+    pub(crate) fn distance(&self, at: DVec2, window: Viewport) -> Option<f64> {
+        self.depth(self.pixel(at, window)?).filter(|distance| distance.is_finite())
+    }
+
+    fn depth(&self, pixel: usize) -> Option<f64> {
+        self.frame.depth.as_ref()?.get(pixel).copied().map(f64::from)
+    }
+
+    /// The index of the frame's pixel that is shown at a point of the window; `None` outside.
+    fn pixel(&self, at: DVec2, window: Viewport) -> Option<usize> {
         let Frame { width, height, .. } = *self.frame;
         let inside = at.cmpge(DVec2::ZERO).all() && at.cmplt(window.size()).all();
         if !inside || width == 0 || height == 0 {
@@ -52,15 +74,7 @@ impl Shown {
         }
         let [x, y] = [(at.x, window.width, width), (at.y, window.height, height)]
             .map(|(at, window, frame)| source_pixel(at as usize, window as usize, frame as usize));
-        let pixel = y * width as usize + x;
-        let value = |ids: &Option<Vec<u32>>| ids.as_ref().and_then(|ids| ids.get(pixel).copied());
-        let (node, drawn) = self.nodes.0.get(value(&self.frame.object_ids)? as usize)?.as_ref()?;
-        scene.node(*node)?;
-        let face = value(&self.frame.face_ids).filter(|&face| face != u32::MAX);
-        let face = face.filter(|_| drawn.ptr_eq(&mesh(scene, *node))).map(|face| face as usize);
-        let distance = *self.frame.depth.as_ref()?.get(pixel)?;
-        let point = self.views.at_distance(at, window, distance.into())?;
-        Some((Hit { node: *node, face }, point))
+        Some(y * width as usize + x)
     }
 }
 

@@ -14,6 +14,7 @@ use crate::pacing::Quality;
 use crate::panes::Views;
 use crate::refinement::{Compared, compare};
 use crate::shared_scene::{Revision, SceneUpdate};
+use frame_memory::FrameMemory;
 
 /// What a picture is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +50,7 @@ pub(crate) enum Task {
 
 /// What a job ends with.
 pub(crate) enum Product {
-    Picture(Frame),
+    Picture(Arc<Frame>),
     Comparison(Compared),
 }
 
@@ -110,6 +111,7 @@ enum Hands {
 /// What does jobs.
 struct Drawing {
     renderer: Renderer,
+    memory: FrameMemory,
     /// A replica of the window's, so that neither waits for the other.
     scene: Scene,
     /// Tells the time since any fixed moment.
@@ -285,7 +287,12 @@ impl Hands {
 
 impl Drawing {
     fn new(clock: impl Fn() -> Duration + Send + 'static) -> Self {
-        Self { renderer: Renderer::builder().build(), scene: Scene::new(), clock: Box::new(clock) }
+        Self {
+            renderer: Renderer::builder().build(),
+            memory: FrameMemory::default(),
+            scene: Scene::new(),
+            clock: Box::new(clock),
+        }
     }
 
     fn run(&mut self, Job { purpose, views, task }: Job, cancel: &Cancel) -> Finished {
@@ -294,15 +301,22 @@ impl Drawing {
             Task::Draw { scene, settings, drawer } => {
                 // Also for a picture that was cancelled: the next update counts on it.
                 scene.apply(&mut self.scene);
+                let Self { renderer, memory, scene, .. } = self;
                 let drawn = views.draw(*settings, |camera, settings| {
-                    let seen = (&self.scene, camera);
+                    let seen = (&*scene, camera);
                     match &drawer {
-                        None => render(seen, settings, &mut self.renderer, cancel),
+                        None => render(seen, settings, (renderer, cancel), memory.take()),
                         Some(drawer) => draw_otherwise(&**drawer, seen, &settings, cancel)
-                            .and_then(|frame| with_ids(frame, seen, settings, (&mut self.renderer, cancel))),
+                            .and_then(|frame| with_ids(frame, seen, settings, (renderer, cancel))),
                     }
                 });
-                drawn.map(Product::Picture)
+                drawn.map(|frame| {
+                    Product::Picture(match purpose {
+                        Purpose::Window(_) => memory.share(frame),
+                        // Whoever asked for it keeps it.
+                        Purpose::Picture => Arc::new(frame),
+                    })
+                })
             }
             Task::Compare([found, right]) => {
                 compare(&found, &right, cancel).map(Product::Comparison).ok_or(Unfinished::Cancelled)
@@ -330,21 +344,24 @@ fn with_ids(
     }
     let outputs = Outputs { color: false, radiance: false, ..outputs };
     let settings = RenderSettings { outputs, samples_per_axis: 1, samples: 1, ..settings };
-    let Frame { depth, object_ids, face_ids, .. } = render(seen, settings, renderer, cancel)?;
+    let Frame { depth, object_ids, face_ids, .. } =
+        render(seen, settings, (renderer, cancel), Frame::default())?;
     Ok(Frame { depth, object_ids, face_ids, ..frame })
 }
 
+/// Draws into the memory of a frame.
 fn render(
     (scene, camera): (&Scene, &Camera),
     settings: RenderSettings,
-    renderer: &mut Renderer,
-    cancel: &Cancel,
+    (renderer, cancel): (&mut Renderer, &Cancel),
+    mut frame: Frame,
 ) -> Result<Frame, Unfinished> {
     *renderer.settings_mut() = settings;
-    renderer.render_cancellable(scene, camera, cancel).map_err(|error| match error {
-        RenderError::Cancelled => Unfinished::Cancelled,
-        error => Unfinished::Impossible(error.to_string()),
-    })
+    match renderer.render_cancellable(scene, camera, cancel, &mut frame) {
+        Ok(()) => Ok(frame),
+        Err(RenderError::Cancelled) => Err(Unfinished::Cancelled),
+        Err(error) => Err(Unfinished::Impossible(error.to_string())),
+    }
 }
 
 /// A picture of another size or without colours is none.
@@ -371,6 +388,7 @@ fn draw_otherwise(
     )))
 }
 
+mod frame_memory;
 #[cfg(test)]
 pub(crate) mod gate;
 

@@ -27,8 +27,9 @@ pub(crate) type Depth<'a> = &'a dyn Fn(DVec2) -> Option<f64>;
 /// Draws the grid and its two axes.
 pub(crate) fn draw_grid(painter: &Painter, view: &OverlayView, depth: Depth<'_>) {
     let Some(grid) = Grid::of(view) else { return };
+    let floor = FloorDepth::of(view);
     for (line, color, width) in grid.lines() {
-        for piece in visible(view, line, depth) {
+        for piece in visible(view, line, |pixel| floor.is_hidden(pixel, depth)) {
             painter.line_segment(piece, Stroke::new(width, color));
         }
     }
@@ -114,20 +115,14 @@ impl Grid {
 }
 
 /// The pieces of a line that nothing hides.
-fn visible(view: &OverlayView, line: [DVec3; 2], depth: Depth<'_>) -> Vec<[Pos2; 2]> {
+fn visible(view: &OverlayView, line: [DVec3; 2], is_hidden: impl Fn(DVec2) -> bool) -> Vec<[Pos2; 2]> {
     let Some([from, to]) = view.line(line[0], line[1]) else { return Vec::new() };
     let count = (from.distance(to) / PIECE).ceil().clamp(1.0, 1000.0) as usize;
     let at = |index: usize| from.lerp(to, index as f32 / count as f32);
-    let is_seen = |index: usize| {
-        let middle = at(index).lerp(at(index + 1), 0.5);
-        let pixel = view.physical(middle);
-        let floor = floor_distance(view, pixel);
-        depth(pixel).zip(floor).is_none_or(|(seen, floor)| floor <= seen * BEHIND)
-    };
     let mut pieces: Vec<[Pos2; 2]> = Vec::new();
     let mut was_seen = false;
     for index in 0..count {
-        let seen = is_seen(index);
+        let seen = !is_hidden(view.physical(at(index).lerp(at(index + 1), 0.5)));
         match pieces.last_mut() {
             Some([_, end]) if seen && was_seen => *end = at(index + 1),
             _ if seen => pieces.push([at(index), at(index + 1)]),
@@ -138,16 +133,52 @@ fn visible(view: &OverlayView, line: [DVec3; 2], depth: Depth<'_>) -> Vec<[Pos2;
     pieces
 }
 
-/// How far the floor is along the line of sight, at a pixel.
-fn floor_distance(view: &OverlayView, pixel: DVec2) -> Option<f64> {
-    let ray = view.ray(pixel)?;
-    let along = -ray.origin.y / ray.direction.y;
-    along.is_finite().then(|| view.distance(ray.origin + ray.direction * along))
+/// How far away the floor is at each pixel, along the line of sight.
+///
+/// In a perspective the reciprocal of that distance is linear across the picture, in a parallel
+/// projection the distance itself: three pixels tell all.
+#[derive(Debug)]
+struct FloorDepth {
+    /// At the corner of the picture, and how much it grows with each pixel to the right and down.
+    corner: f64,
+    growth: DVec2,
+    is_parallel: bool,
+}
+
+impl FloorDepth {
+    fn of(view: &OverlayView) -> Self {
+        let is_parallel = view.camera().projection.is_orthographic();
+        let (eye, forward) = (view.camera().position, view.camera().forward());
+        let at = |pixel: DVec2| {
+            let Some(ray) = view.ray(pixel) else { return f64::NAN };
+            if is_parallel {
+                let along = -ray.origin.y / ray.direction.y;
+                view.distance(ray.origin + ray.direction * along)
+            } else {
+                -ray.direction.y / (eye.y * ray.direction.dot(forward))
+            }
+        };
+        // Far apart, so that their difference is precise.
+        const APART: f64 = 1024.0;
+        let corner = at(DVec2::ZERO);
+        let growth = DVec2::new(at(DVec2::X * APART) - corner, at(DVec2::Y * APART) - corner) / APART;
+        Self { corner, growth, is_parallel }
+    }
+
+    /// Whether the picture shows something before the floor at a pixel. Where the floor is no number,
+    /// such as seen from its edge, nothing hides it.
+    fn is_hidden(&self, pixel: DVec2, depth: Depth<'_>) -> bool {
+        let floor = self.corner + self.growth.dot(pixel);
+        depth(pixel).is_some_and(|seen| {
+            let hides = seen * BEHIND;
+            if self.is_parallel { floor > hides } else { floor > 0.0 && floor * hides < 1.0 }
+        })
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use trigon_edit::scene::camera::{Camera, Viewport};
+    use trigon_edit::scene::camera::{Camera, Projection, Viewport};
 
     use super::*;
 
@@ -188,16 +219,41 @@ mod tests {
     }
 
     #[test]
+    fn the_floor_is_as_far_away_as_its_points_are() {
+        let eye = DVec3::new(3.0, 4.0, 10.0);
+        let perspective = Camera::look_at(eye, DVec3::new(0.0, 0.5, 0.0), DVec3::Y);
+        let parallel = Projection::orthographic(12.0, 0.1, 1e3).expect("valid");
+        for camera in [perspective, perspective.with_projection(parallel)] {
+            let view = OverlayView::new(&camera, Viewport { width: 800, height: 600 }, 1.0);
+            let floor = FloorDepth::of(&view);
+            for point in [DVec3::ZERO, DVec3::new(2.0, 0.0, 4.0), DVec3::new(-30.0, 0.0, -50.0)] {
+                let pixel = view.physical(view.point(point).expect("before the eye"));
+                let distance = view.distance(point);
+                assert!(floor.is_hidden(pixel, &|_| Some(distance * 0.998)), "{point} by what is before it");
+                assert!(!floor.is_hidden(pixel, &|_| Some(distance)), "{point} by what is as far away");
+            }
+        }
+        let level = OverlayView::new(
+            &Camera::look_at(DVec3::Z, DVec3::ZERO, DVec3::Y),
+            Viewport { width: 800, height: 600 },
+            1.0,
+        );
+        assert!(!FloorDepth::of(&level).is_hidden(DVec2::ZERO, &|_| Some(1.0)), "the floor from its edge");
+    }
+
+    #[test]
     fn what_the_picture_shows_before_the_floor_hides_it() {
         let view = from(DVec3::new(0.0, 3.0, 10.0));
         let line = [DVec3::new(-5.0, 0.0, 0.0), DVec3::new(5.0, 0.0, 0.0)];
-        let whole = visible(&view, line, &|_| None);
+        let floor = FloorDepth::of(&view);
+        let visible = |depth: Depth<'_>| visible(&view, line, |pixel| floor.is_hidden(pixel, depth));
+        let whole = visible(&|_| None);
         assert_eq!(whole.len(), 1, "one piece: {whole:?}");
         // A wall 2 m before the eye in the middle of the picture.
         let wall = |at: DVec2| ((at.x - 400.0).abs() < 50.0).then_some(2.0);
-        let parts = visible(&view, line, &wall);
+        let parts = visible(&wall);
         assert_eq!(parts.len(), 2, "left and right of the wall: {parts:?}");
         assert!(parts[0][1].x < 365.0 && parts[1][0].x > 435.0, "{parts:?}");
-        assert!(visible(&view, line, &|_| Some(100.0)).len() == 1, "what lies behind hides nothing");
+        assert!(visible(&|_| Some(100.0)).len() == 1, "what lies behind hides nothing");
     }
 }

@@ -92,8 +92,8 @@ impl Renderer {
         self.engine.draw((scene, camera, &self.settings), None, frame)
     }
 
-    /// As [`render`](Self::render), but gives up soon after `cancel` is cancelled: when
-    /// the tiles under way are done, or what comes before the tiles. For pictures that
+    /// As [`render_into`](Self::render_into), but gives up soon after `cancel` is cancelled:
+    /// when the tiles under way are done, or what comes before the tiles. For pictures that
     /// nobody will look at, because the camera has moved on.
     ///
     /// # Errors
@@ -103,10 +103,9 @@ impl Renderer {
         scene: &Scene,
         camera: &Camera,
         cancel: &Cancel,
-    ) -> Result<Frame, RenderError> {
-        let mut frame = Frame::default();
-        self.engine.draw((scene, camera, &self.settings), Some(cancel), &mut frame)?;
-        Ok(frame)
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
+        self.engine.draw((scene, camera, &self.settings), Some(cancel), frame)
     }
 
     /// Draws what each of these cameras sees, one after the other, and shows every
@@ -194,11 +193,12 @@ mod tests {
         let mut renderer = Renderer::builder().size(48, 48).build();
         renderer.settings_mut().effects.shadows = crate::Shadows::Maps { resolution: 64 };
         let expected = render(&scene, &camera, renderer.settings()).expect("drawn");
-        let drawn = renderer.render_cancellable(&scene, &camera, &cancel).expect("nobody cancelled it");
-        assert!(drawn == expected, "the same bytes");
+        let mut frame = Frame::default();
+        renderer.render_cancellable(&scene, &camera, &cancel, &mut frame).expect("nobody cancelled it");
+        assert!(frame == expected, "the same bytes");
         let mut renderer = Renderer::new(renderer.settings().clone());
         cancel.cancel();
-        let cancelled = renderer.render_cancellable(&scene, &camera, &cancel);
+        let cancelled = renderer.render_cancellable(&scene, &camera, &cancel, &mut frame);
         assert_eq!(cancelled.err(), Some(RenderError::Cancelled), "as the token says");
         assert!(renderer.render(&scene, &camera) == Ok(expected), "no half-drawn shadow was kept");
     }

@@ -99,6 +99,11 @@ impl EguiPainter {
         self.damage.mark_all();
     }
 
+    /// What lies beneath the interface has changed within a rectangle, which is to be painted again.
+    pub fn invalidate_part(&mut self, part: Rect) {
+        self.damage.mark(part);
+    }
+
     /// Whether the next [`paint`](Self::paint) has something to do.
     #[must_use]
     pub fn is_damaged(&self) -> bool {

@@ -36,7 +36,7 @@ impl Session<'_> {
             Ok(Product::Picture(frame)) => {
                 self.pacing.finished(took);
                 let nodes = self.nodes.as_ref().map_or_else(Arc::default, |(_, nodes)| Arc::clone(nodes));
-                self.gallery.add(quality, Shown { frame: Arc::new(frame), views, nodes }, took);
+                self.gallery.add(quality, Shown { frame, views, nodes }, took);
                 self.pictured.clone_from(&self.subject);
                 if matches!(quality, Quality::Draft { .. } | Quality::Full(0)) {
                     self.stage.set_report(FrameReport { render: took, ..self.stage.report() });
@@ -57,7 +57,7 @@ impl Session<'_> {
     fn picture_finished(&mut self, finished: Finished, now: Duration) {
         match finished.product {
             Ok(Product::Picture(frame)) => {
-                self.handler.picture(&mut self.stage, frame);
+                self.handler.picture(&mut self.stage, Arc::unwrap_or_clone(frame));
                 self.after_handler(now);
             }
             Err(Unfinished::Impossible(reason)) => self.stage.overlay.notify(reason),
@@ -96,8 +96,8 @@ impl Session<'_> {
             return;
         }
         let Viewport { width, height } = self.stage.viewport();
-        self.canvas.show(self.shown.as_deref(), [width, height]);
-        self.interface.painter.invalidate();
+        let painter = &mut self.interface.painter;
+        self.canvas.show(self.shown.as_deref(), [width, height], |changed| painter.invalidate_part(changed));
     }
 
     /// Begins a picture that was asked for, if the worker has time. It need not wait for

@@ -217,7 +217,10 @@ impl Sequence {
             Event::Cancelled => {
                 let cancel = Cancel::default();
                 cancel.cancel();
-                renderer.render_cancellable(&model.scene, camera, &cancel).expect_err("it was cancelled");
+                let mut given_up = Frame::default();
+                renderer
+                    .render_cancellable(&model.scene, camera, &cancel, &mut given_up)
+                    .expect_err("it was cancelled");
             }
             Event::FrameUsed => {
                 frame.color.fill(7);
