@@ -2,11 +2,12 @@
 //! ids.
 
 mod background;
+mod background_row;
 mod edges;
 mod mean;
 mod strip;
 
-pub(crate) use background::BackgroundRow;
+pub(crate) use background_row::BackgroundRow;
 pub(crate) use mean::{mean, saturated};
 pub(crate) use strip::Strip;
 

@@ -2,7 +2,7 @@
 //! corners' shares.
 
 use super::columns::Columns;
-use super::records::{cold, hot};
+use super::layout::{cold, hot};
 use super::small::Small;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, inlined, prelude::*};
 

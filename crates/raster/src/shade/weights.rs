@@ -9,7 +9,7 @@
 //! "Hyperbolic Interpolation", 1992; P. Heckbert and H. Moreton, "Interpolation
 //! for Polygon Texture Mapping and Shading", 1991.)
 
-use super::records::cold;
+use super::layout::cold;
 use super::triangle_lanes::TriangleLanes;
 use crate::simd::{Each, F32, I32, Row, Simd, U32, greater, inlined, lesser, prelude::*};
 

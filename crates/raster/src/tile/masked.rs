@@ -4,8 +4,8 @@
 use super::blocks::Blocks;
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::seen::{Candidate, TileView};
+use super::single::single;
 use super::ties::Ties;
-use super::visibility::single;
 use super::{Scratch, TileArea};
 use crate::Surface;
 use crate::bin::Place;

@@ -3,6 +3,7 @@
 mod area;
 mod blocks;
 mod buffer;
+mod counts;
 mod cover;
 mod covering;
 mod depth;
@@ -15,6 +16,7 @@ mod quad;
 mod scratch;
 mod seen;
 mod several;
+mod single;
 mod starts;
 mod store;
 #[cfg(test)]
@@ -23,17 +25,17 @@ mod ties;
 mod tiny;
 mod visibility;
 
-pub(crate) use area::{MAX_SIDE, TileArea};
+pub(crate) use area::{MAX_SIDE, PIXELS, TileArea, lane_point};
 pub(crate) use blocks::Blocks;
 pub(crate) use buffer::{BEHIND_ALL, NOBODY, VisibilityBuffer};
-pub(crate) use cover::Counts;
-pub(crate) use covering::{Covering, lane_point};
+pub(crate) use counts::Counts;
+pub(crate) use covering::Covering;
 pub(crate) use depth::DepthPlane;
 pub(crate) use edge::Edge;
-pub(crate) use scratch::{PIXELS, Scratch};
+pub(crate) use scratch::Scratch;
 pub(crate) use seen::{Candidate, SampleGroup, TileView};
+pub(crate) use single::single;
 pub(crate) use ties::Ties;
-pub(crate) use visibility::single;
 
 use crate::Surface;
 use crate::clock::Clock;

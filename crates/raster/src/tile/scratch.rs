@@ -34,9 +34,6 @@ pub(crate) struct Scratch {
     pub(crate) stats: Stats,
 }
 
-/// Pixels of the largest tile.
-pub(crate) const PIXELS: usize = super::MAX_SIDE * super::MAX_SIDE;
-
 impl Scratch {
     pub(crate) fn new() -> Self {
         Self {

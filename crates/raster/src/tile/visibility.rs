@@ -5,12 +5,12 @@ use super::cover::Cover;
 use super::eight::Eight;
 use super::micro::Covered;
 use super::quad::QuadEdges;
+use super::single::covering_apart;
 use super::starts::Starts;
 use super::ties::COMPARISON;
-use super::{Counts, Covering, NOBODY, Scratch, Surfaces, TileArea, VisibilityBuffer, masked};
+use super::{Counts, NOBODY, Scratch, Surfaces, TileArea, VisibilityBuffer, masked};
 use crate::bin::Place;
 use crate::frame::FrameView;
-use crate::setup::SetupTriangle;
 use crate::simd::{Each, LANES, Simd, at_level, lanes_of};
 use crate::vertex::ScreenVertex;
 use std::cell::Cell;
@@ -289,15 +289,4 @@ fn corners_of_one<'f>(frame: &FrameView<'f>, places: &[Place]) -> [[&'f ScreenVe
 fn corners_of_several<'f>(frame: &FrameView<'f>, places: &[Place]) -> [[&'f ScreenVertex; LANES]; 3] {
     let corners = lanes_of(|lane| frame.corners(*places.get(lane).unwrap_or(&places[0])));
     [0, 1, 2].each(|corner| corners.each(|corners| corners[corner]))
-}
-
-/// One triangle of the tile.
-pub(crate) fn single(frame: &FrameView<'_>, area: &TileArea, place: Place) -> Option<Covering> {
-    covering_apart(frame, area, &frame.triangle(place))
-}
-
-/// Not inlined, so that it is compiled once.
-#[inline(never)]
-fn covering_apart(frame: &FrameView<'_>, area: &TileArea, triangle: &SetupTriangle) -> Option<Covering> {
-    Covering::new(triangle, &frame.grid, area)
 }
