@@ -9,6 +9,7 @@ mod plan;
 mod redraw;
 mod set_up;
 mod stages;
+mod tiles;
 mod touched;
 mod view;
 
@@ -19,4 +20,5 @@ pub(crate) use outputs::RequestedOutputs;
 pub(crate) use plan::{DrawPlan, Plan};
 pub(crate) use redraw::redraw;
 pub(crate) use stages::{Arena, draw, prepare};
+pub(crate) use tiles::outer_ink;
 pub(crate) use view::FrameView;

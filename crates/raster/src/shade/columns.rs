@@ -1,11 +1,10 @@
 //! The columns of eight pixels' triangles, from their records.
 
 use super::ShadeContext;
-use super::layout::{RecordShape, cold, hot, lined};
+use super::layout::{CutColumns, RecordShape, cold, hot, lined};
+use super::placed::Placed;
 use super::records::Records;
 use super::task::Vector;
-use super::triangle_lanes::CutColumns;
-use super::weights::Placed;
 use crate::MAX_VARYINGS;
 use crate::simd::{Each, I32, LANES, Mask, Row, Simd, U32, inlined, prelude::*, transpose};
 

@@ -62,6 +62,10 @@ pub(super) mod flag {
     pub(crate) const CUT: i32 = 1 << 9;
 }
 
+/// The weights of the corners at the vertices of cut triangles, in lanes:
+/// `[vertex][corner]`.
+pub(super) type CutColumns = [[[f32; LANES]; 3]; 3];
+
 /// Where the records of a draw are, and how each is laid out.
 #[derive(Clone, Copy, Default)]
 pub(super) struct RecordShape {

@@ -2,8 +2,8 @@
 
 use super::ShadeContext;
 use super::layout::{RecordShape, lined};
+use super::perspective::perspective;
 use super::sorted::Sorted;
-use super::weights::perspective;
 use crate::EdgeFlags;
 use crate::bin::Place;
 use crate::ink::{FaceLine, Footprint, Ink, LineColumns, VisibleFaces};

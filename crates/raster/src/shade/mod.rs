@@ -13,6 +13,8 @@ mod lines;
 mod lines_over;
 mod list;
 mod output;
+mod perspective;
+mod placed;
 mod records;
 mod run;
 mod scalar;

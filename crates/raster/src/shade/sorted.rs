@@ -2,7 +2,7 @@
 
 use super::ShadeContext;
 use super::layout::flag;
-use super::weights::perspective;
+use super::perspective::perspective;
 use crate::bin::Place;
 use crate::setup::{Column, Corners, Kind, SMALL, SetupTriangle, small_lanes, sorted_columns};
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, inlined, lanes_of, prelude::*};

@@ -9,18 +9,19 @@ use super::{Encoding, ShadeContext, ShadeOutput, Work};
 use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::simd::{LANES, at_level};
-use crate::tile::{Scratch, TileArea, VisibilityBuffer};
+use crate::tile::{TileArea, VisibilityBuffer};
 
 /// Shades all pixels of a tile: to bytes if an encoding is given, else in linear
-/// light. What covers a part of its pixel is left in linear light in any case.
+/// light. What covers a part of its pixel is left in linear light in any case. Tells how
+/// many fragments were shaded.
 pub(crate) fn shade_tile(
     frame: &FrameView<'_>,
     area: &TileArea,
-    scratch: &mut Scratch,
+    (buffer, places): (&VisibilityBuffer, &[Place]),
+    shading: &mut Shading,
     encoding: Option<Encoding>,
-) {
-    let Scratch { buffer, shading, places, stats, .. } = scratch;
-    stats.pixels_shaded += list_visible(frame, area, (buffer, places), shading) as u64;
+) -> u64 {
+    let count = list_visible(frame, area, (buffer, places), shading);
     let runs = std::mem::take(&mut shading.runs);
     let outer = std::mem::take(&mut shading.outer);
     for run in &runs {
@@ -38,6 +39,7 @@ pub(crate) fn shade_tile(
         }
     }
     (shading.runs, shading.outer) = (runs, outer);
+    count as u64
 }
 
 /// Lists what is visible in a tile, by draws; and finds what edges cover beyond their
