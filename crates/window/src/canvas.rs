@@ -1,5 +1,5 @@
-//! The pixels of the window: the scene's picture, and over it the interface.
-//! Opaque, 8-bit sRGB, in the order that windows have them in memory.
+//! The pixels of the window: the scene's image with the interface over it. Opaque, 8-bit sRGB, in
+//! the order that windows have in memory.
 
 use std::ops::Range;
 
@@ -9,24 +9,23 @@ use trigon_scene::Frame;
 use crate::egui_painter::{ChannelOrder, EguiPainter};
 use crate::refinement;
 
-/// Where no picture is yet: dark, so that nobody is dazzled.
+/// Shown before the first image: dark, so as not to dazzle.
 const EMPTY: [u8; 4] = [24, 24, 24, 255];
 
-/// Rows from the top, without padding; blue, green, red, and an alpha that does not
-/// matter.
+/// Rows from the top, without padding; blue, green, red, and an unused alpha.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Canvas {
     size: [u32; 2],
-    /// The scene's picture alone.
+    /// The scene's image alone.
     beneath: Vec<[u8; 4]>,
     pixels: Vec<[u8; 4]>,
     painted: Vec<Rect>,
 }
 
 impl Canvas {
-    /// Takes this size and the frame's colours under the interface, and calls `changed` with the
-    /// parts that look different. A frame of another size is stretched by repeating or leaving out
-    /// pixels; what is transparent in it is black. Without a frame it is dark.
+    /// Takes this size and puts the frame's colours under the interface; calls `changed` with each
+    /// part that differs from what was there. A frame of another size is stretched by repeating or
+    /// skipping pixels; transparent parts become black. Without a frame it is dark.
     pub(crate) fn show(
         &mut self,
         frame: Option<&Frame>,
@@ -52,7 +51,7 @@ impl Canvas {
     /// Brings the pixels up to date with the interface. Returns whether any changed.
     pub(crate) fn paint(&mut self, painter: &mut EguiPainter) -> bool {
         let painted = painter.paint(self.size, &mut self.pixels, &self.beneath);
-        // A window beyond what can be painted stays as it is.
+        // A window larger than the painter's limit keeps its pixels.
         self.painted = painted.unwrap_or_default();
         !self.painted.is_empty()
     }
@@ -67,7 +66,7 @@ impl Canvas {
         &self.pixels
     }
 
-    /// What the last [`paint`](Self::paint) changed.
+    /// The area that the last [`paint`](Self::paint) changed.
     pub(crate) fn painted(&self) -> &[Rect] {
         &self.painted
     }
@@ -130,15 +129,14 @@ impl<'f> Rows<'f> {
     }
 }
 
-/// The column, or row, of a frame that is shown in one of the window: one of `from` for
-/// one of `to`.
+/// Maps one of `to` columns or rows of the window to one of `from` in the frame.
 pub(crate) fn source_pixel(at: usize, to: usize, from: usize) -> usize {
     at * from / to
 }
 
 /// From straight alpha to opaque pixels over black, as windows have them.
 fn over_black(from: &[[u8; 4]], to: &mut [[u8; 4]]) {
-    // Nearly all rows are opaque: the compiler turns this loop into vectors, that below not.
+    // Nearly all rows are opaque. The compiler vectorizes this loop, but not the one below.
     if from.iter().fold(255, |alpha, rgba| alpha & rgba[3]) == 255 {
         to.iter_mut().zip(from).for_each(|(to, &rgba)| *to = ChannelOrder::Bgra.arrange(rgba));
         return;
