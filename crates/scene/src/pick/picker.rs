@@ -149,6 +149,24 @@ impl<'p> Picker<'p> {
     /// of this radius around it, in pixels. Of equally near ones the one closer to the camera, then
     /// the first.
     pub fn nearest(&self, point: DVec2, radius: f64, reach: Reach) -> Nearest {
+        // In a dense mesh the nearest elements are a few pixels away, and a small circle finds them
+        // among far fewer. What it finds is the nearest in every larger circle, too.
+        let close = self.nearest_within(point, radius.min(CLOSE), reach);
+        let is_complete = close.vertex.is_some() && close.edge.is_some() && close.face.is_some();
+        if is_complete || radius <= CLOSE {
+            return close;
+        }
+        let all = self.nearest_within(point, radius, reach);
+        debug_assert!(
+            close.vertex.is_none_or(|found| Some(found) == all.vertex)
+                && close.edge.is_none_or(|found| Some(found) == all.edge)
+                && close.face.is_none_or(|found| Some(found) == all.face),
+            "a larger circle holds the smaller one"
+        );
+        all
+    }
+
+    fn nearest_within(&self, point: DVec2, radius: f64, reach: Reach) -> Nearest {
         let region = Region::Circle { center: point, radius };
         let area = self.area(&region);
         let element = |best: Best| {

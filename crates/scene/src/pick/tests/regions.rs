@@ -221,3 +221,35 @@ fn any_number_of_threads_picks_the_same() {
         assert!(picked(threads) == alone, "{threads} threads");
     }
 }
+
+/// A small circle is searched first; where it is empty of one kind, the whole circle is.
+#[test]
+fn the_nearest_elements_do_not_depend_on_how_far_one_looks() {
+    let mut scene = Scene::new();
+    scene.add_object("coarse", primitives::torus(1.0, 0.45, 14, 9), Material::default());
+    scene.add_object("dense", primitives::uv_sphere(0.4, 60, 40), Material::default());
+    let camera = Camera::look_at(DVec3::new(0.0, 2.6, 4.6), DVec3::ZERO, DVec3::Y);
+    let outputs = Outputs { ids: true, ..Outputs::NONE };
+    let settings = RenderSettings { outputs, samples_per_axis: 1, ..RenderSettings::new(192, 144) };
+    let frame = render(&scene, &camera, &settings).expect("drawn");
+    let picker = Picker::new(&scene, &camera, &frame);
+    let (mut close, mut far) = (0, 0);
+    for (x, y) in (0..192).step_by(7).flat_map(|x| (0..144).step_by(9).map(move |y| (x, y))) {
+        let point = DVec2::new(f64::from(x) + 0.3, f64::from(y) + 0.6);
+        for reach in [Reach::Visible, Reach::Through] {
+            let found = picker.nearest(point, 20.0, reach);
+            // Each smaller circle that holds anything of a kind holds the nearest.
+            for radius in [1.5, 3.0, 3.9, 6.0, 12.0] {
+                let within = picker.nearest(point, radius, reach);
+                for (within, found) in
+                    [(within.vertex, found.vertex), (within.edge, found.edge), (within.face, found.face)]
+                {
+                    assert!(within.is_none() || within == found, "{point}, {radius} pixels, {reach:?}");
+                    close += usize::from(within.is_some() && radius < 4.0);
+                    far += usize::from(within.is_none() && found.is_some() && radius > 4.0);
+                }
+            }
+        }
+    }
+    assert!(close > 100 && far > 100, "both happen: {close} and {far}");
+}
