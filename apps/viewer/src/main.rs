@@ -19,6 +19,7 @@ mod model;
 mod moment;
 mod outlet;
 mod picture;
+mod pixel;
 mod replay;
 mod report;
 mod scenery;
@@ -63,6 +64,7 @@ fn main() -> ExitCode {
         Mode::Replay { capture, output } => replay::run(capture, output.as_ref(), &request, reporter),
         Mode::Window => look_at(&request, reporter),
         Mode::Explain(explanation) => explain::run(&request, *explanation, reporter),
+        Mode::ExplainPixel(at) => pixel::run(&request, *at, reporter),
         Mode::Check => check::run(&request, reporter),
         Mode::Inspect => lists::inspect(&request, reporter),
         Mode::ListReaders => lists::readers(reporter),

@@ -8,7 +8,7 @@ use serde_json::json;
 use trigon_camera::Camera;
 use trigon_math::{Bounds3, DVec3};
 use trigon_mesh::Mesh;
-use trigon_scene::Scene;
+use trigon_scene::{NodeId, Scene};
 
 use crate::args::{Grouping, Request};
 use crate::failure::Failure;
@@ -198,6 +198,22 @@ impl Model {
             format!("animation {index} {:?}, {} s", animation.name, short(animation.duration()))
         });
         scenes.chain(animations).collect()
+    }
+
+    /// The names of its nodes, children moved to the right; the first ones if there are many.
+    pub(crate) fn tree(&self) -> Vec<String> {
+        /// As many as most pictures have room for.
+        const MOST: usize = 40;
+        let nodes = self.scene.tree();
+        let line = |&(id, depth): &(NodeId, usize)| {
+            let name = self.scene.node(id).map_or("", |node| node.name.as_str());
+            format!("{:1$}{2}", "", 2 * depth, if name.is_empty() { "(no name)" } else { name })
+        };
+        let mut lines: Vec<String> = nodes.iter().take(MOST).map(line).collect();
+        if nodes.len() > MOST {
+            lines.push(format!("and {} more", nodes.len() - MOST));
+        }
+        lines
     }
 
     /// What is in it, for other programs.

@@ -201,15 +201,19 @@ fn finished(mut frame: Frame, model: &Model, camera: &Camera, request: &Request)
         frame.color = grey_depths(depths);
     }
     let overlay = &request.overlay;
-    if let Some(colors) = overlay.axes {
-        axes::draw(&mut frame, camera, colors, &request.settings)?;
+    if overlay.shows_axes {
+        axes::draw(&mut frame, camera, overlay.axes, &request.settings)?;
     }
     let environment = request.environment.as_ref().and_then(|file| file.file_name());
     let environment =
         environment.filter(|_| overlay.environment_name).map(|name| name.to_string_lossy().into_owned());
+    let mut left = if overlay.metadata { model.summary().lines() } else { Vec::new() };
+    if overlay.tree {
+        left.extend(model.tree());
+    }
     let text = Lettering {
         top: overlay.name.then(|| model.source.title()).into_iter().collect(),
-        left: if overlay.metadata { model.summary().lines() } else { Vec::new() },
+        left,
         below: environment.into_iter().collect(),
     };
     text.write(&mut frame, overlay.text_scale)?;

@@ -181,7 +181,7 @@ const OPTIONS: &[Row] = &[
     ("filename", BOX, "--filename", Changes),
     ("-m", BOX, "-m", Shows("--metadata")),
     ("metadata", BOX, "--metadata", Changes),
-    ("scene-hierarchy", BOX, "--scene-hierarchy", Refused("tree")),
+    ("scene-hierarchy", BOX, "--scene-hierarchy", Changes),
     ("notifications", BOX, "--notifications", Keeps),
     ("hdri-filename", BOX, "--hdri-file=room.hdr --hdri-filename", Changes),
     ("hdri-skybox", BOX, "--hdri-file=room.hdr --hdri-skybox", Changes),

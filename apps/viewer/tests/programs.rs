@@ -646,3 +646,31 @@ fn a_radiance_picture_lights_the_model() {
     let corner = &picture(&folder.path("o.png")).rgba[..4];
     assert!(corner[0] > 2 * corner[2] && corner[3] == 255, "beside the floor is the room's: {corner:?}");
 }
+
+/// Two squares, one behind the other.
+const BEHIND: &str = "o front\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 2 3 4\n\
+    o back\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 5 6 7 8\n";
+
+#[test]
+fn a_pixel_is_explained() {
+    let folder = Folder::new();
+    folder.write("two.obj", BEHIND);
+    let flags = "two.obj --view=front --resolution=60,40 --samples=1 --explain-pixel";
+    let text = String::from_utf8(folder.run(&format!("{flags} 31,20")).stdout).expect("text");
+    for part in ["pixel 31, 20", "front", "seen, because it is the nearest", "back", "hidden", "edge values"] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    let json = folder.run(&format!("{flags} 31,20 --json")).stdout;
+    let json: serde_json::Value = serde_json::from_slice(&json).expect("JSON");
+    let fragments = json["samples"][0]["fragments"].as_array().expect("a list");
+    assert_eq!((&fragments[0]["node"], &fragments[0]["won"]), (&"front".into(), &true.into()), "{json}");
+    let hidden = fragments.iter().find(|fragment| fragment["node"] == "back" && fragment["covered"] == true);
+    let hidden = hidden.expect("it is there, too");
+    assert!(hidden["margin"].as_i64().is_some_and(|margin| margin < 0), "behind: {hidden}");
+    assert!(hidden["edges"][0]["value"].as_i64().is_some_and(|value| value >= 0), "inside: {hidden}");
+    let sky = String::from_utf8(folder.run(&format!("{flags} 0,0")).stdout).expect("text");
+    assert!(sky.contains("the background"), "nothing there: {sky}");
+    assert!(folder.said(&format!("{flags} 60,0"), 2).contains("60x40"), "outside, with the size");
+    folder.said(&format!("{flags} 1,1 --output o.png"), 2);
+    assert!(folder.said("two.obj --explain-pixel=7", 2).contains("320,200"), "an example");
+}

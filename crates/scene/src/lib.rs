@@ -79,7 +79,8 @@ pub use texture_asset::{TextureAsset, TextureId};
 pub use transform::Transform;
 pub use trigon_raster::simd::{SimdLevel, SimdLevelError};
 pub use trigon_raster::{
-    Cancel, Filter, MipFilter, Sampler, Stats, Texture, TextureError, TextureFormat, Wrap,
+    Cancel, EdgeExplanation, Filter, FragmentExplanation, MipFilter, PixelExplanation, PrimitiveKind,
+    SampleExplanation, Sampler, StageTimes, Stats, Texture, TextureError, TextureFormat, Verdict, Wrap,
 };
 pub use views::OVERVIEW_DIRECTION;
 /// The crates below, so that a user of scenes needs no others.

@@ -7,7 +7,7 @@ use std::time::Duration;
 use trigon_camera::{Camera, DEFAULT_MARGIN, Orbit, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
 use trigon_scene::quality::Preset;
-use trigon_scene::{Hit, NodeId, RenderSettings, Shadows};
+use trigon_scene::{Hit, NodeId, RenderSettings, Shadows, StageTimes};
 
 use crate::drawer::{Drawer, DrawnBy};
 use crate::input::InputOwner;
@@ -33,6 +33,8 @@ pub struct FrameReport {
     pub render: Duration,
     /// Conversion, interface, and handing it to the window system.
     pub present: Duration,
+    /// The stages of `render`, while [`Stage::stage_times`] are shown. Those in tiles are sums over all threads.
+    pub stages: StageTimes,
 }
 
 /// Whether something is to be seen.
@@ -103,6 +105,8 @@ pub struct Stage {
     pub cheat_sheet: Visibility,
     /// Whether the time of a frame is shown.
     pub frame_time: Visibility,
+    /// Whether the time of each of its stages is shown.
+    pub stage_times: Visibility,
     /// How large text and widgets are, beside the display's own scale: 0.5 to 4.
     pub text_scale: f32,
     /// What the list of keys is searched for.
@@ -148,6 +152,7 @@ impl Stage {
             selection: None,
             cheat_sheet: Visibility::Hidden,
             frame_time: Visibility::Hidden,
+            stage_times: Visibility::Hidden,
             text_scale: 1.0,
             command_search: String::new(),
             title: title.into(),
@@ -378,6 +383,13 @@ impl Stage {
         self.fitted(settings, shrink)
     }
 
+    /// What draws the window's picture again: [`Stage::settings`] for the window's size, with line widths in
+    /// physical pixels.
+    #[must_use]
+    pub fn picture_settings(&self) -> RenderSettings {
+        RenderSettings { outputs: self.settings.outputs, ..self.fitted(self.settings.clone(), 1.0) }
+    }
+
     /// For the window's size, smaller by a factor in each direction.
     fn fitted(&self, mut settings: RenderSettings, shrink: f64) -> RenderSettings {
         settings.outputs = shown::OUTPUTS;
@@ -394,9 +406,10 @@ impl Stage {
 
     /// All that the window's picture depends on.
     pub(crate) fn subject(&self) -> Subject {
-        let Self { orbit, viewport, scale, four_views, .. } = *self;
+        let Self { orbit, viewport, scale, four_views, stage_times, .. } = *self;
         let (settings, drawer) = (self.settings.clone(), DrawnBy(self.drawer.clone()));
-        Subject { scene: self.scene.revision(), orbit, four_views, settings, drawer, viewport, scale }
+        let scene = self.scene.revision();
+        Subject { scene, orbit, four_views, settings, drawer, viewport, scale, stage_times }
     }
 }
 
@@ -410,4 +423,6 @@ pub(crate) struct Subject {
     drawer: DrawnBy,
     viewport: Viewport,
     scale: f64,
+    /// Whoever wants to see times waits for a picture that has them.
+    stage_times: Visibility,
 }

@@ -6,7 +6,7 @@ use clap::CommandFactory;
 use super::raw::RawArgs;
 
 /// An option of F3D's library, and the flag that sets it.
-const LIBRARY: [(&str, &str); 81] = [
+const LIBRARY: [(&str, &str); 82] = [
     ("interactor.invert_zoom", "invert-zoom"),
     ("interactor.style", "interaction-style"),
     ("model.checkerboard.enable", "checkerboard"),
@@ -83,6 +83,7 @@ const LIBRARY: [(&str, &str); 81] = [
     ("ui.hdri_filename", "hdri-filename"),
     ("ui.loader_progress", "loading-progress"),
     ("ui.metadata", "metadata"),
+    ("ui.scene_hierarchy", "scene-hierarchy"),
     ("ui.notifications.enable", "notifications"),
     ("ui.scale", "font-scale"),
     ("ui.x_color", "x-color"),
@@ -91,7 +92,7 @@ const LIBRARY: [(&str, &str); 81] = [
 ];
 
 /// F3D's flags that do nothing here that they could do, by their long and short names.
-const REFUSED: [(&str, &str, &str); 25] = [
+const REFUSED: [(&str, &str, &str); 24] = [
     (
         "axes-grid",
         "",
@@ -118,7 +119,6 @@ const REFUSED: [(&str, &str, &str); 25] = [
     ("position", "", "the window manager places the window"),
     ("save-statefile", "", NO_STATE),
     ("scalar-coloring", "s", NO_ARRAYS),
-    ("scene-hierarchy", "", "there is no tree of the scene; --no-render --json lists what is in a file"),
     ("statefile-filename", "", NO_STATE),
     ("texture-matcap", "", "there are no matcaps; --reflection and --hdri-file change how surfaces are lit"),
 ];

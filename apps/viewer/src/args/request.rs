@@ -119,7 +119,10 @@ pub(crate) struct Frames {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Overlay {
     /// Colours of arrows for X, Y and Z: linear RGB.
-    pub(crate) axes: Option<[Vec3; 3]>,
+    pub(crate) axes: [Vec3; 3],
+    pub(crate) shows_axes: bool,
+    /// The nodes of the scene as a tree.
+    pub(crate) tree: bool,
     pub(crate) name: bool,
     pub(crate) metadata: bool,
     pub(crate) environment_name: bool,
@@ -158,6 +161,8 @@ pub(crate) enum Mode {
     Inspect,
     /// Say which effects the models call for.
     Explain(Explanation),
+    /// Explain this pixel of their pictures.
+    ExplainPixel([u32; 2]),
     /// Say what is wrong with the models.
     Check,
     /// Say what draws.
@@ -287,6 +292,7 @@ fn mode(raw: &RawArgs) -> Mode {
         _ if raw.list_rendering_backends => Mode::ListBackends,
         _ if raw.check == Some(true) => Mode::Check,
         _ if raw.no_render == Some(true) => Mode::Inspect,
+        _ if let Some(pixel) = raw.explain_pixel => Mode::ExplainPixel(pixel),
         (_, Some(explanation)) => Mode::Explain(explanation),
         (Some(replay), None) => Mode::Replay { capture: replay.clone(), output },
         (None, None) if output.is_some() || capture.is_some() || raw.reference.is_some() => {
@@ -338,7 +344,8 @@ fn scenery(raw: &RawArgs) -> Scenery {
         absolute: material.point_sprites_absolute_size == Some(true),
     };
     Scenery {
-        grid: (flags.grid == Some(true)).then_some(grid),
+        grid,
+        shows_grid: flags.grid == Some(true),
         normals: (flags.normal_glyphs == Some(true)).then(|| NORMALS * f64::from(flags.normal_glyphs_scale)),
         bones: flags.armature == Some(true),
         sprites: matches!(material.point_sprites, Some(PointSprites::Sphere)).then_some(sprites),
@@ -347,9 +354,11 @@ fn scenery(raw: &RawArgs) -> Scenery {
 
 fn overlay(flags: &SceneryArgs) -> Overlay {
     Overlay {
-        axes: (flags.axis == Some(true)).then_some([flags.x_color, flags.y_color, flags.z_color]),
+        axes: [flags.x_color, flags.y_color, flags.z_color],
+        shows_axes: flags.axis == Some(true),
         name: flags.filename == Some(true),
         metadata: flags.metadata == Some(true),
+        tree: flags.scene_hierarchy == Some(true),
         environment_name: flags.hdri_filename == Some(true),
         text_scale: flags.font_scale,
     }

@@ -36,6 +36,17 @@ pub(crate) fn size(text: &str) -> Result<Viewport, String> {
     Ok(Viewport { width: side("width", width)?, height: side("height", height)? })
 }
 
+/// A pixel by its column and row.
+pub(crate) fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let numbers = text.split_once(',').map(|(x, y)| [x, y].map(|number| number.trim().parse::<u32>()));
+    match numbers {
+        Some([Ok(x), Ok(y)]) => Ok([x, y]),
+        _ => {
+            Err("write column and row, counted from 0, with a comma between them, such as 320,200".to_owned())
+        }
+    }
+}
+
 fn side(what: &str, text: &str) -> Result<u32, String> {
     let number = text.trim().parse::<u32>().ok().filter(|side| (1..=MAX_SIZE).contains(side));
     number.ok_or_else(|| {

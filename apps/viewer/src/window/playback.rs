@@ -168,14 +168,16 @@ impl Playback {
     }
 
     /// Shows the bar, if it is to be seen.
-    pub(super) fn show(&mut self, context: &egui::Context, stage: &mut Stage) {
+    pub(super) fn show(&mut self, ui: &egui::Ui, stage: &mut Stage) {
         if self.progress == AnimationProgress::None {
             return;
         }
+        let free = ui.available_rect_before_wrap();
         let area = egui::Area::new(egui::Id::unique("animation"));
         let area = area.anchor(egui::Align2::CENTER_BOTTOM, [0.0, -12.0]).fade_in(false);
-        area.show(context, |ui| {
+        area.constrain_to(free).show(ui.ctx(), |ui| {
             egui::Frame::popup(ui.style()).show(ui, |ui| {
+                ui.spacing_mut().slider_width = (free.width() * 0.3).clamp(60.0, 400.0);
                 ui.horizontal(|ui| self.controls(ui, stage));
             });
         });
@@ -185,7 +187,6 @@ impl Playback {
         if ui.button(if self.is_playing { "Pause" } else { "Play" }).clicked() {
             self.toggle(stage);
         }
-        ui.spacing_mut().slider_width = (ui.ctx().content_rect().width() * 0.3).clamp(60.0, 400.0);
         let is_advanced = self.progress == AnimationProgress::Advanced;
         let slider = egui::Slider::new(&mut self.seconds, 0.0..=self.duration.max(1e-3));
         let slider = slider.show_value(is_advanced).fixed_decimals(2).suffix(" s");

@@ -1,6 +1,8 @@
 //! The viewer's part of the window: which model is shown, loading it, and what
 //! the viewer's own keys do.
 
+mod overlays;
+
 use std::path::PathBuf;
 
 use trigon_camera::{Orbit, OrbitStyle};
@@ -9,14 +11,17 @@ use trigon_math::DVec3;
 use trigon_scene::{Background, Frame, NodeId, Scene};
 use trigon_window::{Animation, Corner, Handler, Hands, Input, Key, Modifiers, Stage, Taken, Tick, egui};
 
+use super::axes::AxesOverlay;
 use super::background::{Loading, Outcome};
 #[cfg(feature = "study")]
 use super::classic::Classics;
 use super::commands::Command;
 use super::open::{OpenWindow, SystemDialog};
+use super::overlay_commands::OverlayCommand;
 use super::playback::Playback;
 use super::quality::QualityPanel;
 use super::recent::Recent;
+use super::side::SidePanel;
 use super::watch::Watch;
 use super::{screenshot, title};
 use crate::args::{InteractionStyle, Request};
@@ -72,6 +77,8 @@ pub(super) struct Viewer {
     show_metadata: bool,
     open: OpenWindow,
     quality: QualityPanel,
+    side: SidePanel,
+    axes: AxesOverlay,
     #[cfg(feature = "study")]
     classics: Classics,
     recent: Recent,
@@ -87,6 +94,7 @@ impl Viewer {
     /// A viewer of these sources; there is at least one.
     pub(super) fn new(request: Request, sources: Vec<Source>, reporter: Reporter) -> Self {
         let (show_name, show_metadata) = (request.overlay.name, request.overlay.metadata);
+        let side = if request.overlay.tree { SidePanel::with_tree() } else { SidePanel::default() };
         Self {
             request,
             reporter,
@@ -98,6 +106,8 @@ impl Viewer {
             show_metadata,
             open: OpenWindow::default(),
             quality: QualityPanel::default(),
+            side,
+            axes: AxesOverlay::default(),
             #[cfg(feature = "study")]
             classics: Classics::default(),
             recent: Recent::load(),
@@ -165,6 +175,7 @@ impl Viewer {
         }
         stage.set_title(title(&model.source));
         stage.selection = None;
+        self.side.forget();
         let mut scene = model.scene;
         self.playback = Playback::new(&scene, &self.request);
         if self.playback.as_ref().is_some_and(Playback::is_playing) {
@@ -395,15 +406,18 @@ impl Handler for Viewer {
         if plays { Animation::Running } else { Animation::Resting }
     }
 
-    fn input(&mut self, _: &mut Stage, input: &Input, _: Hands) -> Taken {
+    fn input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
         if self.failure.is_some() && is_escape(input) {
             self.failure = None;
             return Taken::Yes;
         }
-        Taken::No
+        self.side.input(stage, input, hands)
     }
 
     fn command(&mut self, stage: &mut Stage, name: &str) {
+        if let Ok(command) = name.parse::<OverlayCommand>() {
+            self.run_overlay(stage, command);
+        }
         if let Ok(command) = name.parse() {
             self.run(stage, command);
             self.write_overlay(stage);
@@ -421,6 +435,11 @@ impl Handler for Viewer {
     }
 
     fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {
+        let beside = self.shown.as_ref().map_or(&[][..], |shown| &shown.scenery);
+        self.side.show(ui, stage, beside);
+        if self.request.overlay.shows_axes {
+            self.axes.show(ui, stage, self.request.overlay.axes);
+        }
         if self.show_progress(ui.ctx()) {
             self.cancel_loading(stage);
         }
@@ -429,7 +448,7 @@ impl Handler for Viewer {
         #[cfg(not(feature = "study"))]
         self.quality.show(ui.ctx(), stage, |_, _| {});
         if let Some(playback) = &mut self.playback {
-            playback.show(ui.ctx(), stage);
+            playback.show(ui, stage);
         }
         self.show_failure(ui.ctx());
         let waker = stage.waker();

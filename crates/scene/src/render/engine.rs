@@ -3,7 +3,9 @@
 
 use trigon_camera::Camera;
 use trigon_math::UVec2;
-use trigon_raster::{Background, Cancel, ExecuteSettings, Pass, Rasterizer, Stats, Target, TargetError};
+use trigon_raster::{
+    Background, Cancel, ExecuteSettings, Pass, PixelExplanation, Rasterizer, Stats, Target, TargetError,
+};
 
 use super::RenderError;
 use super::backdrop::Backdrop;
@@ -28,9 +30,32 @@ pub(super) struct Engine {
     plan: Option<EffectPlan>,
     counts: Counts,
     stats: Stats,
+    /// Whether stages measure their time.
+    pub(super) is_timed: bool,
 }
 
 impl Engine {
+    /// Explains a pixel of the picture that [`draw`](Self::draw) would make; `None` outside of it.
+    pub(super) fn explain(
+        &mut self,
+        (scene, camera, settings): (&Scene, &Camera, &RenderSettings),
+        [x, y]: [u32; 2],
+    ) -> Result<Option<PixelExplanation>, RenderError> {
+        let target = blank(settings)?;
+        let mut rasterizer = self.rasterizer(settings)?;
+        rasterizer.set_cancel(None);
+        let stage = Stage::new(scene, camera, settings);
+        let plan = EffectPlan::of_stage(&stage);
+        let scenery = self.kept.scenery(&stage, &plan, &mut rasterizer)?;
+        let explained = record(&stage, (camera, &scenery, settings), &mut Counts::default(), |pass, _, _| {
+            rasterizer.explain_pixel(pass, &target, x, y)
+        });
+        // The next picture does not follow from what the rasterizer holds now.
+        self.last = LastPicture::default();
+        self.rasterizer = Some(rasterizer);
+        Ok(explained)
+    }
+
     /// Draws into a frame whose memory is used again; after an error it holds
     /// nothing of use.
     pub(super) fn draw(
@@ -164,7 +189,8 @@ impl Engine {
 
     /// The last picture's rasterizer when its settings fit, or a new one.
     fn rasterizer(&mut self, settings: &RenderSettings) -> Result<Rasterizer, RenderError> {
-        let how = ExecuteSettings { threads: settings.threads, simd: settings.simd, ..Default::default() };
+        let RenderSettings { threads, simd, .. } = *settings;
+        let how = ExecuteSettings { threads, simd, timed: self.is_timed, ..Default::default() };
         let kept = self.rasterizer.take().filter(|rasterizer| *rasterizer.settings() == how);
         Ok(match kept {
             Some(rasterizer) => rasterizer,
