@@ -657,7 +657,8 @@ fn a_pixel_is_explained() {
     folder.write("two.obj", BEHIND);
     let flags = "two.obj --view=front --resolution=60,40 --samples=1 --explain-pixel";
     let text = String::from_utf8(folder.run(&format!("{flags} 31,20")).stdout).expect("text");
-    for part in ["pixel 31, 20", "front", "seen, because it is the nearest", "back", "hidden", "edge values"] {
+    for part in ["pixel 31, 20", "front", "seen, because it is the nearest", "back", "hidden", "edge values"]
+    {
         assert!(text.contains(part), "{part}: {text}");
     }
     let json = folder.run(&format!("{flags} 31,20 --json")).stdout;
