@@ -7,6 +7,7 @@
 mod args;
 mod axes;
 mod check;
+mod compare;
 mod explain;
 mod failure;
 mod folders;
@@ -25,6 +26,7 @@ mod report;
 mod scenery;
 mod scripted;
 mod series;
+mod state;
 mod study;
 #[cfg(feature = "window")]
 mod window;
@@ -61,6 +63,7 @@ fn main() -> ExitCode {
         Mode::Picture { output, capture } => {
             picture::run(&request, output.as_ref(), capture.as_deref(), reporter)
         }
+        Mode::Compare { other, output } => compare::run(&request, other, output, reporter),
         Mode::Replay { capture, output } => replay::run(capture, output.as_ref(), &request, reporter),
         Mode::Window => look_at(&request, reporter),
         Mode::Explain(explanation) => explain::run(&request, *explanation, reporter),

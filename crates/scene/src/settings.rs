@@ -7,6 +7,7 @@ use trigon_raster::simd::SimdLevel;
 use trigon_math::{DVec3, Vec3};
 
 use crate::background::Background;
+use crate::display::Display;
 use crate::effects::EffectSettings;
 use crate::marks::{Marks, VertexPoints};
 
@@ -183,6 +184,8 @@ pub struct RenderSettings {
     pub background: Background,
     /// Faces, edges or both.
     pub style: Style,
+    /// What faces show.
+    pub display: Display,
     /// Width of edges and of loose lines, in pixels. The edges of faces on surfaces are no
     /// wider than 16 pixels (fewer with supersampling), and narrower on faces that have no
     /// room for them: [`trigon_raster::FaceEdges`] says how much.
@@ -230,6 +233,7 @@ impl RenderSettings {
             samples: 1,
             background: Background::default(),
             style: Style::default(),
+            display: Display::default(),
             line_width: 1.0,
             edge_color: Vec3::splat(0.02),
             edge_opacity: 1.0,
@@ -265,6 +269,11 @@ impl RenderSettings {
         } else {
             0.0
         }
+    }
+
+    /// Which lights, whatever is displayed.
+    pub(crate) fn lighting(&self) -> Lighting {
+        if self.display == Display::Matcap { Lighting::Studio } else { self.lighting }
     }
 
     /// Width over height.

@@ -7,7 +7,7 @@ use std::time::Duration;
 use trigon_camera::{Camera, DEFAULT_MARGIN, Orbit, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
 use trigon_scene::quality::Preset;
-use trigon_scene::{Hit, NodeId, RenderSettings, Shadows, StageTimes};
+use trigon_scene::{Hit, NodeId, RenderSettings, Shadows, Snap, StageTimes};
 
 use crate::drawer::{Drawer, DrawnBy};
 use crate::input::InputOwner;
@@ -274,6 +274,13 @@ impl Stage {
     #[must_use]
     pub fn pick(&self, at: DVec2) -> Option<(Hit, DVec3)> {
         self.shown.as_ref()?.pick(at, self.viewport, &self.scene)
+    }
+
+    /// What a pointer at this point snaps to, within a radius, both in physical pixels: a vertex, an edge or a face of
+    /// the picture in the window. `None` on the background, and while that picture is a draft.
+    #[must_use]
+    pub fn snap(&self, at: DVec2, radius: f64) -> Option<Snap> {
+        self.shown.as_ref()?.snap(at, radius, self.viewport, &self.scene)
     }
 
     /// The box around the selected object in the world.

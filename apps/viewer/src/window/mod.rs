@@ -5,6 +5,8 @@ mod background;
 #[cfg(feature = "study")]
 mod classic;
 mod commands;
+mod comparing;
+mod measuring;
 mod open;
 mod overlay_commands;
 mod playback;
@@ -25,6 +27,7 @@ use trigon_scene::ShadingModel;
 use trigon_window::{Application, DragBinding, Interaction, Refinement, Stage, Visibility, WindowError};
 
 use crate::args::Request;
+use crate::compare;
 use crate::failure::Failure;
 use crate::model::Source;
 use crate::report::Reporter;
@@ -44,6 +47,10 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
             return failure.exit_code();
         }
     };
+    if let Some(Err(failure)) = request.compared.as_ref().map(|_| compare::only_source(request)) {
+        reporter.error(&failure);
+        return failure.exit_code();
+    }
     let sources = Source::all(request);
     let mut application = Application::new(title(&sources[0]));
     set_stage(&mut application.stage, request);

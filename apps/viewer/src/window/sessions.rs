@@ -1,15 +1,18 @@
 //! The viewer worked by mouse and keys alone, in windows without a display.
 
+mod command;
+mod comparing;
 mod overlays;
 
-use clap::Parser;
+use std::ffi::OsString;
+
 use trigon_camera::Viewport;
 use trigon_math::DVec2;
 use trigon_window::{Chord, HeadlessWindow, Key, Modifiers, PointerButton, Stage};
 
 use super::set_stage;
 use super::viewer::Viewer;
-use crate::args::{RawArgs, Request};
+use crate::args::{CommandLine, Request};
 use crate::model::Source;
 use crate::report::{Level, Reporter};
 
@@ -18,9 +21,9 @@ const SMALL: Viewport = Viewport { width: 800, height: 500 };
 
 /// Opens a window with these flags, waits for its model, and works it.
 fn with_window(flags: &str, size: Viewport, work: impl FnOnce(&mut HeadlessWindow<'_>)) {
-    let words = ["trigon-viewer", "--refine=false", "--samples=1"];
-    let words = words.into_iter().chain(flags.split_whitespace());
-    let request = Request::new(RawArgs::parse_from(words)).expect("consistent flags");
+    let words = ["--no-config", "--refine=false", "--samples=1"].into_iter().chain(flags.split_whitespace());
+    let line = CommandLine::new(words.map(OsString::from)).expect("flags that make sense");
+    let request = Request::from_line(&line, None).expect("consistent flags");
     let mut stage = Stage::new("test");
     set_stage(&mut stage, &request);
     let sources = Source::all(&request);

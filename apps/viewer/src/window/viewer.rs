@@ -2,13 +2,14 @@
 //! the viewer's own keys do.
 
 mod overlays;
+mod state;
 
 use std::path::PathBuf;
 
 use trigon_camera::{Orbit, OrbitStyle};
 use trigon_io::Warning;
 use trigon_math::DVec3;
-use trigon_scene::{Background, Frame, NodeId, Scene};
+use trigon_scene::{Background, Frame, NodeId, RenderSettings, Scene};
 use trigon_window::{Animation, Corner, Handler, Hands, Input, Key, Modifiers, Stage, Taken, Tick, egui};
 
 use super::axes::AxesOverlay;
@@ -16,6 +17,8 @@ use super::background::{Loading, Outcome};
 #[cfg(feature = "study")]
 use super::classic::Classics;
 use super::commands::Command;
+use super::comparing::Comparing;
+use super::measuring::Measuring;
 use super::open::{OpenWindow, SystemDialog};
 use super::overlay_commands::OverlayCommand;
 use super::playback::Playback;
@@ -78,6 +81,9 @@ pub(super) struct Viewer {
     open: OpenWindow,
     quality: QualityPanel,
     side: SidePanel,
+    measuring: Measuring,
+    /// If there is another model beside the one that is shown.
+    comparing: Option<Comparing>,
     axes: AxesOverlay,
     #[cfg(feature = "study")]
     classics: Classics,
@@ -95,6 +101,7 @@ impl Viewer {
     pub(super) fn new(request: Request, sources: Vec<Source>, reporter: Reporter) -> Self {
         let (show_name, show_metadata) = (request.overlay.name, request.overlay.metadata);
         let side = if request.overlay.tree { SidePanel::with_tree() } else { SidePanel::default() };
+        let comparing = request.compared.clone().map(Comparing::new);
         Self {
             request,
             reporter,
@@ -107,6 +114,8 @@ impl Viewer {
             open: OpenWindow::default(),
             quality: QualityPanel::default(),
             side,
+            measuring: Measuring::default(),
+            comparing,
             axes: AxesOverlay::default(),
             #[cfg(feature = "study")]
             classics: Classics::default(),
@@ -176,6 +185,7 @@ impl Viewer {
         stage.set_title(title(&model.source));
         stage.selection = None;
         self.side.forget();
+        self.measuring.forget();
         let mut scene = model.scene;
         self.playback = Playback::new(&scene, &self.request);
         if self.playback.as_ref().is_some_and(Playback::is_playing) {
@@ -353,10 +363,8 @@ impl Viewer {
     }
 
     fn take_screenshot(stage: &mut Stage, background: Background) {
-        let mut settings = stage.settings.clone();
-        (settings.width, settings.height) = (stage.viewport().width, stage.viewport().height);
-        settings.background = background;
-        stage.request_picture(settings);
+        let settings = stage.picture_settings();
+        stage.request_picture(RenderSettings { background, ..settings });
     }
 
     fn run(&mut self, stage: &mut Stage, command: Command) {
@@ -398,6 +406,9 @@ impl Handler for Viewer {
     fn start(&mut self, stage: &mut Stage) {
         stage.overlay.notify("H shows the keys");
         self.load(stage, View::Fit);
+        if let Some(comparing) = &mut self.comparing {
+            comparing.load(stage, &self.request);
+        }
         self.write_overlay(stage);
     }
 
@@ -409,6 +420,9 @@ impl Handler for Viewer {
     fn input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
         if self.failure.is_some() && is_escape(input) {
             self.failure = None;
+            return Taken::Yes;
+        }
+        if self.measuring.input(stage, input, hands) == Taken::Yes {
             return Taken::Yes;
         }
         self.side.input(stage, input, hands)
@@ -437,6 +451,10 @@ impl Handler for Viewer {
     fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {
         let beside = self.shown.as_ref().map_or(&[][..], |shown| &shown.scenery);
         self.side.show(ui, stage, beside);
+        self.measuring.show(ui, stage);
+        if let Some(comparing) = &self.comparing {
+            comparing.show(ui, &self.sources[self.current].title());
+        }
         if self.request.overlay.shows_axes {
             self.axes.show(ui, stage, self.request.overlay.axes);
         }
@@ -473,6 +491,9 @@ impl Handler for Viewer {
     fn woken(&mut self, stage: &mut Stage) {
         let picked = self.open.picked();
         self.add(stage, picked);
+        if let Some(Err(failure)) = self.comparing.as_mut().map(|comparing| comparing.woken(stage)) {
+            self.tell_failure(stage, &failure);
+        }
         if self.watch.as_ref().is_some_and(Watch::take_changed) {
             self.load(stage, View::Keep);
         }

@@ -15,6 +15,7 @@ use super::last_picture::{LastPicture, Step};
 use super::placement::DepthToDistance;
 use super::record::Record;
 use super::stage::Stage;
+use crate::display::{self, Display};
 use crate::effects::{Counts, Effect, EffectCounts, EffectPlan, Scenery};
 use crate::frame::Frame;
 use crate::outputs::{self, Needed};
@@ -64,6 +65,9 @@ impl Engine {
         cancel: Option<&Cancel>,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
+        if settings.display == Display::Depth && settings.outputs.color {
+            return self.draw_depth((scene, camera, settings), cancel, frame);
+        }
         // Checks the size, before memory is taken for it.
         let sample = blank(settings)?.visibility_sample();
         frame.make_room(settings)?;
@@ -100,6 +104,21 @@ impl Engine {
         counts.of(Effect::Poses).bytes = stage.shapes.posed_bytes() as u64;
         (self.counts, self.plan) = (counts, Some(plan));
         self.rasterizer = Some(rasterizer);
+        Ok(())
+    }
+
+    /// Draws depths as colours.
+    fn draw_depth(
+        &mut self,
+        (scene, camera, settings): (&Scene, &Camera, &RenderSettings),
+        cancel: Option<&Cancel>,
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
+        let mut uncolored = settings.clone();
+        (uncolored.outputs.color, uncolored.outputs.depth) = (false, true);
+        self.draw((scene, camera, &uncolored), cancel, frame)?;
+        display::paint_depth(frame);
+        frame.depth.take_if(|_| !settings.outputs.depth);
         Ok(())
     }
 

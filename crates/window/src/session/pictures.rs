@@ -138,7 +138,11 @@ impl Session<'_> {
         let purpose = Purpose::Window(quality);
         let step = match quality {
             Quality::Draft { shrink } => {
-                return Some(self.drawing(purpose, self.stage.draft_settings(shrink)));
+                let mut task = self.drawing(purpose, self.stage.draft_settings(shrink));
+                if let Task::Draw { drawer, .. } = &mut task {
+                    *drawer = self.stage.drawer.clone().filter(|drawer| drawer.draws_drafts());
+                }
+                return Some(task);
             }
             Quality::Full(step) => step,
         };

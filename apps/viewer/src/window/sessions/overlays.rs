@@ -1,8 +1,8 @@
 //! Panels and overlays, each opened by its key.
 
 use trigon_math::DVec2;
-use trigon_scene::{NodeId, Scene};
-use trigon_window::Key;
+use trigon_scene::{Display, NodeId, Scene};
+use trigon_window::{Chord, Key, Modifiers};
 
 use super::{SMALL, click, click_at, key, says, shift, with_window};
 
@@ -109,5 +109,51 @@ fn axes_and_grid_are_toggled() {
         key(window, 'g');
         assert_eq!((window.stage().scene.nodes().len(), window.stage().orbit), (nodes, orbit), "and gone");
         assert!(window.pixels() == plain, "without a trace");
+    });
+}
+
+#[test]
+fn faces_show_what_keys_and_the_list_choose() {
+    with_window("", SMALL, |window| {
+        let shaded = window.pixels();
+        key(window, 'v');
+        let mut pictures = vec![shaded.clone()];
+        for display in &Display::ALL[1..] {
+            click(window, display.name());
+            assert_eq!(window.stage().settings.display, *display, "chosen");
+            assert!(!pictures.contains(&window.pixels()), "{} looks like another", display.name());
+            pictures.push(window.pixels());
+        }
+        window.key(Key::Escape.into());
+        key(window, 'c');
+        assert_eq!(window.stage().settings.display, Display::Shaded, "after the last comes the first");
+        shift(window, 'c');
+        assert_eq!(window.stage().settings.display, Display::Depth, "and before it the last");
+        window.key(Chord::new(Modifiers::CTRL, Key::Character('d')));
+        assert_eq!(window.stage().settings.display, Display::Shaded, "its own key takes it away");
+        shift(window, 'm');
+        assert_eq!(window.stage().settings.display, Display::Matcap, "clay");
+    });
+}
+
+#[test]
+fn clicks_measure_and_escape_ends_it() {
+    with_window("", SMALL, |window| {
+        let before = window.pixels();
+        key(window, 'r');
+        assert!(says(window, "Click a point."), "what to do");
+        click_at(window, ON_MODEL);
+        assert!(says(window, "1: ") && says(window, "Click a second one."), "the first");
+        click_at(window, ON_MODEL + DVec2::new(30.0, 10.0));
+        assert!(says(window, "distance  ") && says(window, "dx dy dz  "), "between two");
+        click_at(window, ON_MODEL + DVec2::new(-20.0, 40.0));
+        assert!(says(window, "angle     "), "of three");
+        click_at(window, ON_MODEL);
+        assert!(!says(window, "2: "), "the fourth is the first again");
+        assert_eq!(window.stage().selection, None, "nothing is selected");
+        window.key(Key::Escape.into());
+        assert!(!says(window, "Measuring"), "ended");
+        window.move_to(DVec2::ZERO);
+        assert!(window.pixels() == before, "without a trace");
     });
 }

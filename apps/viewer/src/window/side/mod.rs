@@ -1,14 +1,16 @@
 //! The panel at the right of the picture: the scene as a tree, a pixel explained, or the effect plan. One of
 //! them stands there at a time, so that none covers another.
 
+mod command;
 mod effects;
 mod pixel;
 mod tree;
 
 use trigon_math::DVec2;
-use trigon_scene::NodeId;
+use trigon_scene::{Display, NodeId};
 use trigon_window::{Hands, Input, Key, PointerButton, Stage, Taken, egui};
 
+use command::CommandPanel;
 use effects::EffectPanel;
 use pixel::PixelPanel;
 use tree::TreePanel;
@@ -26,6 +28,10 @@ pub(super) enum Content {
     Pixel,
     /// Which effects there are, and why.
     Effects,
+    /// What faces can show.
+    Displays,
+    /// The command line that draws the picture.
+    Command,
 }
 
 impl Content {
@@ -34,6 +40,8 @@ impl Content {
             Self::Tree => "Scene",
             Self::Pixel => "Pixel",
             Self::Effects => "Effects",
+            Self::Displays => "Faces show",
+            Self::Command => "Command line",
         }
     }
 }
@@ -45,6 +53,7 @@ pub(super) struct SidePanel {
     tree: TreePanel,
     pixel: PixelPanel,
     effects: EffectPanel,
+    command: CommandPanel,
     /// Where the pointer was last, in physical pixels.
     pointer: Option<DVec2>,
 }
@@ -53,6 +62,16 @@ impl SidePanel {
     /// Shows the tree of the scene when the window opens.
     pub(super) fn with_tree() -> Self {
         Self { shown: Some(Content::Tree), ..Self::default() }
+    }
+
+    /// Shows this.
+    pub(super) fn open(&mut self, content: Content) {
+        self.shown = Some(content);
+    }
+
+    /// Copies a command line to the clipboard in the next pass, and keeps it to be read.
+    pub(super) fn show_command(&mut self, command: String, is_exact: bool) {
+        self.command = CommandPanel::new(command, is_exact);
     }
 
     /// Another model is shown.
@@ -101,7 +120,18 @@ impl SidePanel {
                 Content::Tree => self.tree.show(ui, stage, beside),
                 Content::Pixel => self.pixel.show(ui, stage),
                 Content::Effects => self.effects.show(ui, stage),
+                Content::Displays => displays(ui, stage),
+                Content::Command => self.command.show(ui),
             }
         });
     }
+}
+
+/// A line for each thing that faces can show.
+fn displays(ui: &mut egui::Ui, stage: &mut Stage) {
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        for display in Display::ALL {
+            ui.selectable_value(&mut stage.settings.display, display, display.name());
+        }
+    });
 }
