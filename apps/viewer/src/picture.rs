@@ -196,7 +196,12 @@ fn draw_series(model: &mut Model, request: &Request, outlet: &mut Outlet<'_>) ->
 }
 
 /// What is drawn and written over a picture.
-fn finished(mut frame: Frame, model: &Model, camera: &Camera, request: &Request) -> Result<Frame, Failure> {
+pub(crate) fn finished(
+    mut frame: Frame,
+    model: &Model,
+    camera: &Camera,
+    request: &Request,
+) -> Result<Frame, Failure> {
     let overlay = &request.overlay;
     if overlay.shows_axes {
         axes::draw(&mut frame, camera, overlay.axes, &request.settings)?;

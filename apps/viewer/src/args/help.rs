@@ -18,7 +18,7 @@ const ESSENTIAL: [(&str, &[Row]); 7] = [
             ("outputs", "Write depth, normals and other outputs beside the picture"),
             ("multi-file-mode", "Several files: one at a time, all together, or by folder"),
             ("reference", ""),
-            ("compare", "Show this model beside the other; with --output also where they differ"),
+            ("compare", "Show another model beside it, and where they differ"),
             ("explain-pixel", "Say why this pixel looks as it does"),
             ("check", "Say what is wrong with the files; exit code 1 for errors"),
             ("no-render", ""),

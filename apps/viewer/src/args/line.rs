@@ -107,7 +107,7 @@ impl CommandLine {
         file: Option<&Path>,
     ) -> Result<Vec<String>, clap::Error> {
         /// They are about the program, not about the picture.
-        const ASIDE: [&str; 11] = [
+        const ASIDE: [&str; 20] = [
             "config",
             "no-config",
             "define",
@@ -119,6 +119,15 @@ impl CommandLine {
             "reference",
             "interaction-record",
             "interaction-play",
+            "interaction-style",
+            "dpi-aware",
+            "fps",
+            "notifications",
+            "refine",
+            "watch",
+            "verbose",
+            "screenshot-filename",
+            "statefile-filename",
         ];
         let (matches, command) = (self.matches(file)?, RawArgs::command());
         let mut words = Vec::new();

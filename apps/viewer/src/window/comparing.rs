@@ -87,9 +87,11 @@ impl Comparing {
             Pair::Heat => self.drawer.as_ref().map(|drawer| drawer.said()).unwrap_or_default(),
         };
         let area = egui::Area::new(egui::Id::unique("comparing")).order(egui::Order::Background);
-        let area = area.anchor(egui::Align2::CENTER_TOP, [0.0, BELOW_NAME]).interactable(false).fade_in(false);
+        let area =
+            area.anchor(egui::Align2::CENTER_TOP, [0.0, BELOW_NAME]).interactable(false).fade_in(false);
         area.constrain_to(ui.available_rect_before_wrap()).show(ui.ctx(), |ui| {
-            egui::Frame::popup(ui.style()).show(ui, |ui| ui.label(text));
+            let text = egui::Label::new(text).extend();
+            egui::Frame::popup(ui.style()).show(ui, |ui| ui.add(text));
         });
     }
 }

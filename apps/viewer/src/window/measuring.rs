@@ -62,7 +62,9 @@ impl Measuring {
         area.constrain_to(ui.available_rect_before_wrap()).show(ui.ctx(), |ui| {
             egui::Frame::popup(ui.style()).show(ui, |ui| {
                 ui.strong("Measuring (Escape ends it)");
-                lines.iter().for_each(|line| drop(ui.monospace(line)));
+                for line in &lines {
+                    ui.add(egui::Label::new(egui::RichText::new(line).monospace()).extend());
+                }
             });
         });
     }

@@ -30,6 +30,7 @@ use super::{screenshot, title};
 use crate::args::{InteractionStyle, Request};
 use crate::failure::Failure;
 use crate::model::{Model, Source, Summary};
+use crate::picture;
 use crate::report::Reporter;
 
 /// What happens to the view when another model comes.
@@ -367,6 +368,15 @@ impl Viewer {
         stage.request_picture(RenderSettings { background, ..settings });
     }
 
+    /// Draws and writes over a screenshot what lies over the window's picture, as `--output` does.
+    fn with_overlay(&self, stage: &Stage, frame: Frame) -> Result<Frame, Failure> {
+        let Some(shown) = &self.shown else { return Ok(frame) };
+        let mut request = self.request.clone();
+        (request.overlay.name, request.overlay.metadata) = (self.show_name, self.show_metadata);
+        request.overlay.tree = false;
+        picture::finished(frame, &shown.model(stage), &stage.camera(), &request)
+    }
+
     fn run(&mut self, stage: &mut Stage, command: Command) {
         /// Eight presses of a key double the light.
         const BRIGHTER: f32 = 1.090_507_7;
@@ -478,7 +488,10 @@ impl Handler for Viewer {
 
     fn picture(&mut self, stage: &mut Stage, frame: Frame) {
         let model = self.shown.as_ref().and_then(|shown| shown.source.first_file());
-        match screenshot::save(&frame, &self.request.screenshot, model) {
+        let saved = self
+            .with_overlay(stage, frame)
+            .and_then(|frame| screenshot::save(&frame, &self.request.screenshot, model));
+        match saved {
             Ok(path) => {
                 let path = std::path::absolute(&path).unwrap_or(path);
                 self.reporter.info(format_args!("wrote {}", path.display()));
