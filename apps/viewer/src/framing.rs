@@ -1,8 +1,7 @@
-//! Where the camera stands: the camera flags and the model become a camera
-//! that shows the model.
+//! Places the camera: combines the camera flags and the model's bounds.
 //!
-//! Turning (`azimuth`, `elevation`) comes before fitting, so that the model
-//! is in the picture whatever the angles are.
+//! Rotations (`azimuth`, `elevation`) come before fitting, so that the model is in view whatever
+//! the angles are.
 
 use std::str::FromStr;
 
@@ -252,7 +251,7 @@ impl Framing {
                 return trigon_camera::orientation_looking(direction, self.view_up());
             }
             Eye::Default | Eye::Position(_) | Eye::SceneCamera(_) | Eye::Exact(_) => {
-                orbit.look_along(upright(self.up))
+                orbit.look_along(upright(self.up));
             }
         }
         match self.view_up {

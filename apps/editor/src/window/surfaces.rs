@@ -1,4 +1,4 @@
-//! The materials that a display mode shows in place of the scene's own. The clay of matcap is the renderer's.
+//! Materials that a display mode shows instead of the scene's own. The clay of matcap is the renderer's.
 
 use trigon_edit::scene::{Material, Scene};
 use trigon_window::scene::math::Vec3;

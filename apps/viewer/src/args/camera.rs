@@ -50,7 +50,8 @@ impl FromStr for ExactCamera {
         let position = DVec3::from_array(numbers(position)?);
         let orientation = DQuat::from_array(numbers(orientation)?);
         let [distance] = numbers(distance)?;
-        if !position.is_finite() || !orientation.is_normalized() || !(distance > 0.0 && distance.is_finite())
+        let is_somewhere = position.is_finite() && distance.is_finite() && distance > 0.0;
+        if !(is_somewhere && orientation.is_normalized())
         {
             return Err(format!("the camera is nowhere, or turned by no rotation; {FORM}"));
         }
