@@ -681,7 +681,7 @@ fn two_models_are_compared() {
     let folder = Folder::new();
     folder.write("two.obj", BEHIND);
     folder.write("one.obj", BEHIND.split("o back").next().expect("the first part"));
-    let flags = "--view=front --camera-position=3,2,9 --resolution=60,40 --output o.png";
+    let flags = "--camera-position=3,2,9 --resolution=60,40 --output o.png";
     let said = folder.said(&format!("two.obj --compare one.obj {flags}"), 3);
     assert!(said.contains("pixels differ"), "how much: {said}");
     let pair = picture(&folder.path("o.png"));

@@ -10,12 +10,13 @@ use trigon_raster::{
 use super::RenderError;
 use super::backdrop::Backdrop;
 use super::compose::Composer;
+use super::depth_image::paint_depth;
 use super::kept::Kept;
 use super::last_picture::{LastPicture, Step};
 use super::placement::DepthToDistance;
 use super::record::Record;
 use super::stage::Stage;
-use crate::display::{self, Display};
+use crate::display::Display;
 use crate::effects::{Counts, Effect, EffectCounts, EffectPlan, Scenery};
 use crate::frame::Frame;
 use crate::outputs::{self, Needed};
@@ -116,7 +117,7 @@ impl Engine {
         let mut uncolored = settings.clone();
         (uncolored.outputs.color, uncolored.outputs.depth) = (false, true);
         self.draw((scene, camera, &uncolored), cancel, frame)?;
-        display::paint_depth(frame);
+        paint_depth(frame);
         frame.depth.take_if(|_| !settings.outputs.depth);
         Ok(())
     }
