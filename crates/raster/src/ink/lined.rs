@@ -2,7 +2,7 @@
 //! front of what.
 
 use super::rule::EdgePoint;
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::geometry::Geometry;
 use crate::setup::{Corners, SetupTriangle};
@@ -66,7 +66,7 @@ impl Segment {
 
 impl LinedFace {
     /// Becomes that of a triangle.
-    pub(super) fn set(&mut self, frame: &FrameView<'_>, place: Place) {
+    pub(super) fn set(&mut self, frame: &FrameView<'_>, place: TriangleRef) {
         let triangle = frame.triangle(place);
         (self.edges, self.plane) = (Edge::of(&triangle), DepthPlane::of(&triangle));
         self.vertices.clear();
@@ -172,7 +172,7 @@ pub(crate) fn parts(geometry: &Geometry<'_>, primitive: u32) -> impl Iterator<It
 /// The corner of the primitive that is opposite its side on which two vertices lie.
 fn opposite_corner(
     frame: &FrameView<'_>,
-    place: Place,
+    place: TriangleRef,
     triangle: &SetupTriangle,
     [from, to]: [usize; 2],
 ) -> Option<usize> {

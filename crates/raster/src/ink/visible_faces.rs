@@ -31,15 +31,15 @@ pub(crate) struct VisibleFaces {
 
 impl VisibleFaces {
     /// Forgets the last tile; this one has so many triangles.
-    pub(super) fn begin(&mut self, places: usize) {
+    pub(super) fn begin(&mut self, triangle_count: usize) {
         (self.has_lines, self.has_large) = (false, false);
         // Triangles that are not seen keep what they had: nobody looks at it.
-        if self.footprints.len() < places + 1 {
-            self.footprints.resize(places + 1, Footprint::NOBODY);
-            self.lines.resize(places + 1, FaceLine::UNLINED);
+        if self.footprints.len() < triangle_count + 1 {
+            self.footprints.resize(triangle_count + 1, Footprint::NOBODY);
+            self.lines.resize(triangle_count + 1, FaceLine::UNLINED);
         }
-        self.footprints[places] = Footprint::NOBODY;
-        self.lines[places] = FaceLine::UNLINED;
+        self.footprints[triangle_count] = Footprint::NOBODY;
+        self.lines[triangle_count] = FaceLine::UNLINED;
     }
 
     /// Takes a visible triangle of the tile.

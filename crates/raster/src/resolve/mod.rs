@@ -161,7 +161,7 @@ impl FrameView<'_> {
         match winner {
             NOBODY => [u32::MAX; 3],
             winner => {
-                let place = state.places[winner as usize];
+                let place = state.triangles[winner as usize];
                 let plan = &self.plan.draws[self.draw_of(place)];
                 let geometry = &self.pass[plan.draw].geometry;
                 let primitive = place.ordinal - plan.ordinals.start;

@@ -8,7 +8,7 @@ use crate::simd::{Each, I32, LANES, Mask, Simd, lane_numbers, lanes_of, prelude:
 use crate::vertex::ScreenVertex;
 
 /// What eight triangles look like on the screen.
-struct Eight<S: Simd> {
+struct ScreenTriangles<S: Simd> {
     /// x and y of the corners.
     corners: [[I32<S>; 2]; 3],
     /// Least and greatest coordinates, by axis.
@@ -19,7 +19,7 @@ struct Eight<S: Simd> {
     plain: Mask<S>,
 }
 
-impl<S: Simd> Eight<S> {
+impl<S: Simd> ScreenTriangles<S> {
     #[inline(always)]
     fn new(simd: S, vertices: [[&ScreenVertex; LANES]; 3]) -> Self {
         let [a, b, c] = vertices.each(
@@ -54,7 +54,7 @@ impl<S: Simd> Eight<S> {
     }
 }
 
-impl<S: Simd> Eight<S> {
+impl<S: Simd> ScreenTriangles<S> {
     /// Which of the triangles cover none of the centres of the two by two pixels
     /// that begin at `first`.
     #[inline(always)]
@@ -102,7 +102,7 @@ impl Setup<'_> {
                 )
             },
         );
-        let eight = Eight::new(simd, vertices);
+        let eight = ScreenTriangles::new(simd, vertices);
         let lanes = (1_u64 << triangles.len()) - 1;
         let plain = eight.plain.to_bitmask() & lanes;
         let (drawn, pixels) = self.seen(simd, &eight, plain);
@@ -133,7 +133,7 @@ impl Setup<'_> {
     /// Those of the `plain` lanes that may be seen, and the first and last columns and
     /// rows that they may have samples in.
     #[inline(always)]
-    fn seen<S: Simd>(&self, simd: S, eight: &Eight<S>, plain: u64) -> (u64, [[I32<S>; 2]; 2]) {
+    fn seen<S: Simd>(&self, simd: S, eight: &ScreenTriangles<S>, plain: u64) -> (u64, [[I32<S>; 2]; 2]) {
         let zero = I32::splat(simd, 0);
         let faces = match self.culling {
             Culling::None => !eight.area.simd_eq(zero),

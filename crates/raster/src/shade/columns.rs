@@ -4,7 +4,7 @@ use super::ShadeContext;
 use super::layout::{CutColumns, RecordShape, cold, hot, lined};
 use super::placed::Placed;
 use super::records::Records;
-use super::task::Vector;
+use super::task::FragmentBatch;
 use crate::MAX_VARYINGS;
 use crate::simd::{Each, I32, LANES, Mask, Row, Simd, U32, inlined, prelude::*, transpose};
 
@@ -22,7 +22,7 @@ impl<S: Simd> Seen<S> {
     /// How many there are, nobody can foresee: the sooner it is known, the better. So the
     /// first and the last of the others are looked for at once.
     #[inline(always)]
-    fn find(simd: S, vector: &Vector<'_, S>) -> Self {
+    fn find(simd: S, vector: &FragmentBatch<'_, S>) -> Self {
         let lanes = vector.names;
         let names: [u32; LANES] = lanes.into();
         let of = inlined(
@@ -153,7 +153,7 @@ impl Columns {
         simd: S,
         context: &ShadeContext<'_>,
         records: &Records,
-        vector: &Vector<'_, S>,
+        vector: &FragmentBatch<'_, S>,
     ) {
         let (before, rows) = (self.uniform.take(), records.selected());
         let of = inlined(
@@ -256,7 +256,7 @@ impl Special {
     fn load_cuts(&mut self, context: &ShadeContext<'_>) {
         self.is_cut = false;
         for lane in 0..LANES {
-            let place = context.places[self.cold[cold::PLACE][lane] as usize];
+            let place = context.triangles[self.cold[cold::PLACE][lane] as usize];
             let cut = place.part().and_then(|_| context.draw.chunk_of(place).weights_of(place));
             self.is_cut |= cut.is_some();
             let weights = cut.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);

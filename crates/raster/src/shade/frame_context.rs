@@ -2,7 +2,7 @@
 
 use super::ShadeContext;
 use super::context::DrawVaryings;
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::tile::TileArea;
 
@@ -12,7 +12,7 @@ impl<'f> FrameView<'f> {
     pub(super) fn shade_context<'c>(
         &'c self,
         area: &TileArea,
-        places: &'c [Place],
+        triangles: &'c [TriangleRef],
         draw: usize,
     ) -> ShadeContext<'c> {
         let (plan, pipeline) = (&self.plan.draws[draw], self.pipeline(draw));
@@ -28,7 +28,7 @@ impl<'f> FrameView<'f> {
             pattern: self.grid.pattern,
             supersampling: self.supersampling,
             area: *area,
-            places,
+            triangles,
             outer: None,
         }
     }

@@ -5,7 +5,7 @@ use super::layout::{RecordShape, lined};
 use super::perspective::perspective;
 use super::sorted::Sorted;
 use crate::EdgeFlags;
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::ink::{FaceLine, Footprint, Ink, LineColumns, VisibleFaces};
 use crate::setup::Corners;
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, inlined, lesser, prelude::*};
@@ -32,7 +32,7 @@ impl Lines {
         simd: S,
         (context, ink): (&ShadeContext<'_>, &Ink),
         sorted: &Sorted<S>,
-        (places, primitives): ([Place; LANES], [u32; LANES]),
+        (triangles, primitives): ([TriangleRef; LANES], [u32; LANES]),
     ) -> Self {
         let geometry = context.geometry();
         let shows_edges = geometry.shows_edges();
@@ -43,7 +43,7 @@ impl Lines {
         let is_edge = edges_of(simd, sorted, flags);
         let lengths = lengths_of(sorted);
         let mut radius = radius_of(simd, sorted, (lengths, is_edge), flags);
-        let is_cut = places.each(|place| corners_of(context, place).is_some());
+        let is_cut = triangles.each(|place| corners_of(context, place).is_some());
         if is_cut.contains(&true) {
             let cut = Mask::from_bitmask(simd, bits(is_cut));
             radius = cut.select(F32::splat(simd, HUGE), radius);
@@ -59,7 +59,7 @@ impl Lines {
             shows_edges,
         };
         for lane in (0..LANES).filter(|&lane| is_cut[lane]) {
-            lines.cut(simd, context, sorted, (places[lane], flags[lane], lane));
+            lines.cut(simd, context, sorted, (triangles[lane], flags[lane], lane));
         }
         lines
     }
@@ -87,7 +87,7 @@ impl Lines {
         simd: S,
         context: &ShadeContext<'_>,
         sorted: &Sorted<S>,
-        (place, flags, lane): (Place, EdgeFlags, usize),
+        (place, flags, lane): (TriangleRef, EdgeFlags, usize),
     ) {
         let Some((weights, order)) = corners_of(context, place) else { return };
         let weights = context.draw.chunk_of(place).weights[weights as usize];
@@ -220,7 +220,7 @@ fn inverses<S: Simd>(simd: S, sorted: &Sorted<S>, lengths: [F32<S>; 3]) -> [F32<
 
 /// The index of the weights of a triangle that was cut, and the corners of their columns.
 #[inline(always)]
-fn corners_of(context: &ShadeContext<'_>, place: Place) -> Option<(u32, [u8; 3])> {
+fn corners_of(context: &ShadeContext<'_>, place: TriangleRef) -> Option<(u32, [u8; 3])> {
     match context.draw.chunk_of(place).made(place)?.corners {
         Corners::Cut { weights, order } => Some((weights, order)),
         Corners::Whole(_) | Corners::Ends(_) => None,

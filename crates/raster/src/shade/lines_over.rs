@@ -5,7 +5,7 @@ use super::columns::Columns;
 use super::layout::lined;
 use super::records::Records;
 use super::triangle_lanes::TriangleLanes;
-use super::{ShadeContext, Work};
+use super::{ShadeContext, ShadePoint};
 use crate::ink::{Ink, Overlap};
 use crate::simd::{Each, F32, I32, LANES, Row, Simd, U32, greater, lesser, prelude::*};
 
@@ -125,7 +125,7 @@ fn beside<S: Simd>(simd: S, spots: U32<S>, outer: &[Overlap]) -> F32<S> {
     let spots: [u32; LANES] = spots.into();
     let shares = spots.each(
         #[inline(always)]
-        |spot| outer[Work::pixel_of(spot)].share,
+        |spot| outer[ShadePoint::pixel_of(spot)].share,
     );
     F32::simd_from(simd, shares)
 }
@@ -136,7 +136,7 @@ fn beside_marked<S: Simd>(simd: S, spots: U32<S>, outer: &[Overlap]) -> Overlaps
     let lanes: [u32; LANES] = spots.into();
     let marks = lanes.each(
         #[inline(always)]
-        |spot| u32::from(outer[Work::pixel_of(spot)].mark),
+        |spot| u32::from(outer[ShadePoint::pixel_of(spot)].mark),
     );
     Overlaps { shares: beside(simd, spots, outer), marks: U32::simd_from(simd, marks) }
 }

@@ -1,8 +1,8 @@
 //! Fragments by the triangle: those that wait for their mask, or to be blended.
 
 use super::task::Task;
-use super::{Job, ShadeContext, ShadeOutput, Shading, Work};
-use crate::bin::Place;
+use super::{Job, ShadeContext, ShadeOutput, ShadePoint, Shading};
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::ink::Overlap;
 use crate::tile::TileArea;
@@ -15,11 +15,11 @@ pub(crate) fn shade_jobs(
     frame: &FrameView<'_>,
     area: &TileArea,
     shading: &mut Shading,
-    (places, jobs, work): (&[Place], &[Job], &[Work]),
+    (triangles, jobs, points): (&[TriangleRef], &[Job], &[ShadePoint]),
     colors: &mut [[f32; 4]],
 ) {
     // Over translucent faces no edges of others are laid.
-    shade_jobs_with(frame, area, shading, (places, jobs, work), (colors, None));
+    shade_jobs_with(frame, area, shading, (triangles, jobs, points), (colors, None));
 }
 
 /// [`shade_jobs`], with what edges of other faces cover.
@@ -27,10 +27,10 @@ pub(crate) fn shade_jobs_with(
     frame: &FrameView<'_>,
     area: &TileArea,
     shading: &mut Shading,
-    (places, jobs, work): (&[Place], &[Job], &[Work]),
+    (triangles, jobs, points): (&[TriangleRef], &[Job], &[ShadePoint]),
     (colors, outer): (&mut [[f32; 4]], Option<&[Overlap]>),
 ) {
-    for_each_part(frame, area, shading, (places, jobs, work), |draw, context, shading| {
+    for_each_part(frame, area, shading, (triangles, jobs, points), |draw, context, shading| {
         let context = &ShadeContext { outer, ..*context };
         let Shading { records, columns, fragments, .. } = shading;
         let task = Task::of_fragments(records, 0, fragments.all());
@@ -44,10 +44,10 @@ pub(crate) fn mask_jobs(
     frame: &FrameView<'_>,
     area: &TileArea,
     shading: &mut Shading,
-    (places, jobs, work): (&[Place], &[Job], &[Work]),
+    (triangles, jobs, points): (&[TriangleRef], &[Job], &[ShadePoint]),
     kept: &mut [u8],
 ) {
-    for_each_part(frame, area, shading, (places, jobs, work), |draw, context, shading| {
+    for_each_part(frame, area, shading, (triangles, jobs, points), |draw, context, shading| {
         let Shading { records, columns, fragments, .. } = shading;
         let task = Task::of_fragments(records, 0, fragments.all());
         frame.pipeline(draw).mask(frame.token, context, (&task, columns), kept);
@@ -60,24 +60,24 @@ fn for_each_part(
     frame: &FrameView<'_>,
     area: &TileArea,
     shading: &mut Shading,
-    (places, jobs, work): (&[Place], &[Job], &[Work]),
+    (triangles, jobs, points): (&[TriangleRef], &[Job], &[ShadePoint]),
     mut visit: impl FnMut(usize, &ShadeContext<'_>, &mut Shading),
 ) {
     let mut rest = jobs;
     while let Some(first) = rest.first() {
-        let draw = frame.draw_of(places[first.place as usize]);
+        let draw = frame.draw_of(triangles[first.place as usize]);
         let end = frame.plan.draws[draw].ordinals.end;
-        let same = rest.partition_point(|job| places[job.place as usize].ordinal < end);
+        let same = rest.partition_point(|job| triangles[job.place as usize].ordinal < end);
         let (part, after) = rest.split_at(same.min(READY));
         shading.seen.clear();
         shading.seen.extend(part.iter().map(|job| job.place));
         shading.fragments.clear();
         for (slot, job) in part.iter().enumerate() {
-            for &work in &work[job.work.clone()] {
-                shading.fragments.push(slot as u32, work);
+            for &point in &points[job.points.clone()] {
+                shading.fragments.push(slot as u32, point);
             }
         }
-        let context = frame.shade_context(area, places, draw);
+        let context = frame.shade_context(area, triangles, draw);
         shading.records.fill(frame.token, &context, &shading.seen);
         visit(draw, &context, shading);
         rest = after;

@@ -1,5 +1,6 @@
 //! The fragment stage: what is seen at each pixel gets its colour.
 
+mod barycentrics;
 mod columns;
 mod context;
 mod edges;
@@ -25,10 +26,9 @@ mod surface;
 mod task;
 mod triangle_lanes;
 mod visible;
-mod weights;
 
 use context::Spots;
-pub(crate) use context::{Job, ShadeContext, Work};
+pub(crate) use context::{Job, ShadeContext, ShadePoint};
 pub(crate) use edges::{BEHIND, EdgeGroup};
 pub(crate) use encode::Encoding;
 pub(crate) use erased::AnyPipeline;

@@ -5,7 +5,7 @@ use super::ShadeContext;
 use super::layout::{RecordShape, cold, hot};
 use super::lines::Lines;
 use super::sorted::Sorted;
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::ink::{Marks, VisibleFaces};
 use crate::simd::{Each, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
 
@@ -97,7 +97,7 @@ impl Records {
         for ((record, tag), &number) in rows.chunks_exact_mut(shape.size).zip(tags).zip(seen) {
             record[0][hot::STEPS] = 1;
             record[0][hot::STEPS + 1] = 1;
-            *tag = Tag { primitive: context.places[number as usize].ordinal - first, flags: 0 };
+            *tag = Tag { primitive: context.triangles[number as usize].ordinal - first, flags: 0 };
         }
     }
 
@@ -147,7 +147,7 @@ impl Records {
                 );
                 let mut columns = [[0; LANES]; cold::COUNT];
                 if self.shape.size == self.shape.loaded {
-                    let sorted = Sorted::made(simd, context, places(context, seen));
+                    let sorted = Sorted::made(simd, context, triangle_refs(context, seen));
                     let [_, first, second] = sorted.heads(simd, context.area.origin);
                     columns[..LANES].copy_from_slice(&first);
                     columns[LANES..].copy_from_slice(&second);
@@ -185,10 +185,10 @@ impl<'r> SelectedRows<'r> {
 
 /// Eight of the tile's triangles.
 #[inline(always)]
-fn places(context: &ShadeContext<'_>, seen: [u32; LANES]) -> [Place; LANES] {
+fn triangle_refs(context: &ShadeContext<'_>, seen: [u32; LANES]) -> [TriangleRef; LANES] {
     seen.each(
         #[inline(always)]
-        |number| context.places[number as usize],
+        |number| context.triangles[number as usize],
     )
 }
 
@@ -205,19 +205,19 @@ fn eight<S: Simd>(
         #[inline(always)]
         |lane| *seen.get(lane).unwrap_or(&seen[0]),
     );
-    let places = places(context, numbers);
+    let triangles = triangle_refs(context, numbers);
     let first = context.draw.first;
-    let primitives = places.each(
+    let primitives = triangles.each(
         #[inline(always)]
         |place| place.ordinal - first,
     );
     let indices = context.geometry().corners_of(primitives);
-    let sorted = if places.iter().all(|place| place.is_whole()) {
+    let sorted = if triangles.iter().all(|place| place.is_whole()) {
         Sorted::whole(simd, context, indices)
     } else {
         simd.vectorize(
             #[inline(always)]
-            || Sorted::made(simd, context, places),
+            || Sorted::made(simd, context, triangles),
         )
     };
     let columns = sorted.heads(simd, context.area.origin);
@@ -240,7 +240,7 @@ fn eight<S: Simd>(
         simd.vectorize(
             #[inline(always)]
             || {
-                let lines = Lines::new(simd, (context, ink), &sorted, (places, primitives));
+                let lines = Lines::new(simd, (context, ink), &sorted, (triangles, primitives));
                 lines.store((rows, shape), seen.len());
                 if let Some(outer) = outer {
                     lines.note(simd, &sorted, seen, outer);

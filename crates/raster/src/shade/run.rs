@@ -3,9 +3,9 @@
 
 use super::columns::Columns;
 use super::output::finite;
-use super::task::{Task, Vector};
+use super::task::{FragmentBatch, Task};
 use super::triangle_lanes::TriangleLanes;
-use super::{FragmentLanes, Records, ShadeContext, ShadeOutput, Spots, Work};
+use super::{FragmentLanes, Records, ShadeContext, ShadeOutput, ShadePoint, Spots};
 use crate::LanePipeline;
 use crate::simd::{Each, I32, Simd, U32, prelude::*};
 
@@ -56,7 +56,7 @@ pub(super) fn for_each_vector<S: Simd>(
     simd: S,
     context: &ShadeContext<'_>,
     (task, columns): (&Task<'_>, &mut [Columns; 2]),
-    mut visit: impl FnMut(&FragmentLanes<'_, S>, &Vector<'_, S>),
+    mut visit: impl FnMut(&FragmentLanes<'_, S>, &FragmentBatch<'_, S>),
 ) {
     let [mut next, mut now] = columns.each_mut();
     next.reset();
@@ -98,13 +98,13 @@ fn fragments<'v, S: Simd>(
     simd: S,
     context: &'v ShadeContext<'v>,
     (records, columns): (&'v Records, &'v Columns),
-    vector: &'v Vector<'_, S>,
+    vector: &'v FragmentBatch<'_, S>,
 ) -> FragmentLanes<'v, S> {
     FragmentLanes {
         simd,
         varyings: columns.varyings(records.shape().varyings),
         columns,
-        place: TriangleLanes::load(simd, columns).at(simd, &columns.placed),
+        barycentrics: TriangleLanes::load(simd, columns).at(simd, &columns.placed),
         point: columns.placed.point(simd),
         vector,
         records,
@@ -117,7 +117,7 @@ fn fragments<'v, S: Simd>(
 /// not cover it at the lowest-numbered sample that it covers.
 #[inline(always)]
 fn points<S: Simd>(simd: S, context: &ShadeContext<'_>, columns: &Columns, spots: U32<S>) -> [I32<S>; 2] {
-    let (corners, elsewhere) = Work::corners(spots);
+    let (corners, elsewhere) = ShadePoint::corners(spots);
     let Some(spots) = elsewhere else {
         return corners.each(
             #[inline(always)]

@@ -66,10 +66,10 @@ pub(crate) struct Shading {
 
 impl Shading {
     /// Forgets the last tile. This one has so many triangles and samples.
-    pub(super) fn clear(&mut self, places: usize, samples: usize) {
+    pub(super) fn clear(&mut self, triangle_count: usize, samples: usize) {
         self.slots.clear();
         // One more, for nobody.
-        self.slots.resize(places + 1, 0);
+        self.slots.resize(triangle_count + 1, 0);
         self.groups.clear();
         self.fragments.clear();
         self.parts.clear();

@@ -3,7 +3,7 @@
 use super::ShadeContext;
 use super::layout::flag;
 use super::perspective::perspective;
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::setup::{Column, Corners, Kind, SMALL, SetupTriangle, small_lanes, sorted_columns};
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, inlined, lanes_of, prelude::*};
 
@@ -81,8 +81,8 @@ impl<S: Simd> Sorted<S> {
 
     /// Triangles of which some were made by cutting, or from lines and points.
     #[inline(always)]
-    pub(super) fn made(simd: S, context: &ShadeContext<'_>, places: [Place; LANES]) -> Self {
-        let triangles = places.each(
+    pub(super) fn made(simd: S, context: &ShadeContext<'_>, refs: [TriangleRef; LANES]) -> Self {
+        let triangles = refs.each(
             #[inline(always)]
             |place| context.draw.triangle(place),
         );

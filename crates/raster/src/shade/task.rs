@@ -2,7 +2,7 @@
 //! fragments of a list.
 
 use super::fragments::FragmentSlice;
-use super::{Records, Work};
+use super::{Records, ShadePoint};
 use crate::simd::{Each, LANES, Mask, Simd, U32, lane_numbers, lanes_of, prelude::*};
 
 /// A group of pixels of which some see one draw.
@@ -42,7 +42,7 @@ pub(crate) enum Destination<'t> {
 }
 
 /// Eight pixels to be shaded together.
-pub(super) struct Vector<'t, S: Simd> {
+pub(super) struct FragmentBatch<'t, S: Simd> {
     /// What the lanes see, by names that stand for records. Lanes to spare repeat one
     /// that is asked for.
     pub(super) names: U32<S>,
@@ -63,7 +63,7 @@ enum Names<'t> {
     Winners(&'t [u32], u32),
 }
 
-impl<'t, S: Simd> Vector<'t, S> {
+impl<'t, S: Simd> FragmentBatch<'t, S> {
     /// The number of the record that a name stands for.
     #[inline(always)]
     pub(super) fn slot(&self, name: u32) -> u32 {
@@ -106,7 +106,7 @@ impl<'t> Task<'t> {
 
     /// One of the vectors.
     #[inline(always)]
-    pub(super) fn vector<S: Simd>(&self, simd: S, number: usize) -> Vector<'t, S> {
+    pub(super) fn vector<S: Simd>(&self, simd: S, number: usize) -> FragmentBatch<'t, S> {
         match self.groups.get(number) {
             Some(group) => self.group(simd, group),
             None => self.listed(simd, (number - self.groups.len()) * LANES),
@@ -114,7 +114,7 @@ impl<'t> Task<'t> {
     }
 
     #[inline(always)]
-    fn group<S: Simd>(&self, simd: S, group: &Group) -> Vector<'t, S> {
+    fn group<S: Simd>(&self, simd: S, group: &Group) -> FragmentBatch<'t, S> {
         let (winners, step) = self.winners;
         let winners =
             winners[group.number as usize * step..].first_chunk().expect("a group has eight pixels");
@@ -125,9 +125,9 @@ impl<'t> Task<'t> {
         let mut spots = (lane_numbers(simd) + pixel as i32).bitcast();
         if group.edges != 0 {
             spots = Mask::from_bitmask(simd, u64::from(group.edges))
-                .select(Work::covering_lanes(spots, 0), spots);
+                .select(ShadePoint::covering_lanes(spots, 0), spots);
         }
-        Vector {
+        FragmentBatch {
             names,
             named: Names::Winners(self.slots, self.base),
             spots,
@@ -137,9 +137,9 @@ impl<'t> Task<'t> {
     }
 
     #[inline(always)]
-    fn listed<S: Simd>(&self, simd: S, first: usize) -> Vector<'t, S> {
+    fn listed<S: Simd>(&self, simd: S, first: usize) -> FragmentBatch<'t, S> {
         let FragmentSlice { slots, spots, outputs } = self.fragments.part(first..first + LANES);
-        Vector {
+        FragmentBatch {
             names: U32::simd_from(simd, eight(slots)) - self.base,
             named: Names::Slots,
             spots: U32::simd_from(simd, eight(spots)),

@@ -1,14 +1,14 @@
-//! Eight small triangles of a tile made ready at once.
+//! EightTriangles small triangles of a tile made ready at once.
 
-use super::{Covering, DepthPlane, TileArea};
+use super::{DepthPlane, TileArea, TileTriangle};
 use crate::samples::{MAX_SAMPLES, SamplePattern};
 use crate::setup::{Column, small_lanes, sorted_columns};
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lesser, prelude::*, widened};
 use crate::vertex::ScreenVertex;
 use fearless_simd::f64x4;
 
-/// What [`Covering`] needs of eight small triangles.
-pub(super) struct Eight {
+/// What [`TileTriangle`] needs of eight small triangles.
+pub(super) struct EightTriangles {
     /// Edge functions at the tile's corner, with the bias of the top-left rule.
     pub(super) corner: [[i32; LANES]; 3],
     /// The same at the first sample of the first pixel, over 256.
@@ -40,7 +40,7 @@ const TINY: i32 = 24;
 /// Triangles that reach over no more pixels than this each way.
 pub(super) const MICRO: i32 = 4;
 
-impl Eight {
+impl EightTriangles {
     #[inline(always)]
     pub(super) fn new<S: Simd>(
         simd: S,
@@ -125,7 +125,7 @@ impl Eight {
 
     /// The triangle of one lane; `None` if it has no sample in the tile.
     #[inline(always)]
-    pub(super) fn covering(&self, lane: usize, offsets: &[[i32; 2]]) -> Option<Covering> {
+    pub(super) fn covering(&self, lane: usize, offsets: &[[i32; 2]]) -> Option<TileTriangle> {
         if self.live >> lane & 1 == 0 {
             return None;
         }
@@ -150,7 +150,7 @@ impl Eight {
                 range[1][k] = range[1][k].max(start[k]);
             }
         }
-        Some(Covering {
+        Some(TileTriangle {
             starts,
             range,
             right,
@@ -295,13 +295,13 @@ mod tests {
             });
             for token in SimdLevel::ALL.into_iter().filter_map(SimdLevel::token) {
                 let columns = [0, 1, 2].map(|corner| std::array::from_fn(|lane| &vertices[lane][corner]));
-                let eight = at_level!(token, simd => Eight::new(simd, &area, pattern, (columns, 8)));
+                let eight = at_level!(token, simd => EightTriangles::new(simd, &area, pattern, (columns, 8)));
                 for (lane, &vertices) in vertices.iter().enumerate() {
                     let triangle = SetupTriangle::whole(vertices, 0);
                     if eight.small >> lane & 1 == 0 || triangle.doubled_area() == 0 {
                         continue;
                     }
-                    let Some(single) = Covering::new(&triangle, &grid, &area) else {
+                    let Some(single) = TileTriangle::new(&triangle, &grid, &area) else {
                         continue;
                     };
                     let ours = eight.covering(lane, pattern.offsets()).expect("it is live");
@@ -313,7 +313,7 @@ mod tests {
                     for y in single.rows[0]..=single.rows[1] {
                         for x in single.columns[0]..=single.columns[1] {
                             for sample in 0..pattern.count() {
-                                let covers = |covering: &Covering| covering.covers([x, y], sample, [0, 0]);
+                                let covers = |covering: &TileTriangle| covering.covers([x, y], sample, [0, 0]);
                                 prop_assert_eq!(covers(&ours), covers(&single), "{} {} {}", x, y, sample);
                             }
                         }

@@ -3,13 +3,13 @@
 
 use super::blocks::Blocks;
 use super::buffer::{NOBODY, VisibilityBuffer};
-use super::seen::{Candidate, TileView};
+use super::depth_query::{Candidate, TileView};
 use super::single::single;
 use super::ties::Ties;
 use super::{TileArea, TileState};
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
-use crate::shade::{Job, Shading, Work, mask_jobs};
+use crate::shade::{Job, ShadePoint, Shading, mask_jobs};
 use crate::simd::{LANES, Simd, at_level, prelude::*};
 use crate::{Stats, Surface};
 use std::ops::Range;
@@ -34,11 +34,11 @@ struct Waiting {
 pub(crate) struct Questions {
     waiting: Vec<Waiting>,
     jobs: Vec<Job>,
-    work: Vec<Work>,
+    points: Vec<ShadePoint>,
     answers: Vec<u8>,
 }
 
-/// Lets the masked triangles among the tile's `places` compete.
+/// Lets the masked triangles among the tile's `triangles` compete.
 pub(super) fn cover_masked(
     frame: &FrameView<'_>,
     area: &TileArea,
@@ -46,31 +46,31 @@ pub(super) fn cover_masked(
     range: Range<usize>,
     (shading, stats): (&mut Shading, &mut Stats),
 ) {
-    let TileState { buffer, places, ties, questions, .. } = state;
-    let draw = |place: usize| frame.draw_of(places[place]);
+    let TileState { buffer, triangles, ties, questions, .. } = state;
+    let draw = |place: usize| frame.draw_of(triangles[place]);
     for place in range.clone() {
         let turns = place > range.start && draw(place) != draw(place - 1);
         if turns || questions.waiting.len() > PORTION {
-            stats.samples_masked += questions.settle(frame, area, (places, ties, buffer), shading);
+            stats.samples_masked += questions.settle(frame, area, (triangles, ties, buffer), shading);
         }
-        let view = TileView { frame, area, buffer, places, ties };
+        let view = TileView { frame, area, buffer, triangles, ties };
         at_level!(frame.token, simd => questions.collect(simd, view, place));
     }
-    stats.samples_masked += questions.settle(frame, area, (places, ties, buffer), shading);
+    stats.samples_masked += questions.settle(frame, area, (triangles, ties, buffer), shading);
 }
 
 impl Questions {
     /// Asks about a triangle wherever nothing hides it.
     #[inline(always)]
     fn collect<S: Simd>(&mut self, simd: S, view: TileView<'_>, place: usize) {
-        let Some(covering) = single(view.frame, view.area, view.places[place]) else {
+        let Some(covering) = single(view.frame, view.area, view.triangles[place]) else {
             return;
         };
-        let draw = &view.frame.plan.draws[view.frame.draw_of(view.places[place])];
+        let draw = &view.frame.plan.draws[view.frame.draw_of(view.triangles[place])];
         let per_sample = view.frame.pass[draw.draw].geometry.surface == Surface::MaskedPerSample;
         let multisampled = view.frame.is_multisampled();
-        let Self { waiting, jobs, work, .. } = self;
-        let start = work.len();
+        let Self { waiting, jobs, points, .. } = self;
+        let start = points.len();
         let candidate = Candidate { covering: &covering, place: place as u32 };
         let (mut group, mut answers) = (usize::MAX, [NOBODY; LANES]);
         view.for_each_seen(
@@ -86,10 +86,10 @@ impl Questions {
                 for lane in (0..LANES).filter(|lane| seen >> lane & 1 != 0) {
                     let pixel = samples.pixel(lane);
                     if per_sample || answers[lane] == NOBODY {
-                        answers[lane] = work.len() as u32;
-                        work.push(match per_sample {
-                            true => Work::at_sample(pixel, samples.sample, work.len()),
-                            false => Work::anywhere(pixel, multisampled, work.len()),
+                        answers[lane] = points.len() as u32;
+                        points.push(match per_sample {
+                            true => ShadePoint::at_sample(pixel, samples.sample, points.len()),
+                            false => ShadePoint::anywhere(pixel, multisampled, points.len()),
                         });
                     }
                     let index = view.buffer.index(pixel, samples.sample) as u32;
@@ -98,8 +98,8 @@ impl Questions {
                 }
             },
         );
-        if work.len() > start {
-            jobs.push(Job { place: place as u32, work: start..work.len() });
+        if points.len() > start {
+            jobs.push(Job { place: place as u32, points: start..points.len() });
         }
     }
 
@@ -109,24 +109,24 @@ impl Questions {
         &mut self,
         frame: &FrameView<'_>,
         area: &TileArea,
-        (places, ties, buffer): (&[Place], &Ties, &mut VisibilityBuffer),
+        (triangles, ties, buffer): (&[TriangleRef], &Ties, &mut VisibilityBuffer),
         shading: &mut Shading,
     ) -> u64 {
-        let Self { waiting, jobs, work, answers } = self;
-        let asked = work.len();
+        let Self { waiting, jobs, points, answers } = self;
+        let asked = points.len();
         answers.clear();
         answers.resize(asked, 0);
-        mask_jobs(frame, area, shading, (places, jobs, work), answers);
+        mask_jobs(frame, area, shading, (triangles, jobs, points), answers);
         for fragment in waiting.drain(..).filter(|fragment| answers[fragment.answer as usize] != 0) {
             let (index, depth) = (fragment.index as usize, fragment.depth);
-            let view = TileView { frame, area, buffer, places, ties };
+            let view = TileView { frame, area, buffer, triangles, ties };
             if view.is_seen(index, depth, fragment.place) {
                 buffer.depth[index] = depth;
                 buffer.winner[index] = fragment.place;
             }
         }
         jobs.clear();
-        work.clear();
+        points.clear();
         asked as u64
     }
 }

@@ -4,8 +4,8 @@
 use super::area::{BLOCKS, GROUPS};
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::counts::Counts;
-use super::cover::Cover;
-use super::eight::{Eight, MICRO};
+use super::eight::{EightTriangles, MICRO};
+use super::rasterizer::TileRasterizer;
 use crate::simd::{
     Each, F32, I32, LANES, Mask, Simd, U32, greater, lane_numbers, lesser, prelude::*, widened,
 };
@@ -49,13 +49,13 @@ impl Covered {
     }
 }
 
-impl Cover<'_> {
+impl TileRasterizer<'_> {
     /// Triangles with one sample to a pixel; the first of them has number `first`.
     #[inline(always)]
     pub(super) fn micro<S: Simd>(
         &self,
         simd: S,
-        (eight, pixels): (&Eight, &mut Covered),
+        (eight, pixels): (&EightTriangles, &mut Covered),
         first: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
@@ -109,7 +109,7 @@ impl Cover<'_> {
     fn not_hidden<S: Simd>(
         &self,
         simd: S,
-        eight: &Eight,
+        eight: &EightTriangles,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) -> Mask<S> {
@@ -127,7 +127,7 @@ impl Cover<'_> {
     /// The planes of depth at a row of each lane: the formula of
     /// [`DepthPlane`](super::DepthPlane).
     #[inline(always)]
-    fn depths<S: Simd>(&self, simd: S, eight: &Eight, y: I32<S>) -> Depths<S> {
+    fn depths<S: Simd>(&self, simd: S, eight: &EightTriangles, y: I32<S>) -> Depths<S> {
         let dy = self.steps(simd, (y, 1), &eight.anchor);
         let value = widened(F32::simd_from(simd, eight.value));
         let slopes = eight.slopes.each_ref().each(
@@ -144,7 +144,7 @@ impl Cover<'_> {
     }
 
     #[inline(always)]
-    fn depths_at<S: Simd>(&self, simd: S, eight: &Eight, depths: &Depths<S>, x: I32<S>) -> F32<S> {
+    fn depths_at<S: Simd>(&self, simd: S, eight: &EightTriangles, depths: &Depths<S>, x: I32<S>) -> F32<S> {
         let dx = self.steps(simd, (x, 0), &eight.anchor);
         let [low, high] = [0, 1].each(
             #[inline(always)]
@@ -170,7 +170,13 @@ impl Cover<'_> {
     ///
     /// Apart, so that what finds those takes no registers.
     #[inline(never)]
-    fn scatter(&self, eight: &Eight, first: u32, pixels: &mut Covered, buffer: &mut VisibilityBuffer) {
+    fn scatter(
+        &self,
+        eight: &EightTriangles,
+        first: u32,
+        pixels: &mut Covered,
+        buffer: &mut VisibilityBuffer,
+    ) {
         let count = std::mem::take(&mut pixels.count);
         for (&place, &depth) in pixels.places[..count].iter().zip(&pixels.depths) {
             let (at, lane) = (place as usize / LANES, place as usize % LANES);

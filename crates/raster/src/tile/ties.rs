@@ -8,7 +8,7 @@
 //! are compared by their ranks in that order.
 
 use super::key_order::KeyOrder;
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use std::cmp::Ordering;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -40,8 +40,8 @@ pub(crate) struct Ties {
 
 impl Ties {
     /// Begins a tile of so many triangles.
-    pub(super) fn reset(&mut self, places: usize) {
-        let budget = places.saturating_mul(UNITS_PER_TRIANGLE).saturating_add(BASE_UNITS);
+    pub(super) fn reset(&mut self, triangle_count: usize) {
+        let budget = triangle_count.saturating_mul(UNITS_PER_TRIANGLE).saturating_add(BASE_UNITS);
         *self.left.get_mut() = u32::try_from(budget).unwrap_or(u32::MAX);
         if let Some(ranks) = self.ranks.take() {
             self.spare.get_mut().expect(NOT_POISONED).1 = ranks;
@@ -62,30 +62,35 @@ impl Ties {
         self.left.load(Relaxed) == 0
     }
 
-    /// The order of two of the tile's `places` at equal depth, as
+    /// The order of two of the tile's `triangles` at equal depth, as
     /// [`FrameView::compare`] has it.
     #[inline]
-    pub(crate) fn compare(&self, frame: &FrameView<'_>, places: &[Place], [a, b]: [u32; 2]) -> Ordering {
+    pub(crate) fn compare(
+        &self,
+        frame: &FrameView<'_>,
+        triangles: &[TriangleRef],
+        [a, b]: [u32; 2],
+    ) -> Ordering {
         match self.ranks.get() {
             Some(ranks) => ranks[a as usize].cmp(&ranks[b as usize]),
-            None => self.compare_keys(frame, places, [a, b]),
+            None => self.compare_keys(frame, triangles, [a, b]),
         }
     }
 
     #[cold]
-    fn compare_keys(&self, frame: &FrameView<'_>, places: &[Place], [a, b]: [u32; 2]) -> Ordering {
+    fn compare_keys(&self, frame: &FrameView<'_>, triangles: &[TriangleRef], [a, b]: [u32; 2]) -> Ordering {
         if self.spend(COMPARISON) {
-            return frame.compare(places[a as usize], places[b as usize]);
+            return frame.compare(triangles[a as usize], triangles[b as usize]);
         }
-        let ranks = self.ranks.get_or_init(|| self.find_ranks(frame, places));
+        let ranks = self.ranks.get_or_init(|| self.find_ranks(frame, triangles));
         ranks[a as usize].cmp(&ranks[b as usize])
     }
 
-    fn find_ranks(&self, frame: &FrameView<'_>, places: &[Place]) -> Vec<u32> {
+    fn find_ranks(&self, frame: &FrameView<'_>, triangles: &[TriangleRef]) -> Vec<u32> {
         let mut spare = self.spare.lock().expect(NOT_POISONED);
         let (order, ranks) = &mut *spare;
-        order.sort(frame, places);
-        order.ranks(places, ranks);
+        order.sort(frame, triangles);
+        order.ranks(triangles, ranks);
         std::mem::take(ranks)
     }
 }

@@ -6,10 +6,10 @@
 use super::area::{BLOCKS, TileArea};
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::counts::Counts;
-use super::cover::Cover;
-use super::eight::Eight;
-use super::several;
-use super::starts::Starts;
+use super::edge_origins::EdgeOrigins;
+use super::eight::EightTriangles;
+use super::multisample;
+use super::rasterizer::TileRasterizer;
 use super::store::name_where;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lane_numbers, lesser, prelude::*};
 use fearless_simd::f64x4;
@@ -50,7 +50,7 @@ struct Start<S: Simd> {
 
 impl<S: Simd> Start<S> {
     #[inline(always)]
-    fn new(simd: S, tiny: &Tiny<S>, (starts, lane): (&Starts, usize), offset: [i32; 2]) -> Self {
+    fn new(simd: S, tiny: &Tiny<S>, (starts, lane): (&EdgeOrigins, usize), offset: [i32; 2]) -> Self {
         let [dx, dy] = starts.way(simd, lane, offset);
         let edges = starts.edges(simd, 0, lane);
         Self {
@@ -63,13 +63,13 @@ impl<S: Simd> Start<S> {
     }
 }
 
-impl Cover<'_> {
+impl TileRasterizer<'_> {
     /// The triangle of one lane.
     #[inline(always)]
     pub(super) fn tiny<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        (eight, starts, lane): (&Eight, &mut Starts, usize),
+        (eight, starts, lane): (&EightTriangles, &mut EdgeOrigins, usize),
         place: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
@@ -85,7 +85,7 @@ impl Cover<'_> {
     fn tiny_apart<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        (eight, starts, lane): (&Eight, &mut Starts, usize),
+        (eight, starts, lane): (&EightTriangles, &mut EdgeOrigins, usize),
         place: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
@@ -99,8 +99,8 @@ impl Cover<'_> {
         counts.groups += tiny.groups();
         let ties = if MULTI {
             match self.in_order {
-                true => several::rows::<S, false>(simd, &tiny, (starts, lane), buffer),
-                false => several::rows::<S, true>(simd, &tiny, (starts, lane), buffer),
+                true => multisample::rows::<S, false>(simd, &tiny, (starts, lane), buffer),
+                false => multisample::rows::<S, true>(simd, &tiny, (starts, lane), buffer),
             }
         } else {
             let start = Start::new(simd, &tiny, (starts, lane), self.offsets[0]);
@@ -121,7 +121,7 @@ impl Cover<'_> {
     /// Gives a triangle those of its samples that others hold at the same depth
     /// with a larger key.
     #[cold]
-    fn win_ties(&self, (eight, lane): (&Eight, usize), place: u32, buffer: &mut VisibilityBuffer) {
+    fn win_ties(&self, (eight, lane): (&EightTriangles, usize), place: u32, buffer: &mut VisibilityBuffer) {
         let Some(covering) = eight.covering(lane, self.offsets) else { return };
         let [columns, rows] = [covering.columns, covering.rows];
         let pixels = (columns[1] + 1 - columns[0]) * (rows[1] + 1 - rows[0]);
@@ -151,7 +151,7 @@ impl Cover<'_> {
     fn hides_tiny<S: Simd>(
         &self,
         simd: S,
-        (eight, lane): (&Eight, usize),
+        (eight, lane): (&EightTriangles, usize),
         buffer: &mut VisibilityBuffer,
     ) -> bool {
         let high = eight.high[lane];
@@ -237,9 +237,9 @@ fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
     ties
 }
 
-impl Eight {
+impl EightTriangles {
     #[inline(always)]
-    fn tiny<S: Simd>(&self, simd: S, (starts, lane): (&Starts, usize), place: u32) -> Tiny<S> {
+    fn tiny<S: Simd>(&self, simd: S, (starts, lane): (&EdgeOrigins, usize), place: u32) -> Tiny<S> {
         let (x, y) = (lane_numbers(simd) & 3, lane_numbers(simd) >> 2);
         let [right, down] = [&self.right, &self.down].each(
             #[inline(always)]

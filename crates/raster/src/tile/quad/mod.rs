@@ -17,13 +17,13 @@ pub(super) use edges::QuadEdges;
 use super::area::GROUPS;
 use super::buffer::VisibilityBuffer;
 use super::counts::Counts;
-use super::cover::Cover;
+use super::rasterizer::TileRasterizer;
 use super::store::store_places_where;
 use super::{DepthPlane, TileArea};
 use crate::samples::SamplePattern;
 use crate::setup::{Kind, Quad};
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, U32, inlined, lane_numbers, prelude::*};
-use edges::{DIAGONAL, EDGES, Place};
+use edges::{DIAGONAL, EDGES, QuadPosition};
 use strip::{SHIFT, Strip};
 
 /// From this width on, in 1/256 pixel, it pays to ask whole blocks, as for triangles.
@@ -70,7 +70,7 @@ struct Walk<'q, S: Simd> {
     place: u32,
 }
 
-impl Cover<'_> {
+impl TileRasterizer<'_> {
     /// Lets a line or a point compete for the samples that it covers; false if it has to go the
     /// way of triangles.
     #[inline(always)]
@@ -110,9 +110,9 @@ impl Cover<'_> {
         }
         let Some(pixels) = pixels_in(quad, edges.pattern, &self.area) else { return true };
         match edges.find(simd, quad, &self.area) {
-            Place::Beside => return true,
-            Place::TooLong => return false,
-            Place::Within => {}
+            QuadPosition::Beside => return true,
+            QuadPosition::TooLong => return false,
+            QuadPosition::Within => {}
         }
         buffer.settle();
         let planes = (quad.depths[0] != quad.depths[1]).then(

@@ -3,7 +3,7 @@
 
 use super::area::TileArea;
 use super::buffer::VisibilityBuffer;
-use super::starts::Starts;
+use super::edge_origins::EdgeOrigins;
 use super::store::name_where;
 use super::tiny::Tiny;
 use crate::samples::MAX_SAMPLES;
@@ -11,7 +11,7 @@ use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, lesser, prelude::*
 use fearless_simd::{f64x4, f64x8};
 
 /// What the samples of a triangle's pixels begin with, in all lanes.
-pub(super) struct Several {
+pub(super) struct MultisampleOrigins {
     /// The edge functions at the first pixel of the first group, less the greatest.
     edges: [[[i32; LANES]; 3]; MAX_SAMPLES],
     /// The plane of depth in the upper and the lower row of a row of groups, at its start.
@@ -20,7 +20,7 @@ pub(super) struct Several {
     offsets: [[[f64; 4]; 2]; MAX_SAMPLES],
 }
 
-impl Several {
+impl MultisampleOrigins {
     pub(super) fn new(offsets: &[[i32; 2]]) -> Self {
         let mut splat = [[[0.0; 4]; 2]; MAX_SAMPLES];
         for (splat, offset) in splat.iter_mut().zip(offsets) {
@@ -36,11 +36,11 @@ impl Several {
 pub(super) fn rows<S: Simd, const TIES: bool>(
     simd: S,
     tiny: &Tiny<S>,
-    (starts, lane): (&mut Starts, usize),
+    (starts, lane): (&mut EdgeOrigins, usize),
     buffer: &mut VisibilityBuffer,
 ) -> Mask<S> {
     let samples = buffer.samples;
-    let Starts { edges, greatest, several, .. } = &mut *starts;
+    let EdgeOrigins { edges, greatest, several, .. } = &mut *starts;
     for (edges, starts) in several.edges.iter_mut().zip(&edges[..samples]) {
         for (edge, start) in edges.iter_mut().zip(starts) {
             *edge = I32::splat(simd, start[lane]).into();
@@ -54,7 +54,7 @@ pub(super) fn rows<S: Simd, const TIES: bool>(
     let dx = dx + f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]);
     let mut ties = Mask::splat(simd, false);
     for row in tiny.rows[0]..tiny.rows[1] + 1 {
-        let Several { planes, offsets, .. } = &mut starts.several;
+        let MultisampleOrigins { planes, offsets, .. } = &mut starts.several;
         for (planes, offset) in planes.iter_mut().zip(&offsets[..samples]) {
             let dy = dy + f64x4::simd_from(simd, offset[1]);
             let [upper, lower] = [dy, dy + 256.0].each(
@@ -79,7 +79,7 @@ fn columns<S: Simd, const TIES: bool>(
     simd: S,
     tiny: &Tiny<S>,
     (row, mut edges, mut dx): (usize, [I32<S>; 3], f64x4<S>),
-    several: &Several,
+    several: &MultisampleOrigins,
     buffer: &mut VisibilityBuffer,
 ) -> Mask<S> {
     let samples = buffer.samples;

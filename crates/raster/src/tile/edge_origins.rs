@@ -1,15 +1,15 @@
 //! Where eight small triangles begin in a tile: the ways of their edge functions and
 //! planes of depth through the pixels start there.
 
-use super::cover::Cover;
-use super::eight::Eight;
-use super::several::Several;
+use super::eight::EightTriangles;
+use super::multisample::MultisampleOrigins;
+use super::rasterizer::TileRasterizer;
 use crate::samples::MAX_SAMPLES;
 use crate::simd::{Each, F32, I32, LANES, Simd, inlined, prelude::*, widened};
 use fearless_simd::f64x4;
 
 /// Whole numbers, so that stepping along from there rounds nothing.
-pub(super) struct Starts {
+pub(super) struct EdgeOrigins {
     /// The edge functions at each sample of the first pixel of the first group, over
     /// 256; of several samples less the greatest.
     pub(super) edges: [[[i32; LANES]; 3]; MAX_SAMPLES],
@@ -20,23 +20,28 @@ pub(super) struct Starts {
     /// Depths of the first vertices.
     pub(super) value: [f64; LANES],
     /// For one of the triangles, where pixels have several samples.
-    pub(super) several: Several,
+    pub(super) several: MultisampleOrigins,
 }
 
-impl Starts {
+impl EdgeOrigins {
     pub(super) fn new(offsets: &[[i32; 2]]) -> Self {
         Self {
             edges: [[[0; LANES]; 3]; MAX_SAMPLES],
             greatest: [[0; LANES]; 3],
             way: [[0.0; LANES]; 2],
             value: [0.0; LANES],
-            several: Several::new(offsets),
+            several: MultisampleOrigins::new(offsets),
         }
     }
 
     /// Finds them for eight triangles.
     #[inline(always)]
-    pub(super) fn find<S: Simd, const MULTI: bool>(&mut self, simd: S, cover: &Cover<'_>, eight: &Eight) {
+    pub(super) fn find<S: Simd, const MULTI: bool>(
+        &mut self,
+        simd: S,
+        rasterizer: &TileRasterizer<'_>,
+        eight: &EightTriangles,
+    ) {
         let column = |values: &[i32; LANES]| I32::simd_from(simd, *values);
         // Groups are 4 by 2 pixels.
         let pixel = [column(&eight.pixels[0][0]) & !3, column(&eight.pixels[1][0]) & !1];
@@ -52,17 +57,17 @@ impl Starts {
                 #[inline(always)]
                 |[x, y]: [i32; 2]| (corner + right * x + down * y) >> 8,
             );
-            let greatest = cover.offsets.iter().fold(
-                at(cover.offsets[0]),
+            let greatest = rasterizer.offsets.iter().fold(
+                at(rasterizer.offsets[0]),
                 #[inline(always)]
                 |greatest, offset| greatest.max(at(*offset)),
             );
             self.greatest[k] = (along + greatest).into();
-            for (edges, offset) in self.edges.iter_mut().zip(cover.offsets) {
+            for (edges, offset) in self.edges.iter_mut().zip(rasterizer.offsets) {
                 edges[k] = (at(*offset) - greatest).into();
             }
         }
-        let axes = pixel.into_iter().zip(cover.area.origin).zip(&eight.anchor);
+        let axes = pixel.into_iter().zip(rasterizer.area.origin).zip(&eight.anchor);
         for (way, ((pixel, origin), anchor)) in self.way.iter_mut().zip(axes) {
             let corner = (pixel + origin) << 8;
             // Small enough to be exact in f32, too.

@@ -3,14 +3,14 @@
 use super::area::{BLOCKS, TileArea};
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::counts::Counts;
-use super::covering::Covering;
 use super::store::{store, store_where};
 use super::ties::Ties;
+use super::triangle::TileTriangle;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
 
 /// What all triangles of a tile have in common.
 #[derive(Clone, Copy)]
-pub(crate) struct Cover<'f> {
+pub(crate) struct TileRasterizer<'f> {
     pub(crate) area: TileArea,
     pub(crate) offsets: &'f [[i32; 2]],
     /// Whether a later triangle never wins at equal depth; else `precedes`
@@ -29,7 +29,7 @@ pub(crate) struct Cover<'f> {
 
 /// A triangle on its way through a tile.
 struct Walk<'c, S: Simd> {
-    covering: &'c Covering,
+    covering: &'c TileTriangle,
     /// Edge functions' steps within a group.
     lanes: [I32<S>; 3],
     place: u32,
@@ -40,7 +40,7 @@ impl<S: Simd> Walk<'_, S> {
     /// Partial sums may wrap around; the sum fits.
     #[inline(always)]
     fn edges_at(&self, [x, y]: [i32; 2]) -> [I32<S>; 3] {
-        let Covering { right, down, .. } = self.covering;
+        let TileTriangle { right, down, .. } = self.covering;
         [0, 1, 2].each(
             #[inline(always)]
             |k| self.lanes[k] + right[k].wrapping_mul(x).wrapping_add(down[k].wrapping_mul(y)),
@@ -57,12 +57,12 @@ impl<S: Simd> Walk<'_, S> {
     /// Whether a sample of any of the pixels may be covered.
     #[inline(always)]
     fn may_cover(&self, simd: S, edges: [I32<S>; 3]) -> bool {
-        let Covering { range: [_, greatest], special, .. } = self.covering;
+        let TileTriangle { range: [_, greatest], special, .. } = self.covering;
         special.is_some() || self.inside(simd, edges, *greatest).any_true()
     }
 }
 
-impl Cover<'_> {
+impl TileRasterizer<'_> {
     /// Whether something at `depth` cannot be seen before something at
     /// `farthest`.
     #[inline(always)]
@@ -82,7 +82,7 @@ impl Cover<'_> {
     pub(crate) fn triangle<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        covering: &Covering,
+        covering: &TileTriangle,
         place: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
@@ -134,7 +134,7 @@ impl Cover<'_> {
 
     /// Whether a triangle of one depth lies before all of the tile.
     #[inline(always)]
-    fn fills_tile(&self, covering: &Covering, buffer: &VisibilityBuffer) -> bool {
+    fn fills_tile(&self, covering: &TileTriangle, buffer: &VisibilityBuffer) -> bool {
         let constant = covering.depth.low == covering.depth.high;
         let nearer = buffer.nearest().is_some_and(|nearest| covering.depth.low > nearest);
         self.hierarchical
@@ -152,7 +152,7 @@ impl Cover<'_> {
     fn block_hides<S: Simd>(
         &self,
         simd: S,
-        covering: &Covering,
+        covering: &TileTriangle,
         buffer: &mut VisibilityBuffer,
         block: usize,
         corner: [i32; 2],
@@ -170,7 +170,7 @@ impl Cover<'_> {
 
     /// Bounds of the triangle's depths in a block.
     #[inline(always)]
-    fn depths_in_block(&self, covering: &Covering, corner: [i32; 2]) -> [f32; 2] {
+    fn depths_in_block(&self, covering: &TileTriangle, corner: [i32; 2]) -> [f32; 2] {
         let low = [0, 1].each(
             #[inline(always)]
             |axis| (self.area.origin[axis] + corner[axis]) * 256,

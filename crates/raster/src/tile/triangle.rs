@@ -12,7 +12,7 @@ use crate::simd::{I32, LANES, Mask, Simd, lanes_of, prelude::*};
 /// all samples with the same offset in their pixels; where an edge crosses the
 /// tile its values fit 32 bits. An edge that all of the tile lies inside of is
 /// dropped.
-pub(crate) struct Covering {
+pub(crate) struct TileTriangle {
     /// For each sample of a pixel the edge functions at the tile's first pixel.
     pub(crate) starts: [[i32; 3]; MAX_SAMPLES],
     /// The least and the greatest of those of all samples.
@@ -73,7 +73,7 @@ impl Disc {
     }
 }
 
-impl Covering {
+impl TileTriangle {
     /// `None` if the triangle covers no sample of the tile.
     pub(crate) fn new(triangle: &SetupTriangle, grid: &Grid, area: &TileArea) -> Option<Self> {
         let range = |axis: usize| {
@@ -189,7 +189,7 @@ mod tests {
             edges.iter().all(|edge| edge.at([x, y]) + edge.bias() >= 0)
                 && (triangle.kind != Kind::RoundPoint || within)
         };
-        let covering = Covering::new(triangle, &grid, area);
+        let covering = TileTriangle::new(triangle, &grid, area);
         let [columns, rows] = area.padded().map(|side| side as i32);
         for block in (0..rows / 8).flat_map(|y| (0..columns / 8).map(move |x| [x * 8, y * 8])) {
             let sides = covering.as_ref().map(|covering| covering.block_sides(block));

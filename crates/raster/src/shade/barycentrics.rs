@@ -15,7 +15,7 @@ use super::triangle_lanes::TriangleLanes;
 use crate::simd::{Each, F32, I32, Row, Simd, greater, inlined, lesser, prelude::*};
 
 /// Where eight points lie in their triangles.
-pub(crate) struct Weights<S: Simd> {
+pub(crate) struct Barycentrics<S: Simd> {
     /// Perspective-correct weights of the corners.
     pub(crate) weights: [F32<S>; 3],
     /// Derivatives of the weights of corners 1 and 2, to the right and
@@ -52,7 +52,7 @@ impl<S: Simd> TriangleLanes<'_, S> {
 
     /// The weights at points, and all else that may be asked of them.
     #[inline(always)]
-    pub(super) fn at(&self, simd: S, placed: &Placed) -> Weights<S> {
+    pub(super) fn at(&self, simd: S, placed: &Placed) -> Barycentrics<S> {
         let point = placed.point(simd);
         let value = inlined(
             #[inline(always)]
@@ -72,7 +72,7 @@ impl<S: Simd> TriangleLanes<'_, S> {
             #[inline(always)]
             |steps| slopes(steps, weights, inverse * pixel),
         );
-        Weights {
+        Barycentrics {
             weights,
             slopes: [[right[0], down[0]], [right[1], down[1]]],
             edges,
@@ -89,7 +89,7 @@ impl<S: Simd> TriangleLanes<'_, S> {
     }
 }
 
-impl<S: Simd> Weights<S> {
+impl<S: Simd> Barycentrics<S> {
     /// The depth, within the range of the vertices'.
     #[inline(always)]
     pub(super) fn depth(&self, simd: S, cold: &[Row; cold::COUNT]) -> F32<S> {
