@@ -20,7 +20,7 @@ pub enum Culling {
 
 /// How a draw meets what lies behind it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Surface {
+pub enum BlendMode {
     /// Hides what is behind; the pipeline's alpha goes to the output as it is.
     #[default]
     Opaque,
@@ -67,7 +67,7 @@ pub struct Draw<'a, P> {
     /// Which sides are dropped.
     pub culling: Culling,
     /// Opaque, masked, overlay or translucent.
-    pub surface: Surface,
+    pub blend_mode: BlendMode,
 }
 
 impl<'a, P> Draw<'a, P> {
@@ -81,7 +81,7 @@ impl<'a, P> Draw<'a, P> {
             marks: None,
             object: 0,
             culling: Culling::default(),
-            surface: Surface::default(),
+            blend_mode: BlendMode::default(),
         }
     }
 }
@@ -94,7 +94,7 @@ pub enum Outline {
     Sharp,
     /// Each sample is covered by the share of a pixel around it, and the
     /// pipeline's colour times that share is laid over what is behind, as by
-    /// [`Surface::Translucent`] whatever the draw's surface: no depth and no ids
+    /// [`BlendMode::Translucent`] whatever the draw's surface: no depth and no ids
     /// are written, and no mask is asked.
     ///
     /// A line is all that lies within half its width of the segment, so its ends
@@ -114,10 +114,10 @@ pub enum Outline {
 
 impl Outline {
     /// The surface of a draw that has one.
-    pub(crate) fn surface(self, surface: Surface) -> Surface {
+    pub(crate) fn blend_mode(self, blend_mode: BlendMode) -> BlendMode {
         match self {
-            Self::Sharp => surface,
-            Self::AntiAliased => Surface::Translucent,
+            Self::Sharp => blend_mode,
+            Self::AntiAliased => BlendMode::Translucent,
         }
     }
 }
@@ -154,9 +154,9 @@ pub struct Lines<'a, P> {
     /// line that is tested as it is. The depth is multiplied by one plus this
     /// and held to 1: with a perspective, 0.001 moves the line by a thousandth
     /// of its distance. Clamped to `0..=1`.
-    pub toward_eye: f32,
+    pub depth_bias: f32,
     /// Opaque, masked, overlay or translucent.
-    pub surface: Surface,
+    pub blend_mode: BlendMode,
 }
 
 impl<'a, P> Lines<'a, P> {
@@ -169,8 +169,8 @@ impl<'a, P> Lines<'a, P> {
             object: 0,
             width: 1.0,
             outline: Outline::default(),
-            toward_eye: 0.0,
-            surface: Surface::default(),
+            depth_bias: 0.0,
+            blend_mode: BlendMode::default(),
         }
     }
 }
@@ -220,10 +220,10 @@ pub struct Points<'a, P> {
     pub outline: Outline,
     /// Round or square.
     pub shape: PointShape,
-    /// As [`Lines::toward_eye`].
-    pub toward_eye: f32,
+    /// As [`Lines::depth_bias`].
+    pub depth_bias: f32,
     /// Opaque, masked, overlay or translucent.
-    pub surface: Surface,
+    pub blend_mode: BlendMode,
 }
 
 impl<'a, P> Points<'a, P> {
@@ -238,8 +238,8 @@ impl<'a, P> Points<'a, P> {
             marked: None,
             outline: Outline::default(),
             shape: PointShape::default(),
-            toward_eye: 0.0,
-            surface: Surface::default(),
+            depth_bias: 0.0,
+            blend_mode: BlendMode::default(),
         }
     }
 }

@@ -90,6 +90,7 @@ impl EdgeFlags {
     pub const ALL: Self = Self(0b111);
 
     /// Flags from one truth value for each edge.
+    #[must_use]
     pub const fn new(edges: [bool; 3]) -> Self {
         Self(edges[0] as u8 | (edges[1] as u8) << 1 | (edges[2] as u8) << 2)
     }
@@ -122,6 +123,7 @@ impl EdgeFlags {
 
     /// Whether edge `edge` (0, 1 or 2) is flagged.
     #[inline]
+    #[must_use]
     pub const fn contains(self, edge: usize) -> bool {
         edge < 3 && self.0 >> edge & 1 != 0
     }

@@ -79,7 +79,7 @@
 //! [`Draw::edge_flags`] tells edges from diagonals. For hidden lines shade the
 //! surface in the colour of the background; for see-through wireframes draw
 //! [`Lines`] alone. Lines over a surface of their own can be drawn a little
-//! nearer with [`Lines::toward_eye`]. A pipeline that wants to do more with edges
+//! nearer with [`Lines::depth_bias`]. A pipeline that wants to do more with edges
 //! asks for the distance to the next one: [`Fragment::nearest_edge`].
 //!
 //! # User interfaces
@@ -124,7 +124,7 @@ mod viewport;
 
 pub use cancel::Cancel;
 pub use certify::{Certainty, Certificate, Tolerance};
-pub use draw::{Culling, Draw, Lines, MarkedPoints, Outline, PointShape, Points, Surface};
+pub use draw::{BlendMode, Culling, Draw, Lines, MarkedPoints, Outline, PointShape, Points};
 pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,
 };
@@ -133,14 +133,10 @@ pub use frame::{DrawChange, Redraw};
 pub use ink::{FaceEdges, MarkColors, Marks};
 pub use paint2d::Rect;
 pub use pass::{Background, Pass};
-#[doc(hidden)]
-pub use pipeline::ScalarPipeline;
 pub use pipeline::{LanePipeline, Pipeline, VertexOutput};
 pub use rasterizer::Rasterizer;
 pub use settings::{DepthTest, ExecuteSettings, TileSize};
 pub use shade::FragmentLanes;
-#[doc(hidden)]
-pub use shade::RawFragment;
 pub use stats::{StageTimes, Stats};
 pub use target::{MAX_SAMPLES_PER_AXIS, MAX_TARGET_SIZE, Output, Pictures, Target, TargetError};
 pub use texture::{

@@ -45,6 +45,7 @@ impl Default for Pass<'_> {
 
 impl<'a> Pass<'a> {
     /// An empty pass on transparent black.
+    #[must_use]
     pub fn new() -> Self {
         Self {
             background: Background::Color(Vec4::ZERO),
@@ -101,27 +102,27 @@ impl<'a> Pass<'a> {
 
     /// Records triangles.
     pub fn triangles<P: LanePipeline>(&mut self, draw: Draw<'a, P>) -> &mut Self {
-        let Draw { pipeline, triangles, faces, edge_flags, marks, object, culling, surface } = draw;
+        let Draw { pipeline, triangles, faces, edge_flags, marks, object, culling, blend_mode } = draw;
         let shape = Shape::Triangles { triangles, edge_flags, marks, culling };
-        self.record(pipeline, Geometry { shape, faces, object, surface })
+        self.record(pipeline, Geometry { shape, faces, object, blend_mode })
     }
 
     /// Records lines.
     pub fn lines<P: LanePipeline>(&mut self, lines: Lines<'a, P>) -> &mut Self {
-        let Lines { pipeline, segments, ids, object, width, outline, toward_eye, surface } = lines;
-        let shape = Shape::Lines { segments, width, outline, toward_eye };
-        let surface = outline.surface(surface);
-        self.record(pipeline, Geometry { shape, faces: ids, object, surface })
+        let Lines { pipeline, segments, ids, object, width, outline, depth_bias, blend_mode } = lines;
+        let shape = Shape::Lines { segments, width, outline, depth_bias };
+        let blend_mode = outline.blend_mode(blend_mode);
+        self.record(pipeline, Geometry { shape, faces: ids, object, blend_mode })
     }
 
     /// Records points.
     pub fn points<P: LanePipeline>(&mut self, points: Points<'a, P>) -> &mut Self {
-        let Points { pipeline, points, ids, object, size, marked, shape, outline, toward_eye, surface } =
+        let Points { pipeline, points, ids, object, size, marked, shape, outline, depth_bias, blend_mode } =
             points;
         let sizes = PointSizes { size, marked };
-        let shape = Shape::Points { points, sizes, shape, outline, toward_eye };
-        let surface = outline.surface(surface);
-        self.record(pipeline, Geometry { shape, faces: ids, object, surface })
+        let shape = Shape::Points { points, sizes, shape, outline, depth_bias };
+        let blend_mode = outline.blend_mode(blend_mode);
+        self.record(pipeline, Geometry { shape, faces: ids, object, blend_mode })
     }
 
     fn record<P: LanePipeline>(&mut self, pipeline: &'a P, geometry: Geometry<'a>) -> &mut Self {

@@ -48,7 +48,7 @@ pub trait Pipeline: Sync {
     fn fragment(&self, fragment: &Fragment<Self::Varyings>) -> Vec4;
 
     /// Whether the fragment exists at all. Asked only for
-    /// [`Surface::Masked`](crate::Surface::Masked), before depth is written.
+    /// [`BlendMode::Masked`](crate::BlendMode::Masked), before depth is written.
     fn mask(&self, _fragment: &Fragment<Self::Varyings>) -> bool {
         true
     }

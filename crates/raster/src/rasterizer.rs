@@ -10,10 +10,15 @@ use crate::{Cancel, ExecuteSettings, Pass, Stats, Target};
 /// A frame that is no larger than the last ones allocates nothing, but for what
 /// several threads take to be told of their work.
 pub struct Rasterizer {
+    execution: Execution,
+    arena: Arena,
+}
+
+/// How and by which threads passes are drawn.
+struct Execution {
     settings: ExecuteSettings,
     token: Token,
     workers: Workers,
-    arena: Arena,
     cancel: Option<Cancel>,
 }
 
@@ -26,33 +31,30 @@ impl Rasterizer {
     pub fn new(settings: ExecuteSettings) -> Result<Self, SimdLevelError> {
         let level = settings.simd.unwrap_or_else(SimdLevel::best);
         let token = level.token().ok_or(SimdLevelError::Unsupported(level))?;
-        Ok(Self {
-            settings,
-            token,
-            workers: Workers::new(settings.threads),
-            arena: Arena::default(),
-            cancel: None,
-        })
+        let execution = Execution { settings, token, workers: Workers::new(settings.threads), cancel: None };
+        Ok(Self { execution, arena: Arena::default() })
     }
 
     /// How it draws.
+    #[must_use]
     pub fn settings(&self) -> &ExecuteSettings {
-        &self.settings
+        &self.execution.settings
     }
 
     /// Ends drawings that are under way when the token is cancelled, and those that
     /// follow; `None` to let them be. What the target of such a drawing holds is of
     /// no use: ask the token when [`draw`](Self::draw) has returned.
     pub fn set_cancel(&mut self, cancel: Option<Cancel>) {
-        self.cancel = cancel;
+        self.execution.cancel = cancel;
     }
 
     /// Everything up to the tiles of what [`draw`](Self::draw) would do.
     pub(crate) fn prepare<'f>(&'f mut self, pass: &'f Pass<'_>, target: &Target<'_>) -> FrameView<'f> {
-        let tile_size = self.settings.tile_size.pixels(target.samples());
+        let Execution { settings, token, workers, .. } = &self.execution;
+        let tile_size = settings.tile_size.pixels(target.samples());
         let options = FrameOptions {
-            token: self.token,
-            workers: &self.workers,
+            token: *token,
+            workers,
             tile_size,
             hierarchical: true,
             timed: false,
@@ -68,8 +70,8 @@ impl Rasterizer {
     /// The result is a function of the pass and the target's size, samples and
     /// outputs alone: the settings change no byte.
     pub fn draw(&mut self, pass: &Pass<'_>, target: &mut Target<'_>) -> Stats {
-        let Self { settings, token, workers, cancel, arena } = self;
-        draw(arena, pass, target, frame_options((settings, *token, workers), cancel.as_ref(), pass, target))
+        let options = self.execution.options(pass, target);
+        draw(&mut self.arena, pass, target, options)
     }
 
     /// As [`draw`](Self::draw), for passes that are drawn again and again with few vertices
@@ -122,9 +124,8 @@ impl Rasterizer {
         target: &mut Target<'_>,
         changes: Option<&[DrawChange<'_>]>,
     ) -> Redraw {
-        let Self { settings, token, workers, cancel, arena } = self;
-        let options = frame_options((settings, *token, workers), cancel.as_ref(), pass, target);
-        redraw(arena, pass, (target, changes), options)
+        let options = self.execution.options(pass, target);
+        redraw(&mut self.arena, pass, (target, changes), options)
     }
 
     /// Works through items of any kind on the threads that draw, each item taken by the
@@ -134,25 +135,23 @@ impl Rasterizer {
     where
         I: Iterator + Send,
     {
-        self.workers.share(items, work);
+        self.execution.workers.share(items, work);
     }
 }
 
-/// How a pass is drawn.
-fn frame_options<'w>(
-    (settings, token, workers): (&ExecuteSettings, Token, &'w Workers),
-    cancel: Option<&'w Cancel>,
-    pass: &Pass<'_>,
-    target: &Target<'_>,
-) -> FrameOptions<'w> {
-    FrameOptions {
-        token,
-        workers: if pass.is_worth_sharing(target) { workers } else { &Workers::ALONE },
-        tile_size: settings.tile_size.pixels(target.samples()),
-        hierarchical: settings.depth_test == crate::DepthTest::Hierarchical,
-        timed: settings.timed,
-        finds_colors: false,
-        cancel,
+impl Execution {
+    /// How a pass is drawn.
+    fn options(&self, pass: &Pass<'_>, target: &Target<'_>) -> FrameOptions<'_> {
+        let Self { settings, token, workers, cancel } = self;
+        FrameOptions {
+            token: *token,
+            workers: if pass.is_worth_sharing(target) { workers } else { &Workers::ALONE },
+            tile_size: settings.tile_size.pixels(target.samples()),
+            hierarchical: settings.depth_test == crate::DepthTest::Hierarchical,
+            timed: settings.timed,
+            finds_colors: false,
+            cancel: cancel.as_ref(),
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use crate::line::Stroke;
 use crate::setup::{Corners, CutWeights, DetailIndex, Quad, QuadDetail, SetupTriangle};
 use crate::simd::{Each, LANES, Mask, Simd, U32, append, prelude::*};
 use crate::tile::Edge;
-use crate::{Stats, Surface};
+use crate::{BlendMode, Stats};
 use std::ops::Range;
 
 /// A triangle, line or point over many tiles, so that it is not listed in each.
@@ -25,7 +25,7 @@ const LARGE: usize = 64;
 pub(crate) struct Chunk {
     /// Ordinals of its primitives in the frame.
     pub(crate) ordinals: Range<u32>,
-    pub(crate) surface: Surface,
+    pub(crate) blend_mode: BlendMode,
     /// Triangles that are not just primitives.
     pub(crate) extras: Vec<SetupTriangle>,
     /// Weights of the corners at the vertices of those.
@@ -53,9 +53,9 @@ impl Chunk {
     }
 
     /// Empties the chunk for another frame and keeps its memory.
-    pub(crate) fn reset(&mut self, ordinals: Range<u32>, surface: Surface) {
+    pub(crate) fn reset(&mut self, ordinals: Range<u32>, blend_mode: BlendMode) {
         self.ordinals = ordinals;
-        self.surface = surface;
+        self.blend_mode = blend_mode;
         self.extras.clear();
         self.weights.clear();
         self.quads.clear();

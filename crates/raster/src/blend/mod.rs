@@ -29,7 +29,7 @@ pub(crate) use joints::leaves;
 
 use crate::frame::FrameView;
 use crate::resolve::saturated;
-use crate::shade::{Shading, shade_jobs};
+use crate::shade::{JobList, Shading, shade_jobs};
 use crate::simd::LANES;
 use crate::tile::{Blocks, TileArea, TileState, TileView};
 use gather::Beside;
@@ -98,11 +98,10 @@ pub(crate) fn blend_translucent(
     (layers, shading): (&mut Layers, &mut Shading),
     triangles: Range<usize>,
 ) -> u64 {
-    let TileState { buffer, triangles: all, ties, .. } = state;
+    let buffer = &state.buffer;
     let mut samples = std::mem::take(&mut layers.samples);
     samples::expand(frame, area, buffer, (shading, &mut samples));
-    let tile = TileView { frame, area, buffer, triangles: all, ties };
-    let shaded = layers.blend(tile, triangles, shading, &mut samples);
+    let shaded = layers.blend(state.view(frame, area), triangles, shading, &mut samples);
     samples::collapse(frame, buffer, (shading, &samples));
     layers.samples = samples;
     shaded
@@ -166,7 +165,7 @@ impl Layers {
         if colors.len() < fragments.len() {
             colors.resize(fragments.len(), [0.0; 4]);
         }
-        let jobs = (tile.triangles, fragments.jobs.as_slice(), fragments.points.as_slice());
+        let jobs = JobList { triangles: tile.triangles, jobs: &fragments.jobs, points: &fragments.points };
         shade_jobs(tile.frame, tile.area, shading, jobs, colors);
     }
 

@@ -3,7 +3,7 @@
 use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::ink::OuterInk;
-use crate::shade::{Job, ShadePoint, Shading, mask_jobs, shade_jobs_with};
+use crate::shade::{Job, JobList, ShadePoint, Shading, mask_jobs, shade_jobs_with};
 use crate::tile::TileArea;
 use trigon_math::Vec4;
 
@@ -34,7 +34,7 @@ pub(super) fn mask(
     let at = |sample| ShadePoint::at_sample(TileArea::index_of(pixel.at), sample, 0);
     let point = sample.map_or(point, at);
     let mut kept = [0];
-    let list: (&[_], &[_], &[_]) = (&[place], &[job], &[point]);
+    let list = JobList { triangles: &[place], jobs: &[job], points: &[point] };
     mask_jobs(frame, &pixel.area, &mut Shading::new(), list, &mut kept);
     kept != [0]
 }
@@ -43,7 +43,7 @@ pub(super) fn mask(
 pub(super) fn color(frame: &FrameView<'_>, pixel: PixelInTile, place: TriangleRef, outer: &OuterInk) -> Vec4 {
     let (job, point) = pixel.alone(frame);
     let mut colors = [[0.0; 4]];
-    let list: (&[_], &[_], &[_]) = (&[place], &[job], &[point]);
+    let list = JobList { triangles: &[place], jobs: &[job], points: &[point] };
     shade_jobs_with(frame, &pixel.area, &mut Shading::new(), list, (&mut colors, outer.covered()));
     Vec4::from_array(colors[0])
 }

@@ -1,6 +1,6 @@
 //! What one triangle has to do with one sample.
 
-use crate::Surface;
+use crate::BlendMode;
 use trigon_math::Vec4;
 
 /// What a triangle was made from.
@@ -80,7 +80,7 @@ pub struct FragmentExplanation {
     /// What it was made from.
     pub kind: PrimitiveKind,
     /// Opaque, masked or translucent.
-    pub surface: Surface,
+    pub blend_mode: BlendMode,
     /// Whether a plane has cut the primitive; this is then a part of it.
     pub is_cut: bool,
     /// Whether its corners wind counter-clockwise on the screen.

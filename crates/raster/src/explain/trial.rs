@@ -2,7 +2,7 @@
 
 use super::ask::{self, PixelInTile};
 use super::{EdgeExplanation, FragmentExplanation, PrimitiveKind, SampleExplanation, Verdict};
-use crate::Surface;
+use crate::BlendMode;
 use crate::bin::TriangleRef;
 use crate::blend::leaves;
 use crate::frame::{FrameView, outer_ink};
@@ -97,10 +97,10 @@ impl<'f> Trial<'f> {
         if let Some(covering) = covering.filter(covers) {
             fragment.is_covered = true;
             fragment.depth = Some(covering.depth.at(point));
-            let is_there = match fragment.surface {
-                Surface::Opaque | Surface::Overlay | Surface::Translucent => true,
-                Surface::Masked => ask::mask(self.frame, pixel, None, *place),
-                Surface::MaskedPerSample => ask::mask(self.frame, pixel, Some(number), *place),
+            let is_there = match fragment.blend_mode {
+                BlendMode::Opaque | BlendMode::Overlay | BlendMode::Translucent => true,
+                BlendMode::Masked => ask::mask(self.frame, pixel, None, *place),
+                BlendMode::MaskedPerSample => ask::mask(self.frame, pixel, Some(number), *place),
             };
             fragment.verdict = if is_there { Verdict::Hidden } else { Verdict::MaskedAway };
         }
@@ -123,7 +123,7 @@ impl<'f> Trial<'f> {
             face: geometry.face(primitive),
             primitive,
             kind: self.kind_of(place, triangle),
-            surface: geometry.surface,
+            blend_mode: geometry.blend_mode,
             is_cut: self.is_cut(place, triangle),
             front_facing: triangle.front_facing,
             vertices: order.map(|i| triangle.vertices[i].raw()),
@@ -175,7 +175,7 @@ impl<'f> Trial<'f> {
             }
         }
         let hides = |entrant: &Entrant| {
-            entrant.is(Verdict::Hidden) && entrant.fragment.surface != Surface::Translucent
+            entrant.is(Verdict::Hidden) && entrant.fragment.blend_mode != BlendMode::Translucent
         };
         let best = |except: Option<usize>| {
             let rivals = (0..entrants.len()).filter(|&i| Some(i) != except && hides(&entrants[i]));
@@ -201,7 +201,7 @@ impl<'f> Trial<'f> {
         let winner = winner.map(|winner| &entrants[winner]);
         match winner {
             Some(winner) if std::ptr::eq(winner, entrant) => Verdict::Won,
-            _ if entrant.fragment.surface == Surface::Translucent
+            _ if entrant.fragment.blend_mode == BlendMode::Translucent
                 && winner.is_none_or(|winner| self.beats(entrant, winner)) =>
             {
                 Verdict::Layer(0)

@@ -13,7 +13,7 @@ use crate::geometry::Shape;
 use crate::paint2d::Rect;
 use crate::pass::{Pass, Recorded};
 use crate::vertex::UsedVertices;
-use crate::{Stats, Surface};
+use crate::{BlendMode, Stats};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What of a draw differs from the one in the same place of the last pass.
@@ -59,7 +59,7 @@ struct DrawSignature {
     vertices: usize,
     varyings: usize,
     object: u32,
-    surface: Surface,
+    blend_mode: BlendMode,
 }
 
 impl Signature {
@@ -70,7 +70,7 @@ impl Signature {
             vertices: recorded.pipeline.vertex_count(),
             varyings: recorded.pipeline.varyings(),
             object: recorded.geometry.object,
-            surface: recorded.geometry.surface,
+            blend_mode: recorded.geometry.blend_mode,
         };
         Self {
             wants,

@@ -1,4 +1,8 @@
-//! The columns of eight pixels' triangles, from their records.
+//! The records of eight pixels' triangles, transposed into columns: lane `i` of every column
+//! belongs to the triangle that pixel `i` shows.
+//!
+//! Neighbouring pixels mostly show one to four triangles. Then the columns are made by selecting
+//! between broadcast numbers of these few records instead of gathering eight.
 
 use super::ShadeContext;
 use super::layout::{CutColumns, RecordShape, cold, hot, lined};
@@ -19,8 +23,9 @@ enum Seen<S: Simd> {
 }
 
 impl<S: Simd> Seen<S> {
-    /// How many there are, nobody can foresee: the sooner it is known, the better. So the
-    /// first and the last of the others are looked for at once.
+    /// Finds how many different triangles the eight lanes show. The processor cannot predict the
+    /// count, so it should be known early: the first and the last of the lanes that differ from
+    /// lane 0 are compared at the same time, not one after the other.
     #[inline(always)]
     fn find(simd: S, vector: &FragmentBatch<'_, S>) -> Self {
         let lanes = vector.names;
@@ -61,7 +66,7 @@ impl<S: Simd> Seen<S> {
 /// Rows for the longest record, in whole records' rows.
 const ROWS: usize = (hot::COUNT + 3 * MAX_VARYINGS + lined::COUNT + 1).next_multiple_of(LANES);
 
-/// Where a row begins, a line of the cache does, or a half: none lies in two.
+/// Aligned so that no row crosses the end of a cache line.
 #[repr(align(64))]
 struct AlignedRows([Row; ROWS]);
 
@@ -188,7 +193,8 @@ impl Columns {
         steps.simd_eq(I32::splat(simd, 0)).any_true()
     }
 
-    /// The first record, and the others in the lanes of their masks.
+    /// Columns from the first record in all lanes, replaced by each other record in the lanes of
+    /// its mask.
     #[inline(always)]
     fn mix<S: Simd, const COUNT: usize, const OTHERS: usize>(
         &mut self,

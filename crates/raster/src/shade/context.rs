@@ -1,6 +1,6 @@
 //! What shading has to know: the draw, the tile, and which pixels.
 
-use crate::Surface;
+use crate::BlendMode;
 use crate::bin::TriangleRef;
 use crate::frame::DrawView;
 use crate::geometry::{Geometry, Shape};
@@ -64,10 +64,10 @@ impl<'f> ShadeContext<'f> {
     /// Whether the draw is of lines or points that have one colour each and no mask, which
     /// might ask for more.
     pub(crate) fn has_flat_marks(&self) -> bool {
-        let Geometry { shape, surface, .. } = self.geometry();
+        let Geometry { shape, blend_mode, .. } = self.geometry();
         self.is_flat
             && !matches!(shape, Shape::Triangles { .. })
-            && matches!(surface, Surface::Opaque | Surface::Overlay | Surface::Translucent)
+            && matches!(blend_mode, BlendMode::Opaque | BlendMode::Overlay | BlendMode::Translucent)
     }
 }
 

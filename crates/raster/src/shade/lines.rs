@@ -59,7 +59,7 @@ impl Lines {
             shows_edges,
         };
         for lane in (0..LANES).filter(|&lane| is_cut[lane]) {
-            lines.cut(simd, context, sorted, (triangles[lane], flags[lane], lane));
+            lines.cut(context, sorted, triangles[lane], flags[lane], lane);
         }
         lines
     }
@@ -84,15 +84,16 @@ impl Lines {
     #[cold]
     fn cut<S: Simd>(
         &mut self,
-        simd: S,
         context: &ShadeContext<'_>,
         sorted: &Sorted<S>,
-        (place, flags, lane): (TriangleRef, EdgeFlags, usize),
+        triangle: TriangleRef,
+        flags: EdgeFlags,
+        lane: usize,
     ) {
-        let Some((weights, order)) = corners_of(context, place) else { return };
-        let weights = context.draw.chunk_of(place).weights[weights as usize];
+        let Some((weights, order)) = corners_of(context, triangle) else { return };
+        let weights = context.draw.chunk_of(triangle).weights[weights as usize];
         let [x, y]: [[Row; 3]; 2] = [sorted.x, sorted.y].map(|axis| axis.map(Into::into));
-        let q = perspective(simd, sorted.inverse_w).0.map(<[f32; LANES]>::from);
+        let q = perspective(sorted.inverse_w[0].token(), sorted.inverse_w).0.map(<[f32; LANES]>::from);
         let way = |from: usize, to: usize| {
             [f64::from(y[to][lane] - y[from][lane]), f64::from(x[from][lane] - x[to][lane])]
         };

@@ -10,16 +10,26 @@ use crate::tile::TileArea;
 /// So many triangles at most are ready at a time, to bound memory.
 const READY: usize = 1024;
 
+/// Triangles of a tile to be shaded, each at some of its pixels.
+#[derive(Clone, Copy)]
+pub(crate) struct JobList<'l> {
+    /// The tile's triangles.
+    pub(crate) triangles: &'l [TriangleRef],
+    pub(crate) jobs: &'l [Job],
+    /// The pixels that the jobs refer to.
+    pub(crate) points: &'l [ShadePoint],
+}
+
 /// Shades jobs in the order of their draws.
 pub(crate) fn shade_jobs(
     frame: &FrameView<'_>,
     area: &TileArea,
     shading: &mut Shading,
-    (triangles, jobs, points): (&[TriangleRef], &[Job], &[ShadePoint]),
+    list: JobList<'_>,
     colors: &mut [[f32; 4]],
 ) {
     // Over translucent faces no edges of others are laid.
-    shade_jobs_with(frame, area, shading, (triangles, jobs, points), (colors, None));
+    shade_jobs_with(frame, area, shading, list, (colors, None));
 }
 
 /// [`shade_jobs`], with what edges of other faces cover.
@@ -27,10 +37,10 @@ pub(crate) fn shade_jobs_with(
     frame: &FrameView<'_>,
     area: &TileArea,
     shading: &mut Shading,
-    (triangles, jobs, points): (&[TriangleRef], &[Job], &[ShadePoint]),
+    list: JobList<'_>,
     (colors, outer): (&mut [[f32; 4]], Option<&[Overlap]>),
 ) {
-    for_each_part(frame, area, shading, (triangles, jobs, points), |draw, context, shading| {
+    for_each_part(frame, area, shading, list, |draw, context, shading| {
         let context = &ShadeContext { outer, ..*context };
         let Shading { records, columns, fragments, .. } = shading;
         let task = Task::of_fragments(records, 0, fragments.all());
@@ -44,10 +54,10 @@ pub(crate) fn mask_jobs(
     frame: &FrameView<'_>,
     area: &TileArea,
     shading: &mut Shading,
-    (triangles, jobs, points): (&[TriangleRef], &[Job], &[ShadePoint]),
+    list: JobList<'_>,
     kept: &mut [u8],
 ) {
-    for_each_part(frame, area, shading, (triangles, jobs, points), |draw, context, shading| {
+    for_each_part(frame, area, shading, list, |draw, context, shading| {
         let Shading { records, columns, fragments, .. } = shading;
         let task = Task::of_fragments(records, 0, fragments.all());
         frame.pipeline(draw).mask(frame.token, context, (&task, columns), kept);
@@ -60,9 +70,10 @@ fn for_each_part(
     frame: &FrameView<'_>,
     area: &TileArea,
     shading: &mut Shading,
-    (triangles, jobs, points): (&[TriangleRef], &[Job], &[ShadePoint]),
+    list: JobList<'_>,
     mut visit: impl FnMut(usize, &ShadeContext<'_>, &mut Shading),
 ) {
+    let JobList { triangles, jobs, points } = list;
     let mut rest = jobs;
     while let Some(first) = rest.first() {
         let draw = frame.draw_of(triangles[first.place as usize]);

@@ -41,14 +41,14 @@ pub(crate) enum Destination<'t> {
     Listed(&'t [u32]),
 }
 
-/// Eight pixels to be shaded together.
+/// Eight pixels or fragments to be shaded together, one in each lane.
 pub(super) struct FragmentBatch<'t, S: Simd> {
-    /// What the lanes see, by names that stand for records. Lanes to spare repeat one
-    /// that is asked for.
+    /// The names of the records of the triangles that the lanes show. Unused lanes repeat an
+    /// active one, so that every lane is safe to compute.
     pub(super) names: U32<S>,
     named: Names<'t>,
     pub(super) spots: U32<S>,
-    /// The lanes that are asked for.
+    /// The lanes whose results are used.
     pub(super) active: u64,
     pub(super) destination: Destination<'t>,
 }
@@ -149,7 +149,7 @@ impl<'t> Task<'t> {
     }
 }
 
-/// Up to eight numbers in all lanes; those to spare repeat the first.
+/// Up to eight numbers as lanes; unused lanes repeat the first.
 #[inline(always)]
 fn eight(numbers: &[u32]) -> [u32; LANES] {
     match numbers.first_chunk() {

@@ -233,27 +233,32 @@ impl<'a> Target<'a> {
     }
 
     /// Width in pixels.
+    #[must_use]
     pub fn width(&self) -> u32 {
         self.width
     }
 
     /// Height in pixels.
+    #[must_use]
     pub fn height(&self) -> u32 {
         self.height
     }
 
     /// By how much supersampling makes the grid finer.
+    #[must_use]
     pub fn samples_per_axis(&self) -> u32 {
         self.samples_per_axis
     }
 
     /// How many samples multisampling has in a pixel.
+    #[must_use]
     pub fn samples(&self) -> u32 {
         self.pattern.count() as u32
     }
 
     /// Where in each pixel depth and ids are taken: x to the right and y down from
     /// its upper left corner, in pixels. With one sample that is the centre.
+    #[must_use]
     pub fn visibility_sample(&self) -> [f64; 2] {
         let axis = self.samples_per_axis;
         let offset = self.pattern.offsets()[0];
@@ -265,41 +270,49 @@ impl<'a> Target<'a> {
     }
 
     /// The picture of [`Output::Unorm8`], if asked for.
+    #[must_use]
     pub fn unorm8(&self) -> Option<&[[u8; 4]]> {
         self.unorm8.pixels()
     }
 
     /// The picture of [`Output::Srgb8`], if asked for.
+    #[must_use]
     pub fn srgb8(&self) -> Option<&[[u8; 4]]> {
         self.srgb8.pixels()
     }
 
     /// The picture of [`Output::Linear`], if asked for.
+    #[must_use]
     pub fn linear(&self) -> Option<&[Vec4]> {
         self.linear.pixels()
     }
 
     /// The picture of [`Output::Depth`], if asked for.
+    #[must_use]
     pub fn depth(&self) -> Option<&[f32]> {
         self.depth.pixels()
     }
 
     /// The picture of [`Output::Object`], if asked for.
+    #[must_use]
     pub fn objects(&self) -> Option<&[u32]> {
         self.objects.pixels()
     }
 
     /// The picture of [`Output::Face`], if asked for.
+    #[must_use]
     pub fn faces(&self) -> Option<&[u32]> {
         self.faces.pixels()
     }
 
     /// The picture of [`Output::Triangle`], if asked for.
+    #[must_use]
     pub fn triangles(&self) -> Option<&[u32]> {
         self.triangles.pixels()
     }
 
     /// Gives the pictures away.
+    #[must_use]
     pub fn into_pictures(self) -> Pictures {
         Pictures {
             srgb8: self.srgb8.into_owned(),

@@ -33,11 +33,12 @@ pub(super) struct EightTriangles {
     pub(super) micro: bool,
 }
 
-/// Triangles that reach over fewer pixels than this each way are not worth asking
-/// whether blocks lie outside of them.
+/// Triangles of at most this many pixels each way go through the kernel `tiny`: testing whole
+/// blocks against their edges costs more than it saves.
 const TINY: i32 = 24;
 
-/// Triangles that reach over no more pixels than this each way.
+/// Triangles of at most this many pixels each way go through the kernel `micro`, if all of the
+/// eight are that small.
 pub(super) const MICRO: i32 = 4;
 
 impl EightTriangles {
@@ -53,8 +54,11 @@ impl EightTriangles {
             #[inline(always)]
             |(vertices, corner)| Column::new(simd, vertices, corner),
         );
+        // Each lane's vertices in the order of (y, x), so that the results do not depend on the
+        // order in which the draw lists them.
         let ([a, b, c], _) = sorted_columns(columns);
         let zero = I32::splat(simd, 0);
+        // Twice the signed areas: edges are turned so that all triangles are positive inside.
         let area_of = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
         let clockwise = area_of.simd_gt(zero);
         let origin = area.origin.each(
@@ -80,6 +84,8 @@ impl EightTriangles {
             first: edges.each(
                 #[inline(always)]
                 |[corner, right, down]| {
+                    // Dividing by 256 rounds down, which keeps the sign at every sample: the values
+                    // at samples of one offset differ by multiples of 256.
                     let [x, y] = pattern.offsets()[0];
                     ((corner + right * x + down * y) >> 8).into()
                 },
@@ -169,7 +175,8 @@ impl EightTriangles {
     }
 }
 
-/// An edge function at the tile's corner, its bias included, and its steps.
+/// An edge function at the tile's corner, with the bias of the top-left rule, and its steps for
+/// 1/256 pixel to the right and downwards.
 #[inline(always)]
 fn edge<S: Simd>(
     simd: S,
@@ -185,6 +192,8 @@ fn edge<S: Simd>(
     let (right, down) = (turned(from.y - to.y), turned(to.x - from.x));
     let value =
         right * (I32::splat(simd, origin[0]) - from.x) + down * (I32::splat(simd, origin[1]) - from.y);
+    // Samples exactly on a left or top edge belong to the triangle. For all other edges the value
+    // is made one less, so that "not negative" means inside for every edge.
     let zero = I32::splat(simd, 0);
     let inclusive = right.simd_gt(zero) | (right.simd_eq(zero) & down.simd_gt(zero));
     [value - inclusive.select(zero, I32::splat(simd, 1)), right, down]

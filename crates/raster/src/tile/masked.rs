@@ -2,16 +2,14 @@
 //! depth.
 
 use super::blocks::Blocks;
-use super::buffer::{NOBODY, VisibilityBuffer};
+use super::buffer::NOBODY;
 use super::depth_query::{Candidate, TileView};
 use super::single::single;
-use super::ties::Ties;
 use super::{TileArea, TileState};
-use crate::bin::TriangleRef;
 use crate::frame::FrameView;
-use crate::shade::{Job, ShadePoint, Shading, mask_jobs};
+use crate::shade::{Job, JobList, ShadePoint, Shading, mask_jobs};
 use crate::simd::{LANES, Simd, at_level, prelude::*};
-use crate::{Stats, Surface};
+use crate::{BlendMode, Stats};
 use std::ops::Range;
 
 /// Masked fragments are asked for in portions of about this many, to bound
@@ -46,17 +44,18 @@ pub(super) fn cover_masked(
     range: Range<usize>,
     (shading, stats): (&mut Shading, &mut Stats),
 ) {
-    let TileState { buffer, triangles, ties, questions, .. } = state;
-    let draw = |place: usize| frame.draw_of(triangles[place]);
+    let mut questions = std::mem::take(&mut state.questions);
     for place in range.clone() {
+        let draw = |place: usize| frame.draw_of(state.triangles[place]);
         let turns = place > range.start && draw(place) != draw(place - 1);
         if turns || questions.waiting.len() > PORTION {
-            stats.samples_masked += questions.settle(frame, area, (triangles, ties, buffer), shading);
+            stats.samples_masked += questions.settle(frame, area, state, shading);
         }
-        let view = TileView { frame, area, buffer, triangles, ties };
+        let view = state.view(frame, area);
         at_level!(frame.token, simd => questions.collect(simd, view, place));
     }
-    stats.samples_masked += questions.settle(frame, area, (triangles, ties, buffer), shading);
+    stats.samples_masked += questions.settle(frame, area, state, shading);
+    state.questions = questions;
 }
 
 impl Questions {
@@ -67,7 +66,7 @@ impl Questions {
             return;
         };
         let draw = &view.frame.plan.draws[view.frame.draw_of(view.triangles[place])];
-        let per_sample = view.frame.pass[draw.draw].geometry.surface == Surface::MaskedPerSample;
+        let per_sample = view.frame.pass[draw.draw].geometry.blend_mode == BlendMode::MaskedPerSample;
         let multisampled = view.frame.is_multisampled();
         let Self { waiting, jobs, points, .. } = self;
         let start = points.len();
@@ -109,20 +108,19 @@ impl Questions {
         &mut self,
         frame: &FrameView<'_>,
         area: &TileArea,
-        (triangles, ties, buffer): (&[TriangleRef], &Ties, &mut VisibilityBuffer),
+        state: &mut TileState,
         shading: &mut Shading,
     ) -> u64 {
         let Self { waiting, jobs, points, answers } = self;
         let asked = points.len();
         answers.clear();
         answers.resize(asked, 0);
-        mask_jobs(frame, area, shading, (triangles, jobs, points), answers);
+        mask_jobs(frame, area, shading, JobList { triangles: &state.triangles, jobs, points }, answers);
         for fragment in waiting.drain(..).filter(|fragment| answers[fragment.answer as usize] != 0) {
             let (index, depth) = (fragment.index as usize, fragment.depth);
-            let view = TileView { frame, area, buffer, triangles, ties };
-            if view.is_seen(index, depth, fragment.place) {
-                buffer.depth[index] = depth;
-                buffer.winner[index] = fragment.place;
+            if state.view(frame, area).is_seen(index, depth, fragment.place) {
+                state.buffer.depth[index] = depth;
+                state.buffer.winner[index] = fragment.place;
             }
         }
         jobs.clear();

@@ -1,6 +1,8 @@
 //! What the visibility of a tile is found in, kept from tile to tile.
 
+use super::area::TileArea;
 use super::buffer::VisibilityBuffer;
+use super::depth_query::TileView;
 use super::key_order::KeyOrder;
 use super::masked::Questions;
 use super::surfaces::Surfaces;
@@ -41,5 +43,12 @@ impl TileState {
     pub(crate) fn begin(&mut self, frame: &FrameView<'_>, tile: u32) {
         self.buffer.clear(&frame.area(tile), frame.grid.pattern.count());
         self.ties.reset(self.triangles.len());
+    }
+
+    /// The tile as masked and translucent triangles meet it.
+    #[inline(always)]
+    pub(crate) fn view<'t>(&'t self, frame: &'t FrameView<'t>, area: &'t TileArea) -> TileView<'t> {
+        let Self { buffer, triangles, ties, .. } = self;
+        TileView { frame, area, buffer, triangles, ties }
     }
 }

@@ -1,6 +1,6 @@
 //! The triangles of a tile, listed by kind of surface.
 
-use crate::Surface;
+use crate::BlendMode;
 use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use std::ops::Range;
@@ -20,11 +20,11 @@ impl Surfaces {
         let mut ends = [0; 4];
         for chunk in frame.chunks.iter().filter(|chunk| !chunk.is_empty()) {
             chunk.collect(&frame.grid, tile, triangles);
-            let first = match chunk.surface {
-                Surface::Opaque => 0,
-                Surface::Masked | Surface::MaskedPerSample => 1,
-                Surface::Overlay => 2,
-                Surface::Translucent => 3,
+            let first = match chunk.blend_mode {
+                BlendMode::Opaque => 0,
+                BlendMode::Masked | BlendMode::MaskedPerSample => 1,
+                BlendMode::Overlay => 2,
+                BlendMode::Translucent => 3,
             };
             ends[first..].fill(triangles.len());
         }

@@ -8,6 +8,7 @@ use super::quad::QuadEdges;
 use super::rasterizer::TileRasterizer;
 use super::single::covering_apart;
 use super::ties::COMPARISON;
+use super::tiny::PreparedTriangle;
 use super::{Counts, NOBODY, Surfaces, TileArea, TileState, VisibilityBuffer, masked};
 use crate::Stats;
 use crate::bin::TriangleRef;
@@ -169,7 +170,8 @@ fn cover_triangles<S: Simd, const MULTI: bool>(
                 origins.find::<S, MULTI>(simd, rasterizer, eight);
             }
             for (lane, &place) in triangles[start..end].iter().enumerate() {
-                let ready = eight.as_ref().map(|eight| (eight, &mut origins, lane));
+                let ready =
+                    eight.as_ref().map(|eight| PreparedTriangle { eight, origins: &mut origins, lane });
                 cover_one::<S, MULTI>(
                     simd,
                     frame,
@@ -210,11 +212,11 @@ fn cover_one<S: Simd, const MULTI: bool>(
     simd: S,
     frame: &FrameView<'_>,
     rasterizer: &TileRasterizer<'_>,
-    ready: Option<(&EightTriangles, &mut EdgeOrigins, usize)>,
+    ready: Option<PreparedTriangle<'_>>,
     (place, number): (TriangleRef, usize),
     (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
 ) {
-    let covering = match ready.filter(|(eight, _, lane)| eight.small >> lane & 1 != 0) {
+    let covering = match ready.filter(|ready| ready.eight.small >> ready.lane & 1 != 0) {
         None => {
             let triangle = frame.triangle(place);
             if rasterizer.tile_hides(buffer, triangle.nearest()) {
@@ -223,9 +225,15 @@ fn cover_one<S: Simd, const MULTI: bool>(
             }
             covering_apart(frame, &rasterizer.area, &triangle)
         }
-        Some((eight, origins, lane)) => {
+        Some(PreparedTriangle { eight, origins, lane }) => {
             if eight.is_tiny(lane) {
-                rasterizer.tiny::<S, MULTI>(simd, (eight, origins, lane), number as u32, buffer, counts);
+                rasterizer.tiny::<S, MULTI>(
+                    simd,
+                    PreparedTriangle { eight, origins, lane },
+                    number as u32,
+                    buffer,
+                    counts,
+                );
                 return;
             }
             if rasterizer.tile_hides(buffer, eight.high[lane]) {
