@@ -1,14 +1,14 @@
-//! The object that draws passes and keeps what can be used again.
+//! The rasterizer: draws passes, and keeps threads and memory between them.
 
 use crate::frame::{Arena, DrawChange, FrameOptions, FrameView, Redraw, draw, prepare, redraw};
 use crate::pool::Workers;
 use crate::simd::{SimdLevel, SimdLevelError, Token};
 use crate::{Cancel, ExecuteSettings, Pass, Stats, Target};
 
-/// Draws passes: threads and memory that are kept from frame to frame.
+/// Draws passes, and keeps its threads and memory from frame to frame.
 ///
-/// A frame that is no larger than the last ones allocates nothing, but for what
-/// several threads take to be told of their work.
+/// A frame no larger than earlier ones allocates nothing, except what it takes to
+/// hand work to several threads.
 pub struct Rasterizer {
     execution: Execution,
     arena: Arena,
@@ -41,9 +41,9 @@ impl Rasterizer {
         &self.execution.settings
     }
 
-    /// Ends drawings that are under way when the token is cancelled, and those that
-    /// follow; `None` to let them be. What the target of such a drawing holds is of
-    /// no use: ask the token when [`draw`](Self::draw) has returned.
+    /// Sets a token that cancels the current and all later drawings; `None` removes it.
+    /// After a cancelled drawing the target's content is unusable, so check the token
+    /// when [`draw`](Self::draw) has returned.
     pub fn set_cancel(&mut self, cancel: Option<Cancel>) {
         self.execution.cancel = cancel;
     }
@@ -74,18 +74,19 @@ impl Rasterizer {
         draw(&mut self.arena, pass, target, options)
     }
 
-    /// As [`draw`](Self::draw), for passes that are drawn again and again with few vertices
-    /// moved: it runs these vertices alone, and draws the tiles alone that their triangles
-    /// lie in, or lay in.
+    /// Like [`draw`](Self::draw), for passes that are drawn repeatedly with few changes: it
+    /// runs only the changed vertices, and draws only the tiles that their triangles lie in or
+    /// lay in before.
     ///
-    /// `changes` tell, draw by draw in the order of recording, how the pass differs from the
-    /// one of the last call. Everything else has to be the same: the background, how edges are
-    /// painted and the colours of marks, the numbers of draws, vertices and triangles, and
-    /// whatever else pipelines answer by. And the target has to hold the pictures that the last
-    /// call has left in its target. Where that is not so the picture is a mixture of both
-    /// passes; nothing worse happens. With `None` all is drawn. So it is in a target of another size or with other outputs, with a
-    /// [`scissor`](Pass::scissor), after a call of any other function, and after a drawing
-    /// that was cancelled.
+    /// `changes` lists, draw by draw in the order of recording, how the pass differs from that of
+    /// the last call. Everything else must be the same: the background, the painting of edges,
+    /// the colours of marks, the numbers of draws, vertices and triangles, and whatever else the
+    /// pipelines' results depend on. The target must hold what the last call left in its target.
+    /// If any of this is violated, the image is a mixture of both passes; nothing worse happens.
+    ///
+    /// With `None` the whole pass is drawn. So it is with a target of another size or with other
+    /// outputs, with a [`scissor`](Pass::scissor), after a call of any other function, and after
+    /// a cancelled drawing.
     ///
     /// ```
     /// # use trigon_raster::{*, math::Vec4};
@@ -128,9 +129,9 @@ impl Rasterizer {
         redraw(&mut self.arena, pass, (target, changes), options)
     }
 
-    /// Works through items of any kind on the threads that draw, each item taken by the
-    /// thread that is free first: what is to be done beside a frame needs no threads of
-    /// its own. Returns when all is done.
+    /// Processes items of any kind on the rasterizer's threads; each item goes to the first
+    /// free thread. Work beside a frame therefore needs no threads of its own. Returns when all
+    /// items are done.
     pub fn share<I>(&self, items: I, work: impl Fn(I::Item) + Sync)
     where
         I: Iterator + Send,

@@ -13,7 +13,7 @@ use std::ops::Range;
 struct Shape {
     covering: TileTriangle,
     place: u32,
-    /// What it covers, if that is no matter of yes or no.
+    /// Its fractional coverage, if it is anti-aliased.
     stroke: Option<Stroke>,
 }
 
@@ -131,7 +131,7 @@ impl Beside {
     }
 }
 
-/// The lanes of which something holds.
+/// The lanes for which `holds` is true.
 #[inline(always)]
 fn where_of(holds: impl Fn(usize) -> bool) -> u64 {
     (0..LANES).fold(0, |lanes, lane| lanes | u64::from(holds(lane)) << lane)

@@ -18,7 +18,7 @@ pub(super) struct Fragments {
 }
 
 impl Fragments {
-    /// Empties the list, for so many triangles.
+    /// Empties the list for a tile with this many triangles.
     pub(super) fn reset(&mut self, triangle_count: usize) {
         self.listed.clear();
         self.counts.clear();

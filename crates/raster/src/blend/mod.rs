@@ -1,5 +1,5 @@
-//! Translucent fragments, laid over what is there from back to front at each
-//! sample, in the order of (depth, object, face).
+//! Translucent fragments, blended from back to front at each sample in the order of
+//! (depth, object, face).
 //!
 //! The order is total, so it depends neither on the order of draws nor on
 //! threads. Each sample keeps the farthest layers that it has room for; they are

@@ -16,10 +16,10 @@ use crate::vertex::UsedVertices;
 use crate::{BlendMode, Stats};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What of a draw differs from the one in the same place of the last pass.
+/// How a draw differs from the one in the same place of the last pass.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DrawChange<'a> {
-    /// Vertices for which the pipeline may answer otherwise, in any order.
+    /// Vertices for which the pipeline may return other values, in any order.
     pub vertices: &'a [u32],
     /// Triangles that may have other corners or [`edge_flags`](crate::Draw::edge_flags), and
     /// points that may have another [size](crate::Points::marked); increasing. None of lines:

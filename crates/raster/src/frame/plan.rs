@@ -6,14 +6,14 @@ use crate::pass::Recorded;
 use crate::vertex::{Slots, UsedVertices};
 use std::ops::Range;
 
-/// The fewest primitives of a chunk: enough to be worth a worker's while.
+/// The fewest primitives of a chunk: enough to be worth handing to a worker.
 const LEAST: u32 = 8192;
 
 /// The most primitives of a chunk: few enough to stay in a worker's cache.
 const MOST: u32 = 65_536;
 
-/// Chunks for each worker, so that none waits long for another. Every tile asks all
-/// chunks what they hold: the fewer, the better.
+/// Chunks for each worker, so that none waits long for another. Every tile visits all
+/// chunks, so there should not be more.
 const SHARES: u32 = 16;
 
 /// One draw of the pass in the frame.
@@ -51,8 +51,8 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// Plans a frame for so many workers, and cuts it into chunks: the first so many, in
-    /// the order of their ordinals.
+    /// Plans a frame for a number of workers and cuts it into chunks. Returns how many of
+    /// `chunks` are used, from the first on, in the order of their ordinals.
     pub(crate) fn make(
         &mut self,
         recorded: &[Recorded<'_>],
@@ -112,7 +112,7 @@ impl Plan {
         true
     }
 
-    /// Cuts it into chunks of so many primitives.
+    /// Cuts it into chunks of at most `size` primitives.
     fn cut(&self, recorded: &[Recorded<'_>], chunks: &mut Vec<Chunk>, size: u32) -> usize {
         let mut count = 0;
         let mut add = |ordinals: Range<u32>, blend_mode: BlendMode| {

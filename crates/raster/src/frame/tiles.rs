@@ -84,7 +84,7 @@ fn draw_colors(
     stats.times.resolve += clock.lap();
 }
 
-/// What edges cover beyond their faces in a tile that is looked at by itself.
+/// What edges cover beyond their faces in a single tile.
 pub(crate) fn outer_ink(frame: &FrameView<'_>, index: u32) -> OuterInk {
     let Scratch { mut state, mut shading, mut stats, .. } = Scratch::new();
     if frame.paints_lines() {

@@ -15,9 +15,9 @@
 //! greatest of the depths around each; only those look at their neighbours one by one. All
 //! of it depends on what is visible around a pixel, and not on tiles.
 
-use super::lined::LinedFace;
-use super::rows::{Rows, beside_large, in_front};
+use super::edged_face::EdgedFace;
 use super::visible_faces::{LARGE, VisibleFaces};
+use super::visible_rows::{VisibleRows, beside_large, in_front};
 use super::{Ink, Overlap};
 use crate::bin::TriangleRef;
 use crate::frame::FrameView;
@@ -38,7 +38,7 @@ pub(crate) struct OuterInk {
     /// The triangles that the tile sees.
     faces: VisibleFaces,
     /// `None` until edges are painted.
-    rows: Option<Box<Rows>>,
+    rows: Option<Box<VisibleRows>>,
     /// The lanes of each group that the tile draws itself.
     own: Vec<u8>,
     own_part: [Range<usize>; 2],
@@ -48,10 +48,10 @@ pub(crate) struct OuterInk {
 
 /// Faces that are kept for the next pixels, with the places of their triangles.
 #[derive(Default)]
-struct Ready(Vec<(u32, LinedFace)>);
+struct Ready(Vec<(u32, EdgedFace)>);
 
 impl OuterInk {
-    /// Forgets the last tile; this one has so many triangles.
+    /// Starts a tile with this many triangles.
     pub(crate) fn begin(&mut self, triangle_count: usize) {
         self.covered.resize(PIXELS, Overlap::default());
         for pixel in self.touched.drain(..) {
@@ -100,7 +100,7 @@ impl OuterInk {
         if self.is_empty() { Overlap::default() } else { self.covered[pixel] }
     }
 
-    /// Finds what lines cover beyond their triangles, all of which have been noted.
+    /// Finds what lines cover beyond their triangles. All visible triangles must have been noted.
     pub(crate) fn find(
         &mut self,
         frame: &FrameView<'_>,
@@ -113,7 +113,7 @@ impl OuterInk {
         }
         self.own_lanes(frame, area);
         let reach = ink.reach() as usize;
-        let mut rows = self.rows.take().unwrap_or_else(Rows::new);
+        let mut rows = self.rows.take().unwrap_or_else(VisibleRows::new);
         self.spread(area, (buffer, triangles.len()), &mut rows);
         let found = at_level!(frame.token, simd => self.candidates(simd, area, &rows, reach));
         self.ready.iter_mut().for_each(Ready::clear);
@@ -130,7 +130,13 @@ impl OuterInk {
 
     /// The pixels that lines of others may cover: a bit for each column of each row.
     #[inline(always)]
-    fn candidates<S: Simd>(&self, simd: S, area: &TileArea, visible: &Rows, reach: usize) -> [u64; MAX_SIDE] {
+    fn candidates<S: Simd>(
+        &self,
+        simd: S,
+        area: &TileArea,
+        visible: &VisibleRows,
+        reach: usize,
+    ) -> [u64; MAX_SIDE] {
         let [columns, rows] = self.own_part.clone();
         let own = (u64::MAX >> (MAX_SIDE - columns.len())) << columns.start;
         let mut found = [0; MAX_SIDE];
@@ -146,7 +152,12 @@ impl OuterInk {
     }
 
     /// Lays what pixels see out in rows.
-    fn spread(&self, area: &TileArea, (buffer, triangle_count): (&VisibilityBuffer, usize), rows: &mut Rows) {
+    fn spread(
+        &self,
+        area: &TileArea,
+        (buffer, triangle_count): (&VisibilityBuffer, usize),
+        rows: &mut VisibleRows,
+    ) {
         if area.padded() != [MAX_SIDE; 2] {
             rows.least.fill([f32::NEG_INFINITY; MAX_SIDE]);
             rows.large.fill([0.0; MAX_SIDE]);
@@ -178,7 +189,7 @@ impl OuterInk {
         &mut self,
         frame: &FrameView<'_>,
         area: &TileArea,
-        (triangles, rows): (&[TriangleRef], &Rows),
+        (triangles, rows): (&[TriangleRef], &VisibleRows),
         ([x, y], reach): ([usize; 2], usize),
     ) {
         let own = rows.farthest[y][x];
@@ -263,12 +274,12 @@ impl OuterInk {
 impl Ready {
     /// Forgets all, and keeps their memory.
     fn clear(&mut self) {
-        self.0.resize_with(READY, || (NOBODY, LinedFace::default()));
+        self.0.resize_with(READY, || (NOBODY, EdgedFace::default()));
         self.0.iter_mut().for_each(|(place, _)| *place = NOBODY);
     }
 
     /// The face of a triangle of the tile.
-    fn face(&mut self, frame: &FrameView<'_>, triangles: &[TriangleRef], place: u32) -> &LinedFace {
+    fn face(&mut self, frame: &FrameView<'_>, triangles: &[TriangleRef], place: u32) -> &EdgedFace {
         let (of, face) = &mut self.0[place as usize % READY];
         if *of != place {
             face.set(frame, triangles[place as usize]);

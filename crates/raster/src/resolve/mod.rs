@@ -83,7 +83,7 @@ fn store_colors(frame: &FrameView<'_>, area: &TileArea, colors: &[[f32; 4]], ban
     });
 }
 
-/// Writes depth and ids, if they are asked for, each from one sample of the pixel, row by row.
+/// Writes depth and ids, if they are requested, each from one sample of the pixel, row by row.
 pub(crate) fn store_visibility(frame: &FrameView<'_>, area: &TileArea, state: &TileState, bands: &Bands<'_>) {
     if !(frame.wants.depth || frame.wants.ids) {
         return;

@@ -1,4 +1,4 @@
-//! What shading has to know: the draw, the tile, and which pixels.
+//! The context of shading: the draw, the tile, and the pixels.
 
 use crate::BlendMode;
 use crate::bin::TriangleRef;
@@ -11,7 +11,7 @@ use crate::tile::TileArea;
 use crate::vertex::Slots;
 use std::ops::Range;
 
-/// What a shader has to know of one draw in one tile.
+/// What shading needs of one draw in one tile.
 #[derive(Clone, Copy)]
 pub(crate) struct ShadeContext<'f> {
     pub(crate) draw: DrawView<'f>,

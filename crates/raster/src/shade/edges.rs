@@ -106,7 +106,7 @@ impl Edges {
             for (row, names) in rows[..sample].iter().zip(&names[..sample]) {
                 name = winners.simd_eq(U32::simd_from(simd, *row)).select(U32::simd_from(simd, *names), name);
             }
-            // How many have no name yet, nobody can foresee: all at once.
+            // All lanes without a name at once: how many there are is hard to predict.
             let others = name.simd_eq(unnamed) & listed;
             let places = (lane_numbers(simd) + (PARTS + self.parts) as i32).bitcast::<U32<S>>();
             parts.push_some(others, [winners, ShadePoint::covering_lanes(pixels, sample)], places);

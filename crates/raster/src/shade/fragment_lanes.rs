@@ -1,4 +1,4 @@
-//! What a pipeline knows when it shades eight pixels.
+//! The input of a pipeline that shades eight fragments at a time.
 
 use super::ShadeContext;
 use super::barycentrics::Barycentrics;
@@ -10,10 +10,10 @@ use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, lesser, prelu
 use crate::{Fragment, MAX_VARYINGS, Varyings};
 use trigon_math::{UVec2, Vec2};
 
-/// Up to eight visible pixels, to be shaded together.
+/// Up to eight visible fragments, one in each lane.
 ///
-/// Every lane is a function of its own triangle and pixel alone. Lanes that are
-/// not [active](Self::active) hold something, and what they give is ignored.
+/// Every lane depends on its own triangle and pixel alone. Lanes that are not
+/// [active](Self::active) hold arbitrary values, and their results are ignored.
 pub struct FragmentLanes<'a, S: Simd> {
     pub(crate) simd: S,
     /// The varyings at each of the three corners: equally many.
@@ -28,7 +28,7 @@ pub struct FragmentLanes<'a, S: Simd> {
 }
 
 impl<S: Simd> FragmentLanes<'_, S> {
-    /// The lanes that are asked for: bit `i` for lane `i`, at least one.
+    /// The lanes whose results are used: bit `i` for lane `i`, at least one.
     #[inline(always)]
     pub fn active(&self) -> u64 {
         self.vector.active
@@ -67,7 +67,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
         )
     }
 
-    /// The varyings from `first` on, as many as the array asks for.
+    /// The varyings from `first` on, as many as the array holds.
     #[inline(always)]
     pub fn varyings<const N: usize>(&self, first: usize) -> [F32<S>; N] {
         let mut values = [F32::splat(self.simd, 0.0); N];

@@ -87,7 +87,7 @@ impl<'l> FragmentSlice<'l> {
         self.slots.len()
     }
 
-    /// Those in a range that there are.
+    /// The part of a range that exists.
     #[inline(always)]
     pub(super) fn part(self, range: Range<usize>) -> Self {
         let range = range.start..range.end.min(self.len());

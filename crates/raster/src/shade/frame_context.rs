@@ -7,8 +7,7 @@ use crate::frame::FrameView;
 use crate::tile::TileArea;
 
 impl<'f> FrameView<'f> {
-    /// What shading has to know of one of the frame's draws in a tile with these triangles. No
-    /// edges of other faces are laid over it.
+    /// The context for shading one of the frame's draws in a tile, without edges of other faces.
     pub(super) fn shade_context<'c>(
         &'c self,
         area: &TileArea,

@@ -10,7 +10,7 @@ use crate::ink::{FaceLine, Footprint, Ink, LineColumns, VisibleFaces};
 use crate::setup::Corners;
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, inlined, lesser, prelude::*};
 
-/// The radius in pixels of faces that are so large that nobody asks how large.
+/// The radius in pixels of faces whose exact size does not matter.
 const HUGE: f32 = 1e9;
 
 /// The least radius and the shortest perimeter in pixels: nothing is divided by 0.
@@ -110,7 +110,7 @@ impl Lines {
         }
     }
 
-    /// Puts the columns into the records of so many triangles.
+    /// Writes the columns to the records of the first `count` triangles.
     #[inline(always)]
     pub(super) fn store(&self, (rows, shape): (&mut [Row], RecordShape), count: usize) {
         let Some(first) = shape.lines else { return };
@@ -122,7 +122,7 @@ impl Lines {
         }
     }
 
-    /// Tells what the search for outer halves has to know of the triangles that are seen.
+    /// Notes what the search for outer halves of lines needs of the visible triangles.
     #[inline(always)]
     pub(super) fn note<S: Simd>(&self, simd: S, sorted: &Sorted<S>, seen: &[u32], outer: &mut VisibleFaces) {
         let [a, b, c] = sorted.depth;

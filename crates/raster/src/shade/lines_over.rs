@@ -9,8 +9,8 @@ use super::{ShadeContext, ShadePoint};
 use crate::ink::{Ink, Overlap};
 use crate::simd::{Each, F32, I32, LANES, Row, Simd, U32, greater, lesser, prelude::*};
 
-/// What it takes. Nothing that shading computes: what it finds stays in registers, and what
-/// is asked for here is found once more.
+/// The inputs. Nothing that shading has computed is among them: its results stay in registers, and
+/// what is needed here is computed again.
 pub(super) struct LinesOver<'a> {
     pub(super) ink: &'a Ink,
     pub(super) context: &'a ShadeContext<'a>,
@@ -29,7 +29,7 @@ impl LinesOver<'_> {
     #[inline(always)]
     pub(super) fn lay<S: Simd>(&self, simd: S, spots: U32<S>, color: [F32<S>; 4]) -> [F32<S>; 4] {
         if self.ink.has_marks() {
-            // Apart, so that it takes no registers of edges without marks.
+            // In a function of its own, so that it takes no registers of edges without marks.
             return simd.vectorize(
                 #[inline(always)]
                 || self.lay_marked(simd, spots, color),

@@ -28,7 +28,7 @@ pub(crate) fn shade_jobs(
     list: JobList<'_>,
     colors: &mut [[f32; 4]],
 ) {
-    // Over translucent faces no edges of others are laid.
+    // Edges of other faces are not painted over translucent ones.
     shade_jobs_with(frame, area, shading, list, (colors, None));
 }
 
@@ -49,7 +49,7 @@ pub(crate) fn shade_jobs_with(
     });
 }
 
-/// Asks the masks of jobs: 1 or 0 at each output's place.
+/// Evaluates the masks of jobs: 1 or 0 at each output's place.
 pub(crate) fn mask_jobs(
     frame: &FrameView<'_>,
     area: &TileArea,

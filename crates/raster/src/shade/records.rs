@@ -141,7 +141,7 @@ impl Records {
         context: &ShadeContext<'_>,
         slots: [u32; LANES],
     ) -> [Row; cold::COUNT] {
-        // Apart, so that it is compiled once.
+        // In a function of its own, so that it is compiled once.
         simd.vectorize(
             #[inline(always)]
             || {
@@ -240,7 +240,7 @@ fn eight<S: Simd>(
     if let Some(ink) = context.frame_ink
         && (shape.lines.is_some() || outer.is_some())
     {
-        // Apart, so that it takes no registers where it is not needed.
+        // In a function of its own, so that it takes no registers where it is not needed.
         simd.vectorize(
             #[inline(always)]
             || {

@@ -64,7 +64,7 @@ pub(super) fn for_each_vector<S: Simd>(
     let count = task.vectors();
     for number in 0..count + 1 {
         if number < count {
-            // Apart, so that it is compiled once for all pipelines.
+            // In a function of its own, so that it is compiled once for all pipelines.
             simd.vectorize(
                 #[inline(always)]
                 || prepare(simd, context, (task, &mut *next), number),
@@ -112,9 +112,9 @@ fn fragments<'v, S: Simd>(
     }
 }
 
-/// Where up to eight pixels are shaded, in 1/256 pixel from the tile's corner: at
-/// the sample that is asked for; else at their centre, or if their triangle does
-/// not cover it at the lowest-numbered sample that it covers.
+/// Where up to eight pixels are shaded, in 1/256 pixel from the tile's corner: at a
+/// given sample, or else at their centre, or at the lowest-numbered sample that their
+/// triangle covers if it does not cover the centre.
 #[inline(always)]
 fn points<S: Simd>(simd: S, context: &ShadeContext<'_>, columns: &Columns, spots: U32<S>) -> [I32<S>; 2] {
     let (corners, elsewhere) = ShadePoint::corners(spots);
@@ -124,8 +124,8 @@ fn points<S: Simd>(simd: S, context: &ShadeContext<'_>, columns: &Columns, spots
             |column| column + 128,
         );
     };
-    // Apart, and nothing lent to it that others would have to keep in memory for that:
-    // it takes no registers where pixels have one sample.
+    // In a function of its own that borrows nothing from this one: values that are borrowed would
+    // have to live in memory, also where pixels have one sample.
     let [x, y] = simd.vectorize(
         #[inline(always)]
         move || sample_points(simd, context, &TriangleLanes::load(simd, columns), (corners, &spots)),

@@ -22,7 +22,7 @@ pub(super) struct Run {
     pub(super) records: Option<RecordShape>,
 }
 
-/// A group with pixels whose first samples see nobody.
+/// A group with pixels whose first samples show the background.
 #[derive(Clone, Copy)]
 pub(crate) struct EmptyGroup {
     pub(crate) number: u32,
@@ -65,7 +65,7 @@ pub(crate) struct Shading {
 }
 
 impl Shading {
-    /// Forgets the last tile. This one has so many triangles and samples.
+    /// Starts a tile with this many triangles, and samples per pixel.
     pub(super) fn clear(&mut self, triangle_count: usize, samples: usize) {
         self.slots.clear();
         // One more, for nobody.

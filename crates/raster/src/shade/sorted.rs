@@ -23,7 +23,7 @@ pub(super) struct Sorted<S: Simd> {
 }
 
 impl<S: Simd> Sorted<S> {
-    /// Triangles that are primitives as they are.
+    /// Triangles that are whole primitives.
     #[inline(always)]
     pub(super) fn whole(simd: S, context: &ShadeContext<'_>, indices: [[u32; 3]; LANES]) -> Self {
         let vertices = context.draw.vertices;
@@ -79,7 +79,7 @@ impl<S: Simd> Sorted<S> {
         }
     }
 
-    /// Triangles of which some were made by cutting, or from lines and points.
+    /// Triangles of which some were cut, or belong to lines and points.
     #[inline(always)]
     pub(super) fn made(simd: S, context: &ShadeContext<'_>, refs: [TriangleRef; LANES]) -> Self {
         let triangles = refs.each(

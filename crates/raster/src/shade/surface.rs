@@ -132,7 +132,7 @@ fn shade_flat(
             }
             continue;
         }
-        // What others get than those asked for is written over later.
+        // Lanes that are not active get any colour, which is overwritten later.
         let slot = |lane: usize| {
             let is_asked = group.lanes >> lane & 1 != 0;
             (if is_asked { slots[seen[lane] as usize] } else { group.slot } - base) as usize
@@ -161,7 +161,7 @@ fn shade_flat(
     }
 }
 
-/// The colours of so many flat triangles.
+/// The colours of the flat triangles of a draw, `count` of them.
 fn shade_triangles(
     frame: &FrameView<'_>,
     context: &ShadeContext<'_>,

@@ -5,7 +5,7 @@ use super::fragments::FragmentSlice;
 use super::{Records, ShadePoint};
 use crate::simd::{Each, LANES, Mask, Simd, U32, lane_numbers, lanes_of, prelude::*};
 
-/// A group of pixels of which some see one draw.
+/// A group of pixels, some of which show triangles of one draw.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Group {
     /// The record of one of its triangles.
@@ -23,7 +23,7 @@ pub(crate) struct Task<'t> {
     /// The number of the first record.
     pub(crate) base: u32,
     pub(crate) groups: &'t [Group],
-    /// What the pixels of groups see: from group to group so many.
+    /// The triangles that the pixels of groups show, and the distance from group to group.
     pub(crate) winners: (&'t [u32], usize),
     /// The records of the tile's triangles.
     pub(crate) slots: &'t [u32],
@@ -33,11 +33,10 @@ pub(crate) struct Task<'t> {
 /// Where the colours of a vector go.
 #[derive(Clone, Copy)]
 pub(crate) enum Destination<'t> {
-    /// To eight places from this one on, and whether some are edge pixels, which are
-    /// needed in linear light. What others get than those asked for will be written
-    /// over.
+    /// To eight places from this one on, and whether some are edge pixels, which are needed in
+    /// linear light. Lanes that are not active write as well; their places are overwritten later.
     Group(usize, bool),
-    /// To the places listed, one for each lane that is asked for.
+    /// To the places listed, one for each active lane.
     Listed(&'t [u32]),
 }
 
@@ -64,7 +63,7 @@ enum Names<'t> {
 }
 
 impl<'t, S: Simd> FragmentBatch<'t, S> {
-    /// The number of the record that a name stands for.
+    /// The number of the record that a name refers to.
     #[inline(always)]
     pub(super) fn slot(&self, name: u32) -> u32 {
         match self.named {

@@ -1,4 +1,4 @@
-//! Which triangles of a tile are seen, and at which pixels.
+//! Which triangles of a tile are visible, and at which pixels.
 
 use super::ShadePoint;
 use super::fragments::FragmentList;
@@ -51,7 +51,7 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
         let lanes = U32::simd_from(simd, *first);
         // As before: often within large triangles.
         if !lanes.simd_eq(last).all_true() {
-            // All of them: which ones are new, nobody can foresee.
+            // All eight are marked: a branch on which are new would be mispredicted often.
             for winner in <[u32; LANES]>::from(lanes.min(triangle_count as u32)) {
                 marks[winner as usize] = 1;
             }
@@ -110,7 +110,8 @@ fn number(triangle_count: usize, shading: &mut Shading) {
     slots.truncate(triangle_count);
     seen.resize(triangle_count, 0);
     let mut count = 0;
-    // Without branches that nobody can foresee: what is not seen is written over.
+    // Without a branch on what is visible, which would be mispredicted often: the place of a
+    // triangle that is not visible is overwritten by the next one.
     for (place, slot) in slots.iter_mut().enumerate() {
         seen[count] = place as u32;
         count += std::mem::replace(slot, count as u32) as usize;

@@ -30,9 +30,9 @@ pub enum Output {
     Linear,
     /// Reversed depth as f32: 1 at the near plane, 0 for the background.
     Depth,
-    /// The id of the object that is seen, `u32::MAX` for the background.
+    /// The id of the visible object, `u32::MAX` for the background.
     Object,
-    /// The id of the face that is seen, `u32::MAX` for the background.
+    /// The id of the visible face, `u32::MAX` for the background.
     Face,
     /// The index of the triangle, segment or point in its draw, `u32::MAX` for
     /// the background.
@@ -80,7 +80,7 @@ pub enum TargetError {
     },
 }
 
-/// The pictures that a pass draws into; made once and used for many frames.
+/// The images that a pass draws into; created once and used for many frames.
 ///
 /// All are row-major from the top left, `width * height` entries. With several
 /// samples per pixel, colour is their mean in linear light; depth and ids are
@@ -244,13 +244,13 @@ impl<'a> Target<'a> {
         self.height
     }
 
-    /// By how much supersampling makes the grid finer.
+    /// How many samples supersampling takes along each axis of a pixel.
     #[must_use]
     pub fn samples_per_axis(&self) -> u32 {
         self.samples_per_axis
     }
 
-    /// How many samples multisampling has in a pixel.
+    /// How many samples multisampling takes in each pixel.
     #[must_use]
     pub fn samples(&self) -> u32 {
         self.pattern.count() as u32

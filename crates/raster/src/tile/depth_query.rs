@@ -1,5 +1,6 @@
-//! Where a triangle is seen in front of what a tile holds: the walk of masked
-//! and translucent triangles, eight samples at a time.
+//! Depth queries: where a masked or translucent triangle lies in front of what a tile holds, eight
+//! samples at a time. A lane is one pixel of a group of 4×2. Nothing is stored: the caller gets the
+//! visible lanes and their depths.
 
 use super::blocks::Blocks;
 use super::buffer::{NOBODY, VisibilityBuffer};

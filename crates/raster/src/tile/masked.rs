@@ -1,5 +1,5 @@
-//! Masked triangles: first all samples that could be seen, then the mask, then
-//! depth.
+//! Masked triangles: first all samples where the triangle would be visible are collected, then the
+//! mask is evaluated, then depth is tested again.
 
 use super::blocks::Blocks;
 use super::buffer::NOBODY;
@@ -12,8 +12,7 @@ use crate::simd::{LANES, Simd, at_level, prelude::*};
 use crate::{BlendMode, Stats};
 use std::ops::Range;
 
-/// Masked fragments are asked for in portions of about this many, to bound
-/// memory.
+/// Masks are evaluated for portions of about this many fragments, to bound memory.
 const PORTION: usize = 4096;
 
 /// A masked fragment at a sample, which waits for the answer of its mask.
@@ -27,7 +26,7 @@ struct Waiting {
     answer: u32,
 }
 
-/// Masked fragments of one draw, and what their mask is asked.
+/// Masked fragments of one draw that wait for their masks.
 #[derive(Default)]
 pub(crate) struct Questions {
     waiting: Vec<Waiting>,
@@ -36,7 +35,7 @@ pub(crate) struct Questions {
     answers: Vec<u8>,
 }
 
-/// Lets the masked triangles among the tile's `triangles` compete.
+/// Draws the masked triangles of a tile: a range of those that are listed.
 pub(super) fn cover_masked(
     frame: &FrameView<'_>,
     area: &TileArea,

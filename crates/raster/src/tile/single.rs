@@ -1,4 +1,4 @@
-//! A triangle by itself, as one tile sees it.
+//! One triangle prepared for one tile.
 
 use super::{TileArea, TileTriangle};
 use crate::bin::TriangleRef;

@@ -1,9 +1,8 @@
 //! Which of a tile's triangles is seen where several are equally deep.
 //!
-//! In most tiles there are few such samples, and the keys of two triangles are compared at
-//! each of them. Where there are many, that would take far longer than all else in the tile.
-//! So every tile has a budget for it, of about what it takes to sort its triangles by their
-//! keys. Once that is spent, the opaque triangles are drawn again in the order of their keys,
+//! Most tiles have few such samples, and the keys of two triangles are compared at each of
+//! them. With many, that would take far longer than everything else in the tile. So every tile
+//! has a budget for it: about what it takes to sort its triangles by their keys. Once that is spent, the opaque triangles are drawn again in the order of their keys,
 //! in which a later one never wins at equal depth (`visibility`); masked and translucent ones
 //! are compared by their ranks in that order.
 
@@ -18,8 +17,8 @@ use std::sync::{Mutex, OnceLock};
 /// itself, a few nanoseconds.
 pub(super) const COMPARISON: u32 = 8;
 
-/// The budget of a tile: so many units for each of its triangles, and so many for the tile.
-/// Sorting takes about twice as many for each triangle, and what was drawn before is lost.
+/// The budget of a tile: a number of units for each of its triangles, plus a constant. Sorting
+/// takes about twice as many for each triangle, and what was drawn before is lost.
 const UNITS_PER_TRIANGLE: usize = 4;
 const BASE_UNITS: usize = 256;
 
@@ -39,7 +38,7 @@ pub(crate) struct Ties {
 }
 
 impl Ties {
-    /// Begins a tile of so many triangles.
+    /// Starts a tile.
     pub(super) fn reset(&mut self, triangle_count: usize) {
         let budget = triangle_count.saturating_mul(UNITS_PER_TRIANGLE).saturating_add(BASE_UNITS);
         *self.left.get_mut() = u32::try_from(budget).unwrap_or(u32::MAX);

@@ -88,7 +88,7 @@ impl TileRasterizer<'_> {
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) {
-        // Apart, so that what larger triangles need takes no registers.
+        // In a function of its own, so that what larger triangles need takes no registers.
         simd.vectorize(
             #[inline(always)]
             || self.tiny_apart::<S, MULTI>(simd, of, place, buffer, counts),

@@ -1,4 +1,4 @@
-//! A triangle as one tile sees it: which samples it covers, and how deep.
+//! A triangle prepared for one tile: which samples it covers, and at which depths.
 
 use super::{DepthPlane, Edge, TileArea, lane_point};
 use crate::bin::Grid;
@@ -8,10 +8,10 @@ use crate::simd::{I32, LANES, Mask, Simd, lanes_of, prelude::*};
 
 /// What coverage needs of a triangle in one tile.
 ///
-/// Edge function over 256, rounded down, has the sign of the edge function at
-/// all samples with the same offset in their pixels; where an edge crosses the
-/// tile its values fit 32 bits. An edge that all of the tile lies inside of is
-/// dropped.
+/// Edge functions are divided by 256 and rounded down. That keeps the sign at all samples
+/// with the same offset in their pixels, because their values differ by multiples of 256.
+/// Where an edge crosses the tile, its values in the tile then fit 32 bits. An edge with the
+/// whole tile on its inner side is dropped: its values and steps stay zero, which is inside.
 pub(crate) struct TileTriangle {
     /// For each sample of a pixel the edge functions at the tile's first pixel.
     pub(crate) starts: [[i32; 3]; MAX_SAMPLES],

@@ -1,5 +1,6 @@
-//! Who is seen at each sample of a tile: opaque triangles, then masked ones, then what is shown
-//! over them.
+//! Which triangle is visible at each sample of a tile: opaque triangles first, then masked ones, then
+//! overlays. The coverage kernel of each opaque triangle is chosen here: see [`cover_triangles`]
+//! and [`cover_one`].
 
 use super::edge_origins::EdgeOrigins;
 use super::eight::EightTriangles;
@@ -39,10 +40,10 @@ pub(crate) fn resolve_visibility(
     stats.add_counts(&counts);
 }
 
-/// Lets what is shown over surfaces compete with them.
+/// Draws overlays over what opaque and masked triangles have left.
 ///
-/// The buffer may not begin again as for [`cover_opaque`]: it holds what masks have let
-/// through. So ties are decided one by one, however many there are.
+/// The tile cannot be started again as in [`cover_opaque`], because the buffer holds masked
+/// triangles. So ties are decided one by one, however many there are.
 pub(crate) fn cover_overlay(
     frame: &FrameView<'_>,
     area: &TileArea,
@@ -77,7 +78,7 @@ pub(crate) fn cover_overlay(
     stats.add_counts(&counts);
 }
 
-/// Lets the first so many of the tile's triangles compete.
+/// Draws the opaque triangles, which are the first of the tile's.
 fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, opaque: usize) -> Counts {
     let TileState { triangles, buffer, ties, key_order, reordered, .. } = state;
     let triangles = &triangles[..opaque];
@@ -119,7 +120,7 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, o
     counts
 }
 
-/// Lets triangles, from the one of this number on, compete one after the other; false if ties became too many.
+/// Draws triangles from number `first` on. Returns false if there are too many ties.
 fn cover_all(
     frame: &FrameView<'_>,
     rasterizer: &TileRasterizer<'_>,
@@ -190,8 +191,8 @@ fn cover_triangles<S: Simd, const MULTI: bool>(
     true
 }
 
-/// A line or a point of which this is the first triangle; false if it is not, or has to go the
-/// way of triangles.
+/// Draws a line or a point if this is its first triangle. Returns false if it is not, or if the line
+/// or point has to be drawn as two triangles.
 #[inline(always)]
 fn cover_quad<S: Simd, const MULTI: bool>(
     simd: S,
@@ -206,7 +207,8 @@ fn cover_quad<S: Simd, const MULTI: bool>(
     rasterizer.quad::<S, MULTI>(simd, (quad, edges), number as u32, buffer, counts)
 }
 
-/// One triangle, perhaps a lane of eight that are ready.
+/// Draws one triangle, possibly one of eight that are prepared. Small ones are tiny or general by
+/// [`EightTriangles::is_tiny`]; all others go through the general kernel.
 #[inline(always)]
 fn cover_one<S: Simd, const MULTI: bool>(
     simd: S,
@@ -248,8 +250,8 @@ fn cover_one<S: Simd, const MULTI: bool>(
     }
 }
 
-/// How many of the first of some triangles, up to eight, are whole primitives of one draw;
-/// of any, if triangles are not in the order of draws.
+/// How many of the next triangles, up to eight, can be prepared together: whole primitives, of one
+/// draw if triangles are in the order of draws.
 #[inline(always)]
 fn side_by_side(frame: &FrameView<'_>, rasterizer: &TileRasterizer<'_>, triangles: &[TriangleRef]) -> usize {
     let first = triangles[0];
@@ -262,7 +264,7 @@ fn side_by_side(frame: &FrameView<'_>, rasterizer: &TileRasterizer<'_>, triangle
     triangles.iter().take(LANES).take_while(|place| belongs(place)).count()
 }
 
-/// Up to eight whole primitives; lanes to spare repeat the first.
+/// Prepares up to eight whole primitives; unused lanes repeat the first.
 #[inline(always)]
 fn eight<S: Simd>(
     simd: S,
@@ -270,7 +272,7 @@ fn eight<S: Simd>(
     rasterizer: &TileRasterizer<'_>,
     triangles: &[TriangleRef],
 ) -> EightTriangles {
-    // Apart, so that each is compiled once.
+    // In a function of its own, so that each is compiled once.
     let (area, pattern) = (&rasterizer.area, frame.grid.pattern);
     if rasterizer.by_draws {
         simd.vectorize(
