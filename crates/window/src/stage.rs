@@ -276,20 +276,19 @@ impl Stage {
         self.shown.as_ref()?.pick(at, self.viewport, &self.scene)
     }
 
-<<<<<<< HEAD
-    /// How far away what the window shows at a point is, in metres along the line of sight. Much cheaper than
-    /// [`Stage::pick`], for those who ask at thousands of points. `None` for background, outside the window, and
-    /// before there is a picture.
+    /// The distance of what the window shows at a point, in physical pixels, in metres along the line of
+    /// sight: cheaper than [`Stage::pick`] where thousands of points are looked up. `None` for background,
+    /// outside the window, and before there is an image.
     #[must_use]
     pub fn distance_at(&self, at: DVec2) -> Option<f64> {
         self.shown.as_ref()?.distance(at, self.viewport)
-=======
+    }
+
     /// What a pointer at this point snaps to, within a radius, both in physical pixels: a vertex, an edge or a face of
     /// the picture in the window. `None` on the background, and while that picture is a draft.
     #[must_use]
     pub fn snap(&self, at: DVec2, radius: f64) -> Option<Snap> {
         self.shown.as_ref()?.snap(at, radius, self.viewport, &self.scene)
->>>>>>> hub/main
     }
 
     /// The box around the selected object in the world.

@@ -20,6 +20,9 @@ use crate::frame::{Frame, Hit};
 use crate::node::NodeId;
 use crate::scene::Scene;
 
+/// The radius in pixels of the circle that [`Picker::nearest`] searches first.
+const CLOSE: f64 = 4.0;
+
 /// Whether hidden elements count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reach {
