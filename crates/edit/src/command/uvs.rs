@@ -11,21 +11,21 @@ use crate::error::EditError;
 
 const FACES: &str = "at least one selected face";
 
-/// Projects a picture onto the selected faces, from one side.
+/// Projects texture coordinates onto the selected faces, from one side.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ProjectUvs {
-    /// Which set of texture coordinates, from 0; the next one is made if there is none.
+    /// The set of texture coordinates, from 0; the next one is added if it does not exist.
     pub uv_set: u32,
-    /// What is in the middle of the picture, in metres.
+    /// The point at the centre of the image, in metres.
     pub center: [f64; 3],
     /// Towards the viewer.
     pub normal: [f64; 3],
-    /// Up in the picture.
+    /// The upward direction in the image.
     pub up: [f64; 3],
-    /// The height of the picture, in metres.
+    /// The height of the image, in metres.
     pub height: f64,
-    /// Its width by its height.
+    /// Its aspect ratio, width divided by height.
     pub aspect: f64,
 }
 
@@ -45,25 +45,25 @@ impl Action for ProjectUvs {
             height: self.height,
             aspect: self.aspect,
         };
-        change.edit_selected_faces("projecting a picture", FACES, |mesh, faces| {
+        change.edit_selected_faces("projecting texture coordinates", FACES, |mesh, faces| {
             mesh.project_uvs(faces, self.uv_set as usize, &projection)
         })?;
         Ok(Outcome::silent())
     }
 }
 
-/// Projects a picture onto the selected faces from the six sides of a box, each face from that which it faces
-/// most.
+/// Projects texture coordinates onto the selected faces from the six sides of a box, each face from the side
+/// that it faces most.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ProjectUvsOnBox {
-    /// Which set of texture coordinates, from 0; the next one is made if there is none.
+    /// The set of texture coordinates, from 0; the next one is added if it does not exist.
     pub uv_set: u32,
-    /// What is in the middle of each picture, in metres.
+    /// The point at the centre of each image, in metres.
     pub center: [f64; 3],
-    /// The height of the picture, in metres.
+    /// The height of the image, in metres.
     pub height: f64,
-    /// Its width by its height.
+    /// Its aspect ratio, width divided by height.
     pub aspect: f64,
 }
 
@@ -78,7 +78,7 @@ impl Action for ProjectUvsOnBox {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let (center, height, aspect) = (DVec3::from(self.center), self.height, self.aspect);
         let projection = BoxProjection { center, height, aspect };
-        change.edit_selected_faces("projecting a picture", FACES, |mesh, faces| {
+        change.edit_selected_faces("projecting texture coordinates", FACES, |mesh, faces| {
             mesh.project_uvs_on_box(faces, self.uv_set as usize, &projection)
         })?;
         Ok(Outcome::silent())

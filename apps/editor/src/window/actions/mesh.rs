@@ -24,7 +24,7 @@ actions! {
     "Mesh" "mesh.tris_to_quads" "Tris to Quads" "Alt+J" Elements Run(r#"{"op":"tris_to_quads"}"#) => "Joins triangles to quads.";
     "Mesh" "mesh.symmetrize" "Symmetrize" "" Elements Run(r#"{"op":"symmetrize"}"#) => "Makes faces symmetric about x = 0; adjust the plane with F9.";
     "Mesh" "mesh.repair" "Clean Up" "" EditMode Run(r#"{"op":"repair"}"#) => "Removes loose and doubled elements.";
-    "Mesh" "mesh.reset_vertices" "Reset to First Positions" "" Elements Run(r#"{"op":"reset_vertices"}"#) => "Takes vertices back to where they were first.";
+    "Mesh" "mesh.reset_vertices" "Reset to Original Positions" "" Elements Run(r#"{"op":"reset_vertices"}"#) => "Takes vertices back to where they were first.";
     "Mesh/Mirror" "mesh.mirror_x" "X" "Ctrl+M" Elements Run(r#"{"op":"mirror"}"#) => "Mirrors what is selected about x = 0.";
     "Mesh/Mirror" "mesh.mirror_y" "Y" "" Elements Run(r#"{"op":"mirror","plane":{"normal":[0.0,1.0,0.0]}}"#) => "Mirrors what is selected about y = 0.";
     "Mesh/Mirror" "mesh.mirror_z" "Z" "" Elements Run(r#"{"op":"mirror","plane":{"normal":[0.0,0.0,1.0]}}"#) => "Mirrors what is selected about z = 0.";

@@ -252,6 +252,6 @@ fn scaling(factors: DVec3, orientation: DMat3) -> Result<DMat3, Refusal> {
 }
 
 fn inverse(orientation: DMat3, operation: &'static str) -> Result<DMat3, Refusal> {
-    let reason = "the axes of the orientation are not independent";
+    let reason = "the axes of the orientation are not linearly independent";
     orientation.try_inverse().ok_or(Refusal::NotPossible { operation, reason })
 }
