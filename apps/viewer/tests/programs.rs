@@ -197,14 +197,14 @@ fn a_time_budget_says_what_it_chose_and_what_that_gives_up() {
     let folder = Folder::new();
     // The longest and the shortest that there is: on any machine a picture of this size
     // fits into the one, and none into the other.
-    for (time, quality, gives_up) in [
-        ("3600s", "4×4 samples of 16,", "gives up nothing"),
-        ("0.001ms", "1 sample,", "nothing is quicker; gives up "),
+    for (time, quality, gave_up) in [
+        ("3600s", "4×4 samples of 16,", "gave up nothing"),
+        ("0.001ms", "1 sample,", "; gave up "),
     ] {
         let flags = format!("--output o.png --capture o.trigon --resolution 60,40 --time-budget={time}");
         let said = folder.said(&format!("corner.obj {flags}"), 0);
         let choice = said.lines().next().expect("a line");
-        assert!(choice.contains(quality) && choice.contains(gives_up), "{choice}");
+        assert!(choice.contains(quality) && choice.contains(gave_up), "{choice}");
         assert!(choice.contains("; took ") && choice.contains("RMSE"), "time and error: {choice}");
         folder.said("--replay o.trigon", 0);
     }
@@ -542,7 +542,7 @@ fn a_capture_is_replayed_without_its_model() {
     assert!(said.contains("captured by trigon ") && said.contains("its hash was "), "{said}");
 
     folder.write("corner.trigon", "no capture");
-    assert!(folder.failed("--replay corner.trigon").contains("it is no capture"), "another file");
+    assert!(folder.failed("--replay corner.trigon").contains("it is not a capture"), "another file");
     folder.said("--replay corner.trigon corner.obj", 2);
     assert!(folder.said("a.obj b.obj --capture c.trigon", 2).contains("--capture takes one"), "two models");
 }

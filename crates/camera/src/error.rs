@@ -6,7 +6,7 @@
 #[non_exhaustive]
 pub enum CameraError {
     /// One number is outside its range (or is not a number).
-    #[error("{what} is {value}, but has to be {allowed}")]
+    #[error("{what} is {value}, but must be {allowed}")]
     OutOfRange {
         /// The name of the number, as the constructor calls it.
         what: &'static str,
@@ -18,7 +18,7 @@ pub enum CameraError {
     /// Two numbers that bound something are equal, in the wrong order, or so
     /// close together that nothing fits between them.
     #[error(
-        "{low_name} is {low} and {high_name} is {high}, but {low_name} has to be clearly less than {high_name}"
+        "{low_name} is {low} and {high_name} is {high}, but {low_name} must be clearly less than {high_name}"
     )]
     Unordered {
         /// The name of the number that has to be less.

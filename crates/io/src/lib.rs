@@ -24,8 +24,8 @@
 //! let error = load_from_slice("square.obj", b"v 0 0 0\nf 1 2 3\n", &LoadOptions::default()).unwrap_err();
 //! assert_eq!(
 //!     error.to_string(),
-//!     "square.obj, line 2: face index \"2\" leads nowhere; the file has 1 vertex; \
-//!      export the model again, or mend the line"
+//!     "square.obj, line 2: face index \"2\" does not exist; the file has 1 vertex; \
+//!      export the model again, or fix the line"
 //! );
 //! # Ok::<(), trigon_io::LoadError>(())
 //! ```

@@ -20,7 +20,7 @@ pub enum WriteError {
         length: usize,
     },
     /// The frame does not hold what is to be written.
-    #[error("the frame holds no {what}; ask for it in RenderSettings::outputs")]
+    #[error("the frame has no {what}; request it in RenderSettings::outputs")]
     Absent {
         /// The output.
         what: &'static str,
@@ -43,7 +43,7 @@ pub enum WriteError {
     },
     /// The format cannot count so much.
     #[error(
-        "the file would have {bytes} bytes, and its format cannot count so many; save fewer meshes in it"
+        "the file would have {bytes} bytes, and its format cannot exceed 4 GiB; save fewer meshes in it"
     )]
     TooLarge {
         /// How many bytes the file would have.
@@ -58,7 +58,7 @@ pub enum WriteError {
         source: io::Error,
     },
     /// The writer said no.
-    #[error("the picture cannot be written ({0}); check that the other end still listens")]
+    #[error("the picture cannot be written ({0}); check that the receiving program is still running")]
     Stream(#[from] io::Error),
 }
 

@@ -6,7 +6,7 @@
 pub enum WindowError {
     /// No display: a server, a container, or a session without graphics.
     #[error(
-        "there is no display to open a window on ({reason}); on Linux, DISPLAY or WAYLAND_DISPLAY has to be set"
+        "there is no display to open a window on ({reason}); on Linux, DISPLAY or WAYLAND_DISPLAY must be set"
     )]
     NoDisplay {
         /// What the window system said.
@@ -22,7 +22,7 @@ pub enum WindowError {
         reason: String,
     },
     /// The window refused pictures.
-    #[error("the window cannot show pictures: {reason}")]
+    #[error("the window cannot show images: {reason}")]
     Surface {
         /// What the window system said.
         reason: String,

@@ -1,29 +1,29 @@
-//! What is written beside a picture: outputs by name, and in which format.
+//! Additional outputs: their names and file formats.
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use trigon_io::Output;
 
-/// An output that is asked for, and how it is written when it gets its own file.
+/// A requested output, and the format of its own file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Beside {
     pub(crate) output: Output,
-    /// `None` when nothing was said.
+    /// `None` if no format is given.
     format: Option<Format>,
 }
 
 /// The format of a file for one output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
-    /// A NumPy array.
+    /// A 16-bit PNG.
     Npy,
     /// A PNG of 16 bits.
     Png16,
 }
 
 impl Beside {
-    /// Whether the name has an ending, as in `depth.png`.
+    /// Whether the name has an extension, as in `depth.png`.
     pub(crate) fn names_format(self) -> bool {
         self.format.is_some()
     }
@@ -32,7 +32,7 @@ impl Beside {
         self.format.unwrap_or(Format::Npy)
     }
 
-    /// The name of its file, next to the picture's: `chair.png` and `chair.depth.npy`.
+    /// The name of its file, next to the image's: `chair.png` and `chair.depth.npy`.
     pub(crate) fn path(self, picture: &Path) -> PathBuf {
         let ending = match self.format() {
             Format::Npy => "npy",

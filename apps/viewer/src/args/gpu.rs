@@ -1,6 +1,6 @@
-//! Flags of F3D that steer a graphics card, a ray tracer or plugins.
+//! F3D flags for graphics cards, ray tracers or plugins.
 
-/// Scripts that use these flags keep running; a warning says that they do nothing.
+/// Scripts that use these flags keep running; a warning says that they have no effect.
 #[derive(Debug, clap::Args)]
 pub(crate) struct GpuOnly {
     #[arg(long, hide = true)]
@@ -34,7 +34,7 @@ const NO_VOLUME: &str = "there are no volumes in the formats that are read (-v i
 const NO_PLUGINS: &str = "there are no plugins; --list-readers lists all formats";
 
 impl GpuOnly {
-    /// A warning for each flag that was given.
+    /// A warning for each flag given.
     pub(crate) fn warnings(&self) -> Vec<String> {
         let flags = [
             ("--rendering-backend", &self.rendering_backend, NO_GPU),

@@ -1,5 +1,5 @@
-//! F3D's names of its library's options, which `-D`, configuration files and command
-//! scripts use, as flags; and its flags that trigon has not, with the reason.
+//! Maps option names of F3D's library, which `-D`, configuration files and command scripts use, to
+//! flags; and lists F3D flags that trigon lacks, with the reason.
 
 use clap::CommandFactory;
 
@@ -90,7 +90,7 @@ const LIBRARY: [(&str, &str); 81] = [
     ("ui.z_color", "z-color"),
 ];
 
-/// F3D's flags that do nothing here that they could do, by their long and short names.
+/// F3D flags without an equivalent here, by their long and short names.
 const REFUSED: [(&str, &str, &str); 25] = [
     (
         "axes-grid",
@@ -131,7 +131,7 @@ const NO_STATE: &str = "there are no state files; --capture=FILE.trigon keeps sc
 /// The flag for an option, by F3D's name for it in its library or on the command line.
 ///
 /// # Errors
-/// When there is none, with the reason if it is F3D's.
+/// There is none; with the reason if it is an F3D option.
 pub(crate) fn flag(name: &str) -> Result<&str, String> {
     let name = name.trim();
     let flag = LIBRARY.iter().find(|(library, _)| *library == name).map_or(name, |&(_, flag)| flag);
@@ -146,7 +146,7 @@ pub(crate) fn flag(name: &str) -> Result<&str, String> {
     Ok(flag)
 }
 
-/// Whether there is a flag of this name.
+/// Whether a flag of this name exists.
 fn is_flag(name: &str) -> bool {
     RawArgs::command().get_arguments().any(|argument| {
         let aliases = argument.get_all_aliases().unwrap_or_default();
@@ -154,15 +154,15 @@ fn is_flag(name: &str) -> bool {
     })
 }
 
-/// The flag that gives an option a value, as a word.
+/// The word that gives an option a value.
 ///
 /// # Errors
-/// When there is no such option.
+/// There is no such option.
 pub(crate) fn set(name: &str, value: &str) -> Result<Vec<String>, String> {
     Ok(vec![format!("--{}={}", flag(name)?, value.trim())])
 }
 
-/// Why trigon has not this flag of F3D, by its long or its short name without dashes.
+/// Why trigon lacks this F3D flag, by its long or short name without dashes.
 pub(crate) fn refusal(flag: &str) -> Option<&'static str> {
     let found =
         REFUSED.iter().find(|(long, short, _)| *long == flag || (!short.is_empty() && *short == flag));

@@ -1,4 +1,4 @@
-//! What the command line asks for, as a whole and checked.
+//! The meaning of the command line as a whole, checked.
 
 mod checks;
 #[cfg(test)]
@@ -34,113 +34,113 @@ use crate::moment::{Clip, Moment};
 use crate::report::Level;
 use crate::scenery::{Grid, Scenery, Sprites};
 
-/// What the command line asks for.
+/// A checked request.
 #[derive(Clone, Debug)]
 pub(crate) struct Request {
-    /// What to do.
+    /// The task.
     pub(crate) mode: Mode,
-    /// The models; none is the built-in scene.
+    /// The models; none means the built-in scene.
     pub(crate) files: Vec<PathBuf>,
     /// How several models are shown.
     pub(crate) grouping: Grouping,
     /// Larger files are refused.
     pub(crate) max_bytes: Option<u64>,
-    /// The format of all files, if not that which their names tell.
+    /// The format of all files, if it overrides their names.
     pub(crate) format: Option<Format>,
-    /// The scene of files that have several.
+    /// The scene of files with several.
     pub(crate) scene: Option<SceneChoice>,
-    /// The moment of an animation that is shown.
+    /// The moment of an animation to show.
     pub(crate) moment: Option<Moment>,
-    /// Pictures that follow each other.
+    /// Image sequences.
     pub(crate) sequence: Frames,
-    /// The picture that the model is lit by.
+    /// The environment image.
     pub(crate) environment: Option<PathBuf>,
-    /// What is shown beside the model.
+    /// Additional objects shown with the model.
     pub(crate) scenery: Scenery,
-    /// What is drawn and written over the picture.
+    /// What is drawn and written over the image.
     pub(crate) overlay: Overlay,
-    /// What the picture is compared with.
+    /// The image to compare with.
     pub(crate) reference: Option<Reference>,
-    /// Whether far and near are drawn as grey.
+    /// Whether distance is drawn as grey.
     pub(crate) display_depth: bool,
-    /// Commands to be done one after the other.
+    /// Commands to run one after the other.
     pub(crate) script: Option<PathBuf>,
     /// Whether facts are written as JSON.
     pub(crate) json: bool,
-    /// Whether files with nothing to draw are passed over.
+    /// Whether files with nothing to draw are skipped.
     pub(crate) skip_empty: bool,
-    /// Whether a bar of progress is shown at once.
+    /// Whether a progress bar is shown at once.
     pub(crate) shows_progress: bool,
     /// The name of screenshots.
     pub(crate) screenshot: Template,
-    /// What all of this was read from.
+    /// The source of all this.
     pub(crate) line: CommandLine,
-    /// Where the camera stands.
+    /// The camera.
     pub(crate) framing: Framing,
-    /// What is changed about the model.
+    /// Changes to the model.
     pub(crate) look: Look,
-    /// What is written beside the picture.
+    /// Additional outputs.
     pub(crate) outputs: Vec<Beside>,
-    /// How it is drawn.
+    /// The render settings.
     pub(crate) settings: RenderSettings,
-    /// The time that it is to fit into.
+    /// The time budget.
     pub(crate) limit: Option<Limit>,
-    /// What the window does beside showing models.
+    /// Options of the window.
     #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
     pub(crate) window: WindowArgs,
-    /// Whether the window shows the time of a frame.
+    /// Whether the window shows the frame time.
     #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
     pub(crate) shows_frame_time: bool,
-    /// Whether the window says what keys did.
+    /// Whether the window shows messages about keys.
     #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
     pub(crate) notifies: bool,
-    /// How much is said.
+    /// How much is printed.
     pub(crate) level: Level,
-    /// What was accepted and does nothing.
+    /// Flags that were accepted without effect.
     pub(crate) ignored: Vec<String>,
 }
 
-/// Pictures that follow each other.
+/// Image sequences.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Frames {
-    /// Views around the model, if it is to turn.
+    /// The number of views around the model, for a turntable.
     pub(crate) turntable: Option<u32>,
-    /// Frames of a second.
+    /// Frames per second.
     pub(crate) rate: f64,
-    /// How many times as fast animations play; negative is backwards.
+    /// The speed factor of animations; negative plays backwards.
     pub(crate) speed: f64,
     /// Whether they play when the window opens.
     pub(crate) autoplay: bool,
-    /// What the window shows of the time.
+    /// How the window displays the time.
     pub(crate) progress: Option<AnimationProgress>,
 }
 
-/// What is drawn and written over the picture.
+/// What is drawn and written over the image.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Overlay {
-    /// Colours of arrows for X, Y and Z: linear RGB.
+    /// Colours of the arrows for X, Y and Z: linear RGB.
     pub(crate) axes: Option<[Vec3; 3]>,
     pub(crate) name: bool,
     pub(crate) metadata: bool,
     pub(crate) environment_name: bool,
-    /// How large text is.
+    /// Text size.
     pub(crate) text_scale: f32,
 }
 
-/// What a picture is compared with.
+/// The reference image for a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Reference {
     pub(crate) file: PathBuf,
-    /// More of an error than this is a difference.
+    /// A larger error counts as a difference.
     pub(crate) threshold: f64,
 }
 
-/// What to do.
+/// The task.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Mode {
-    /// Write pictures, and capture what they were drawn from.
+    /// Write images, and capture what they were drawn from.
     Picture {
-        /// Where each goes, if anywhere.
+        /// The destination of each, if any.
         output: Option<Destination>,
         /// The file of the capture.
         capture: Option<PathBuf>,
@@ -149,18 +149,18 @@ pub(crate) enum Mode {
     Replay {
         /// The file of the capture.
         capture: PathBuf,
-        /// Where the new picture goes, if anywhere.
+        /// The destination of the new image, if any.
         output: Option<Destination>,
     },
     /// Open a window.
     Window,
-    /// Load the models and say what is in them.
+    /// Load the models and print what is in them.
     Inspect,
-    /// Say which effects the models call for.
+    /// List the effects that the models need.
     Explain(Explanation),
-    /// Say what is wrong with the models.
+    /// List faults of the models.
     Check,
-    /// Say what draws.
+    /// List the rendering backends.
     ListBackends,
     /// List the formats that can be read.
     ListReaders,
@@ -175,20 +175,20 @@ pub(crate) enum Grouping {
     OneByOne,
     /// In one scene.
     Together,
-    /// Those of a folder in one scene.
+    /// All files of a folder in one scene.
     ByFolder,
-    /// In one scene what differs only in the groups of this expression.
+    /// In one scene: files that differ only in the groups of this expression.
     ByName(Regex),
 }
 
-/// What stands for standard input among the files.
+/// The name that stands for standard input.
 pub(crate) const STDIN: &str = "-";
 
 impl Request {
     /// The request of a command line for a file, `None` for the built-in scene.
     ///
     /// # Errors
-    /// When flags make no sense, or contradict each other.
+    /// Flags are invalid, or contradict each other.
     pub(crate) fn from_line(line: &CommandLine, file: Option<&Path>) -> Result<Self, clap::Error> {
         let raw = line.raw(file)?;
         let request = Self::new(raw)
@@ -198,11 +198,11 @@ impl Request {
         Ok(Self { line: line.clone(), ignored, ..request })
     }
 
-    /// The request for one of several sources, of which configuration files may say
-    /// something of its own.
+    /// The request for one of several sources, for which configuration files may have their own
+    /// flags.
     ///
     /// # Errors
-    /// When what they say makes no sense.
+    /// The flags are invalid.
     pub(crate) fn for_source(&self, source: &Source) -> Result<Self, Failure> {
         if !self.line.differs_by_file() {
             return Ok(self.clone());
@@ -211,7 +211,7 @@ impl Request {
         of_file.map_err(|error| Failure::Usage(plain(&error)))
     }
 
-    /// Puts the flags together, or says why they do not fit each other.
+    /// Combines the flags, or explains why they conflict.
     pub(crate) fn new(raw: RawArgs) -> Result<Self, String> {
         let typed: Vec<PathBuf> = raw.files.iter().chain(&raw.input).cloned().collect();
         let files = folders::expanded(&typed, raw.recursive_dir_add == Some(true))?;
@@ -261,7 +261,7 @@ impl Request {
     }
 }
 
-/// What clap says of a mistake, on one line.
+/// clap's error message on one line.
 pub(crate) fn plain(error: &clap::Error) -> String {
     let text = error.to_string();
     let first = text.lines().next().unwrap_or_default();
@@ -323,7 +323,7 @@ fn sequence(animation: &AnimationArgs) -> Frames {
 }
 
 fn scenery(raw: &RawArgs) -> Scenery {
-    /// The length of normals, as a part of the model's diagonal.
+    /// The length of normals, as a fraction of the model's diagonal.
     const NORMALS: f64 = 0.02;
     let (flags, material) = (&raw.scenery, &raw.material);
     let grid = Grid {
@@ -454,7 +454,7 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
     }
     raw.outputs.iter().for_each(|beside| beside.output.ask_for(&mut settings.outputs));
     settings.outputs.depth |= raw.display_depth == Some(true);
-    // OpenEXR is for light: bytes would hold it to the display's range.
+    // OpenEXR is for light: bytes would clamp it to the display's range.
     settings.outputs.radiance |=
         matches!(&raw.output, Some(Destination::File(template)) if template.is_exr());
     settings.threads = raw.threads;
@@ -462,7 +462,7 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
     Ok(settings)
 }
 
-/// The width of lines, of which points have three.
+/// The width of lines; points are three times as wide.
 fn line_width(raw: &RawArgs, style: Style) -> Result<f32, String> {
     const POINT_TO_LINE: f32 = 3.0;
     match raw.material.point_size {
@@ -496,14 +496,14 @@ fn samples(raw: &RawArgs) -> Result<(u32, u32), String> {
     }
 }
 
-/// What single flags say about the quality.
+/// Quality settings from individual flags.
 fn insisted(raw: &RawArgs) -> Result<Insisted, String> {
     let says_samples = raw.anti_aliasing.is_some() || raw.samples.is_some();
     let samples = if says_samples { Some(samples(raw)?) } else { None };
     Ok(Insisted { samples, ..raw.effects.insisted() })
 }
 
-/// The time for a picture.
+/// The time budget for an image.
 fn limit(raw: &RawArgs, mode: &Mode) -> Result<Option<Limit>, String> {
     let Some(time) = raw.quality.time_budget else { return Ok(None) };
     if !matches!(mode, Mode::Picture { .. }) {
@@ -512,10 +512,10 @@ fn limit(raw: &RawArgs, mode: &Mode) -> Result<Option<Limit>, String> {
     Ok(Some(Limit::new(time, insisted(raw)?)))
 }
 
-/// The colour of edges before a background: the usual dark one, or a light one
-/// where it would not be seen. Linear RGB.
+/// The colour of edges for a background: dark by default, or light if dark would not be visible.
+/// Linear RGB.
 fn edges_before(background: Vec3, usual: Vec3) -> Vec3 {
-    /// Rec. 709: what each channel adds to the brightness.
+    /// Rec. 709: the contribution of each channel to luminance.
     const BRIGHTNESS: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
     /// Here dark and light edges have the same contrast: the root of 0.05 × 1.05, less 0.05, as WCAG 2 has it.
     const EQUALLY_FAR: f32 = 0.18;

@@ -1,5 +1,4 @@
-//! From the text of a flag's value to what it means. Every message says what
-//! would have been accepted.
+//! Parses the values of flags. Every error message says what would have been accepted.
 
 use std::convert::Infallible;
 use std::num::NonZeroUsize;
@@ -20,7 +19,7 @@ pub(crate) fn switch(text: &str) -> Result<bool, String> {
     }
 }
 
-/// A model format by the ending of its files.
+/// A model format by its file extension.
 pub(crate) fn reader(text: &str) -> Result<Format, String> {
     Format::from_extension(text).ok_or_else(|| {
         let known: Vec<&str> = trigon_io::readers().map(|reader| reader.extensions[0]).collect();
@@ -62,7 +61,7 @@ pub(crate) fn color(text: &str) -> Result<Vec3, String> {
     Ok(to_linear(Vec3::new(parsed.r, parsed.g, parsed.b).clamp(Vec3::ZERO, Vec3::ONE)))
 }
 
-/// F3D's own names, which CSS has not.
+/// F3D's own colour names, which CSS lacks.
 fn named(text: &str) -> Option<Vec3> {
     const NAMES: [(&str, [u8; 3]); 7] = [
         ("f3d_red", [249, 67, 6]),
@@ -78,7 +77,7 @@ fn named(text: &str) -> Option<Vec3> {
     Some(Vec3::from(found.1.map(f32::from)) / 255.0)
 }
 
-/// `cmyk(0%, 50%, 100%, 0%)`: what inks leave of white, in sRGB.
+/// `cmyk(0%, 50%, 100%, 0%)`: the fraction of white that inks leave, in sRGB.
 fn cmyk(text: &str) -> Option<Vec3> {
     let inks = text.trim().to_ascii_lowercase();
     let inks = inks.strip_prefix("cmyk(")?.strip_suffix(')')?;
@@ -146,7 +145,7 @@ pub(crate) fn point(text: &str) -> Result<DVec3, String> {
     three_numbers(text).ok_or_else(|| "write three numbers such as 1,2.5,-3".to_owned())
 }
 
-/// Three finite numbers with commas between them.
+/// Three finite numbers separated by commas.
 fn three_numbers(text: &str) -> Option<DVec3> {
     let mut numbers =
         text.split(',').map(|number| number.trim().parse::<f64>().ok().filter(|n| n.is_finite()));
@@ -177,7 +176,7 @@ pub(crate) fn unit_ratio(text: &str) -> Result<f32, String> {
     share(text).map(|value| value as f32)
 }
 
-/// The same, as precise as it was typed.
+/// The same in double precision.
 pub(crate) fn share(text: &str) -> Result<f64, String> {
     let inside = ratio(text).filter(|value| (0.0..=1.0).contains(value));
     inside.ok_or_else(|| "write a number from 0 to 1, or 50%, or 1/2".to_owned())
@@ -204,7 +203,7 @@ pub(crate) fn line_width(text: &str) -> Result<f32, String> {
         .ok_or_else(|| format!("write a number of pixels greater than 0, up to {WIDEST}"))
 }
 
-/// A time of an animation.
+/// A time in an animation.
 pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     finite(text).ok_or_else(|| "write a number of seconds, such as 1.5".to_owned())
 }
@@ -229,22 +228,22 @@ pub(crate) fn scene(text: &str) -> Result<SceneChoice, Infallible> {
     Ok(text.parse().map_or_else(|_| SceneChoice::Name(text.to_owned()), SceneChoice::Index))
 }
 
-/// A number of MiB, as bytes; a negative one is no limit.
+/// A number of MiB, as bytes; a negative one means no limit.
 pub(crate) fn mebibytes(text: &str) -> Result<u64, String> {
     const MIB: f64 = 1_048_576.0;
-    // Float to integer saturates: more than any file can be.
+    // Float to integer saturates, beyond the size of any file.
     finite(text)
         .map(|mib| if mib < 0.0 { u64::MAX } else { (mib * MIB) as u64 })
         .ok_or_else(|| "write a number of MiB, such as 100".to_owned())
 }
 
-/// How many times as fast an animation plays; negative is backwards.
+/// The speed factor of an animation; negative plays backwards.
 pub(crate) fn speed(text: &str) -> Result<f64, String> {
     let inside = ratio(text).filter(|speed| (1e-3..=1e3).contains(&speed.abs()));
     inside.ok_or_else(|| "write a number such as 2, 50% or -1; from 0.001 to 1000 times".to_owned())
 }
 
-/// Frames of a second.
+/// Frames per second.
 pub(crate) fn frame_rate(text: &str) -> Result<f64, String> {
     let inside = finite(text).filter(|rate| (0.02..=1000.0).contains(rate));
     inside.ok_or_else(|| "write a number of frames a second from 0.02 to 1000".to_owned())
@@ -270,7 +269,7 @@ pub(crate) fn length(text: &str) -> Result<f64, String> {
     inside.ok_or_else(|| "write a length greater than 0, such as 0.5".to_owned())
 }
 
-/// How large text is.
+/// A text size.
 pub(crate) fn text_scale(text: &str) -> Result<f32, String> {
     let inside = ratio(text).filter(|scale| (0.5..=4.0).contains(scale));
     inside.map(|scale| scale as f32).ok_or_else(|| "write a number from 0.5 to 4, such as 1.5".to_owned())
@@ -281,8 +280,8 @@ pub(crate) fn regex(text: &str) -> Result<regex::Regex, String> {
     regex::Regex::new(text).map_err(|error| error.to_string())
 }
 
-/// A map of texture coordinates: `scale:2;angle:45;translation:0.5,0` in any order, scaled
-/// first and moved last, or a matrix of nine numbers, row by row.
+/// A texture transform: `scale:2;angle:45;translation:0.5,0` in any order, scaled first and
+/// translated last, or a matrix of nine numbers, row by row.
 pub(crate) fn transform(text: &str) -> Result<Affine2, String> {
     let numbers: Option<Vec<f32>> =
         text.split(',').map(|number| finite(number).map(|number| number as f32)).collect();
@@ -320,7 +319,7 @@ pub(crate) fn threads(text: &str) -> Result<NonZeroUsize, String> {
     text.parse().map_err(|_| "write a whole number from 1 up".to_owned())
 }
 
-/// A set of vector instructions that this build and this processor have.
+/// A set of vector instructions that this build and this processor support.
 pub(crate) fn simd(text: &str) -> Result<SimdLevel, String> {
     let level = text.parse::<SimdLevel>().ok().filter(|level| level.is_supported());
     level.ok_or_else(|| {
@@ -430,7 +429,7 @@ mod tests {
         }
     }
 
-    /// 1e-7 is "greater than 0", which was all that was asked for.
+    /// 1e-7 is "greater than 0", which was the only condition.
     #[test]
     fn a_refused_zoom_names_the_limits() {
         for text in ["0", "1e-7", "1e7"] {

@@ -141,7 +141,7 @@ impl Capture {
     /// The capture in a file's bytes; `name` stands for the file in messages.
     ///
     /// # Errors
-    /// When it is no capture, was written in another version of the format (the
+    /// When it is not a capture, was written in another version of the format (the
     /// message names both), is damaged, or asks for more than the limits.
     pub fn from_bytes(name: impl AsRef<Path>, bytes: &[u8], limits: &Limits) -> Result<Self, LoadError> {
         let name = name.as_ref();
@@ -181,7 +181,7 @@ fn sealed(version: u32, program: &str, parts: &[u8]) -> Vec<u8> {
 fn opened<'a>(name: &Path, bytes: &'a [u8]) -> Result<(String, &'a [u8]), LoadError> {
     let no_capture = || {
         let remedy = "name a file that --capture wrote";
-        LoadError::new(LoadErrorKind::Unsupported, name, "it is no capture", remedy)
+        LoadError::new(LoadErrorKind::Unsupported, name, "it is not a capture", remedy)
     };
     let rest = bytes.strip_prefix(&MAGIC).ok_or_else(no_capture)?;
     let (version, rest) = rest.split_first_chunk().ok_or_else(no_capture)?;

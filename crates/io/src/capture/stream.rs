@@ -63,7 +63,7 @@ impl<'a> Reader<'a> {
             Damage::Limit(format!("{count} items of {each} bytes are more than the {allowed} bytes allowed"))
         })?;
         self.left -= wanted;
-        usize::try_from(count).map_err(|_| Damage::malformed("a list is longer than memory"))
+        usize::try_from(count).map_err(|_| Damage::malformed("a list is too large for memory"))
     }
 
     /// So many bytes in a row, already counted. Memory is taken as they come.

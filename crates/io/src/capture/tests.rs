@@ -80,7 +80,7 @@ fn what_is_no_whole_capture_is_told_from_a_damaged_one() {
         let message = message(&file[..length]);
         // Magic, version, and the program's version with its length.
         let expected =
-            if length < 8 + 4 + 1 + 5 { "it is no capture" } else { "not those that were written" };
+            if length < 8 + 4 + 1 + 5 { "it is not a capture" } else { "not those that were written" };
         assert!(message.contains(expected), "{length} bytes: {message}");
     }
     for at in 18..file.len() {

@@ -196,7 +196,7 @@ impl<'de> Visitor<'de> for Search<'_> {
 
     fn visit_u64<E: Error>(self, number: u64) -> Result<(), E> {
         if self.inside == Inside::Indices && number > u64::from(u32::MAX) {
-            return Err(E::custom(format_args!("{number} is no index: it needs more than 32 bits")));
+            return Err(E::custom(format_args!("{number} is not a valid index: it needs more than 32 bits")));
         }
         Ok(())
     }

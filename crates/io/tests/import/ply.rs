@@ -140,7 +140,7 @@ fn a_file_without_faces_is_points() {
     let text = SQUARE.split("element face").next().expect("a header").to_owned()
         + "end_header\n0 0 0\n1 0 0\n1 1 0\nnan 1 0\n";
     let loaded = loaded("cloud.ply", text.as_bytes());
-    warns_once(&loaded, "vertex 3: a vertex has a place that is not finite");
+    warns_once(&loaded, "vertex 3: a vertex has a position that is not finite");
     assert_eq!(meshes(&loaded)[0].loose_points(), [0, 1, 2], "those that have a place");
 }
 

@@ -22,7 +22,7 @@
 //! Preset::Reference.apply(&mut settings);
 //! assert_eq!((settings.samples_per_axis, settings.effects.shadows), (4, Shadows::Rays));
 //! assert!(settings.effects.ambient_occlusion.is_none(), "nobody asked for it");
-//! assert_eq!(Quality::of(&settings).to_string(), "4×4 samples of 16, light at each pixel, shadows by rays");
+//! assert_eq!(Quality::of(&settings).to_string(), "4×4 samples of 16, lighting per pixel, shadows by rays");
 //! ```
 
 mod budget;

@@ -117,7 +117,7 @@ fn edited_document(mesh: Mesh) -> NativeDocument {
 fn assert_same_edits(first: &EditMesh, second: &EditMesh) {
     let ((mesh, map), (again, map_again)) = (first.to_mesh(), second.to_mesh());
     assert!(unnamed(again) == unnamed(mesh), "the same mesh, to the bit");
-    assert_eq!(second.marks(&map_again), first.marks(&map), "marks and first positions");
+    assert_eq!(second.marks(&map_again), first.marks(&map), "marks and original positions");
     second.check_structure().expect("it keeps every rule");
 }
 

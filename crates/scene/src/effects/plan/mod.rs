@@ -32,7 +32,7 @@ use survey::Survey;
 /// let scene = showcase();
 /// let plan = EffectPlan::new(&scene, &scene.cameras()[0].1, &RenderSettings::new(100, 60));
 /// assert!(plan.is_on(Effect::Lamps));
-/// assert_eq!(plan.decision(Effect::Fog).to_string(), "off, because the settings ask for none");
+/// assert_eq!(plan.decision(Effect::Fog).to_string(), "off, because the settings do not request it");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EffectPlan {
