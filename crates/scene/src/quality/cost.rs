@@ -1,4 +1,4 @@
-//! What pictures cost, learnt from those that were drawn.
+//! The cost of frames, learnt from those that were drawn.
 
 use std::time::Duration;
 
