@@ -330,7 +330,7 @@ fn a_model_may_come_through_standard_input() {
         assert!(output.status.success() && facts.contains("faces     3"), "{flags}: {output:?}");
     }
     let said = folder.said("corner.obj --force-reader=ply --output o.png", 1);
-    assert!(said.contains("is no PLY file"), "{said}");
+    assert!(said.contains("not a PLY file"), "{said}");
     let said = folder.said("corner.obj --force-reader=doc --output o.png", 2);
     assert!(said.contains("obj, gltf, glb, ply, stl, off"), "{said}");
 }
@@ -544,7 +544,7 @@ fn a_capture_is_replayed_without_its_model() {
     folder.write("corner.trigon", "no capture");
     assert!(folder.failed("--replay corner.trigon").contains("it is not a capture"), "another file");
     folder.said("--replay corner.trigon corner.obj", 2);
-    assert!(folder.said("a.obj b.obj --capture c.trigon", 2).contains("--capture takes one"), "two models");
+    assert!(folder.said("a.obj b.obj --capture c.trigon", 2).contains("--capture stores one"), "two models");
 }
 
 /// A triangle that goes 3 m to the right within a second, in a scene called "near",

@@ -1,7 +1,7 @@
-//! What a load could not keep: data for the caller, never printed here.
+//! Warnings: what a load could not keep, as data for the caller; never printed here.
 //!
-//! A file with a million bad faces gives one warning that counts them, so the
-//! collector folds warnings of the same file and the same wording together.
+//! A file with a million bad faces gives one warning with a count: the collector merges warnings
+//! with the same file and text.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -9,13 +9,12 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Place, printable};
 
-/// Something in a file that is missing, wrong or not drawn yet. Its `Display`
-/// is one line.
+/// Something in a file that is missing, wrong or not supported. Its `Display` is one line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
-    /// The file that is to blame.
+    /// The faulty file.
     pub file: PathBuf,
-    /// Where it was seen first.
+    /// The first location.
     pub place: Place,
     /// What was seen.
     pub what: String,

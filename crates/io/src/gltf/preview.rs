@@ -252,7 +252,7 @@ mod tests {
                 |number: &str| serde_json::from_str::<Preview>(&object.replace('N', number)).map(|_| ());
             assert!(read("4294967295").is_ok(), "{object}: that fits");
             let error = read("4294967296").expect_err(object);
-            assert!(error.to_string().starts_with("4294967296 is no index"), "{object}: {error}");
+            assert!(error.to_string().starts_with("4294967296 is not a valid index"), "{object}: {error}");
         }
         for other in [r#"{"nodes": [{"translation": [N, 0, 0]}]}"#, r#"{"nodes": [{"extras": {"mesh": N}}]}"#]
         {

@@ -48,7 +48,7 @@ pub(super) fn elements(
         }
     }
     let hover = "Takes the selected vertices back to where they were when they were made or loaded";
-    if ui.add(egui::Button::new("Reset to first positions").wrap()).on_hover_text(hover).clicked() {
+    if ui.add(egui::Button::new("Reset to original positions").wrap()).on_hover_text(hover).clicked() {
         requests.push(Request::Run(ResetVertices {}.into()));
     }
 }

@@ -318,7 +318,7 @@ fn if_another_program_moved_a_vertex_the_triangles_win() {
     assert_eq!(
         warned[0].to_string(),
         "a.glb, mesh 0: another program changed its triangles; they are read without polygons, marks and \
-         first positions; open the file that trigon saved if you need these"
+         original positions; open the file that trigon saved if you need these"
     );
     assert!(second.edited.is_empty(), "what is edited is gone");
     let (_, mesh) = only_mesh(&second.scene);
