@@ -107,7 +107,7 @@ fn directions(
 impl TransformTool {
     /// The command that slides what is selected.
     pub(super) fn slide_along(&mut self) -> Result<Command, String> {
-        let Some(slide) = &self.slide else { return Err("nothing is selected that could slide".into()) };
+        let Some(slide) = &self.slide else { return Err("nothing that can slide is selected".into()) };
         let (dragged, direction) = slide.follow(self.modal.pointer.way());
         let step = self.settings.snap.factor_step(self.modal.is_precise());
         let dragged = if self.snaps() { rounded(dragged, step) } else { dragged };

@@ -51,13 +51,13 @@ impl FromStr for Beside {
             Some((name, "npy")) => (name, Some(Format::Npy)),
             Some((name, "png")) => (name, Some(Format::Png16)),
             Some((_, ending)) => {
-                return Err(format!(".{ending} is no format for one output; there are .npy and .png"));
+                return Err(format!(".{ending} is not a format for one output; write .npy or .png"));
             }
         };
         let output: Output = name.parse().map_err(|error: trigon_io::UnknownOutput| error.to_string())?;
         if format == Some(Format::Png16) && !output.fits_png16() {
             return Err(format!(
-                "{output} has no place in a PNG of 16 bits; write it as {output}.npy or into an OpenEXR file"
+                "{output} does not fit into a 16-bit PNG; write it as {output}.npy or into an OpenEXR file"
             ));
         }
         Ok(Self { output, format })
@@ -84,7 +84,7 @@ mod tests {
     fn mistakes_are_named() {
         for (text, words) in [
             ("dept", "geometric-normals"),
-            ("depth.tiff", ".npy and .png"),
+            ("depth.tiff", ".npy or .png"),
             ("", "albedo"),
             ("albedo.png", "albedo.npy"),
         ] {

@@ -117,7 +117,7 @@ fn json_files(place: &Path) -> Result<Vec<PathBuf>, String> {
 }
 
 fn blocks(text: &str, warnings: &mut Vec<String>) -> Result<Vec<Block>, String> {
-    let json: Value = serde_json::from_str(text).map_err(|error| format!("it is no JSON ({error})"))?;
+    let json: Value = serde_json::from_str(text).map_err(|error| format!("it is not JSON ({error})"))?;
     let Value::Array(list) = json else {
         return Err("write a list of blocks, [{\"options\": {…}}]".to_owned());
     };
@@ -126,17 +126,17 @@ fn blocks(text: &str, warnings: &mut Vec<String>) -> Result<Vec<Block>, String> 
 }
 
 fn block(value: &Value, warnings: &mut Vec<String>) -> Result<Block, String> {
-    let Value::Object(fields) = value else { return Err("it is no object".to_owned()) };
+    let Value::Object(fields) = value else { return Err("it is not an object".to_owned()) };
     if let Some(other) = fields.keys().find(|key| !KEYS.contains(&key.as_str())) {
-        return Err(format!("{other:?} is none of {}", KEYS.join(", ")));
+        return Err(format!("{other:?} is unknown; write one of {}", KEYS.join(", ")));
     }
     if fields.contains_key("bindings") {
-        warnings.push("bindings are left out: keys cannot be changed by a file".to_owned());
+        warnings.push("bindings are ignored: a file cannot change keys".to_owned());
     }
     let options = match fields.get("options") {
         None => Vec::new(),
         Some(Value::Object(options)) => settings(options, warnings)?,
-        Some(_) => return Err("options is no object".to_owned()),
+        Some(_) => return Err("options is not an object".to_owned()),
     };
     Ok(Block { files: pattern(fields)?, options })
 }
@@ -196,10 +196,10 @@ fn settings(options: &Map<String, Value>, warnings: &mut Vec<String>) -> Result<
             return Err(format!("{name} belongs on the command line"));
         }
         let value =
-            text(value).ok_or_else(|| format!("{name} is {value}; write a text, a number or true"))?;
+            text(value).ok_or_else(|| format!("{name} is {value}; write text, a number or true"))?;
         match names::flag(name) {
             Ok(flag) => settings.push(Setting { flag: flag.to_owned(), value, imperative }),
-            Err(why) => warnings.push(format!("{why}; it is left out")),
+            Err(why) => warnings.push(format!("{why}; it is ignored")),
         }
     }
     Ok(settings)
@@ -266,7 +266,7 @@ mod tests {
             ("{", "no JSON"),
             ("{}", "list of blocks"),
             ("[3]", "block 0"),
-            (r#"[{"option": {}}]"#, "\"option\" is none of"),
+            (r#"[{"option": {}}]"#, "\"option\" is unknown"),
             (r#"[{"match": "(", "options": {}}]"#, "match"),
             (r#"[{"match": "a", "match-type": "like"}]"#, "regex, glob or exact"),
             (r#"[{"options": {"config": "x"}}]"#, "command line"),

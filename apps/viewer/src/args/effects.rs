@@ -145,7 +145,7 @@ impl EffectArgs {
     pub(crate) fn skybox(&self) -> Result<Option<Background>, String> {
         match (self.hdri_skybox, self.hdri_ambient) {
             (Some(true), Some(false)) => Err(
-                "--hdri-skybox shows what lights the model; leave out --hdri-ambient=false, or --hdri-skybox"
+                "--hdri-skybox shows the environment that lights the model; leave out --hdri-ambient=false, or --hdri-skybox"
                     .to_owned(),
             ),
             (Some(true), _) => Ok(Some(Background::Environment)),

@@ -27,10 +27,10 @@ pub(crate) struct GpuOnly {
     scan_plugins: Option<String>,
 }
 
-const NO_GPU: &str = "trigon draws on the CPU and has no such choice";
+const NO_GPU: &str = "trigon draws on the CPU, so this option does not apply";
 const NO_RAY_TRACER: &str =
     "write --shadows=rays and --bounces=N for rays, --samples for the number of samples";
-const NO_VOLUME: &str = "there are no volumes in the formats that are read (-v is --volume; more is said with --verbose, the version with --version)";
+const NO_VOLUME: &str = "there are no volumes in the formats that are read (-v is --volume; for more output use --verbose, for the version --version)";
 const NO_PLUGINS: &str = "there are no plugins; --list-readers lists all formats";
 
 impl GpuOnly {

@@ -96,7 +96,7 @@ impl CommandLine {
         let choices = argument.map(clap::Arg::get_possible_values).unwrap_or_default();
         let index = choices.iter().position(|choice| choice.matches(now, true));
         let next = choices.get(index.map_or(0, |index| (index + 1) % choices.len()));
-        let next = next.ok_or_else(|| format!("{flag} is no choice of a few values; write set {flag}"))?;
+        let next = next.ok_or_else(|| format!("{flag} does not have a list of values; write set {flag}"))?;
         Ok(format!("--{flag}={}", next.get_name()))
     }
 
@@ -246,7 +246,7 @@ mod tests {
             ("--bg-color red", "--background-color"),
             ("--quiet", "--verbose=quiet"),
             ("--final-shader x", "no GPU"),
-            ("-s", "values of a simulation"),
+            ("-s", "simulation values"),
             ("--resolutoin 1,1", "--resolution"),
         ] {
             let words = typed.split_whitespace().map(OsString::from);

@@ -95,12 +95,12 @@ const REFUSED: [(&str, &str, &str); 25] = [
     (
         "axes-grid",
         "",
-        "there is no grid with numbers around the model; --grid shows one below it, and --metadata its size",
+        "there is no labelled grid around the model; --grid shows one below it, and --metadata its size",
     ),
-    ("backdrop-color", "", "text has a backdrop of its own, which cannot be changed"),
-    ("backdrop-opacity", "", "text has a backdrop of its own, which cannot be changed"),
-    ("blur-background", "u", "the background is not blurred; use a picture that is"),
-    ("blur-coc", "", "the background is not blurred; use a picture that is"),
+    ("backdrop-color", "", "text has its own backdrop, which cannot be changed"),
+    ("backdrop-opacity", "", "text has its own backdrop, which cannot be changed"),
+    ("blur-background", "u", "the background cannot be blurred; use a blurred image"),
+    ("blur-coc", "", "the background cannot be blurred; use a blurred image"),
     ("coloring-array", "", NO_ARRAYS),
     ("coloring-by-cells", "c", NO_ARRAYS),
     ("coloring-component", "y", NO_ARRAYS),
@@ -109,22 +109,22 @@ const REFUSED: [(&str, &str, &str); 25] = [
     ("colormap", "", NO_ARRAYS),
     ("colormap-discretization", "", NO_ARRAYS),
     ("colormap-file", "", NO_ARRAYS),
-    ("final-shader", "", "there is no GPU to run a shader; change the written picture instead"),
+    ("final-shader", "", "there is no GPU to run a shader; change the written image instead"),
     ("font-color", "", "the colour of text follows its backdrop"),
-    ("font-file", "", "text has a font of its own"),
+    ("font-file", "", "text has its own font"),
     ("grid-reflection", "", "the grid is lines, which reflect nothing"),
-    ("invert-zoom", "", "the wheel zooms in when it turns away from you, in every window"),
+    ("invert-zoom", "", "the wheel zooms in when turned away from you, in every window"),
     ("load-statefile", "", NO_STATE),
     ("position", "", "the window manager places the window"),
     ("save-statefile", "", NO_STATE),
     ("scalar-coloring", "s", NO_ARRAYS),
-    ("scene-hierarchy", "", "there is no tree of the scene; --no-render --json lists what is in a file"),
+    ("scene-hierarchy", "", "there is no scene tree; --no-render --json lists the contents of a file"),
     ("statefile-filename", "", NO_STATE),
     ("texture-matcap", "", "there are no matcaps; --reflection and --hdri-file change how surfaces are lit"),
 ];
 
 const NO_ARRAYS: &str =
-    "values of a simulation are not coloured; colours that a file gives its vertices are shown without it";
+    "simulation values are not shown as colours; vertex colours in a file are shown without this flag";
 
 const NO_STATE: &str = "there are no state files; --capture=FILE.trigon keeps scene, camera and settings, and --replay draws them again";
 
@@ -140,7 +140,7 @@ pub(crate) fn flag(name: &str) -> Result<&str, String> {
     }
     if !is_flag(flag) {
         return Err(format!(
-            "{name:?} is no option; use the name of a flag without its dashes, or F3D's library's"
+            "{name:?} is not an option; use the name of a flag without its dashes, or F3D's library's"
         ));
     }
     Ok(flag)
@@ -189,7 +189,7 @@ mod tests {
     #[test]
     fn mistakes_say_why() {
         assert!(set("model.matcap.texture", "a.png").expect_err("no").contains("matcap"), "a reason");
-        assert!(flag("render.nothing").expect_err("no").contains("is no option"), "unknown");
+        assert!(flag("render.nothing").expect_err("no").contains("is not an option"), "unknown");
         assert_eq!(set("grid", " true "), Ok(vec!["--grid=true".to_owned()]), "as on the command line");
     }
 }

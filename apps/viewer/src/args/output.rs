@@ -173,7 +173,7 @@ fn variable(text: &str) -> Result<(Piece, &str), String> {
         (_, Some(("date", format))) => Piece::Date(format.to_owned()),
         _ => {
             return Err(format!(
-                "{{{name}}} is no variable; there are {{model}}, {{model.ext}}, {{model_ext}}, {{n}}, {{n:3}}, {{frame}}, {{frame:4}}, {{date}}, {{app}} and {{version}}"
+                "{{{name}}} is not a variable; there are {{model}}, {{model.ext}}, {{model_ext}}, {{n}}, {{n:3}}, {{frame}}, {{frame:4}}, {{date}}, {{app}} and {{version}}"
             ));
         }
     };

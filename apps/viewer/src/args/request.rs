@@ -363,7 +363,7 @@ fn reference(raw: &RawArgs) -> Option<Reference> {
 fn framing(raw: &RawArgs) -> Result<Framing, String> {
     if raw.camera_position.is_some() && raw.camera_position == raw.camera_focal_point {
         return Err(
-            "--camera-position and --camera-focal-point are the same point, so the camera looks nowhere; move one of them".to_owned()
+            "--camera-position and --camera-focal-point are the same point, so the view direction is undefined; move one of them".to_owned()
         );
     }
     let scene_camera = raw.camera_index.and_then(|index| usize::try_from(index).ok());
@@ -481,12 +481,12 @@ fn samples(raw: &RawArgs) -> Result<(u32, u32), String> {
     match (raw.anti_aliasing.unwrap_or(AntiAliasing::Ssaa), raw.samples) {
         (AntiAliasing::None, None | Some(1)) => Ok((1, 1)),
         (AntiAliasing::None, Some(samples)) => Err(format!(
-            "--anti-aliasing=none means one sample per pixel, but --samples={samples} asks for more; leave one of them out"
+            "--anti-aliasing=none means one sample per pixel, but --samples={samples} is more; leave one of them out"
         )),
         (AntiAliasing::Ssaa, None) => Ok((3, 1)),
         (AntiAliasing::Ssaa, Some(samples @ 1..=4)) => Ok((samples, 1)),
         (AntiAliasing::Ssaa, Some(samples)) => Err(format!(
-            "--samples={samples} along each side of a pixel are too many: write 1 to 4, or --anti-aliasing=msaa for so many in all"
+            "--samples={samples} along each side of a pixel is too many: write 1 to 4, or --anti-aliasing=msaa for so many in all"
         )),
         (AntiAliasing::Msaa, None) => Ok((1, 4)),
         (AntiAliasing::Msaa, Some(samples @ (1 | 2 | 4 | 8 | 16))) => Ok((1, samples)),
@@ -507,7 +507,7 @@ fn insisted(raw: &RawArgs) -> Result<Insisted, String> {
 fn limit(raw: &RawArgs, mode: &Mode) -> Result<Option<Limit>, String> {
     let Some(time) = raw.quality.time_budget else { return Ok(None) };
     if !matches!(mode, Mode::Picture { .. }) {
-        return Err("--time-budget goes with a picture, and none is drawn; name one (--output picture.png), or choose a --preset".to_owned());
+        return Err("--time-budget needs an image, and none is drawn; name one (--output image.png), or choose a --preset".to_owned());
     }
     Ok(Some(Limit::new(time, insisted(raw)?)))
 }

@@ -201,11 +201,11 @@ const KNOWN: [&str; 38] = [
 /// F3D commands that trigon lacks, with the reason.
 const REFUSED: [(&str, &str); 11] = [
     ("cycle_animation", "write set animation-indices and a number or a name"),
-    ("cycle_coloring", "values of a simulation are not coloured"),
+    ("cycle_coloring", "simulation values are not shown as colours"),
     ("add_current_directories", "name the folder on the command line"),
     ("remove_current_file_group", "name the files that are to be shown on the command line"),
     ("remove_file_groups", "name the files that are to be shown on the command line"),
-    ("open_file_dialog", "a script waits for nobody; write add_files"),
+    ("open_file_dialog", "a script cannot wait for input; write add_files"),
     ("save_statefile", NO_STATE),
     ("load_statefile", NO_STATE),
     ("save_statefile_dialog", NO_STATE),
@@ -235,7 +235,7 @@ fn added(files: &[String], may_light: bool) -> Step {
 
 fn number(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
-    number.ok_or_else(|| format!("{text} is no number"))
+    number.ok_or_else(|| format!("{text} is not a number"))
 }
 
 fn side(text: &str) -> Result<&'static str, String> {

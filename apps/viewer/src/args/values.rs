@@ -115,7 +115,7 @@ fn to_linear(srgb: Vec3) -> Vec3 {
 pub(crate) fn direction(text: &str) -> Result<DVec3, String> {
     const FORMS: &str = "write axes such as +X or -y+z, or three numbers such as 1,0,-0.5";
     let found = three_numbers(text).or_else(|| signed_axes(text)).ok_or(FORMS)?;
-    if found == DVec3::ZERO { Err("all zero is no direction".to_owned()) } else { Ok(found) }
+    if found == DVec3::ZERO { Err("a direction cannot be all zeros".to_owned()) } else { Ok(found) }
 }
 
 /// `+X`, `x`, `-y+z`: every axis at most once, a sign before all but the first.

@@ -75,7 +75,7 @@ pub(super) fn check_frames(raw: &RawArgs, mode: &Mode) -> Result<(), String> {
     let frames = moves || many;
     if frames && (capture.is_some() || raw.reference.is_some() || !raw.outputs.is_empty()) {
         return Err(
-            "--output with many frames goes without --capture, --reference and --outputs; name one picture"
+            "--output with several frames does not work with --capture, --reference and --outputs; name one image"
                 .to_owned(),
         );
     }
