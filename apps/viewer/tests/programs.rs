@@ -197,10 +197,9 @@ fn a_time_budget_says_what_it_chose_and_what_that_gives_up() {
     let folder = Folder::new();
     // The longest and the shortest that there is: on any machine a picture of this size
     // fits into the one, and none into the other.
-    for (time, quality, gave_up) in [
-        ("3600s", "4×4 samples of 16,", "gave up nothing"),
-        ("0.001ms", "1 sample,", "; gave up "),
-    ] {
+    for (time, quality, gave_up) in
+        [("3600s", "4×4 samples of 16,", "gave up nothing"), ("0.001ms", "1 sample,", "; gave up ")]
+    {
         let flags = format!("--output o.png --capture o.trigon --resolution 60,40 --time-budget={time}");
         let said = folder.said(&format!("corner.obj {flags}"), 0);
         let choice = said.lines().next().expect("a line");

@@ -103,7 +103,12 @@ fn import(
     options: &LoadOptions<'_>,
 ) -> Result<Loaded, LoadError> {
     let format = options.format.map_or_else(|| detect_format(path, &bytes), Ok).map_err(|what| {
-        LoadError::new(LoadErrorKind::Unsupported, path, what, format!("export it as GLB, for example from Blender; {}", supported()))
+        LoadError::new(
+            LoadErrorKind::Unsupported,
+            path,
+            what,
+            format!("export it as GLB, for example from Blender; {}", supported()),
+        )
     })?;
     let mut import = Import {
         path,

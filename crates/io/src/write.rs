@@ -42,9 +42,7 @@ pub enum WriteError {
         writers: String,
     },
     /// The format cannot count so much.
-    #[error(
-        "the file would have {bytes} bytes, and its format cannot exceed 4 GiB; save fewer meshes in it"
-    )]
+    #[error("the file would have {bytes} bytes, and its format cannot exceed 4 GiB; save fewer meshes in it")]
     TooLarge {
         /// How many bytes the file would have.
         bytes: u64,

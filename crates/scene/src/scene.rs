@@ -42,7 +42,9 @@ pub enum SceneError {
     #[error("node {0:?} is not in this scene; it was removed, or belongs to another scene")]
     NoSuchNode(NodeId),
     /// A node cannot become its own descendant.
-    #[error("node {parent:?} cannot become the parent of {child:?}, because it is its descendant; detach {parent:?} first")]
+    #[error(
+        "node {parent:?} cannot become the parent of {child:?}, because it is its descendant; detach {parent:?} first"
+    )]
     Cycle {
         /// The node to move.
         child: NodeId,

@@ -195,8 +195,7 @@ fn settings(options: &Map<String, Value>, warnings: &mut Vec<String>) -> Result<
         if NOT_HERE.contains(&name) {
             return Err(format!("{name} belongs on the command line"));
         }
-        let value =
-            text(value).ok_or_else(|| format!("{name} is {value}; write text, a number or true"))?;
+        let value = text(value).ok_or_else(|| format!("{name} is {value}; write text, a number or true"))?;
         match names::flag(name) {
             Ok(flag) => settings.push(Setting { flag: flag.to_owned(), value, imperative }),
             Err(why) => warnings.push(format!("{why}; it is ignored")),

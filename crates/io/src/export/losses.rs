@@ -47,7 +47,10 @@ pub(super) fn add(gathered: &mut Gathered<'_>, holds: &Holds) {
         "the node tree: objects are written with their transforms applied",
     );
     add(!scene.animations.is_empty(), "animations");
-    add(any(|object| object.mesh.attributes().skin.is_some()), "skins: meshes are written in their rest pose");
+    add(
+        any(|object| object.mesh.attributes().skin.is_some()),
+        "skins: meshes are written in their rest pose",
+    );
     add(any(|object| !object.mesh.attributes().morph_targets.is_empty()), "morph targets");
     add(!holds.normals && any(|object| object.mesh.attributes().corner_normals.is_some()), "normals");
     add(!holds.uvs && any(|object| !object.mesh.attributes().uv_sets.is_empty()), "texture coordinates");

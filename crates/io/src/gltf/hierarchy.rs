@@ -51,10 +51,7 @@ pub(crate) fn find_hierarchy(
     if let Some(node) = depths.iter().position(|&depth| depth > Some(limits.depth)) {
         return Err(error(
             node,
-            format!(
-                "nodes are nested more than {} deep, which is the limit",
-                limits.depth
-            ),
+            format!("nodes are nested more than {} deep, which is the limit", limits.depth),
         ));
     }
     let scene = chosen_scene(path, root, options.scene.as_ref())?;

@@ -97,7 +97,10 @@ pub(super) fn read_header(import: &mut Import<'_>, bytes: &[u8]) -> Result<Heade
     let malformed = |line: u64, what: String| LoadError::malformed(path, what, REMEDY).at(Place::Line(line));
     let mut lines = Lines::new(bytes);
     if lines.next() != Some(b"ply") {
-        return Err(malformed(1, "it does not begin with a line \"ply\", so it is not a PLY file".to_owned()));
+        return Err(malformed(
+            1,
+            "it does not begin with a line \"ply\", so it is not a PLY file".to_owned(),
+        ));
     }
     let mut draft = Draft::default();
     loop {

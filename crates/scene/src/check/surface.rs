@@ -213,8 +213,11 @@ fn normals(mesh: &Mesh, place: &str, findings: &mut Vec<Finding>) {
         found("broken-normals", what, "export it without normals, or recalculate them");
     }
     if against * 2 > normals.len() {
-        let what =
-            format!("pointing to the back of their faces: {} of {}", counted(against, "normal"), normals.len());
+        let what = format!(
+            "pointing to the back of their faces: {} of {}",
+            counted(against, "normal"),
+            normals.len()
+        );
         found("inverted-normals", what, "it is lit from the wrong side: flip the normals or the faces");
     }
 }

@@ -56,9 +56,9 @@ impl Setting {
             Self::Supersampling => (1..=4)
                 .map(|n| with((n * n).to_string(), &|settings| settings.samples_per_axis = n))
                 .collect(),
-            Self::Multisampling => [1, 2, 4, 8, 16]
-                .map(|n| with(extra_samples(n), &|settings| settings.samples = n))
-                .into(),
+            Self::Multisampling => {
+                [1, 2, 4, 8, 16].map(|n| with(extra_samples(n), &|settings| settings.samples = n)).into()
+            }
             Self::Shading => [
                 ("per triangle (flat)", ShadingModel::Flat),
                 ("per vertex (Gouraud)", ShadingModel::Gouraud),

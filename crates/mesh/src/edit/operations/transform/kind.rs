@@ -129,7 +129,8 @@ impl Transform {
             }
             Self::Shear { center, normal, direction, factor } => {
                 let normal = direction_of(normal, "shearing", "the plane's normal is zero or not finite")?;
-                let direction = direction_of(direction, "shearing", "the shear direction is zero or not finite")?;
+                let direction =
+                    direction_of(direction, "shearing", "the shear direction is zero or not finite")?;
                 let along = direction * factor;
                 let change = DMat3::from_cols(along * normal.x, along * normal.y, along * normal.z);
                 Prepared::Linear { center, change, offset: DVec3::ZERO }
