@@ -89,7 +89,7 @@ pub(crate) struct EffectArgs {
     #[arg(long, value_name = "STOPS", default_value = "0", value_parser = values::stops, allow_hyphen_values = true, help_heading = "Effects")]
     pub(crate) exposure: f32,
 
-    /// Compress light brighter than white with Khronos PBR Neutral
+    /// Tone mapping: compress light brighter than white (Khronos PBR Neutral)
     #[arg(long, short, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Effects")]
     pub(crate) tone_mapping: Option<bool>,
 
