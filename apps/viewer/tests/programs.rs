@@ -301,7 +301,7 @@ fn a_senseless_command_line_exits_with_2() {
         ("--output o.exr --outputs depth.png corner.obj", "without an ending"),
         ("--output o.png --outputs dept corner.obj", "triangle-ids"),
         ("--camera-position 1,2,3 --camera-focal-point 1,2,3 --output o.png", "same point"),
-        ("corner.obj --camera-position 0.5,0.5,0.5 --output o.png", "looks nowhere"),
+        ("corner.obj --camera-position 0.5,0.5,0.5 --output o.png", "view direction is undefined"),
         ("--background-color=blurple", "CSS name"),
         ("--simd=mmx", "mmx is not available here; write one of"),
         (ELSEWHERE, "is not available here; write one of"),

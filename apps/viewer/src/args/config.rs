@@ -262,7 +262,7 @@ mod tests {
     #[test]
     fn mistakes_are_named() {
         for (text, word) in [
-            ("{", "no JSON"),
+            ("{", "not JSON"),
             ("{}", "list of blocks"),
             ("[3]", "block 0"),
             (r#"[{"option": {}}]"#, "\"option\" is unknown"),

@@ -107,7 +107,7 @@ fn parts_that_contradict_each_other_are_named() {
     assert!(message(&other.to_bytes()).contains("another size"), "a picture that is too long");
     other = capture();
     other.camera.position.x = f64::NAN;
-    assert!(message(&other.to_bytes()).contains("nowhere"), "a camera that is nowhere");
+    assert!(message(&other.to_bytes()).contains("no valid position"), "a camera that is nowhere");
 }
 
 /// A megabyte of zeros is a kilobyte of file.
