@@ -8,7 +8,7 @@ use trigon_camera::Viewport;
 use trigon_io::{Format, SceneChoice};
 use trigon_math::glam::{Affine2, Vec2};
 use trigon_math::{DVec3, Vec3, color, elementary};
-use trigon_scene::{MAX_SIZE, SimdLevel};
+use trigon_scene::{Display, MAX_SIZE, SimdLevel};
 
 /// A switch: `--edges`, `--edges=false` and their spellings.
 pub(crate) fn switch(text: &str) -> Result<bool, String> {
@@ -19,7 +19,15 @@ pub(crate) fn switch(text: &str) -> Result<bool, String> {
     }
 }
 
-/// A model format by its file extension.
+/// What faces show, by its name.
+pub(crate) fn display(text: &str) -> Result<Display, String> {
+    Display::ALL.into_iter().find(|display| display.name() == text).ok_or_else(|| {
+        let names: Vec<&str> = Display::ALL.into_iter().map(Display::name).collect();
+        format!("write one of {}", names.join(", "))
+    })
+}
+
+/// A model format by the ending of its files.
 pub(crate) fn reader(text: &str) -> Result<Format, String> {
     Format::from_extension(text).ok_or_else(|| {
         let known: Vec<&str> = trigon_io::readers().map(|reader| reader.extensions[0]).collect();
@@ -33,6 +41,17 @@ pub(crate) fn size(text: &str) -> Result<Viewport, String> {
         .split_once([',', 'x', 'X', '×'])
         .ok_or("write width and height with a comma between them, such as 1000,600")?;
     Ok(Viewport { width: side("width", width)?, height: side("height", height)? })
+}
+
+/// A pixel by its column and row.
+pub(crate) fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let numbers = text.split_once(',').map(|(x, y)| [x, y].map(|number| number.trim().parse::<u32>()));
+    match numbers {
+        Some([Ok(x), Ok(y)]) => Ok([x, y]),
+        _ => {
+            Err("write column and row, counted from 0, with a comma between them, such as 320,200".to_owned())
+        }
+    }
 }
 
 fn side(what: &str, text: &str) -> Result<u32, String> {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use fixedbitset::FixedBitSet;
 use trigon_camera::Camera;
-use trigon_math::Vec3;
+use trigon_math::{Mat3, Vec3};
 use trigon_raster::{Culling, EdgeFlags};
 
 use super::backdrop::Backdrop;
@@ -18,6 +18,7 @@ use super::record::{Dots, MarkNumbers, ObjectMarks, Record, Segments, Triangles}
 use super::shapes::{Shape, Shapes};
 use super::surface::{Dressed, Occasion, Surface};
 use super::wire::{HiddenLine, Wire, WireMarks};
+use crate::display::Display;
 use crate::effects::{Counts, Effect, Scenery};
 use crate::marks;
 use crate::material::{AlphaMode, Material, Shading};
@@ -32,7 +33,7 @@ const POINT_TO_LINE: f32 = 3.0;
 /// The fraction of their distance by which vertex points are drawn nearer, so that faces that slope
 /// towards the eye around a vertex do not cut its point. Points hidden by more than that stay
 /// hidden.
-const VERTEX_TOWARD_EYE: f32 = 1.0 / 256.0;
+const VERTEX_DEPTH_BIAS: f32 = 1.0 / 256.0;
 
 /// Everything that all draws of a picture share.
 pub(super) struct Composer<'s> {
@@ -43,6 +44,8 @@ pub(super) struct Composer<'s> {
     eye: &'s Eye,
     backdrop: &'s Backdrop,
     rays: Rays,
+    /// From camera space.
+    to_world: Mat3,
     default_material: Material,
     purpose: Purpose,
 }
@@ -88,6 +91,7 @@ impl<'s> Composer<'s> {
             eye,
             backdrop,
             rays,
+            to_world: Mat3::from_quat(camera.orientation.as_quat()),
             default_material,
             purpose: Purpose::Colors,
         }
@@ -203,9 +207,16 @@ impl<'s> Composer<'s> {
         id.and_then(|&id| self.scene.materials.get(id)).unwrap_or(&self.default_material)
     }
 
+    /// The material that faces of a slot are displayed in.
+    fn displayed(&self, object: &Object<'s>, slot: u32) -> Cow<'_, Material> {
+        let material = self.material(object, slot);
+        self.settings.display.replaced(material).map_or(Cow::Borrowed(material), Cow::Owned)
+    }
+
     fn occasion(&self) -> Occasion<'_> {
-        let RenderSettings { shading, reflection, .. } = *self.settings;
-        Occasion { scene: self.scene, scenery: self.scenery, rays: self.rays, shading, reflection }
+        let RenderSettings { shading, reflection, display, .. } = *self.settings;
+        let Self { scene, scenery, rays, to_world, .. } = *self;
+        Occasion { scene, scenery, rays, shading, reflection, display, to_world }
     }
 
     /// The triangles of one slot with their material.
@@ -213,7 +224,7 @@ impl<'s> Composer<'s> {
     where
         's: 'c,
     {
-        let material = self.material(object, run.slot);
+        let material = &*self.displayed(object, run.slot);
         let geometry = match &material.normal_map {
             Some(map) => object.geometry.with_tangents(object.asset.mesh(), map.binding.uv_set),
             None => object.geometry,
@@ -252,7 +263,8 @@ impl<'s> Composer<'s> {
             bare.alpha_mode = AlphaMode::Mask { cutoff: f32::MIN_POSITIVE };
         }
         let geometry = object.geometry;
-        let mut dressed = Dressed::new(&bare, &geometry.columns, &self.occasion());
+        let occasion = Occasion { display: Display::Shaded, ..self.occasion() };
+        let mut dressed = Dressed::new(&bare, &geometry.columns, &occasion);
         let draw = Run { slot: run.slot, triangles: run.triangles.clone() };
         Some(if bare.alpha_mode == AlphaMode::Opaque {
             dressed.strip();
@@ -286,7 +298,7 @@ impl<'s> Composer<'s> {
             marks: self.marks_of(object, &run.triangles),
             object: object.index,
             culling: if material.double_sided { Culling::None } else { object.place.cull_back },
-            surface: surface_of(material.alpha_mode),
+            blend_mode: blend_mode_of(material.alpha_mode),
         })
     }
 
@@ -313,7 +325,7 @@ impl<'s> Composer<'s> {
             marks: self.marks_of(object, &(0..geometry.triangles.len())),
             object: object.index,
             culling: Culling::None,
-            surface: trigon_raster::Surface::Opaque,
+            blend_mode: trigon_raster::BlendMode::Opaque,
         })
     }
 
@@ -350,8 +362,8 @@ impl<'s> Composer<'s> {
             object: object.index,
             size: self.settings.line_width * POINT_TO_LINE,
             marked: None,
-            surface: trigon_raster::Surface::Opaque,
-            toward_eye: 0.0,
+            blend_mode: trigon_raster::BlendMode::Opaque,
+            depth_bias: 0.0,
         };
         (!points.is_empty()).then(|| Box::new(dots()) as Box<dyn Record>)
     }
@@ -384,17 +396,17 @@ impl<'s> Composer<'s> {
             object: object.index,
             size: shown.size,
             marked: Some((marked, shown.marked_size)),
-            surface: trigon_raster::Surface::Overlay,
-            toward_eye: VERTEX_TOWARD_EYE,
+            blend_mode: trigon_raster::BlendMode::Overlay,
+            depth_bias: VERTEX_DEPTH_BIAS,
         }))
     }
 }
 
 /// How the rasterizer treats an alpha mode.
-fn surface_of(mode: AlphaMode) -> trigon_raster::Surface {
+fn blend_mode_of(mode: AlphaMode) -> trigon_raster::BlendMode {
     match mode {
-        AlphaMode::Opaque => trigon_raster::Surface::Opaque,
-        AlphaMode::Mask { .. } => trigon_raster::Surface::Masked,
-        AlphaMode::Blend => trigon_raster::Surface::Translucent,
+        AlphaMode::Opaque => trigon_raster::BlendMode::Opaque,
+        AlphaMode::Mask { .. } => trigon_raster::BlendMode::Masked,
+        AlphaMode::Blend => trigon_raster::BlendMode::Translucent,
     }
 }
