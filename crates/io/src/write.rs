@@ -49,6 +49,14 @@ pub enum WriteError {
         /// How many bytes the file would have.
         bytes: u64,
     },
+    /// The subdivision surface of a mesh is too large.
+    #[error("mesh \"{name}\": {source}")]
+    Surface {
+        /// The name of the mesh.
+        name: String,
+        /// Why it cannot be made.
+        source: trigon_mesh::edit::Refusal,
+    },
     /// The folder or the disk said no.
     #[error("{}: cannot be written ({source}); check that the folder exists, is writable and has room", path.display())]
     File {

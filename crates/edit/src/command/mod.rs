@@ -5,6 +5,7 @@
 //! Its description, for scripts and for the documentation, is made from the comments of its
 //! parameters.
 
+mod apply_transform;
 mod bevel;
 mod camera;
 mod clear_transform;
@@ -41,6 +42,7 @@ mod set_light;
 mod set_transform;
 mod shape;
 mod space;
+mod subdivision;
 mod surface;
 mod texture;
 mod texture_slot;
@@ -54,6 +56,7 @@ use serde::{Deserialize, Serialize};
 use crate::document::Change;
 use crate::error::EditError;
 
+pub use apply_transform::ApplyTransform;
 pub use bevel::Bevel;
 pub use camera::AddCamera;
 pub use clear_transform::ClearTransform;
@@ -92,6 +95,7 @@ pub use set_light::SetLight;
 pub use set_transform::SetTransform;
 pub use shape::Shape;
 pub use space::TransformSpace;
+pub use subdivision::{ApplySubdivision, SetSubdivision};
 pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, Triangulate, TrisToQuads};
 pub use texture::{AssignTexture, TextureSource};
 pub use texture_slot::TextureSlot;
@@ -231,6 +235,10 @@ commands! {
     JoinObjects("Join", false),
     /// Subdivides meshes to smooth surfaces.
     CatmullClark("Catmull-Clark", false),
+    /// Shows meshes as smooth surfaces while they are edited.
+    SetSubdivision("Subdivision Surface", false),
+    /// Makes meshes the smooth surfaces that they are shown as.
+    ApplySubdivision("Apply Subdivision", false),
     /// Cuts faces into triangles.
     Triangulate("Triangulate", false),
     /// Joins triangles to quads.
@@ -313,6 +321,8 @@ commands! {
     SetTransform("Set Transform", false),
     /// Takes placements back.
     ClearTransform("Clear Transform", false),
+    /// Moves vertices to where the placement of their object shows them.
+    ApplyTransform("Apply Transform", false),
     /// Changes a light.
     SetLight("Set Light", false),
     /// Gives an object a new material.

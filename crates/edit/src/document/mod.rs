@@ -26,6 +26,7 @@ use crate::selection::Selection;
 pub(crate) use change::{AfterEdit, Change};
 pub use scene::SceneChange;
 use shown::Shown;
+pub(crate) use visible::shown_levels;
 
 /// A scene that is edited by commands.
 ///

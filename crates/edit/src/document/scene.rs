@@ -15,7 +15,8 @@ pub enum SceneChange {
     Whole,
     /// Take over a mesh: [`Scene::adopt_mesh`].
     Mesh(MeshId),
-    /// Show another mesh than the scene's: the part of one that is edited that is not hidden.
+    /// Show another mesh than the scene's: the part of one that is edited that is not hidden, or its
+    /// subdivision surface.
     /// [`Scene::replace_mesh`].
     Visible(MeshId, Box<Mesh>),
     /// Take over everything but meshes: [`Scene::swap_parts`].
@@ -83,10 +84,7 @@ impl Document {
         let mut changes: Vec<_> = is_first.then_some(SceneChange::Whole).into_iter().collect();
         changes.extend(untold.take(&file.scene, &shown.visible));
         for (id, visible) in &mut shown.visible {
-            let edited = file.edited.get(id);
-            changes.extend(
-                edited.and_then(|edited| visible.take(edited)).map(|change| SceneChange::Values(*id, change)),
-            );
+            changes.extend(file.edited.get(id).and_then(|edited| visible.take(*id, edited)));
         }
         changes
     }
@@ -114,6 +112,11 @@ impl Document {
         let mesh = self.file.scene.meshes().get(id)?.mesh();
         let shown = self.shown.meshes.get(&id)?;
         Some(shown.numbers(self.file.edited.get(&id)?, mesh))
+    }
+
+    /// The subdivision surface that a copy shows of a mesh; `None` where it shows the mesh itself.
+    pub(crate) fn shown_surface(&self, id: MeshId) -> Option<&Mesh> {
+        self.shown.visible.get(&id)?.surface.as_ref()
     }
 
     /// Another number after every change of nodes or elements or of their marks, as of the

@@ -52,7 +52,7 @@ pub(super) struct Shown {
     pub(super) outdated: BTreeMap<MeshId, Outdated>,
     /// `None` until somebody asks.
     pub(super) untold: Option<Untold>,
-    /// Of meshes that are edited and of which something is hidden, what a copy shows.
+    /// Of meshes that a copy shows otherwise, what it shows.
     pub(super) visible: BTreeMap<MeshId, VisibleMesh>,
     /// Counts changes of what marks are made of, beside the selection.
     pub(super) marks_revision: u64,
@@ -66,6 +66,9 @@ impl Shown {
             if let Some(shown) = self.meshes.get_mut(&id) {
                 shown.marked = OnceLock::new();
             }
+            self.note_visible(id);
+        }
+        if difference.changes_subdivision() {
             self.note_visible(id);
         }
         let values = mesh.changed_values(difference).filter(|_| self.meshes.contains_key(&id));

@@ -1,60 +1,139 @@
-//! What a view shows of meshes that are edited while some of their elements are hidden.
+//! What a view shows of meshes otherwise than the document's scene: while some of their elements are
+//! hidden, and as a subdivision surface.
 //!
-//! The document's scene always has all elements, so that what is exported is whole; a copy
-//! that is shown gets a mesh without the hidden ones.
+//! The document's scene always has the mesh itself with all elements, so that what is saved is whole; a copy
+//! that is shown gets another one.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use trigon_mesh::MeshChange;
 use trigon_mesh::edit::{ChangedValues, EditMesh, ElementMap, ElementNumbers};
+use trigon_mesh::{Mesh, MeshChange};
 use trigon_scene::MeshId;
 
+use super::scene::SceneChange;
 use super::shown::Shown;
 use crate::selection::Selection;
 
 /// What a copy of the scene shows of a mesh.
 #[derive(Debug)]
 pub(super) struct VisibleMesh {
+    sight: Sight,
     pub(super) map: ElementMap,
     pub(super) numbers: ElementNumbers,
+    /// A surface as the copy has it: what follows is found by comparison with it.
+    pub(super) surface: Option<Mesh>,
     /// What the copy has not been told.
     pub(super) values: ChangedValues,
     /// Whether other elements are visible by now.
     pub(super) is_outdated: bool,
 }
 
+/// How a mesh is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sight {
+    /// As the scene has it.
+    Whole,
+    /// Without what is hidden.
+    Part,
+    /// As its surface after so many levels.
+    Surface(u32),
+    /// The same with the mesh over it as its cage, without what is hidden.
+    Cage(u32),
+}
+
+/// In how many levels a view shows a mesh: as many as it has, but so that a change of it is seen soon.
+pub(crate) fn shown_levels(mesh: &EditMesh) -> u32 {
+    /// They are made anew in less than a tenth of a second.
+    const MOST_FACES: u64 = 1 << 17;
+    let is_small = |levels: &u32| mesh.subdivided_face_count(*levels) <= MOST_FACES;
+    (1..=mesh.subdivision()).rev().find(is_small).unwrap_or(0)
+}
+
+impl Sight {
+    pub(super) fn of(mesh: &EditMesh, is_edited: bool, has_hidden: bool) -> Self {
+        match (shown_levels(mesh), is_edited) {
+            (0, true) if has_hidden => Self::Part,
+            (0, _) => Self::Whole,
+            _ if mesh.face_count() == 0 => Self::Whole,
+            (levels, true) => Self::Cage(levels),
+            (levels, false) => Self::Surface(levels),
+        }
+    }
+
+    /// What a copy shows of a mesh.
+    pub(super) fn mesh(self, edited: &EditMesh) -> (Mesh, ElementMap) {
+        let surface = match self {
+            Self::Whole => return edited.to_mesh(),
+            Self::Part => return edited.to_visible_mesh(),
+            Self::Surface(levels) => {
+                edited.to_subdivided_mesh(levels).map(|mesh| (mesh, ElementMap::default()))
+            }
+            Self::Cage(levels) => edited.to_mesh_with_cage(levels),
+        };
+        surface.expect("a view shows few levels of large meshes")
+    }
+}
+
 impl VisibleMesh {
-    /// The change that the copy has not been told.
-    pub(super) fn take(&mut self, edited: &EditMesh) -> Option<MeshChange> {
+    fn new(sight: Sight, edited: &EditMesh) -> (Self, Mesh) {
+        let (mesh, map) = sight.mesh(edited);
+        let numbers = ElementNumbers::new(edited, &mesh, &map);
+        let surface = matches!(sight, Sight::Surface(_) | Sight::Cage(_)).then(|| mesh.clone());
+        let values = ChangedValues::default();
+        (Self { sight, map, numbers, surface, values, is_outdated: false }, mesh)
+    }
+
+    /// What the copy has not been told of a mesh.
+    pub(super) fn take(&mut self, id: MeshId, edited: &EditMesh) -> Option<SceneChange> {
         let values = std::mem::take(&mut self.values);
-        (!values.is_empty()).then(|| edited.mesh_change(&values, &self.numbers))
+        if values.is_empty() {
+            return None;
+        }
+        let Some(surface) = &mut self.surface else {
+            return Some(SceneChange::Values(id, edited.mesh_change(&values, &self.numbers)));
+        };
+        let (mesh, _) = self.sight.mesh(edited);
+        let change = MeshChange::between(surface, &mesh);
+        *surface = mesh;
+        Some(match change {
+            Some(change) => SceneChange::Values(id, change),
+            None => SceneChange::Visible(id, Box::new(surface.clone())),
+        })
     }
 }
 
 /// Brings what a copy shows up to date, if there is a copy.
 pub(super) fn refresh(shown: &mut Shown, edited: &BTreeMap<MeshId, EditMesh>, selection: &Selection) {
     let Some(mut untold) = shown.untold.take() else { return };
-    let is_partly = |id: MeshId| {
-        let mesh = edited.get(&id).filter(|_| selection.of(id).is_some());
-        mesh.is_some_and(|mesh| shown.marked(id, mesh).has_hidden)
-    };
-    let whole: Vec<MeshId> = shown.visible.keys().copied().filter(|&id| !is_partly(id)).collect();
-    let is_new = |id: &MeshId| shown.visible.get(id).is_none_or(|visible| visible.is_outdated);
-    let partly = selection.meshes().map(|(id, _)| id).filter(|&id| is_partly(id));
-    let made: Vec<MeshId> = partly.filter(is_new).collect();
-    for id in whole {
-        shown.visible.remove(&id);
-        untold.visible.remove(&id);
-        untold.meshes.insert(id);
+    let candidates: BTreeSet<MeshId> = edited
+        .iter()
+        .filter(|(id, mesh)| mesh.subdivision() > 0 || selection.of(**id).is_some())
+        .map(|(id, _)| *id)
+        .chain(shown.visible.keys().copied())
+        .collect();
+    for id in candidates {
+        let sight = edited.get(&id).map_or(Sight::Whole, |mesh| {
+            let is_edited = selection.of(id).is_some();
+            Sight::of(mesh, is_edited, is_edited && shown.marked(id, mesh).has_hidden)
+        });
+        let known = shown.visible.get(&id);
+        let is_current = match known {
+            None => sight == Sight::Whole,
+            Some(visible) => visible.sight == sight && !visible.is_outdated,
+        };
+        if is_current {
+            continue;
+        }
         shown.marks_revision += 1;
-    }
-    for id in made {
-        let (mesh, map) = edited[&id].to_visible_mesh();
-        let numbers = ElementNumbers::new(&edited[&id], &mesh, &map);
-        let values = ChangedValues::default();
-        shown.visible.insert(id, VisibleMesh { map, numbers, values, is_outdated: false });
-        untold.visible.insert(id, mesh);
-        shown.marks_revision += 1;
+        if sight == Sight::Whole {
+            shown.visible.remove(&id);
+            untold.visible.remove(&id);
+            untold.meshes.insert(id);
+        } else {
+            let (visible, mesh) = VisibleMesh::new(sight, &edited[&id]);
+            shown.visible.insert(id, visible);
+            untold.visible.insert(id, mesh);
+        }
     }
     shown.untold = Some(untold);
 }

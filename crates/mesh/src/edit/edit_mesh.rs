@@ -50,6 +50,8 @@ pub struct EditMesh {
     pub(super) vertex_layers: Vec<Layer>,
     pub(super) corner_layers: Vec<Layer>,
     pub(super) slots: AllSlots,
+    /// In how many Catmull-Clark levels it is shown.
+    pub(super) subdivision: u32,
     /// Whether a transaction runs.
     pub(super) is_recording: bool,
 }
@@ -81,6 +83,7 @@ impl EditMesh {
             vertex_layers: Vec::new(),
             corner_layers: Vec::new(),
             slots: AllSlots::default(),
+            subdivision: 0,
             is_recording: false,
         }
     }

@@ -7,7 +7,7 @@ mod written;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use trigon_io::{
-    ExportOptions, LoadOptions, Loaded, NativeDocument, UpAxis, Warning, encode_glb, load_from_slice,
+    ExportOptions, Format, LoadOptions, Loaded, NativeDocument, UpAxis, Warning, encode_glb, load_from_slice,
 };
 use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
@@ -160,6 +160,24 @@ fn an_edited_mesh_comes_back_to_the_bit() {
         assert_eq!(colors, [Vec3::X, Vec3::Y, Vec3::Z], "also of slots without faces");
         assert_eq!(saved(&second), saved(&first), "and the second file is the first");
     }
+}
+
+#[test]
+fn a_subdivision_surface_is_saved_as_its_cage_and_exported_as_a_surface() {
+    let mut document = edited_document(primitives::cube(2.0));
+    document.edited.values_mut().next().expect("one").set_subdivision(2).expect("two are few");
+    let (again, warnings) = document_of(&document);
+    assert_eq!(warnings, []);
+    assert_eq!((edited(&again).subdivision(), edited(&again).face_count()), (2, 6), "cage and levels");
+    assert_eq!(saved(&again), saved(&document), "and again");
+    let obj = document.export("cube.obj", Format::Obj, &ExportOptions::default()).expect("it is small");
+    let exported = load_from_slice("cube.obj", &obj.files[0].bytes, &LoadOptions::default());
+    let (_, mesh) = only_mesh(&exported.as_ref().expect("it is whole").scene);
+    assert_eq!(mesh.face_count(), 96, "6 faces become 24 and then 96");
+}
+
+fn document_of(of: &NativeDocument) -> (NativeDocument, Vec<Warning>) {
+    document("cube.glb", &saved(of))
 }
 
 #[test]
