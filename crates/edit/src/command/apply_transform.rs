@@ -76,7 +76,9 @@ fn set_placements(change: &mut Change<'_>, id: NodeId, rest: trigon_scene::Trans
 fn check(change: &Change<'_>, mesh: MeshId) -> Result<(), EditError> {
     let nodes = change.scene().nodes();
     if nodes.iter().filter(|(_, node)| node.mesh == Some(mesh)).count() > 1 {
-        return Err(refused("several objects share the mesh, and would move: apply it to an object with its own mesh"));
+        return Err(refused(
+            "several objects share the mesh, and would move: apply it to an object with its own mesh",
+        ));
     }
     let attributes = change.scene().meshes().get(mesh).map(|asset| asset.mesh().attributes());
     if attributes.is_some_and(|values| values.skin.is_some() || !values.morph_targets.is_empty()) {
@@ -136,8 +138,11 @@ mod tests {
         let mut scene = Scene::new();
         let cube = scene.add_object("cube", primitives::cube(2.0), Material::default());
         let turn = DQuat::from_rotation_z(0.5);
-        scene.node_mut(cube).expect("it was added").transform =
-            Transform::from_scale_rotation_translation(DVec3::new(2.0, -3.0, 0.5), turn, DVec3::new(1.0, 2.0, 3.0));
+        scene.node_mut(cube).expect("it was added").transform = Transform::from_scale_rotation_translation(
+            DVec3::new(2.0, -3.0, 0.5),
+            turn,
+            DVec3::new(1.0, 2.0, 3.0),
+        );
         let child = Node::default().with_transform(Transform::from_translation(DVec3::Y));
         scene.add_child(cube, child).expect("the cube is there");
         let mut document = Document::new(scene);
@@ -147,7 +152,8 @@ mod tests {
 
     #[test]
     fn nothing_is_seen_to_move_when_a_placement_is_applied() {
-        for parts in [["location", "rotation", "scale"].as_slice(), &["scale"], &["rotation"], &["location"]] {
+        for parts in [["location", "rotation", "scale"].as_slice(), &["scale"], &["rotation"], &["location"]]
+        {
             let (mut document, cube) = document();
             let before = places(&mut document);
             let mut command = json!({ "op": "apply_transform" });
@@ -181,7 +187,8 @@ mod tests {
     fn meshes_that_several_objects_share_are_left_alone() {
         let (mut document, _) = document();
         run(&mut document, json!({ "op": "duplicate_objects", "linked": true })).expect("it can be done");
-        let refused = run(&mut document, json!({ "op": "apply_transform", "scale": true })).expect_err("shared");
+        let refused =
+            run(&mut document, json!({ "op": "apply_transform", "scale": true })).expect_err("shared");
         assert!(refused.to_string().contains("share"), "{refused}");
     }
 }
