@@ -28,6 +28,7 @@ const ACTIVE_FACE: [u8; 3] = [0xff, 0xc8, 0x50];
 const SHARP: [u8; 3] = [0x00, 0xff, 0xff];
 const SEAM: [u8; 3] = [0xdb, 0x25, 0x12];
 const CREASE: [u8; 3] = [0xcc, 0x00, 0x99];
+const CAGE: [u8; 3] = [0; 3];
 const OBJECT: [u8; 3] = [0xff, 0xa0, 0x28];
 
 /// Of the colour of a selected face, so that its own shows.
@@ -112,6 +113,8 @@ struct Sets {
     sharp: ElementSet,
     seams: ElementSet,
     creases: ElementSet,
+    /// Edges over a subdivision surface; without a mark they would have the colour of the material.
+    cage: ElementSet,
 }
 
 /// The places of the kinds in [`Sets`].
@@ -145,7 +148,7 @@ impl Sets {
         self.selected[EDGES].add(node, bits(edges.iter().filter_map(|&id| numbers.edge(id))));
         let parts = |face: FaceId| parts(map, numbers, face);
         self.selected[FACES].add(node, bits(faces.iter().copied().flat_map(parts)));
-        self.hide_surface(document, node, id, map);
+        self.show_cage(document, node, id, map);
         if let Some(active) = selected.order().last().copied() {
             match kind {
                 ElementKind::Vertex => {
@@ -164,11 +167,14 @@ impl Sets {
         self.creases.add(node, numbered(&marked.creases));
     }
 
-    /// Of a surface that is shown below its cage, neither edges nor vertices are seen.
-    fn hide_surface(&mut self, document: &Document, node: NodeId, id: MeshId, map: &ElementMap) {
+    /// Of a surface with its cage, only the edges and vertices of the cage are seen.
+    fn show_cage(&mut self, document: &Document, node: NodeId, id: MeshId, map: &ElementMap) {
         if let Some(surface) = document.shown_surface(id) {
             let is_surface =
                 |vertex: &&VertexId| document.mesh(id).is_some_and(|mesh| !mesh.has_vertex(**vertex));
+            let mut cage = all(surface.edge_count());
+            cage.set_range(..surface.face_edge_count(), false);
+            self.cage.add(node, cage);
             self.plain_edges.add(node, all(surface.face_edge_count()));
             self.plain_vertices.add(node, all(map.vertices.iter().take_while(is_surface).count()));
         }
@@ -200,6 +206,7 @@ impl Sets {
             mark(self.sharp, SHARP, 1.0),
             mark(self.seams, SEAM, 1.0),
             mark(self.creases, CREASE, 1.0),
+            mark(self.cage, CAGE, 1.0),
         ];
         let faces =
             [mark(active_faces, ACTIVE_FACE, ACTIVE_FACE_OPACITY), mark(faces, SELECTED_FACE, FACE_OPACITY)];

@@ -7,14 +7,15 @@ use super::copy::Elements;
 use super::region::Region;
 
 impl EditMesh {
-    /// Takes faces out into a mesh of their own, which has the same layers. Edges and vertices that other
+    /// Takes faces out into a mesh of their own, which has the same layers and levels of subdivision. Edges and vertices that other
     /// faces or edges need stay here, too; the others leave with the faces.
     ///
     /// # Errors
     /// No face is given, or one does not exist.
     pub fn separate(&mut self, faces: &[FaceId]) -> Result<Self, Refusal> {
         let region = Region::new(self, faces, "separating")?;
-        let part = self.part(&Elements::with_parts(self, &[], &[], &region.faces));
+        let mut part = self.part(&Elements::with_parts(self, &[], &[], &region.faces));
+        part.subdivision = self.subdivision;
         self.delete_faces(&region.faces)?;
         Ok(part)
     }

@@ -13,7 +13,7 @@ const CHAIR: &str = "
     enter Factors Z 1
     press Edit
     press Apply
-    press Scale
+    press All Transforms                    # lengths are metres again
     press Edit Mode
     press Loop Cut
     hover 0 0.1 0.98
@@ -70,7 +70,7 @@ const CHAIR: &str = "
     press File
     press Save
     type $FOLDER/saved
-    press Save
+    press Save As
     title saved.glb - trigon
 ";
 
