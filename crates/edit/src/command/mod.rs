@@ -5,6 +5,7 @@
 //! Its description, for scripts and for the documentation, is made from the comments of its
 //! parameters.
 
+mod action;
 mod apply_transform;
 mod bevel;
 mod camera;
@@ -53,9 +54,7 @@ mod visibility;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::document::Change;
-use crate::error::EditError;
-
+pub(crate) use action::Action;
 pub use apply_transform::ApplyTransform;
 pub use bevel::Bevel;
 pub use camera::AddCamera;
@@ -104,12 +103,6 @@ pub use transform::{
 };
 pub use uvs::{ProjectUvs, ProjectUvsOnBox};
 pub use visibility::{HideOthers, RevealObjects};
-
-/// What a command does to a document.
-pub(crate) trait Action {
-    /// Does it. After a refusal the document takes back what was done until then.
-    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError>;
-}
 
 /// Lists all commands: variant, type, name for people.
 macro_rules! commands {

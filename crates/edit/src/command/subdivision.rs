@@ -60,8 +60,7 @@ pub struct ApplySubdivision {}
 impl Action for ApplySubdivision {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let all = meshes(change)?;
-        let has_surface =
-            |id: &MeshId| change.document().mesh(*id).is_some_and(|mesh| mesh.subdivision() > 0);
+        let has_surface = |id: &MeshId| change.state().mesh(*id).is_some_and(|mesh| mesh.subdivision() > 0);
         let some: Vec<MeshId> = all.iter().copied().filter(has_surface).collect();
         let mut faces = 0;
         // With none, the first one says why.

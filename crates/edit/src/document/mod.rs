@@ -3,7 +3,9 @@
 mod change;
 mod preview;
 mod scene;
+mod scene_change;
 mod shown;
+mod state;
 mod visible;
 
 use std::path::Path;
@@ -15,7 +17,7 @@ use trigon_io::{
 };
 use trigon_mesh::edit::EditMesh;
 use trigon_mesh::math::DAffine3;
-use trigon_scene::{MeshId, NodeId, Scene};
+use trigon_scene::{MeshId, Scene};
 
 use crate::command::{Command, ImportFile, Outcome};
 use crate::error::EditError;
@@ -24,8 +26,8 @@ use crate::recovery::Event;
 use crate::selection::Selection;
 
 pub(crate) use change::{AfterEdit, Change};
-pub use scene::SceneChange;
-use shown::Shown;
+pub use scene_change::SceneChange;
+use state::State;
 pub(crate) use visible::shown_levels;
 
 /// A scene that is edited by commands.
@@ -50,14 +52,8 @@ pub(crate) use visible::shown_levels;
 /// ```
 #[derive(Debug, Default)]
 pub struct Document {
-    /// The scene, its meshes while they are edited, and what is kept of the file.
-    file: NativeDocument,
-    selection: Selection,
+    state: State,
     history: History,
-    /// What the scene shows of edited meshes.
-    shown: Shown,
-    /// What was left out of meshes when they were made editable and no outcome has told yet.
-    untold: Vec<String>,
     /// What was done since the last time that somebody asked; `None` until somebody asks.
     events: Option<Vec<Event>>,
     /// What is tried out and neither confirmed nor cancelled yet; its other state is that before.
@@ -95,7 +91,7 @@ impl Document {
     }
 
     fn from_file(file: NativeDocument) -> Self {
-        Self { file, revision: next_revision(), ..Self::default() }
+        Self { state: State { file, ..State::default() }, revision: next_revision(), ..Self::default() }
     }
 
     /// The document as a native file, not written yet: [`save`](crate::save) writes it once
@@ -104,14 +100,14 @@ impl Document {
     /// # Errors
     /// When the file would have 4 GiB or more.
     pub fn encode(&self) -> Result<NativeFile<'_>, WriteError> {
-        self.file.encode()
+        self.state.file.encode()
     }
 
     /// The document as it is now, to be encoded on another thread while this one goes on changing. It takes the time
     /// of copying the meshes that are or were edited.
     #[must_use]
     pub fn snapshot(&self) -> NativeDocument {
-        self.file.clone()
+        self.state.file.clone()
     }
 
     /// Adds what was loaded of a file, as [`ImportFile`](crate::ImportFile) does with its path, without reading it
@@ -138,37 +134,33 @@ impl Document {
         format: Format,
         options: &ExportOptions<'_>,
     ) -> Result<Export, WriteError> {
-        self.file.export(name, format, options)
+        self.state.file.export(name, format, options)
     }
 
     /// The nodes and materials as they are now, and meshes as they were when [`Self::scene`] was called
     /// last.
     #[must_use]
     pub fn nodes(&self) -> &Scene {
-        &self.file.scene
+        &self.state.file.scene
     }
 
     /// A mesh with its neighbours, if it is or was edited.
     #[must_use]
     pub fn mesh(&self, id: MeshId) -> Option<&EditMesh> {
-        self.file.edited.get(&id)
+        self.state.mesh(id)
     }
 
     /// The map from a mesh into the world, where it is edited: that of the first selected object that shows
     /// it, or of the first one at all; identity where none does.
     #[must_use]
     pub fn mesh_transform(&self, id: MeshId) -> DAffine3 {
-        let scene = &self.file.scene;
-        let shows = |object: &NodeId| scene.node(*object).is_some_and(|node| node.mesh == Some(id));
-        let selected = self.selection.objects.iter().copied().find(shows);
-        let object = selected.or_else(|| scene.nodes().iter().map(|(object, _)| object).find(shows));
-        object.map_or(DAffine3::IDENTITY, |object| scene.world_transform(object))
+        self.state.mesh_transform(id)
     }
 
     /// What is selected.
     #[must_use]
     pub fn selection(&self) -> &Selection {
-        &self.selection
+        &self.state.selection
     }
 
     /// Another number after everything that was done or taken back, and for every document that is
@@ -213,14 +205,14 @@ impl Document {
         work: impl FnOnce(&Command, &mut Change<'_>) -> Result<Outcome, EditError>,
     ) -> Result<(Entry, Outcome), EditError> {
         self.revision = next_revision();
-        let selection = self.selection.clone();
-        let mut change = Change { document: self, meshes: Vec::new(), parts: None };
+        let selection = self.state.selection.clone();
+        let mut change = Change { state: &mut self.state, meshes: Vec::new(), parts: None };
         let result = work(&command, &mut change);
         let Change { meshes, parts, .. } = change;
         let mut entry = Entry { command, meshes, parts, selection, bytes: 0 };
         match result {
             Ok(mut outcome) => {
-                outcome.warnings.append(&mut self.untold);
+                outcome.warnings.append(&mut self.state.untold);
                 Ok((entry, outcome))
             }
             Err(refusal) => {
@@ -288,12 +280,12 @@ impl Document {
         if self.history.done().is_empty() {
             return Err(EditError::Nothing("adjust"));
         }
-        let (selection, undone) = (self.selection.clone(), self.history.undone().len());
+        let (selection, undone) = (self.state.selection.clone(), self.history.undone().len());
         self.undo()?;
         self.run(command).inspect_err(|_| {
             debug_assert_eq!(self.history.undone().len(), undone + 1, "a refusal adds no entry");
             if self.redo().is_ok() {
-                self.selection = selection;
+                self.state.selection = selection;
             }
         })
     }
@@ -322,17 +314,17 @@ impl Document {
         self.revision = next_revision();
         // A command may change a mesh several times: backwards in time, and the next time forwards.
         for (id, difference) in entry.meshes.iter_mut().rev() {
-            if let Some(mesh) = self.file.edited.get_mut(id) {
+            if let Some(mesh) = self.state.file.edited.get_mut(id) {
                 difference.apply(mesh);
-                self.shown.note_difference(*id, mesh, difference);
+                self.state.shown.note_difference(*id, mesh, difference);
             }
         }
         entry.meshes.reverse();
         if let Some(parts) = &mut entry.parts {
-            self.file.scene.swap_parts(parts);
-            self.shown.note_parts();
+            self.state.file.scene.swap_parts(parts);
+            self.state.shown.note_parts();
         }
-        std::mem::swap(&mut self.selection, &mut entry.selection);
+        std::mem::swap(&mut self.state.selection, &mut entry.selection);
     }
 }
 

@@ -1,52 +1,21 @@
-//! The document's scene for whoever draws it, and what a copy has to do to stay equal to it.
+//! The document's scene for whoever draws it.
 
+use trigon_mesh::Mesh;
 use trigon_mesh::edit::{ElementMap, ElementNumbers};
-use trigon_mesh::{Mesh, MeshChange};
 use trigon_scene::{MeshId, Scene};
 
 use super::Document;
+use super::scene_change::SceneChange;
 use super::shown::{Outdated, Untold};
+use super::state::State;
 use crate::display::MarkedElements;
-
-/// What a copy of a document's scene has to do to be equal to it again.
-#[derive(Debug, Clone, PartialEq)]
-pub enum SceneChange {
-    /// Become a clone of it.
-    Whole,
-    /// Take over a mesh: [`Scene::adopt_mesh`].
-    Mesh(MeshId),
-    /// Show another mesh than the scene's: the part of one that is edited that is not hidden, or its
-    /// subdivision surface.
-    /// [`Scene::replace_mesh`].
-    Visible(MeshId, Box<Mesh>),
-    /// Take over everything but meshes: [`Scene::swap_parts`].
-    Parts,
-    /// Give a mesh other values: [`Scene::change_mesh`].
-    Values(MeshId, MeshChange),
-}
-
-impl SceneChange {
-    /// Makes the change in a copy. For a scene that tells others of changes, such as a
-    /// window's, call what the variants name.
-    pub fn apply(self, from: &Scene, copy: &mut Scene) {
-        match self {
-            Self::Whole => *copy = from.clone(),
-            Self::Mesh(id) => {
-                copy.adopt_mesh(from, id).expect("meshes are told of in the order of their ids");
-            }
-            Self::Visible(id, mesh) => copy.replace_mesh(id, *mesh).expect("it was told of before"),
-            Self::Parts => copy.swap_parts(&mut from.parts()),
-            Self::Values(id, change) => copy.change_mesh(id, &change).expect("the original was changed so"),
-        }
-    }
-}
 
 impl Document {
     /// The scene as it is now, to be drawn. Its meshes follow the edits since the last call: in
     /// time proportional to these where vertices were moved or corners got other values, and
     /// else to the whole mesh. What is hidden is part of it.
     pub fn scene(&mut self) -> &Scene {
-        let Self { file, shown, selection, .. } = self;
+        let State { file, shown, selection, .. } = &mut self.state;
         shown.update(&mut file.scene, &file.edited, selection);
         &file.scene
     }
@@ -70,10 +39,10 @@ impl Document {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn take_scene_changes(&mut self) -> Vec<SceneChange> {
-        let is_first = self.shown.untold.is_none();
-        self.shown.untold.get_or_insert_default();
+        let is_first = self.state.shown.untold.is_none();
+        self.state.shown.untold.get_or_insert_default();
         self.scene();
-        let Self { file, shown, .. } = self;
+        let State { file, shown, .. } = &mut self.state;
         let untold = shown.untold.as_mut().expect("it was just made");
         if is_first {
             // The whole scene holds all that would be told of it.
@@ -94,8 +63,8 @@ impl Document {
     /// that was never edited, where all numbers are the same.
     #[must_use]
     pub fn shown_elements(&self, id: MeshId) -> Option<&ElementMap> {
-        let visible = self.shown.visible.get(&id).map(|visible| &visible.map);
-        visible.or_else(|| self.shown.meshes.get(&id).map(|shown| &shown.map))
+        let visible = self.state.shown.visible.get(&id).map(|visible| &visible.map);
+        visible.or_else(|| self.state.shown.meshes.get(&id).map(|shown| &shown.map))
     }
 
     /// The numbers of an edited mesh's elements there; `None` for a mesh that was never edited,
@@ -103,30 +72,30 @@ impl Document {
     /// proportional to the mesh.
     #[must_use]
     pub fn shown_numbers(&self, id: MeshId) -> Option<&ElementNumbers> {
-        if matches!(self.shown.outdated.get(&id), Some(Outdated::Whole)) {
+        if matches!(self.state.shown.outdated.get(&id), Some(Outdated::Whole)) {
             return None;
         }
-        if let Some(visible) = self.shown.visible.get(&id) {
+        if let Some(visible) = self.state.shown.visible.get(&id) {
             return (!visible.is_outdated).then_some(&visible.numbers);
         }
-        let mesh = self.file.scene.meshes().get(id)?.mesh();
-        let shown = self.shown.meshes.get(&id)?;
-        Some(shown.numbers(self.file.edited.get(&id)?, mesh))
+        let mesh = self.state.file.scene.meshes().get(id)?.mesh();
+        let shown = self.state.shown.meshes.get(&id)?;
+        Some(shown.numbers(self.state.file.edited.get(&id)?, mesh))
     }
 
     /// The subdivision surface that a copy shows of a mesh; `None` where it shows the mesh itself.
     pub(crate) fn shown_surface(&self, id: MeshId) -> Option<&Mesh> {
-        self.shown.visible.get(&id)?.surface.as_ref()
+        self.state.shown.visible.get(&id)?.surface.as_ref()
     }
 
     /// Another number after every change of nodes or elements or of their marks, as of the
     /// last [`Self::scene`].
     pub(crate) fn marks_revision(&self) -> u64 {
-        self.shown.marks_revision
+        self.state.shown.marks_revision
     }
 
     /// What is marked of a mesh; `None` if it is not edited.
     pub(crate) fn marked(&self, id: MeshId) -> Option<&MarkedElements> {
-        Some(self.shown.marked(id, self.file.edited.get(&id)?))
+        Some(self.state.shown.marked(id, self.state.file.edited.get(&id)?))
     }
 }

@@ -11,8 +11,8 @@ use trigon_mesh::edit::{ChangedValues, Difference, EditMesh, ElementMap, Element
 use trigon_mesh::{ChangedElements, Mesh};
 use trigon_scene::{MeshId, Scene};
 
-use super::scene::SceneChange;
-use super::visible::{VisibleMesh, refresh};
+use super::scene_change::SceneChange;
+use super::visible::{Sight, VisibleMesh};
 use crate::display::MarkedElements;
 use crate::selection::Selection;
 
@@ -125,7 +125,7 @@ impl Shown {
                 self.make_anew(scene, id, edited);
             }
         }
-        refresh(self, meshes, selection);
+        self.refresh(meshes, selection);
     }
 
     fn make_anew(&mut self, scene: &mut Scene, id: MeshId, edited: &EditMesh) {
@@ -139,6 +139,42 @@ impl Shown {
                 untold.meshes.insert(id);
             }
         }
+    }
+
+    /// Brings what a copy shows up to date, if there is a copy.
+    fn refresh(&mut self, edited: &BTreeMap<MeshId, EditMesh>, selection: &Selection) {
+        let Some(mut untold) = self.untold.take() else { return };
+        let candidates: BTreeSet<MeshId> = edited
+            .iter()
+            .filter(|(id, mesh)| mesh.subdivision() > 0 || selection.of(**id).is_some())
+            .map(|(id, _)| *id)
+            .chain(self.visible.keys().copied())
+            .collect();
+        for id in candidates {
+            let sight = edited.get(&id).map_or(Sight::Whole, |mesh| {
+                let is_edited = selection.of(id).is_some();
+                Sight::of(mesh, is_edited, is_edited && self.marked(id, mesh).has_hidden)
+            });
+            let known = self.visible.get(&id);
+            let is_current = match known {
+                None => sight == Sight::Whole,
+                Some(visible) => visible.sight == sight && !visible.is_outdated,
+            };
+            if is_current {
+                continue;
+            }
+            self.marks_revision += 1;
+            if sight == Sight::Whole {
+                self.visible.remove(&id);
+                untold.visible.remove(&id);
+                untold.meshes.insert(id);
+            } else {
+                let (visible, mesh) = VisibleMesh::new(sight, &edited[&id]);
+                self.visible.insert(id, visible);
+                untold.visible.insert(id, mesh);
+            }
+        }
+        self.untold = Some(untold);
     }
 
     pub(super) fn marked(&self, id: MeshId, edited: &EditMesh) -> &MarkedElements {

@@ -4,20 +4,16 @@
 //! The document's scene always has the mesh itself with all elements, so that what is saved is whole; a copy
 //! that is shown gets another one.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use trigon_mesh::edit::{ChangedValues, EditMesh, ElementMap, ElementNumbers};
 use trigon_mesh::{Mesh, MeshChange};
 use trigon_scene::MeshId;
 
-use super::scene::SceneChange;
-use super::shown::Shown;
-use crate::selection::Selection;
+use super::scene_change::SceneChange;
 
 /// What a copy of the scene shows of a mesh.
 #[derive(Debug)]
 pub(super) struct VisibleMesh {
-    sight: Sight,
+    pub(super) sight: Sight,
     pub(super) map: ElementMap,
     pub(super) numbers: ElementNumbers,
     /// A surface as the copy has it: what follows is found by comparison with it.
@@ -75,7 +71,7 @@ impl Sight {
 }
 
 impl VisibleMesh {
-    fn new(sight: Sight, edited: &EditMesh) -> (Self, Mesh) {
+    pub(super) fn new(sight: Sight, edited: &EditMesh) -> (Self, Mesh) {
         let (mesh, map) = sight.mesh(edited);
         let numbers = ElementNumbers::new(edited, &mesh, &map);
         let surface = matches!(sight, Sight::Surface(_) | Sight::Cage(_)).then(|| mesh.clone());
@@ -100,40 +96,4 @@ impl VisibleMesh {
             None => SceneChange::Visible(id, Box::new(surface.clone())),
         })
     }
-}
-
-/// Brings what a copy shows up to date, if there is a copy.
-pub(super) fn refresh(shown: &mut Shown, edited: &BTreeMap<MeshId, EditMesh>, selection: &Selection) {
-    let Some(mut untold) = shown.untold.take() else { return };
-    let candidates: BTreeSet<MeshId> = edited
-        .iter()
-        .filter(|(id, mesh)| mesh.subdivision() > 0 || selection.of(**id).is_some())
-        .map(|(id, _)| *id)
-        .chain(shown.visible.keys().copied())
-        .collect();
-    for id in candidates {
-        let sight = edited.get(&id).map_or(Sight::Whole, |mesh| {
-            let is_edited = selection.of(id).is_some();
-            Sight::of(mesh, is_edited, is_edited && shown.marked(id, mesh).has_hidden)
-        });
-        let known = shown.visible.get(&id);
-        let is_current = match known {
-            None => sight == Sight::Whole,
-            Some(visible) => visible.sight == sight && !visible.is_outdated,
-        };
-        if is_current {
-            continue;
-        }
-        shown.marks_revision += 1;
-        if sight == Sight::Whole {
-            shown.visible.remove(&id);
-            untold.visible.remove(&id);
-            untold.meshes.insert(id);
-        } else {
-            let (visible, mesh) = VisibleMesh::new(sight, &edited[&id]);
-            shown.visible.insert(id, visible);
-            untold.visible.insert(id, mesh);
-        }
-    }
-    shown.untold = Some(untold);
 }
