@@ -1,4 +1,4 @@
-//! The document on the stage: its scene, what is selected of it, and how it is drawn.
+//! The document on the stage: its scene, its selection, and its display settings.
 
 use trigon_edit::X_RAY;
 use trigon_edit::scene::{Reach, Style};

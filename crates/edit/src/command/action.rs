@@ -4,8 +4,8 @@ use super::outcome::Outcome;
 use crate::document::Change;
 use crate::error::EditError;
 
-/// What a command does to a document.
+/// The implementation of a command.
 pub(crate) trait Action {
-    /// Does it. After a refusal the document takes back what was done until then.
+    /// Runs the command. On an error the caller undoes all changes made so far.
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError>;
 }

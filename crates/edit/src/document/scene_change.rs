@@ -1,28 +1,27 @@
-//! What a copy of a document's scene has to do to stay equal to it.
+//! The changes that keep a copy of a document's scene equal to it.
 
 use trigon_mesh::{Mesh, MeshChange};
 use trigon_scene::{MeshId, Scene};
 
-/// What a copy of a document's scene has to do to be equal to it again.
+/// A change that keeps a copy of a document's scene equal to it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SceneChange {
-    /// Become a clone of it.
+    /// Replace the copy with a clone.
     Whole,
     /// Take over a mesh: [`Scene::adopt_mesh`].
     Mesh(MeshId),
-    /// Show another mesh than the scene's: the part of one that is edited that is not hidden, or its
-    /// subdivision surface.
+    /// Show another mesh than the scene's: the visible part of an edited one, or a subdivision surface.
     /// [`Scene::replace_mesh`].
     Visible(MeshId, Box<Mesh>),
-    /// Take over everything but meshes: [`Scene::swap_parts`].
+    /// Take over everything except meshes: [`Scene::swap_parts`].
     Parts,
     /// Give a mesh other values: [`Scene::change_mesh`].
     Values(MeshId, MeshChange),
 }
 
 impl SceneChange {
-    /// Makes the change in a copy. For a scene that tells others of changes, such as a
-    /// window's, call what the variants name.
+    /// Applies the change to a copy. For a scene that reports changes to others, such as a
+    /// window's, call the methods that the variants name.
     pub fn apply(self, from: &Scene, copy: &mut Scene) {
         match self {
             Self::Whole => *copy = from.clone(),

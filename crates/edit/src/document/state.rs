@@ -11,12 +11,12 @@ use crate::selection::Selection;
 /// What commands change of a document, and what its scene shows of it.
 #[derive(Debug, Default)]
 pub(crate) struct State {
-    /// The scene, its meshes while they are edited, and what is kept of the file.
+    /// The scene, its edited meshes, and what is kept of the file.
     pub(super) file: NativeDocument,
     pub(super) selection: Selection,
-    /// What the scene shows of edited meshes.
+    /// How the scene follows the edited meshes.
     pub(super) shown: Shown,
-    /// What was left out of meshes when they were made editable and no outcome has told yet.
+    /// What was lost when meshes were made editable and has not been reported yet.
     pub(super) untold: Vec<String>,
 }
 

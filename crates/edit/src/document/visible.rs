@@ -1,8 +1,8 @@
-//! What a view shows of meshes otherwise than the document's scene: while some of their elements are
-//! hidden, and as a subdivision surface.
+//! What a view shows instead of a mesh of the document's scene: the mesh without its hidden elements, or its
+//! subdivision surface.
 //!
-//! The document's scene always has the mesh itself with all elements, so that what is saved is whole; a copy
-//! that is shown gets another one.
+//! The document's scene always has the mesh with all elements, so that saved files are complete; a displayed copy
+//! gets another mesh.
 
 use trigon_mesh::edit::{ChangedValues, EditMesh, ElementMap, ElementNumbers};
 use trigon_mesh::{Mesh, MeshChange};
@@ -16,11 +16,11 @@ pub(super) struct VisibleMesh {
     pub(super) sight: Sight,
     pub(super) map: ElementMap,
     pub(super) numbers: ElementNumbers,
-    /// A surface as the copy has it: what follows is found by comparison with it.
+    /// The surface that the copy has; changes are found by comparing with it.
     pub(super) surface: Option<Mesh>,
-    /// What the copy has not been told.
+    /// Changes that the copy has not received.
     pub(super) values: ChangedValues,
-    /// Whether other elements are visible by now.
+    /// Whether the visible elements have changed since.
     pub(super) is_outdated: bool,
 }
 
@@ -79,7 +79,7 @@ impl VisibleMesh {
         (Self { sight, map, numbers, surface, values, is_outdated: false }, mesh)
     }
 
-    /// What the copy has not been told of a mesh.
+    /// The change of a mesh that the copy has not received.
     pub(super) fn take(&mut self, id: MeshId, edited: &EditMesh) -> Option<SceneChange> {
         let values = std::mem::take(&mut self.values);
         if values.is_empty() {

@@ -1,12 +1,11 @@
-//! The list of keys, which is a list of commands, too: what is typed filters it, and
-//! a line that is clicked is done.
+//! The list of keys and commands: typing filters it, and clicking a line runs it.
 
 use egui::{Align2, Context, Grid, RichText, ScrollArea, TextEdit, Window, vec2};
 
 use crate::keymap::{Binding, SheetRow, sheet};
 use crate::stage::{Stage, Visibility};
 
-/// Shows the list if it is to be seen. Returns what was chosen.
+/// Shows the list if it is visible. Returns the selected command.
 pub(super) fn show(context: &Context, stage: &mut Stage) -> Option<Binding> {
     if stage.cheat_sheet == Visibility::Hidden {
         return None;
@@ -41,7 +40,7 @@ pub(super) fn show(context: &Context, stage: &mut Stage) -> Option<Binding> {
     chosen
 }
 
-/// A row of the list; keys that do one thing can be clicked.
+/// A row of the list; keys with a single action can be clicked.
 fn line(ui: &mut egui::Ui, row: &SheetRow) -> Option<Binding> {
     ui.label(RichText::new(&row.keys).monospace().strong());
     match &row.binding {
