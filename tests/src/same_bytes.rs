@@ -136,36 +136,52 @@ fn picture(
     target.into_pictures()
 }
 
-proptest! {
-    #![proptest_config(cases(3))]
+/// Numbers of threads and sizes of tiles.
+fn executions() -> impl Strategy<Value = ExecuteSettings> {
+    let tile_sizes = [TileSize::Pixels8, TileSize::Pixels16, TileSize::Pixels32, TileSize::Pixels64];
+    (1..9_usize, prop::sample::select(tile_sizes.to_vec())).prop_map(|(threads, tile_size)| ExecuteSettings {
+        threads: NonZeroUsize::new(threads),
+        tile_size,
+        ..Default::default()
+    })
+}
 
-    #[test]
-    fn threads_and_tiles_change_nothing(soups in soups(), samples in Samples::any()) {
-        // Large enough to be shared among threads.
-        let draw = |settings: &ExecuteSettings| picture(&soups, [300, 200], samples, settings);
-        let reference = draw(&ExecuteSettings::default());
-        for threads in [1, 2, 3, 8] {
-            for tile_size in [TileSize::Pixels8, TileSize::Pixels16, TileSize::Pixels32, TileSize::Pixels64] {
-                let settings =
-                    ExecuteSettings { threads: NonZeroUsize::new(threads), tile_size, ..Default::default() };
-                prop_assert!(draw(&settings) == reference, "{settings:?}");
-            }
-        }
-    }
+/// Levels of vector instructions, and ways to test depth.
+fn arithmetics() -> impl Strategy<Value = ExecuteSettings> {
+    let levels: Vec<_> = levels().collect();
+    let depth_tests = [DepthTest::Hierarchical, DepthTest::Late];
+    (prop::sample::select(levels), prop::sample::select(depth_tests.to_vec())).prop_map(
+        |(level, depth_test)| ExecuteSettings { simd: Some(level), depth_test, ..Default::default() },
+    )
 }
 
 proptest! {
-    #![proptest_config(cases(12))]
+    #![proptest_config(cases(64))]
 
     #[test]
-    fn levels_and_depth_tests_change_nothing(soups in soups(), samples in Samples::any()) {
+    fn threads_and_tiles_change_nothing(
+        soups in soups(),
+        samples in Samples::any(),
+        others in [executions(), executions()],
+    ) {
+        // Large enough to be shared among threads.
+        let draw = |settings: &ExecuteSettings| picture(&soups, [300, 200], samples, settings);
+        let reference = draw(&ExecuteSettings::default());
+        for settings in &others {
+            prop_assert!(draw(settings) == reference, "{settings:?}");
+        }
+    }
+
+    #[test]
+    fn levels_and_depth_tests_change_nothing(
+        soups in soups(),
+        samples in Samples::any(),
+        others in [arithmetics(), arithmetics()],
+    ) {
         let draw = |settings: &ExecuteSettings| picture(&soups, [150, 100], samples, settings);
         let reference = draw(&ExecuteSettings::default());
-        for level in levels() {
-            for depth_test in [DepthTest::Hierarchical, DepthTest::Late] {
-                let settings = ExecuteSettings { simd: Some(level), depth_test, ..Default::default() };
-                prop_assert!(draw(&settings) == reference, "{settings:?}");
-            }
+        for settings in &others {
+            prop_assert!(draw(settings) == reference, "{settings:?}");
         }
     }
 }
