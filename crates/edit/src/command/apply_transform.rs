@@ -12,16 +12,16 @@ use super::{Action, Outcome, Rotation, SetTransform, TransformSpace};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// Moves the vertices of the selected objects to where their placement shows them, and takes the placement back: nothing is
-/// seen to move, and lengths in the mesh are those in the world. What hangs on them stays where it is.
+/// Applies the placement of the selected objects to their vertices and clears it, so that nothing moves in the
+/// image and lengths in the mesh are those in the world. Child objects stay where they are.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ApplyTransform {
-    /// Whether their origins move to that of what they hang on.
+    /// Whether their location is applied.
     pub location: bool,
-    /// Whether their axes turn back.
+    /// Whether their rotation is applied.
     pub rotation: bool,
-    /// Whether their sizes become 1.
+    /// Whether their scale is applied.
     pub scale: bool,
 }
 

@@ -227,9 +227,9 @@ commands! {
     JoinObjects("Join", false),
     /// Subdivides meshes into smooth surfaces.
     CatmullClark("Catmull-Clark", false),
-    /// Shows meshes as smooth surfaces while they are edited.
+    /// Shows meshes as subdivision surfaces while their cage is edited.
     SetSubdivision("Subdivision Surface", false),
-    /// Makes meshes the smooth surfaces that they are shown as.
+    /// Replaces meshes with their subdivision surfaces.
     ApplySubdivision("Apply Subdivision", false),
     /// Cuts faces into triangles.
     Triangulate("Triangulate", false),
@@ -313,7 +313,7 @@ commands! {
     SetTransform("Set Transform", false),
     /// Clears placements.
     ClearTransform("Clear Transform", false),
-    /// Moves vertices to where the placement of their object shows them.
+    /// Applies the placement of objects to their vertices.
     ApplyTransform("Apply Transform", false),
     /// Changes a light.
     SetLight("Set Light", false),

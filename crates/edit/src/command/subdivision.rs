@@ -16,7 +16,7 @@ use crate::selection::ElementKind;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SetSubdivision {
-    /// How many times; 0 shows the mesh as it is.
+    /// The number of subdivisions; 0 shows the mesh as it is.
     #[schemars(range(min = 0, max = 5))]
     pub levels: u32,
 }

@@ -65,12 +65,12 @@ const CHAIR: &str = "
     press Edit
     press Rename…
     type chair
-    press Rename
+    keys Enter
     see chair
     press File
     press Save
     type $FOLDER/saved
-    press Save As
+    keys Enter
     title saved.glb - trigon
 ";
 

@@ -38,10 +38,6 @@ const TOUR: &str = "
     keys A Ctrl+2
     picture cage
     mesh Cube 56 108 54
-    keys Tab
-    press Solid
-    press Matcap
-    picture smooth
 ";
 
 /// Where the pictures are.
