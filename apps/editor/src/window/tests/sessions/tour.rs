@@ -1,4 +1,5 @@
-//! The guided tour of `docs/editor.md`: what it describes is played here, and its pictures are made here.
+//! The guided tour of `docs/editor.md`: what it describes is played here, and its pictures are made here:
+//! `TRIGON_UPDATE_GOLDENS=1 cargo test -p trigon-editor --lib the_tour`, then for each `convert x.png -colors 96 PNG8:x.png`.
 
 use super::*;
 
