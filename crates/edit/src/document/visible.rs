@@ -42,7 +42,8 @@ pub(crate) fn shown_levels(mesh: &EditMesh) -> u32 {
     /// They are made anew in less than a tenth of a second.
     const MOST_FACES: u64 = 1 << 17;
     let is_small = |levels: &u32| mesh.subdivided_face_count(*levels) <= MOST_FACES;
-    (1..=mesh.subdivision()).rev().find(is_small).unwrap_or(0)
+    let most = if mesh.face_count() == 0 { 0 } else { mesh.subdivision() };
+    (1..=most).rev().find(is_small).unwrap_or(0)
 }
 
 impl Sight {
@@ -50,7 +51,6 @@ impl Sight {
         match (shown_levels(mesh), is_edited) {
             (0, true) if has_hidden => Self::Part,
             (0, _) => Self::Whole,
-            _ if mesh.face_count() == 0 => Self::Whole,
             (levels, true) => Self::Cage(levels),
             (levels, false) => Self::Surface(levels),
         }
