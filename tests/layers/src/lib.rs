@@ -7,6 +7,8 @@ mod circles;
 mod collect;
 mod module;
 mod resolve;
+mod signatures;
 
 pub use circles::{Circle, circles};
 pub use module::Crate;
+pub use signatures::long_signatures;

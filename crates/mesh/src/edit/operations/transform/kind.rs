@@ -1,6 +1,6 @@
 //! What can be done to places, and where it takes a point.
 
-use trigon_math::{DMat3, DVec3, elementary};
+use trigon_math::{DAffine3, DMat3, DVec3, elementary};
 
 use super::super::super::refusal::Refusal;
 use crate::normals::unit_or_zero;
@@ -51,6 +51,11 @@ pub enum Transform {
         direction: DVec3,
         /// How far, per metre from the plane.
         factor: f64,
+    },
+    /// By any affine map.
+    Affine {
+        /// Of the mesh into itself.
+        map: DAffine3,
     },
     /// Towards a sphere, whose radius is the mean distance of the vertices from its centre,
     /// weighted by falloff. A vertex at the centre stays.
@@ -115,7 +120,7 @@ impl Transform {
                 Prepared::Linear { center: DVec3::ZERO, change: DMat3::ZERO, offset }
             }
             Self::Rotate { center, axis, angle, orientation } => {
-                let axis = direction_of(axis, "rotating", "the axis has no direction")?;
+                let axis = direction_of(axis, "rotating", "the axis is zero or not finite")?;
                 let orientation = match orientation == DMat3::IDENTITY {
                     true => None,
                     false => Some([orientation, inverse(orientation, "rotating")?]),
@@ -128,12 +133,18 @@ impl Transform {
                 Prepared::Linear { center, change, offset: DVec3::ZERO }
             }
             Self::Shear { center, normal, direction, factor } => {
-                let normal = direction_of(normal, "shearing", "the plane's normal has no direction")?;
-                let direction = direction_of(direction, "shearing", "there is no direction to shear in")?;
+                let normal = direction_of(normal, "shearing", "the plane's normal is zero or not finite")?;
+                let direction =
+                    direction_of(direction, "shearing", "the shear direction is zero or not finite")?;
                 let along = direction * factor;
                 let change = DMat3::from_cols(along * normal.x, along * normal.y, along * normal.z);
                 Prepared::Linear { center, change, offset: DVec3::ZERO }
             }
+            Self::Affine { map } => Prepared::Linear {
+                center: DVec3::ZERO,
+                change: map.matrix3 - DMat3::IDENTITY,
+                offset: map.translation,
+            },
             Self::ToSphere { center, factor } => {
                 Prepared::ToSphere { center, radius: mean_distance(center), factor }
             }
@@ -173,6 +184,10 @@ impl Transform {
                 all("the normal", normal)?;
                 all("the direction", direction)?;
                 finite("the factor", factor)
+            }
+            Self::Affine { map } => {
+                all("the offset", map.translation)?;
+                axes("the map", map.matrix3)
             }
             Self::ToSphere { center, factor } => {
                 all("the centre", center)?;
@@ -252,6 +267,6 @@ fn scaling(factors: DVec3, orientation: DMat3) -> Result<DMat3, Refusal> {
 }
 
 fn inverse(orientation: DMat3, operation: &'static str) -> Result<DMat3, Refusal> {
-    let reason = "the axes of the orientation are not independent";
+    let reason = "the axes of the orientation are not linearly independent";
     orientation.try_inverse().ok_or(Refusal::NotPossible { operation, reason })
 }
