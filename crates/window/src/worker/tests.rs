@@ -11,6 +11,7 @@ use super::{
     Worker,
 };
 use crate::shared_scene::{SceneUpdate, SharedScene};
+use crate::stage::Visibility;
 use trigon_camera::Camera;
 use trigon_math::Vec3;
 use trigon_mesh::{MeshChange, primitives};
