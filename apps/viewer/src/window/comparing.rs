@@ -124,7 +124,9 @@ impl Drawer for PairDrawer {
         let camera = compare::camera_for(camera, &self.other);
         let draw = |renderer: &mut Renderer, scene: &Scene, settings: RenderSettings| {
             *renderer.settings_mut() = settings;
-            renderer.render_cancellable(scene, &camera, cancel).map_err(|error| error.to_string())
+            let mut frame = Frame::default();
+            let drawn = renderer.render_cancellable(scene, &camera, cancel, &mut frame);
+            drawn.map(|()| frame).map_err(|error| error.to_string())
         };
         match self.pair {
             Pair::First => draw(first, scene, settings.clone()),
