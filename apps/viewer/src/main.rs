@@ -11,6 +11,7 @@ mod explain;
 mod failure;
 mod folders;
 mod framing;
+mod ladder;
 mod lettering;
 mod lists;
 mod loading;

@@ -94,6 +94,12 @@ impl Source {
         }
     }
 
+    /// What is written on the window.
+    #[cfg(feature = "window")]
+    pub(crate) fn window_title(&self) -> String {
+        format!("{} - trigon", self.title())
+    }
+
     /// For titles and lists.
     pub(crate) fn title(&self) -> String {
         let Self::Files(files) = self else { return "built-in scene".to_owned() };

@@ -93,8 +93,8 @@ struct UnderWay {
 pub(crate) struct Pacing {
     shown: Shown,
     under_way: Option<UnderWay>,
-    /// Whether pictures have to wait for something else.
-    occupied: bool,
+    /// Since when pictures have to wait for something else.
+    occupied: Option<Duration>,
     /// Whether what is written over the picture has changed.
     overlay: bool,
     /// When something last moved; `None` after a change that is no movement.
@@ -111,13 +111,15 @@ pub(crate) struct Pacing {
     wanted: Vec<usize>,
 }
 
-/// How far the refinement at rest is.
+/// What is being drawn, and for how many whole seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Progress {
-    /// The step under way, counted from 1.
-    pub(crate) step: usize,
-    /// How many there are.
-    pub(crate) of: usize,
+pub(crate) enum Progress {
+    /// The picture that the settings give, for a second or more.
+    Drawing { seconds: u64 },
+    /// A better one than is shown: of so many steps the one of this number, counted from 1.
+    Refining { step: usize, of: usize, seconds: u64 },
+    /// One that is not for the window, for a second or more.
+    Picture { seconds: u64 },
 }
 
 impl Pacing {
@@ -125,7 +127,7 @@ impl Pacing {
         Self {
             shown: Shown::Old,
             under_way: None,
-            occupied: false,
+            occupied: None,
             overlay: true,
             moved: None,
             drawn: None,
@@ -147,10 +149,29 @@ impl Pacing {
         self.budget.set(budget);
     }
 
-    /// How far the refinement is; `None` when there is none under way.
-    pub(crate) fn progress(&self) -> Option<Progress> {
-        let next = self.wanted.iter().position(|&step| Some(step) == self.next_step())?;
-        Some(Progress { step: next + 1, of: self.wanted.len() })
+    /// What is being drawn at rest; `None` if that is nothing, or hardly takes time.
+    pub(crate) fn progress(&self, now: Duration) -> Option<Progress> {
+        let seconds = self.work_begun().map_or(0, |begun| now.saturating_sub(begun).as_secs());
+        if self.occupied.is_some() {
+            return (seconds > 0).then_some(Progress::Picture { seconds });
+        }
+        match self.wanted.iter().position(|&step| Some(step) == self.next_step()) {
+            Some(next) => Some(Progress::Refining { step: next + 1, of: self.wanted.len(), seconds }),
+            None => (seconds > 0).then_some(Progress::Drawing { seconds }),
+        }
+    }
+
+    /// When what is drawn at rest was begun.
+    fn work_begun(&self) -> Option<Duration> {
+        let is_full = |picture: &UnderWay| matches!(picture.quality, Quality::Full(_));
+        self.occupied.or_else(|| self.under_way.as_ref().filter(|picture| is_full(picture)).and(self.begun))
+    }
+
+    /// When what is drawn has taken another second since the last frame, which is then told.
+    fn next_second(&self) -> Option<Duration> {
+        let begun = self.work_begun()?;
+        let told = self.drawn.map_or(0, |drawn| drawn.saturating_sub(begun).as_secs());
+        Some(begun + Duration::from_secs(told + 1))
     }
 
     /// Whether the right picture is shown, as the settings say.
@@ -224,7 +245,7 @@ impl Pacing {
         let picture = match (self.under_way, self.shown, animated) {
             // Its end will be told.
             (Some(UnderWay { quality: Quality::Draft { .. }, .. }), ..) => None,
-            _ if self.occupied => None,
+            _ if self.occupied.is_some() => None,
             // It is about to be given up, which takes a moment.
             (Some(_), _, Frames::Wanted) => Some(frame),
             (None, _, Frames::Wanted) => Some(paced),
@@ -234,7 +255,7 @@ impl Pacing {
             (None, Shown::Full(_), Frames::None) => self.next_step().map(|_| paced),
         };
         let expiry = expiry.map(|due| due.max(frame));
-        match [overlay, picture, expiry].into_iter().flatten().min() {
+        match [overlay, picture, expiry, self.next_second()].into_iter().flatten().min() {
             Some(due) if due <= now => Wake::Now,
             Some(due) => Wake::At(due),
             None => Wake::Never,
@@ -247,7 +268,7 @@ impl Pacing {
         let moving = animated == Frames::Wanted || self.moved.is_some_and(|moved| now < moved + REST);
         let draft = moving || (self.shown == Shown::Old && self.full.is_none_or(|full| full > PATIENCE));
         let quality = match self.shown {
-            _ if self.under_way.is_some() || self.occupied => return None,
+            _ if self.under_way.is_some() || self.occupied.is_some() => return None,
             // It will be refined when it rests.
             Shown::Full(_) | Shown::Draft if moving => return None,
             Shown::Full(_) => Quality::Full(self.next_step()?),
@@ -264,9 +285,9 @@ impl Pacing {
         self.overlay = false;
     }
 
-    /// Whether whoever draws is at something else, and no picture can be begun.
-    pub(crate) fn occupy(&mut self, occupied: bool) {
-        self.occupied = occupied;
+    /// Since when whoever draws is at something else, and no picture can be begun; `None` if nothing is.
+    pub(crate) fn occupy(&mut self, since: Option<Duration>) {
+        self.occupied = since;
     }
 
     /// The picture under way is in the window, and took this long.

@@ -39,7 +39,7 @@ const ESSENTIAL: [(&str, &[Row]); 7] = [
     (
         "Look",
         &[
-            ("preset", "draft, standard, high or reference: time against accuracy"),
+            ("preset", "From draft to reference: time against accuracy"),
             ("samples", "Samples along each side of a pixel, 1 to 4"),
             ("edges", ""),
             ("style", "surface, edges, wireframe or hidden-line"),

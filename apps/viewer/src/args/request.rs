@@ -1,6 +1,7 @@
 //! What the command line asks for, as a whole and checked.
 
 mod checks;
+mod ignored;
 #[cfg(test)]
 mod tests;
 
@@ -217,6 +218,8 @@ impl Request {
         let files = folders::expanded(&typed, raw.recursive_dir_add == Some(true))?;
         let grouping = grouping(&raw);
         let mode = mode(&raw);
+        let mut ignored = raw.gpu_only.warnings();
+        ignored.extend(ignored::warnings(&raw, &mode));
         check_stdin(&mode, &files)?;
         let pictures = Source::group(&files, &grouping).len();
         check_output(&mode, pictures)?;
@@ -255,7 +258,7 @@ impl Request {
             shows_frame_time: raw.scenery.fps == Some(true),
             notifies: raw.scenery.notifications != Some(false),
             level: raw.verbose,
-            ignored: raw.gpu_only.warnings(),
+            ignored,
             line: CommandLine::default(),
         })
     }

@@ -4,7 +4,10 @@ mod background;
 #[cfg(feature = "study")]
 mod classic;
 mod commands;
+mod hint;
+mod notices;
 mod open;
+mod path_text;
 mod playback;
 mod quality;
 mod recent;
@@ -17,7 +20,7 @@ use std::path::Path;
 
 use trigon_camera::Viewport;
 use trigon_scene::ShadingModel;
-use trigon_window::{Application, DragBinding, Interaction, Refinement, Visibility, WindowError};
+use trigon_window::{Application, Interaction, Refinement, Stage, Visibility, WindowError};
 
 use crate::args::Request;
 use crate::failure::Failure;
@@ -40,16 +43,8 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
         }
     };
     let sources = Source::all(request);
-    let mut application = Application::new(title(&sources[0]));
-    let (width, height) = (request.settings.width, request.settings.height);
-    application.stage.set_size(Viewport { width, height });
-    application.stage.settings = request.settings.clone();
-    application.stage.refinement = refinement(request);
-    application.stage.keymap = commands::keymap();
-    application.stage.text_scale = request.overlay.text_scale;
-    if request.shows_frame_time {
-        application.stage.frame_time = Visibility::Shown;
-    }
+    let mut application = Application::new(sources[0].window_title());
+    prepare(&mut application.stage, request);
     if let Err(failure) = interactions(&mut application, request, reporter) {
         reporter.error(&failure);
         return failure.exit_code();
@@ -65,6 +60,19 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
             reporter.error(format_args!("{error}; write a picture instead with --output picture.png"));
             1
         }
+    }
+}
+
+/// What the flags say of the window.
+fn prepare(stage: &mut Stage, request: &Request) {
+    let (width, height) = (request.settings.width, request.settings.height);
+    stage.set_size(Viewport { width, height });
+    stage.settings = request.settings.clone();
+    stage.refinement = refinement(request);
+    stage.keymap = commands::keymap();
+    stage.text_scale = request.overlay.text_scale;
+    if request.shows_frame_time {
+        stage.frame_time = Visibility::Shown;
     }
 }
 
@@ -96,24 +104,15 @@ fn interactions(
     Ok(())
 }
 
-/// `--list-bindings`: the mouse, then the keys; those that do the same share a line.
+/// `--list-bindings`: the lines of the cheat sheet under their headings.
 pub(crate) fn bindings() -> Vec<String> {
-    let keymap = commands::keymap();
-    let line = |keys: String, does: &str| format!("{keys:48} {does}");
-    let drag =
-        |drag: &DragBinding| line(format!("{}{} drag", drag.modifiers, drag.button), &drag.description);
-    let mouse = keymap.drags().iter().map(drag).chain([line("Wheel".to_owned(), "zoom")]);
-    let runs = keymap.bindings().chunk_by(|one, next| one.description == next.description);
-    let keys = runs.map(|run| {
-        let chords: Vec<String> = run.iter().map(|binding| binding.chord.to_string()).collect();
-        line(chords.join(", "), &run[0].description)
+    let sheet = commands::keymap().sheet();
+    let sections = sheet.chunk_by(|one, next| one.section == next.section);
+    let lines = sections.flat_map(|rows| {
+        let rows_of = rows.iter().map(|row| format!("  {:46} {}", row.keys, row.description));
+        std::iter::once(rows[0].section.to_string()).chain(rows_of)
     });
-    mouse.chain(keys).collect()
-}
-
-/// What is written on the window.
-fn title(source: &Source) -> String {
-    format!("{} - trigon", source.title())
+    lines.collect()
 }
 
 /// Loading a large model only to find that it cannot be shown is no fun, so

@@ -7,20 +7,25 @@ use trigon_camera::{Orbit, OrbitStyle};
 use trigon_io::Warning;
 use trigon_math::DVec3;
 use trigon_scene::{Background, Frame, NodeId, Scene};
-use trigon_window::{Animation, Corner, Handler, Hands, Input, Key, Modifiers, Stage, Taken, Tick, egui};
+use trigon_window::{
+    Animation, Corner, Handler, Hands, Input, Key, Modifiers, Stage, Taken, Tick, Visibility, egui,
+};
 
 use super::background::{Loading, Outcome};
 #[cfg(feature = "study")]
 use super::classic::Classics;
 use super::commands::Command;
+use super::hint::Hint;
+use super::notices::{Answer, Notices};
 use super::open::{OpenWindow, SystemDialog};
 use super::playback::Playback;
 use super::quality::QualityPanel;
 use super::recent::Recent;
+use super::screenshot;
 use super::watch::Watch;
-use super::{screenshot, title};
 use crate::args::{InteractionStyle, Request};
 use crate::failure::Failure;
+use crate::folders;
 use crate::model::{Model, Source, Summary};
 use crate::report::Reporter;
 
@@ -37,6 +42,8 @@ enum View {
 struct Shown {
     /// Its scene is on the stage.
     source: Source,
+    /// Its place among the sources.
+    index: usize,
     /// Once somebody wants to see it: counting edges takes its time.
     summary: Option<Summary>,
     /// What is in the scene and not in the file.
@@ -79,6 +86,9 @@ pub(super) struct Viewer {
     playback: Option<Playback>,
     /// What went wrong last, until it is dismissed or put right.
     failure: Option<String>,
+    /// Whether it is asked if objects that were moved may go back.
+    asks_to_load_again: bool,
+    hint: Hint,
     /// If files are to be watched, and can be.
     watch: Option<Watch>,
 }
@@ -103,6 +113,8 @@ impl Viewer {
             recent: Recent::load(),
             playback: None,
             failure: None,
+            asks_to_load_again: false,
+            hint: Hint::default(),
             watch: None,
         }
     }
@@ -116,7 +128,16 @@ impl Viewer {
     fn load(&mut self, stage: &mut Stage, view: View) {
         let source = self.sources[self.current].clone();
         let loading = Loading::start(source, self.request.clone(), stage.waker());
+        self.asks_to_load_again = false;
         self.pending = Some(Pending { loading, view });
+    }
+
+    /// Loads the current source again, or asks first if that would put back what was moved.
+    fn load_again(&mut self, stage: &mut Stage) {
+        match stage.moved_objects() {
+            0 => self.load(stage, View::Keep),
+            _ => self.asks_to_load_again = true,
+        }
     }
 
     /// Goes to another source, around the ends.
@@ -140,22 +161,52 @@ impl Viewer {
         }
     }
 
-    /// Shows what went wrong, with what to do about it.
-    fn show_failure(&mut self, context: &egui::Context) {
-        let Some(text) = &self.failure else { return };
-        let mut closed = false;
-        let area = egui::Area::new(egui::Id::unique("failure")).anchor(egui::Align2::CENTER_CENTER, [0.0; 2]);
-        area.fade_in(false).show(context, |ui| {
-            egui::Frame::popup(ui.style()).inner_margin(12).show(ui, |ui| {
-                ui.set_max_width((context.content_rect().width() - 80.0).clamp(120.0, 480.0));
-                ui.strong(format!("{} is not shown", self.sources[self.current].title()));
-                ui.label(text.replace("; ", ".\n"));
-                closed = ui.button("Close (Escape)").clicked();
-            });
-        });
-        if closed {
-            self.failure = None;
+    /// Shows what stands in the middle of the view, unless a panel is there, and does what is answered.
+    fn show_notices(&mut self, stage: &mut Stage, ui: &egui::Ui) {
+        if self.open.is_shown() || stage.cheat_sheet == Visibility::Shown {
+            return;
         }
+        let name = self.sources[self.current].title();
+        let percent = self.pending.as_ref().map(|pending| pending.loading.percent());
+        let notices = Notices {
+            loading: percent.map(|percent| (name.as_str(), percent)),
+            failure: self.failure.as_deref().map(|failure| (name.as_str(), failure)),
+            moved: self.asks_to_load_again.then(|| stage.moved_objects()),
+            is_empty: self.shown.is_none() && self.pending.is_none(),
+        };
+        if let Some(answer) = notices.show(ui.ctx(), ui.available_rect_before_wrap()) {
+            self.answer(stage, answer);
+            ui.ctx().request_repaint();
+        }
+    }
+
+    fn answer(&mut self, stage: &mut Stage, answer: Answer) {
+        match answer {
+            Answer::CancelLoading => self.cancel_loading(stage),
+            Answer::CloseFailure => self.failure = None,
+            Answer::LoadAgain => self.load(stage, View::Keep),
+            Answer::KeepMoved => self.asks_to_load_again = false,
+            Answer::Open => self.open.toggle(),
+        }
+    }
+
+    /// Closes what lies on top, if Escape closes anything of the viewer's.
+    fn close_panel(&mut self, stage: &mut Stage) -> Taken {
+        if stage.cheat_sheet == Visibility::Shown {
+            return Taken::No;
+        }
+        if self.open.is_shown() {
+            self.open.toggle();
+        } else if self.asks_to_load_again {
+            self.asks_to_load_again = false;
+        } else if self.failure.is_some() {
+            self.failure = None;
+        } else if self.quality.is_shown() {
+            self.quality.toggle(stage);
+        } else {
+            return Taken::No;
+        }
+        Taken::Yes
     }
 
     fn show(&mut self, stage: &mut Stage, model: Model, view: View) -> Result<(), Failure> {
@@ -163,7 +214,7 @@ impl Viewer {
             stage.orbit = self.home(stage, &model)?;
             stage.set_home(stage.orbit);
         }
-        stage.set_title(title(&model.source));
+        stage.set_title(model.source.window_title());
         stage.selection = None;
         let mut scene = model.scene;
         self.playback = Playback::new(&scene, &self.request);
@@ -176,14 +227,16 @@ impl Viewer {
         self.failure = None;
         let scenery = self.request.scenery.add_to(&mut scene);
         stage.scene = scene.into();
-        if self.sources.len() > 1 && !self.show_name {
-            stage.overlay.notify(self.name());
-        }
+        stage.forget_moves();
+        stage.beside.clone_from(&scenery);
         self.follow(stage, &model.files);
         if let Some(file) = model.source.first_file() {
             self.recent.add(file);
         }
-        self.shown = Some(Shown { source: model.source, summary: None, scenery });
+        self.shown = Some(Shown { source: model.source, index: self.current, summary: None, scenery });
+        if self.sources.len() > 1 && !self.show_name {
+            stage.overlay.notify(self.name());
+        }
         Ok(())
     }
 
@@ -208,7 +261,14 @@ impl Viewer {
         if files.is_empty() {
             return;
         }
+        let files = match folders::expanded(&files, false) {
+            Ok(files) => files,
+            Err(reason) => return self.tell_unshown(&Failure::work(reason)),
+        };
         let place = self.current + 1;
+        if let Some(shown) = self.shown.as_mut().filter(|shown| shown.index >= place) {
+            shown.index += files.len();
+        }
         self.sources.splice(place..place, files.into_iter().map(|file| Source::Files(vec![file])));
         self.current = place;
         self.load(stage, View::Fit);
@@ -275,12 +335,13 @@ impl Viewer {
         }
     }
 
-    /// "(2/5) chair.glb"
+    /// "(2/5) chair.glb": of the model that is shown, whatever is being loaded.
     fn name(&self) -> String {
-        let title = self.sources[self.current].title();
+        let index = self.shown.as_ref().map_or(self.current, |shown| shown.index);
+        let title = self.sources[index].title();
         match self.sources.len() {
             1 => title,
-            count => format!("({}/{count}) {title}", self.current + 1),
+            count => format!("({}/{count}) {title}", index + 1),
         }
     }
 
@@ -294,24 +355,6 @@ impl Viewer {
             shown.summary.insert(summary).lines()
         });
         stage.overlay.set(Corner::TopLeft, lines.unwrap_or_default());
-    }
-
-    /// How far a load is, with a way to end it. Returns whether that was wanted.
-    fn show_progress(&self, context: &egui::Context) -> bool {
-        let Some(pending) = &self.pending else { return false };
-        let mut cancelled = false;
-        let area = egui::Area::new(egui::Id::unique("loading")).anchor(egui::Align2::CENTER_CENTER, [0.0; 2]);
-        area.fade_in(false).show(context, |ui| {
-            egui::Frame::popup(ui.style()).show(ui, |ui| {
-                ui.set_width(280.0);
-                ui.label(format!("loading {}", self.sources[self.current].title()));
-                let percent = pending.loading.percent();
-                let bar = egui::ProgressBar::new(percent as f32 / 100.0).text(format!("{percent} %"));
-                ui.add(bar);
-                cancelled = ui.button("Cancel (Ctrl+.)").clicked();
-            });
-        });
-        cancelled
     }
 
     /// Another up axis, and the view that goes with it.
@@ -356,8 +399,11 @@ impl Viewer {
             Command::NextFile => self.step(stage, 1, View::Fit),
             Command::PreviousFileSameView => self.step(stage, -1, View::Keep),
             Command::NextFileSameView => self.step(stage, 1, View::Keep),
-            Command::Reload => self.load(stage, View::Keep),
-            Command::Open => self.open.toggle(),
+            Command::Reload => self.load_again(stage),
+            Command::Open => {
+                stage.cheat_sheet = Visibility::Hidden;
+                self.open.toggle();
+            }
             Command::PlayOrPause => self.play(stage, |playback, stage| {
                 playback.toggle(stage);
                 None
@@ -385,7 +431,10 @@ impl Viewer {
 
 impl Handler for Viewer {
     fn start(&mut self, stage: &mut Stage) {
-        stage.overlay.notify("H shows the keys");
+        self.hint.start(stage);
+        for ignored in &self.request.ignored {
+            stage.overlay.notify(format!("warning: {ignored}"));
+        }
         self.load(stage, View::Fit);
         self.write_overlay(stage);
     }
@@ -395,12 +444,16 @@ impl Handler for Viewer {
         if plays { Animation::Running } else { Animation::Resting }
     }
 
-    fn input(&mut self, _: &mut Stage, input: &Input, _: Hands) -> Taken {
-        if self.failure.is_some() && is_escape(input) {
-            self.failure = None;
-            return Taken::Yes;
+    fn input(&mut self, stage: &mut Stage, input: &Input, _: Hands) -> Taken {
+        self.hint.input(stage, input);
+        match input {
+            Input::Key { logical: Some(Key::Escape), .. } => self.close_panel(stage),
+            Input::Key { logical: Some(Key::Enter), .. } if self.asks_to_load_again => {
+                self.load(stage, View::Keep);
+                Taken::Yes
+            }
+            _ => Taken::No,
         }
-        Taken::No
     }
 
     fn command(&mut self, stage: &mut Stage, name: &str) {
@@ -411,29 +464,24 @@ impl Handler for Viewer {
     }
 
     fn dropped(&mut self, stage: &mut Stage, paths: Vec<PathBuf>, _: Modifiers) {
-        let (files, others): (Vec<PathBuf>, Vec<PathBuf>) =
-            paths.into_iter().partition(|path| path.is_file());
-        if let Some(other) = others.first() {
-            stage.overlay.notify(format!("{} is no file; drop model files", other.display()));
-        }
-        self.add(stage, files);
+        self.add(stage, paths);
         self.write_overlay(stage);
     }
 
     fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {
-        if self.show_progress(ui.ctx()) {
-            self.cancel_loading(stage);
-        }
         #[cfg(feature = "study")]
-        self.quality.show(ui.ctx(), stage, |ui, stage| self.classics.show(ui, stage));
+        self.quality.show(ui, stage, |ui, stage| self.classics.show(ui, stage));
         #[cfg(not(feature = "study"))]
-        self.quality.show(ui.ctx(), stage, |_, _| {});
+        self.quality.show(ui, stage, |_, _| {});
         if let Some(playback) = &mut self.playback {
-            playback.show(ui.ctx(), stage);
+            playback.show(ui, stage);
         }
-        self.show_failure(ui.ctx());
+        if self.open.is_shown() && stage.cheat_sheet == Visibility::Shown {
+            self.open.toggle();
+        }
+        self.show_notices(stage, ui);
         let waker = stage.waker();
-        let files = self.open.show(ui.ctx(), &self.recent, |open| {
+        let files = self.open.show(ui, &self.recent, |open| {
             open.browse(SystemDialog, move || waker.wake());
         });
         self.add(stage, files);
@@ -455,7 +503,7 @@ impl Handler for Viewer {
         let picked = self.open.picked();
         self.add(stage, picked);
         if self.watch.as_ref().is_some_and(Watch::take_changed) {
-            self.load(stage, View::Keep);
+            self.load_again(stage);
         }
         let outcome = self.pending.as_ref().and_then(|pending| pending.loading.outcome());
         if let Some(outcome) = outcome {
@@ -466,10 +514,8 @@ impl Handler for Viewer {
     }
 }
 
-/// Whether Escape was pressed.
-fn is_escape(input: &Input) -> bool {
-    matches!(input, Input::Key { logical: Some(Key::Escape), .. })
-}
+#[cfg(test)]
+mod replays;
 
 #[cfg(test)]
 mod tests {
