@@ -1,10 +1,10 @@
-//! A camera: an eye, a way it is turned, and a projection.
+//! A camera: an eye, an orientation, and a projection.
 
 use trigon_math::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 
 use crate::{Projection, orientation_looking};
 
-/// Where the eye is and how it sees.
+/// The position, orientation and projection of a camera.
 ///
 /// In camera space the eye is the origin, the line of sight is −Z, +X is right
 /// and +Y is up.
@@ -12,9 +12,9 @@ use crate::{Projection, orientation_looking};
 pub struct Camera {
     /// The eye, in world coordinates.
     pub position: DVec3,
-    /// Turns camera space into world space. Has to have unit length.
+    /// Rotates camera space into world space. Must have unit length.
     pub orientation: DQuat,
-    /// The shape of what is visible.
+    /// The shape of the visible space.
     pub projection: Projection,
 }
 
@@ -26,11 +26,11 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// A camera at `position` that looks at `target`, with `up` towards the
-    /// upper edge of the picture and the default projection.
+    /// A camera at `position` that looks at `target`, with `up` towards the upper edge of the image
+    /// and the default projection.
     ///
-    /// A target at the position itself counts as one along −Z; for an `up`
-    /// along the line of sight see [`orientation_looking`].
+    /// A target equal to the position counts as one along −Z; for an `up` along the line of sight
+    /// see [`orientation_looking`].
     #[must_use]
     pub fn look_at(position: DVec3, target: DVec3, up: DVec3) -> Self {
         Self {
@@ -46,9 +46,8 @@ impl Camera {
         Self { projection, ..self }
     }
 
-    /// A camera from the extrinsic matrix of computer vision: `world_to_camera`
-    /// is `[R | t]` into axes x right, y down, z forward. The rotation has to
-    /// be one; scale or shear in it is dropped.
+    /// A camera from the extrinsic matrix of computer vision: `world_to_camera` is `[R | t]` into
+    /// axes x right, y down, z forward. R must be a rotation; scale or shear in it is dropped.
     #[must_use]
     pub fn from_opencv(world_to_camera: &DAffine3, projection: Projection) -> Self {
         let rows = world_to_camera.matrix3.transpose();
@@ -60,22 +59,22 @@ impl Camera {
         }
     }
 
-    /// World to camera space. Far from the origin prefer [`Camera::to_camera`],
-    /// which subtracts before it turns.
+    /// World to camera space. Far from the origin prefer [`Camera::to_camera`], which subtracts
+    /// before it rotates.
     #[must_use]
     pub fn view(&self) -> DAffine3 {
         let turn = self.orientation.conjugate();
         DAffine3::from_rotation_translation(turn, turn * -self.position)
     }
 
-    /// World to clip space, for a picture of this aspect (width over height).
+    /// World to clip space, for an image of this aspect (width over height).
     #[must_use]
     pub fn view_projection(&self, aspect: f64) -> DMat4 {
         self.projection.matrix(aspect) * DMat4::from(self.view())
     }
 
-    /// A point of the world in camera space. The eye is subtracted first, so
-    /// the result is as good at 10⁷ metres from the origin as at it.
+    /// A world point in camera space. The eye is subtracted first, so the result is as accurate at
+    /// 10⁷ metres from the origin as at the origin.
     #[must_use]
     pub fn to_camera(&self, point: DVec3) -> DVec3 {
         self.orientation.conjugate() * (point - self.position)
@@ -93,13 +92,13 @@ impl Camera {
         self.orientation * DVec3::NEG_Z
     }
 
-    /// Towards the right edge of the picture, unit length, in the world.
+    /// Towards the right edge of the image, unit length, in the world.
     #[must_use]
     pub fn right(&self) -> DVec3 {
         self.orientation * DVec3::X
     }
 
-    /// Towards the upper edge of the picture, unit length, in the world.
+    /// Towards the upper edge of the image, unit length, in the world.
     #[must_use]
     pub fn up(&self) -> DVec3 {
         self.orientation * DVec3::Y

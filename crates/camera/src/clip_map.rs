@@ -1,6 +1,5 @@
-//! The one form that every projection boils down to: six numbers and a kind.
-//! Matrices, projecting, unprojecting and fitting all read them from here, so
-//! they cannot disagree.
+//! The common form of every projection: six numbers and a kind. Matrices, projecting, unprojecting
+//! and fitting all use it, so they always agree.
 
 use trigon_math::{DMat4, DVec2, DVec3, DVec4};
 
@@ -9,7 +8,7 @@ use trigon_math::{DMat4, DVec2, DVec3, DVec4};
 pub(crate) enum Kind {
     /// Divide by the distance: `w = -z`.
     Perspective,
-    /// Nothing to divide by: `w = 1`.
+    /// No division: `w = 1`.
     Parallel,
 }
 

@@ -1,5 +1,4 @@
-//! What can be wrong with the numbers that describe a camera: which number,
-//! what it was, and what would have been accepted.
+//! Invalid camera parameters: which number, its value, and the accepted range.
 
 /// A camera cannot be built from these numbers.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -8,26 +7,26 @@ pub enum CameraError {
     /// One number is outside its range (or is not a number).
     #[error("{what} is {value}, but has to be {allowed}")]
     OutOfRange {
-        /// The name of the number, as the constructor calls it.
+        /// The name of the parameter in the constructor.
         what: &'static str,
-        /// What it was.
+        /// Its value.
         value: f64,
         /// The range that is accepted, in words.
         allowed: &'static str,
     },
-    /// Two numbers that bound something are equal, in the wrong order, or so
-    /// close together that nothing fits between them.
+    /// Two bounds are equal, in the wrong order, or so close together that nothing fits between
+    /// them.
     #[error(
         "{low_name} is {low} and {high_name} is {high}, but {low_name} has to be clearly less than {high_name}"
     )]
     Unordered {
-        /// The name of the number that has to be less.
+        /// The parameter that must be less.
         low_name: &'static str,
-        /// What it was.
+        /// Its value.
         low: f64,
-        /// The name of the number that has to be greater.
+        /// The parameter that must be greater.
         high_name: &'static str,
-        /// What it was.
+        /// Its value.
         high: f64,
     },
 }
@@ -43,7 +42,7 @@ impl CameraError {
         Self::check(what, value, value.is_finite() && value > 0.0, "a finite number greater than 0")
     }
 
-    /// Fails with this number and range unless `good`.
+    /// Returns an error with this parameter and range unless `good`.
     pub(crate) fn check(
         what: &'static str,
         value: f64,

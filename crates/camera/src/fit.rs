@@ -1,45 +1,43 @@
-//! Placing a camera so that a model fills the picture, and placing the near
-//! and far planes around it.
+//! Fitting a camera to a model so that it fills the image, and placing the near and far planes
+//! around it.
 //!
-//! What is fitted are points as they are projected (all vertices of a model, or
-//! the eight corners of a box), not a bounding sphere: a tall tower fills the
-//! height of the picture. The target stays the middle of the box around them,
-//! so that a camera that orbits it does not wobble.
-//! Everything scales with the box: a model of 10⁻⁶ and one of 10²⁰ give the
-//! same picture.
+//! Points are fitted as they are projected (all vertices of a model, or the eight corners of a
+//! box), not a bounding sphere: a tall tower fills the height of the image. The target stays the
+//! centre of the box around them, so that an orbiting camera does not wobble. Everything scales
+//! with the box: a model of 10⁻⁶ and one of 10²⁰ give the same image.
 
 use trigon_math::{Bounds3, DQuat, DVec2, DVec3};
 
 use crate::clip_map::Kind;
 use crate::{Camera, Projection, orientation_looking};
 
-/// The part of the picture that stays empty around a fitted model: 10 %.
+/// The default fraction of the image that stays empty around a fitted model: 10 %.
 pub const DEFAULT_MARGIN: f64 = 0.1;
 
-/// More than this fraction of empty picture is refused: nothing would be left.
+/// Larger margins are clamped to this, since nothing would be left of the model.
 const LARGEST_MARGIN: f64 = 0.95;
 
-/// Half the size that stands in for a box without any.
+/// Half the size used for an empty box.
 const UNIT_RADIUS: f64 = 0.5;
 
-/// A box smaller than this fraction of its distance from the origin counts as
-/// this large: below, f64 could not move an eye around it smoothly.
+/// A box smaller than this fraction of its distance from the origin is treated as this large: below
+/// it, f64 could not move an eye around it smoothly.
 const SMALLEST_RELATIVE_RADIUS: f64 = 1e-12;
 
-/// Boxes beyond this count as unusable: squares of lengths would overflow.
+/// Larger boxes count as unusable: squares of lengths would overflow.
 const LARGEST_COORDINATE: f64 = 1e150;
 
 /// The eye keeps at least this fraction of the radius away from the box.
 const CLEARANCE: f64 = 0.05;
 
-/// The near plane is never nearer than this fraction of the farthest point.
-/// Reversed depth would bear less; this keeps depths comparable between frames.
+/// The near plane is never closer than this fraction of the farthest distance. Reversed depth would
+/// allow less; this keeps depths comparable between frames.
 const NEAREST: f64 = 1e-5;
 
 /// Planes keep this fraction of the depth range away from the box.
 const SLACK: f64 = 0.01;
 
-/// A box as cameras see it: always usable, whatever the bounds were.
+/// A bounding box for fitting: always usable, whatever the bounds were.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
     center: DVec3,
@@ -69,7 +67,7 @@ impl Extent {
         Self { center, half, radius }
     }
 
-    /// The middle of the box.
+    /// The centre of the box.
     #[must_use]
     pub fn center(&self) -> DVec3 {
         self.center
@@ -89,13 +87,13 @@ impl Extent {
         })
     }
 
-    /// Those points that are finite, relative to the centre.
+    /// The finite points, relative to the centre.
     pub(crate) fn offsets<'a>(&'a self, points: &'a [DVec3]) -> impl Iterator<Item = DVec3> + 'a {
         points.iter().filter(|point| point.is_finite()).map(|&point| point - self.center)
     }
 
-    /// How far before and behind the plane through the eye the box reaches,
-    /// along `forward`: (nearest, farthest).
+    /// The extent of the box in front of and behind the plane through the eye, along `forward`:
+    /// (nearest, farthest).
     fn depth_range(&self, eye: DVec3, forward: DVec3) -> (f64, f64) {
         let middle = (self.center - eye).dot(forward);
         let reach = forward.abs().dot(self.half);
@@ -104,13 +102,12 @@ impl Extent {
 }
 
 impl Camera {
-    /// A camera with this one's projection that looks along `direction` at the
-    /// middle of `bounds`, from just so far away that the whole box is in the
-    /// picture and `margin` of the picture's width or height stays empty (0.1
-    /// is a tenth; clamped to 0 … 0.95). A parallel projection gets the height
-    /// that does so. The near and far planes are set around the box.
+    /// A camera with this one's projection that looks along `direction` at the centre of `bounds`,
+    /// from the distance at which the whole box is in the image and `margin` of the image's width
+    /// or height stays empty (0.1 is a tenth; clamped to 0 … 0.95). A parallel projection gets the
+    /// corresponding height. The near and far planes are set around the box.
     ///
-    /// Degenerate input has a picture too: see [`Extent::new`] for bounds and
+    /// Degenerate input also gives a valid camera: see [`Extent::new`] for bounds and
     /// [`orientation_looking`] for `direction` and `up`.
     #[must_use]
     pub fn fit(&self, bounds: &Bounds3, direction: DVec3, up: DVec3, aspect: f64, margin: f64) -> Self {
@@ -120,9 +117,9 @@ impl Camera {
         self.fitted(shot.orientation, &extent, fitted).with_clip_planes(bounds)
     }
 
-    /// As [`Camera::fit`], but to points instead of the box around them: a ball
-    /// fills the picture as well as a cube does. The camera still looks at the
-    /// middle of the box. Points that are not finite are passed over.
+    /// As [`Camera::fit`], but fitted to points instead of the box around them: a ball fills the
+    /// image as well as a cube does. The camera still looks at the centre of the box. Points that
+    /// are not finite are skipped.
     #[must_use]
     pub fn fit_points(
         &self,
@@ -139,10 +136,10 @@ impl Camera {
         self.fitted(shot.orientation, &extent, fitted).with_clip_planes(&bounds)
     }
 
-    /// Where the camera stands when `fitted` came out of [`fit_distance`].
+    /// The position of the camera for the result of [`fit_distance`].
     fn fitted(&self, orientation: DQuat, extent: &Extent, fitted: f64) -> Self {
         let (projection, away) = match self.projection {
-            // What is fitted is the height; the eye just stands clear of the box.
+            // Only the height is fitted; the eye is placed clear of the box.
             Projection::Orthographic { near, far, .. } => {
                 (Projection::Orthographic { height: fitted, near, far }, 2.0 * extent.radius)
             }
@@ -152,10 +149,9 @@ impl Camera {
         Self { position, orientation, projection }
     }
 
-    /// The same camera with its near and far planes just around these bounds,
-    /// so that they cut nothing of them that is before the eye. An infinite far
-    /// plane stays infinite. The near plane of a perspective is at least 10⁻⁵
-    /// of the distance to the farthest point.
+    /// The same camera with its near and far planes just around these bounds, so that nothing in
+    /// front of the eye is cut. An infinite far plane stays infinite. The near plane of a
+    /// perspective is at least 10⁻⁵ of the distance to the farthest point.
     #[must_use]
     pub fn with_clip_planes(&self, bounds: &Bounds3) -> Self {
         let extent = Extent::new(bounds);
@@ -164,7 +160,7 @@ impl Camera {
         let planes = if self.projection.is_orthographic() {
             self.projection.with_planes(nearest - slack, Some(farthest + slack))
         } else {
-            // With everything behind the eye, any planes will do.
+            // If everything is behind the eye, any planes will do.
             let far = if farthest > 0.0 { farthest + slack } else { extent.radius };
             let near = larger(nearest - slack, far * NEAREST);
             self.projection.with_planes(near, self.projection.far().map(|_| far))
@@ -173,7 +169,7 @@ impl Camera {
     }
 }
 
-/// How a camera looks that is still to be placed.
+/// The view parameters of a camera that is yet to be placed.
 #[derive(Clone, Copy)]
 pub(crate) struct Shot<'a> {
     pub(crate) projection: &'a Projection,
@@ -185,9 +181,9 @@ pub(crate) fn finite_bounds(points: &[DVec3]) -> Bounds3 {
     Bounds3::from_points(points.iter().copied().filter(|point| point.is_finite()))
 }
 
-/// The distance from the extent's centre along the line of sight at which the
-/// points, given relative to the centre, just fill the picture; the height of
-/// the window for a parallel projection.
+/// The distance from the extent's centre along the line of sight at which the points, given
+/// relative to the centre, just fill the image; for a parallel projection, the height of the
+/// window.
 pub(crate) fn fit_distance(
     shot: Shot<'_>,
     extent: &Extent,
@@ -219,10 +215,10 @@ pub(crate) fn fit_distance(
     }
 }
 
-/// The point in camera space that is drawn in the middle of the picture, at
-/// this distance: straight ahead, but for off-centre windows.
+/// The camera-space point at the centre of the image at this distance: straight ahead, except for
+/// off-centre windows.
 pub(crate) fn sight(projection: &Projection, distance: f64) -> DVec3 {
-    // Only projections with an aspect of their own are off centre.
+    // Only projections with their own aspect are off centre.
     const ANY_ASPECT: f64 = 1.0;
     projection.clip_map(ANY_ASPECT).at_distance(DVec2::ZERO, distance)
 }

@@ -1,8 +1,7 @@
-//! Cameras in double precision: where the eye is, how it sees, and how a hand
-//! turns it. In the pipeline this is what stands between a scene in world
-//! coordinates and a rasterizer in clip coordinates.
+//! Cameras in double precision: position, projection, and interactive control. In the pipeline they
+//! stand between a scene in world coordinates and a rasterizer in clip coordinates.
 //!
-//! Conventions, held by every function here:
+//! Conventions of every function:
 //! - World and camera space are right-handed. The camera looks along −Z, +Y is up.
 //! - Clip space: x and y in `[-w, w]`, y up. Depth is reversed: 1 on the near
 //!   plane, 0 on the far plane or at infinity.
@@ -10,8 +9,7 @@
 //!   centre at `(i + 0.5, j + 0.5)`.
 //! - Angles are radians, lengths are the world's (metres).
 //!
-//! What this crate never does: it knows no windows, no input devices, no
-//! meshes and no pixels' contents.
+//! This crate knows nothing about windows, input devices, meshes, or the contents of pixels.
 //!
 //! ```
 //! use trigon_camera::math::{DVec2, DVec3};
@@ -54,7 +52,7 @@ pub use ray::Ray;
 pub use view::orientation_looking;
 pub use viewport::Viewport;
 
-/// The crate below, so that points and vectors need no other dependency.
+/// Re-export of the crate below, so that points and vectors need no other dependency.
 pub use trigon_math as math;
 
 /// Runs the README's example as a test.

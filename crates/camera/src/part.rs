@@ -1,14 +1,13 @@
-//! Cameras that see a part of another one's picture.
+//! Cameras for a part of another camera's image.
 
 use crate::{Camera, CameraError, Projection, Viewport};
 
 impl Camera {
-    /// The camera whose picture of `size` pixels is the part of this one's that begins
-    /// `corner` pixels from its upper left: pixel on pixel, but for rounding.
+    /// The camera whose image of `size` pixels is the part of this one's that begins `corner`
+    /// pixels from its upper left: pixel by pixel, up to rounding.
     ///
     /// # Errors
-    /// Where the part is so small or so far out that its sides coincide in `f64`, or it
-    /// has no size.
+    /// The part is so small or so far outside that its sides coincide in `f64`, or it has no size.
     ///
     /// ```
     /// use trigon_camera::{Camera, Viewport};
@@ -33,7 +32,7 @@ impl Camera {
         }
         let matrix = self.projection.matrix(whole.aspect());
         let (near, far) = (self.projection.near(), self.projection.far());
-        // Where on the near plane clip space has these coordinates.
+        // The point on the near plane with these clip coordinates.
         let across = x.map(|x| near * (x + matrix.z_axis.x) / matrix.x_axis.x);
         let along = y.map(|y| near * (y + matrix.z_axis.y) / matrix.y_axis.y);
         let projection = Projection::frustum(across[0], across[1], along[0], along[1], near, far)?;

@@ -1,15 +1,14 @@
 //! Calibrated cameras: the matrix K of computer vision as a [`Projection`].
 //!
-//! Half a pixel is the usual disagreement between two programs that read the
-//! same K. So the caller has to say where K thinks the centre of the first
-//! pixel is.
+//! Programs that read the same K often disagree by half a pixel. So the caller must say where K
+//! places the centre of the first pixel.
 
 use trigon_math::DVec2;
 
 use crate::projection::check_planes;
 use crate::{CameraError, Projection, Viewport};
 
-/// Where the coordinates of K put the centre of the top-left pixel.
+/// Where the coordinates of K place the centre of the top-left pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PixelCenters {
     /// At `(0, 0)`: OpenCV, most calibration tools.
@@ -19,7 +18,7 @@ pub enum PixelCenters {
 }
 
 impl PixelCenters {
-    /// What to add to go to coordinates with centres at +0.5.
+    /// The offset to coordinates with centres at +0.5.
     fn to_halves(self) -> f64 {
         match self {
             Self::AtIntegers => 0.5,
@@ -34,13 +33,13 @@ impl Projection {
     /// as computer vision has it; [`crate::Camera::from_opencv`] turns a pose of
     /// that convention into ours.
     ///
-    /// `focal` is `(fx, fy)` and `center` is `(cx, cy)`, in pixels of an image
-    /// of size `image`. A picture of another size shows the same view, scaled.
-    /// There is no far plane; [`Projection::with_planes`] sets one.
+    /// `focal` is `(fx, fy)` and `center` is `(cx, cy)`, in pixels of an image of size `image`. An
+    /// image of another size shows the same view, scaled. There is no far plane;
+    /// [`Projection::with_planes`] sets one.
     ///
     /// # Errors
-    /// Unless the focal lengths and `near` are positive, the centre is finite,
-    /// and the image has pixels.
+    /// The focal lengths or `near` are not positive, the centre is not finite, or the image has no
+    /// pixels.
     pub fn pinhole(
         focal: DVec2,
         center: DVec2,

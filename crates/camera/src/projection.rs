@@ -1,6 +1,6 @@
-//! How a camera sees: the shape of what is visible and its mapping to clip
-//! space. Every constructor checks its numbers, and the fields cannot be
-//! written from outside this crate, so a `Projection` is always usable.
+//! Projections: the shape of the visible space and its mapping to clip space. Every constructor
+//! checks its parameters, and the fields cannot be written from outside this crate, so a
+//! `Projection` is always valid.
 
 use trigon_math::{DMat4, DVec2, DVec3, elementary};
 
@@ -12,14 +12,13 @@ use crate::clip_map::ClipMap;
 /// Depth is reversed: 1 on the near plane, 0 on the far plane or, if `far` is
 /// `None`, at infinity. Distances are along the line of sight, from the eye.
 ///
-/// **Aspect.** [`Perspective`](Self::Perspective) and
-/// [`Orthographic`](Self::Orthographic) fix the vertical extent; the horizontal
-/// one follows from the picture. [`Frustum`](Self::Frustum) and
-/// [`Pinhole`](Self::Pinhole) fix both, see [`Projection::own_aspect`]: their
-/// window covers the whole picture, so a picture of another aspect is
-/// stretched. That is what tiles, stereo pairs and scaled calibrated images need.
+/// **Aspect.** [`Perspective`](Self::Perspective) and [`Orthographic`](Self::Orthographic) fix the
+/// vertical extent; the horizontal one follows from the image. [`Frustum`](Self::Frustum) and
+/// [`Pinhole`](Self::Pinhole) fix both, see [`Projection::own_aspect`]: their window covers the
+/// whole image, so an image of another aspect is stretched. Tiles, stereo pairs and scaled
+/// calibrated images need this.
 ///
-/// The variants can be matched, but are built by the constructors only.
+/// The variants can be matched, but only the constructors build them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Projection {
     /// A symmetric perspective.
@@ -75,11 +74,11 @@ pub enum Projection {
     },
 }
 
-/// Vertical field of view when nobody asks for another: 30 degrees, as in VTK and F3D.
+/// Default vertical field of view: 30 degrees, as in VTK and F3D.
 const DEFAULT_VERTICAL_FOV: f64 = std::f64::consts::PI / 6.0;
 
-/// Near plane when nobody asks for another. Reversed depth keeps its relative
-/// precision at any distance, so a small one costs nothing.
+/// Default near plane. Reversed depth keeps its relative precision at any distance, so a small
+/// value costs nothing.
 const DEFAULT_NEAR: f64 = 0.01;
 
 impl Default for Projection {
@@ -93,7 +92,7 @@ impl Projection {
     /// A symmetric perspective. `vertical_fov` is the full angle in radians.
     ///
     /// # Errors
-    /// Unless `0 < vertical_fov < π` and `0 < near < far`.
+    /// `vertical_fov` is not between 0 and π, or not `0 < near < far`.
     pub fn perspective(vertical_fov: f64, near: f64, far: Option<f64>) -> Result<Self, CameraError> {
         let half = elementary::tan(vertical_fov * 0.5);
         let good = vertical_fov > 0.0
@@ -105,18 +104,16 @@ impl Projection {
         Ok(Self::Perspective { vertical_fov, near, far })
     }
 
-    /// One-point perspective by focal length, as in courses on computer
-    /// graphics: the picture plane stands at distance `focal_length` from the
-    /// eye, the visible window on it is `height` tall, and what lies on it is
-    /// drawn in its true size. With `z` counted from the picture plane away
-    /// from the eye this is the matrix with `r = 1 / focal_length`:
-    /// `x' = x / (1 + r·z)`, `y' = y / (1 + r·z)` (Rogers and Adams,
-    /// *Mathematical Elements for Computer Graphics*, one-point perspective).
-    /// The orthographic projection of the same `height` is its limit for an
-    /// infinite focal length; [`Projection::to_orthographic`] switches to it.
+    /// One-point perspective by focal length, as in courses on computer graphics: the image plane
+    /// stands at distance `focal_length` from the eye, the visible window on it is `height` tall,
+    /// and objects on it are drawn in their true size. With `z` measured from the image plane away
+    /// from the eye this is the matrix with `r = 1 / focal_length`: `x' = x / (1 + r·z)`, `y' = y /
+    /// (1 + r·z)` (Rogers and Adams, *Mathematical Elements for Computer Graphics*, one-point
+    /// perspective). The orthographic projection of the same `height` is its limit for an infinite
+    /// focal length; [`Projection::to_orthographic`] switches to it.
     ///
     /// # Errors
-    /// Unless all of them are positive and finite and `near < far`.
+    /// A parameter is not positive and finite, or `near` is not less than `far`.
     pub fn one_point(
         focal_length: f64,
         height: f64,
@@ -131,7 +128,8 @@ impl Projection {
     /// A parallel projection of a window `height` tall.
     ///
     /// # Errors
-    /// Unless `height` is positive and `near < far`, all finite. `near` may be negative.
+    /// `height` is not positive, `near` is not less than `far`, or a value is not finite. `near`
+    /// may be negative.
     pub fn orthographic(height: f64, near: f64, far: f64) -> Result<Self, CameraError> {
         CameraError::check_positive("the window's height", height)?;
         CameraError::check_ordered(("near", near), ("far", far))?;
@@ -142,7 +140,7 @@ impl Projection {
     /// near plane; it need not contain the line of sight.
     ///
     /// # Errors
-    /// Unless `left < right`, `bottom < top` and `0 < near < far`, all finite.
+    /// Not `left < right`, `bottom < top` and `0 < near < far`, or a value is not finite.
     pub fn frustum(
         left: f64,
         right: f64,
@@ -157,9 +155,9 @@ impl Projection {
         Ok(Self::Frustum { left, right, bottom, top, near, far })
     }
 
-    /// The same frustum from two triples: `(left, bottom, near)` and
-    /// `(right, top, far)`. Left, bottom, right and top are all measured on the
-    /// near plane; near and far are distances and so positive.
+    /// The same frustum from two triples: `(left, bottom, near)` and `(right, top, far)`. Left,
+    /// bottom, right and top are measured on the near plane; near and far are distances and
+    /// therefore positive.
     ///
     /// # Errors
     /// As [`Projection::frustum`].
@@ -174,14 +172,14 @@ impl Projection {
         )
     }
 
-    /// Clip space from camera space, for column vectors and a picture of this
-    /// `aspect` (width over height; anything but a positive number counts as 1).
+    /// Camera space to clip space, for column vectors and an image of this `aspect` (width over
+    /// height; anything but a positive number counts as 1).
     #[must_use]
     pub fn matrix(&self, aspect: f64) -> DMat4 {
         self.clip_map(aspect).matrix()
     }
 
-    /// Width over height of the window, where the projection fixes it.
+    /// The aspect of the window, if the projection fixes it.
     #[must_use]
     pub fn own_aspect(&self) -> Option<f64> {
         match *self {
@@ -228,12 +226,12 @@ impl Projection {
         matches!(self, Self::Orthographic { .. })
     }
 
-    /// The parallel projection that shows things at `distance` in the same
-    /// size. The planes stay; an infinite far plane becomes one at a million
-    /// times `distance`, to be moved by [`crate::Camera::with_clip_planes`].
+    /// The parallel projection that shows objects at `distance` in the same size. The planes are
+    /// kept; an infinite far plane becomes one at a million times `distance`, which
+    /// [`crate::Camera::with_clip_planes`] can move.
     ///
     /// # Errors
-    /// If `distance` is not positive and finite, or the window at it is not.
+    /// `distance` is not positive and finite, or the window at it is not.
     pub fn to_orthographic(&self, distance: f64) -> Result<Self, CameraError> {
         const FAR: f64 = 1e6;
         CameraError::check_positive("the distance", distance)?;
@@ -241,12 +239,12 @@ impl Projection {
         Self::orthographic(self.height_at(distance), self.near(), far)
     }
 
-    /// The same view with other planes. The window of a frustum is moved along,
-    /// so that the picture stays the same.
+    /// The same view with other planes. The window of a frustum is scaled along, so that the image
+    /// stays the same.
     ///
     /// # Errors
-    /// Unless `near < far` (infinite for `None`), and `0 < near` in a
-    /// perspective. A parallel projection needs a far plane.
+    /// Not `near < far` (infinite for `None`), or not `0 < near` in a perspective. A parallel
+    /// projection needs a far plane.
     pub fn with_planes(&self, near: f64, far: Option<f64>) -> Result<Self, CameraError> {
         match *self {
             Self::Perspective { vertical_fov, .. } => Self::perspective(vertical_fov, near, far),
@@ -294,7 +292,7 @@ pub(crate) fn check_planes(near: f64, far: Option<f64>) -> Result<(), CameraErro
     CameraError::check_positive("near", near)?;
     let Some(far) = far else { return Ok(()) };
     CameraError::check_ordered(("near", near), ("far", far))?;
-    // Equal in all but the last bit: nothing could be told apart between them.
+    // Equal in all but the last bit: no depth could be distinguished between them.
     if near / far < 1.0 {
         return Ok(());
     }

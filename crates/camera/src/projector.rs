@@ -1,19 +1,18 @@
-//! Points to pixels and back: a camera together with the size of its picture.
+//! Points to pixels and back: a camera together with the size of its image.
 
 use trigon_math::{DVec2, DVec3};
 
 use crate::clip_map::{ClipMap, Kind};
 use crate::{Camera, Ray, Viewport};
 
-/// Projects points of the world to the screen, and takes them back.
+/// Projects world points to the screen, and back.
 ///
-/// The screen has its origin in the top-left corner, y down and pixel centres
-/// at +0.5; points outside the picture get coordinates outside it. Depth is
-/// that of the depth buffer: 1 on the near plane, 0 on the far plane or at
-/// infinity, more than 1 in front of the near plane.
+/// The screen has its origin in the top-left corner, y down and pixel centres at +0.5; points
+/// outside the image get coordinates outside it. Depth is that of the depth buffer: 1 on the near
+/// plane, 0 on the far plane or at infinity, more than 1 in front of the near plane.
 ///
-/// In a perspective, points at or behind the eye have no place on the screen:
-/// `None`. A parallel projection has no eye, so there every point has one.
+/// In a perspective, points at or behind the eye have no screen position: `None`. In a parallel
+/// projection every point has one.
 #[derive(Debug, Clone, Copy)]
 pub struct Projector {
     camera: Camera,
@@ -22,7 +21,7 @@ pub struct Projector {
 }
 
 impl Projector {
-    /// For a picture of this size.
+    /// For an image of this size.
     #[must_use]
     pub fn new(camera: &Camera, viewport: Viewport) -> Self {
         Self { camera: *camera, viewport, map: camera.projection.clip_map(viewport.aspect()) }
@@ -34,7 +33,7 @@ impl Projector {
         &self.camera
     }
 
-    /// The size of the picture.
+    /// The size of the image.
     #[must_use]
     pub fn viewport(&self) -> Viewport {
         self.viewport
@@ -46,7 +45,7 @@ impl Projector {
         self.camera.to_camera(point)
     }
 
-    /// Where the point is drawn, and its depth.
+    /// The screen position of a point, and its depth.
     #[must_use]
     pub fn to_screen_and_depth(&self, point: DVec3) -> Option<(DVec2, f64)> {
         let point = self.to_camera(point);
@@ -54,7 +53,7 @@ impl Projector {
         Some((screen, self.map.depth(point)?))
     }
 
-    /// Where the point is drawn.
+    /// The screen position of a point.
     #[must_use]
     pub fn to_screen(&self, point: DVec3) -> Option<DVec2> {
         let ndc = self.map.project(self.to_camera(point))?;
@@ -67,18 +66,16 @@ impl Projector {
         self.map.depth(self.to_camera(point))
     }
 
-    /// The point of the world that is drawn at `screen` with this depth;
-    /// `None` for a depth at or beyond infinity (0 without a far plane), and if
-    /// the picture has no area.
+    /// The world point at a screen position and depth; `None` for a depth at or beyond infinity (0
+    /// without a far plane), and if the image has no area.
     #[must_use]
     pub fn unproject(&self, screen: DVec2, depth: f64) -> Option<DVec3> {
         let point = self.at_distance(screen, self.map.distance(depth)?)?;
         point.is_finite().then_some(point)
     }
 
-    /// The point of the world that is drawn at `screen` and lies at this
-    /// distance along the line of sight (not along the ray); `None` if the
-    /// picture has no area.
+    /// The world point at a screen position and a distance along the line of sight (not along the
+    /// ray); `None` if the image has no area.
     #[must_use]
     pub fn at_distance(&self, screen: DVec2, distance: f64) -> Option<DVec3> {
         let ndc = self.viewport.to_ndc(screen);
@@ -88,9 +85,8 @@ impl Projector {
         Some(self.camera.to_world(self.map.at_distance(ndc, distance)))
     }
 
-    /// The half-line of all points that are drawn at `screen`: from the eye, or
-    /// from the plane through the eye in a parallel projection. `None` if the
-    /// picture has no area.
+    /// The ray of all points at a screen position: from the eye, or in a parallel projection from
+    /// the plane through the eye. `None` if the image has no area.
     #[must_use]
     pub fn ray(&self, screen: DVec2) -> Option<Ray> {
         let ndc = self.viewport.to_ndc(screen);

@@ -1,13 +1,13 @@
-//! A half-line, as it comes out of a pixel.
+//! Rays through pixels.
 
 use trigon_math::DVec3;
 
-/// A half-line in world space.
+/// A ray in world space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
-    /// Where it starts.
+    /// Its origin.
     pub origin: DVec3,
-    /// Where it goes, unit length.
+    /// Its direction, unit length.
     pub direction: DVec3,
 }
 

@@ -1,21 +1,20 @@
-//! Which way a camera is turned, from directions that may be degenerate: a
-//! picture is expected even from a camera at its own target, or looking
-//! straight down with "up" pointing at it.
+//! Orientations from directions that may be degenerate: a camera at its own target, or one looking
+//! straight down along its up vector, must still give an image.
 
 use trigon_math::{DMat3, DQuat, DVec3};
 
-/// Below this sine of the angle between line of sight and up, up says nothing
-/// about the roll: its perpendicular part is mostly rounding.
+/// Below this sine of the angle between line of sight and up, up does not define the roll: its
+/// perpendicular part is mostly rounding.
 const PARALLEL: f64 = 1e-8;
 
-/// The orientation (camera to world) that looks along `direction` with `up`
-/// towards the upper edge of the picture. Neither needs unit length.
+/// The orientation (camera to world) that looks along `direction` with `up` towards the upper edge
+/// of the image. Neither needs unit length.
 ///
-/// There is always a stable answer:
+/// The result is always stable:
 /// - a `direction` that is zero or not finite counts as −Z;
 /// - an `up` that is zero or not finite counts as +Y;
-/// - if they are parallel, the answer is that of the front view pitched up or
-///   down: looking along −Y with up +Y puts −Z on top and keeps +X to the right.
+/// - if they are parallel, the result is that of the front view pitched up or down: looking along
+///   −Y with up +Y puts −Z at the top and keeps +X to the right.
 #[must_use]
 pub fn orientation_looking(direction: DVec3, up: DVec3) -> DQuat {
     let back = -unit_or(direction, DVec3::NEG_Z);
@@ -31,8 +30,8 @@ pub fn orientation_looking(direction: DVec3, up: DVec3) -> DQuat {
     DQuat::from_mat3(&axes).normalize()
 }
 
-/// The vector with length 1, or `fallback` where it has no direction. Scaled
-/// first, so that lengths beyond 1e154 or below 1e-154 neither overflow nor vanish.
+/// The vector with length 1, or `fallback` if it has no direction. Scaled first, so that lengths
+/// beyond 1e154 or below 1e-154 neither overflow nor vanish.
 pub(crate) fn unit_or(vector: DVec3, fallback: DVec3) -> DVec3 {
     let largest = vector.abs().max_element();
     if !vector.is_finite() || largest < f64::MIN_POSITIVE {
@@ -41,9 +40,9 @@ pub(crate) fn unit_or(vector: DVec3, fallback: DVec3) -> DVec3 {
     (vector / largest).normalize()
 }
 
-/// Right, up and front (towards the viewer of the front view) for an up axis:
-/// the world's X, Y, Z turned the shortest way that brings +Y to `up`. For +Z
-/// up this is right = +X, front = −Y, as in CAD; for −Y it turns about X.
+/// Right, up and front (towards the viewer of the front view) for an up axis: the world's X, Y, Z
+/// rotated by the shortest arc that takes +Y to `up`. For +Z up this is right = +X, front = −Y, as
+/// in CAD; for −Y it rotates about X.
 pub(crate) fn up_frame(up: DVec3) -> DMat3 {
     let up = unit_or(up, DVec3::Y);
     let cross = DVec3::Y.cross(up);

@@ -1,10 +1,9 @@
-//! The size of a picture in pixels.
+//! The size of an image in pixels.
 
 use trigon_math::DVec2;
 
-/// A picture of `width` by `height` pixels. On the screen the origin is the
-/// top-left corner, y points down, and pixel `(i, j)` has its centre at
-/// `(i + 0.5, j + 0.5)`.
+/// An image of `width` by `height` pixels. On the screen the origin is the top-left corner, y
+/// points down, and pixel `(i, j)` has its centre at `(i + 0.5, j + 0.5)`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Viewport {
     /// Pixels across.
@@ -14,8 +13,8 @@ pub struct Viewport {
 }
 
 impl Viewport {
-    /// Width over height. A picture without area counts as square, so that a
-    /// minimised window divides by nothing.
+    /// Width over height. An image without area counts as square, so that a minimised window causes
+    /// no division by zero.
     #[must_use]
     pub fn aspect(self) -> f64 {
         if self.width == 0 || self.height == 0 {
@@ -30,16 +29,14 @@ impl Viewport {
         DVec2::new(f64::from(self.width), f64::from(self.height))
     }
 
-    /// From normalised device coordinates (x right, y up, the picture is
-    /// `[-1, 1]²`) to the screen.
+    /// From normalised device coordinates (x right, y up, the image is `[-1, 1]²`) to the screen.
     #[must_use]
     pub fn to_screen(self, ndc: DVec2) -> DVec2 {
         let size = self.size();
         DVec2::new((1.0 + ndc.x) * 0.5 * size.x, (1.0 - ndc.y) * 0.5 * size.y)
     }
 
-    /// From the screen to normalised device coordinates. Not finite if the
-    /// picture has no area.
+    /// From the screen to normalised device coordinates. Not finite if the image has no area.
     #[must_use]
     pub fn to_ndc(self, screen: DVec2) -> DVec2 {
         let size = self.size();

@@ -1,4 +1,4 @@
-//! What was done, and how to go back and forth: one entry for each action of a user.
+//! The history: one entry for each action of a user, with the data to undo and redo it.
 
 use trigon_mesh::edit::Difference;
 use trigon_scene::{MeshId, SceneParts};
@@ -6,20 +6,20 @@ use trigon_scene::{MeshId, SceneParts};
 use crate::command::Command;
 use crate::selection::Selection;
 
-/// One action: the command, and what leads to the state before it or after it again.
+/// One action: the command, and the data that leads to the state before it or after it again.
 #[derive(Debug, Clone)]
 pub struct Entry {
     pub(crate) command: Command,
     pub(crate) meshes: Vec<(MeshId, Difference)>,
     pub(crate) parts: Option<Box<SceneParts>>,
-    /// What was selected in the other state.
+    /// The selection in the other state.
     pub(crate) selection: Selection,
-    /// The memory that it takes; found when it comes into the history.
+    /// The memory that it takes; computed when it is added to the history.
     pub(crate) bytes: usize,
 }
 
 impl Entry {
-    /// What was done.
+    /// The command.
     #[must_use]
     pub fn command(&self) -> &Command {
         &self.command
@@ -44,12 +44,12 @@ impl Entry {
 #[derive(Debug, Clone)]
 pub struct History {
     entries: Vec<Entry>,
-    /// How many of them are done; the others were undone and can be done again.
+    /// The number of entries that are done; the others were undone and can be redone.
     done: usize,
     budget: usize,
     /// How many of the oldest were dropped to stay within the budget.
     dropped: usize,
-    /// The memory that all of them take.
+    /// The memory of all entries.
     bytes: usize,
 }
 
@@ -60,22 +60,22 @@ impl Default for History {
 }
 
 impl History {
-    /// Entries take at most so much memory, in bytes: 512 MiB.
+    /// The largest total size of the entries, in bytes: 512 MiB.
     pub const DEFAULT_BUDGET: usize = 512 << 20;
 
-    /// Sets how much memory entries may take, in bytes. The last entry is kept in any case.
+    /// Sets the largest total size of the entries, in bytes. The last entry is always kept.
     pub fn set_budget(&mut self, bytes: usize) {
         self.budget = bytes;
         self.keep_budget();
     }
 
-    /// What was done and can be undone, the oldest first.
+    /// The commands that can be undone, oldest first.
     #[must_use]
     pub fn done(&self) -> &[Entry] {
         &self.entries[..self.done]
     }
 
-    /// What was undone and can be done again, the first to be done again first.
+    /// The commands that can be redone, in the order in which they would be.
     #[must_use]
     pub fn undone(&self) -> &[Entry] {
         &self.entries[self.done..]
@@ -93,7 +93,7 @@ impl History {
         self.bytes
     }
 
-    /// Adds what was just done; what was undone before cannot be done again then.
+    /// Adds an entry; what was undone before can no longer be redone.
     pub(crate) fn push(&mut self, mut entry: Entry) {
         self.bytes -= self.entries.drain(self.done..).map(|undone| undone.bytes).sum::<usize>();
         entry.bytes = entry.bytes_after(self.entries.last());
@@ -103,13 +103,13 @@ impl History {
         self.keep_budget();
     }
 
-    /// The entry to be undone next; it counts as undone from now on.
+    /// The entry to undo next; from now on it counts as undone.
     pub(crate) fn step_back(&mut self) -> Option<&mut Entry> {
         self.done = self.done.checked_sub(1)?;
         self.entries.get_mut(self.done)
     }
 
-    /// The entry to be done again next; it counts as done from now on.
+    /// The entry to redo next; from now on it counts as done.
     pub(crate) fn step_forward(&mut self) -> Option<&mut Entry> {
         let entry = self.entries.get_mut(self.done)?;
         self.done += 1;

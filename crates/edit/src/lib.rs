@@ -1,5 +1,4 @@
-//! An open document that can be edited: a scene, selections, commands as data, exact history,
-//! scripts.
+//! An open, editable document: a scene, selections, commands as data, exact history, scripts.
 //!
 //! This crate never draws and never opens a window: an editor, a script or a test drives it by
 //! [`Command`]s and draws [`Document::scene`]. The operations on meshes themselves are in
@@ -30,7 +29,7 @@ pub use selection::{
 };
 pub use storage::{Disk, SaveError, Storage, backup_path, save};
 
-/// The crates below, so that programs need no other dependency.
+/// Re-exports of the crates below, so that programs need no other dependency.
 pub use {trigon_mesh as mesh, trigon_scene as scene};
 
 /// Runs the README's example as a test.

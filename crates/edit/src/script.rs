@@ -34,14 +34,14 @@ pub struct Script {
     pub commands: Vec<Command>,
 }
 
-/// How far a script is.
+/// The progress of a script.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScriptProgress<'s> {
-    /// The command that is run next, from 0.
+    /// The index of the next command, from 0.
     pub index: usize,
     /// How many commands there are.
     pub count: usize,
-    /// The command that is run next.
+    /// The next command.
     pub command: &'s Command,
 }
 
@@ -49,7 +49,7 @@ impl Script {
     /// The version that is written.
     pub const VERSION: u32 = 1;
 
-    /// A script of commands, as [`Document::script`] tells them.
+    /// A script of commands, as [`Document::script`] returns them.
     #[must_use]
     pub fn new(commands: Vec<Command>) -> Self {
         Self { version: Self::VERSION, commands }
@@ -58,8 +58,7 @@ impl Script {
     /// Reads a script.
     ///
     /// # Errors
-    /// It is not JSON, is of another version, or has a command that does not exist or
-    /// has a parameter that it does not know.
+    /// It is not valid JSON, has another version, or contains an unknown command or parameter.
     pub fn from_json(text: &str) -> Result<Self, EditError> {
         let script: Self = serde_json::from_str(text).map_err(|error| EditError::Script {
             place: format!("line {}, column {}", error.line(), error.column()),
@@ -72,7 +71,7 @@ impl Script {
         Ok(script)
     }
 
-    /// Writes the script, a command on each line.
+    /// Writes the script, one command per line.
     #[must_use]
     pub fn to_json(&self) -> String {
         let line = |command: &Command| serde_json::to_string(command).expect("commands have string keys");
@@ -80,10 +79,10 @@ impl Script {
         format!("{{ \"version\": {}, \"commands\": [\n{}\n] }}\n", self.version, lines.join(",\n"))
     }
 
-    /// Runs all commands, and returns what each told. `progress` is called before each.
+    /// Runs all commands, and returns their outcomes. `progress` is called before each.
     ///
     /// # Errors
-    /// A command was refused: the error tells which. Those before it stay done.
+    /// A command failed: the error says which. The commands before it stay done.
     pub fn run(
         &self,
         document: &mut Document,

@@ -1,4 +1,4 @@
-//! How far two pictures are apart, as an eye would say it and as bytes do.
+//! Compares two images, perceptually and byte by byte.
 //!
 //! The error is 1 − SSIM: Wang, Bovik, Sheikh and Simoncelli, "Image Quality Assessment:
 //! From Error Visibility to Structural Similarity" (2004), of blocks of 8×8 pixels that
@@ -8,38 +8,37 @@ use thiserror::Error;
 
 use crate::picture::Picture;
 
-/// Pixels along the side of a block, and from one block to the next.
+/// The side of a block in pixels, and the distance between blocks.
 const BLOCK: usize = 8;
 const STEP: usize = 4;
 
-/// (0.01 · 255)² and (0.03 · 255)², as in the paper: they keep dark blocks from counting
-/// too much.
+/// (0.01 · 255)² and (0.03 · 255)², as in the paper: they keep dark blocks from dominating.
 const C1: f64 = 6.5025;
 const C2: f64 = 58.5225;
 
-/// How far two pictures are apart.
+/// The difference between two images.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureDifference {
-    /// 0 for the same pictures, up to 1 and in rare cases to 2; below 0.04 they look alike.
+    /// 0 for equal images, up to 1 and in rare cases to 2; below 0.04 they look alike.
     pub error: f64,
-    /// Pixels of which a byte differs.
+    /// The number of pixels with a different byte.
     pub different_pixels: u64,
-    /// The largest difference of two bytes.
+    /// The largest difference between two bytes.
     pub largest: u8,
-    /// Where they differ: opaque, black where they are the same, stretched so that the
-    /// largest difference is white in its channel. Alpha counts for all three.
+    /// A map of the differences: opaque, black where the images are equal, stretched so that the
+    /// largest difference is white in its channel. Alpha counts for all three channels.
     pub picture: Picture,
 }
 
-/// Pictures of different sizes cannot be compared.
+/// Images of different sizes cannot be compared.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 #[error("one picture is {}×{}, the other {}×{}; draw it in the size of the other", .0[0], .0[1], .1[0], .1[1])]
 pub struct SizeMismatch([u32; 2], [u32; 2]);
 
-/// Compares two pictures.
+/// Compares two images.
 ///
 /// # Errors
-/// When they are not of the same size.
+/// They have different sizes.
 pub fn compare_pictures(one: &Picture, other: &Picture) -> Result<PictureDifference, SizeMismatch> {
     let sizes = [one, other].map(|picture| [picture.width, picture.height]);
     if sizes[0] != sizes[1] {
@@ -78,12 +77,12 @@ fn similarity(one: &Picture, other: &Picture) -> f64 {
     if count > 0.0 { sum / count } else { 1.0 }
 }
 
-/// Where blocks begin; at least one does, in a picture of any size.
+/// The start of each block; there is at least one, in an image of any size.
 fn starts(side: usize) -> impl Iterator<Item = usize> {
     (0..side.saturating_sub(BLOCK - STEP).max(1)).step_by(STEP)
 }
 
-/// SSIM of one channel of one block, cut off at the picture's edges.
+/// SSIM of one channel of one block, cropped at the image's edges.
 fn block(one: &Picture, other: &Picture, [left, top]: [usize; 2], channel: usize) -> f64 {
     let (width, height) = (one.width as usize, one.height as usize);
     // Sums of a, b, a², b² and ab are exact: 64 · 255² is far below 2³².
@@ -99,12 +98,12 @@ fn block(one: &Picture, other: &Picture, [left, top]: [usize; 2], channel: usize
         }
     }
     let [a, b, aa, bb, ab] = sums.map(|sum| f64::from(sum) / f64::from(count));
-    // In this order the same picture has exactly twice its covariance.
+    // In this order the covariance of equal images is exact.
     let (variances, covariance) = ((aa - a * a) + (bb - b * b), ab - a * b);
     (2.0 * a * b + C1) * (2.0 * covariance + C2) / ((a * a + b * b + C1) * (variances + C2))
 }
 
-/// A channel of a pixel, colours times alpha: those of transparent pixels do not count.
+/// A channel of a pixel, colours times alpha, so that transparent pixels do not count.
 fn value(picture: &Picture, pixel: usize, channel: usize) -> u32 {
     let [byte, alpha] = [channel, 3].map(|channel| u32::from(picture.rgba[4 * pixel + channel]));
     if channel == 3 { byte } else { byte * alpha / 255 }

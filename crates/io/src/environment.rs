@@ -1,4 +1,4 @@
-//! Radiance pictures (`.hdr`) of all directions to light.
+//! Environment images (Radiance, `.hdr`).
 
 use std::io::Cursor;
 use std::path::Path;
@@ -12,21 +12,19 @@ use crate::limits::Limits;
 use crate::picture::{check_claim, decoder_limits, reason};
 use crate::warning::{Warning, Warnings};
 
-/// What a pixel may have of light. The sun of a clear sky has a hundred thousand;
-/// the format can say 10³⁸, whose sums are infinite.
+/// The largest value of a pixel. The sun of a clear sky has a hundred thousand; the format allows
+/// 10³⁸, whose sums are infinite.
 const BRIGHTEST: f32 = 1e9;
 
-/// Reads a Radiance picture (`.hdr`) of all directions, twice as wide as high as a
-/// rule: the middle looks along −Z, the right half to +X, the upper edge is +Y.
-/// What is left of it for [`EffectSettings`](trigon_scene::EffectSettings) is light
-/// as the file has it; a line `EXPOSURE` in it is not followed.
+/// Reads an environment image (Radiance, `.hdr`), usually twice as wide as high: the middle looks
+/// along −Z, the right half to +X, the upper edge is +Y. The result for
+/// [`EffectSettings`](trigon_scene::EffectSettings) is light as stored in the file; a line
+/// `EXPOSURE` in it is ignored.
 ///
-/// Pixels above 10⁹ are held to that, with a warning. The format has no spelling
-/// of infinity.
+/// Pixels above 10⁹ are clamped to it, with a warning. The format cannot represent infinity.
 ///
 /// # Errors
-/// When the file cannot be read, is of another format, is broken, or is larger than
-/// the limits.
+/// The file cannot be read, is of another format, is broken, or is larger than the limits.
 pub fn load_environment(
     path: impl AsRef<Path>,
     limits: &Limits,
@@ -74,8 +72,8 @@ mod tests {
 
     use super::*;
 
-    /// A picture of 16 × 8 pixels without compression, each a mantissa for red,
-    /// green and blue and their common exponent.
+    /// An image of 16 × 8 pixels without compression, each with a mantissa for red, green and blue
+    /// and a common exponent.
     fn picture(pixel: impl Fn(usize, usize) -> [u8; 4]) -> Vec<u8> {
         let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n".to_vec();
         bytes.extend((0..128).flat_map(|index| pixel(index % 16, index / 16)));

@@ -1,8 +1,8 @@
-//! What stops a load: which file, where in it, what is wrong, and what to do.
+//! Load errors: the file, the location in it, what is wrong, and a remedy.
 //!
-//! A message is one line for people: `cube.obj, line 12: face index 9 …; …`.
-//! Names that come out of files are made printable first, so that no file can
-//! write escape sequences to a terminal or break the line.
+//! A message is one line for people: `cube.obj, line 12: face index 9 …; …`. Names from files are
+//! made printable first, so that no file can write escape sequences to a terminal or break the
+//! line.
 
 use std::fmt;
 use std::io;
@@ -10,20 +10,19 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// Where in a file something was found.
+/// A location in a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Place {
     /// The file as a whole.
     #[default]
     Whole,
-    /// A line of text, counted from 1 as editors do.
+    /// A line of text, counted from 1 as in editors.
     Line(u64),
     /// An offset from the start of the file.
     Byte(u64),
-    /// A numbered object of a glTF file, counted from 0 as the format does:
-    /// `accessor 3`.
+    /// A numbered object of a glTF file, counted from 0 as in the format: `accessor 3`.
     Item(&'static str, usize),
-    /// Anything else that has a name: `material "wood"`, `mesh 2, primitive 0`.
+    /// Anything else with a name: `material "wood"`, `mesh 2, primitive 0`.
     Named(String),
 }
 
@@ -39,41 +38,40 @@ impl fmt::Display for Place {
     }
 }
 
-/// The kinds of failure, for programs that treat them differently.
+/// The kinds of failure, for programs that distinguish them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum LoadErrorKind {
-    /// The file, or a file that it cannot do without, could not be read.
+    /// The file, or another one that it needs, could not be read.
     Read,
-    /// The file is of a format, or needs an extension, that is not supported.
+    /// The file's format, or an extension that it requires, is not supported.
     Unsupported,
-    /// The contents contradict their format.
+    /// The contents violate the format.
     Malformed,
-    /// A reference leads out of the model's folder, or to something that is
-    /// not a regular file.
+    /// A reference points out of the model's folder, or to something other than a regular file.
     Forbidden,
-    /// More than the limits allow.
+    /// A limit is exceeded.
     Limit,
-    /// A correct file with nothing in it that could be drawn.
+    /// A valid file with nothing to draw.
     Empty,
-    /// The progress callback asked to stop.
+    /// The progress callback cancelled loading.
     Cancelled,
 }
 
-/// Why a file could not be loaded. Its `Display` is one line: the file, the
-/// place in it, what is wrong, and the remedy.
+/// Why a file could not be loaded. Its `Display` is one line: the file, the location in it, what is
+/// wrong, and the remedy.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{}{place}: {what}; {remedy}", printable(&file.display().to_string()))]
 pub struct LoadError {
     /// The kind of failure.
     pub kind: LoadErrorKind,
-    /// The file that is to blame, as the caller or the model named it.
+    /// The faulty file, as the caller or the model named it.
     pub file: PathBuf,
-    /// Where in that file.
+    /// The location in that file.
     pub place: Place,
     /// What is wrong.
     pub what: String,
-    /// What a person can do about it.
+    /// A remedy for people.
     pub remedy: String,
 }
 
@@ -117,8 +115,7 @@ impl LoadError {
 /// The longest piece of a file that a message quotes.
 const QUOTE_LIMIT: usize = 400;
 
-/// The text on one line, without control characters, shortened in the middle
-/// of nowhere when it is absurdly long.
+/// The text on one line, without control characters, and truncated if it is very long.
 pub(crate) fn printable(text: &str) -> String {
     let mut clean: String =
         text.chars().take(QUOTE_LIMIT).map(|c| if is_unprintable(c) { '\u{fffd}' } else { c }).collect();

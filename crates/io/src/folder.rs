@@ -1,10 +1,9 @@
 //! The model's folder: the only place from which other files are opened.
 //!
-//! A model names its buffers, materials and textures. Those names come from
-//! strangers: `../../etc/passwd`, `/dev/zero`, `file:///…`, a symbolic link
-//! that leads away. A name is resolved inside the model's folder and the
-//! result, with links followed, must still lie in it and be a regular file;
-//! reading stops at a limit.
+//! A model names its buffers, materials and textures. These names are untrusted:
+//! `../../etc/passwd`, `/dev/zero`, `file:///…`, a symbolic link to another place. A name is
+//! resolved inside the model's folder, and the result, with links followed, must still lie in it
+//! and be a regular file; reading stops at a limit.
 
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
@@ -19,10 +18,10 @@ use crate::refusal::{Refusal, relative_path};
 /// How exactly a name must match.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Lookup {
-    /// As written: for buffers, whose bytes become geometry.
+    /// Exactly: for buffers, whose bytes become geometry.
     Exact,
-    /// As written, else with `\` as `/`, another case, or only its last parts:
-    /// for textures and material libraries named on another machine.
+    /// Exactly, or otherwise with `\` as `/`, in another case, or by its last parts: for textures
+    /// and material libraries named on another machine.
     Forgiving,
 }
 
@@ -35,10 +34,10 @@ pub(crate) struct Found {
     pub(crate) respelled: bool,
 }
 
-/// Is told how much of a file has been read, 0 to 1, and may refuse to go on.
+/// Receives the fraction of a file that has been read, 0 to 1, and may cancel.
 pub(crate) type Follow<'a> = &'a dyn Fn(f32) -> Result<(), Refusal>;
 
-/// Follows nothing and ends nothing.
+/// Ignores progress and never cancels.
 pub(crate) fn to_the_end(_: f32) -> Result<(), Refusal> {
     Ok(())
 }
@@ -46,7 +45,7 @@ pub(crate) fn to_the_end(_: f32) -> Result<(), Refusal> {
 /// A folder to read from, and a record of what was read.
 #[derive(Debug)]
 pub(crate) struct Folder {
-    /// Canonical; `None` when the model came from a stream.
+    /// Canonical; `None` if the model came from a stream.
     root: Option<PathBuf>,
     /// The same folder as the caller named it, for messages and lists.
     shown: PathBuf,
@@ -54,13 +53,13 @@ pub(crate) struct Folder {
     total: u64,
     read: Vec<PathBuf>,
     known: HashSet<PathBuf>,
-    /// The names in each folder that was searched, by their lower case: a
-    /// model may miss thousands of pictures.
+    /// The names in each folder that was searched, by their lower case: a model may lack thousands
+    /// of images.
     listings: HashMap<PathBuf, HashMap<String, String>>,
 }
 
 impl Folder {
-    /// The folder that holds a model.
+    /// The folder that contains a model.
     pub(crate) fn of(model: &Path, limits: &Limits) -> io::Result<Self> {
         let parent = model.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
         Ok(Self {
@@ -88,16 +87,16 @@ impl Folder {
         self.read
     }
 
-    /// Reads the file that the user named: the one path that is not confined. `follow`
-    /// is told how much of it has been read, 0 to 1, and may end it.
+    /// Reads the file that the user named: the one path that is not confined. `follow` receives the
+    /// fraction that has been read, 0 to 1, and may cancel.
     pub(crate) fn read_model(&mut self, path: &Path, follow: Follow<'_>) -> Result<Vec<u8>, LoadError> {
         let bytes = self.read_regular(path, follow).map_err(|refusal| refusal.of_model(path))?;
         self.note(path.to_owned());
         Ok(bytes)
     }
 
-    /// Reads a file beside the model, below `within` (a folder relative to
-    /// the model's; empty for the model's own).
+    /// Reads another file of the model, below `within` (a folder relative to the model's; empty for
+    /// the model's own).
     pub(crate) fn read(&mut self, within: &Path, name: &str, lookup: Lookup) -> Result<Found, Refusal> {
         let mut refusal = match self.read_exact(within, name) {
             Ok(found) => return Ok(found),
@@ -122,12 +121,12 @@ impl Folder {
         inside.parent().unwrap_or(Path::new("")).to_owned()
     }
 
-    /// Where a name would be looked for.
+    /// The path at which a name would be looked up.
     pub(crate) fn would_be(&self, within: &Path, name: &str) -> PathBuf {
         self.shown.join(within).join(name)
     }
 
-    /// Every path at which [`Folder::read`] looks for a name, in their order.
+    /// Every path at which [`Folder::read`] looks for a name, in order.
     pub(crate) fn tried(&mut self, within: &Path, name: &str) -> Vec<PathBuf> {
         let mut tried = vec![self.would_be(within, name)];
         for (within, spelling) in self.other_spellings(within, name) {
@@ -139,7 +138,7 @@ impl Folder {
         tried
     }
 
-    /// Counts bytes that did not come from a file of their own.
+    /// Counts bytes that did not come from a separate file.
     pub(crate) fn account(&mut self, bytes: u64) -> Result<(), Refusal> {
         self.total = self.total.saturating_add(bytes);
         if self.total > self.limits.total_bytes {
@@ -186,10 +185,9 @@ impl Folder {
         }
     }
 
-    /// What the author may have meant. Every result is confined like the
-    /// original.
+    /// Guesses at what the author meant. Every result is confined like the original.
     fn other_spellings(&mut self, within: &Path, name: &str) -> Vec<(PathBuf, String)> {
-        // So many folders of another machine are tried as folders here.
+        // This many folders of another machine are tried as folders here.
         const MOST_PARTS: usize = 8;
         let slashed = name.replace('\\', "/");
         // `C:/models/textures/a.png` may be `textures/a.png` here, or `a.png`.
@@ -221,7 +219,7 @@ impl Folder {
     }
 }
 
-/// Reads to the end, and asks between pieces whether to go on: a gigabyte takes a while.
+/// Reads to the end, checking for cancellation between pieces: a gigabyte takes a while.
 fn read_in_pieces(mut from: impl Read, length: u64, follow: Follow<'_>) -> Result<Vec<u8>, Refusal> {
     const PIECE: u64 = 1 << 22;
     let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
@@ -231,8 +229,8 @@ fn read_in_pieces(mut from: impl Read, length: u64, follow: Follow<'_>) -> Resul
     Ok(bytes)
 }
 
-/// The names in a folder by their lower case; of several with the same, the
-/// first in alphabetical order. Empty when it cannot be listed.
+/// The names in a folder by their lower case; of several with the same, the first in alphabetical
+/// order. Empty if it cannot be listed.
 fn list_folder(folder: &Path) -> HashMap<String, String> {
     // A folder with more entries than this is not searched to its end.
     const MOST_ENTRIES: usize = 100_000;
@@ -309,7 +307,7 @@ mod tests {
         read(&mut folder, "textures/wood.png", Lookup::Exact).expect_err("exact means exact");
     }
 
-    /// 10⁴ missing pictures beside 10⁴ files took minutes when each was a search.
+    /// 10⁴ missing images in a folder of 10⁴ files took minutes when each was searched separately.
     #[test]
     fn a_folder_is_listed_once() {
         let (dir, mut folder) = folder_with(&["b.png", "B.png"]);

@@ -6,7 +6,7 @@
 pub enum Format {
     /// Wavefront OBJ with its MTL.
     Obj,
-    /// glTF 2.0: JSON with buffers and pictures beside it or in it.
+    /// glTF 2.0: JSON with buffers and images beside it or embedded.
     Gltf,
     /// glTF 2.0 in one binary file.
     Glb,
@@ -18,16 +18,16 @@ pub enum Format {
     Off,
 }
 
-/// What `--list-readers` prints of one format.
+/// One format as printed by `--list-readers`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reader {
     /// The format.
     pub format: Format,
     /// For people.
     pub name: &'static str,
-    /// The endings of file names, in lower case, without the dot. The first names the format.
+    /// The file extensions, in lower case, without the dot. The first names the format.
     pub extensions: &'static [&'static str],
-    /// What is read of it.
+    /// What is read.
     pub reads: &'static str,
 }
 
@@ -38,6 +38,6 @@ pub struct Writer {
     pub format: Format,
     /// For people.
     pub name: &'static str,
-    /// The endings of file names, in lower case, without the dot.
+    /// The file extensions, in lower case, without the dot.
     pub extensions: &'static [&'static str],
 }

@@ -1,4 +1,4 @@
-//! What every importer works on: one model on its way into a scene.
+//! The data of a load in progress, which every importer fills.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -21,7 +21,7 @@ pub(crate) struct Import<'a> {
     pub(crate) scene: Scene,
     /// Of all scenes in the file.
     pub(crate) scene_names: Vec<String>,
-    /// The file itself, where it is to be kept.
+    /// The file itself, if it is kept.
     pub(crate) source: Option<SourceDraft>,
     /// Of the meshes of a native file that were being edited.
     pub(crate) marks: BTreeMap<MeshId, Marks>,

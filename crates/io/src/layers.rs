@@ -1,30 +1,29 @@
-//! Pictures that become one texture: MTL keeps colour and opacity, or
-//! roughness and metal, in files of their own.
+//! Images that are combined into one texture: MTL stores colour and opacity, or roughness and
+//! metalness, in separate files.
 
 use crate::picture::Picture;
 
-/// What a picture says of the texture.
+/// The part of the texture that an image provides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Role {
     /// All of it.
     Whole,
-    /// Its alpha: by the picture's own alpha, or by its grey where that is
-    /// opaque all over.
+    /// Its alpha: from the image's own alpha, or from its grey if that is opaque everywhere.
     Alpha,
-    /// Its green, as glTF keeps roughness.
+    /// Its green, where glTF stores roughness.
     Roughness,
-    /// Its blue, as glTF keeps metal.
+    /// Its blue, where glTF stores metalness.
     Metallic,
-    /// All of it, but only if it shows directions and no heights.
+    /// All of it, but only if it contains directions and not heights.
     Directions,
 }
 
-/// A picture that was to show directions shows heights.
+/// An image that should contain directions contains heights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct HeightMap;
 
-/// Lays pictures over each other, the first below. Smaller ones are stretched
-/// to the largest; where nothing is said the texture is white.
+/// Combines images, the first below. Smaller ones are stretched to the largest; channels without an
+/// image are white.
 pub(crate) fn merge(mut layers: Vec<(Role, Picture)>) -> Result<Picture, HeightMap> {
     match layers.as_slice() {
         [(Role::Whole, _)] => return Ok(layers.remove(0).1),
@@ -59,8 +58,8 @@ fn lay_over(merged: &mut Picture, role: Role, layer: &Picture) {
     }
 }
 
-/// Whether the colours of a picture are directions: mostly up, which is blue,
-/// and to no side on the whole. Heights are grey.
+/// Whether the colours of an image are directions: mostly up, which is blue, and balanced sideways.
+/// Heights are grey.
 fn shows_directions(picture: &Picture) -> bool {
     let texels = picture.rgba.len() as u64 / 4;
     let mean = |channel: usize| {

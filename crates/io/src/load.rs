@@ -1,4 +1,4 @@
-//! The front door: a file or a stream in, a scene and warnings out.
+//! The entry points: from a file or a stream to a scene and warnings.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -18,36 +18,36 @@ use crate::refusal::Refusal;
 use crate::registry::{detect_format, supported};
 use crate::warning::{Warning, Warnings};
 
-/// A model that was loaded.
+/// A loaded model.
 #[derive(Debug)]
 pub struct Loaded {
-    /// What the file holds.
+    /// The contents of the file.
     pub scene: Scene,
-    /// The names of all scenes of the file, in its order; `scene` holds one of
-    /// them. Empty for formats without scenes.
+    /// The names of all scenes in the file, in order; `scene` is one of them. Empty for formats
+    /// without scenes.
     pub scene_names: Vec<String>,
-    /// What is missing from it, and why.
+    /// What could not be loaded, and why.
     pub warnings: Vec<Warning>,
-    /// Every file that was read, the model first: what to watch for changes.
+    /// Every file that was read, the model first: watch these for changes.
     pub files: Vec<PathBuf>,
     /// The format that was found.
     pub format: Format,
-    /// The file itself, to be written back; only of glTF and GLB, and only when
-    /// [`LoadOptions::keep_source`] asks for it.
+    /// The file itself, for writing it back; only for glTF and GLB, and only with
+    /// [`LoadOptions::keep_source`].
     pub source: Option<GltfSource>,
-    /// Marks and first positions of the meshes that were being edited when a native file was
+    /// Marks and original positions of the meshes that were being edited when a native file was
     /// saved; see [`NativeDocument`](crate::NativeDocument).
     pub marks: BTreeMap<MeshId, Marks>,
 }
 
-/// Loads a model file and what it refers to, nothing outside its folder.
+/// Loads a model file and the files it refers to, nothing outside its folder.
 ///
-/// The format follows from the name, or from the contents when the name says
-/// nothing. Problems that leave something to draw are warnings.
+/// The format follows from the name, or from the contents if the name has no known extension.
+/// Problems that leave something to draw are warnings.
 ///
 /// # Errors
-/// When the file cannot be read, is of no supported format, is broken beyond
-/// use, asks for more than the limits, or has nothing in it to draw.
+/// The file cannot be read, has no supported format, is too broken to use, exceeds the limits, or
+/// contains nothing to draw.
 pub fn load(path: impl AsRef<Path>, options: &LoadOptions<'_>) -> Result<Loaded, LoadError> {
     let path = path.as_ref();
     options.report(path, Stage::Reading, 0.0)?;
@@ -61,9 +61,9 @@ pub fn load(path: impl AsRef<Path>, options: &LoadOptions<'_>) -> Result<Loaded,
     import_on(path, Cow::Owned(bytes), folder, options)
 }
 
-/// Loads a model from memory, such as what came through standard input. It
-/// can refer to no files: a GLB or an OBJ without materials is what works best.
-/// `name` stands for the file in messages, and its ending may tell the format.
+/// Loads a model from memory, such as standard input. It cannot refer to files, so a GLB or an OBJ
+/// without materials works best. `name` stands for the file in messages, and its extension may
+/// determine the format.
 ///
 /// # Errors
 /// As [`load`].
@@ -81,7 +81,7 @@ pub fn load_from_slice(
     import_on(name, Cow::Borrowed(bytes), Folder::none(&options.limits), options)
 }
 
-/// Imports on as many threads as the options allow.
+/// Imports with the number of threads in the options.
 fn import_on(
     path: &Path,
     bytes: Cow<'_, [u8]>,

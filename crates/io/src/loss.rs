@@ -1,14 +1,13 @@
-//! What a file cannot hold, as data.
+//! Losses: what a file format cannot hold, as data.
 
 use std::fmt;
 
 use crate::error::Place;
 
-/// Something that a file holds, or a scene, and that would not be there any more after saving.
-/// Its `Display` is one line.
+/// Something in a file or a scene that would be lost by saving. Its `Display` is one line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Loss {
-    /// Where it is in the file that was loaded, or in the scene.
+    /// Its location in the loaded file, or in the scene.
     pub place: Place,
     /// What it is.
     pub what: String,

@@ -1,6 +1,6 @@
-//! JPEG and WebP out: smaller than PNG, for pages and mails.
+//! JPEG and WebP writers: smaller than PNG, for web pages and e-mail.
 //!
-//! WebP is written without loss. JPEG has no alpha: what is transparent is put on white.
+//! WebP is lossless. JPEG has no alpha: transparent areas become white.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -11,20 +11,20 @@ use image::{ExtendedColorType, ImageError};
 
 use crate::write::{WriteError, write_atomically};
 
-/// What most programs use: differences are hardly seen.
+/// The quality that most programs use: differences are hardly visible.
 const JPEG_QUALITY: u8 = 90;
 
-/// Sides of JPEG pictures have 16 bits.
+/// JPEG stores sides in 16 bits.
 const MOST_JPEG: u32 = 65_535;
 
-/// Sides of WebP pictures have 14 bits.
+/// WebP stores sides in 14 bits.
 const MOST_WEBP: u32 = 16_384;
 
-/// Writes a JPEG file of quality 90; `rgba` is sRGB with straight alpha, rows from the top.
-/// As with [`write_png`](crate::write_png), the file is there whole or not at all.
+/// Writes a JPEG file of quality 90; `rgba` is sRGB with straight alpha, rows from the top. The
+/// file is written atomically, as with [`write_png`](crate::write_png).
 ///
 /// # Errors
-/// When the sizes do not fit, or the file cannot be written.
+/// The sizes do not match, or the file cannot be written.
 pub fn write_jpeg(path: impl AsRef<Path>, width: u32, height: u32, rgba: &[u8]) -> Result<(), WriteError> {
     check(width, height, MOST_JPEG, rgba)?;
     write_atomically(path.as_ref(), |file| jpeg(file, width, height, rgba))
@@ -33,26 +33,26 @@ pub fn write_jpeg(path: impl AsRef<Path>, width: u32, height: u32, rgba: &[u8]) 
 /// Writes a JPEG of quality 90 to a writer.
 ///
 /// # Errors
-/// When the sizes do not fit, or the writer fails.
+/// The sizes do not match, or the writer fails.
 pub fn encode_jpeg(writer: impl Write, width: u32, height: u32, rgba: &[u8]) -> Result<(), WriteError> {
     check(width, height, MOST_JPEG, rgba)?;
     Ok(jpeg(writer, width, height, rgba)?)
 }
 
-/// Writes a WebP file without loss; `rgba` is sRGB with straight alpha, rows from the top.
-/// As with [`write_png`](crate::write_png), the file is there whole or not at all.
+/// Writes a lossless WebP file; `rgba` is sRGB with straight alpha, rows from the top. The file is
+/// written atomically, as with [`write_png`](crate::write_png).
 ///
 /// # Errors
-/// When the sizes do not fit, or the file cannot be written.
+/// The sizes do not match, or the file cannot be written.
 pub fn write_webp(path: impl AsRef<Path>, width: u32, height: u32, rgba: &[u8]) -> Result<(), WriteError> {
     check(width, height, MOST_WEBP, rgba)?;
     write_atomically(path.as_ref(), |file| webp(file, width, height, rgba))
 }
 
-/// Writes a WebP without loss to a writer.
+/// Writes a lossless WebP to a writer.
 ///
 /// # Errors
-/// When the sizes do not fit, or the writer fails.
+/// The sizes do not match, or the writer fails.
 pub fn encode_webp(writer: impl Write, width: u32, height: u32, rgba: &[u8]) -> Result<(), WriteError> {
     check(width, height, MOST_WEBP, rgba)?;
     Ok(webp(writer, width, height, rgba)?)
@@ -76,7 +76,7 @@ fn webp(writer: impl Write, width: u32, height: u32, rgba: &[u8]) -> io::Result<
     encoder.encode(rgba, width, height, ExtendedColorType::Rgba8).map_err(into_io)
 }
 
-/// A pixel on white, rounded; mixed in sRGB, as programs show such pictures.
+/// A pixel composited over white, rounded; mixed in sRGB, as programs display such images.
 pub(crate) fn on_white([r, g, b, alpha]: [u8; 4]) -> [u8; 3] {
     let alpha = u32::from(alpha);
     [r, g, b].map(|channel| ((u32::from(channel) * alpha + 255 * (255 - alpha) + 127) / 255) as u8)

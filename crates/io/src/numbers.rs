@@ -1,23 +1,23 @@
-//! Decimal numbers, exactly rounded, and lines of them.
+//! Decimal numbers, correctly rounded, and lines of them.
 //!
-//! Nearly every number of a model has few digits: its digits are then a whole
-//! number that f64 holds exactly, and so is the power of ten to multiply or divide
-//! by, so that one rounding is all there is (W. D. Clinger, "How to Read Floating
-//! Point Numbers Accurately", 1990). All others go to the standard library.
+//! Nearly every number in a model has few digits: its digits form an integer that f64 holds
+//! exactly, and so does the power of ten to multiply or divide by, so only one rounding is needed
+//! (W. D. Clinger, "How to Read Floating Point Numbers Accurately", 1990). All others go to the
+//! standard library.
 
 /// The numbers at the start of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Numbers<const MOST: usize> {
-    /// Those that are not there are 0.
+    /// Missing ones are 0.
     pub(crate) values: [f64; MOST],
-    /// How many there are.
+    /// Their count.
     pub(crate) count: usize,
-    /// Whether the line has more, which were not read.
+    /// Whether the line has more numbers, which were not read.
     pub(crate) surplus: bool,
 }
 
-/// Reads numbers up to a comment, at most `MOST`, or says which word is none.
-/// Infinity, no number (NaN) and their spellings in C are numbers, too.
+/// Reads numbers up to a comment, at most `MOST`, or returns the word that is not a number.
+/// Infinity, NaN and their C spellings are accepted.
 pub(crate) fn read_numbers<const MOST: usize>(line: &[u8]) -> Result<Numbers<MOST>, String> {
     let mut numbers = Numbers { values: [0.0; MOST], count: 0, surplus: false };
     let mut at = 0;
@@ -65,13 +65,12 @@ const POWERS: [f64; 23] = [
     1e19, 1e20, 1e21, 1e22,
 ];
 
-/// So many digits fit in u64, whatever they are.
+/// This many digits always fit into u64.
 pub(crate) const MOST_DIGITS: usize = 19;
 
-/// The number that a text starts with and how long it is, when one rounding
-/// suffices.
+/// The number at the start of a text and its length, if one rounding suffices.
 fn plain(text: &[u8]) -> Option<(f64, usize)> {
-    /// Up to here f64 holds every whole number.
+    /// Up to here f64 holds every integer.
     const LARGEST: u64 = 1 << 53;
     let negative = text.first() == Some(&b'-');
     let start = usize::from(negative);
@@ -104,8 +103,8 @@ fn plain(text: &[u8]) -> Option<(f64, usize)> {
     Some((if negative { -value } else { value }, at))
 }
 
-/// Appends the digits from `at` on to a number; where they end comes with it.
-/// More digits than 19 may wrap around.
+/// Appends the digits from `at` on to a number, and returns where they end. More than 19 digits may
+/// wrap around.
 #[inline]
 pub(crate) fn digits(text: &[u8], at: usize, mut number: u64) -> (u64, usize) {
     let mut end = at;
@@ -120,7 +119,7 @@ pub(crate) fn digits(text: &[u8], at: usize, mut number: u64) -> (u64, usize) {
     (number, end)
 }
 
-/// Any number, as Rust or C spell it.
+/// Any number in Rust or C spelling.
 fn unusual(word: &[u8]) -> Result<f64, String> {
     let text = std::str::from_utf8(word).unwrap_or_default();
     match text.parse() {
@@ -168,7 +167,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(4096))]
 
-        /// Whatever is spelled, it is the number that the standard library reads.
+        /// The result is always the number that the standard library reads.
         #[test]
         fn every_number_is_rounded_correctly(word in "-?[0-9]{0,20}(\\.[0-9]{0,20})?([eE][+-]?[0-9]{0,4})?") {
             let ours = read_numbers::<1>(word.as_bytes()).map(|numbers| (numbers.count, numbers.values[0].to_bits()));

@@ -1,4 +1,4 @@
-//! How to load: limits, and a callback that follows along.
+//! Load options: limits, and a progress callback.
 
 use std::fmt;
 use std::num::NonZeroUsize;
@@ -9,28 +9,28 @@ use crate::error::LoadError;
 use crate::format::Format;
 use crate::limits::Limits;
 
-/// What a load is doing.
+/// The stage of a load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// Bytes come from the disk.
+    /// Reading bytes from the disk.
     Reading,
-    /// Bytes become vertices and faces.
+    /// Parsing vertices and faces.
     Geometry,
-    /// Pictures are decoded.
+    /// Decoding images.
     Textures,
 }
 
-/// How far a load has come.
+/// The progress of a load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// What is being done.
+    /// The stage.
     pub stage: Stage,
-    /// Of the whole load, 0 to 1; an estimate that never goes back.
+    /// The fraction of the whole load, 0 to 1; an estimate that never decreases.
     pub fraction: f32,
 }
 
-/// Called now and then during a load; `Break` cancels it, and the load ends
-/// with an error of the kind `Cancelled`.
+/// Called regularly during a load; `Break` cancels it, and the load fails with an error of the kind
+/// `Cancelled`.
 pub type ProgressHook<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
 
 /// One of several scenes of a file.
@@ -38,29 +38,28 @@ pub type ProgressHook<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
 pub enum SceneChoice {
     /// By its number, from 0.
     Index(usize),
-    /// By its name; of several with the same name the first.
+    /// By its name; if several have the name, the first.
     Name(String),
 }
 
 /// How to load a file.
 #[derive(Clone, Default)]
 pub struct LoadOptions<'a> {
-    /// How much the file may ask for.
+    /// Resource limits.
     pub limits: Limits,
-    /// The format of the file; without it the one that its name or its contents tell.
+    /// The format of the file; by default the one given by its name or its contents.
     pub format: Option<Format>,
-    /// The scene to load of a file that has several; without it the one that
-    /// the file itself shows. Formats without scenes take no notice.
+    /// The scene to load from a file with several; by default the one that the file selects.
+    /// Ignored for formats without scenes.
     pub scene: Option<SceneChoice>,
-    /// How many threads may work on it: as many as the machine runs at once, unless
-    /// given.
+    /// The maximum number of threads; by default as many as the machine runs at once.
     pub threads: Option<NonZeroUsize>,
-    /// Keep the JSON, buffers and pictures of a glTF file and say which object of it each
-    /// part of the scene was, in [`Loaded::source`](crate::Loaded::source). Costs their
-    /// memory, and reads buffers and pictures that nothing uses, too. A file without any mesh is
-    /// loaded only so: something may be added to it. Off by default; other formats take no notice.
+    /// Keeps the JSON, buffers and images of a glTF file, and which object in it each part of the
+    /// scene was, in [`Loaded::source`](crate::Loaded::source). Costs their memory, and also reads
+    /// buffers and images that nothing uses. A file without any mesh is loaded only with this
+    /// option, since something may be added to it. Off by default; ignored for other formats.
     pub keep_source: bool,
-    /// Follows the progress, and may cancel.
+    /// The progress callback, which may cancel.
     pub progress: Option<ProgressHook<'a>>,
 }
 
@@ -80,8 +79,7 @@ impl fmt::Debug for LoadOptions<'_> {
 }
 
 impl LoadOptions<'_> {
-    /// Tells the callback; an error when it wants to stop. `within` is the
-    /// fraction of the stage, 0 to 1.
+    /// Calls the callback; an error if it cancels. `within` is the fraction of the stage, 0 to 1.
     pub(crate) fn report(&self, file: &Path, stage: Stage, within: f32) -> Result<(), LoadError> {
         let Some(hook) = self.progress else { return Ok(()) };
         let (start, share) = share_of(stage);
@@ -93,8 +91,8 @@ impl LoadOptions<'_> {
     }
 }
 
-/// Where a stage starts and how much of the whole it takes. Measured on a
-/// large OBJ and a textured GLB: reading is quick, the rest about even.
+/// The start of a stage and its share of the whole. Measured on a large OBJ and a textured GLB:
+/// reading is fast, the rest about even.
 fn share_of(stage: Stage) -> (f32, f32) {
     match stage {
         Stage::Reading => (0.0, 0.1),

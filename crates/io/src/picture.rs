@@ -1,11 +1,9 @@
-//! Pictures in: PNG, JPEG and WebP to 8-bit RGBA, within limits.
+//! Image readers: PNG, JPEG and WebP to 8-bit RGBA, within limits.
 //!
-//! What a picture is, its first bytes decide, never its name or what a model
-//! claims about it.
+//! The format follows from the first bytes, never from the file name or the model's claims.
 //!
-//! The JPEG decoder has an AVX2 path beside the scalar one. Both gave the same
-//! bytes for 1,000 random and 4 real files (zune-jpeg 0.5.15); its NEON path has
-//! not been compared yet.
+//! The JPEG decoder has an AVX2 path in addition to the scalar one. Both gave the same bytes for
+//! 1,000 random and 4 real files (zune-jpeg 0.5.15); its NEON path has not been compared yet.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -16,23 +14,22 @@ use crate::error::{LoadError, LoadErrorKind};
 use crate::folder::{Folder, to_the_end};
 use crate::limits::Limits;
 
-/// A picture in memory: sRGB colours with straight alpha.
+/// An image in memory: sRGB colours with straight alpha.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
     /// Pixels.
     pub width: u32,
     /// Pixels.
     pub height: u32,
-    /// Four bytes a pixel (red, green, blue, alpha), rows from the top.
+    /// Four bytes per pixel (red, green, blue, alpha), rows from the top.
     pub rgba: Vec<u8>,
 }
 
-/// Reads a PNG, JPEG or WebP file. 16-bit channels are rounded to 8, grey is
-/// spread to three channels, a missing alpha is opaque.
+/// Reads a PNG, JPEG or WebP file. 16-bit channels are rounded to 8, grey is expanded to three
+/// channels, missing alpha is opaque.
 ///
 /// # Errors
-/// When the file cannot be read, is of another format, is broken, or is
-/// larger than the limits.
+/// The file cannot be read, has another format, is broken, or is larger than the limits.
 pub fn load_image(path: impl AsRef<Path>, limits: &Limits) -> Result<Picture, LoadError> {
     let path = path.as_ref();
     let bytes = Folder::none(limits).read_model(path, &to_the_end)?;
@@ -40,8 +37,7 @@ pub fn load_image(path: impl AsRef<Path>, limits: &Limits) -> Result<Picture, Lo
         .map_err(|why| LoadError::new(LoadErrorKind::Unsupported, path, why, "save it as PNG, JPEG or WebP"))
 }
 
-/// Width and height as the picture claims them, if it is one within the limits.
-/// Reads its header only.
+/// Width and height according to the image's header, if within the limits. Reads only the header.
 pub(crate) fn picture_size(bytes: &[u8], limits: &Limits) -> Result<(u32, u32), String> {
     let format = picture_format(bytes)?;
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
@@ -51,7 +47,7 @@ pub(crate) fn picture_size(bytes: &[u8], limits: &Limits) -> Result<(u32, u32), 
     Ok(size)
 }
 
-/// Whether a picture of that width and height is within the limits, and has pixels.
+/// Whether an image of that width and height is within the limits, and has pixels.
 pub(crate) fn check_claim((width, height): (u32, u32), limits: &Limits) -> Result<(), String> {
     let pixels = u64::from(width) * u64::from(height);
     if width == 0 || height == 0 {
@@ -66,7 +62,7 @@ pub(crate) fn check_claim((width, height): (u32, u32), limits: &Limits) -> Resul
     Ok(())
 }
 
-/// Decodes a picture, or says why it cannot be.
+/// Decodes an image, or returns why it cannot be decoded.
 pub(crate) fn decode_picture(bytes: &[u8], limits: &Limits) -> Result<Picture, String> {
     let (width, height) = picture_size(bytes, limits)?;
     let mut reader = ImageReader::with_format(Cursor::new(bytes), picture_format(bytes)?);
@@ -81,10 +77,10 @@ pub(crate) fn decode_picture(bytes: &[u8], limits: &Limits) -> Result<Picture, S
     Ok(Picture { width, height, rgba: spread(channels, color.channel_count()) })
 }
 
-/// Channels of 16 bits, in the machine's order of bytes, rounded to 8.
+/// 16-bit channels, in native byte order, rounded to 8.
 ///
-/// Here, as [`spread`], and not by the `image` crate: that is compiled without optimisation
-/// but for what is generic (`Cargo.toml` of the workspace).
+/// Implemented here, like [`spread`], and not by the `image` crate, which is compiled without
+/// optimization except for generic code (`Cargo.toml` of the workspace).
 fn rounded(bytes: &[u8]) -> Vec<u8> {
     let (pairs, _) = bytes.as_chunks::<2>();
     pairs.iter().map(|&pair| ((u32::from(u16::from_ne_bytes(pair)) + 128) / 257) as u8).collect()
@@ -100,8 +96,7 @@ fn spread(channels: Vec<u8>, count: u8) -> Vec<u8> {
     }
 }
 
-/// A picture that says from afar that the real one is missing: magenta and
-/// grey squares.
+/// A conspicuous placeholder for a missing image: magenta and grey squares.
 pub(crate) fn placeholder() -> Picture {
     const SIDE: u32 = 16;
     const SQUARE: u32 = 4;
@@ -131,7 +126,7 @@ fn picture_format(bytes: &[u8]) -> Result<ImageFormat, String> {
 }
 
 pub(crate) fn decoder_limits(limits: &Limits) -> image::Limits {
-    // 16-bit RGBA is the widest that the decoders make, and one more copy.
+    // . 16-bit RGBA is the widest that the decoders produce, plus one copy.
     const BYTES_PER_PIXEL: u64 = 16;
     let mut decoder = image::Limits::default();
     decoder.max_image_width = Some(limits.image_side);
@@ -172,7 +167,7 @@ mod tests {
         let wide = [Type::L16, Type::La16, Type::Rgb16, Type::Rgba16];
         for color in types.into_iter().chain(wide) {
             let size = usize::from(color.bits_per_pixel()) / 8 * 64 * 64;
-            // Each pair of bytes is another number of 16 bits.
+            // Each pair of bytes is a different 16-bit number.
             let bytes: Vec<u8> = (0..size).map(|i| (i * 7 + i / 256 * 3) as u8).collect();
             let mut png = Vec::new();
             PngEncoder::new(&mut png).write_image(&bytes, 64, 64, color).expect("memory takes it");

@@ -1,4 +1,4 @@
-//! PNG out: to any writer, or to a file.
+//! PNG writer: to any writer, or to a file.
 
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -8,26 +8,25 @@ use image::{ExtendedColorType, ImageEncoder};
 
 use crate::write::{WriteError, write_atomically};
 
-/// The pixels of a picture to write, rows from the top.
+/// The pixels of an image to write, rows from the top.
 #[derive(Clone, Copy, Debug)]
 pub enum Pixels<'a> {
     /// Red, green, blue, straight alpha; sRGB.
     Rgba8(&'a [u8]),
     /// Red, green, blue; sRGB.
     Rgb8(&'a [u8]),
-    /// One value a pixel, such as a depth; 65535 is white.
+    /// One value per pixel, such as a depth; 65535 is white.
     Gray16(&'a [u16]),
-    /// Three values a pixel, such as a direction.
+    /// Three values per pixel, such as a direction.
     Rgb16(&'a [u16]),
 }
 
-/// Writes a PNG file. The bytes go to a temporary file in the same folder,
-/// reach the disk, and then take the name: whoever looks finds the old file
-/// or the new one, never half of it.
+/// Writes a PNG file atomically: the bytes go to a temporary file in the same folder, are synced to
+/// disk, and are then renamed, so the path always refers to the complete old or new file.
 ///
 /// # Errors
-/// When the sizes do not fit, or the file cannot be written; an old file of
-/// that name is then untouched.
+/// The sizes do not match, or the file cannot be written; an existing file of that name is then
+/// unchanged.
 pub fn write_png(
     path: impl AsRef<Path>,
     width: u32,
@@ -41,7 +40,7 @@ pub fn write_png(
 /// Writes a PNG to a writer, such as standard output.
 ///
 /// # Errors
-/// When the sizes do not fit, or the writer fails.
+/// The sizes do not match, or the writer fails.
 pub fn encode_png(writer: impl Write, width: u32, height: u32, pixels: Pixels<'_>) -> Result<(), WriteError> {
     check_size(width, height, pixels)?;
     let mut writer = BufWriter::new(writer);
@@ -74,7 +73,7 @@ fn encode(writer: &mut dyn Write, width: u32, height: u32, pixels: Pixels<'_>) -
     })
 }
 
-/// In the machine's order: the encoder turns them.
+/// In native byte order: the encoder swaps them.
 fn bytes(values: &[u16]) -> Vec<u8> {
     values.iter().flat_map(|value| value.to_ne_bytes()).collect()
 }

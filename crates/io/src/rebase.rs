@@ -1,19 +1,18 @@
-//! Keeping far-away models sharp: positions come in f64 and leave as f32.
+//! Precision of models far from the origin: positions arrive in f64 and leave as f32.
 //!
-//! A model ten million metres from the origin would have steps of a metre in
-//! f32. So its positions are stored relative to an offset near its middle, and
-//! the offset goes into the node's f64 translation.
+//! Ten million metres from the origin, f32 would have steps of a metre. So positions are stored
+//! relative to an offset near the model's middle, and the offset goes into the node's f64
+//! translation.
 
 use trigon_math::DVec3;
 
-/// How many times its own size a model may be away from the origin before it
-/// is rebased: up to here f32 loses at most 4 of its 24 bits, and the file's
-/// own numbers stay recognisable.
+/// How many times its own size a model may be away from the origin before it is rebased: up to here
+/// f32 loses at most 4 of its 24 bits, and the file's own numbers stay recognizable.
 const FAR: f64 = 16.0;
 
-/// What to subtract from all positions; zero unless the model is far away.
-/// The offset is a multiple of a power of two near the model's size, so that
-/// the subtraction in f64 is exact for all numbers that f64 itself resolves.
+/// The offset to subtract from all positions; zero unless the model is far away. It is a multiple
+/// of a power of two near the model's size, so that the subtraction in f64 is exact for all numbers
+/// that f64 itself resolves.
 pub(crate) fn offset_for(positions: impl Iterator<Item = DVec3>) -> DVec3 {
     let mut finite = positions.filter(|position| position.is_finite());
     let Some(first) = finite.next() else { return DVec3::ZERO };

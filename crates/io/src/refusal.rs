@@ -1,4 +1,4 @@
-//! Why a file is not opened, and which names are refused whatever they lead to.
+//! Why a file is not opened, and which names are always refused.
 
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -57,7 +57,7 @@ impl Refusal {
         LoadError::new(kind, path, self.to_string(), remedy)
     }
 
-    /// What to do about a file that a model names.
+    /// The remedy for a file that a model names.
     pub(crate) fn remedy(&self) -> &'static str {
         match self {
             Self::Missing => "put the file there, or export the model again with it",
@@ -69,7 +69,7 @@ impl Refusal {
     }
 }
 
-/// The name as a path that goes down only.
+/// The name as a path that only descends.
 pub(crate) fn relative_path(name: &str) -> Result<PathBuf, Refusal> {
     if name.trim().is_empty() || name.contains('\0') {
         return Err(Refusal::BadName);

@@ -1,5 +1,5 @@
-//! The model formats, one row for each: how it is read and written, and which of them a file has: by its name, and by its first bytes
-//! when the name says nothing.
+//! The model formats, one row for each: how it is read and written, and how it is recognized, by its name, or
+//! by its first bytes if the name has no known extension.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -12,10 +12,10 @@ use crate::format::{Format, Reader, Writer};
 use crate::import::Import;
 use crate::write::WriteError;
 
-/// All that loader and exporter know of a format.
+/// Everything that loader and exporter know about a format.
 pub(crate) struct FormatRow {
     pub(crate) reader: Reader,
-    /// Whether the first bytes of a file, of which the name says nothing, are of this format.
+    /// Whether the first bytes of a file without a known extension match this format.
     sniff: fn(&[u8]) -> bool,
     pub(crate) import: fn(&mut Import<'_>, Cow<'_, [u8]>) -> Result<(), LoadError>,
     pub(crate) writing: Writing,
@@ -23,17 +23,17 @@ pub(crate) struct FormatRow {
 
 /// How a format is written.
 pub(crate) enum Writing {
-    /// It is not.
+    /// Not written.
     Unwritten,
     /// As a whole.
     Scene(fn(&Scene, &ExportOptions<'_>) -> Result<Vec<u8>, WriteError>),
-    /// Mesh by mesh, in a file of a name and others beside it.
+    /// Mesh by mesh, in a named file and others beside it.
     Objects(Holds, fn(&str, &mut Gathered<'_>, &ExportOptions<'_>) -> Result<Vec<ExportedFile>, WriteError>),
 }
 
 const GLTF: &str = "node tree, materials and all their textures, cameras, lights, skins, morph targets, animations, instances, meshopt compression; no Draco, no KTX2";
 
-/// What a format holds that has everything that meshes have.
+/// The contents of a format that stores everything in a mesh.
 const ALL: Holds = Holds {
     materials: true,
     normals: true,
@@ -45,7 +45,7 @@ const ALL: Holds = Holds {
     objects: true,
 };
 
-/// What a format holds that has triangles only.
+/// The contents of a format with triangles only.
 const FACES: Holds = Holds {
     materials: false,
     normals: false,
@@ -57,7 +57,7 @@ const FACES: Holds = Holds {
     objects: false,
 };
 
-/// The formats. No file is of two of them, by its first bytes.
+/// The formats. The first bytes of a file never match two of them.
 static ROWS: [FormatRow; 6] = [
     FormatRow {
         reader: Reader {
@@ -144,7 +144,7 @@ pub fn writers() -> impl Iterator<Item = Writer> {
 }
 
 impl Format {
-    /// The format that goes by an ending of file names, in any case.
+    /// The format with a file extension, in any case.
     pub fn from_extension(extension: &str) -> Option<Self> {
         let extension = extension.to_lowercase();
         readers().find(|reader| reader.extensions.contains(&extension.as_str())).map(|reader| reader.format)
@@ -155,18 +155,18 @@ impl Format {
     }
 }
 
-/// Formats that people will try, and that are named instead of misread.
+/// Formats that people will try: these are named instead of misread.
 const UNSUPPORTED: &[&str] = &[
     "fbx", "dae", "3ds", "blend", "usd", "usda", "usdc", "usdz", "x3d", "wrl", "step", "stp", "iges", "3mf",
 ];
 
-/// The format of a file, or why it is none of ours. The magic of a GLB beats
-/// the name; then the name decides; then the contents.
+/// The format of a file, or why it is not supported. The magic of a GLB has priority over the name;
+/// then the name decides; then the contents.
 pub(crate) fn detect_format(path: &Path, bytes: &[u8]) -> Result<Format, String> {
     let extension =
         path.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_lowercase();
     if let Some(format) = Format::from_extension(&extension) {
-        // Many a GLB is called .gltf and the other way round.
+        // Many GLB files are named .gltf and vice versa.
         return Ok(match (format, bytes.starts_with(b"glTF"), first_visible(bytes)) {
             (Format::Gltf, true, _) => Format::Glb,
             (Format::Glb, false, Some(b'{')) => Format::Gltf,
@@ -186,7 +186,7 @@ pub(crate) fn endings() -> String {
     endings.join(", ")
 }
 
-/// The formats for a remedy: "convert it to …".
+/// The formats, for a remedy: "supported are …".
 pub(crate) fn supported() -> String {
     let endings: Vec<String> = readers()
         .flat_map(|reader| reader.extensions)
@@ -209,7 +209,7 @@ fn looks_like_obj(line: &[u8]) -> bool {
     words.next() == Some("v") && words.take(3).filter(|word| word.parse::<f64>().is_ok()).count() == 3
 }
 
-/// The first byte that is no space and no byte order mark.
+/// The first byte that is not a space or part of a byte order mark.
 fn first_visible(bytes: &[u8]) -> Option<u8> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     bytes.iter().copied().find(|byte| !byte.is_ascii_whitespace())

@@ -1,18 +1,18 @@
-//! Text formats whose records are lines: PLY, OFF and STL as text.
+//! Text formats with one record per line: PLY, OFF and text STL.
 
-/// The lines of a text that have something in them, with their numbers, counted from 1. Lines end
-/// in `\n`, `\r\n` or `\r`; spaces around them are taken off.
+/// The non-empty lines of a text with their numbers, counted from 1. Lines end in `\n`, `\r\n` or
+/// `\r`; surrounding spaces are removed.
 #[derive(Clone)]
 pub(crate) struct Rows<'a> {
     text: &'a [u8],
     at: usize,
     number: u64,
-    /// What starts a comment, in formats that have some.
+    /// The start of a comment, in formats that have them.
     comment: Option<u8>,
 }
 
 impl<'a> Rows<'a> {
-    /// The lines of a text of which so many lines have been read before.
+    /// The lines of a text, with a number of lines already read.
     pub(crate) fn after(lines: u64, text: &'a [u8]) -> Self {
         Self { text, at: 0, number: lines, comment: None }
     }
@@ -27,7 +27,7 @@ impl<'a> Rows<'a> {
         self.number
     }
 
-    /// How many bytes have been read, and how many have not.
+    /// The number of bytes read, and of bytes left.
     pub(crate) fn progress(&self) -> (usize, usize) {
         (self.at, self.text.len() - self.at)
     }
@@ -63,7 +63,7 @@ pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
-/// A word as messages quote it.
+/// A word as quoted in messages.
 pub(crate) fn quoted(word: &[u8]) -> String {
     format!("\"{}\"", String::from_utf8_lossy(&word[..word.len().min(40)]))
 }

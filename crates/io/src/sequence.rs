@@ -1,4 +1,4 @@
-//! Moving pictures out: GIF and animated PNG, one frame in memory at a time.
+//! Animated images: GIF and animated PNG, one frame in memory at a time.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -9,20 +9,20 @@ use image::{Delay, Frame, RgbaImage};
 use crate::lossy::{into_io, on_white};
 use crate::write::{WriteError, write_atomically};
 
-/// Sides of GIF pictures have 16 bits.
+/// GIF stores sides in 16 bits.
 const MOST_SIDE: u32 = 65_535;
 
-/// What all frames of a moving picture have in common.
+/// The common properties of all frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sequence {
     /// Pixels, 1 to 65,535.
     pub width: u32,
     /// Pixels, 1 to 65,535.
     pub height: u32,
-    /// How many frames, at least 1.
+    /// The number of frames, at least 1.
     pub frames: u32,
-    /// Frames in a second: 0.02 to 1000. Programs that show GIF files take no less than
-    /// 20 ms for a frame, and hundredths of a second.
+    /// Frames per second: 0.02 to 1000. Programs that show GIF files use at least 20 ms per frame,
+    /// in hundredths of a second.
     pub frames_per_second: f64,
 }
 
@@ -34,12 +34,12 @@ impl Sequence {
         if fits { Ok(()) } else { Err(WriteError::Size { width, height, length: self.frames as usize }) }
     }
 
-    /// How long a frame is shown, in milliseconds.
+    /// The duration of a frame, in milliseconds.
     fn milliseconds(&self) -> u16 {
         (1000.0 / self.frames_per_second).round().clamp(1.0, 50_000.0) as u16
     }
 
-    /// A frame, if it has as many pixels as it should.
+    /// A frame, if it has the right number of pixels.
     fn checked(&self, rgba: Vec<u8>) -> io::Result<Vec<u8>> {
         if rgba.len() as u64 == 4 * u64::from(self.width) * u64::from(self.height) {
             return Ok(rgba);
@@ -48,12 +48,12 @@ impl Sequence {
     }
 }
 
-/// Writes an endless GIF of 256 colours a frame; transparent pixels are put on white.
-/// `frame` makes the frame of a number from 0: sRGB with straight alpha, rows from the top.
-/// The file is there whole or not at all.
+/// Writes a looping GIF with 256 colours per frame; transparent pixels become white. `frame`
+/// returns the frame of a number from 0: sRGB with straight alpha, rows from the top. The file is
+/// written atomically.
 ///
 /// # Errors
-/// When a size does not fit, `frame` fails, or the file cannot be written.
+/// A size does not match, `frame` fails, or the file cannot be written.
 pub fn write_gif(
     path: impl AsRef<Path>,
     sequence: &Sequence,
@@ -61,7 +61,7 @@ pub fn write_gif(
 ) -> Result<(), WriteError> {
     sequence.check()?;
     write_atomically(path.as_ref(), |file| {
-        // 10: as fine as the palette gets in a time that nobody waits for.
+        // . 10: the best palette in an acceptable time.
         let mut encoder = GifEncoder::new_with_speed(file, 10);
         encoder.set_repeat(Repeat::Infinite).map_err(into_io)?;
         let delay = Delay::from_numer_denom_ms(u32::from(sequence.milliseconds()), 1);
@@ -80,12 +80,12 @@ fn opaque(rgba: &[u8]) -> Vec<u8> {
     pixels.iter().flat_map(|&pixel| on_white(pixel).into_iter().chain([255])).collect()
 }
 
-/// Writes an endless animated PNG: every byte of every frame is kept. Programs that know
-/// only PNG show the first. `frame` makes the frame of a number from 0: sRGB with straight
-/// alpha, rows from the top. The file is there whole or not at all.
+/// Writes a looping animated PNG: every byte of every frame is kept. Programs that support only PNG
+/// show the first. `frame` returns the frame of a number from 0: sRGB with straight alpha, rows
+/// from the top. The file is written atomically.
 ///
 /// # Errors
-/// When a size does not fit, `frame` fails, or the file cannot be written.
+/// A size does not match, `frame` fails, or the file cannot be written.
 pub fn write_apng(
     path: impl AsRef<Path>,
     sequence: &Sequence,

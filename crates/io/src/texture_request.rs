@@ -1,4 +1,4 @@
-//! Textures that a model asks for, before their pictures are decoded.
+//! Textures that a model needs, before their images are decoded.
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -9,22 +9,22 @@ use trigon_raster::TextureFormat;
 use crate::error::Place;
 use crate::layers::Role;
 
-/// A texture to make, and where its name was found.
+/// A texture to create, and where it was named.
 pub(crate) struct Request {
-    /// For people: the picture's file name, or its name in the model.
+    /// A display name: the image's file name, or its name in the model.
     pub(crate) name: String,
-    /// The file that is to blame when it is broken.
+    /// The file to report if it is broken.
     pub(crate) file: PathBuf,
     pub(crate) place: Place,
-    /// The pictures that it is made of.
+    /// The images that it consists of.
     pub(crate) layers: Vec<(Role, PictureBytes)>,
     pub(crate) purpose: Purpose,
 }
 
-/// What a picture is for: how its bytes are meant, and whether its loss must show.
+/// The use of an image: how its bytes are interpreted, and whether its absence must be visible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Purpose {
-    /// The colour of a surface, which nobody may overlook when it is missing.
+    /// The colour of a surface; its absence must be conspicuous.
     BaseColor,
     /// Another colour.
     Color,
@@ -41,7 +41,7 @@ impl Purpose {
     }
 }
 
-/// The bytes of a picture file: its own, or some of a buffer that many share.
+/// The bytes of an image file: its own, or a part of a shared buffer.
 pub(crate) enum PictureBytes {
     Own(Vec<u8>),
     Shared(Arc<[u8]>, Range<usize>),

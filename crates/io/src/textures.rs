@@ -1,5 +1,5 @@
-//! Pictures of a model to textures of the scene: decoded in parallel, and only
-//! those that a material uses.
+//! Converts images of a model to textures of the scene: decoded in parallel, and only those that a
+//! material uses.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -15,8 +15,8 @@ use crate::options::Stage;
 use crate::picture::{Picture, decode_picture, picture_size, placeholder};
 use crate::texture_request::{PictureBytes, Purpose, Request};
 
-/// Decodes pictures and adds them to the scene, in order. A broken one becomes
-/// a warning, and a checkerboard where it is the colour of a surface.
+/// Decodes images and adds them to the scene, in order. A broken one becomes a warning, and a
+/// checkerboard if it is the colour of a surface.
 pub(crate) fn add_textures(
     import: &mut Import<'_>,
     requests: &[Request],
@@ -69,15 +69,15 @@ fn decode(request: &Request, limits: &Limits) -> Result<Picture, Fault> {
     })
 }
 
-/// Why a picture is not shown, and what to do about it.
+/// Why an image is not shown, and a remedy.
 type Fault = (String, &'static str);
 
 fn broken(why: String) -> Fault {
     (why, "save it as PNG, JPEG or WebP")
 }
 
-/// Which pictures are decoded, by what their headers claim: in order, until all
-/// together would be too many pixels.
+/// Which images are decoded, based on the sizes in their headers: in order, until the total would
+/// be too many pixels.
 fn within_budget(requests: &[Request], limits: &Limits) -> Vec<Result<(), Fault>> {
     let mut left = limits.total_pixels;
     let mut admit = |request: &Request| {

@@ -14,7 +14,7 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
         .with_decode_allow_trailing_bits(true),
 );
 
-/// What a reference leads to.
+/// The target of a reference.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Reference {
     /// The bytes are in the reference itself.
@@ -23,7 +23,7 @@ pub(crate) enum Reference {
     Path(String),
 }
 
-/// Takes a reference apart, or says why it cannot be.
+/// Parses a reference, or returns why it is invalid.
 pub(crate) fn parse_reference(uri: &str) -> Result<Reference, &'static str> {
     if uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:")) {
         return decode_data(&uri[5..]).map(Reference::Data);
@@ -32,7 +32,7 @@ pub(crate) fn parse_reference(uri: &str) -> Result<Reference, &'static str> {
     Ok(Reference::Path(decoded.into_owned()))
 }
 
-/// The reference as messages quote it: never a megabyte of base64.
+/// The reference as quoted in messages: never a megabyte of base64.
 pub(crate) fn quotable(uri: &str) -> String {
     const LONGEST: usize = 100;
     if uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:")) {

@@ -1,7 +1,7 @@
-//! What a load could not keep: data for the caller, never printed here.
+//! Warnings: what a load could not keep, as data for the caller; never printed here.
 //!
-//! A file with a million bad faces gives one warning that counts them, so the
-//! collector folds warnings of the same file and the same wording together.
+//! A file with a million bad faces gives one warning with a count: the collector merges warnings
+//! with the same file and text.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -9,22 +9,21 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Place, printable};
 
-/// Something in a file that is missing, wrong or not drawn yet. Its `Display`
-/// is one line.
+/// Something in a file that is missing, wrong or not supported. Its `Display` is one line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
-    /// The file that is to blame.
+    /// The faulty file.
     pub file: PathBuf,
-    /// Where it was seen first.
+    /// The first location.
     pub place: Place,
     /// What was seen.
     pub what: String,
-    /// What a person can do about it.
+    /// A remedy for people.
     pub remedy: String,
     /// How many more of the same there were.
     pub more: usize,
-    /// Of a file that the model names and that could not be used: every path at which it
-    /// was looked for. Empty for everything else.
+    /// For a file that the model names and that could not be used: every path at which it was
+    /// looked for. Empty otherwise.
     pub tried: Vec<PathBuf>,
 }
 
@@ -50,11 +49,10 @@ pub(crate) fn counted(count: usize, kind: &str) -> String {
     format!("{count} {}", if count == 1 { kind } else { &plural })
 }
 
-/// How many different warnings are kept; a hostile file can make every one
-/// different.
+/// The maximum number of different warnings; a hostile file can make every one different.
 const MOST_WARNINGS: usize = 200;
 
-/// Collects warnings about one model and the files beside it.
+/// Collects warnings about one model and its other files.
 #[derive(Debug)]
 pub(crate) struct Warnings {
     file: PathBuf,
@@ -73,7 +71,7 @@ impl Warnings {
         self.push_about(&file, place, what, remedy);
     }
 
-    /// A warning about a file beside it.
+    /// A warning about another file of the model.
     pub(crate) fn push_about(
         &mut self,
         file: &Path,
@@ -115,7 +113,7 @@ impl Warnings {
         }
     }
 
-    /// A warning of which `count` were seen, the first at `place`.
+    /// A warning that occurred `count` times, first at `place`.
     pub(crate) fn push_counted(
         &mut self,
         count: usize,
@@ -133,7 +131,7 @@ impl Warnings {
         }
     }
 
-    /// The warning that came first.
+    /// The first warning.
     pub(crate) fn first(&self) -> Option<&Warning> {
         self.list.first()
     }

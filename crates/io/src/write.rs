@@ -1,4 +1,4 @@
-//! Files out: there whole or not at all.
+//! Atomic writing of files.
 
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -6,17 +6,17 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// Why a picture, what a frame holds beside it, a capture or a model was not written.
+/// Why an image, an output, a capture or a model was not written.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// The sizes do not fit each other, or are zero.
+    /// The sizes do not match, or are zero.
     #[error("a picture of {width}×{height} pixels does not fit {length} values; pass width × height pixels")]
     Size {
         /// Pixels.
         width: u32,
         /// Pixels.
         height: u32,
-        /// What was passed.
+        /// The number of values passed.
         length: usize,
     },
     /// The frame does not hold what is to be written.
@@ -38,7 +38,7 @@ pub enum WriteError {
     Unwritten {
         /// The name of the file.
         name: String,
-        /// The endings of those that are.
+        /// The extensions of those that are written.
         writers: String,
     },
     /// The format cannot count so much.
@@ -46,15 +46,15 @@ pub enum WriteError {
         "the file would have {bytes} bytes, and its format cannot count so many; save fewer meshes in it"
     )]
     TooLarge {
-        /// How many bytes the file would have.
+        /// The size that the file would have, in bytes.
         bytes: u64,
     },
-    /// The folder or the disk said no.
+    /// The folder or the disk refused.
     #[error("{}: cannot be written ({source}); check that the folder exists, is writable and has room", path.display())]
     File {
-        /// The file that was to be.
+        /// The file to write.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
     /// The writer said no.
@@ -62,7 +62,7 @@ pub enum WriteError {
     Stream(#[from] io::Error),
 }
 
-/// Runs `write` on a new file that takes the name `path` when all went well.
+/// Runs `write` on a new file, which is renamed to `path` on success.
 pub(crate) fn write_atomically(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -74,7 +74,7 @@ fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
     let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     builder.prefix(".trigon-").suffix(".part");
-    // Temporary files are private by default; a picture has the rights of any new file.
+    // Temporary files are private by default; an image gets the permissions of any new file.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let temporary = builder.tempfile_in(folder)?;
@@ -87,7 +87,7 @@ fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
     sync_folder(folder)
 }
 
-/// Makes the new name itself durable, where the system can.
+/// Makes the new name durable, if the system can.
 fn sync_folder(folder: &Path) -> io::Result<()> {
     if cfg!(unix) { fs::File::open(folder)?.sync_all() } else { Ok(()) }
 }

@@ -1,11 +1,11 @@
-//! Boxes along the axes.
+//! Axis-aligned boxes.
 
 use glam::{DAffine3, DVec3};
 
-/// The smallest box along the axes that holds some points.
+/// An axis-aligned bounding box.
 ///
-/// Empty if `min > max` on some axis. Its user keeps `min` and `max` free of
-/// NaN; the constructors do.
+/// Empty if `min > max` on some axis. The user keeps `min` and `max` free of NaN; the constructors
+/// do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds3 {
     /// The smallest coordinate on each axis.
@@ -15,10 +15,10 @@ pub struct Bounds3 {
 }
 
 impl Bounds3 {
-    /// Holds no point; the neutral element of [`Bounds3::union`].
+    /// Contains no point; the neutral element of [`Bounds3::union`].
     pub const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
-    /// The smallest box that holds the points; a NaN coordinate is skipped.
+    /// The smallest box that contains the points; NaN coordinates are skipped.
     #[must_use]
     pub fn from_points(points: impl IntoIterator<Item = DVec3>) -> Self {
         let mut bounds = Self::EMPTY;
@@ -28,13 +28,13 @@ impl Bounds3 {
         bounds
     }
 
-    /// Grows the box to hold a point; a NaN coordinate is skipped.
+    /// Extends the box to contain a point; NaN coordinates are skipped.
     pub fn include(&mut self, point: DVec3) {
         self.min = select(point.cmplt(self.min), point, self.min);
         self.max = select(point.cmpgt(self.max), point, self.max);
     }
 
-    /// The smallest box that holds both.
+    /// The smallest box that contains both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         Self {
@@ -43,22 +43,22 @@ impl Bounds3 {
         }
     }
 
-    /// Whether no point is inside. A box of zero size still holds a point.
+    /// Whether it contains no point. A box of zero size still contains a point.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.min.cmpgt(self.max).any()
     }
 
-    /// Whether a point is inside or on the border, exactly.
+    /// Whether a point is inside or on the boundary, exactly.
     #[must_use]
     pub fn contains(&self, point: DVec3) -> bool {
         self.min.cmple(point).all() && point.cmple(self.max).all()
     }
 
-    /// The middle; `None` of an empty box.
+    /// The centre; `None` for an empty box.
     #[must_use]
     pub fn center(&self) -> Option<DVec3> {
-        // Halved before the sum, which so cannot overflow.
+        // Halved before the sum, which therefore cannot overflow.
         (!self.is_empty()).then(|| self.min * 0.5 + self.max * 0.5)
     }
 
@@ -81,12 +81,11 @@ impl Bounds3 {
         })
     }
 
-    /// The box round the transformed box; an empty one stays empty.
+    /// The box around the transformed box; an empty one stays empty.
     ///
-    /// It holds `transform.transform_point3(p)` for every finite `p` inside,
-    /// rounding included: each coordinate of the image is a sum of products,
-    /// so its rounded value is monotone in each coordinate of `p` and extreme
-    /// at a corner.
+    /// It contains `transform.transform_point3(p)` for every finite `p` inside, rounding included:
+    /// each coordinate of the image is a sum of products, so its rounded value is monotone in each
+    /// coordinate of `p` and extreme at a corner.
     #[must_use]
     pub fn transformed(&self, transform: &DAffine3) -> Self {
         if self.is_empty() {
@@ -96,8 +95,8 @@ impl Bounds3 {
     }
 }
 
-/// Per axis `a` where the mask holds, else `b`. Comparisons instead of `min`
-/// and `max`, whose answers for NaN and ±0 differ between machines.
+/// Per axis `a` where the mask is set, otherwise `b`. Comparisons instead of `min` and `max`, whose
+/// results for NaN and ±0 differ between machines.
 fn select(mask: glam::BVec3, a: DVec3, b: DVec3) -> DVec3 {
     DVec3::select(mask, a, b)
 }

@@ -8,39 +8,33 @@
 //! triangle and attributes need no clipping.
 //!
 //! # What holds
-//! Exactly, whatever the input:
-//! 1. Every vertex that comes out is inside every half-space of the volume.
-//!    Vertices at distance zero are inside, too.
-//! 2. A shared edge is cut at the same bits, whichever triangle asks, in
-//!    whichever direction, from whichever first vertex; and a segment is cut
-//!    where the edge of a triangle is.
-//! 3. Corners that are inside come out as they went in.
-//! 4. A triangle gets at most one vertex more per half-space.
-//! 5. A coordinate or weight that is equal at both ends of an edge stays so, and
-//!    none leaves the range of the corners', except where a plane sets it.
+//! These hold exactly, whatever the input:
+//! 1. Every output vertex is inside every half-space of the volume. Vertices at distance zero are
+//!    inside, too.
+//! 2. A shared edge is cut at the same bits, for either triangle, in either direction and from any
+//!    first vertex; and a segment is cut like the edge of a triangle.
+//! 3. Corners inside the volume are unchanged.
+//! 4. A triangle gets at most one additional vertex per half-space.
+//! 5. A coordinate or weight that is equal at both ends of an edge stays so, and none leaves the
+//!    range of the corners' values, except where a plane sets it.
 //!
-//! Within bounds: weights are in `[0, 1]` and sum to 1 within 2⁻²³. A vertex is
-//! where its weights say within `2⁻²²·m + 2⁻⁴⁴·(m + b·w)`, with `m` the largest
-//! magnitude of that coordinate and `w` that of `w` among the corners, and `b`
-//! the largest [`Band`] (1 for depth).
+//! These hold within bounds: weights are in `[0, 1]` and sum to 1 within 2⁻²³. A vertex is where
+//! its weights place it within `2⁻²²·m + 2⁻⁴⁴·(m + b·w)`, with `m` the largest magnitude of that
+//! coordinate and `w` that of `w` among the corners, and `b` the largest [`Band`] (1 for depth).
 //!
 //! # Why
-//! All arithmetic is in `f64`, the cast to `f32` comes once, at the end. A cut
-//! goes from the vertex inside to the vertex outside, `p = s·inside +
-//! t·outside`, and then the coordinate that the plane fixes is set: `w` to its
-//! minimum, `z` to `w` or 0, `x` or `y` to a band times `w`. With the same `s`
-//! and `t >= 0` for all coordinates, and as rounding is monotone, `z <= w` at
-//! both ends gives `z <= w` at the cut; as bands are powers of two, the same
-//! holds for `x` against `b·w`; and the cast keeps both. So a cut never pushes
-//! a vertex out of a half-space that is done, and never to a side of a later
-//! one on which no end of its edge is. Setting `w` to its minimum could, by
-//! rounding, so there the side is restored. Of the corners of a triangle at
-//! most two neighbouring pairs differ in side; cuts add none, and so property
-//! 4 needs no tolerance.
+//! All arithmetic is in `f64`, with one cast to `f32` at the end. A cut goes from the vertex inside
+//! to the vertex outside, `p = s·inside + t·outside`, and then sets the coordinate that the plane
+//! fixes: `w` to its minimum, `z` to `w` or 0, `x` or `y` to a band times `w`. With the same `s`
+//! and `t >= 0` for all coordinates, and because rounding is monotone, `z <= w` at both ends gives
+//! `z <= w` at the cut; because bands are powers of two, the same holds for `x` against `b·w`; and
+//! the cast preserves both. So a cut never pushes a vertex out of an earlier half-space, and never
+//! to a side of a later one on which neither end of its edge is. Setting `w` to its minimum could
+//! do so by rounding, so there the side is restored. Of the corners of a triangle at most two
+//! neighbouring pairs differ in side; cuts add none, so property 4 needs no tolerance.
 //!
-//! Inputs of more than three corners are not offered: a rounded quadrilateral
-//! is rarely planar, and its triangles can be clipped instead; their shared
-//! diagonal is an edge as any other.
+//! Polygons of more than three corners are not supported: a rounded quadrilateral is rarely planar,
+//! and its triangles can be clipped instead; their shared diagonal is an edge like any other.
 
 mod cut;
 mod half_space;

@@ -17,8 +17,8 @@ use srgb_table::{DECODED, THRESHOLDS};
 
 /// Decodes an sRGB value to linear light, in `f64` and cast once.
 ///
-/// Meant for `[0, 1]`. Above 1 the curve goes on; below 0 it is mirrored, so
-/// that colours out of gamut survive. NaN stays NaN.
+/// Intended for `[0, 1]`. Above 1 the curve continues; below 0 it is mirrored, so that out-of-gamut
+/// colours survive. NaN stays NaN.
 #[must_use]
 pub fn srgb_to_linear(encoded: f32) -> f32 {
     let value = f64::from(encoded.abs());
@@ -28,8 +28,7 @@ pub fn srgb_to_linear(encoded: f32) -> f32 {
 
 /// Encodes linear light as an sRGB value, in `f64` and cast once.
 ///
-/// Meant for `[0, 1]`. Above 1 the curve goes on; below 0 it is mirrored. NaN
-/// stays NaN.
+/// Intended for `[0, 1]`. Above 1 the curve continues; below 0 it is mirrored. NaN stays NaN.
 #[must_use]
 pub fn linear_to_srgb(linear: f32) -> f32 {
     let value = f64::from(linear.abs());
@@ -56,23 +55,23 @@ pub fn linear_to_srgb8(linear: f32) -> u8 {
     ((srgb8_cell(bits >> SRGB8_CELL_BITS) + bits % (1 << SRGB8_CELL_BITS)) >> SRGB8_CELL_BITS) as u8
 }
 
-/// The value that stands for all smaller ones in [`srgb8_cell`]: a power of two just below
-/// the first threshold.
+/// The value that represents all smaller ones in [`srgb8_cell`]: a power of two just below the
+/// first threshold.
 pub const SRGB8_LEAST: f32 = 1.0 / 8192.0;
-/// The value that stands for all greater ones: the last below 1.
+/// The value that represents all greater ones: the last below 1.
 pub const SRGB8_GREATEST: f32 = 1.0 - f32::EPSILON / 2.0;
-/// A cell is a run of `f32`s that agree in all but so many of their last bits: 1/128 of an
-/// octave. No cell holds two thresholds, which the table's builder asserts.
+/// The number of low bits ignored within a cell, which is 1/128 of an octave. No cell contains two
+/// thresholds, which the table's builder asserts.
 pub const SRGB8_CELL_BITS: u32 = 16;
 /// 13 octaves from 2⁻¹³ to 1.
 const CELL_COUNT: usize = 13 << (23 - SRGB8_CELL_BITS);
-/// So many that a remainder stays inside.
+/// Large enough that a remainder stays inside.
 const CELLS_WITH_ROOM: usize = CELL_COUNT.next_power_of_two();
 static CELLS: [u32; CELLS_WITH_ROOM] = cells();
 
-/// For those who encode several values at once: from `bits`, those of a value between
-/// [`SRGB8_LEAST`] and [`SRGB8_GREATEST`] less those of `SRGB8_LEAST`, its byte follows as
-/// `(srgb8_cell(bits >> 16) + bits % (1 << 16)) >> 16`, with [`SRGB8_CELL_BITS`] for 16.
+/// For encoding several values at once: with `bits` the bits of a value between [`SRGB8_LEAST`] and
+/// [`SRGB8_GREATEST`] minus those of `SRGB8_LEAST`, its byte is `(srgb8_cell(bits >> 16) + bits %
+/// (1 << 16)) >> 16`, with [`SRGB8_CELL_BITS`] for 16.
 ///
 /// ```
 /// use trigon_math::color::{SRGB8_LEAST, linear_to_srgb8, srgb8_cell};
@@ -87,8 +86,8 @@ pub fn srgb8_cell(cell: u32) -> u32 {
     CELLS[cell as usize % CELLS_WITH_ROOM]
 }
 
-/// For each cell the byte of its first value in the upper half of a number. The lower half
-/// is what the last bits of a threshold in the cell lack for a carry; 0 if there is none.
+/// For each cell the byte of its first value in the upper half of a number. The lower half is what
+/// the last bits of a threshold in the cell need for a carry; 0 if there is none.
 const fn cells() -> [u32; CELLS_WITH_ROOM] {
     const CARRY: u32 = 1 << SRGB8_CELL_BITS;
     let mut cells = [0; CELLS_WITH_ROOM];
@@ -111,14 +110,13 @@ const fn cells() -> [u32; CELLS_WITH_ROOM] {
     cells
 }
 
-/// The byte nearest to `value · 255`, ties up, for data that is no light
-/// (alpha, masks).
+/// The byte nearest to `value · 255`, ties up, for data other than light (alpha, masks).
 ///
 /// Values below 0 and NaN give 0, values above 1 and `+∞` give 255.
 #[must_use]
 pub fn unit_to_u8(value: f32) -> u8 {
-    // 24 bits times 8 bits is exact in f64, so is the half. The cast saturates
-    // and takes NaN to 0.
+    // . 24 bits times 8 bits is exact in f64, and so is the half. The cast saturates and maps NaN
+    // to 0.
     (f64::from(value) * 255.0 + 0.5) as u8
 }
 
@@ -144,8 +142,8 @@ pub fn premultiplied(straight: Vec4) -> Vec4 {
 
 /// Divides the colour by its alpha: premultiplied to straight.
 ///
-/// Alpha of zero, below zero or NaN gives transparent black, the only colour
-/// that nothing shows.
+/// Alpha of zero, below zero or NaN gives transparent black, the only colour without a visible
+/// effect.
 #[must_use]
 pub fn unpremultiplied(premultiplied: Vec4) -> Vec4 {
     if premultiplied.w > 0.0 {

@@ -1,13 +1,13 @@
 //! Elementary functions that give the same bits on every machine.
 //!
-//! The standard library calls the platform's C library, whose results differ in
-//! the last place between systems and versions. These functions call `libm`, a
-//! port of musl's library to Rust made of IEEE additions, multiplications,
-//! divisions and square roots only. A lint keeps the platform's own out.
+//! The standard library calls the platform's C library, whose results differ in the last place
+//! between systems and versions. These functions call `libm`, a Rust port of musl's library that
+//! uses only IEEE additions, multiplications, divisions and square roots. A lint forbids the
+//! platform's functions.
 //!
-//! The plain names take and return `f64`; the names that end in `_f32` take and
-//! return `f32`. Errors are below one unit in the last place unless a function
-//! says otherwise. Angles are radians. NaN goes in, NaN comes out.
+//! The plain names take and return `f64`; the names that end in `_f32` take and return `f32`.
+//! Errors are below one unit in the last place unless a function says otherwise. Angles are
+//! radians. NaN gives NaN.
 
 /// The sine of an angle.
 #[must_use]
@@ -87,8 +87,7 @@ pub fn log10(value: f64) -> f64 {
     libm::log10(value)
 }
 
-/// `base` to the power of `exponent`; NaN for a negative base and an exponent
-/// that is no integer.
+/// `base` to the power of `exponent`; NaN for a negative base with a non-integer exponent.
 #[must_use]
 pub fn pow(base: f64, exponent: f64) -> f64 {
     libm::pow(base, exponent)
@@ -100,7 +99,7 @@ pub fn cbrt(value: f64) -> f64 {
     libm::cbrt(value)
 }
 
-/// The length of the vector `(x, y)` without overflow in between.
+/// The length of the vector `(x, y)` without intermediate overflow.
 #[must_use]
 pub fn hypot(x: f64, y: f64) -> f64 {
     libm::hypot(x, y)
@@ -154,8 +153,7 @@ pub fn log2_f32(value: f32) -> f32 {
     libm::log2f(value)
 }
 
-/// `base` to the power of `exponent`; NaN for a negative base and an exponent
-/// that is no integer.
+/// `base` to the power of `exponent`; NaN for a negative base with a non-integer exponent.
 #[must_use]
 pub fn pow_f32(base: f32, exponent: f32) -> f32 {
     libm::powf(base, exponent)
@@ -166,7 +164,7 @@ pub fn pow_f32(base: f32, exponent: f32) -> f32 {
 mod tests {
     use super::*;
 
-    /// The distance of `value` from `expected` in units of the latter's last place.
+    /// The distance of `value` from `expected` in units in the last place of `expected`.
     fn ulps(value: f64, expected: f64) -> f64 {
         let unit = expected.abs().next_up() - expected.abs();
         (value - expected).abs() / unit
@@ -224,7 +222,7 @@ mod tests {
         }
     }
 
-    /// Fixed bits: a change here means that pictures change.
+    /// Fixed bits: a change here means that images change.
     #[test]
     fn bits_are_those_recorded() {
         let recorded = [

@@ -13,26 +13,25 @@ impl Fixed {
     pub const ZERO: Self = Self(0);
     /// One pixel.
     pub const ONE: Self = Self(1 << Self::FRACTION_BITS);
-    /// Bits behind the point: 8, as Direct3D 11 demands and Vulkan asks of
-    /// devices.
+    /// Fractional bits: 8, as Direct3D 11 requires and Vulkan requests of devices.
     pub const FRACTION_BITS: u32 = 8;
-    /// The largest magnitude in pixels: 2²². The differences of two raw values
-    /// then fit 32 bits and twice the area of any triangle fits `i64`. The
-    /// clipper's guard band (±32768 px) is far within.
+    /// The largest magnitude in pixels: 2²². The differences of two raw values then fit into 32
+    /// bits and twice the area of any triangle into `i64`. The clipper's guard band (±32768 px) is
+    /// far inside.
     pub const LIMIT: i32 = 1 << 22;
 
     /// Rounds a coordinate in pixels to the grid: to nearest, ties to even, the
     /// same on both sides of zero.
     ///
-    /// `None` for NaN and beyond ±[`Fixed::LIMIT`]: the caller drops such
-    /// geometry before any cast could wrap or saturate.
+    /// `None` for NaN and beyond ±[`Fixed::LIMIT`]: the caller drops such geometry before any cast
+    /// can wrap or saturate.
     #[must_use]
     #[inline]
     pub fn from_f32(pixels: f32) -> Option<Self> {
         Self::from_f64(f64::from(pixels))
     }
 
-    /// As [`Fixed::from_f32`], for a coordinate that is known more precisely.
+    /// As [`Fixed::from_f32`], for a coordinate in higher precision.
     #[must_use]
     #[inline]
     pub fn from_f64(pixels: f64) -> Option<Self> {
@@ -45,7 +44,7 @@ impl Fixed {
     /// The coordinate that is `raw` times 1/256 pixel.
     ///
     /// # Panics
-    /// If it is beyond ±[`Fixed::LIMIT`] pixels.
+    /// It is beyond ±[`Fixed::LIMIT`] pixels.
     #[must_use]
     #[inline]
     pub const fn from_raw(raw: i32) -> Self {
@@ -110,7 +109,7 @@ mod tests {
         }
     }
 
-    /// Hard case 10: nothing saturates or wraps, it is dropped.
+    /// Hard case 10: such values are dropped; nothing saturates or wraps.
     #[test]
     fn what_has_no_place_on_the_grid_is_dropped() {
         let limit = Fixed::LIMIT as f32;

@@ -55,8 +55,7 @@ impl HomogeneousPoint {
         if self.is_direction() { length } else { length / self.0.w.abs() }
     }
 
-    /// The same point with `w` = 1; `None` for a direction, and for a point too
-    /// far away for `f64`.
+    /// The same point with `w` = 1; `None` for a direction, and for a point too far away for `f64`.
     #[must_use]
     pub fn normalized(&self) -> Option<Self> {
         Self::from_point(self.to_point()?)
@@ -65,13 +64,13 @@ impl HomogeneousPoint {
     /// The point in space; `None` as in [`HomogeneousPoint::normalized`].
     #[must_use]
     pub fn to_point(&self) -> Option<DVec3> {
-        // Dividing is correctly rounded; multiplying by 1/w would round twice.
+        // Division is correctly rounded; multiplying by 1/w would round twice.
         let point = self.0.truncate() / self.0.w;
         (!self.is_direction() && point.is_finite()).then_some(point)
     }
 
-    /// Whether both stand for the same point, or for the same or opposite
-    /// directions: all four coordinates are proportional. Exact.
+    /// Whether both represent the same point, or the same or opposite directions: all four
+    /// coordinates are proportional. Exact.
     #[must_use]
     pub fn is_same_point(&self, other: &Self) -> bool {
         proportional(&self.0.to_array(), &other.0.to_array())
@@ -99,14 +98,13 @@ impl HomogeneousPoint {
     }
 }
 
-/// Whether two vectors are multiples of one: every 2×2 minor is exactly zero.
+/// Whether two vectors are multiples of one vector: every 2×2 minor is exactly zero.
 fn proportional<const N: usize>(a: &[f64; N], b: &[f64; N]) -> bool {
     (0..N).all(|i| (i + 1..N).all(|j| exact_product(a[i], b[j]) == exact_product(a[j], b[i])))
 }
 
-/// The product of two finite numbers without rounding, in a form in which equal
-/// values are equal: sign, odd integer, and the power of two it is to be
-/// multiplied by. No product overflows, underflows or needs wider floats.
+/// The product of two finite numbers without rounding, in a form in which equal values are equal:
+/// sign, odd integer, and power of two. No product overflows, underflows or needs wider floats.
 fn exact_product(a: f64, b: f64) -> (bool, u128, i32) {
     let ((a_integer, a_exponent), (b_integer, b_exponent)) = (decomposed(a), decomposed(b));
     let integer = u128::from(a_integer) * u128::from(b_integer);
@@ -122,7 +120,7 @@ fn exact_product(a: f64, b: f64) -> (bool, u128, i32) {
 /// The magnitude of a finite number as an integer and a power of two.
 fn decomposed(value: f64) -> (u64, i32) {
     const FRACTION_BITS: u32 = f64::MANTISSA_DIGITS - 1;
-    // The exponent of the last place of denormal numbers.
+    // The exponent of the last place of subnormal numbers.
     const LOWEST: i32 = f64::MIN_EXP - f64::MANTISSA_DIGITS as i32;
     let bits = value.abs().to_bits();
     let fraction = bits & ((1 << FRACTION_BITS) - 1);
@@ -176,7 +174,7 @@ mod tests {
         assert!(!origin.is_same_direction(&ahead), "and in no direction");
     }
 
-    /// Where products underflow, overflow or round, floats see what is not there.
+    /// If products underflow, overflow or round, floats give wrong answers.
     #[test]
     fn proportions_are_exact_at_both_ends_of_the_range() {
         let tiny = f64::from_bits(1);

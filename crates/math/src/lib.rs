@@ -1,10 +1,8 @@
-//! Exact and reproducible mathematics for graphics: [`glam`] and what glam
-//! lacks.
+//! Exact and reproducible mathematics for graphics: [`glam`] and additions to it.
 //!
-//! Every function gives the same bits on every machine. Where a decision
-//! depends on a sign (which side, inside or outside), the sign is exact or the
-//! documentation states the bound. The crate never knows pixels, meshes or
-//! files.
+//! Every function gives the same bits on every machine. Where a decision depends on a sign (which
+//! side, inside or outside), the sign is exact or the documentation states the bound. The crate
+//! knows nothing about pixels, meshes or files.
 //!
 //! # Conventions
 //! - Clip space is reversed-Z: `x` and `y` in `[-w, w]` (`y` up), `z` from `w`

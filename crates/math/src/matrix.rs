@@ -1,9 +1,8 @@
 //! Small dense matrices of any shape, and linear systems.
 //!
-//! For the shapes that glam has (2 to 4 square), glam is the faster choice in
-//! drawing; the conversions lead there and back. This type is for what glam
-//! lacks: other shapes, linear systems, and an inverse that says when there is
-//! none.
+//! For the shapes that glam has (2 to 4 square), use glam when drawing: it is faster, and
+//! conversions go both ways. This type is for what glam lacks: other shapes, linear systems, and an
+//! inverse that reports singular matrices.
 
 mod convert;
 mod solve;
@@ -13,7 +12,7 @@ use std::ops::{Index, IndexMut, Mul};
 
 /// A matrix of `N` rows and `M` columns that acts on column vectors.
 ///
-/// Indexed by `[(row, column)]`. Products sum in the order of the inner index.
+/// Indexed by `[(row, column)]`. Products are summed in the order of the inner index.
 ///
 /// ```
 /// use trigon_math::Matrix;
@@ -44,7 +43,7 @@ impl<const N: usize, const M: usize> Matrix<N, M> {
         &self.rows
     }
 
-    /// The matrix mirrored at its diagonal.
+    /// The transposed matrix.
     #[must_use]
     pub fn transposed(&self) -> Matrix<M, N> {
         let column = |j: usize| std::array::from_fn(|i| self.rows[i][j]);
@@ -53,7 +52,7 @@ impl<const N: usize, const M: usize> Matrix<N, M> {
 }
 
 impl<const N: usize> Matrix<N, N> {
-    /// Ones on the diagonal, else zeros.
+    /// Ones on the diagonal, zeros elsewhere.
     pub const IDENTITY: Self = {
         let mut identity = Self::ZERO;
         let mut i = 0;

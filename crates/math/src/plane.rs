@@ -20,8 +20,8 @@ impl Plane {
         Self { normal, offset: -normal.dot(point) }.checked()
     }
 
-    /// The plane through three points that run counter-clockwise seen from the
-    /// side to which the normal points.
+    /// The plane through three points in counter-clockwise order, seen from the side to which the
+    /// normal points.
     ///
     /// `None` if they lie on a line (as far as `f64` can tell) or anything is
     /// not finite.

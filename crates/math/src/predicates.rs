@@ -1,10 +1,9 @@
 //! Orientation of three points, with the exact sign.
 //!
-//! Everything that decides topology (coverage, ears, culling) asks here and not
-//! a rounded cross product. Points on the screen's grid have an exact integer
-//! area; points in `f64` have an exact sign by adaptive precision (J. R.
-//! Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust
-//! Geometric Predicates", 1997; the `robust` crate).
+//! Everything that decides topology (coverage, ears, culling) uses these functions, never a rounded
+//! cross product. Points on the screen's grid have an exact integer area; points in `f64` have an
+//! exact sign by adaptive precision (J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic
+//! and Fast Robust Geometric Predicates", 1997; the `robust` crate).
 
 use glam::{DMat3, DVec2, DVec3};
 
@@ -13,8 +12,8 @@ use crate::FixedPoint;
 /// Twice the signed area of the triangle `a`, `b`, `c`, in units of
 /// (1/256 pixel)²: the cross product of `b - a` and `c - a`, exactly.
 ///
-/// Positive if `a`, `b`, `c` run clockwise as seen on the screen (`y` down),
-/// zero if they lie on a line. Exchanging two points changes the sign only.
+/// Positive if `a`, `b`, `c` run clockwise as seen on the screen (`y` down), zero if they are
+/// collinear. Exchanging two points only changes the sign.
 ///
 /// # Range
 /// Exact for every [`FixedPoint`]: raw coordinates are within ±2³⁰
@@ -28,20 +27,20 @@ pub fn orientation_fixed(a: FixedPoint, b: FixedPoint, c: FixedPoint) -> i64 {
     difference(b.x, a.x) * difference(c.y, a.y) - difference(b.y, a.y) * difference(c.x, a.x)
 }
 
-/// How three points turn. The names are for a plane with `y` up; on a screen
-/// with `y` down the same turn is seen mirrored.
+/// The orientation of three points. The names are for a plane with `y` up; on a screen with `y`
+/// down the same orientation appears mirrored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Orientation {
     /// From the x axis towards the y axis: the cross product is positive.
     CounterClockwise,
-    /// On a line, or two points are equal: the cross product is zero.
+    /// Collinear, or two points are equal: the cross product is zero.
     Collinear,
     /// From the y axis towards the x axis: the cross product is negative.
     Clockwise,
 }
 
 impl Orientation {
-    /// The turn of the same points in the opposite order.
+    /// The orientation of the same points in the opposite order.
     #[must_use]
     pub const fn reversed(self) -> Self {
         match self {
@@ -52,11 +51,10 @@ impl Orientation {
     }
 }
 
-/// How `a`, `b`, `c` turn, decided without rounding.
+/// The orientation of `a`, `b`, `c`, decided without rounding.
 ///
-/// Exact if every coordinate is zero or has a magnitude between 2⁻⁴⁰⁰ and 2⁴⁰⁰:
-/// then no product and no tail of one leaves the range of normal numbers.
-/// NaN and infinities give `Collinear`: no turn is proven.
+/// Exact if every coordinate is zero or has a magnitude between 2⁻⁴⁰⁰ and 2⁴⁰⁰: then no product and
+/// no tail of one leaves the range of normal numbers. NaN and infinities give `Collinear`.
 #[must_use]
 pub fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Orientation {
     let coordinate = |point: DVec2| robust::Coord { x: point.x, y: point.y };
@@ -72,11 +70,10 @@ pub fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Orientation {
     }
 }
 
-/// Whether a linear map turns space inside out: whether its determinant is negative,
-/// decided without rounding.
+/// Whether a linear map mirrors: whether its determinant is negative, decided without rounding.
 ///
-/// Exact if the entries that are not zero differ within each column by a factor of at
-/// most 2²⁵⁰, however large or small they are. NaN and infinities mirror nothing.
+/// Exact if the non-zero entries within each column differ by a factor of at most 2²⁵⁰, however
+/// large or small they are. NaN and infinities count as not mirroring.
 #[must_use]
 pub fn is_mirroring(matrix: &DMat3) -> bool {
     let column = |axis: DVec3| {
@@ -88,8 +85,8 @@ pub fn is_mirroring(matrix: &DMat3) -> bool {
     matrix.is_finite() && robust::orient3d(x, y, z, origin) < 0.0
 }
 
-/// A power of two that brings the largest entry near 1, so that products of three
-/// stay in range; it keeps all digits. 1 for zero.
+/// A power of two that brings the largest entry near 1, so that products of three stay in range; it
+/// preserves all digits. 1 for zero.
 fn unit_of(vector: DVec3) -> f64 {
     /// Beyond, the power itself would leave the range.
     const LARGEST: i64 = 1000;

@@ -1,8 +1,8 @@
-//! What a mesh carries besides its shape.
+//! Attributes: the data of a mesh besides its shape.
 //!
-//! Values that may jump at an edge (normals, texture coordinates, colours)
-//! live on corners, so that the shape itself never has to be cut open for a
-//! seam. Everything is optional: what a mesh does not have costs nothing.
+//! Values that may be discontinuous across an edge (normals, texture coordinates, colours) are
+//! stored on corners, so that the shape itself never has to be cut along a seam. Everything is
+//! optional: what a mesh does not have costs nothing.
 
 use trigon_math::{Vec2, Vec3, Vec4};
 
@@ -14,29 +14,26 @@ use crate::{MeshError, MorphTarget, SkinWeights};
 /// [`Mesh::face_corners`](crate::Mesh::face_corners).
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Attributes {
-    /// Shading normals per corner. They need not be of unit length; one that
-    /// is zero or not finite counts as "none given here".
+    /// Shading normals per corner. They need not be of unit length; one that is zero or not finite
+    /// counts as "not given here".
     pub corner_normals: Option<Vec<Vec3>>,
-    /// Tangents per corner, which normal maps refer to: a unit vector along
-    /// growing u, and in `w` the handedness, 1 or −1, so that the bitangent
-    /// `normal × tangent · w` points up in the picture, against v. One that is
-    /// zero counts as "none given here". See
+    /// Tangents per corner, for normal maps: a unit vector along increasing u, and in `w` the
+    /// handedness, 1 or −1, so that the bitangent `normal × tangent · w` points up in the image,
+    /// against v. Zero counts as "not given here". See
     /// [`Mesh::generate_tangents`](crate::Mesh::generate_tangents).
     pub corner_tangents: Option<Vec<Vec4>>,
-    /// Texture coordinates per corner, in any number of sets. (0, 0) is the
-    /// upper left corner of the picture and v points down, as in glTF.
+    /// Texture coordinates per corner, in any number of sets. (0, 0) is the upper left corner of
+    /// the image and v points down, as in glTF.
     pub uv_sets: Vec<Vec<Vec2>>,
     /// Colours per corner: linear light, straight (not premultiplied) alpha.
     pub corner_colors: Option<Vec<Vec4>>,
-    /// The material slot of each face. What a slot means is for the scene to
-    /// say.
+    /// The material slot of each face. The scene defines what a slot means.
     pub face_materials: Option<Vec<u32>>,
-    /// Which faces are shaded smoothly where no corner normal is given.
-    /// Absent: all are flat.
+    /// Which faces are shaded smoothly if no corner normal is given. Absent: all are flat.
     pub face_smooth: Option<Vec<bool>>,
     /// The joints that each vertex follows.
     pub skin: Option<SkinWeights>,
-    /// Shapes that the mesh can move towards.
+    /// Morph targets.
     pub morph_targets: Vec<MorphTarget>,
 }
 
@@ -64,7 +61,7 @@ impl Attributes {
         check("face_smooth", "faces", faces, smooth)?;
         check("skin", "vertices", vertices, self.skin.as_ref().map(SkinWeights::vertex_count))?;
         for target in &self.morph_targets {
-            // Deltas name only what they move, so they may reach less far.
+            // Deltas name only the elements that they move, so they may be shorter.
             let beyond = |bound: usize, count: usize| Some(if bound > count { bound } else { count });
             check("morph_targets", "vertices", vertices, beyond(target.positions.bound(), vertices))?;
             for deltas in [&target.normals, &target.tangents] {
@@ -74,8 +71,7 @@ impl Attributes {
         Ok(())
     }
 
-    /// Moves every corner value: the new corner `i` has what the old corner
-    /// `order[i]` had.
+    /// Reorders every corner value: the new corner `i` gets the value of the old corner `order[i]`.
     pub(crate) fn reorder_corners(&mut self, order: &[u32]) {
         fn reordered<T: Copy>(values: &[T], order: &[u32]) -> Vec<T> {
             order.iter().map(|&from| values[from as usize]).collect()

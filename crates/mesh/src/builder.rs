@@ -5,8 +5,8 @@ use trigon_math::Vec3;
 use crate::mesh::Parts;
 use crate::{Mesh, MeshError};
 
-/// The most corners, faces and loose edges together that a mesh can have:
-/// `u32::MAX` itself means "none" in buffers.
+/// The maximum number of corners, faces and loose edges together: `u32::MAX` itself means "none" in
+/// buffers.
 const LIMIT: u32 = u32::MAX - 1;
 
 /// Collects vertices, faces, loose edges and loose points, then builds a
@@ -39,12 +39,12 @@ impl Default for MeshBuilder {
 }
 
 impl MeshBuilder {
-    /// A builder with nothing in it.
+    /// An empty builder.
     pub fn new() -> Self {
         Self::with_capacity(0, 0, 0)
     }
 
-    /// A builder with room for so many vertices, faces and corners.
+    /// A builder with reserved memory for this many vertices, faces and corners.
     pub fn with_capacity(vertices: usize, faces: usize, corners: usize) -> Self {
         let mut face_starts = Vec::with_capacity(faces + 1);
         face_starts.push(0);
@@ -57,29 +57,28 @@ impl MeshBuilder {
         }
     }
 
-    /// How many vertices have been pushed.
+    /// The number of vertices pushed so far.
     pub fn vertex_count(&self) -> usize {
         self.positions.len()
     }
 
-    /// How many faces have been accepted.
+    /// The number of accepted faces.
     pub fn face_count(&self) -> usize {
         self.face_starts.len() - 1
     }
 
-    /// How many corners the accepted faces have: the length that per-corner
-    /// attributes will need.
+    /// The number of corners of the accepted faces: the required length of per-corner attributes.
     pub fn corner_count(&self) -> usize {
         self.corner_vertices.len()
     }
 
-    /// Adds a vertex and returns its index. Positions are in metres; any value
-    /// is kept, also one that is not finite.
+    /// Adds a vertex and returns its index. Positions are in metres; any value is kept, even if it
+    /// is not finite.
     ///
     /// # Panics
     ///
-    /// When there are `u32::MAX` vertices already, 48 GiB of them: importers
-    /// limit their input long before.
+    /// There are `u32::MAX` vertices already, 48 GiB of them: importers limit their input long
+    /// before.
     pub fn push_vertex(&mut self, position: Vec3) -> u32 {
         let index = self.positions.len() as u32;
         assert!(index < u32::MAX, "vertex indices have 32 bits");
@@ -87,15 +86,14 @@ impl MeshBuilder {
         index
     }
 
-    /// Adds a polygon and returns its index. The vertices go round it
-    /// counter-clockwise seen from outside. Vertices may repeat (an outline
-    /// with holes goes along a bridge twice), and faces may repeat or share
-    /// an edge with any number of others.
+    /// Adds a polygon and returns its index. The vertices are in counter-clockwise order seen from
+    /// outside. Vertices may repeat (an outline with holes traverses a bridge twice), and faces may
+    /// repeat or share an edge with any number of others.
     ///
     /// # Errors
     ///
-    /// Fewer than three distinct vertices, a vertex that does not exist, or
-    /// more corners than indices can name. Nothing has been added then.
+    /// Fewer than three distinct vertices, a vertex that does not exist, or more corners than
+    /// indices can count. Nothing was added then.
     pub fn push_face(&mut self, vertices: &[u32]) -> Result<u32, MeshError> {
         let face = self.face_count();
         self.check_vertices("face", face, vertices)?;
@@ -109,13 +107,13 @@ impl MeshBuilder {
         Ok(face as u32)
     }
 
-    /// Adds an edge that need not belong to a face. One that a face has too
-    /// is the face's edge, not a loose one.
+    /// Adds an edge that need not belong to a face. If a face also has it, it is the face's edge,
+    /// not a loose one.
     ///
     /// # Errors
     ///
-    /// Both ends are the same vertex, a vertex does not exist, or there are
-    /// more edges than indices can name. Nothing has been added then.
+    /// Both ends are the same vertex, a vertex does not exist, or there are more edges than indices
+    /// can count. Nothing was added then.
     pub fn push_loose_edge(&mut self, from: u32, to: u32) -> Result<(), MeshError> {
         let index = self.loose_edges.len();
         self.check_vertices("loose edge", index, &[from, to])?;
@@ -128,7 +126,7 @@ impl MeshBuilder {
         Ok(())
     }
 
-    /// Marks a vertex as a point that is to be shown for itself.
+    /// Marks a vertex as a point to be shown on its own.
     ///
     /// # Errors
     ///
@@ -139,7 +137,7 @@ impl MeshBuilder {
         Ok(())
     }
 
-    /// Makes the mesh, without attributes yet (see [`Mesh::set_attributes`]).
+    /// Builds the mesh, without attributes yet (see [`Mesh::set_attributes`]).
     pub fn build(mut self) -> Mesh {
         let mut seen = vec![false; self.positions.len()];
         self.loose_points.retain(|&point| !std::mem::replace(&mut seen[point as usize], true));
@@ -160,14 +158,14 @@ impl MeshBuilder {
         }
     }
 
-    /// Half-edges (corners and loose edges) are numbered together while edges
-    /// are searched, so one limit holds for both; faces are fewer.
+    /// Half-edges (corners and loose edges) are numbered together while edges are searched, so one
+    /// limit applies to both; faces are fewer.
     fn check_room(&self, more: usize) -> Result<(), MeshError> {
         check_room(self.corner_vertices.len() + self.loose_edges.len() + more)
     }
 }
 
-/// Whether so many corners and loose edges can be numbered.
+/// Whether this many corners and loose edges can be numbered.
 pub(crate) fn check_room(half_edges: usize) -> Result<(), MeshError> {
     if half_edges > LIMIT as usize {
         return Err(MeshError::TooMany { what: "corners and loose edges", limit: LIMIT });

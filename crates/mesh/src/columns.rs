@@ -1,5 +1,5 @@
-//! A mesh as plain lists, as files hold it: checked as a whole, so that millions of faces
-//! need no call each.
+//! A mesh as plain lists, as in files: checked as a whole, so that millions of faces do not need
+//! one call each.
 
 use trigon_math::Vec3;
 
@@ -7,8 +7,8 @@ use crate::builder::{check_room, distinct_up_to_3};
 use crate::mesh::Parts;
 use crate::{Mesh, MeshError};
 
-/// The elements of a mesh as lists. [`Mesh::from_columns`] checks them; values on corners,
-/// faces and vertices are set afterwards by [`Mesh::set_attributes`].
+/// The elements of a mesh as lists. [`Mesh::from_columns`] checks them; attributes are set
+/// afterwards with [`Mesh::set_attributes`].
 ///
 /// ```
 /// use trigon_mesh::math::Vec3;
@@ -25,15 +25,15 @@ use crate::{Mesh, MeshError};
 /// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MeshColumns {
-    /// Metres; any value is kept, also one that is not finite.
+    /// Metres; any value is kept, even if it is not finite.
     pub positions: Vec<Vec3>,
-    /// How many corners each face has.
+    /// The number of corners of each face.
     pub face_sizes: Vec<u32>,
     /// The vertices of all faces, face after face, counter-clockwise seen from outside.
     pub corner_vertices: Vec<u32>,
-    /// As [`MeshBuilder::push_loose_edge`](crate::MeshBuilder::push_loose_edge) takes them.
+    /// As for [`MeshBuilder::push_loose_edge`](crate::MeshBuilder::push_loose_edge).
     pub loose_edges: Vec<[u32; 2]>,
-    /// Vertices that are shown as points.
+    /// Vertices to be shown as points.
     pub loose_points: Vec<u32>,
 }
 
@@ -41,9 +41,9 @@ impl Mesh {
     /// The mesh with these elements, in this order.
     ///
     /// # Errors
-    /// A face with fewer than three different vertices, a vertex that does not exist, sizes that
-    /// do not add up to the number of corners, a loose edge from a vertex to itself, or more
-    /// elements than indices can name.
+    /// A face with fewer than three different vertices, a vertex that does not exist, sizes that do
+    /// not add up to the number of corners, a loose edge from a vertex to itself, or more elements
+    /// than indices can count.
     pub fn from_columns(columns: MeshColumns) -> Result<Self, MeshError> {
         let MeshColumns { positions, face_sizes, corner_vertices, loose_edges, mut loose_points } = columns;
         check_room(corner_vertices.len() + loose_edges.len())?;
@@ -76,7 +76,7 @@ impl Mesh {
     }
 }
 
-/// Where the corners of each face start, and the number of corners at the end.
+/// The first corner of each face, and the number of corners at the end.
 fn face_starts(face_sizes: &[u32], corners: usize) -> Result<Vec<u32>, MeshError> {
     let mut starts = Vec::with_capacity(face_sizes.len() + 1);
     starts.push(0);

@@ -1,22 +1,22 @@
 //! Finding the edges of faces: every undirected pair of vertices once.
 //!
-//! Half-edges are grouped by their smaller vertex and sorted within the group
-//! by the larger one. That is O(n log n) at worst, whatever the input (a fan
-//! with a million triangles round one vertex is one large group), and the
-//! numbering follows the faces, so no hash order can leak into it.
+//! Half-edges are grouped by their smaller vertex and sorted within the group by the larger one.
+//! This takes O(n log n) in the worst case, whatever the input (a fan with a million triangles
+//! around one vertex is one large group), and the numbering follows the faces, so no hash order can
+//! affect it.
 
 use crate::groups::Groups;
 
 /// Stands for "no edge": a corner whose next corner is at the same vertex.
 pub(crate) const NO_EDGE: u32 = u32::MAX;
 
-/// The edges of a mesh and which one starts at each corner.
+/// The edges of a mesh, and the edge that starts at each corner.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Edges {
-    /// Smaller vertex first; faces' edges in the order in which the faces
-    /// show them, then loose ones that no face has.
+    /// Smaller vertex first; the faces' edges in order of first use, then loose ones that no face
+    /// has.
     pub(crate) edges: Vec<[u32; 2]>,
-    /// How many of `edges` belong to faces.
+    /// The number of `edges` that belong to faces.
     pub(crate) face_edge_count: usize,
     /// Per corner the edge to the face's next corner, or [`NO_EDGE`].
     pub(crate) corner_edges: Vec<u32>,

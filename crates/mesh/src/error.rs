@@ -1,12 +1,11 @@
-//! What can be wrong with a mesh that is being built.
+//! Errors of building a mesh.
 //!
-//! Each error says which element it means and what to do about it. Importers
-//! catch them per face and turn them into warnings: one bad face must not
-//! lose the model.
+//! Each error names the element and a remedy. Importers turn errors of single faces into warnings:
+//! one bad face must not lose the model.
 
 use thiserror::Error;
 
-/// Why an element was refused.
+/// Why an element was rejected.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum MeshError {
@@ -19,19 +18,19 @@ pub enum MeshError {
         element: &'static str,
         /// Its number among its kind, from 0.
         index: usize,
-        /// The vertex asked for.
+        /// The missing vertex.
         vertex: u32,
-        /// How many vertices the builder has.
+        /// The number of vertices in the builder.
         vertex_count: usize,
     },
-    /// A face has fewer than three distinct vertices and so bounds nothing.
+    /// A face has fewer than three distinct vertices and so has no area.
     #[error(
         "face {face} has {distinct} distinct vertices and a face needs 3: skip it, or keep it as a loose edge or point"
     )]
     TooFewVertices {
         /// The number that the face would have had.
         face: usize,
-        /// How many distinct vertices it names.
+        /// The number of distinct vertices.
         distinct: usize,
     },
     /// A loose edge runs from a vertex to itself.
@@ -42,12 +41,12 @@ pub enum MeshError {
         /// Both its ends.
         vertex: u32,
     },
-    /// The mesh would have more elements than 32-bit indices can name.
+    /// The mesh would have more elements than 32-bit indices can count.
     #[error("the mesh would have more than {limit} {what}: split it into several meshes")]
     TooMany {
-        /// What there is too much of.
+        /// The kind of element.
         what: &'static str,
-        /// The most that fits.
+        /// The maximum.
         limit: u32,
     },
     /// The sizes of faces do not add up to the number of corners.
@@ -55,19 +54,19 @@ pub enum MeshError {
     CornerCount {
         /// The sum of the faces' sizes.
         expected: u64,
-        /// How many were given.
+        /// The number given.
         found: usize,
     },
-    /// An attribute list has not one value per element.
+    /// An attribute list does not have one value per element.
     #[error("{attribute} has {found} values, but the mesh has {expected} {element}: give one each")]
     AttributeLength {
         /// The field of [`Attributes`](crate::Attributes).
         attribute: &'static str,
         /// What it is stored on: "corners", "faces" or "vertices".
         element: &'static str,
-        /// How many the mesh has.
+        /// The number of elements in the mesh.
         expected: usize,
-        /// How many were given.
+        /// The number given.
         found: usize,
     },
 }

@@ -1,13 +1,12 @@
 //! Items collected by a small integer key: a counting sort.
 //!
-//! Edges are found, corners welded and changes followed by vertex. All three
-//! need "everything at this vertex, in order", in time that no input can
-//! blow up and in an order that no hash decides.
+//! Finding edges, welding corners and following changes all need "everything at this vertex, in
+//! order", in linear time for any input and in an order that does not depend on hashing.
 
-/// Items by key; within a key they keep the order they came in.
+/// Items by key, in their original order within a key.
 #[derive(Debug)]
 pub(crate) struct Groups<T> {
-    /// Where each key's items start, and one more for the end.
+    /// The start of each key's items, plus one more for the end.
     starts: Vec<u32>,
     items: Vec<T>,
 }

@@ -1,22 +1,20 @@
-//! Polygon meshes: vertices, edges and faces as they were modelled, what they
-//! carry, the standard objects, and what a renderer needs of them.
+//! Polygon meshes: vertices, edges and faces as modelled, their attributes, standard objects, and
+//! render meshes.
 //!
-//! A [`Mesh`] keeps polygons and edges as the modeller made them; triangles
-//! and welded vertices are derived from it when they are needed
-//! ([`Triangulation`], [`RenderMesh`]). So a cube shows its own 12 edges as
-//! wires, a face id means the file's face, and saving a mesh writes what was
-//! loaded.
+//! A [`Mesh`] keeps polygons and edges as they were modelled; triangles and welded vertices are
+//! derived from it when needed ([`Triangulation`], [`RenderMesh`]). So a cube shows its own 12
+//! edges as wires, a face id means the file's face, and saving a mesh writes what was loaded.
 //!
-//! This crate never knows cameras, materials or pixels, reads no files, and
-//! gives the same bits on every machine.
+//! This crate knows nothing about cameras, materials or pixels, reads no files, and gives the same
+//! bits on every machine.
 //!
 //! # Conventions
-//! Metres, right-handed, +Y up; faces are counter-clockwise seen from outside;
-//! texture coordinates have (0, 0) in the upper left corner of the picture.
+//! Metres, right-handed, +Y up; faces are counter-clockwise seen from outside; texture coordinates
+//! have (0, 0) in the upper left corner of the image.
 //!
 //! # Example
-//! A square with a square hole, in one face: the outline goes in along a bridge
-//! and out again. Its triangles leave the hole open, which the picture shows:
+//! A square with a square hole, as one face: the outline goes in along a bridge and out again. Its
+//! triangles leave the hole open, as the output shows:
 //!
 //! ```
 //! use trigon_mesh::MeshBuilder;
@@ -78,7 +76,7 @@ pub use render_mesh::RenderMesh;
 pub use triangulate::triangulate_polygon;
 pub use triangulation::Triangulation;
 
-/// The crate below, so that points and vectors need no other dependency.
+/// Re-export of the crate below, so that points and vectors need no other dependency.
 pub use trigon_math as math;
 
 /// Runs the README's example as a test.

@@ -1,9 +1,9 @@
-//! The mesh itself: vertices, edges and faces as they were modelled.
+//! The mesh: vertices, edges and faces as modelled.
 //!
-//! Everything that a renderer needs is derived from it (the triangulation,
-//! the welded [`RenderMesh`](crate::RenderMesh)); nothing of that is stored
-//! here, so it cannot go stale. Edges follow from the faces, too, and many a
-//! picture shows none: they are found when somebody asks, and then kept.
+//! Everything that a renderer needs is derived from it (the triangulation, the welded
+//! [`RenderMesh`](crate::RenderMesh)); none of that is stored here, so it cannot become stale.
+//! Edges are also derived from the faces, and many images show none: they are computed on first
+//! use, and then kept.
 
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -15,16 +15,14 @@ use crate::{Attributes, MeshBuilder, MeshError};
 
 /// A polygon mesh with explicit vertices, edges and faces.
 ///
-/// Faces are polygons with any number of corners, counter-clockwise seen from
-/// outside. A *corner* is one vertex of one face; the corners of all faces are
-/// numbered consecutively, and each knows the edge that leads from it to the
-/// face's next corner. Edges that belong to no face and points that are to be
-/// shown for themselves are kept. Any number of faces may share an edge.
+/// Faces are polygons with any number of corners, counter-clockwise seen from outside. A *corner*
+/// is one vertex of one face; the corners of all faces are numbered consecutively, and each knows
+/// the edge that leads from it to the face's next corner. Loose edges and points are kept. Any
+/// number of faces may share an edge.
 ///
-/// One type serves for a wire object (points and edges: a mesh without faces)
-/// and for a surface object (which adds faces): a surface can always be shown
-/// as its wires, and those are the solid's own edges, never the diagonals of
-/// a triangulation.
+/// One type serves both wire objects (points and edges: a mesh without faces) and surface objects
+/// (which add faces): a surface can always be shown as its wires, and those are the solid's own
+/// edges, never the diagonals of a triangulation.
 ///
 /// Built by [`MeshBuilder`]; see there for an example.
 #[derive(Debug, Clone)]
@@ -33,14 +31,14 @@ pub struct Mesh {
     /// The first corner of each face, and the corner count at the end.
     face_starts: Vec<u32>,
     corner_vertices: Vec<u32>,
-    /// As they were given: some may be edges of faces.
+    /// As given: some may be edges of faces.
     loose_edges: Vec<[u32; 2]>,
     edges: OnceLock<Edges>,
     loose_points: Vec<u32>,
     attributes: Attributes,
 }
 
-/// What a builder hands over, already checked.
+/// The checked data from a builder.
 pub(crate) struct Parts {
     pub(crate) positions: Vec<Vec3>,
     pub(crate) face_starts: Vec<u32>,
@@ -63,7 +61,7 @@ impl PartialEq for Mesh {
 }
 
 impl Default for Mesh {
-    /// A mesh with nothing in it.
+    /// An empty mesh.
     fn default() -> Self {
         MeshBuilder::new().build()
     }
@@ -82,7 +80,7 @@ impl Mesh {
         }
     }
 
-    /// The edges, searched the first time.
+    /// The edges, computed on first use.
     fn found_edges(&self) -> &Edges {
         self.edges.get_or_init(|| {
             let mut next_vertices = Vec::with_capacity(self.corner_count());
@@ -99,28 +97,28 @@ impl Mesh {
         &self.positions
     }
 
-    /// The positions, to be moved. Corner normals do not follow: use
-    /// [`Mesh::transform`] for a transform.
+    /// The positions, mutable. Corner normals do not follow: use [`Mesh::transform`] for a
+    /// transform.
     pub fn positions_mut(&mut self) -> &mut [Vec3] {
         &mut self.positions
     }
 
-    /// How many vertices there are, used or not.
+    /// The number of vertices, used or not.
     pub fn vertex_count(&self) -> usize {
         self.positions.len()
     }
 
-    /// How many polygons there are.
+    /// The number of polygons.
     pub fn face_count(&self) -> usize {
         self.face_starts.len() - 1
     }
 
-    /// How many edges there are, loose ones included.
+    /// The number of edges, including loose ones.
     pub fn edge_count(&self) -> usize {
         self.edges().len()
     }
 
-    /// How many corners all faces have together.
+    /// The number of corners of all faces.
     pub fn corner_count(&self) -> usize {
         self.corner_vertices.len()
     }
@@ -129,21 +127,21 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// When there is no such face.
+    /// The face does not exist.
     pub fn face_vertices(&self, face: usize) -> &[u32] {
         &self.corner_vertices[self.face_corners(face)]
     }
 
-    /// The corners of a face: where its values are in per-corner attributes.
+    /// The corners of a face: indices into per-corner attributes.
     ///
     /// # Panics
     ///
-    /// When there is no such face.
+    /// The face does not exist.
     pub fn face_corners(&self, face: usize) -> Range<usize> {
         self.face_starts[face] as usize..self.face_starts[face + 1] as usize
     }
 
-    /// The face of a corner, by a search.
+    /// The face of a corner, by binary search.
     pub(crate) fn face_at(&self, corner: u32) -> usize {
         self.face_starts.partition_point(|&start| start <= corner) - 1
     }
@@ -159,24 +157,23 @@ impl Mesh {
         &self.corner_vertices
     }
 
-    /// The edge from a corner to the next corner of its face. None when both
-    /// are at the same vertex (a repeated vertex in a face).
+    /// The edge from a corner to the next corner of its face. `None` if both are at the same vertex
+    /// (a repeated vertex in a face).
     ///
     /// # Panics
     ///
-    /// When there is no such corner.
+    /// The corner does not exist.
     pub fn corner_edge(&self, corner: usize) -> Option<u32> {
         Some(self.found_edges().corner_edges[corner]).filter(|&edge| edge != NO_EDGE)
     }
 
-    /// Every edge once, its smaller vertex first. They are searched at the first
-    /// call that needs them, this or another. The faces' edges come
-    /// first, in the order in which the faces show them, then the loose ones.
+    /// Every edge once, its smaller vertex first. They are computed on first use. The faces' edges
+    /// come first, in order of first use, then the loose ones.
     pub fn edges(&self) -> &[[u32; 2]] {
         &self.found_edges().edges
     }
 
-    /// How many of the edges belong to faces.
+    /// The number of edges that belong to faces.
     pub fn face_edge_count(&self) -> usize {
         self.found_edges().face_edge_count
     }
@@ -189,7 +186,7 @@ impl Mesh {
         &self.edges()[self.face_edge_count()..]
     }
 
-    /// The vertices that are to be shown as points, each once.
+    /// The vertices to be shown as points, each once.
     pub fn loose_points(&self) -> &[u32] {
         &self.loose_points
     }
@@ -204,22 +201,21 @@ impl Mesh {
         used
     }
 
-    /// The box around all vertices, used or not. Empty without vertices.
+    /// The box around all vertices, used or not. Empty if there are none.
     pub fn bounds(&self) -> Bounds3 {
         Bounds3::from_points(self.positions.iter().map(|p| p.as_dvec3()))
     }
 
-    /// The values on corners, faces and vertices.
+    /// The attributes of corners, faces and vertices.
     pub fn attributes(&self) -> &Attributes {
         &self.attributes
     }
 
-    /// Replaces all values on corners, faces and vertices.
+    /// Replaces all attributes of corners, faces and vertices.
     ///
     /// # Errors
     ///
-    /// A list that has not one value per corner, face or vertex. The mesh keeps what
-    /// it had.
+    /// A list does not have one value per corner, face or vertex. The mesh is unchanged.
     pub fn set_attributes(&mut self, attributes: Attributes) -> Result<(), MeshError> {
         attributes.check(self.vertex_count(), self.corner_count(), self.face_count())?;
         self.attributes = attributes;
@@ -230,7 +226,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// A list that has not one tangent per corner. The mesh keeps what it had.
+    /// The list does not have one tangent per corner. The mesh is unchanged.
     pub fn set_corner_tangents(&mut self, tangents: Vec<Vec4>) -> Result<(), MeshError> {
         let (expected, found) = (self.corner_count(), tangents.len());
         if found != expected {
@@ -241,14 +237,14 @@ impl Mesh {
         Ok(())
     }
 
-    /// For changes that keep the lengths.
+    /// For changes that preserve lengths.
     pub(crate) fn attributes_mut(&mut self) -> &mut Attributes {
         &mut self.attributes
     }
 
-    /// Turns every face over: its first corner stays first, the others follow
-    /// in the opposite direction with all their values. Edges keep their
-    /// numbers. Corner normals are moved, not negated.
+    /// Flips every face: its first corner stays first, and the others follow in the opposite
+    /// direction with all their values. Edges keep their numbers. Corner normals are moved, not
+    /// negated.
     pub fn flip_faces(&mut self) {
         let mut order: Vec<u32> = (0..self.corner_count() as u32).collect();
         self.found_edges();

@@ -1,5 +1,5 @@
-//! Normals: of faces by their area vector, of vertices as the mean of their
-//! faces weighted by angle, and of corners as a renderer needs them.
+//! Normals: of faces from their area vectors, of vertices as angle-weighted means of their faces,
+//! and of corners as a renderer needs them.
 
 use std::f64::consts::PI;
 
@@ -9,20 +9,18 @@ use crate::Mesh;
 use crate::triangulate::area_vector;
 
 impl Mesh {
-    /// The area vector of a face: its direction is the face's normal (out of
-    /// the side from which the face is counter-clockwise), its length the
-    /// area in square metres. For a face that is not planar this is the mean
-    /// over its surface, however that is cut.
+    /// The area vector of a face: its direction is the face's normal (on the side from which the
+    /// face is counter-clockwise), its length the area in square metres. For a non-planar face this
+    /// is the mean over its surface, however it is triangulated.
     ///
     /// # Panics
     ///
-    /// When there is no such face.
+    /// The face does not exist.
     pub fn face_area_vector(&self, face: usize) -> DVec3 {
         area_vector(self.face_vertices(face).iter().map(|&v| self.position(v)))
     }
 
-    /// The unit normal of every face. The zero vector where a face has no
-    /// area or a position is not finite.
+    /// The unit normal of every face. Zero if a face has no area or a position is not finite.
     pub fn face_normals(&self) -> Vec<Vec3> {
         (0..self.face_count()).map(|face| self.face_normal(face)).collect()
     }
@@ -31,20 +29,18 @@ impl Mesh {
         unit_or_zero(self.face_area_vector(face)).as_vec3()
     }
 
-    /// The unit normal of every vertex: the mean of the normals of all its
-    /// faces, weighted by the angle of each face's corner there, so that it
-    /// does not depend on how the faces are cut (Thürmer and Wüthrich,
-    /// "Computing Vertex Normals from Polygonal Facets", 1998). The zero
-    /// vector where faces cancel each other or there are none.
+    /// The unit normal of every vertex: the mean of the normals of all its faces, weighted by the
+    /// angle of each face's corner there, so that it does not depend on the triangulation (Thürmer
+    /// and Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998). Zero if faces cancel
+    /// each other or there are none.
     pub fn vertex_normals(&self) -> Vec<Vec3> {
         let sums = self.sum_normals(&self.face_normals(), |_| true);
         sums.into_iter().map(|n| unit_or_zero(n).as_vec3()).collect()
     }
 
-    /// The unit normal at every corner, as a renderer uses it: the corner's
-    /// own if it was given and has a direction, else the vertex normal over
-    /// the smooth faces if the face is smooth, else the face's. Where even
-    /// that has no direction, straight up: such a face has no area.
+    /// The unit normal at every corner, as a renderer uses it: the corner's own if it was given and
+    /// has a direction, otherwise the vertex normal over the smooth faces if the face is smooth,
+    /// otherwise the face's. If even that has no direction, straight up: such a face has no area.
     pub fn shading_normals(&self) -> Vec<Vec3> {
         let Some(given) = &self.attributes().corner_normals else {
             return self.computed_normals();
@@ -60,7 +56,7 @@ impl Mesh {
         normals
     }
 
-    /// Shading normals by the faces alone.
+    /// Shading normals from the faces alone.
     fn computed_normals(&self) -> Vec<Vec3> {
         let mut face_normals = self.face_normals();
         let smooth = self.attributes().face_smooth.as_deref().filter(|flags| flags.contains(&true));
@@ -85,8 +81,7 @@ impl Mesh {
         normals
     }
 
-    /// Sums of the normals of those faces that count, per vertex, weighted by
-    /// corner angle.
+    /// Sums of the normals of the selected faces, per vertex, weighted by corner angle.
     fn sum_normals(&self, face_normals: &[Vec3], counts: impl Fn(usize) -> bool) -> Vec<DVec3> {
         let mut sums = vec![DVec3::ZERO; self.vertex_count()];
         self.for_each_weighted_corner(face_normals, counts, |corner, weighted| {
@@ -95,8 +90,8 @@ impl Mesh {
         sums
     }
 
-    /// Calls back with every corner of the faces that count and the face's
-    /// normal times the angle at that corner.
+    /// Calls back with every corner of the selected faces and the face's normal times the angle at
+    /// that corner.
     pub(crate) fn for_each_weighted_corner(
         &self,
         face_normals: &[Vec3],
@@ -202,14 +197,14 @@ fn angles<const N: usize>(dots: [f64; N], squares: [f64; N]) -> [f64; N] {
     angles
 }
 
-/// The direction of a vector, the zero vector if it has none.
+/// The direction of a vector, or zero if it has none.
 pub(crate) fn unit_or_zero(vector: DVec3) -> DVec3 {
     let length = vector.length();
     if length > 0.0 && length.is_finite() { vector / length } else { DVec3::ZERO }
 }
 
-/// How far a squared length may be from 1 for a normal to be left as it was
-/// given: a few roundings of f32.
+/// The largest deviation of a squared length from 1 for a normal to be kept as given: a few f32
+/// roundings.
 const UNIT_TOLERANCE: f64 = 1e-6;
 
 /// Like [`unit_or_zero`], but a unit vector keeps its bits.

@@ -1,16 +1,15 @@
-//! What a renderer draws: vertices with all their values, and triangles.
+//! Render meshes: vertices with all their values, and triangles.
 //!
-//! A mesh keeps values on corners; a renderer wants each vertex with one
-//! value of everything, as few of them as possible. So corners of a vertex
-//! that agree in all values, to the bit, are welded.
+//! A mesh stores values on corners; a renderer needs one value of everything per vertex, and as few
+//! vertices as possible. So corners of a vertex whose values all agree, to the bit, are welded.
 
 use trigon_math::{Vec2, Vec3, Vec4};
 
 use crate::weld::{Welded, weld};
 use crate::{FlatFaces, Mesh, MorphTarget, RenderLinks, SkinWeights, Triangulation};
 
-/// A mesh as triangles over welded corners. All lists of vertex values have
-/// the same length, all lists of triangles too.
+/// A mesh as triangles over welded corners. All lists of vertex values have the same length, and so
+/// have all lists of triangles.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RenderMesh {
     /// Metres.
@@ -25,33 +24,32 @@ pub struct RenderMesh {
     pub colors: Option<Vec<Vec4>>,
     /// The joints that each vertex follows.
     pub skin: Option<SkinWeights>,
-    /// Shapes to move towards; see [`RenderMesh::deform`].
+    /// Morph targets; see [`RenderMesh::deform`].
     pub morph_targets: Vec<MorphTarget>,
-    /// Polygons whose normals [`RenderMesh::deform`] finds anew; none unless a pose
-    /// can change the mesh.
+    /// Polygons whose normals [`RenderMesh::deform`] recomputes; none unless a pose can change the
+    /// mesh.
     pub flat_faces: FlatFaces,
     /// Vertices, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// The polygon that each triangle is a part of.
+    /// The polygon that each triangle is part of.
     pub triangle_faces: Vec<u32>,
-    /// The material slot of each triangle, 0 where the mesh has none.
+    /// The material slot of each triangle, 0 if the mesh has none.
     pub triangle_materials: Vec<u32>,
 }
 
 impl RenderMesh {
     /// Derives triangles and welded vertices from a mesh.
     ///
-    /// Vertices are numbered in the order in which the corners show them;
-    /// corners that no triangle uses (of faces without area) still count.
-    /// Vertices that no face uses are left out, as are loose edges and points.
-    /// The normals are those of [`Mesh::shading_normals`].
+    /// Vertices are numbered in order of first use by the corners; corners that no triangle uses
+    /// (of faces without area) still count. Vertices without faces are left out, as are loose edges
+    /// and points. The normals are those of [`Mesh::shading_normals`].
     pub fn from_mesh(mesh: &Mesh) -> RenderMesh {
         let normals = mesh.shading_normals();
         Self::from_welded(mesh, &normals, &weld(mesh, &normals))
     }
 
-    /// The same, and what is needed to follow changes of the mesh later; `None` where a
-    /// pose can bend the mesh, which has to be made anew after a change.
+    /// The same, with the data to follow changes of the mesh later; `None` if a pose can deform the
+    /// mesh, which must be rebuilt after a change.
     pub fn with_links(mesh: &Mesh) -> (RenderMesh, Option<RenderLinks>) {
         let normals = mesh.shading_normals();
         let welded = weld(mesh, &normals);

@@ -1,4 +1,4 @@
-//! Corner normals that are smooth over gentle edges and break at sharp ones.
+//! Corner normals that are smooth across flat edges and split at sharp ones.
 
 use trigon_math::{DVec3, Vec3, elementary};
 
@@ -6,14 +6,14 @@ use crate::Mesh;
 use crate::normals::unit_or_zero;
 
 impl Mesh {
-    /// Sets corner normals so that faces blend over every edge at which their
-    /// normals differ by at most `angle` radians, and marks the faces smooth.
-    /// Edges that do not join exactly two faces in opposite directions stay
-    /// sharp. At 0 and below only faces in one plane blend, from π on all do.
+    /// Sets corner normals so that faces are smooth across every edge at which their normals differ
+    /// by at most `angle` radians, and marks the faces smooth. Edges that do not join exactly two
+    /// faces in opposite directions stay sharp. At 0 and below only coplanar faces are smooth, from
+    /// π on all are.
     ///
-    /// Within a smooth region around a vertex the normals are weighted by
-    /// angle, as in [`Mesh::vertex_normals`]. Corners of faces without area
-    /// take part in nothing and have the zero normal, "none given".
+    /// Within a smooth region around a vertex the normals are weighted by angle, as in
+    /// [`Mesh::vertex_normals`]. Corners of faces without area are ignored and get the zero normal,
+    /// "not given".
     pub fn smooth_by_angle(&mut self, angle: f64) {
         let face_normals = self.face_normals();
         let mut regions = self.smooth_regions(&face_normals, angle);
@@ -33,7 +33,7 @@ impl Mesh {
         attributes.face_smooth = Some(vec![true; faces]);
     }
 
-    /// Joins, at both ends of every gentle edge, the corners of its two faces.
+    /// Joins, at both ends of every smooth edge, the corners of its two faces.
     fn smooth_regions(&self, face_normals: &[Vec3], angle: f64) -> Regions {
         let least_cosine = elementary::cos(angle.clamp(0.0, std::f64::consts::PI)) - COSINE_ROUNDING;
         let vertices = self.corner_vertices();
@@ -66,10 +66,10 @@ impl Mesh {
     }
 }
 
-/// Normals are rounded to f32: faces that meet at just the angle still blend.
+/// Normals are rounded to f32: faces that meet at exactly the angle are still smooth.
 const COSINE_ROUNDING: f64 = 1e-6;
 
-/// Sets of corners (union-find; the smallest corner stands for its set).
+/// Sets of corners (union-find; the smallest corner represents its set).
 struct Regions(Vec<u32>);
 
 impl Regions {
@@ -79,7 +79,7 @@ impl Regions {
 
     fn root(&mut self, mut corner: u32) -> u32 {
         while self.0[corner as usize] != corner {
-            // Halves the path for the next one who asks.
+            // Halves the path for the next look-up.
             let above = self.0[self.0[corner as usize] as usize];
             self.0[corner as usize] = above;
             corner = above;

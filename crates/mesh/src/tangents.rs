@@ -8,11 +8,10 @@ use trigon_math::{Vec3, Vec4, elementary};
 use crate::Mesh;
 
 impl Mesh {
-    /// The tangent of every corner for a set of texture coordinates, in the
-    /// form of [`Attributes::corner_tangents`](crate::Attributes::corner_tangents);
-    /// none when the mesh has no such set. Corners of faces without area, in
-    /// space or in the picture, borrow the tangent of a neighbour or get some
-    /// direction across their normal.
+    /// The tangent of every corner for a set of texture coordinates, in the form of
+    /// [`Attributes::corner_tangents`](crate::Attributes::corner_tangents); `None` if the mesh has
+    /// no such set. Corners of faces without area, in space or in the image, use the tangent of a
+    /// neighbour or get an arbitrary direction perpendicular to their normal.
     pub fn generate_tangents(&self, uv_set: usize) -> Option<Vec<Vec4>> {
         let uvs = self.attributes().uv_sets.get(uv_set)?;
         let normals = self.shading_normals();
@@ -30,8 +29,8 @@ impl Mesh {
     }
 }
 
-/// The triangles of a mesh as the crate asks for them. Corners of a polygon
-/// are in several triangles; the first one decides.
+/// The triangles of a mesh in the form that the crate needs. Corners of a polygon are in several
+/// triangles; the first one decides.
 struct Corners<'m> {
     mesh: &'m Mesh,
     triangles: Vec<[u32; 3]>,
@@ -70,14 +69,14 @@ impl Geometry<SameEverywhere> for Corners<'_> {
 
     fn set_tangent(&mut self, space: Option<TangentSpace>, triangle: usize, vertex: usize) {
         let corner = self.corner(triangle, vertex);
-        // MikkTSpace lets v grow upwards, so that its bitangent is ours upside down.
+        // In MikkTSpace v points up, so its bitangent is the opposite of ours.
         let tangent = space.map(|space| Vec4::from(space.tangent_encoded()) * Vec4::new(1.0, 1.0, 1.0, -1.0));
         let usable = tangent.filter(|tangent| tangent.is_finite() && tangent.truncate() != Vec3::ZERO);
         self.tangents[corner] = self.tangents[corner].or(usable);
     }
 }
 
-/// Sorting and grouping expect numbers.
+/// Sorting and grouping need valid numbers.
 fn finite(value: f32) -> f32 {
     if value.is_finite() { value } else { 0.0 }
 }

@@ -1,4 +1,4 @@
-//! What of a mesh does not change when it is bent, and its size.
+//! Topology, which bending does not change, and size.
 
 use trigon_math::DVec3;
 
@@ -13,15 +13,14 @@ pub(crate) struct EdgeCorners {
 }
 
 impl Mesh {
-    /// Vertices minus edges plus faces: 2 for every solid without a hole
+    /// Euler's characteristic, vertices minus edges plus faces: 2 for every solid without a hole
     /// through it, 0 for a torus, the sum over the parts if there are several.
     pub fn euler_characteristic(&self) -> i64 {
         self.vertex_count() as i64 - self.edge_count() as i64 + self.face_count() as i64
     }
 
-    /// Whether the faces bound a volume without a gap: there are faces, and
-    /// every edge of theirs belongs to exactly two that run along it in
-    /// opposite directions.
+    /// Whether the faces enclose a volume without gaps: there are faces, and every edge of theirs
+    /// belongs to exactly two, in opposite directions.
     pub fn is_closed(&self) -> bool {
         let meeting = self.edge_corners();
         let opposed = |[a, b]: &[u32; 2]| {
@@ -33,15 +32,14 @@ impl Mesh {
             && meeting.corners.iter().all(opposed)
     }
 
-    /// The area of all faces in square metres; of a face that is not planar,
-    /// that of its area vector.
+    /// The area of all faces in square metres; for a non-planar face, that of its area vector.
     pub fn surface_area(&self) -> f64 {
         (0..self.face_count()).map(|face| self.face_area_vector(face).length()).sum()
     }
 
-    /// The volume inside the faces in cubic metres, by the divergence theorem
-    /// over the triangulation. Negative if the faces look inwards. Without
-    /// meaning unless the mesh [is closed](Mesh::is_closed).
+    /// The volume inside the faces in cubic metres, by the divergence theorem over the
+    /// triangulation. Negative if the faces point inwards. Meaningless unless the mesh [is
+    /// closed](Mesh::is_closed).
     pub fn volume(&self) -> f64 {
         let corner = |corner: u32| self.position(self.corner_vertices()[corner as usize]);
         let origin = self.positions().first().map_or(DVec3::ZERO, |p| p.as_dvec3());

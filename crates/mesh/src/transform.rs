@@ -6,22 +6,21 @@ use crate::Mesh;
 use crate::normals::unit_or_zero;
 
 impl Mesh {
-    /// A copy with a transform baked into it, see [`Mesh::transform`].
+    /// A copy with a transform baked into its vertices, see [`Mesh::transform`].
     pub fn transformed(&self, transform: &DAffine3) -> Mesh {
         let mut mesh = self.clone();
         mesh.transform(transform);
         mesh
     }
 
-    /// Bakes a transform into the vertices: positions are computed in f64 and
-    /// rounded once, corner normals turn by the cofactor matrix and stay of
-    /// unit length, and a transform that mirrors turns every face over
-    /// ([`Mesh::flip_faces`]) so that outside stays outside.
+    /// Bakes a transform into the vertices: positions are computed in f64 and rounded once, corner
+    /// normals are transformed by the cofactor matrix and keep unit length, and a mirroring
+    /// transform flips every face ([`Mesh::flip_faces`]) so that outside stays outside.
     ///
-    /// A transform that flattens space to a plane leaves the normals of that
-    /// plane; one that leaves a line or a point makes normals zero, which
-    /// counts as "none given". Morph targets follow; skin weights stay as they
-    /// are, and the skin's inverse bind matrices are for the caller to change.
+    /// A transform that flattens space to a plane gives the normals of that plane; one that gives a
+    /// line or a point makes normals zero, which counts as "not given". Morph targets are
+    /// transformed; skin weights are unchanged, and the caller must adjust the skin's inverse bind
+    /// matrices.
     pub fn transform(&mut self, transform: &DAffine3) {
         for position in self.positions_mut() {
             *position = transform.transform_point3(position.as_dvec3()).as_vec3();

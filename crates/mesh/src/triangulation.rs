@@ -5,8 +5,8 @@ use crate::triangulate::Triangulator;
 
 /// A mesh's faces as triangles, in face order.
 ///
-/// Derived from a [`Mesh`] by [`Mesh::triangulation`]; how a polygon is cut is
-/// told at [`triangulate_polygon`](crate::triangulate_polygon).
+/// Derived from a [`Mesh`] by [`Mesh::triangulation`];
+/// [`triangulate_polygon`](crate::triangulate_polygon) explains how a polygon is triangulated.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Triangulation {
     /// Corner indices of the mesh, counter-clockwise like the face.
@@ -16,13 +16,13 @@ pub struct Triangulation {
 }
 
 impl Mesh {
-    /// Cuts all faces into triangles.
+    /// Triangulates all faces.
     pub fn triangulation(&self) -> Triangulation {
         let most = self.corner_count() - 2 * self.face_count();
         self.triangulation_of(0..self.face_count() as u32, most)
     }
 
-    /// Cuts some faces into triangles, about `room` of them.
+    /// Triangulates some faces, into about `room` triangles.
     pub(crate) fn triangulation_of(&self, faces: impl Iterator<Item = u32>, room: usize) -> Triangulation {
         let mut triangles = Vec::with_capacity(room);
         let mut triangle_faces = Vec::with_capacity(room);

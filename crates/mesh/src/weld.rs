@@ -1,4 +1,4 @@
-//! Which corners of a mesh are one vertex to a renderer.
+//! Welding: which corners of a mesh form one render vertex.
 
 use std::cmp::Ordering;
 
@@ -8,14 +8,13 @@ use crate::Mesh;
 use crate::deform::{classes, flat_classes};
 use crate::groups::Groups;
 
-/// Groups of up to so many corners are compared one with another; larger ones
-/// (the middle of a large fan, the pole of a fine sphere) are sorted, so that
-/// no mesh takes quadratic time.
+/// Groups of up to this many corners are compared pairwise; larger ones (the centre of a large fan,
+/// the pole of a fine sphere) are sorted, so that no mesh takes quadratic time.
 const SMALL_GROUP: usize = 24;
 
-/// The result of welding, both ways.
+/// The result of welding, in both directions.
 pub(crate) struct Welded {
-    /// The first corner that shows each welded vertex.
+    /// The first corner of each welded vertex.
     pub(crate) corner_of_vertex: Vec<u32>,
     /// The welded vertex of each corner.
     pub(crate) vertex_of_corner: Vec<u32>,
@@ -37,7 +36,7 @@ pub(crate) fn weld(mesh: &Mesh, normals: &[Vec3]) -> Welded {
     number(first_alike)
 }
 
-/// Turns "the first corner like me" into numbers in first-seen order.
+/// Turns "the first equal corner" into numbers in order of first use.
 fn number(mut first_alike: Vec<u32>) -> Welded {
     let mut corner_of_vertex = Vec::new();
     for corner in 0..first_alike.len() {
@@ -61,8 +60,8 @@ fn link_small(group: &mut [u32], compare: &Comparison, first_alike: &mut [u32]) 
         first_alike[corner as usize] = match known {
             Some(&first) => first,
             None => {
-                // Corners behind `i` are still to come; those before it that
-                // are not distinct are done with.
+                // Corners after `i` are still to come; those before it that are not distinct are
+                // finished.
                 group[distinct] = corner;
                 distinct += 1;
                 corner
@@ -80,8 +79,8 @@ fn link_large(group: &mut [u32], compare: &Comparison, first_alike: &mut [u32]) 
     }
 }
 
-/// All values of all corners, compared by their bits (NaN is like itself and
-/// the two zeros are one).
+/// All values of all corners, compared by their bits (NaN equals itself and the two zeros are
+/// equal).
 struct Comparison<'a> {
     normals: &'a [Vec3],
     others: AttributeComparison<'a>,
@@ -90,14 +89,13 @@ struct Comparison<'a> {
 /// The same without normals.
 pub(crate) struct AttributeComparison<'a> {
     uv_sets: &'a [Vec<Vec2>],
-    /// Empty when the mesh has none.
+    /// Empty if the mesh has none.
     colors: &'a [Vec4],
-    /// Empty when the mesh has none.
+    /// Empty if the mesh has none.
     tangents: &'a [Vec4],
-    /// What morph targets do to each corner; empty when there are none.
+    /// The effect of morph targets on each corner; empty if there are none.
     morphs: Vec<u32>,
-    /// Which flat face each corner is of, where a pose can turn them apart; empty
-    /// where it cannot.
+    /// The flat face of each corner, if a pose can rotate faces apart; otherwise empty.
     flat: Vec<u32>,
 }
 
@@ -111,7 +109,7 @@ impl<'a> Comparison<'a> {
         bits(normal_a) == bits(normal_b) && self.others.equal(a, b)
     }
 
-    /// Some total order in which only corners that agree are equal.
+    /// A total order in which only equal corners compare equal.
     fn order(&self, a: u32, b: u32) -> Ordering {
         let [normal_a, normal_b] = [a, b].map(|corner| self.normals[corner as usize].to_array());
         by_bits(normal_a, normal_b).then_with(|| self.others.order(a, b))
@@ -142,7 +140,7 @@ impl<'a> AttributeComparison<'a> {
             && [&self.morphs, &self.flat].iter().all(|classes| classes.is_empty() || classes[a] == classes[b])
     }
 
-    /// Some total order in which only corners that agree are equal.
+    /// A total order in which only equal corners compare equal.
     pub(crate) fn order(&self, a: u32, b: u32) -> Ordering {
         let [a, b] = [a as usize, b as usize];
         let mut order = Ordering::Equal;
@@ -163,7 +161,7 @@ fn by_bits<const N: usize>(a: [f32; N], b: [f32; N]) -> Ordering {
     bits(a).cmp(&bits(b))
 }
 
-/// What tells values apart.
+/// What distinguishes values.
 pub(crate) fn bits<const N: usize>(values: [f32; N]) -> [u32; N] {
     // Adding zero turns -0 into +0 and changes nothing else.
     values.map(|value| (value + 0.0).to_bits())

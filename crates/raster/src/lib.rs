@@ -138,16 +138,16 @@ pub use pipeline::ScalarPipeline;
 pub use pipeline::{LanePipeline, Pipeline, VertexOutput};
 pub use rasterizer::Rasterizer;
 pub use settings::{DepthTest, ExecuteSettings, TileSize};
+pub use shade::FragmentLanes;
 #[doc(hidden)]
 pub use shade::RawFragment;
-pub use shade::{FragmentLanes, MAX_VARYINGS};
 pub use stats::{StageTimes, Stats};
 pub use target::{MAX_SAMPLES_PER_AXIS, MAX_TARGET_SIZE, Output, Pictures, Target, TargetError};
 pub use texture::{
     Dual, Filter, MAX_ANISOTROPY, MAX_TEXTURE_SIZE, MipFilter, Sampler, Texture, TextureError, TextureFormat,
     Wrap,
 };
-pub use varyings::Varyings;
+pub use varyings::{MAX_VARYINGS, Varyings};
 pub use vertex::VertexLanes;
 
 /// The set that [`MarkedPoints`] takes.

@@ -1,6 +1,6 @@
 //! The object that draws passes and keeps what can be used again.
 
-use crate::frame::{Arena, DrawChange, FrameView, How, Redraw, draw, prepare, redraw};
+use crate::frame::{Arena, DrawChange, FrameOptions, FrameView, Redraw, draw, prepare, redraw};
 use crate::pool::Workers;
 use crate::simd::{SimdLevel, SimdLevelError, Token};
 use crate::{Cancel, ExecuteSettings, Pass, Stats, Target};
@@ -50,7 +50,7 @@ impl Rasterizer {
     /// Everything up to the tiles of what [`draw`](Self::draw) would do.
     pub(crate) fn prepare<'f>(&'f mut self, pass: &'f Pass<'_>, target: &Target<'_>) -> FrameView<'f> {
         let tile_size = self.settings.tile_size.pixels(target.samples());
-        let how = How {
+        let options = FrameOptions {
             token: self.token,
             workers: &self.workers,
             tile_size,
@@ -59,7 +59,7 @@ impl Rasterizer {
             finds_colors: true,
             cancel: None,
         };
-        prepare(&mut self.arena, pass, target, how)
+        prepare(&mut self.arena, pass, target, options)
     }
 
     /// Draws everything that was recorded, over the whole of the target or of the
@@ -69,7 +69,7 @@ impl Rasterizer {
     /// outputs alone: the settings change no byte.
     pub fn draw(&mut self, pass: &Pass<'_>, target: &mut Target<'_>) -> Stats {
         let Self { settings, token, workers, cancel, arena } = self;
-        draw(arena, pass, target, how((settings, *token, workers), cancel.as_ref(), pass, target))
+        draw(arena, pass, target, frame_options((settings, *token, workers), cancel.as_ref(), pass, target))
     }
 
     /// As [`draw`](Self::draw), for passes that are drawn again and again with few vertices
@@ -123,8 +123,8 @@ impl Rasterizer {
         changes: Option<&[DrawChange<'_>]>,
     ) -> Redraw {
         let Self { settings, token, workers, cancel, arena } = self;
-        let how = how((settings, *token, workers), cancel.as_ref(), pass, target);
-        redraw(arena, pass, (target, changes), how)
+        let options = frame_options((settings, *token, workers), cancel.as_ref(), pass, target);
+        redraw(arena, pass, (target, changes), options)
     }
 
     /// Works through items of any kind on the threads that draw, each item taken by the
@@ -139,13 +139,13 @@ impl Rasterizer {
 }
 
 /// How a pass is drawn.
-fn how<'w>(
+fn frame_options<'w>(
     (settings, token, workers): (&ExecuteSettings, Token, &'w Workers),
     cancel: Option<&'w Cancel>,
     pass: &Pass<'_>,
     target: &Target<'_>,
-) -> How<'w> {
-    How {
+) -> FrameOptions<'w> {
+    FrameOptions {
         token,
         workers: if pass.is_worth_sharing(target) { workers } else { &Workers::ALONE },
         tile_size: settings.tile_size.pixels(target.samples()),

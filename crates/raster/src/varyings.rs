@@ -3,6 +3,9 @@
 
 use trigon_math::{Vec2, Vec3, Vec4};
 
+/// The most varyings that a pipeline may have.
+pub const MAX_VARYINGS: usize = 64;
+
 /// Values that the rasterizer interpolates, perspective-correct, over a
 /// triangle or along a line.
 ///

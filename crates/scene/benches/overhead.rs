@@ -11,7 +11,7 @@
 //! ```
 //!
 //! The first word is `scene` or `hand`, the second `plain` or `textured`; by the scene
-//! also `mapped`: with a normal map, light at each pixel, and the shadow map (1024²)
+//! also `mapped`: with a normal map, lighting per pixel, and the shadow map (1024²)
 //! of the one lamp, which is drawn in the first frame.
 
 #![expect(clippy::print_stdout, reason = "a number is what this is for")]

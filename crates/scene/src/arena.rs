@@ -1,15 +1,14 @@
 //! A list whose items keep their index for as long as they live.
 //!
-//! The scene refers to its parts by [`Id`]: an index, which is also what the
-//! id buffers of a picture hold, and a generation, so that an id kept after its
-//! item was removed finds nothing instead of a stranger that took the place.
+//! The scene refers to its parts by [`Id`]: an index, which id buffers also hold, and a generation,
+//! so that an id kept after its item was removed finds nothing instead of the item that reused the
+//! index.
 
 use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::marker::PhantomData;
 
-/// Names an item of an [`Arena`]. Copyable, and never confused with an id of
-/// another kind of item.
+/// Identifies an item of an [`Arena`]. Copyable, and a different type for each kind of item.
 pub struct Id<T> {
     index: u32,
     generation: u32,
@@ -17,7 +16,7 @@ pub struct Id<T> {
 }
 
 impl<T> Id<T> {
-    /// The item's place in its arena; what an id buffer holds.
+    /// The item's index in its arena, as id buffers hold it.
     pub fn index(self) -> usize {
         self.index as usize
     }
@@ -63,8 +62,8 @@ struct Slot<T> {
     item: Option<T>,
 }
 
-/// Items with stable indices. The place of a removed item is used again by a
-/// later one, under a new generation.
+/// Items with stable indices. The index of a removed item is reused by a later one, with a new
+/// generation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arena<T> {
     slots: Vec<Slot<T>>,
@@ -81,8 +80,7 @@ impl<T> Arena<T> {
     /// Adds an item.
     ///
     /// # Panics
-    /// With more than `u32::MAX - 1` items: the last value marks background in
-    /// id buffers.
+    /// There are more than `u32::MAX - 1` items: the last value marks background in id buffers.
     pub fn insert(&mut self, item: T) -> Id<T> {
         if let Some(index) = self.free.pop() {
             let slot = &mut self.slots[index as usize];
@@ -95,7 +93,7 @@ impl<T> Arena<T> {
         Id { index, generation: 0, kind: PhantomData }
     }
 
-    /// Takes an item out; `None` when it is already gone.
+    /// Removes an item and returns it; `None` if it was already removed.
     pub fn remove(&mut self, id: Id<T>) -> Option<T> {
         let slot = self.slots.get_mut(id.index()).filter(|slot| slot.generation == id.generation)?;
         let item = slot.item.take()?;
@@ -104,20 +102,20 @@ impl<T> Arena<T> {
         Some(item)
     }
 
-    /// The item, or `None` when it was removed.
+    /// The item, or `None` if it was removed.
     pub fn get(&self, id: Id<T>) -> Option<&T> {
         let slot = self.slots.get(id.index())?;
         slot.item.as_ref().filter(|_| slot.generation == id.generation)
     }
 
-    /// The item to change, or `None` when it was removed.
+    /// The item, mutable, or `None` if it was removed.
     pub fn get_mut(&mut self, id: Id<T>) -> Option<&mut T> {
         let slot = self.slots.get_mut(id.index())?;
         let generation = slot.generation;
         slot.item.as_mut().filter(|_| generation == id.generation)
     }
 
-    /// The id of the living item at an index, as an id buffer holds it.
+    /// The id of the existing item at an index, as in an id buffer.
     pub fn id_at(&self, index: usize) -> Option<Id<T>> {
         let slot = self.slots.get(index).filter(|slot| slot.item.is_some())?;
         Some(Id { index: u32::try_from(index).ok()?, generation: slot.generation, kind: PhantomData })
@@ -131,7 +129,7 @@ impl<T> Arena<T> {
         })
     }
 
-    /// All items to change, in the order of their indices.
+    /// All items, mutable, in the order of their indices.
     pub fn iter_mut(&mut self) -> impl Iterator<Item = (Id<T>, &mut T)> {
         self.slots.iter_mut().zip(0u32..).filter_map(|(slot, index)| {
             let id = Id { index, generation: slot.generation, kind: PhantomData };
@@ -139,12 +137,12 @@ impl<T> Arena<T> {
         })
     }
 
-    /// How many items there are.
+    /// The number of items.
     pub fn len(&self) -> usize {
         self.slots.len() - self.free.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no items.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

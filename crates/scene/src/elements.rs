@@ -6,21 +6,21 @@ use fixedbitset::FixedBitSet;
 
 use crate::node::NodeId;
 
-/// Elements of one kind (vertices, edges or faces) of nodes, as one bit for each element
-/// of a node's mesh. Nodes of which there is none are left out.
+/// Elements of one kind (vertices, edges or faces) of nodes, with one bit for each element of a
+/// node's mesh. Nodes without elements in the set are not stored.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ElementSet {
     nodes: BTreeMap<NodeId, FixedBitSet>,
 }
 
 impl ElementSet {
-    /// How many elements there are, of all nodes.
+    /// The number of elements of all nodes.
     #[must_use]
     pub fn len(&self) -> usize {
         self.nodes.values().map(|bits| bits.count_ones(..)).sum()
     }
 
-    /// Whether there is none.
+    /// Whether the set is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
@@ -32,13 +32,13 @@ impl ElementSet {
         self.of(node).is_some_and(|bits| bits.contains(element as usize))
     }
 
-    /// The elements of a node, one bit for each that its mesh has; `None` without any.
+    /// The elements of a node, one bit for each element of its mesh; `None` if there are none.
     #[must_use]
     pub fn of(&self, node: NodeId) -> Option<&FixedBitSet> {
         self.nodes.get(&node)
     }
 
-    /// The nodes with their elements, in their order.
+    /// The nodes with their elements, in order.
     pub fn nodes(&self) -> impl Iterator<Item = (NodeId, &FixedBitSet)> {
         self.nodes.iter().map(|(&node, bits)| (node, bits))
     }
@@ -48,7 +48,7 @@ impl ElementSet {
         self.nodes().flat_map(|(node, bits)| bits.ones().map(move |element| (node, element as u32)))
     }
 
-    /// Adds elements of a node: one bit for each that its mesh has.
+    /// Adds elements of a node: one bit for each element of its mesh.
     pub fn add(&mut self, node: NodeId, bits: FixedBitSet) {
         if !bits.is_clear() {
             match self.nodes.get_mut(&node) {

@@ -1,4 +1,4 @@
-//! A finished picture, owned, with what was asked for beside the colours.
+//! A finished frame: its image, and the other requested outputs.
 
 use std::fmt;
 
@@ -10,59 +10,56 @@ use crate::node::Node;
 use crate::node::NodeId;
 use crate::settings::RenderSettings;
 
-/// A finished picture. Rows run from the top, pixels from the left.
+/// A finished frame. Rows run from the top, pixels from the left.
 #[derive(Clone, Default, PartialEq)]
 pub struct Frame {
     /// Pixels.
     pub width: u32,
     /// Pixels.
     pub height: u32,
-    /// Four bytes a pixel: sRGB and straight (not premultiplied) alpha. Empty when
-    /// it was not asked for.
+    /// Four bytes per pixel: sRGB and straight (not premultiplied) alpha. Empty if not requested.
     pub color: Vec<u8>,
-    /// Linear RGB, premultiplied with alpha, which is the fourth number: 1 is what the
-    /// display shows as white, and light may be brighter. Before exposure and tone
-    /// mapping, on the background.
+    /// Linear RGB, premultiplied with alpha, which is the fourth number: 1 is the display's white,
+    /// and light may be brighter. Before exposure and tone mapping, on the background.
     pub radiance: Option<Vec<Vec4>>,
-    /// Distance from the camera along its view axis in metres, infinite where
-    /// nothing was drawn. Taken at the sample in the middle of the pixel, or with
-    /// an even number of samples per axis at the one right and below of it.
+    /// Distance from the camera along its view axis in metres, infinite where nothing was drawn.
+    /// Taken at the sample in the middle of the pixel, or with an even number of samples per axis
+    /// at the one to the right and below of the middle.
     pub depth: Option<Vec<f32>>,
-    /// Index of the node, `u32::MAX` where nothing was drawn. Taken at the same
-    /// sample as the depth, never mixed. What is translucent leaves no id, unless
-    /// [`Outputs::of_blended`](crate::Outputs::of_blended) asks for it.
+    /// Index of the node, `u32::MAX` where nothing was drawn. Taken at the same sample as the
+    /// depth, never averaged. Translucent surfaces write no id, unless
+    /// [`Outputs::of_blended`](crate::Outputs::of_blended) requests it.
     pub object_ids: Option<Vec<u32>>,
     /// Index of the polygon in its mesh, `u32::MAX` where nothing was drawn.
     pub face_ids: Option<Vec<u32>>,
-    /// Index of the material in the scene, `u32::MAX` where no face was drawn or
-    /// it has none. This and all that follows is of faces: lines and points leave
-    /// in it what the background does.
+    /// Index of the material in the scene, `u32::MAX` where no face was drawn or it has no
+    /// material. This and all following outputs belong to faces: lines and points write the same
+    /// values as the background.
     pub material_ids: Option<Vec<u32>>,
     /// Index of the triangle in the mesh's
     /// [`triangulation`](trigon_mesh::Mesh::triangulation), `u32::MAX` where no face
     /// was drawn.
     pub triangle_ids: Option<Vec<u32>>,
-    /// The shares of that triangle's corners, in their order: at least 0, together 1
-    /// but for rounding. All 0 where no face was drawn. Of a pixel that is seen only
-    /// because vertices are moved to the sub-pixel grid, those of the nearest point
-    /// of the triangle.
+    /// The barycentrics of the point in that triangle, in the order of its corners: at least 0,
+    /// with sum 1 up to rounding. All 0 where no face was drawn. If a pixel shows the triangle only
+    /// because vertices are snapped to the sub-pixel grid, these are the barycentrics of the
+    /// nearest point of the triangle.
     pub barycentrics: Option<Vec<Vec3>>,
-    /// The point of the surface, in metres along the world's axes from
-    /// [`Outputs::origin`](crate::Outputs::origin); computed in f64 and rounded once.
-    /// All 0 where no face was drawn.
+    /// The position on the surface, in metres along the world's axes from
+    /// [`Outputs::origin`](crate::Outputs::origin); computed in f64 and rounded once. All 0 where
+    /// no face was drawn.
     pub positions: Option<Vec<Vec3>>,
-    /// Unit vectors of the world: interpolated, bent by the material's normal map,
-    /// and turned over where a back is seen, as light finds them. All 0 where no
-    /// face was drawn.
+    /// Shading normals, unit vectors in world space: interpolated, perturbed by the material's
+    /// normal map, and flipped for back faces. All 0 where no face was drawn.
     pub normals: Option<Vec<Vec3>>,
-    /// Unit vectors of the world: across the triangle's plane, to the side that is
-    /// seen. All 0 where no face was drawn, and of triangles without area.
+    /// Geometric normals, unit vectors in world space: perpendicular to the triangle, on the
+    /// visible side. All 0 where no face was drawn, and for triangles without area.
     pub geometric_normals: Option<Vec<Vec3>>,
     /// Coordinates of the first UV set, v downwards, before any texture's transform.
     /// All 0 where no face was drawn or the mesh has none.
     pub uvs: Option<Vec<Vec2>>,
-    /// Linear RGB: base colour times texture times vertex colour; the texture
-    /// filtered over a whole pixel. All 0 where no face was drawn.
+    /// Linear RGB: base colour times texture times vertex colour, with the texture filtered over a
+    /// whole pixel. All 0 where no face was drawn.
     pub albedo: Option<Vec<Vec3>>,
 }
 
@@ -76,7 +73,7 @@ pub struct Hit {
 }
 
 impl fmt::Debug for Frame {
-    /// The size and what there is, not a million numbers.
+    /// Prints the size and the outputs present, not a million numbers.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Frame")
             .field("width", &self.width)
@@ -92,14 +89,14 @@ impl Frame {
     /// Red, green, blue and alpha of a pixel.
     ///
     /// # Panics
-    /// Outside the picture, and when the colour was not asked for.
+    /// The pixel is outside the image, or the colour was not requested.
     pub fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
         let at = 4 * self.index(x, y);
         [self.color[at], self.color[at + 1], self.color[at + 2], self.color[at + 3]]
     }
 
-    /// What a pixel shows, in constant time: `None` for background, outside
-    /// the picture, and when ids were not asked for.
+    /// What a pixel shows, in constant time: `None` for background, outside the image, and if ids
+    /// were not requested.
     pub fn hit(&self, nodes: &Arena<Node>, x: u32, y: u32) -> Option<Hit> {
         if x >= self.width || y >= self.height {
             return None;
@@ -111,7 +108,7 @@ impl Frame {
         Some(Hit { node, face: face.map(|face| face as usize) })
     }
 
-    /// Makes room for what a picture is to hold, in the memory that is there.
+    /// Allocates the requested outputs, reusing existing memory.
     pub(crate) fn make_room(&mut self, settings: &RenderSettings) -> Result<(), TargetError> {
         let RenderSettings { width, height, outputs, .. } = *settings;
         (self.width, self.height) = (width, height);
@@ -152,14 +149,14 @@ impl Frame {
     }
 }
 
-/// Gives a list a length; `None` without memory.
+/// Sets a list's length; `None` if memory is exhausted.
 pub(crate) fn resize<T: Clone>(list: &mut Vec<T>, length: usize, value: T) -> Option<()> {
     list.try_reserve_exact(length.saturating_sub(list.len())).ok()?;
     list.resize(length, value);
     Some(())
 }
 
-/// The same for a list that is there only when it is wanted.
+/// The same for an optional list.
 fn resize_optional<T: Clone>(list: &mut Option<Vec<T>>, wanted: bool, length: usize, value: T) -> Option<()> {
     if !wanted {
         *list = None;

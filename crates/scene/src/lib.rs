@@ -82,7 +82,7 @@ pub use trigon_raster::{
     Cancel, Filter, MipFilter, Sampler, Stats, Texture, TextureError, TextureFormat, Wrap,
 };
 pub use views::OVERVIEW_DIRECTION;
-/// The crates below, so that a user of scenes needs no others.
+/// Re-exports of the crates below, so that a user of scenes needs no others.
 pub use {trigon_camera as camera, trigon_math as math, trigon_mesh as mesh};
 
 /// Runs the README's example as a test.

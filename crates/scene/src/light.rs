@@ -1,13 +1,12 @@
 //! Lights: what they send out, in which unit.
 //!
-//! A light's `intensity` is what a perfectly white, perfectly diffuse surface
-//! shows when the light meets it head-on (a point or spot light: from one metre
-//! away). 1 is the white of the display. Photometric units differ by the factor
-//! π of a Lambertian surface: `io` divides glTF's lux and candela by π.
+//! A light's `intensity` is the brightness of a perfectly white, perfectly diffuse surface that it
+//! hits head-on (for a point or spot light: from one metre away). 1 is the white of the display.
+//! Photometric units differ by the factor π of a Lambertian surface: `io` divides glTF's lux and
+//! candela by π.
 //!
-//! How light falls off with distance and towards the rim of a cone is that of
-//! the glTF extension KHR_lights_punctual, section "Range Property" and
-//! "Inner and Outer Cone Angles".
+//! The falloff with distance and towards the edge of a cone follows the glTF extension
+//! KHR_lights_punctual, sections "Range Property" and "Inner and Outer Cone Angles".
 
 use std::f32::consts::FRAC_PI_4;
 
@@ -16,37 +15,37 @@ use trigon_math::{Vec3, elementary};
 /// The kinds of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightKind {
-    /// The same from everywhere; has neither place nor direction.
+    /// Ambient light: the same from all directions, without position or direction.
     Ambient,
-    /// Parallel light along the −Z axis of its node, like the sun's.
+    /// Parallel light along the −Z axis of its node, like sunlight.
     Directional,
     /// From the origin of its node in all directions.
     Point,
     /// From the origin of its node in a cone around its −Z axis.
     Spot {
-        /// Radians from the axis to where the light begins to fade: 0 to `outer`.
+        /// The angle from the axis at which the light begins to fade, in radians: 0 to `outer`.
         inner: f32,
-        /// Radians from the axis to where there is none: up to π/2.
+        /// The angle from the axis beyond which there is no light, in radians: up to π/2.
         outer: f32,
     },
 }
 
-/// A light. Its place and direction come from the node that holds it.
+/// A light. Its position and direction come from the node that holds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
     /// How the light spreads.
     pub kind: LightKind,
     /// Linear RGB, usually within 0…1.
     pub color: Vec3,
-    /// What a white surface shows; see the head of this file.
+    /// The brightness of a white surface, as defined at the top of this file.
     pub intensity: f32,
-    /// Metres beyond which a point or spot light does not shine; infinite by
+    /// The distance in metres beyond which a point or spot light does not shine; infinite by
     /// default. See [`Light::falloff`].
     pub range: f32,
 }
 
 impl Light {
-    /// White light from everywhere.
+    /// White ambient light.
     pub fn ambient(intensity: f32) -> Self {
         Self { kind: LightKind::Ambient, color: Vec3::ONE, intensity, range: f32::INFINITY }
     }
@@ -61,8 +60,8 @@ impl Light {
         Self { kind: LightKind::Point, ..Self::ambient(intensity) }
     }
 
-    /// White light in a cone around the node's −Z axis, bright in its middle
-    /// and fading to nothing at π/4 from the axis.
+    /// White light in a cone around the node's −Z axis, brightest in its middle and fading to
+    /// nothing at π/4 from the axis.
     pub fn spot(intensity: f32) -> Self {
         Self { kind: LightKind::Spot { inner: 0.0, outer: FRAC_PI_4 }, ..Self::ambient(intensity) }
     }
@@ -77,25 +76,25 @@ impl Light {
         Self { range, ..self }
     }
 
-    /// The share of a point or spot light that arrives at a distance, which is
-    /// given squared, in square metres: `clamp(1 − (d / range)⁴, 0, 1) / d²`.
-    /// 0 where that is not a number: on the light itself, and infinitely far.
+    /// The fraction of a point or spot light that arrives at a distance, given squared, in square
+    /// metres: `clamp(1 − (d / range)⁴, 0, 1) / d²`. 0 if that is not a number: at the light
+    /// itself, and at infinity.
     pub fn falloff(&self, distance_squared: f32) -> f32 {
         let inverse = 1.0 / distance_squared;
         if !(distance_squared > 0.0 && inverse.is_finite()) {
             return 0.0;
         }
-        // An infinite range, and one that is no positive number, limits nothing.
+        // A range that is infinite or not a positive number is no limit.
         let relative = if self.range > 0.0 { distance_squared / (self.range * self.range) } else { 0.0 };
         let window = 1.0 - relative * relative;
         if window > 0.0 { window * inverse } else { 0.0 }
     }
 
-    /// `(scale, offset)` of a spot light's cone. At an angle θ from its axis
-    /// the light is `clamp(cos θ · scale + offset, 0, 1)²` of what it is on it.
-    /// Light of other kinds has (0, 1): the same everywhere.
+    /// `(scale, offset)` of a spot light's cone. At an angle θ from its axis the intensity is
+    /// multiplied by `clamp(cos θ · scale + offset, 0, 1)²`. Lights of other kinds have (0, 1): the
+    /// same everywhere.
     pub fn cone(&self) -> (f32, f32) {
-        // The specification's bound: below it, a cone has a hard rim.
+        // The specification's bound: below it, a cone has a hard edge.
         const NARROWEST: f32 = 0.001;
         let LightKind::Spot { inner, outer } = self.kind else { return (0.0, 1.0) };
         let (inner, outer) = (elementary::cos_f32(inner), elementary::cos_f32(outer));
@@ -104,7 +103,7 @@ impl Light {
         (scale, -outer * scale)
     }
 
-    /// Linear RGB that a white surface shows; never negative, never NaN.
+    /// The linear RGB of a white surface; never negative, never NaN.
     pub(crate) fn radiance(&self) -> Vec3 {
         let value = self.color * self.intensity;
         let clean = |channel: f32| if channel > 0.0 && channel.is_finite() { channel } else { 0.0 };

@@ -1,4 +1,4 @@
-//! Elements that a picture shows in colours of their own: what is selected, seams, creases.
+//! Marks: elements shown in their own colours, such as the selection, seams and creases.
 
 use std::sync::Arc;
 
@@ -8,35 +8,35 @@ use trigon_raster::MarkColors;
 use crate::elements::ElementSet;
 use crate::node::NodeId;
 
-/// Vertices, edges and faces in colours of their own.
+/// Vertices, edges and faces in their own colours.
 ///
-/// Each list is in the order of priority: an element that is in several sets has the colour
-/// of the first of them. An editor would list the selected edges first, then sharp ones, seams
-/// and creases. Only the first [`MOST`](Self::MOST) of each list are shown.
+/// Each list is in order of priority: an element in several sets has the colour of the first. An
+/// editor would list the selected edges first, then sharp ones, seams and creases. Only the first
+/// [`MOST`](Self::MOST) of each list are shown.
 ///
-/// They cost no vertex and no geometry is made anew for them: sets are looked up for what is
-/// seen. For other marks hand over other sets.
+/// Marks cost no vertices and rebuild no geometry: the sets are looked up for visible triangles. To
+/// change the marks, pass other sets.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marks {
-    /// Edges, by their numbers in the mesh: see [`Mesh::edges`](trigon_mesh::Mesh::edges).
-    /// They have the width of all edges, and are shown in the styles that show edges.
+    /// Edges, by their numbers in the mesh: see [`Mesh::edges`](trigon_mesh::Mesh::edges). They
+    /// have the same width as all edges, and are shown in styles with edges.
     pub edges: Vec<Mark>,
-    /// Faces, whose colours are mixed with the mark's.
+    /// Faces; their colours are mixed with the mark's.
     pub faces: Vec<Mark>,
-    /// Vertices, where [`RenderSettings::vertices`](crate::RenderSettings::vertices) shows
-    /// them.
+    /// Vertices, if [`RenderSettings::vertices`](crate::RenderSettings::vertices) shows them.
     pub vertices: Vec<Mark>,
 }
 
 /// Elements of one kind with their colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
-    /// Shared with whoever selected them: nothing of it is copied for a picture.
+    /// Shared with the creator of the selection: nothing is copied per frame.
     pub elements: Arc<ElementSet>,
     /// Linear RGB.
     pub color: Vec3,
-    /// From 0 to 1; at 0 edges and vertices are not painted, in no other colour either. Lines of
-    /// [`Style::Wireframe`](crate::Style::Wireframe) and other vertices are always opaque.
+    /// Opacity from 0 to 1; at 0 edges and vertices are not painted at all, not even in another
+    /// colour. Lines of [`Style::Wireframe`](crate::Style::Wireframe) and other vertices are always
+    /// opaque.
     pub opacity: f32,
 }
 
@@ -45,9 +45,9 @@ pub struct Mark {
 pub struct VertexPoints {
     /// Diameter in pixels.
     pub size: f32,
-    /// The same of marked vertices.
+    /// The diameter of marked vertices.
     pub marked_size: f32,
-    /// Linear RGB of vertices without a mark.
+    /// Linear RGB of unmarked vertices.
     pub color: Vec3,
 }
 
@@ -59,10 +59,10 @@ impl Default for VertexPoints {
 }
 
 impl Marks {
-    /// The most that a list may have.
+    /// The maximum length of a list.
     pub const MOST: usize = MarkColors::COUNT - 1;
 
-    /// Whether no edge and no face has a mark.
+    /// Whether there are no marked edges or faces.
     pub(crate) fn is_plain(&self) -> bool {
         self.edges.is_empty() && self.faces.is_empty()
     }
@@ -73,7 +73,7 @@ impl Marks {
     }
 }
 
-/// The colours of marks by their numbers: the first of a list has the greatest.
+/// The colours of marks by their numbers: the first of a list has the greatest number.
 pub(crate) fn colors(marks: &[Mark]) -> [Vec4; MarkColors::COUNT] {
     let mut colors = [Vec4::ZERO; MarkColors::COUNT];
     for (mark, color) in marks.iter().zip(colors[1..].iter_mut().rev()) {
@@ -82,13 +82,13 @@ pub(crate) fn colors(marks: &[Mark]) -> [Vec4; MarkColors::COUNT] {
     colors
 }
 
-/// The number of each element of a node, 0 without a mark, up to the last that may have one.
+/// The number of each element of a node, 0 without a mark, up to the last one that may have a mark.
 pub(crate) fn numbers(marks: &[Mark], node: NodeId) -> Vec<u8> {
     let marks = &marks[..marks.len().min(Marks::MOST)];
     let sets = || marks.iter().enumerate().filter_map(|(index, mark)| Some((index, mark.elements.of(node)?)));
     let count = sets().map(|(_, bits)| bits.len()).max().unwrap_or(0);
     let mut numbers = vec![0; count];
-    // The first, which counts most, at last.
+    // The first has priority, so it comes last.
     for (index, bits) in sets().collect::<Vec<_>>().into_iter().rev() {
         for element in bits.ones() {
             numbers[element] = (Marks::MOST - index) as u8;

@@ -1,4 +1,4 @@
-//! Materials: the colour of a surface and how it answers to light.
+//! Materials: the colour of a surface and how it reflects light.
 
 mod shading;
 mod texture_binding;
@@ -11,65 +11,63 @@ pub use texture_binding::{NormalMap, Occlusion, TextureBinding};
 use crate::arena::Id;
 use crate::texture_asset::TextureId;
 
-/// Names a material.
+/// Identifies a material.
 pub type MaterialId = Id<Material>;
 
 /// What the alpha of the base colour means.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AlphaMode {
-    /// Nothing: the surface is opaque.
+    /// Ignored: the surface is opaque.
     Opaque,
-    /// Below the cutoff there is a hole, elsewhere the surface is opaque.
+    /// Below the cutoff there is a hole; elsewhere the surface is opaque.
     Mask {
-        /// The smallest alpha that is still surface, 0…1.
+        /// The smallest alpha that counts as surface, 0…1.
         cutoff: f32,
     },
-    /// Alpha is coverage: what lies behind shows through.
+    /// Alpha is coverage: the surface is blended with what lies behind it.
     Blend,
 }
 
-/// The look of a surface.
+/// The appearance of a surface.
 ///
-/// A factor and its texture multiply each other. A texture of colours is one
-/// in the format `Srgb`, a texture of data one in the format `Linear`.
+/// A factor and its texture are multiplied. Colour textures have the format `Srgb`, data textures
+/// the format `Linear`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// For people; need not be unique.
+    /// A display name; need not be unique.
     pub name: String,
     /// Linear RGB and straight alpha; multiplies texture and vertex colour.
     pub base_color: Vec4,
-    /// RGBA multiplies the base colour; the picture holds colours.
+    /// RGBA multiplies the base colour; the texture holds colours.
     pub base_color_texture: Option<TextureBinding>,
-    /// The answer to light.
+    /// How the surface reflects light.
     pub shading: Shading,
-    /// Linear RGB that the surface sends out by itself, at least 0; 1 is the
-    /// white of the display. glTF's emissive strength is multiplied in.
+    /// Linear RGB of emitted light, at least 0; 1 is the white of the display. Includes glTF's
+    /// emissive strength.
     pub emissive: Vec3,
-    /// RGB multiplies `emissive`; the picture holds colours.
+    /// RGB multiplies `emissive`; the texture holds colours.
     pub emissive_texture: Option<TextureBinding>,
-    /// Bends the normals.
+    /// Perturbs the normals.
     pub normal_map: Option<NormalMap>,
-    /// Keeps ambient light from crevices.
+    /// Reduces ambient light in crevices.
     pub occlusion: Option<Occlusion>,
     /// What alpha means.
     pub alpha_mode: AlphaMode,
-    /// Whether back faces are drawn; their normals then point at the viewer.
+    /// Whether back faces are drawn; their normals then point towards the viewer.
     pub double_sided: bool,
-    /// The share of light that passes through the surface instead of being
-    /// diffusely reflected, 0 (default) to 1: KHR_materials_transmission. Only
-    /// rays follow it.
+    /// The fraction of light that passes through the surface instead of being diffusely reflected,
+    /// 0 (default) to 1: KHR_materials_transmission. Only rays follow it.
     pub transmission: f32,
-    /// Red multiplies `transmission`; the picture holds data.
+    /// Red multiplies `transmission`; the texture holds data.
     pub transmission_texture: Option<TextureBinding>,
-    /// Index of refraction of a dielectric: at least 1, or 0 for a surface
-    /// that reflects everything. It bends transmitted rays and sets what
-    /// metallic-roughness reflects head-on: ((ior − 1) / (ior + 1))², 4 % with
-    /// the default of 1.5.
+    /// Index of refraction of a dielectric: at least 1, or 0 for a surface that reflects
+    /// everything. It bends transmitted rays and determines the head-on reflectance of
+    /// metallic-roughness surfaces: ((ior − 1) / (ior + 1))², 4 % with the default of 1.5.
     pub ior: f32,
 }
 
 impl Default for Material {
-    /// A light grey plastic, drawn from both sides.
+    /// A light grey plastic, double-sided.
     fn default() -> Self {
         Self {
             name: String::new(),
@@ -109,13 +107,12 @@ impl Material {
         Self { name: name.into(), ..self }
     }
 
-    /// The same material with another answer to light.
+    /// The same material with another shading.
     pub fn with_shading(self, shading: Shading) -> Self {
         Self { shading, ..self }
     }
 
-    /// Exchanges every texture for the one that `exchange` names; one for
-    /// which it names none is taken off.
+    /// Replaces every texture by the one that `exchange` returns; `None` removes it.
     pub(crate) fn exchange_textures(&mut self, exchange: impl Fn(TextureId) -> Option<TextureId>) {
         let exchanged = |binding: TextureBinding| {
             exchange(binding.texture).map(|texture| TextureBinding { texture, ..binding })

@@ -1,4 +1,4 @@
-//! Nodes: places in the scene that hold something, or hold other nodes together.
+//! Nodes: placements in the scene that hold content, or group other nodes.
 
 use trigon_camera::Projection;
 use trigon_math::DVec3;
@@ -10,35 +10,32 @@ use crate::scene::MeshId;
 use crate::skin::SkinId;
 use crate::transform::Transform;
 
-/// Names a node.
+/// Identifies a node.
 pub type NodeId = Id<Node>;
 
-/// A place in the scene. What it holds moves, turns and scales with it, and so
-/// do its children.
+/// A placement in the scene. Its content moves, rotates and scales with it, and so do its children.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
-    /// For people; need not be unique.
+    /// A display name; need not be unique.
     pub name: String,
     /// The placement in the parent's space, or in the world for a root.
     pub transform: Transform,
-    /// The mesh that is drawn here.
+    /// The mesh drawn here.
     pub mesh: Option<MeshId>,
-    /// The materials of the mesh's slots. A slot beyond the list, or with a
-    /// removed material, is drawn with the default material.
+    /// The materials of the mesh's slots. A slot beyond the list, or with a removed material, uses
+    /// the default material.
     pub materials: Vec<MaterialId>,
-    /// The joints that the mesh follows, if it has skin weights; it is then
-    /// drawn where they put it, see `Scene::skin_pose`.
+    /// The joints that the mesh follows, if it has skin weights; it is then drawn where they place
+    /// it, see `Scene::skin_pose`.
     pub skin: Option<SkinId>,
-    /// How far the mesh is moved towards each of its morph targets: usually 0
-    /// to 1, but any value adds that many times the difference. Targets
-    /// beyond the list are at 0.
+    /// The weight of each morph target: usually 0 to 1, but any value adds that multiple of the
+    /// difference. Targets beyond the list have weight 0.
     pub morph_weights: Vec<f32>,
-    /// The light that stands here, shining along −Z where it has a direction.
+    /// The light at this node, shining along −Z if it has a direction.
     pub light: Option<Light>,
-    /// The camera that stands here, looking along −Z with +Y up.
+    /// The camera at this node, looking along −Z with +Y up.
     pub camera: Option<Projection>,
-    /// Whether the node is drawn; a hidden node hides its children too, and
-    /// its light is out.
+    /// Whether the node is drawn; a hidden node also hides its children and turns off its light.
     pub visible: bool,
     pub(crate) parent: Option<NodeId>,
     pub(crate) children: Vec<NodeId>,
@@ -63,7 +60,7 @@ impl Default for Node {
 }
 
 impl Node {
-    /// A node that draws a mesh in one material.
+    /// A node that draws a mesh with one material.
     pub fn from_mesh(mesh: MeshId, material: MaterialId) -> Self {
         Self { mesh: Some(mesh), materials: vec![material], ..Self::default() }
     }
@@ -83,18 +80,18 @@ impl Node {
         Self { transform, ..self }
     }
 
-    /// The same node with its origin at a point of its parent.
+    /// The same node with its origin at a point in its parent's space.
     pub fn at(mut self, translation: DVec3) -> Self {
         self.transform.set_translation(translation);
         self
     }
 
-    /// The node that this one hangs on; change it with `Scene::set_parent`.
+    /// The parent of this node; change it with `Scene::set_parent`.
     pub fn parent(&self) -> Option<NodeId> {
         self.parent
     }
 
-    /// The nodes that hang on this one.
+    /// The children of this node.
     pub fn children(&self) -> &[NodeId] {
         &self.children
     }

@@ -1,4 +1,4 @@
-//! The scene: a forest of nodes over shared meshes, materials and textures.
+//! The scene: a forest of nodes that share meshes, materials and textures.
 
 mod append;
 mod mesh_asset;
@@ -26,12 +26,12 @@ pub use parts::SceneParts;
 pub(crate) use placed::PlacedMesh;
 pub use skin_pose::SkinPose;
 
-/// Where a node is in the world.
+/// The placement of a node in the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Place {
     pub(crate) world: DAffine3,
-    /// Whether an odd number of the maps on the way mirror. A nearly flat map's own
-    /// determinant is rounding.
+    /// Whether an odd number of the transforms from the root mirror. The determinant of a nearly
+    /// flat product would be dominated by rounding.
     pub(crate) is_mirrored: bool,
 }
 
@@ -44,15 +44,15 @@ pub enum SceneError {
     /// A node cannot hang on itself or on one of its descendants.
     #[error("node {child:?} cannot hang on {parent:?}, which hangs on it; detach {parent:?} first")]
     Cycle {
-        /// The node that was to be moved.
+        /// The node to move.
         child: NodeId,
-        /// Where it was to hang.
+        /// The new parent.
         parent: NodeId,
     },
     /// The mesh was removed, or belongs to another scene.
     #[error("mesh {0:?} is not in the scene; it belongs to another one")]
     NoSuchMesh(MeshId),
-    /// The mesh has not what was to be changed.
+    /// The mesh lacks an element that was to be changed.
     #[error(transparent)]
     Change(#[from] ChangeError),
 }
@@ -69,10 +69,10 @@ pub struct Scene {
     pub textures: Arena<TextureAsset>,
     /// Joints that meshes follow.
     pub skins: Arena<Skin>,
-    /// Movements of the nodes, to be asked for by [`Scene::pose`].
+    /// Movements of nodes, evaluated by [`Scene::pose`].
     pub animations: Vec<Animation>,
     nodes: Arena<Node>,
-    /// Roots that are listed first; some may be gone, or hang on others now.
+    /// Roots listed first; some may have been removed, or have a parent now.
     root_order: Vec<NodeId>,
 }
 
@@ -82,29 +82,28 @@ impl Scene {
         Self::default()
     }
 
-    /// Adds a mesh, to be drawn by nodes.
+    /// Adds a mesh for nodes to draw.
     pub fn add_mesh(&mut self, name: impl Into<String>, mesh: Mesh) -> MeshId {
         self.meshes.insert(MeshAsset::new(name.into(), mesh))
     }
 
-    /// Changes a mesh for every node that draws it; `None` when it was removed.
+    /// Changes a mesh for every node that draws it; `None` if it was removed.
     pub fn replace_mesh(&mut self, id: MeshId, mesh: Mesh) -> Option<()> {
         self.meshes.get_mut(id)?.replace(mesh);
         Some(())
     }
 
-    /// Gives some elements of a mesh other values, for every node that draws it. Pictures
-    /// are, to the byte, those of a scene that was made with the changed mesh.
+    /// Gives some elements of a mesh new values, for every node that draws it. The frames have the
+    /// same bytes as those of a scene created with the changed mesh.
     ///
-    /// This takes a time proportional to the change, and so does what the next picture finds
-    /// out anew about the mesh. A [`Renderer`](crate::Renderer) whose last two pictures differ
-    /// in nothing but such changes draws only those parts of the next one that may look
-    /// different, unless effects reach over the picture, such as shadows. The first change is the exception: after it the next picture
-    /// takes as long as after [`replace_mesh`](Self::replace_mesh). An editor can make an
-    /// empty change beforehand, so that nobody waits for that while dragging. These are
-    /// made anew after every change: the whole mesh if a pose can bend it or if a polygon of
-    /// four corners or more folds or unfolds, tangents that are generated for a normal map,
-    /// shadow maps, and the tree of rays.
+    /// Takes time proportional to the change, and so does updating derived data at the next frame. If the
+    /// last two frames of a [`Renderer`](crate::Renderer) differ in nothing but such changes, the next one
+    /// draws only the parts that may look different, unless effects reach across the image, such as shadows.
+    /// The first change is the exception: after it the next frame takes as long as after
+    /// [`replace_mesh`](Self::replace_mesh). An editor can make an empty change in advance, so that dragging
+    /// does not start with that delay. After every change these are rebuilt: the whole mesh if a pose can
+    /// deform it or if a polygon of four corners or more folds or unfolds, tangents generated for a normal
+    /// map, shadow maps, and the BVH.
     ///
     /// Clones of a scene share its meshes; a shared mesh is copied when it is changed.
     ///
@@ -190,7 +189,7 @@ impl Scene {
         Some(child)
     }
 
-    /// Adds a mesh in a material as a new root: the short way to an object.
+    /// Adds a mesh with a material as a new root: the simplest way to add an object.
     pub fn add_object(&mut self, name: impl Into<String>, mesh: Mesh, material: Material) -> NodeId {
         let name = name.into();
         let mesh = self.add_mesh(name.clone(), mesh);
@@ -203,23 +202,23 @@ impl Scene {
         &self.nodes
     }
 
-    /// A node, or `None` when it was removed.
+    /// A node, or `None` if it was removed.
     pub fn node(&self, id: NodeId) -> Option<&Node> {
         self.nodes.get(id)
     }
 
-    /// A node to change, or `None` when it was removed.
+    /// A node, mutable, or `None` if it was removed.
     pub fn node_mut(&mut self, id: NodeId) -> Option<&mut Node> {
         self.nodes.get_mut(id)
     }
 
-    /// All nodes to change, in the order of their indices.
+    /// All nodes, mutable, in the order of their indices.
     pub fn nodes_mut(&mut self) -> impl Iterator<Item = (NodeId, &mut Node)> {
         self.nodes.iter_mut()
     }
 
-    /// Removes a node and everything that hangs on it. Meshes and materials
-    /// stay: others may share them. Returns how many nodes went.
+    /// Removes a node and its descendants. Meshes and materials stay, because others may share
+    /// them. Returns the number of removed nodes.
     pub fn remove(&mut self, id: NodeId) -> usize {
         self.unhook(id);
         let (mut waiting, mut removed) = (vec![id], 0);
@@ -232,11 +231,11 @@ impl Scene {
         removed
     }
 
-    /// Hangs a node on another one, or makes it a root. Its transform is kept
-    /// as it is, relative to the new parent.
+    /// Sets the parent of a node, or makes it a root. Its transform is kept as it is, relative to
+    /// the new parent.
     ///
     /// # Errors
-    /// When either is gone, or the node would hang on itself.
+    /// Either was removed, or the node would become its own ancestor.
     pub fn set_parent(&mut self, child: NodeId, parent: Option<NodeId>) -> Result<(), SceneError> {
         self.nodes.get(child).ok_or(SceneError::NoSuchNode(child))?;
         if let Some(parent) = parent {
@@ -260,19 +259,19 @@ impl Scene {
         std::iter::successors(Some(id), |&id| self.nodes.get(id).and_then(|node| node.parent))
     }
 
-    /// The map from a node's space into the world's; identity when it is gone.
+    /// The map from a node's space to world space; the identity if the node was removed.
     pub fn world_transform(&self, id: NodeId) -> DAffine3 {
         let local = |id| self.nodes.get(id).map_or(DAffine3::IDENTITY, |node| node.transform.to_affine());
         self.ancestors(id).fold(DAffine3::IDENTITY, |inner, id| local(id) * inner)
     }
 
-    /// For each node by index: its map into the world, or `None` when it, or
-    /// what it hangs on, is hidden or gone. One visit per node, whatever the depth.
+    /// For each node by index: its map to world space, or `None` if it or an ancestor is hidden or
+    /// removed. Visits each node once, whatever the depth.
     pub fn visible_transforms(&self) -> Vec<Option<DAffine3>> {
         self.visible_places().into_iter().map(|place| Some(place?.world)).collect()
     }
 
-    /// The same, and whether outside is turned inside on the way.
+    /// The same, and whether the transforms mirror.
     pub(crate) fn visible_places(&self) -> Vec<Option<Place>> {
         let mut table = vec![None; self.nodes.index_bound()];
         let roots = self.nodes.iter().filter(|(_, node)| node.parent.is_none());
@@ -289,14 +288,14 @@ impl Scene {
         table
     }
 
-    /// The smallest box around everything that is visible; empty when nothing is.
+    /// The smallest box around everything visible; empty if nothing is.
     pub fn bounds(&self) -> Bounds3 {
         let around = |bounds: Bounds3, mesh: PlacedMesh<'_>| bounds.union(mesh.bounds());
         self.placed_meshes().fold(Bounds3::EMPTY, around)
     }
 
-    /// The cameras that stand in the scene, in the order of their nodes: what
-    /// a viewer of the file can choose from. A camera's scale is ignored.
+    /// The cameras in the scene, in the order of their nodes, for a viewer to choose from. A
+    /// camera's scale is ignored.
     pub fn cameras(&self) -> Vec<(NodeId, Camera)> {
         let holders = self.nodes.iter().filter_map(|(id, node)| Some((id, node.camera?)));
         holders.map(|(id, projection)| (id, camera_at(&self.world_transform(id), projection))).collect()

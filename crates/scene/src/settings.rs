@@ -1,4 +1,4 @@
-//! What a picture is to hold and how it is drawn.
+//! The outputs of a frame and how it is drawn.
 
 use std::num::NonZeroUsize;
 use trigon_raster::FaceEdges;
@@ -10,10 +10,10 @@ use crate::background::Background;
 use crate::effects::EffectSettings;
 use crate::marks::{Marks, VertexPoints};
 
-/// The largest width or height of a picture, in pixels.
+/// The largest width or height of an image, in pixels.
 pub const MAX_SIZE: u32 = 16384;
 
-/// How surfaces and edges are shown.
+/// How surfaces and edges are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
     /// Filled faces.
@@ -21,67 +21,66 @@ pub enum Style {
     Surface,
     /// Filled faces with the edges of the polygons on them.
     SurfaceWithEdges,
-    /// The edges of the polygons alone, hidden ones too.
+    /// The edges of the polygons alone, including hidden ones.
     Wireframe,
     /// The edges that no face hides.
     HiddenLine,
 }
 
-/// Which lights a picture uses.
+/// The lights that a frame uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lighting {
-    /// The scene's own lights, with a tenth of white from everywhere when it has no
-    /// ambient light; or the studio lights when it has no lights at all.
+    /// The scene's own lights, plus a tenth of white ambient light if it has none; or the studio
+    /// lights if it has no lights at all.
     #[default]
     Automatic,
     /// The scene's own lights only.
     Scene,
-    /// A key, a fill and a rim light that move with the camera, and a little
-    /// ambient light; the scene's own lights are out. A white plate that faces the
-    /// camera shows at least 235 of 255, and no white diffuse surface is clipped.
+    /// A key, a fill and a rim light that move with the camera, and a little ambient light; the
+    /// scene's own lights are off. A white plate that faces the camera shows at least 235 of 255,
+    /// and no white diffuse surface is clipped.
     Studio,
 }
 
-/// Where on a surface light is found.
+/// Where lighting is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ShadingModel {
-    /// Once for each triangle, in its middle.
+    /// Once per triangle, at its centre.
     Flat,
-    /// At the vertices, and interpolated. Of the textures only that of the base
-    /// colour and that of the emission are shown.
+    /// At the vertices, and interpolated. Only base colour and emissive textures are shown.
     Gouraud,
     /// At each pixel.
     #[default]
     Phong,
 }
 
-/// By which law surfaces answer to light. Unlit ones stay so.
+/// The reflection model of surfaces. Unlit ones stay unlit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reflection {
-    /// By the one that the material names.
+    /// The one of the material.
     #[default]
     Material,
     /// Diffuse light only.
     Lambert,
     /// Diffuse light and Blinn's highlights, as wide as the material's.
     BlinnPhong,
-    /// GGX, as rough as the material's highlights are wide.
+    /// GGX, with a roughness that matches the width of the material's highlights.
     MetallicRoughness,
 }
 
-/// What a picture holds. What is not asked for is not computed and not allocated;
-/// without `color` and `radiance` nothing is shaded at all: neither lights nor effects are
-/// prepared, and only masks are looked up.
+/// The outputs of a frame. Outputs that are not requested are neither computed nor allocated;
+/// without `color` and `radiance` nothing is shaded: neither lights nor effects are prepared, and
+/// only masks are evaluated.
 ///
-/// Everything but these two is of one sample of each pixel and never mixed: of
-/// the sample in the middle, or with an even number of samples per axis of the one
-/// right and below of it. Asking for it changes no byte of the colour.
+/// All outputs except these two are taken from one sample of each pixel and never averaged: the
+/// sample in the middle, or with an even number of samples per axis the one to the right and below
+/// of the middle. Requesting them changes no byte of the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs {
-    /// What the picture looks like.
+    /// The image.
     pub color: bool,
-    /// The light that reaches the camera, in floating point: what `color` is before
-    /// exposure, tone mapping and outlines.
+    /// The light that reaches the camera, in floating point: `color` before exposure, tone mapping
+    /// and outlines.
     pub radiance: bool,
     /// Distance along the view axis.
     pub depth: bool,
@@ -91,23 +90,23 @@ pub struct Outputs {
     pub material_ids: bool,
     /// The triangle of the mesh's triangulation.
     pub triangle_ids: bool,
-    /// The shares of that triangle's corners.
+    /// The barycentrics in that triangle.
     pub barycentrics: bool,
-    /// The place in the world, relative to `origin`.
+    /// The position in the world, relative to `origin`.
     pub positions: bool,
-    /// The normal that light falls on.
+    /// The shading normal.
     pub normals: bool,
     /// The normal of the triangle's plane.
     pub geometric_normals: bool,
     /// Texture coordinates of the first UV set.
     pub uvs: bool,
-    /// The colour of the surface before light falls on it.
+    /// The colour of the surface before lighting.
     pub albedo: bool,
-    /// Whether blended surfaces are seen in all of these, wherever their alpha is
-    /// above 0. Usually what lies behind them is, and only the colour shows them.
+    /// Whether blended surfaces appear in all of these outputs, wherever their alpha is above 0. By
+    /// default what lies behind them does, and only the colour shows them.
     pub of_blended: bool,
-    /// What positions are relative to. They are rounded to f32 after it is
-    /// subtracted: in a world of millions of metres choose a point near the scene.
+    /// The point that positions are relative to. They are rounded to f32 after it is subtracted: in
+    /// a world of millions of metres choose a point near the scene.
     pub origin: DVec3,
 }
 
@@ -137,7 +136,7 @@ impl Outputs {
         origin: DVec3::ZERO,
     };
 
-    /// Whether anything is asked for that follows from the triangle that is seen.
+    /// Whether any output derived from the visible triangle is requested.
     pub(crate) fn of_triangles(&self) -> bool {
         self.material_ids
             || self.triangle_ids
@@ -154,18 +153,18 @@ impl Outputs {
         self.color || self.radiance
     }
 
-    /// Whether anything is asked for that needs no light.
+    /// Whether any output that needs no light is requested.
     pub(crate) fn beside_color(&self) -> bool {
         self.depth || self.ids || self.of_triangles()
     }
 
-    /// Whether a pass of its own has to find what is seen, beside the colours'.
+    /// Whether a separate pass has to determine visibility in addition to that of the colours.
     pub(crate) fn need_own_pass(&self, has_blended: bool) -> bool {
         self.beside_color() && (!self.of_light() || (self.of_blended && has_blended))
     }
 }
 
-/// How a picture is drawn.
+/// How a frame is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderSettings {
     /// Pixels, 1 to [`MAX_SIZE`].
@@ -175,53 +174,49 @@ pub struct RenderSettings {
     /// Anti-aliasing by supersampling: this many samples along each side of a
     /// pixel, 1 to 4, each shaded, averaged in linear light.
     pub samples_per_axis: u32,
-    /// Anti-aliasing by multisampling: this many samples in each of those, 1, 2,
-    /// 4, 8 or 16, of which those of one triangle are shaded together. Smooths
-    /// outlines at a lower price, and nothing within a triangle.
+    /// Anti-aliasing by multisampling: this many samples in each of those, 1, 2, 4, 8 or 16, shaded
+    /// once per triangle. Smooths outlines at a lower cost, but nothing inside a triangle.
     pub samples: u32,
     /// Behind everything.
     pub background: Background,
     /// Faces, edges or both.
     pub style: Style,
-    /// Width of edges and of loose lines, in pixels. The edges of faces on surfaces are no
-    /// wider than 16 pixels (fewer with supersampling), and narrower on faces that have no
-    /// room for them: [`trigon_raster::FaceEdges`] says how much.
+    /// Width of edges and of loose lines, in pixels. The edges of faces on surfaces are at most 16
+    /// pixels wide (fewer with supersampling), and narrower on small faces:
+    /// [`trigon_raster::FaceEdges`] defines how much.
     pub line_width: f32,
     /// Linear RGB of the edges in all styles but [`Style::Surface`].
     pub edge_color: Vec3,
-    /// How much of what lies below them edges hide in [`Style::SurfaceWithEdges`] and
-    /// [`Style::HiddenLine`], 0 to 1.
+    /// Opacity of edges in [`Style::SurfaceWithEdges`] and [`Style::HiddenLine`], 0 to 1.
     pub edge_opacity: f32,
-    /// How much faces let show through them in the same two styles, 0 to 1: the edges and
-    /// vertices that they hide, and the background (X-ray). What is not hidden stays as it
-    /// is. Above 0 the picture is drawn twice, once as a wireframe.
+    /// How much faces in the same two styles let hidden edges and vertices and the background show
+    /// through, 0 to 1 (X-ray). What is not hidden stays as it is. Above 0 the frame is drawn
+    /// twice, once as a wireframe.
     pub x_ray: f32,
-    /// Elements in colours of their own.
+    /// Elements in their own colours.
     pub marks: Marks,
-    /// How the vertices of meshes are shown, if they are, where no face hides them.
+    /// How vertices of meshes that no face hides are shown, if they are.
     pub vertices: Option<VertexPoints>,
     /// Which lights.
     pub lighting: Lighting,
-    /// Factor for every light, the studio's too; 1 leaves them as they are.
+    /// Factor for every light, including the studio lights; 1 leaves them as they are.
     pub light_intensity: f32,
-    /// Where on surfaces light is found.
+    /// Where lighting is computed.
     pub shading: ShadingModel,
-    /// By which law surfaces answer to it.
+    /// The reflection model.
     pub reflection: Reflection,
-    /// Everything beyond surfaces in plain light.
+    /// All effects beyond directly lit surfaces.
     pub effects: EffectSettings,
-    /// What the picture holds.
+    /// The outputs of the frame.
     pub outputs: Outputs,
-    /// At most this many threads; `None` for one per core. The picture does
-    /// not depend on it.
+    /// The maximum number of threads; `None` for one per core. The frame does not depend on it.
     pub threads: Option<NonZeroUsize>,
-    /// Which vector instructions are used; `None` for the best that the
-    /// processor has. The picture does not depend on it.
+    /// The SIMD level; `None` for the best of the processor. The frame does not depend on it.
     pub simd: Option<SimdLevel>,
 }
 
 impl RenderSettings {
-    /// A picture of a size, with 3×3 samples a pixel, and defaults elsewhere.
+    /// An image of a size with 3×3 samples per pixel, and defaults elsewhere.
     pub fn new(width: u32, height: u32) -> Self {
         Self {
             width,
@@ -247,12 +242,12 @@ impl RenderSettings {
         }
     }
 
-    /// How the edges of faces are painted, in styles that paint them.
+    /// How the edges of faces are painted, in styles with edges.
     pub(crate) fn face_edges(&self) -> FaceEdges {
         FaceEdges { width: self.line_width, color: self.edge_color, opacity: self.edge_opacity }
     }
 
-    /// What shows through faces, if anything does.
+    /// What shows through faces, if anything.
     pub(crate) fn share_through_faces(&self) -> Option<f32> {
         let shows_edges = matches!(self.style, Style::SurfaceWithEdges | Style::HiddenLine);
         (shows_edges && self.x_ray > 0.0).then(|| self.x_ray.min(1.0))

@@ -1,21 +1,21 @@
-//! Skins: joints that meshes follow; `scene/skin_pose` puts them into a pose.
+//! Skins: joints that meshes follow; `scene/skin_pose` computes their poses.
 
 use trigon_math::glam::DAffine3;
 
 use crate::arena::Id;
 use crate::node::NodeId;
 
-/// Names a skin.
+/// Identifies a skin.
 pub type SkinId = Id<Skin>;
 
-/// The joints of a skin, which the mesh's skin weights count.
+/// The joints of a skin, which the mesh's skin weights refer to.
 #[derive(Clone, Debug, Default)]
 pub struct Skin {
-    /// For people; need not be unique.
+    /// A display name; need not be unique.
     pub name: String,
-    /// A joint that was removed stays where the mesh is.
+    /// A removed joint stays at the mesh's placement.
     pub joints: Vec<NodeId>,
-    /// For each joint the map from the mesh into the joint's space in the pose
-    /// in which the two were bound; identity where there is none.
+    /// For each joint the inverse bind matrix: from the mesh into the joint's space in the bind
+    /// pose; the identity if missing.
     pub inverse_bind_matrices: Vec<DAffine3>,
 }

@@ -1,4 +1,4 @@
-//! Textures as materials share them.
+//! Textures that materials share.
 
 use std::sync::Arc;
 
@@ -6,13 +6,13 @@ use trigon_raster::Texture;
 
 use crate::arena::Id;
 
-/// Names a texture.
+/// Identifies a texture.
 pub type TextureId = Id<TextureAsset>;
 
-/// A texture as the scene shares it between materials.
+/// A texture that the scene shares between materials.
 #[derive(Clone, Debug)]
 pub struct TextureAsset {
-    /// For people; need not be unique.
+    /// A display name; need not be unique.
     pub name: String,
     /// The picture.
     pub texture: Arc<Texture>,

@@ -1,9 +1,8 @@
-//! Where a node is, relative to its parent.
+//! The placement of a node relative to its parent.
 //!
-//! Everything is f64: a picture of a model ten million metres from the origin
-//! must not depend on where the origin happens to be. The rotation is a unit
-//! quaternion, renormalised at every step, so that a million small turns do
-//! not shear the object.
+//! Everything is f64: a frame of a model ten million metres from the origin must not depend on the
+//! origin's position. The rotation is a unit quaternion, renormalised at every step, so that a
+//! million small rotations do not shear the object.
 
 use trigon_math::{DAffine3, DMat3, DQuat, DVec3, is_mirroring};
 
@@ -13,7 +12,7 @@ use trigon_math::{DAffine3, DMat3, DQuat, DVec3, is_mirroring};
 pub enum Transform {
     /// Translation, rotation and scale.
     Decomposed {
-        /// Where the node's origin lies in its parent, in metres.
+        /// Position of the node's origin in its parent, in metres.
         translation: DVec3,
         /// A unit quaternion.
         rotation: DQuat,
@@ -50,8 +49,8 @@ impl Transform {
         }
     }
 
-    /// Whether it turns space inside out. Known from the factors themselves: in a product
-    /// of matrices that nearly flatten something, rounding is larger than what is left.
+    /// Whether it mirrors. Computed from the factors themselves: in a product of matrices that
+    /// nearly flatten something, rounding is larger than the rest.
     pub(crate) fn is_mirroring(&self) -> bool {
         match self {
             Self::Decomposed { scale, .. } => {
@@ -61,7 +60,7 @@ impl Transform {
         }
     }
 
-    /// Where the node's origin lies in its parent.
+    /// Position of the node's origin in its parent.
     pub fn translation(&self) -> DVec3 {
         match self {
             Self::Decomposed { translation, .. } => *translation,
@@ -69,7 +68,7 @@ impl Transform {
         }
     }
 
-    /// Puts the node's origin at a point of its parent.
+    /// Moves the node's origin to a point in its parent's space.
     pub fn set_translation(&mut self, to: DVec3) {
         match self {
             Self::Decomposed { translation, .. } => *translation = to,
@@ -82,9 +81,8 @@ impl Transform {
         self.set_translation(self.translation() + by);
     }
 
-    /// Turns the node about its own origin, around an axis of its parent's
-    /// space, by `angle` radians counter-clockwise seen from the axis' tip.
-    /// An axis without length turns nothing.
+    /// Rotates the node about its own origin, around an axis in its parent's space, by `angle`
+    /// radians counter-clockwise seen from the axis' tip. An axis without length has no effect.
     pub fn rotate(&mut self, axis: DVec3, angle: f64) {
         let Some(axis) = axis.try_normalize() else { return };
         let (sine, cosine) = trigon_math::elementary::sin_cos(angle * 0.5);
@@ -110,7 +108,7 @@ impl Default for Transform {
     }
 }
 
-/// The unit quaternion in the same direction; identity where there is none.
+/// The unit quaternion in the same direction; the identity if there is none.
 fn unit(rotation: DQuat) -> DQuat {
     let length = rotation.length();
     if length.is_finite() && length > 0.0 { rotation / length } else { DQuat::IDENTITY }

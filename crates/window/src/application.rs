@@ -1,4 +1,4 @@
-//! The ready application: add objects, run.
+//! The simple way to open a window: add objects, run.
 
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
@@ -7,12 +7,12 @@ use crate::handler::{Animation, Closures, Handler, Tick};
 use crate::shell::{Ring, Shell};
 use crate::{Interaction, Stage, WindowError};
 
-/// What is to be done with a recording.
+/// What to do with a recording.
 type Recorded<'a> = Box<dyn FnOnce(Interaction) + 'a>;
 
-/// A window on a scene. Mouse and keys turn the camera and the selected object
-/// (H shows which), the picture is drawn when something has changed, and the
-/// program only has to say what is in the scene.
+/// A window that shows a scene. Mouse and keys move the camera and the selected object (H lists
+/// them), the image is redrawn when something changes, and the program only has to provide the
+/// scene.
 ///
 /// ```no_run
 /// use trigon_mesh::primitives;
@@ -45,26 +45,25 @@ impl<'a> Application<'a> {
         }
     }
 
-    /// Calls this before each frame, at about 60 frames a second, for as long
-    /// as it answers [`Animation::Running`]. It may add, remove, move and turn
-    /// whatever is in the scene.
+    /// Calls this before each frame, at about 60 frames a second, for as long as it returns
+    /// [`Animation::Running`]. It may add, remove, move and rotate anything in the scene.
     pub fn animate(&mut self, frame: impl FnMut(&mut Stage, Tick) -> Animation + 'a) {
         self.closures.frame = Some(Box::new(frame));
     }
 
-    /// Adds panels and windows over the picture, with [`egui`](crate::egui). Called
-    /// whenever they may have changed. What it changes on the stage is drawn.
+    /// Adds panels and windows over the image, with [`egui`](crate::egui). Called whenever they may
+    /// have changed. Its changes to the stage are drawn.
     pub fn interface(&mut self, interface: impl FnMut(&mut Stage, &mut egui::Ui) + 'a) {
         self.closures.interface = Some(Box::new(interface));
     }
 
-    /// Hands over what was done to the window when it is closed.
+    /// Passes a recording of the window's input to `done` when the window is closed.
     pub fn record(&mut self, done: impl FnOnce(Interaction) + 'a) {
         self.recorded = Some(Box::new(done));
     }
 
-    /// Does this when the window is open; mouse and keyboard are not listened to until
-    /// it is over. For the same pictures the window has to be of the same size.
+    /// Replays a recording when the window is open; mouse and keyboard are ignored until it ends.
+    /// To get the same images, the window must have the same size.
     pub fn play(&mut self, interaction: Interaction) {
         self.played = interaction;
     }
@@ -72,9 +71,8 @@ impl<'a> Application<'a> {
     /// Opens the window and returns when it is closed.
     ///
     /// # Errors
-    /// [`WindowError::NoDisplay`] where no window can be opened,
-    /// [`WindowError::SecondRun`] if this process had a window before, and what
-    /// the window system may refuse.
+    /// [`WindowError::NoDisplay`] if no window can be opened, [`WindowError::SecondRun`] if this
+    /// process had a window before, and errors of the window system.
     ///
     /// # Panics
     /// On macOS, from any thread but the main one.
@@ -83,8 +81,8 @@ impl<'a> Application<'a> {
         self.run_with(&mut closures)
     }
 
-    /// Opens the window for an application that does more than closures can, and
-    /// returns when it is closed. Those given to this application are not used.
+    /// Opens the window for an application that needs more than closures, and returns when it is
+    /// closed. The closures given to this application are not used.
     ///
     /// # Errors
     /// As [`Application::run`].
@@ -116,8 +114,7 @@ fn event_loop() -> Result<EventLoop<Ring>, WindowError> {
     })
 }
 
-/// Elsewhere than on macOS a window may belong to any thread; winit would
-/// panic without this.
+/// On systems other than macOS a window may belong to any thread; winit would panic without this.
 #[cfg(target_os = "linux")]
 fn allow_any_thread(builder: &mut winit::event_loop::EventLoopBuilder<Ring>) {
     use winit::platform::{wayland, x11};
@@ -125,8 +122,7 @@ fn allow_any_thread(builder: &mut winit::event_loop::EventLoopBuilder<Ring>) {
     x11::EventLoopBuilderExtX11::with_any_thread(builder, true);
 }
 
-/// Elsewhere than on macOS a window may belong to any thread; winit would
-/// panic without this.
+/// On systems other than macOS a window may belong to any thread; winit would panic without this.
 #[cfg(target_os = "windows")]
 fn allow_any_thread(builder: &mut winit::event_loop::EventLoopBuilder<Ring>) {
     winit::platform::windows::EventLoopBuilderExtWindows::with_any_thread(builder, true);

@@ -1,5 +1,5 @@
-//! The pixels of the window: the scene's picture, and over it the interface.
-//! Opaque, 8-bit sRGB, in the order that windows have them in memory.
+//! The pixels of the window: the scene's image with the interface over it. Opaque, 8-bit sRGB, in
+//! the order that windows have in memory.
 
 use trigon_raster::paint2d::Rect;
 use trigon_scene::Frame;
@@ -7,24 +7,23 @@ use trigon_scene::Frame;
 use crate::egui_painter::{ChannelOrder, EguiPainter};
 use crate::refinement;
 
-/// Where no picture is yet: dark, so that nobody is dazzled.
+/// Shown before the first image: dark, so as not to dazzle.
 const EMPTY: [u8; 4] = [24, 24, 24, 255];
 
-/// Rows from the top, without padding; blue, green, red, and an alpha that does not
-/// matter.
+/// Rows from the top, without padding; blue, green, red, and an unused alpha.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Canvas {
     size: [u32; 2],
-    /// The scene's picture alone.
+    /// The scene's image alone.
     beneath: Vec<[u8; 4]>,
     pixels: Vec<[u8; 4]>,
     painted: Vec<Rect>,
 }
 
 impl Canvas {
-    /// Takes this size and the frame's colours under the interface. A frame of another
-    /// size is stretched by repeating or leaving out pixels; what is transparent in it
-    /// is black. Without a frame it is dark.
+    /// Takes this size and puts the frame's colours under the interface. A frame of another size is
+    /// stretched by repeating or skipping pixels; transparent parts become black. Without a frame
+    /// it is dark.
     pub(crate) fn show(&mut self, frame: Option<&Frame>, [width, height]: [u32; 2]) {
         self.size = [width, height];
         let count = width as usize * height as usize;
@@ -44,7 +43,7 @@ impl Canvas {
     /// Brings the pixels up to date with the interface. Returns whether any changed.
     pub(crate) fn paint(&mut self, painter: &mut EguiPainter) -> bool {
         let painted = painter.paint(self.size, &mut self.pixels, &self.beneath);
-        // A window beyond what can be painted stays as it is.
+        // A window larger than the painter's limit keeps its pixels.
         self.painted = painted.unwrap_or_default();
         !self.painted.is_empty()
     }
@@ -59,13 +58,13 @@ impl Canvas {
         &self.pixels
     }
 
-    /// What the last [`paint`](Self::paint) changed.
+    /// The area that the last [`paint`](Self::paint) changed.
     pub(crate) fn painted(&self) -> &[Rect] {
         &self.painted
     }
 }
 
-/// Writes a frame into a picture of this size.
+/// Writes a frame into an image of this size.
 fn stretch(frame: &Frame, [width, height]: [usize; 2], to: &mut [[u8; 4]]) {
     let (from, across, down) = (frame.color.as_chunks::<4>().0, frame.width as usize, frame.height as usize);
     if [across, down] == [width, height] {
@@ -86,13 +85,12 @@ fn stretch(frame: &Frame, [width, height]: [usize; 2], to: &mut [[u8; 4]]) {
     }
 }
 
-/// The column, or row, of a frame that is shown in one of the window: one of `from` for
-/// one of `to`.
+/// Maps one of `to` columns or rows of the window to one of `from` in the frame.
 pub(crate) fn source_pixel(at: usize, to: usize, from: usize) -> usize {
     at * from / to
 }
 
-/// From straight alpha to an opaque pixel over black, as windows have it.
+/// From straight alpha to an opaque pixel over black, as windows store it.
 fn over_black(rgba: [u8; 4]) -> [u8; 4] {
     let [r, g, b] = refinement::over_black(rgba);
     ChannelOrder::Bgra.arrange([r, g, b, 255])

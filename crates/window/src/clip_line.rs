@@ -1,10 +1,10 @@
-//! Lines over the picture, cut at its edges.
+//! Lines over the image, clipped at its edges.
 
 use trigon_math::DVec2;
 
-/// The part of a line from `from` to `to` within `0..size`, all in pixels; `None` where it is outside
-/// (Liang and Barsky, "A New Concept and Method for Line Clipping", 1984). What is left has no
-/// coordinate too large for the f32 of shapes.
+/// The part of a line from `from` to `to` within `0..size`, all in pixels; `None` if it is outside (Liang and
+/// Barsky, "A New Concept and Method for Line Clipping", 1984). No coordinate of the result is too large for
+/// the f32 of shapes.
 #[must_use]
 pub fn clip_line(from: DVec2, to: DVec2, size: DVec2) -> Option<(DVec2, DVec2)> {
     let way = to - from;

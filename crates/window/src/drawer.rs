@@ -1,4 +1,4 @@
-//! Other ways to draw a scene than the renderer's.
+//! Drawers: other ways to draw a scene than the renderer.
 
 use std::fmt;
 use std::sync::Arc;
@@ -6,14 +6,14 @@ use std::sync::Arc;
 use trigon_camera::Camera;
 use trigon_scene::{Cancel, Frame, RenderSettings, Scene};
 
-/// Draws the picture at rest in place of the renderer: see
-/// [`Stage::drawer`](crate::Stage::drawer). It is called beside the window's thread.
+/// Draws the image at rest instead of the renderer: see [`Stage::drawer`](crate::Stage::drawer). It
+/// is called on a worker thread.
 pub trait Drawer: Send + Sync {
-    /// Draws colours, as large as the settings say. Where it takes long, it looks at
-    /// `cancel` now and then and gives up; what it answers then does not matter.
+    /// Draws colours, in the size given by the settings. If it takes long, it should check `cancel`
+    /// regularly and return; the result is then ignored.
     ///
     /// # Errors
-    /// Why it cannot, in words for a user; the window shows them.
+    /// Why it cannot draw, in words for the user; the window shows them.
     fn draw(
         &self,
         scene: &Scene,
@@ -23,7 +23,7 @@ pub trait Drawer: Send + Sync {
     ) -> Result<Frame, String>;
 }
 
-/// The drawer that a picture is of. Kept, so that no other can be taken for it.
+/// The drawer that made an image. Kept alive, so that no other can be mistaken for it.
 #[derive(Clone)]
 pub(crate) struct DrawnBy(pub(crate) Option<Arc<dyn Drawer>>);
 

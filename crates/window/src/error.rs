@@ -1,6 +1,6 @@
-//! Why there is no window.
+//! Why a window cannot be opened.
 
-/// A window cannot be opened, or cannot go on.
+/// A window cannot be opened, or cannot continue.
 #[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum WindowError {
@@ -9,34 +9,34 @@ pub enum WindowError {
         "there is no display to open a window on ({reason}); on Linux, DISPLAY or WAYLAND_DISPLAY has to be set"
     )]
     NoDisplay {
-        /// What the window system said.
+        /// The window system's message.
         reason: String,
     },
-    /// The window system allows one event loop per process, and it was used.
+    /// The window system allows one event loop per process, which was already used.
     #[error("this process has already run an application; only one window can be opened per process")]
     SecondRun,
-    /// The display refused a window.
+    /// The display refused to open a window.
     #[error("the window system refused to open a window: {reason}")]
     Window {
-        /// What the window system said.
+        /// The window system's message.
         reason: String,
     },
     /// The window refused pictures.
     #[error("the window cannot show pictures: {reason}")]
     Surface {
-        /// What the window system said.
+        /// The window system's message.
         reason: String,
     },
     /// The connection to the window system broke.
     #[error("the window system has ended the connection: {reason}")]
     Disconnected {
-        /// What the window system said.
+        /// The window system's message.
         reason: String,
     },
 }
 
 impl std::fmt::Debug for WindowError {
-    /// The message: what a `main` that returns this error shows its user.
+    /// The error message that a `main` returning this error shows to its user.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{self}")
     }

@@ -1,5 +1,4 @@
-//! What an application adds to a window: everything here has a default that
-//! does nothing.
+//! The application's callbacks: every method has a default that does nothing.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -10,7 +9,7 @@ use trigon_scene::Frame;
 use crate::Stage;
 use crate::input::{Hands, Input, Modifiers, Taken};
 
-/// The moment of a frame.
+/// The time of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tick {
     /// Since the window opened.
@@ -25,36 +24,35 @@ pub struct Tick {
 pub enum Animation {
     /// Go on, at about 60 frames a second.
     Running,
-    /// Nothing moves by itself any more. [`Stage::animate`] starts it again.
+    /// Nothing is moving any more. [`Stage::animate`] starts it again.
     Resting,
 }
 
-/// The application's part. All methods are called on the window's thread, and
-/// may change whatever is on the stage: it is drawn again after each of them.
+/// The application's callbacks. All methods are called on the window's thread, and may change
+/// anything on the stage, which is redrawn after each of them.
 pub trait Handler {
-    /// The window has opened. [`Stage::reset_view`] follows, so what is added to
-    /// the scene here is in the picture.
+    /// The window has opened. [`Stage::reset_view`] follows, so objects added to the scene here are
+    /// in view.
     fn start(&mut self, stage: &mut Stage) {
         let _ = stage;
     }
 
-    /// A frame is about to be drawn. Called once in the beginning, and then for
-    /// as long as the answer is [`Animation::Running`].
+    /// A frame is about to be drawn. Called once at the beginning, and then as long as it returns
+    /// [`Animation::Running`].
     fn frame(&mut self, stage: &mut Stage, tick: Tick) -> Animation {
         let _ = (stage, tick);
         Animation::Resting
     }
 
-    /// Something was done by hand that no widget took: the application may take it before the
-    /// camera, the keymap and clicks do. While [`Stage::input_owner`] is the application, widgets are
-    /// not asked before.
+    /// Input that no widget took: the application may take it before the camera, the keymap and clicks do.
+    /// While [`Stage::input_owner`] is the application, widgets do not get it first.
     fn input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
         let _ = (stage, input, hands);
         Taken::No
     }
 
-    /// The window put its pointer to the other side, as [`Stage::wraps_pointer`] asks for: in physical pixels. That
-    /// was no movement.
+    /// The window moved its pointer to the other side, as [`Stage::wraps_pointer`] requests; in physical
+    /// pixels. This does not count as a movement.
     fn pointer_jumped(&mut self, stage: &mut Stage, to: DVec2) {
         let _ = (stage, to);
     }
@@ -64,9 +62,9 @@ pub trait Handler {
         let _ = (stage, name);
     }
 
-    /// Adds panels and windows of the application's own; the picture lies behind them.
-    /// Called whenever the interface may have changed, more than once where it has to
-    /// be laid out again. Where no widget is, mouse and keys go to camera and objects.
+    /// Adds the application's own panels and windows over the image. Called whenever the interface
+    /// may have changed, more than once if the layout needs it. Where there is no widget, mouse and
+    /// keys go to camera and objects.
     fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {
         let _ = (stage, ui);
     }
@@ -76,12 +74,12 @@ pub trait Handler {
         let _ = (stage, paths, modifiers);
     }
 
-    /// Somebody wants to close the window: unless this says otherwise, it is closed.
+    /// The user wants to close the window: it closes unless this prevents it.
     fn close_requested(&mut self, stage: &mut Stage) {
         stage.exit();
     }
 
-    /// A picture that [`Stage::request_picture`] asked for.
+    /// The image that [`Stage::request_picture`] requested.
     fn picture(&mut self, stage: &mut Stage, frame: Frame) {
         let _ = (stage, frame);
     }
@@ -92,10 +90,10 @@ pub trait Handler {
     }
 }
 
-/// What is called for each frame.
+/// The frame callback.
 type Frames<'a> = Box<dyn FnMut(&mut Stage, Tick) -> Animation + 'a>;
 
-/// What adds widgets.
+/// The interface callback.
 type Interface<'a> = Box<dyn FnMut(&mut Stage, &mut egui::Ui) + 'a>;
 
 /// An application of at most two closures.

@@ -1,5 +1,5 @@
-//! What hands did to a window, as text: to be done again, in a test or to show an
-//! error to somebody else.
+//! Recordings of a window's input as text, for replaying in a test or showing an error to somebody
+//! else.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::input::InputEvent;
 
-/// Of the lines below.
+/// The format of the lines below.
 const FORMAT: &str = "trigon interaction 1";
 
-/// Everything that came to a window from outside, in its order, with the moments.
+/// All input that came to a window, in order, with its time.
 ///
-/// As text: a line that names the format, and then a line of JSON for each event.
+/// As text: a line that names the format, followed by one line of JSON per event.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Interaction {
     steps: VecDeque<Step>,
@@ -27,18 +27,18 @@ struct Step {
     event: InputEvent,
 }
 
-/// A text is no interaction.
+/// A text is not a recording.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line} is no part of an interaction: {reason}; record it again with this version")]
 pub struct InteractionError {
     /// From 1.
     pub line: usize,
-    /// What is wrong with it.
+    /// The reason.
     pub reason: String,
 }
 
 impl Interaction {
-    /// As text, to be kept in a file.
+    /// As text, for saving to a file.
     #[must_use]
     pub fn to_text(&self) -> String {
         let lines = self.steps.iter().map(|step| serde_json::to_string(step).unwrap_or_default());
@@ -48,7 +48,7 @@ impl Interaction {
     /// From text.
     ///
     /// # Errors
-    /// With the first line that is not what [`to_text`](Self::to_text) writes.
+    /// The first line that is not in the format of [`to_text`](Self::to_text).
     pub fn from_text(text: &str) -> Result<Self, InteractionError> {
         let mut lines = text.lines().zip(1..);
         let first = lines.next().map_or("", |(line, _)| line);
@@ -66,7 +66,7 @@ impl Interaction {
         Ok(Self { steps: steps.collect::<Result<_, _>>()? })
     }
 
-    /// Whether nothing is left to be done.
+    /// Whether nothing is left to replay.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
@@ -77,12 +77,12 @@ impl Interaction {
         self.steps.push_back(Step { ms: now.as_secs_f64() * 1e3, event });
     }
 
-    /// When the next event is due.
+    /// The time of the next event.
     pub(crate) fn due(&self) -> Option<Duration> {
         self.steps.front().map(|step| Duration::from_secs_f64(step.ms / 1e3))
     }
 
-    /// The next event with its moment, if it is due.
+    /// The next event with its time, if it is due.
     pub(crate) fn next(&mut self, now: Duration) -> Option<(Duration, InputEvent)> {
         let due = self.due().filter(|due| *due <= now)?;
         self.steps.pop_front().map(|step| (due, step.event))

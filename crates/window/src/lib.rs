@@ -1,20 +1,19 @@
-//! A window on a scene.
+//! A window that shows a scene.
 //!
-//! [`Application`] is the ready one: create objects, run. Mouse and keys turn
-//! the camera and the selected object, and nothing runs while nothing changes.
-//! Programs that want more implement [`Handler`], which sees and may change
-//! everything on the [`Stage`]: scene, camera, settings, keys, texts.
+//! [`Application`] is the simple way: create objects and run it. Mouse and keys move the camera and
+//! the selected object, and nothing runs while nothing changes. Programs that need more implement
+//! [`Handler`], which can read and change everything on the [`Stage`]: scene, camera, settings,
+//! keys, texts.
 //!
-//! In the pipeline this is the last step: [`trigon_scene`] draws pictures, this
-//! crate decides when and how well, and brings them onto the screen. It knows no
-//! files, and nothing about editing.
+//! This is the last step of the pipeline: [`trigon_scene`] draws frames, and this crate decides
+//! when and in which quality, and presents them on the screen. It knows nothing about files or
+//! editing.
 //!
-//! An event takes this way: winit → `input` (what it means, in our words) →
-//! `session` (what it does: the interface's, the application's, or the camera's) → `pacing` (when to draw, how well) → `worker` (draws
-//! the scene beside the window's thread) → `interface` (what lies over it) →
-//! `egui_painter` (of that, what has changed) → `canvas` → `present` (softbuffer).
-//! Only `shell`, `present` and `input::translate` know the window system; all the
-//! rest is tested without a display.
+//! The path of an event: winit → `input` (translates it) → `session` (passes it to the interface, the
+//! application, or the camera) → `pacing` (decides when to draw, and in which quality) → `worker` (draws the
+//! scene on its own thread) → `interface` (lays out the panels) → `egui_painter` (repaints what changed) →
+//! `canvas` → `present` (softbuffer). Only `shell`, `present` and `input::translate` know the window system;
+//! everything else is tested without a display.
 //!
 //! ```no_run
 //! use trigon_window::scene::{Material, math::DVec3, mesh::primitives};
@@ -89,7 +88,7 @@ pub use shared_scene::SharedScene;
 pub use stage::{FrameReport, Stage, Visibility};
 pub use waker::Waker;
 
-/// The crates below, so that an application needs no others.
+/// Re-exports of the crates below, so that an application needs no others.
 pub use egui;
 pub use trigon_scene as scene;
 

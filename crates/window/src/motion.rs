@@ -1,5 +1,5 @@
-//! From movements of hands to movements of camera and objects. How far a drag
-//! goes does not depend on the size of the window or its resolution.
+//! Turns input movements into movements of camera and objects. The effect of a drag does not depend
+//! on the size of the window or its resolution.
 
 use std::f64::consts::PI;
 
@@ -9,7 +9,7 @@ use trigon_math::{DVec2, DVec3, elementary};
 use crate::Stage;
 use crate::keymap::{CameraMotion, DragAction, Motion, ObjectMotion};
 
-/// A drag over the height of the window turns the camera by half a turn.
+/// A drag over the height of the window rotates the camera by half a turn.
 const TURN_PER_HEIGHT: f64 = PI;
 
 /// A drag over the height of the window magnifies by e to this power.
@@ -18,15 +18,15 @@ const ZOOM_PER_HEIGHT: f64 = 3.0;
 /// A line of the wheel magnifies by e to this power: to 1.1 times the size, as in F3D.
 const ZOOM_PER_LINE: f64 = 0.095_310_179_804_324_87;
 
-/// The pointer went from one place to another with a button down. `anchor` is
-/// the point of the world that zooming to the pointer keeps in place.
+/// The pointer moved from one position to another with a button down. `anchor` is the world point
+/// that zooming to the pointer keeps in place.
 pub(crate) fn drag(stage: &mut Stage, action: DragAction, from: DVec2, to: DVec2, anchor: Option<DVec3>) {
     let pane = stage.pane_at(from);
     let Viewport { width, height } = pane.area.size;
     let size = DVec2::new(width.max(1).into(), height.max(1).into());
     let way = (to - from) / size.y;
     match action {
-        // The scene follows the hand, so the eye goes the other way; y is down.
+        // The scene follows the pointer, so the eye moves the opposite way; y is down.
         DragAction::Orbit => stage.orbit.orbit(-way.x * TURN_PER_HEIGHT, way.y * TURN_PER_HEIGHT),
         DragAction::Pan => {
             let (mut orbit, height) = (pane.orbit, stage.orbit.height_at_target());
@@ -56,7 +56,7 @@ pub(crate) fn zoom(stage: &mut Stage, power: f64, anchor: Option<DVec3>) {
     }
 }
 
-/// A key is held for this many seconds.
+/// A key was held for this many seconds.
 pub(crate) fn hold(stage: &mut Stage, motion: Motion, seconds: f64) {
     match motion {
         Motion::Camera(CameraMotion::Orbit(right, up)) => stage.orbit.orbit(right * seconds, up * seconds),
@@ -74,7 +74,7 @@ pub(crate) fn hold(stage: &mut Stage, motion: Motion, seconds: f64) {
     }
 }
 
-/// Moves the selected object, in axes of the picture.
+/// Moves the selected object along the axes of the image.
 fn move_selection(stage: &mut Stage, by: DVec3) {
     let Some(by) = in_parent(stage, by) else { return };
     let node = stage.selection.and_then(|id| stage.scene.node_mut(id));
@@ -83,8 +83,8 @@ fn move_selection(stage: &mut Stage, by: DVec3) {
     }
 }
 
-/// Turns the selected object about its origin, around an axis of the picture
-/// and by its length in radians.
+/// Rotates the selected object about its origin, around an axis of the image, by the axis' length
+/// in radians.
 fn turn_selection(stage: &mut Stage, by: DVec3) {
     let angle = by.length();
     let Some(axis) = in_parent(stage, by) else { return };
@@ -94,8 +94,8 @@ fn turn_selection(stage: &mut Stage, by: DVec3) {
     }
 }
 
-/// A direction of the picture in the space of the selected object's parent;
-/// `None` without a selection, or if that space is flat.
+/// A direction of the image in the space of the selected object's parent; `None` without a
+/// selection, or if that space is flat.
 fn in_parent(stage: &Stage, direction: DVec3) -> Option<DVec3> {
     let node = stage.scene.node(stage.selection?)?;
     let world = stage.orbit.orientation() * direction;

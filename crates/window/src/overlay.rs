@@ -1,33 +1,33 @@
-//! What is to be read over the picture: what applications want said in the corners,
-//! and messages that go by themselves. `interface` draws it.
+//! Text over the image: lines in the corners, set by applications, and temporary messages.
+//! `interface` draws them.
 
 use std::time::Duration;
 
-/// Where text goes.
+/// The position of text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Corner {
-    /// Above, on the left.
+    /// Top left.
     TopLeft,
-    /// Above, in the middle.
+    /// Top centre.
     Top,
-    /// Above, on the right.
+    /// Top right.
     TopRight,
-    /// Below, on the left; messages are written above it.
+    /// Bottom left; messages are written above it.
     BottomLeft,
-    /// Below, on the right.
+    /// Bottom right.
     BottomRight,
 }
 
 impl Corner {
-    /// All of them.
+    /// All corners.
     pub const ALL: [Self; 5] =
         [Self::TopLeft, Self::Top, Self::TopRight, Self::BottomLeft, Self::BottomRight];
 }
 
-/// A message stays this long.
+/// How long a message stays.
 const MESSAGE_TIME: Duration = Duration::from_secs(3);
 
-/// At most this many messages are shown, the newest ones.
+/// The maximum number of messages shown, the newest ones.
 const MESSAGES: usize = 4;
 
 #[derive(Debug, Clone)]
@@ -37,7 +37,7 @@ struct Message {
     until: Option<Duration>,
 }
 
-/// What is written over the picture.
+/// The text over the image.
 #[derive(Debug, Clone, Default)]
 pub struct Overlay {
     lines: [Vec<String>; Corner::ALL.len()],
@@ -45,7 +45,7 @@ pub struct Overlay {
 }
 
 impl Overlay {
-    /// Writes these lines into a corner, in place of those that were there.
+    /// Writes these lines into a corner, replacing the previous ones.
     pub fn set(&mut self, corner: Corner, lines: impl IntoIterator<Item = impl Into<String>>) {
         self.lines[corner as usize] = lines.into_iter().map(Into::into).collect();
     }
@@ -71,8 +71,7 @@ impl Overlay {
         self.messages.drain(..extra);
     }
 
-    /// The messages of this moment, the oldest first. New ones begin to count
-    /// their time, those whose time is over are dropped.
+    /// The current messages, oldest first. Starts the time of new ones and drops expired ones.
     pub(crate) fn messages(&mut self, now: Duration) -> Vec<String> {
         self.messages.retain(|message| message.until.is_none_or(|until| until > now));
         for message in &mut self.messages {
@@ -81,7 +80,7 @@ impl Overlay {
         self.messages.iter().map(|message| message.text.clone()).collect()
     }
 
-    /// When the next message is over.
+    /// When the next message expires.
     pub(crate) fn next_expiry(&self) -> Option<Duration> {
         self.messages.iter().filter_map(|message| message.until).min()
     }

@@ -1,13 +1,13 @@
-//! When to draw, and how well. A plain state machine over a clock that the
-//! caller reads: the heart of "nothing runs when nothing changes".
+//! Decides when to draw, and in which quality. A plain state machine over a clock that the caller
+//! reads; it ensures that nothing runs when nothing changes.
 //!
-//! - Something moves: draft pictures, at most 60 a second, as small as the time allows.
-//! - It has come to rest: a full picture, then the further steps that are wanted, each
-//!   better than the one before, and then nothing. Where the first takes long, there is
-//!   a draft before it; where that was not to be foreseen, it is given up for the draft.
-//! - Pictures are drawn beside the window. One at a time: a draft is always finished,
-//!   so that a movement shows; any other that nobody will see is cancelled.
-//! - What is written over the picture waits for none.
+//! - While something moves: drafts, at most 60 a second, as small as the frame budget requires.
+//! - At rest: a full image, then the further steps of refinement, each better than the one before,
+//!   and then nothing. If the first takes long, a draft comes before it; if that was not
+//!   predictable, it is abandoned for the draft.
+//! - Images are drawn on a worker thread, one at a time. A draft is always finished, so that a
+//!   movement shows; any other image that nobody will see is cancelled.
+//! - The interface over the image never waits for one.
 
 mod budget;
 
@@ -17,35 +17,35 @@ use std::time::Duration;
 
 use budget::Budget;
 
-/// Between the beginnings of two frames, and of two pictures: 60 a second.
+/// The minimum interval between two frames, and between two images: 60 a second.
 const FRAME: Duration = Duration::from_micros(16_667);
 
-/// After this long without a movement, the picture is refined.
+/// After this long without movement, the image is refined.
 const REST: Duration = Duration::from_millis(150);
 
-/// Where a full picture takes longer than this, a draft goes before it.
+/// If a full image takes longer than this, a draft comes first.
 const PATIENCE: Duration = Duration::from_millis(100);
 
-/// And where it was expected sooner, it is given up after this long.
+/// If it was predicted to be faster, it is abandoned after this long.
 const OVERDUE: Duration = Duration::from_millis(200);
 
-/// What has happened to the picture.
+/// A change of the image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Change {
-    /// It is moving; more of that is likely to follow.
+    /// It is moving; more movement is likely to follow.
     Moving,
     /// It has changed once.
     Settled,
-    /// Only what is written over it.
+    /// Only the interface over it changed.
     Overlay,
 }
 
-/// How to draw a picture.
+/// The quality of an image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Quality {
-    /// One sample per pixel, and fewer pixels in each direction by this factor, at least 1.
+    /// One sample per pixel, and reduced by this factor in each direction, at least 1.
     Draft { shrink: f64 },
-    /// In full: step 0 is as the settings say, later ones are better.
+    /// In full: step 0 as the settings define, later ones better.
     Full(usize),
 }
 
@@ -54,13 +54,13 @@ pub(crate) enum Quality {
 pub(crate) enum Wake {
     /// Now.
     Now,
-    /// Not before then.
+    /// Not before this time.
     At(Duration),
     /// Not before something happens.
     Never,
 }
 
-/// Whether the program itself asks for frames.
+/// Whether the program itself requests frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Frames {
     /// An animation runs, or a key is held.
@@ -69,18 +69,18 @@ pub(crate) enum Frames {
     None,
 }
 
-/// The picture on the screen, compared to what should be.
+/// The state of the image on the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Shown {
-    /// The right one, up to this step.
+    /// Up to date, refined to this step.
     Full(usize),
-    /// A draft of the right picture.
+    /// A draft of the current image.
     Draft,
-    /// The wrong picture, or none.
+    /// Outdated, or no image.
     Old,
 }
 
-/// A picture under way.
+/// An image being drawn.
 #[derive(Debug, Clone, Copy)]
 struct UnderWay {
     quality: Quality,
@@ -88,37 +88,37 @@ struct UnderWay {
     outdated: bool,
 }
 
-/// Decides when to draw. All times count from the same moment.
+/// Decides when to draw. All times are measured from the same moment.
 #[derive(Debug)]
 pub(crate) struct Pacing {
     shown: Shown,
     under_way: Option<UnderWay>,
-    /// Since when pictures have to wait for something else.
+    /// Since when images have to wait for something else.
     occupied: Option<Duration>,
-    /// Whether what is written over the picture has changed.
+    /// Whether the interface over the image has changed.
     overlay: bool,
-    /// When something last moved; `None` after a change that is no movement.
+    /// The time of the last movement; `None` after a change without movement.
     moved: Option<Duration>,
-    /// When the last frame began.
+    /// The start of the last frame.
     drawn: Option<Duration>,
-    /// When the last picture was begun. Frames between two of them, for what is written
-    /// over them, do not put off the next.
+    /// The start of the last image. Frames of the interface between two images do not delay the
+    /// next.
     begun: Option<Duration>,
     budget: Budget,
-    /// What a picture as the settings say takes, as far as is known.
+    /// The time of a full image, as far as it is known.
     full: Option<Duration>,
-    /// The steps to be done at rest, upwards from 0.
+    /// The steps to do at rest, from 0.
     wanted: Vec<usize>,
 }
 
 /// What is being drawn, and for how many whole seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Progress {
-    /// The picture that the settings give, for a second or more.
+    /// The image that the settings define, for a second or more.
     Drawing { seconds: u64 },
-    /// A better one than is shown: of so many steps the one of this number, counted from 1.
+    /// A refinement of the image on screen: the step, counted from 1, and the number of steps.
     Refining { step: usize, of: usize, seconds: u64 },
-    /// One that is not for the window, for a second or more.
+    /// An image for a file, for a second or more.
     Picture { seconds: u64 },
 }
 
@@ -138,18 +138,18 @@ impl Pacing {
         }
     }
 
-    /// What is to be done at rest, upwards from 0. Steps keep their numbers for as long as
-    /// the picture is the right one.
+    /// The steps to do at rest, from 0. Steps keep their numbers as long as the image is up to
+    /// date.
     pub(crate) fn want(&mut self, steps: Vec<usize>) {
         self.wanted = steps;
     }
 
-    /// What a draft may take.
+    /// The time budget of a draft.
     pub(crate) fn allow(&mut self, budget: Duration) {
         self.budget.set(budget);
     }
 
-    /// What is being drawn at rest; `None` if that is nothing, or hardly takes time.
+    /// What is being drawn at rest; `None` if nothing is, or if it took less than a second.
     pub(crate) fn progress(&self, now: Duration) -> Option<Progress> {
         let seconds = self.work_begun().map_or(0, |begun| now.saturating_sub(begun).as_secs());
         if self.occupied.is_some() {
@@ -161,26 +161,26 @@ impl Pacing {
         }
     }
 
-    /// When what is drawn at rest was begun.
+    /// When the drawing at rest began. An outdated image does not count.
     fn work_begun(&self) -> Option<Duration> {
-        let is_full = |picture: &UnderWay| matches!(picture.quality, Quality::Full(_));
-        self.occupied.or_else(|| self.under_way.as_ref().filter(|picture| is_full(picture)).and(self.begun))
+        let is_full = |image: &UnderWay| matches!(image.quality, Quality::Full(_)) && !image.outdated;
+        self.occupied.or_else(|| self.under_way.as_ref().filter(|image| is_full(image)).and(self.begun))
     }
 
-    /// When what is drawn has taken another second since the last frame, which is then told.
+    /// When another whole second of drawing has passed since the last frame: then the badge changes.
     fn next_second(&self) -> Option<Duration> {
         let begun = self.work_begun()?;
         let told = self.drawn.map_or(0, |drawn| drawn.saturating_sub(begun).as_secs());
         Some(begun + Duration::from_secs(told + 1))
     }
 
-    /// Whether the right picture is shown, as the settings say.
+    /// Whether the image on screen is the one that the settings define.
     #[cfg(any(test, feature = "kittest"))]
     pub(crate) fn shows_full(&self) -> bool {
         matches!(self.shown, Shown::Full(_))
     }
 
-    /// Whether the picture under way is only better than the one that is shown.
+    /// Whether the image being drawn only improves the one on screen.
     pub(crate) fn is_refining(&self) -> bool {
         self.under_way.is_some_and(|picture| matches!(picture.quality, Quality::Full(1..)))
     }
@@ -206,8 +206,8 @@ impl Pacing {
         }
     }
 
-    /// When a picture under way is to be given up for a draft, as what it takes was
-    /// known of another scene or from another place.
+    /// When an image in progress is to be abandoned for a draft, because its time was predicted for
+    /// another scene or view.
     fn overdue(&self) -> Option<Duration> {
         let Some(UnderWay { quality: Quality::Full(0), outdated: false }) = self.under_way else {
             return None;
@@ -215,7 +215,7 @@ impl Pacing {
         self.begun.filter(|_| self.shown == Shown::Old).map(|begun| begun + OVERDUE)
     }
 
-    /// Time has passed: a picture that it takes too long to wait for is useless from now on.
+    /// Time has passed: an image that takes too long is useless from now on.
     pub(crate) fn lose_patience(&mut self, now: Duration) {
         if self.overdue().is_some_and(|due| due <= now) {
             self.full = Some(OVERDUE);
@@ -223,7 +223,7 @@ impl Pacing {
         }
     }
 
-    /// Whether nobody will look at the picture under way.
+    /// Whether nobody will see the image in progress.
     pub(crate) fn is_useless(&self) -> bool {
         self.under_way.is_some_and(|UnderWay { quality, outdated }| match quality {
             Quality::Draft { .. } => false,
@@ -231,19 +231,19 @@ impl Pacing {
         })
     }
 
-    /// Whether the next step of what moves by itself can be shown.
+    /// Whether the next step of an animation can be shown.
     pub(crate) fn can_step(&self) -> bool {
         self.under_way.is_none_or(|picture| matches!(picture.quality, Quality::Full(_)))
     }
 
-    /// When to draw next. `animated`: the program itself asks for pictures; `expiry`:
-    /// when what is written over them changes by itself.
+    /// When to draw next. `animated`: the program itself requests images; `expiry`: when the
+    /// interface changes by itself.
     pub(crate) fn next(&self, now: Duration, animated: Frames, expiry: Option<Duration>) -> Wake {
         let after = |last: Option<Duration>| last.map_or(now, |last| last + FRAME);
         let (frame, paced) = (after(self.drawn), after(self.begun));
         let overlay = self.overlay.then_some(frame);
         let picture = match (self.under_way, self.shown, animated) {
-            // Its end will be told.
+            // Completion arrives as an event.
             (Some(UnderWay { quality: Quality::Draft { .. }, .. }), ..) => None,
             _ if self.occupied.is_some() => None,
             // It is about to be given up, which takes a moment.

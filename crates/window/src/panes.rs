@@ -93,7 +93,7 @@ pub(crate) fn panes(orbit: Orbit, window: Viewport, four: Option<Area>) -> Vec<P
         .into()
 }
 
-/// The same target as large, from a side, with parallel lines of sight.
+/// The same target in the same size, from a side, in parallel projection.
 fn seen_from(mut orbit: Orbit, side: AxisView) -> Orbit {
     orbit.set_view(side);
     if !orbit.is_orthographic() {
@@ -102,13 +102,13 @@ fn seen_from(mut orbit: Orbit, side: AxisView) -> Orbit {
     orbit
 }
 
-/// What a picture of the window shows.
+/// The view of an image of the window.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Views {
     /// The camera's own.
     pub(crate) main: Camera,
     window: Viewport,
-    /// The cameras of all views and where they are, where there is more than one.
+    /// The cameras and positions of all views, if there are several.
     parts: Vec<(Camera, Area)>,
 }
 
@@ -129,7 +129,7 @@ impl Views {
         Self { main, window, parts: if panes.len() > 1 { cameras } else { Vec::new() } }
     }
 
-    /// Where in the world something is that a picture shows at a point of the window, so far from the eye.
+    /// The world point at a point of the window, at a distance from the eye.
     pub(crate) fn at_distance(&self, at: DVec2, window: Viewport, distance: f64) -> Option<DVec3> {
         if self.parts.is_empty() {
             return Projector::new(&self.main, window).at_distance(at, distance);
@@ -138,7 +138,7 @@ impl Views {
         Projector::new(camera, area.size).at_distance(at - area.origin(), distance)
     }
 
-    /// Draws all views, each by `draw`, and puts them together.
+    /// Draws all views, each by `draw`, and assembles them.
     pub(crate) fn draw<E>(
         &self,
         settings: RenderSettings,
@@ -161,7 +161,7 @@ impl Views {
     }
 }
 
-/// A picture of nothing with colours, depths and ids as far as the settings ask for them.
+/// An empty image with colours, depths and ids as the settings require.
 fn empty(settings: &RenderSettings) -> Frame {
     let RenderSettings { width, height, outputs, .. } = *settings;
     let Outputs { color, depth, ids, .. } = outputs;
@@ -177,7 +177,7 @@ fn empty(settings: &RenderSettings) -> Frame {
     }
 }
 
-/// Puts a view into its place.
+/// Copies a view to its position.
 fn copy(part: &Frame, area: Area, whole: &mut Frame) {
     copy_rows(&part.color, 4, area, whole.width, &mut whole.color);
     let (width, to) = (whole.width, &mut whole.depth);

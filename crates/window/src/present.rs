@@ -1,4 +1,4 @@
-//! Pixels into a window. The only file that knows softbuffer.
+//! Presents pixels in a window. The only file that knows softbuffer.
 
 use std::num::NonZeroU32;
 use std::sync::Arc;
@@ -11,8 +11,7 @@ use winit::window::Window;
 use crate::WindowError;
 use crate::canvas::Canvas;
 
-/// A window's pixels. Has to be dropped before its window, which the `Arc` in
-/// the surface sees to.
+/// A window's pixels. Must be dropped before its window, which the `Arc` in the surface ensures.
 pub(crate) struct Presenter {
     surface: Surface<OwnedDisplayHandle, Arc<Window>>,
     size: Option<(NonZeroU32, NonZeroU32)>,
@@ -21,8 +20,8 @@ pub(crate) struct Presenter {
 }
 
 impl Presenter {
-    /// For a window, at its current size: some systems panic when pixels are
-    /// asked for before a size was set.
+    /// For a window, at its current size: some systems panic if pixels are requested before a size
+    /// was set.
     pub(crate) fn new(event_loop: &ActiveEventLoop, window: &Arc<Window>) -> Result<Self, WindowError> {
         let context = Context::new(event_loop.owned_display_handle()).map_err(refused)?;
         let surface = Surface::new(&context, Arc::clone(window)).map_err(refused)?;
@@ -32,8 +31,7 @@ impl Presenter {
         Ok(presenter)
     }
 
-    /// The window has this size now. While it is minimised to nothing, the
-    /// surface keeps the size that it had.
+    /// The window's new size. While it is minimised to nothing, the surface keeps its size.
     pub(crate) fn resize(&mut self, width: u32, height: u32) -> Result<(), WindowError> {
         let (Some(width), Some(height)) = (NonZeroU32::new(width), NonZeroU32::new(height)) else {
             return Ok(());
@@ -46,19 +44,19 @@ impl Presenter {
         Ok(())
     }
 
-    /// The window does not show any more what was presented.
+    /// The window no longer shows the presented pixels.
     pub(crate) fn forget(&mut self) {
         self.whole = false;
     }
 
-    /// Shows the canvas. Only what was painted last is written if the buffer is known to
-    /// hold the rest, else all. A canvas of another size, painted just before a resize,
-    /// is cut off or padded with black.
+    /// Presents the canvas. Only the last painted area is written if the buffer is known to hold
+    /// the rest, otherwise everything. A canvas of another size, painted just before a resize, is
+    /// cropped or padded with black.
     pub(crate) fn present(&mut self, window: &Window, canvas: &Canvas) -> Result<(), WindowError> {
         let Some((width, height)) = self.size else { return Ok(()) };
         let mut buffer = self.surface.buffer_mut().map_err(refused)?;
         let fits = canvas.size() == [width.get(), height.get()];
-        // Age 1: what was presented last is still in it.
+        // Age 1: the buffer still holds the last presented pixels.
         let all = Rect::new([0, 0], [width.get() as i32, height.get() as i32]);
         let rects = if fits && self.whole && buffer.age() == 1 { canvas.painted() } else { &[all] };
         if fits {

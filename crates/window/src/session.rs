@@ -1,6 +1,5 @@
-//! What happens between an event and a picture, without any window: events and
-//! moments go in, pixels and "wake me then" come out. So all of it can be
-//! tested without a display.
+//! Everything between an event and an image, without any window: events and times go in, pixels and
+//! wake-up times come out. So all of it can be tested without a display.
 
 mod controls;
 mod offers;
@@ -29,10 +28,10 @@ use crate::worker::Worker;
 use offers::TakenInput;
 use wrapping::Wrapping;
 
-/// The step of an animation's first frame.
+/// The time step of an animation's first frame.
 const FIRST_STEP: Duration = Duration::from_micros(16_667);
 
-/// A window's life.
+/// The state of a window.
 pub(crate) struct Session<'a> {
     stage: Stage,
     handler: &'a mut dyn Handler,
@@ -46,31 +45,31 @@ pub(crate) struct Session<'a> {
     wrapping: Wrapping,
     pacing: Pacing,
     animation: Animation,
-    /// When frames were last stepped; `None` while nothing moves by itself.
+    /// When frames were last stepped; `None` if nothing moves by itself.
     stepped: Option<Duration>,
     dropped: Vec<PathBuf>,
-    /// What zooming to the pointer keeps in place, for as long as that rests.
+    /// The world point that zooming to the pointer keeps in place while the pointer rests.
     anchor: Option<(DVec2, Option<DVec3>)>,
     /// Of the scene, as it was at this revision.
     bounds: Option<(Revision, Bounds3)>,
     seen: Visibility,
-    /// What the picture that was asked for last is of.
+    /// What the last requested image shows.
     subject: Option<Subject>,
     /// The nodes that it shows, of the scene at this revision.
     nodes: Option<(Revision, Arc<DrawnNodes>)>,
-    /// The pictures of the window, and what they are of.
+    /// The images of the window, and what they show.
     gallery: Gallery,
     pictured: Option<Subject>,
     /// The one on the canvas.
     shown: Option<Arc<Frame>>,
-    /// Pictures that were asked for and not begun.
+    /// Requested images that are not begun.
     pictures: Vec<RenderSettings>,
     canvas: Canvas,
-    /// Whether the canvas is yet to take that picture, or another size.
+    /// Whether the canvas still has to take that image, or another size.
     stale: bool,
-    /// When the current frame was handed over to be presented.
+    /// When the current frame was handed over for presentation.
     composed: Duration,
-    /// What has come in, if it is to be remembered.
+    /// The recorded events, if recording.
     recorded: Option<Interaction>,
 }
 
@@ -114,12 +113,12 @@ impl<'a> Session<'a> {
         &mut self.interface
     }
 
-    /// Remembers from now on what comes in.
+    /// Starts recording events.
     pub(crate) fn record(&mut self) {
         self.recorded = Some(Interaction::default());
     }
 
-    /// What has come in since [`record`](Self::record).
+    /// The events since [`record`](Self::record).
     pub(crate) fn take_recorded(&mut self) -> Option<Interaction> {
         self.recorded.take()
     }
@@ -144,12 +143,12 @@ impl<'a> Session<'a> {
         self.after_handler(now);
     }
 
-    /// The interface has asked for a pass from another thread.
+    /// Another thread requested a pass of the interface.
     pub(crate) fn interface_asked(&mut self, now: Duration) {
         self.pacing.changed(Change::Overlay, now);
     }
 
-    /// All events that came together have been handled.
+    /// All events that arrived together have been handled.
     pub(crate) fn settle(&mut self, now: Duration) {
         if !self.dropped.is_empty() {
             let paths = std::mem::take(&mut self.dropped);
@@ -172,8 +171,8 @@ impl<'a> Session<'a> {
         self.pacing.next(now, self.frames(), expiries.into_iter().flatten().min())
     }
 
-    /// Brings the canvas up to date; `None` if nothing on it has changed, or while there
-    /// is nothing to draw on. `clock` tells the time, to measure what the frame takes.
+    /// Brings the canvas up to date; `None` if nothing on it has changed, or if there is nothing to
+    /// draw on. `clock` returns the time, for measuring the frame.
     pub(crate) fn draw(&mut self, now: Duration, clock: &dyn Fn() -> Duration) -> Option<&Canvas> {
         if self.is_hidden() {
             return None;
@@ -186,37 +185,37 @@ impl<'a> Session<'a> {
             self.collect(now);
         }
         self.composed = clock();
-        // Not before the next picture is under way: that need not wait for it.
+        // Not before the next image is started, which does not have to wait for it.
         self.show_picture();
         self.pacing.composed();
         self.run_interface(now);
         self.canvas.paint(&mut self.interface.painter).then_some(&self.canvas)
     }
 
-    /// When the picture of the last frame was there, by the clock that the frame was given.
+    /// When the image of the last frame was ready, by the clock that the frame was given.
     #[cfg(any(test, feature = "kittest"))]
     pub(crate) fn composed_at(&self) -> Duration {
         self.composed
     }
 
-    /// Whether the right picture is shown, as the settings say.
+    /// Whether the image on screen is the one that the settings define.
     #[cfg(any(test, feature = "kittest"))]
     pub(crate) fn shows_full(&self) -> bool {
         self.pacing.shows_full()
     }
 
-    /// What was last drawn; of no size before.
+    /// The last drawn canvas; empty before.
     pub(crate) fn canvas(&self) -> &Canvas {
         &self.canvas
     }
 
-    /// The frame is in the window.
+    /// The frame was presented.
     pub(crate) fn presented(&mut self, now: Duration) {
         let present = now.saturating_sub(self.composed);
         self.stage.set_report(FrameReport { present, ..self.stage.report() });
     }
 
-    /// Something has happened.
+    /// An event has happened.
     pub(crate) fn event(&mut self, event: InputEvent, now: Duration) {
         if let Some(recorded) = &mut self.recorded {
             recorded.record(event.clone(), now);
@@ -271,14 +270,14 @@ impl<'a> Session<'a> {
             return;
         }
         self.stage.resize(viewport);
-        // The first size is no movement.
+        // The first size is not a movement.
         let change = if self.shown.is_some() { Change::Moving } else { Change::Settled };
         self.pacing.changed(change, now);
         self.stale = true;
     }
 
-    /// Whatever was done, the interface may show it; and the picture is drawn again if
-    /// what it shows has changed.
+    /// The interface may show the effect of any event, and the image is redrawn if its content has
+    /// changed.
     fn note(&mut self, now: Duration) {
         let changed = self.subject.as_ref() != Some(&self.stage.subject());
         self.pacing.changed(if changed { Change::Settled } else { Change::Overlay }, now);
@@ -288,7 +287,7 @@ impl<'a> Session<'a> {
         self.plan(now);
     }
 
-    /// What every call of the handler may have changed.
+    /// Handles what any call of the handler may have changed.
     fn after_handler(&mut self, now: Duration) {
         self.note(now);
         self.pictures.append(&mut self.stage.wishes().pictures);
@@ -298,7 +297,7 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// Moves what moves by itself: the animation and held keys.
+    /// Advances the animation and held keys.
     fn step(&mut self, now: Duration) {
         if self.frames() == Frames::None {
             self.stepped = None;

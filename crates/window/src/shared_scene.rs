@@ -1,8 +1,8 @@
 //! A scene that is changed on the window's thread while a worker draws it.
 //!
-//! Each of the worker's threads has a replica of the scene. They share meshes until one is
-//! changed by [`SharedScene::change_mesh`]; from then on each has a mesh of its own and is
-//! sent only the values that changed. So no mesh is copied because another thread draws it.
+//! Each of the worker's threads has a replica of the scene. They share meshes until one is changed
+//! by [`SharedScene::change_mesh`]; from then on each has its own mesh and receives only the
+//! changed values. So no mesh is copied because another thread draws it.
 
 use std::collections::BTreeMap;
 use std::ops::{Deref, DerefMut};
@@ -11,33 +11,33 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use trigon_scene::mesh::{ChangedElements, MeshChange};
 use trigon_scene::{MeshId, Scene, SceneError};
 
-/// More than a worker has threads. Of more replicas the one that was brought up to date
-/// longest ago gets a whole scene the next time.
+/// More than a worker has threads. If there are more replicas, the one updated longest ago gets a
+/// whole scene the next time.
 const MOST_REPLICAS: usize = 4;
 
-/// A scene to be used as any other. What a worker is drawing meanwhile stays as it was.
+/// A scene to use like any other. What a worker is drawing meanwhile is not affected.
 ///
-/// Whoever takes it mutably is taken to have changed it: before the next picture its nodes
-/// and materials are copied then, but neither meshes nor textures.
-/// [`change_mesh`](Self::change_mesh) is the way to change a large mesh often.
+/// Borrowing it mutably counts as a change: before the next image its nodes and materials are
+/// copied, but neither meshes nor textures. Use [`change_mesh`](Self::change_mesh) to change a
+/// large mesh often.
 #[derive(Clone, Debug, Default)]
 pub struct SharedScene {
     scene: Scene,
     revision: Revision,
-    /// Scenes of other threads that differ from this one in values of meshes alone.
+    /// Scenes of other threads that differ from this one only in mesh values.
     replicas: Vec<Replica>,
 }
 
 /// The scene of another thread.
 #[derive(Clone, Debug)]
 struct Replica {
-    /// What it is equal to.
+    /// The revision that it equals.
     revision: Revision,
     /// What has been changed since.
     changed: BTreeMap<MeshId, ChangedElements>,
 }
 
-/// Tells two states of a scene apart.
+/// Distinguishes two states of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Revision(u64);
 
@@ -64,12 +64,12 @@ impl Default for Revision {
 }
 
 impl SharedScene {
-    /// Gives some elements of a mesh other values; see [`Scene::change_mesh`]. The first
-    /// change copies the mesh for each thread that draws it; later ones copy nothing, as
-    /// long as the scene is not changed in other ways in between.
+    /// Gives some elements of a mesh new values; see [`Scene::change_mesh`]. The first change
+    /// copies the mesh for each thread that draws it; later ones copy nothing, as long as the scene
+    /// is not changed in other ways in between.
     ///
     /// # Errors
-    /// When the mesh is gone, or has not what is to be changed. It stays as it was.
+    /// The mesh does not exist, or lacks an element that is to be changed. It stays unchanged.
     pub fn change_mesh(&mut self, id: MeshId, change: &MeshChange) -> Result<(), SceneError> {
         self.scene.change_mesh(id, change)?;
         self.revision = Revision::next();
@@ -79,8 +79,8 @@ impl SharedScene {
         Ok(())
     }
 
-    /// What makes a replica equal to this scene that is equal to the revision `held`. It
-    /// has to be applied: `held` becomes this scene's revision.
+    /// The update for a replica that equals the revision `held`. It must be applied: `held` becomes
+    /// this scene's revision.
     pub(crate) fn update(&mut self, held: &mut Option<Revision>) -> SceneUpdate {
         let known = self.replicas.iter().position(|replica| Some(replica.revision) == *held);
         let behind = known.map(|known| self.replicas.remove(known));
@@ -95,7 +95,7 @@ impl SharedScene {
         }
     }
 
-    /// The values that changed elements have now.
+    /// The current values of changed elements.
     fn values(&self, changed: &BTreeMap<MeshId, ChangedElements>) -> Vec<(MeshId, MeshChange)> {
         let values = changed.iter().filter_map(|(&id, changed)| {
             let mesh = self.scene.meshes().get(id)?.mesh();

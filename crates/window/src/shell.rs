@@ -1,6 +1,5 @@
-//! The window itself: winit's event loop around a [`Session`], which decides
-//! everything. Events go in, pictures come out, and between them the loop
-//! sleeps for as long as the session says.
+//! The window itself: winit's event loop around a [`Session`], which makes all decisions. Events go
+//! in, images come out, and the loop sleeps as long as the session says.
 
 #[cfg(feature = "accesskit")]
 mod accessibility;
@@ -23,37 +22,37 @@ use crate::session::Session;
 use crate::worker::Worker;
 use crate::{Handler, Stage, WindowError};
 
-/// What wakes the loop from other threads.
+/// User events: they wake the loop from other threads.
 #[derive(Clone, Debug)]
 pub(crate) enum Ring {
     /// [`crate::Waker::wake`].
     Application,
-    /// A picture is finished.
+    /// An image is finished.
     Picture,
-    /// The interface wants a pass.
+    /// The interface requests a pass.
     Interface,
-    /// Whoever reads the screen aloud wants something.
+    /// A screen reader requested an action.
     #[cfg(feature = "accesskit")]
     Accessibility(egui_winit::accesskit_winit::WindowEvent),
 }
 
-/// A window that is open. The presenter goes first when it closes.
+/// An open window. The presenter is dropped first when it closes.
 struct Open {
     presenter: Presenter,
-    /// From the window system to egui and back.
+    /// Translates between the window system and egui.
     egui: egui_winit::State,
     window: Arc<Window>,
     title: String,
-    /// When it was last asked.
+    /// When it was last queried.
     minimised: bool,
-    /// Whether the next frame was asked for by this program.
+    /// Whether this program requested the next frame.
     asked: bool,
-    /// Whether the pointer is to stay in it.
+    /// Whether the pointer is confined to it.
     keeps_pointer: bool,
     full_screen: bool,
 }
 
-/// An application between its start and its end.
+/// A running application.
 pub(crate) struct Shell<'a> {
     session: Session<'a>,
     #[cfg(feature = "accesskit")]
@@ -61,13 +60,13 @@ pub(crate) struct Shell<'a> {
     open: Option<Open>,
     started: Instant,
     error: Option<WindowError>,
-    /// What is done in place of hands.
+    /// Input that is being replayed.
     played: Interaction,
 }
 
 impl<'a> Shell<'a> {
     pub(crate) fn new(stage: Stage, handler: &'a mut dyn Handler, proxy: &EventLoopProxy<Ring>) -> Self {
-        // Sending fails when the window is closed: then there is nobody to wake.
+        // Sending fails if the window is closed: then there is nobody to wake.
         let ring = |ring: Ring| {
             let proxy = proxy.clone();
             move || {
@@ -90,22 +89,22 @@ impl<'a> Shell<'a> {
         }
     }
 
-    /// Remembers what comes in.
+    /// Starts recording events.
     pub(crate) fn record(&mut self) {
         self.session.record();
     }
 
-    /// What has come in.
+    /// The recorded events.
     pub(crate) fn take_recorded(&mut self) -> Option<Interaction> {
         self.session.take_recorded()
     }
 
-    /// Does this in place of hands, which are not listened to meanwhile.
+    /// Replays input; mouse and keyboard are ignored meanwhile.
     pub(crate) fn play(&mut self, interaction: Interaction) {
         self.played = interaction;
     }
 
-    /// What went wrong, if anything.
+    /// The error, if any.
     pub(crate) fn into_result(self) -> Result<(), WindowError> {
         self.error.map_or(Ok(()), Err)
     }
@@ -119,7 +118,7 @@ impl<'a> Shell<'a> {
         let (title, size) = (stage.title().to_owned(), stage.viewport());
         let attributes = Window::default_attributes()
             .with_title(&title)
-            // Screen readers have to know of it before anybody sees it.
+            // Screen readers must know of it before anybody sees it.
             .with_visible(cfg!(not(feature = "accesskit")))
             .with_inner_size(LogicalSize::new(size.width.max(1), size.height.max(1)));
         let refused = |error: winit::error::OsError| WindowError::Window { reason: error.to_string() };
@@ -161,14 +160,14 @@ impl<'a> Shell<'a> {
     fn draw(&mut self) -> Result<(), WindowError> {
         let now = self.now();
         let Some(open) = &mut self.open else { return Ok(()) };
-        // Not every system tells of a window that is minimised, but each asks
-        // for a frame when it is seen again.
+        // Not every system reports that a window is minimised, but each requests a frame when it is
+        // visible again.
         let minimised = open.window.is_minimized() == Some(true);
         if minimised != std::mem::replace(&mut open.minimised, minimised) {
             let event = if minimised { InputEvent::Hidden } else { InputEvent::Shown };
             self.session.event(event, now);
         }
-        // The window system asks where the window has lost what it showed.
+        // The window system requests a redraw if the window has lost its content.
         let lost = !std::mem::take(&mut open.asked);
         let changed = self.session.draw(now, &|| self.started.elapsed()).is_some();
         if lost {
@@ -182,7 +181,7 @@ impl<'a> Shell<'a> {
         Ok(())
     }
 
-    /// What a size or scale means for the surface.
+    /// The effect of a size or scale on the surface.
     fn fit_surface(&mut self) -> Result<(), WindowError> {
         let Some(open) = &mut self.open else { return Ok(()) };
         let size = open.window.inner_size();
@@ -192,14 +191,14 @@ impl<'a> Shell<'a> {
         Ok(())
     }
 
-    /// Hands an event to the interface. A request to draw is none: it would ask for the
+    /// Passes an event to the interface. A redraw request is not passed on: it would request the
     /// next one.
     fn tell_interface(&mut self, event: &WindowEvent) {
         let Some(open) = self.open.as_mut().filter(|_| !matches!(event, WindowEvent::RedrawRequested)) else {
             return;
         };
         let now = self.started.elapsed();
-        // What it answers is about the last pass; the session asks the interface itself.
+        // Its response refers to the last pass; the session queries the interface itself.
         let _ = open.egui.on_window_event(&open.window, event);
         let played = !self.played.is_empty();
         for event in open.egui.egui_input_mut().events.drain(..).filter(|_| !played) {
@@ -207,10 +206,10 @@ impl<'a> Shell<'a> {
         }
     }
 
-    /// Does what is due of what is played. The window has its own scale and is seen or
-    /// not; it is asked for the size.
+    /// Replays the input that is due. The window has its own scale and visibility; it is asked for
+    /// the recorded size.
     fn step_play(&mut self, now: Duration) -> Result<(), WindowError> {
-        // With its own moment: how long a key was held counts, not when that was found out.
+        // With its own time: what counts is how long a key was held, not when that was noticed.
         while let Some((moment, event)) = self.played.next(now) {
             match event {
                 InputEvent::Resized { width, height } => self.ask_for_size(width, height)?,
@@ -224,7 +223,7 @@ impl<'a> Shell<'a> {
     fn ask_for_size(&mut self, width: u32, height: u32) -> Result<(), WindowError> {
         let Some(open) = &self.open else { return Ok(()) };
         match open.window.request_inner_size(PhysicalSize::new(width, height)) {
-            // It has it already, and no event will tell, as under Wayland.
+            // It has this size already, and no event will report it, as under Wayland.
             Some(_) => self.fit_surface(),
             None => Ok(()),
         }
@@ -270,7 +269,7 @@ impl ApplicationHandler<Ring> for Shell<'_> {
         }
         let result = match event {
             WindowEvent::RedrawRequested => self.draw(),
-            // Not every system follows a new scale by a new size.
+            // Not every system sends a new size after a new scale.
             WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => self.fit_surface(),
             _ => Ok(()),
         };
@@ -292,7 +291,7 @@ impl ApplicationHandler<Ring> for Shell<'_> {
         };
         let keeps = self.session.keeps_pointer();
         if keeps != std::mem::replace(&mut open.keeps_pointer, keeps) {
-            // Not every system can; then the pointer may leave the window, as always.
+            // Not every system can; then the pointer may leave the window, as usual.
             let grab = if keeps { CursorGrabMode::Confined } else { CursorGrabMode::None };
             let _ = open.window.set_cursor_grab(grab);
         }

@@ -1,8 +1,8 @@
-//! What the picture in the window shows, pixel by pixel: whoever points at something has
-//! pointed at that picture, which may be older than the scene.
+//! What the image in the window shows, pixel by pixel: a user points at that image, which may be
+//! older than the scene.
 //!
-//! A picture's ids and depths come with its colours, so that to pick is to look up one pixel.
-//! Nothing is drawn for it, and no vertex is visited.
+//! An image's ids and depths come with its colours, so picking is a look-up of one pixel. Nothing
+//! is drawn for it, and no vertex is visited.
 
 use std::sync::{Arc, Weak};
 
@@ -14,11 +14,11 @@ use trigon_scene::{Frame, Hit, NodeId, Outputs, Scene};
 use crate::canvas::source_pixel;
 use crate::panes::Views;
 
-/// What the window's pictures hold.
+/// The outputs of the window's images.
 pub(crate) const OUTPUTS: Outputs = Outputs { color: true, depth: true, ids: true, ..Outputs::NONE };
 
-/// The nodes of a scene as it was drawn, by the indices that its pictures hold, and the
-/// meshes that they had. The meshes are not kept alive.
+/// The nodes of a scene as it was drawn, by the indices in its images, and the meshes that they
+/// had. The meshes are not kept alive.
 #[derive(Debug, Default)]
 pub(crate) struct DrawnNodes(Vec<Option<(NodeId, Weak<Mesh>)>>);
 
@@ -32,7 +32,7 @@ impl DrawnNodes {
     }
 }
 
-/// A picture with ids and depths, and what it was drawn of.
+/// An image with ids and depths, and what it shows.
 #[derive(Clone, Debug)]
 pub(crate) struct Shown {
     pub(crate) frame: Arc<Frame>,
@@ -41,9 +41,9 @@ pub(crate) struct Shown {
 }
 
 impl Shown {
-    /// What is seen at a point of a window of this size, and where in the world. Of the scene
-    /// as it is now: a node that was removed since is not found, and a polygon only if the
-    /// node still has the same mesh.
+    /// The hit at a point of a window of this size, and its world position. Refers to the scene as
+    /// it is now: a node that was removed since is not found, and a polygon only if the node still
+    /// has the same mesh.
     pub(crate) fn pick(&self, at: DVec2, window: Viewport, scene: &Scene) -> Option<(Hit, DVec3)> {
         let Frame { width, height, .. } = *self.frame;
         let inside = at.cmpge(DVec2::ZERO).all() && at.cmplt(window.size()).all();
@@ -64,7 +64,7 @@ impl Shown {
     }
 }
 
-/// The mesh of a node; one that is nowhere if it has none.
+/// The mesh of a node; a dangling one if it has none.
 fn mesh(scene: &Scene, node: NodeId) -> Weak<Mesh> {
     let asset = scene.node(node).and_then(|node| scene.meshes().get(node.mesh?));
     asset.map_or_else(Weak::new, |asset| Arc::downgrade(asset.shared_mesh()))

@@ -1,5 +1,5 @@
-//! What a window shows, in one place for the application and for the window:
-//! scene, camera, settings, keys, and what is written over the picture.
+//! The contents of a window, shared by the application and the window: scene, camera, settings,
+//! keys, and text over the image.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -24,22 +24,22 @@ use crate::waker::Waker;
 /// Size of a new window in logical pixels, as in F3D.
 const DEFAULT_SIZE: Viewport = Viewport { width: 1000, height: 600 };
 
-/// From the right, above and before, as in F3D.
+/// From the right, above and front, as in F3D.
 const DEFAULT_DIRECTION: DVec3 = DVec3::new(-1.0, -0.5, -1.0);
 
-/// What the last picture took, and bringing it into the window.
+/// The time of the last image, and of presenting it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct FrameReport {
-    /// From the scene to colours, beside the window's thread.
+    /// From the scene to colours, on the worker thread.
     pub render: Duration,
     /// Conversion, interface, and handing it to the window system.
     pub present: Duration,
 }
 
-/// Whether something is to be seen.
+/// Whether something is visible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Visibility {
-    /// It is not.
+    /// It is hidden.
     #[default]
     Hidden,
     /// It is.
@@ -47,7 +47,7 @@ pub enum Visibility {
 }
 
 impl Visibility {
-    /// The other one.
+    /// The opposite.
     #[must_use]
     pub fn toggled(self) -> Self {
         match self {
@@ -57,7 +57,7 @@ impl Visibility {
     }
 }
 
-/// The view to begin with, and to return to.
+/// The initial view, and the one to return to.
 #[derive(Debug, Clone)]
 enum Home {
     /// The whole scene, seen along this direction.
@@ -66,51 +66,51 @@ enum Home {
     Fixed(Orbit),
 }
 
-/// Everything that a window shows. It may be changed before the window opens
-/// and from every method of [`crate::Handler`].
+/// The contents of a window. They may be changed before the window opens and from every method of
+/// [`crate::Handler`].
 pub struct Stage {
     /// What is drawn.
     pub scene: SharedScene,
     /// The camera. A window begins with [`Stage::reset_view`].
     pub orbit: Orbit,
-    /// How it is drawn. Width, height and outputs are the window's business;
-    /// the line width and the sizes of vertices count in logical pixels.
+    /// How it is drawn. The window sets width, height and outputs; the line width and the sizes of
+    /// vertices are in logical pixels.
     pub settings: RenderSettings,
-    /// How far it is refined at rest.
+    /// How far the image is refined at rest.
     pub refinement: Refinement,
     /// Whether it is compared with the reference at rest.
     pub comparison: Comparison,
-    /// Draws the picture at rest in place of the renderer. It is not refined then, but
-    /// compared with the renderer's reference, if it is to be compared.
+    /// Draws the image at rest instead of the renderer. It is then not refined, but can be compared
+    /// with the renderer's reference.
     pub drawer: Option<Arc<dyn Drawer>>,
-    /// What a picture may take while something moves: it is made as small as that asks
-    /// for. 33 ms when nothing else is said; less than 1 ms counts as that.
+    /// The time budget for an image while something moves: images are made as small as this
+    /// requires. 33 ms by default; less than 1 ms counts as 1 ms.
     pub frame_budget: Duration,
-    /// Where in the window four views stand in the place of one, which then fills all of it: from the top, from
-    /// the front and from the right, and that of the camera at the upper right.
+    /// The area of the window in which four views replace the single one, which otherwise fills the whole
+    /// window: from the top, the front and the right, and the camera's view at the upper right.
     pub four_views: Option<Area>,
-    /// What is written over it.
+    /// The text over the image.
     pub overlay: Overlay,
     /// What keys and drags do.
     pub keymap: Keymap,
-    /// Who is asked first what mouse and keys mean.
+    /// Who receives mouse and key events first.
     pub input_owner: InputOwner,
-    /// Whether the pointer goes on from the other side where it reaches a border of the window, as for drags without
-    /// end; where the system does not let programs move the pointer, it stays.
+    /// Whether the pointer wraps around at the window's border, for unlimited drags; if the system does not
+    /// let programs move the pointer, it stays.
     pub wraps_pointer: bool,
-    /// The object that keys move and turn.
+    /// The object that keys move and rotate.
     pub selection: Option<NodeId>,
     /// Whether the list of keys is shown.
     pub cheat_sheet: Visibility,
-    /// Whether the time of a frame is shown.
+    /// Whether the frame time is shown.
     pub frame_time: Visibility,
     /// Whether the window fills the screen.
     pub full_screen: bool,
     /// Nodes beside the model, such as a grid: views are not fitted to them.
     pub beside: Vec<NodeId>,
-    /// How large text and widgets are, beside the display's own scale: 0.5 to 4.
+    /// The size of text and widgets, in addition to the display's own scale: 0.5 to 4.
     pub text_scale: f32,
-    /// What the list of keys is searched for.
+    /// The search text of the key list.
     pub(crate) command_search: String,
     /// Where the menu is, if it is open.
     pub(crate) menu: Option<Menu>,
@@ -119,7 +119,7 @@ pub struct Stage {
     moves: Moves,
     title: String,
     home: Home,
-    /// The picture in the window.
+    /// The image in the window.
     shown: Option<Shown>,
     waker: Waker,
     viewport: Viewport,
@@ -148,7 +148,7 @@ pub(crate) struct Wishes {
 }
 
 impl Stage {
-    /// An empty scene, seen from the right, above and before.
+    /// An empty scene, seen from the right, above and front.
     #[must_use]
     pub fn new(title: impl Into<String>) -> Self {
         Self {
@@ -187,13 +187,13 @@ impl Stage {
         }
     }
 
-    /// What is written on the window.
+    /// The window's title.
     #[must_use]
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// Writes something else on the window.
+    /// Sets the window's title.
     pub fn set_title(&mut self, title: impl Into<String>) {
         self.title = title.into();
     }
@@ -204,8 +204,8 @@ impl Stage {
         self.viewport
     }
 
-    /// Asks for a window of this size, in logical pixels; once it is open, its
-    /// user decides. Without it a window is 1000×600, as in F3D.
+    /// Requests a window of this size, in logical pixels; once it is open, its user decides. The
+    /// default is 1000×600, as in F3D.
     pub fn set_size(&mut self, size: Viewport) {
         self.viewport = size;
     }
@@ -216,32 +216,32 @@ impl Stage {
         self.scale
     }
 
-    /// What the pictures at rest took and how far they are apart, of scene, camera and
-    /// settings as they are; `None` before they are drawn.
+    /// The times of the images at rest and their difference, for the current scene, camera and
+    /// settings; `None` before they are drawn.
     #[must_use]
     pub fn quality_report(&self) -> Option<QualityReport> {
         self.quality_report
     }
 
-    /// What the last frame took: a draft, or the picture that the settings give.
+    /// The time of the last frame: a draft, or the image that the settings define.
     #[must_use]
     pub fn report(&self) -> FrameReport {
         self.report
     }
 
-    /// The camera of this moment, its planes around the scene.
+    /// The current camera, with its planes around the scene.
     #[must_use]
     pub fn camera(&self) -> Camera {
         self.orbit.camera(&self.scene.bounds())
     }
 
-    /// The views in the window, none over another: one, or four with [`Stage::four_views`].
+    /// The views in the window, without overlap: one, or four with [`Stage::four_views`].
     #[must_use]
     pub fn panes(&self) -> Vec<Pane> {
         panes::panes(self.orbit, self.viewport, self.four_views)
     }
 
-    /// The view at a point of the window, in physical pixels; the camera's own between and beside views.
+    /// The view at a point of the window, in physical pixels; the camera's own between and outside views.
     #[must_use]
     pub fn pane_at(&self, at: DVec2) -> Pane {
         let mut panes = self.panes();
@@ -250,24 +250,24 @@ impl Stage {
         panes.swap_remove(found.unwrap_or_default())
     }
 
-    /// The camera of a view, its planes around the scene.
+    /// The camera of a view, with its planes around the scene.
     #[must_use]
     pub fn camera_of(&self, pane: &Pane) -> Camera {
         pane.orbit.camera(&self.scene.bounds())
     }
 
-    /// Makes this the view to begin with and to return to: the whole scene,
-    /// seen along `direction`.
+    /// Makes this the initial view, and the one to return to: the whole scene, seen along
+    /// `direction`.
     pub fn set_home_direction(&mut self, direction: DVec3) {
         self.home = Home::Fit(direction);
     }
 
-    /// Makes this the view to begin with and to return to.
+    /// Makes this the initial view, and the one to return to.
     pub fn set_home(&mut self, view: Orbit) {
         self.home = Home::Fixed(view);
     }
 
-    /// Goes to the view to begin with: the one set as home, or the whole scene.
+    /// Returns to the initial view: the one set as home, or the whole scene.
     pub fn reset_view(&mut self) {
         match self.home {
             Home::Fixed(view) => self.orbit = view,
@@ -292,12 +292,12 @@ impl Stage {
         self.orbit.fit_points(&points, self.viewport.aspect(), DEFAULT_MARGIN);
     }
 
-    /// What the picture in the window shows at a point, in physical pixels, and where in the
-    /// world that is. It is looked up in that picture, in constant time. While something moves,
-    /// that is a draft, which may be older than scene and camera: then it is what the draft shows,
-    /// seen by the draft's camera. A node that was removed since is not found, and of one
-    /// whose mesh was replaced the face is `None`. `None` for background, outside the window,
-    /// and before there is a picture.
+    /// What the image in the window shows at a point, in physical pixels, and its world position.
+    /// It is looked up in that image, in constant time. While something moves, that is a draft,
+    /// which may be older than scene and camera: then the result is what the draft shows, seen by
+    /// the draft's camera. A node that was removed since is not found, and for one whose mesh was
+    /// replaced the face is `None`. `None` for background, outside the window, and before there is
+    /// an image.
     #[must_use]
     pub fn pick(&self, at: DVec2) -> Option<(Hit, DVec3)> {
         self.shown.as_ref()?.pick(at, self.viewport, &self.scene)
@@ -364,12 +364,12 @@ impl Stage {
         self.wishes.animate = true;
     }
 
-    /// Closes the window when the current call is over.
+    /// Closes the window after the current call.
     pub fn exit(&mut self) {
         self.wishes.exit = true;
     }
 
-    /// What wakes this window from other threads.
+    /// Wakes this window from other threads.
     #[must_use]
     pub fn waker(&self) -> Waker {
         self.waker.clone()
@@ -389,7 +389,7 @@ impl Stage {
         }
     }
 
-    /// The picture in the window is another one.
+    /// The image in the window was replaced.
     pub(crate) fn show(&mut self, shown: Option<Shown>) {
         self.shown = shown;
     }
@@ -411,24 +411,24 @@ impl Stage {
         self.progress = progress;
     }
 
-    /// How the window's pictures at rest are drawn, step by step.
+    /// How the window's images at rest are drawn, step by step.
     pub(crate) fn ladder(&self) -> Vec<RenderSettings> {
         let steps = refinement::ladder(&self.settings, self.drawer.is_some());
         steps.into_iter().map(|settings| self.fitted(settings, 1.0)).collect()
     }
 
-    /// The steps to be done at rest: those of the ladder, and after its last the comparison.
+    /// The steps to do at rest: those of the ladder, followed by the comparison.
     pub(crate) fn wanted_steps(&self) -> Vec<usize> {
         let length = refinement::ladder(&self.settings, self.drawer.is_some()).len();
         refinement::wanted(length, self.shown_refinement(), self.comparison)
     }
 
-    /// What a drawer of the application's own draws is not replaced by a better picture.
+    /// The image of an application's drawer is not replaced by a better one.
     fn shown_refinement(&self) -> Refinement {
         if self.drawer.is_some() { Refinement::Settings } else { self.refinement }
     }
 
-    /// Which picture is to be seen at rest.
+    /// Which image to show at rest.
     pub(crate) fn wanted_picture(&self) -> Wanted {
         match (self.comparison, self.shown_refinement()) {
             (Comparison::Shown, _) => Wanted::Difference,
@@ -437,8 +437,8 @@ impl Stage {
         }
     }
 
-    /// How drafts are drawn: with no more rays than the preset for drafts has, and smaller
-    /// by a factor in each direction.
+    /// How drafts are drawn: with no more rays than the draft preset has, and reduced by a factor
+    /// in each direction.
     pub(crate) fn draft_settings(&self, shrink: f64) -> RenderSettings {
         let mut settings = RenderSettings { samples_per_axis: 1, samples: 1, ..self.settings.clone() };
         let (effects, most) = (&mut settings.effects, Preset::Draft.quality());
@@ -451,7 +451,7 @@ impl Stage {
         self.fitted(settings, shrink)
     }
 
-    /// For the window's size, smaller by a factor in each direction.
+    /// For the window's size, reduced by a factor in each direction.
     fn fitted(&self, mut settings: RenderSettings, shrink: f64) -> RenderSettings {
         settings.outputs = shown::OUTPUTS;
         let larger = (self.scale / shrink) as f32;
@@ -465,7 +465,7 @@ impl Stage {
         settings
     }
 
-    /// All that the window's picture depends on.
+    /// Everything that the window's image depends on.
     pub(crate) fn subject(&self) -> Subject {
         let Self { orbit, viewport, scale, four_views, .. } = *self;
         let (settings, drawer) = (self.settings.clone(), DrawnBy(self.drawer.clone()));
@@ -473,7 +473,7 @@ impl Stage {
     }
 }
 
-/// All that the window's picture depends on: as long as this stays, so does the picture.
+/// Everything that the window's image depends on: as long as this is unchanged, so is the image.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Subject {
     scene: Revision,

@@ -1,5 +1,4 @@
-//! Waking a window from other threads: a file has been loaded, has changed, a
-//! computation is done.
+//! Waking a window from other threads: a file was loaded or has changed, or a computation is done.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -8,7 +7,7 @@ type Ring = Box<dyn Fn() + Send>;
 #[derive(Default)]
 struct State {
     ring: Option<Ring>,
-    /// Woken before there was anything to ring.
+    /// Woken before there was a loop to notify.
     early: bool,
 }
 
@@ -18,8 +17,7 @@ struct State {
 pub struct Waker(Arc<Mutex<State>>);
 
 impl Waker {
-    /// Wakes the window. Before it is open this is remembered; after it has
-    /// closed it does nothing.
+    /// Wakes the window. Before it is open this is remembered; after it has closed it does nothing.
     pub fn wake(&self) {
         let mut state = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         match &state.ring {
@@ -28,7 +26,7 @@ impl Waker {
         }
     }
 
-    /// From now on, waking does this.
+    /// Sets what waking does from now on.
     pub(crate) fn connect(&self, ring: impl Fn() + Send + 'static) {
         let mut state = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if std::mem::take(&mut state.early) {

@@ -1,5 +1,4 @@
-//! Drawing the scene beside the window's thread, so that the window never waits for
-//! a picture.
+//! Draws the scene on worker threads, so that the window never waits for an image.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -15,39 +14,39 @@ use crate::panes::Views;
 use crate::refinement::{Compared, compare};
 use crate::shared_scene::{Revision, SceneUpdate};
 
-/// What a picture is for.
+/// The purpose of an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Purpose {
     /// The window.
     Window(Quality),
-    /// Somebody asked for it.
+    /// Requested by the application.
     Picture,
 }
 
-/// What is to be done.
+/// The task.
 pub(crate) struct Job {
     pub(crate) purpose: Purpose,
-    /// From where pictures are drawn.
+    /// The cameras to draw from.
     pub(crate) views: Views,
     pub(crate) task: Task,
 }
 
-/// A picture to be drawn, or two to be compared.
+/// An image to draw, or two to compare.
 pub(crate) enum Task {
     Draw {
-        /// Makes the thread's replica equal to the scene to be drawn; see [`Worker::held`].
+        /// Makes the thread's replica equal to the scene to draw; see [`Worker::held`].
         scene: SceneUpdate,
         settings: Box<RenderSettings>,
         /// Instead of the renderer.
         drawer: Option<Arc<dyn Drawer>>,
     },
-    /// What was found, and what is right.
+    /// The image and its reference.
     Compare([Arc<Frame>; 2]),
-    /// Drops the thread's replica, which is of no more use. There is no product.
+    /// Drops the thread's replica, which is no longer needed. There is no product.
     Forget,
 }
 
-/// What a job ends with.
+/// The result of a job.
 pub(crate) enum Product {
     Picture(Frame),
     Comparison(Compared),
@@ -57,11 +56,11 @@ pub(crate) enum Product {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Unfinished {
     Cancelled,
-    /// What a user should be told.
+    /// A message for the user.
     Impossible(String),
 }
 
-/// What became of a job.
+/// The outcome of a job.
 pub(crate) struct Finished {
     pub(crate) purpose: Purpose,
     pub(crate) views: Views,
@@ -71,13 +70,13 @@ pub(crate) struct Finished {
 
 /// Does one job at a time.
 pub(crate) struct Worker {
-    /// What somebody waits for.
+    /// Jobs that somebody waits for.
     first: Holder,
-    /// What is only better than what is shown. Once that is cancelled, nobody waits until
-    /// its last tiles are given up, which may take seconds where rays are cast.
+    /// Jobs that only improve the image on screen. Once cancelled, nobody waits until their last
+    /// tiles are abandoned, which may take seconds if rays are cast.
     second: Option<Holder>,
     under_way: Option<UnderWay>,
-    /// Given up, and not collected yet.
+    /// Abandoned, and not collected yet.
     abandoned: Option<UnderWay>,
     begun: u64,
 }
@@ -90,41 +89,41 @@ struct UnderWay {
     cancel: Cancel,
 }
 
-/// A job with its number, and what ends it.
+/// A job with its number, and its cancellation.
 type Numbered = (u64, Job, Cancel);
 
-/// Who does jobs, and the revision that its replica of the scene is equal to.
+/// A thread or the caller that does jobs, and the revision that its replica of the scene equals.
 struct Holder {
     hands: Hands,
     held: Option<Revision>,
 }
 
 enum Hands {
-    /// A thread, and what it has finished.
+    /// A thread, and its finished jobs.
     Thread { jobs: Sender<Numbered>, finished: Receiver<(u64, Finished)> },
-    /// The thread that asks. It takes no time, as far as others can tell: so what is
-    /// drawn, and how well, does not depend on the machine.
+    /// The calling thread. It takes no time as far as others can tell, so what is drawn, and in
+    /// which quality, does not depend on the machine.
     Caller { drawing: Box<Drawing>, finished: Option<Box<Finished>> },
 }
 
-/// What does jobs.
+/// Executes jobs.
 struct Drawing {
     renderer: Renderer,
-    /// A replica of the window's, so that neither waits for the other.
+    /// A replica of the window's scene, so that neither waits for the other.
     scene: Scene,
-    /// Tells the time since any fixed moment.
+    /// Returns the time since any fixed moment.
     clock: Box<dyn Fn() -> Duration + Send>,
 }
 
 impl Worker {
-    /// A worker that draws where it is asked to, at once.
+    /// A worker that draws on the calling thread, at once.
     pub(crate) fn of_caller() -> Self {
         Self::new(Hands::of_caller(), None)
     }
 
-    /// A worker with threads of its own, which call `ring` whenever a job is finished.
-    /// What jobs take is told by `clock`: the time since any fixed moment. Where there
-    /// are no threads to be had, the caller's.
+    /// A worker with its own threads, which call `ring` whenever a job is finished. `clock`
+    /// measures jobs: the time since any fixed moment. If no threads can be created, the caller's
+    /// is used.
     pub(crate) fn of_threads(
         ring: impl Fn() + Clone + Send + 'static,
         clock: impl Fn() -> Duration + Clone + Send + 'static,
@@ -135,7 +134,7 @@ impl Worker {
         })
     }
 
-    /// With one of `runs` on each thread, which does its jobs.
+    /// With one of `runs` on each thread, which executes its jobs.
     fn of_runs<R>(ring: impl Fn() + Clone + Send + 'static, runs: impl Fn() -> R) -> Self
     where
         R: FnMut(Job, &Cancel) -> Finished + Send + 'static,
@@ -156,13 +155,12 @@ impl Worker {
         self.under_way.is_some()
     }
 
-    /// Which revision the replica is equal to that is drawn for this purpose, once all jobs
-    /// begun so far are done.
+    /// The revision that the replica for this purpose equals, once all jobs begun so far are done.
     pub(crate) fn held(&mut self, purpose: Purpose) -> &mut Option<Revision> {
         &mut self.holder(purpose).held
     }
 
-    /// Begins a job; the last one is finished.
+    /// Begins a job; the previous one is finished.
     pub(crate) fn begin(&mut self, job: Job) {
         if matches!(job.task, Task::Draw { scene: SceneUpdate::Whole(_), .. }) {
             self.forget_others(job.purpose);
@@ -174,8 +172,8 @@ impl Worker {
         self.holder(purpose).hands.begin((number, job, cancel));
     }
 
-    /// Another scene took the place of the one before, which the second thread should not
-    /// hold until it draws again.
+    /// Another scene replaced the previous one, which the second thread should not keep until it
+    /// draws again.
     fn forget_others(&mut self, purpose: Purpose) {
         let Some(second) = self.second.as_mut().filter(|_| !purpose.is_refinement()) else { return };
         if second.held.take().is_some() {
@@ -184,7 +182,7 @@ impl Worker {
         }
     }
 
-    /// Nobody will look at the job under way. It still has to be collected.
+    /// Nobody will see the job in progress. It still has to be collected.
     pub(crate) fn cancel(&mut self) {
         let Some(job) = &self.under_way else { return };
         job.cancel.cancel();
@@ -193,7 +191,7 @@ impl Worker {
         }
     }
 
-    /// The job that was under way, if it is finished.
+    /// The job that was in progress, if it is finished.
     pub(crate) fn collect(&mut self) -> Option<Finished> {
         if let Some(UnderWay { purpose, views, .. }) = self.abandoned.take() {
             return Some(Finished {
@@ -209,7 +207,7 @@ impl Worker {
         Some(finished)
     }
 
-    /// Who does what is for this purpose.
+    /// The thread for this purpose.
     fn holder(&mut self, purpose: Purpose) -> &mut Holder {
         match &mut self.second {
             Some(second) if purpose.is_refinement() => second,
@@ -225,7 +223,7 @@ impl Drop for Worker {
 }
 
 impl Purpose {
-    /// Whether there is a right picture already.
+    /// Whether an up-to-date image exists.
     fn is_refinement(self) -> bool {
         matches!(self, Self::Window(Quality::Full(1..)))
     }
@@ -242,7 +240,7 @@ impl Hands {
         Self::Caller { drawing: Box::new(Drawing::new(|| Duration::ZERO)), finished: None }
     }
 
-    /// `None` where there are no threads to be had.
+    /// `None` if no threads can be created.
     fn of_thread(
         mut run: impl FnMut(Job, &Cancel) -> Finished + Send + 'static,
         ring: impl Fn() + Send + 'static,
@@ -266,13 +264,13 @@ impl Hands {
 
     fn begin(&mut self, (number, job, cancel): Numbered) {
         match self {
-            // The thread lives for as long as this does.
+            // The thread lives as long as this does.
             Self::Thread { jobs, .. } => drop(jobs.send((number, job, cancel))),
             Self::Caller { drawing, finished } => *finished = Some(Box::new(drawing.run(job, &cancel))),
         }
     }
 
-    /// What became of a job; what was abandoned before it is dropped.
+    /// The outcome of a job; abandoned jobs before it are dropped.
     fn finished(&mut self, number: u64) -> Option<Finished> {
         match self {
             Self::Thread { finished, .. } => {
@@ -292,7 +290,7 @@ impl Drawing {
         let begun = (self.clock)();
         let product = match task {
             Task::Draw { scene, settings, drawer } => {
-                // Also for a picture that was cancelled: the next update counts on it.
+                // Also for a cancelled image: the next update relies on it.
                 scene.apply(&mut self.scene);
                 let drawn = views.draw(*settings, |camera, settings| {
                     let seen = (&self.scene, camera);
@@ -316,8 +314,8 @@ impl Drawing {
     }
 }
 
-/// Another drawer's picture, with ids and depths as the renderer finds them where the
-/// settings ask for them and the drawer has none.
+/// Another drawer's image, with ids and depths from the renderer if the settings require them and
+/// the drawer does not provide them.
 fn with_ids(
     frame: Frame,
     seen: (&Scene, &Camera),
@@ -347,7 +345,7 @@ fn render(
     })
 }
 
-/// A picture of another size or without colours is none.
+/// An image of another size or without colours is rejected.
 fn draw_otherwise(
     drawer: &dyn Drawer,
     (scene, camera): (&Scene, &Camera),

@@ -1,9 +1,8 @@
-//! Angles that do not drift: a fraction of a full turn in 64-bit fixed point.
+//! Angles without drift: a fraction of a full turn in 64-bit fixed point.
 //!
-//! Adding is exact and wraps by itself. A million steps to the left and a
-//! million back end on the very same bits, and a full turn in a million steps
-//! misses by less than 10⁻¹² radians, where a sum in f64 would collect the same
-//! rounding a million times.
+//! Addition is exact and wraps around. A million steps to the left and a million back end at the
+//! very same bits, and a full turn in a million steps is off by less than 10⁻¹² radians, where a
+//! sum in f64 would accumulate the same rounding a million times.
 
 use std::f64::consts::TAU;
 
@@ -19,7 +18,7 @@ impl Angle {
     /// A quarter of a turn.
     pub(crate) const QUARTER: Self = Self(1 << 62);
 
-    /// The nearest angle; whole turns are dropped. Not finite counts as 0.
+    /// The nearest angle; whole turns are dropped. Values that are not finite count as 0.
     pub(crate) fn from_radians(radians: f64) -> Self {
         let turns = radians / TAU;
         let fraction = turns - turns.round();
@@ -36,8 +35,8 @@ impl Angle {
         Self(self.0.wrapping_add(other.0))
     }
 
-    /// The sum, stopped at a quarter of a turn on either side; `radians` may
-    /// be any amount, and not a number adds nothing.
+    /// The sum, clamped to a quarter turn on either side; `radians` may be any amount, and NaN adds
+    /// nothing.
     pub(crate) fn plus_up_to_quarter(self, radians: f64) -> Self {
         const HALF_TURN: f64 = std::f64::consts::PI;
         let step = match radians {

@@ -2,36 +2,36 @@
 
 use trigon_math::elementary;
 
-/// A view by name. "Front" is what the camera sees that stands before the model.
+/// A named view. "Front" is what a camera in front of the model sees.
 ///
-/// With +Y up, front looks along −Z, right along −X and top along −Y with −Z
-/// towards the upper edge. With +Z up, front looks along +Y, as in CAD. Any
-/// other up axis turns these the shortest way.
+/// With +Y up, front looks along −Z, right along −X and top along −Y with −Z towards the upper
+/// edge. With +Z up, front looks along +Y, as in CAD. For any other up axis these are rotated by
+/// the shortest arc.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum AxisView {
-    /// Before the model.
+    /// From the front.
     Front,
-    /// Behind the model.
+    /// From behind.
     Back,
-    /// On its right side.
+    /// From its right side.
     Right,
-    /// On its left side.
+    /// From its left side.
     Left,
     /// Above it.
     Top,
     /// Below it.
     Bottom,
-    /// Before it, to the right and above, all three by the same angle.
+    /// From the front, right and above, all three by the same angle.
     Isometric,
 }
 
 impl AxisView {
-    /// All of them.
+    /// All views.
     pub const ALL: [Self; 7] =
         [Self::Front, Self::Back, Self::Right, Self::Left, Self::Top, Self::Bottom, Self::Isometric];
 
-    /// The view from the other side. Isometric is seen from below and behind
-    /// only through [`crate::Orbit`]'s own turning: it is its own opposite here.
+    /// The view from the opposite side. Isometric is its own opposite; only [`crate::Orbit`]'s
+    /// rotations reach its view from below and behind.
     #[must_use]
     pub fn opposite(self) -> Self {
         match self {

@@ -1,5 +1,4 @@
-//! A camera on a leash: it turns about a target, comes closer, goes away, and
-//! takes the target along when panned.
+//! An orbiting camera: it rotates about a target, zooms, and moves the target along when panned.
 
 use trigon_math::{Bounds3, DMat3, DQuat, DVec3, elementary};
 
@@ -8,37 +7,35 @@ use crate::fit::{Extent, Shot, finite_bounds, fit_distance, sight};
 use crate::view::up_frame;
 use crate::{AxisView, Camera, Projection};
 
-/// How dragging turns the camera.
+/// How dragging rotates the camera.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum OrbitStyle {
-    /// About the up axis and up to the poles; the horizon stays level. What
-    /// viewers of models do by default.
+    /// About the up axis and up to the poles; the horizon stays level. The default of most model
+    /// viewers.
     #[default]
     Turntable,
     /// Freely, as if the model were held in a ball; no up axis, no poles.
     Trackball,
 }
 
-/// Which way the camera is turned.
+/// The orientation of the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Attitude {
-    /// Angles in fixed point: nothing to renormalise, nothing that drifts. Roll
-    /// is about the line of sight.
+    /// Angles in fixed point: nothing to renormalise, no drift. Roll is about the line of sight.
     Turntable { azimuth: Angle, elevation: Angle, roll: Angle },
     /// Camera to world.
     Trackball(DQuat),
 }
 
-/// The nearest and farthest distance from the target; beyond, squares of
-/// lengths would leave the range of f64.
+/// The smallest and largest distance from the target; beyond these, squares of lengths would leave
+/// the range of f64.
 const DISTANCES: (f64, f64) = (1e-140, 1e140);
 
 /// A camera that orbits a target, as a plain state machine.
 ///
-/// The turntable stops at the poles, where the camera looks straight down or
-/// up: it never flips over, and turning about the up axis goes on working
-/// there. All angles are kept in fixed point, so there is no drift: any number
-/// of small steps adds up exactly, and undoing them restores the same bits.
+/// The turntable stops at the poles, where the camera looks straight down or up: it never flips
+/// over, and rotating about the up axis still works there. All angles are in fixed point, so there
+/// is no drift: any number of small steps adds up exactly, and undoing them restores the same bits.
 ///
 /// ```
 /// use trigon_camera::{AxisView, Camera, Orbit};
@@ -71,8 +68,8 @@ enum Lines {
 }
 
 impl Orbit {
-    /// Before the target (the origin) at distance 5, with the default
-    /// projection and `up` for the up axis.
+    /// In front of the target (the origin) at distance 5, with the default projection and `up` as
+    /// the up axis.
     #[must_use]
     pub fn new(up: DVec3) -> Self {
         Self {
@@ -85,9 +82,9 @@ impl Orbit {
         }
     }
 
-    /// Takes over from a camera, for orbiting about the point in the middle of
-    /// its picture at `distance` along its line of sight. Its roll is kept. A camera with parallel lines of
-    /// sight keeps its window; its eye moves along the line of sight instead.
+    /// Takes over from a camera, orbiting about the point at the centre of its image at `distance` along its
+    /// line of sight. Its roll is kept. A parallel camera keeps its window; its eye moves along the line of
+    /// sight instead.
     #[must_use]
     pub fn from_camera(camera: &Camera, distance: f64, up: DVec3) -> Self {
         let target = camera.to_world(sight(&camera.projection, distance));
@@ -103,7 +100,7 @@ impl Orbit {
         orbit
     }
 
-    /// The point that the camera turns about, in the middle of the picture.
+    /// The point that the camera orbits, at the centre of the image.
     #[must_use]
     pub fn target(&self) -> DVec3 {
         self.target
@@ -123,8 +120,7 @@ impl Orbit {
         self.distance
     }
 
-    /// Goes to this distance; clamped to 10⁻¹⁴⁰ … 10¹⁴⁰, and ignored if it is
-    /// not a positive number.
+    /// Sets the distance; clamped to 10⁻¹⁴⁰ … 10¹⁴⁰, and ignored if it is not a positive number.
     pub fn set_distance(&mut self, distance: f64) {
         if distance > 0.0 {
             self.distance = distance.clamp(DISTANCES.0, DISTANCES.1);
@@ -137,13 +133,13 @@ impl Orbit {
         self.up
     }
 
-    /// Takes another up axis. Azimuth and elevation stay what they are, so the
-    /// named views show the same sides of the new up axis.
+    /// Sets the up axis. Azimuth and elevation are kept, so the named views show the same sides
+    /// relative to the new up axis.
     pub fn set_up(&mut self, up: DVec3) {
         self.up = up_frame(up).y_axis;
     }
 
-    /// How dragging turns the camera.
+    /// How dragging rotates the camera.
     #[must_use]
     pub fn style(&self) -> OrbitStyle {
         match self.attitude {
@@ -152,7 +148,7 @@ impl Orbit {
         }
     }
 
-    /// Changes how dragging turns the camera; the view stays.
+    /// Changes how dragging rotates the camera; the view is kept.
     pub fn set_style(&mut self, style: OrbitStyle) {
         self.attitude = match style {
             OrbitStyle::Turntable => attitude_of(self.orientation(), self.up),
@@ -174,8 +170,8 @@ impl Orbit {
         }
     }
 
-    /// Turns about the target, in radians: positive `right` takes the eye to
-    /// its right (the model seems to turn left), positive `up` takes it up.
+    /// Orbits the target, in radians: positive `right` moves the eye to its right (the model seems
+    /// to rotate left), positive `up` moves it up.
     pub fn orbit(&mut self, right: f64, up: f64) {
         match &mut self.attitude {
             Attitude::Turntable { azimuth, elevation, .. } => {
@@ -189,8 +185,8 @@ impl Orbit {
         }
     }
 
-    /// Turns the camera about its line of sight; positive is counter-clockwise
-    /// for the camera, so the picture turns clockwise.
+    /// Rolls the camera about its line of sight; positive is counter-clockwise for the camera, so
+    /// the image rotates clockwise.
     pub fn roll(&mut self, angle: f64) {
         match &mut self.attitude {
             Attitude::Turntable { roll, .. } => *roll = roll.plus(Angle::from_radians(angle)),
@@ -212,19 +208,18 @@ impl Orbit {
         self.perspective.height_at(self.distance)
     }
 
-    /// Makes the target look `factor` times as large; factors that are not
-    /// positive numbers are ignored. Exponential in the hand's movement if the
-    /// caller passes `base^movement`.
+    /// Makes the target look `factor` times as large; factors that are not positive numbers are
+    /// ignored. Pass `base^movement` to make it exponential in the movement.
     pub fn zoom(&mut self, factor: f64) {
         self.set_distance(self.distance / factor);
     }
 
-    /// Zooms about a point of the world, which keeps its place in the picture:
-    /// "zoom to cursor" with the point under the cursor.
+    /// Zooms about a world point, which keeps its position in the image: "zoom to cursor" with the
+    /// point under the cursor.
     pub fn zoom_about(&mut self, point: DVec3, factor: f64) {
         let before = self.distance;
         self.zoom(factor);
-        // What the clamp left of the factor, so that the point stays put even then.
+        // The factor after clamping, so that the point stays in place even then.
         self.set_target(point + (self.target - point) * (self.distance / before));
     }
 
@@ -234,8 +229,8 @@ impl Orbit {
         self.set_angles(azimuth, elevation, 0.0);
     }
 
-    /// Stands at this azimuth (from the front to the right), elevation
-    /// (clamped to the poles) and roll, in radians, at the same distance.
+    /// Moves to this azimuth (from the front to the right), elevation (clamped to the poles) and
+    /// roll, in radians, at the same distance.
     pub fn set_angles(&mut self, azimuth: f64, elevation: f64, roll: f64) {
         let style = self.style();
         self.attitude = turntable(azimuth, elevation, roll);
@@ -252,14 +247,14 @@ impl Orbit {
         }
     }
 
-    /// The perspective that is in use, or waits while lines of sight are parallel.
+    /// The perspective in use, or to be used after parallel projection.
     #[must_use]
     pub fn perspective(&self) -> Projection {
         self.perspective
     }
 
-    /// Takes another projection. A parallel one sets the distance at which the
-    /// perspective shows the target as large.
+    /// Sets the projection. A parallel one sets the distance at which the perspective shows the
+    /// target in the same size.
     pub fn set_projection(&mut self, projection: Projection) {
         if let Projection::Orthographic { height, .. } = projection {
             self.parallel = Lines::Parallel;
@@ -270,14 +265,13 @@ impl Orbit {
         }
     }
 
-    /// Whether lines of sight are parallel.
+    /// Whether the projection is parallel.
     #[must_use]
     pub fn is_orthographic(&self) -> bool {
         self.parallel == Lines::Parallel
     }
 
-    /// Switches between perspective and parallel lines of sight. The target
-    /// keeps its size.
+    /// Switches between perspective and parallel projection. The target keeps its size.
     pub fn toggle_orthographic(&mut self) {
         self.parallel = match self.parallel {
             Lines::Converging => Lines::Parallel,
@@ -285,14 +279,14 @@ impl Orbit {
         };
     }
 
-    /// Targets the middle of the bounds and takes the distance from which they
-    /// fill the picture; see [`Camera::fit`].
+    /// Targets the centre of the bounds at the distance from which they fill the image; see
+    /// [`Camera::fit`].
     pub fn fit(&mut self, bounds: &Bounds3, aspect: f64, margin: f64) {
         let extent = Extent::new(bounds);
         self.fit_extent(&extent, extent.corners().into_iter(), aspect, margin);
     }
 
-    /// As [`Orbit::fit`], but to points instead of the box around them; see
+    /// As [`Orbit::fit`], but fitted to points instead of the box around them; see
     /// [`Camera::fit_points`].
     pub fn fit_points(&mut self, points: &[DVec3], aspect: f64, margin: f64) {
         let extent = Extent::new(&finite_bounds(points));
@@ -310,7 +304,7 @@ impl Orbit {
         self.set_distance(distance);
     }
 
-    /// The camera as it stands, with its near and far planes around `bounds`.
+    /// The current camera, with its near and far planes around `bounds`.
     #[must_use]
     pub fn camera(&self, bounds: &Bounds3) -> Camera {
         let orientation = self.orientation();
@@ -319,7 +313,7 @@ impl Orbit {
         Camera { position, orientation, projection }.with_clip_planes(bounds)
     }
 
-    /// The projection in use, with planes that are still to be set.
+    /// The projection in use, with planes yet to be set.
     fn projection(&self) -> Projection {
         match self.parallel {
             Lines::Converging => self.perspective,
@@ -337,8 +331,8 @@ fn turntable(azimuth: f64, elevation: f64, roll: f64) -> Attitude {
     }
 }
 
-/// The turntable angles of an orientation. At the poles azimuth and roll are
-/// the same turn; there it counts as azimuth.
+/// The turntable angles of an orientation. At the poles azimuth and roll are the same rotation;
+/// there it counts as azimuth.
 fn attitude_of(orientation: DQuat, up: DVec3) -> Attitude {
     const POLE: f64 = 1e-9;
     let axes = up_frame(up).transpose() * DMat3::from_quat(orientation);

@@ -9,20 +9,20 @@ use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::Elements;
 
-/// Replaces the selected edges, or vertices, by new faces.
+/// Replaces the selected edges or vertices with new faces.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bevel {
-    /// How far the new edges are from the old ones, in metres.
+    /// The distance of the new edges from the old ones, in metres.
     #[schemars(range(min = 0.0))]
     pub width: f64,
-    /// How many faces lie side by side.
+    /// The number of faces side by side.
     #[schemars(range(min = 1, max = 1000))]
     pub segments: u32,
-    /// The shape across: 0.5 is round.
+    /// The shape of the cross-section: 0.5 is round.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub profile: f64,
-    /// Whether the width is kept so small that nothing overlaps.
+    /// Whether the width is limited so that nothing overlaps.
     pub clamp_overlap: bool,
     /// Whether vertices are beveled instead of edges.
     pub vertices: bool,

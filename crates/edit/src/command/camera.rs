@@ -17,9 +17,9 @@ use crate::error::EditError;
 pub struct AddCamera {
     /// Its name.
     pub name: String,
-    /// Where its eye is, in metres.
+    /// The position of the eye, in metres.
     pub position: [f64; 3],
-    /// How it is turned; without a turn it looks along −Z.
+    /// The orientation; without a rotation the camera looks along −Z.
     pub rotation: Rotation,
 }
 
@@ -61,7 +61,7 @@ mod tests {
         document.run(serde_json::from_value(add).expect("a command")).expect("it can be done");
         let (id, camera) = document.nodes().cameras().into_iter().next().expect("it is there");
         let sight = camera.orientation * DVec3::NEG_Z;
-        // Half of the angle is turned by a sine and a cosine, which are rounded.
+        // The sine and the cosine of half the angle are rounded.
         assert!(sight.abs_diff_eq(DVec3::NEG_X, 1e-15), "{sight}: to the origin");
         assert_eq!(camera.position, DVec3::X * 3.0);
         assert_eq!(document.selection().active, Some(id), "it is selected");

@@ -1,4 +1,4 @@
-//! Placements taken back.
+//! Clearing placements.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,16 +9,15 @@ use super::{Action, Outcome, Rotation, SetTransform, TransformSpace};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// Takes the selected objects back to where what they hang on is: without an offset, a turn or a scale of their
-/// own.
+/// Clears the location, rotation or scale of the selected objects relative to their parent.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ClearTransform {
-    /// Whether they move to the origin.
+    /// Whether they move to their parent's origin.
     pub location: bool,
-    /// Whether they are turned back.
+    /// Whether their rotation is cleared.
     pub rotation: bool,
-    /// Whether they get their own size again.
+    /// Whether their scale is reset to 1.
     pub scale: bool,
 }
 

@@ -14,11 +14,11 @@ use crate::selection::Elements;
 const CUTTING: &str = "cutting a loop";
 const EDGES: &str = "at least one selected edge";
 
-/// Cuts the selected edges into equal pieces, and the faces at them into a grid. Nothing is moved.
+/// Cuts the selected edges into equal pieces, and the faces at them into a grid. No vertex moves.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Subdivide {
-    /// How many cuts each edge gets.
+    /// The number of cuts per edge.
     #[schemars(range(min = 1, max = 1000))]
     pub cuts: u32,
 }
@@ -42,24 +42,24 @@ impl Action for Subdivide {
     }
 }
 
-/// Cuts new loops across the ring of quads of an edge.
+/// Cuts new loops across the ring of quads that an edge belongs to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LoopCut {
-    /// How many loops, side by side.
+    /// The number of loops, side by side.
     #[schemars(range(min = 1, max = 1000))]
     pub cuts: u32,
-    /// How far they are moved together: −1 to 1 from side to side, 0 in the middle.
+    /// Moves all loops together: −1 to 1 from side to side, 0 in the middle.
     #[schemars(range(min = -1.0, max = 1.0))]
     pub position: f64,
-    /// Whether the loops have the same distances on all edges of the ring, as on the given one, instead of the
-    /// same parts of each.
+    /// Whether the loops keep the same distances on all edges of the ring as on the given one, instead of the
+    /// same fraction of each.
     pub even: bool,
-    /// Whether even distances count from the other side.
+    /// Whether even distances are measured from the other side.
     pub flipped: bool,
-    /// The number of the edge; the last selected one of each mesh if it is not given.
+    /// The number of the edge. Default: the last selected one of each mesh.
     pub edge: Option<u32>,
-    /// The object whose edge is meant, if several are edited.
+    /// The object with the edge, if several are edited.
     pub object: Option<ObjectName>,
 }
 
@@ -70,7 +70,7 @@ impl Default for LoopCut {
 }
 
 impl LoopCut {
-    /// Across a given edge: nothing has to be selected.
+    /// Across a given edge: nothing needs to be selected.
     fn cut_given(
         &self,
         change: &mut Change<'_>,
@@ -119,7 +119,7 @@ impl Action for LoopCut {
     }
 }
 
-/// Slides the selected loops of edges along the edges beside them.
+/// Slides the selected edge loops along the adjacent edges.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SlideEdges {
@@ -137,14 +137,14 @@ impl Action for SlideEdges {
     }
 }
 
-/// Slides each selected vertex along that of its edges which runs most nearly in a direction.
+/// Slides each selected vertex along the one of its edges that is closest to a direction.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SlideVertices {
-    /// How far, as a part of the edge's length; negative ones leave it backwards.
+    /// The distance as a fraction of the edge's length; negative values move backwards.
     #[schemars(range(min = -1.0, max = 1.0))]
     pub factor: f64,
-    /// The direction; its length does not count.
+    /// The direction; its length does not matter.
     pub direction: [f64; 3],
     /// The space of the direction.
     pub space: TransformSpace,
@@ -169,7 +169,7 @@ impl Action for SlideVertices {
     }
 }
 
-/// The edge of a vertex that runs most nearly in a direction; the first of several.
+/// The edge of a vertex that is closest to a direction; the first one if there are several.
 #[must_use]
 pub fn edge_towards(mesh: &EditMesh, vertex: VertexId, direction: DVec3) -> Option<EdgeId> {
     let place = mesh.position(vertex).as_dvec3();

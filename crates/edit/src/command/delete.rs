@@ -8,25 +8,25 @@ use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::ElementKind;
 
-/// What is deleted.
+/// What to delete.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Deleted {
     /// Vertices, with all edges and faces at them.
     Vertices,
-    /// Edges, with all faces at them and vertices that have no edge left.
+    /// Edges, with all faces at them and vertices that are left without edges.
     Edges,
     /// Faces, with edges and vertices that belong to nothing else.
     Faces,
-    /// Faces; their edges stay as wires.
+    /// Faces; their edges remain as loose edges.
     OnlyFaces,
 }
 
-/// Deletes what is selected of the meshes that are edited.
+/// Deletes selected elements of the edited meshes.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Delete {
-    /// What is deleted; the kind that is selected if it is not told.
+    /// What to delete. Default: the selected kind of element.
     pub what: Option<Deleted>,
 }
 
@@ -51,7 +51,7 @@ impl Action for Delete {
     }
 }
 
-/// Deletes the selected objects and what hangs on them.
+/// Deletes the selected objects and their descendants.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DeleteObjects {}

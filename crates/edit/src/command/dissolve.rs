@@ -29,11 +29,11 @@ impl Action for Dissolve {
     }
 }
 
-/// Unites the selected faces that lie in one plane, and removes vertices on straight lines.
+/// Merges selected faces that lie in one plane, and removes vertices on straight lines.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DissolveFlat {
-    /// How far faces may be from one plane, and lines from straight, in degrees.
+    /// The largest angle between faces, and of lines from straight, in degrees.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub angle: f64,
 }

@@ -13,18 +13,18 @@ use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::Elements;
 
-/// Extrudes what is selected: faces as a region; where there are none, edges to faces, and vertices at
-/// none of these edges to edges. What was extruded is selected, and moves.
+/// Extrudes the selection: faces as a region; without faces, edges become faces, and vertices at none of
+/// these edges become edges. The extruded elements are selected and moved.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Extrude {
-    /// How far along normals, in metres; of faces only.
+    /// The distance along normals, in metres; faces only.
     pub distance: f64,
-    /// How far in addition, in metres.
+    /// An additional offset, in metres.
     pub offset: [f64; 3],
     /// The space of the offset.
     pub space: TransformSpace,
-    /// Whether each face is extruded by itself.
+    /// Whether each face is extruded individually.
     pub individual: bool,
 }
 
@@ -67,31 +67,31 @@ impl Action for Extrude {
     }
 }
 
-/// What an inset shrinks.
+/// Which faces an inset shrinks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum InsetMode {
-    /// The selected faces together.
+    /// The selected faces as one region.
     #[default]
     Region,
-    /// Each selected face by itself.
+    /// Each selected face individually.
     Individual,
     /// The faces around the selected ones.
     Outset,
 }
 
-/// Makes a rim of faces inside the selected ones.
+/// Makes a border of faces inside the selected ones.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Inset {
-    /// How wide the rim is, in metres.
+    /// The width of the border, in metres.
     #[schemars(range(min = 0.0))]
     pub thickness: f64,
-    /// How far the faces are moved along their normals, in metres.
+    /// How far the faces move along their normals, in metres.
     pub depth: f64,
     /// What shrinks.
     pub mode: InsetMode,
-    /// Whether there is a rim at open borders of the mesh, too.
+    /// Whether the border also runs along open borders of the mesh.
     pub open_borders: bool,
 }
 

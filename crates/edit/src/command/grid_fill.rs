@@ -1,4 +1,4 @@
-//! A loop of edges is filled with a grid of quads.
+//! Filling a loop of edges with a grid of quads.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,15 +9,15 @@ use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 use crate::selection::Elements;
 
-/// Fills the selected loop of an even number of edges with a grid of quads.
+/// Fills the selected loop, which needs an even number of edges, with a grid of quads.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct GridFill {
-    /// How many edges the first side of the grid has: 1 to half of all less 1. As square as can be if it is
-    /// not given.
+    /// The number of edges on the first side of the grid: 1 to half of all, minus 1. Default: as square as
+    /// possible.
     #[schemars(range(min = 1))]
     pub span: Option<u32>,
-    /// By how many edges the first corner is shifted along the loop.
+    /// Shifts the first corner along the loop by this number of edges.
     pub offset: u32,
 }
 

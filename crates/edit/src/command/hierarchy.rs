@@ -1,4 +1,4 @@
-//! Which object hangs on which, and in which order they are listed.
+//! Parents of objects, and the order of siblings.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,18 +9,18 @@ use super::{Action, ObjectName, Outcome};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// Hangs objects on another one, or on none.
+/// Sets or clears the parent of objects.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SetParent {
-    /// Which; those that are selected if none are named.
+    /// The objects. Default: the selected ones.
     pub objects: Vec<ObjectName>,
-    /// What they hang on; nothing if it is not given.
+    /// The parent; without one the objects move to the top level.
     pub parent: Option<ObjectName>,
-    /// Whether they stay where they are in the world. Otherwise they keep their place relative to what
-    /// they hang on, and move.
+    /// Whether they stay in place in the world. Otherwise they keep their placement relative to their parent,
+    /// and move.
     pub keep_transform: bool,
-    /// The place of the first among those that hang there, from 0; the last places if it is not given.
+    /// The index of the first one among its new siblings, from 0. Default: at the end.
     pub place: Option<u32>,
 }
 
@@ -45,14 +45,14 @@ impl Action for SetParent {
     }
 }
 
-/// Lists an object at another place among those that hang on the same object, or on none.
+/// Moves an object to another position among its siblings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReorderObject {
-    /// Which; the active one if none is named.
+    /// The object. Default: the active one.
     #[serde(default)]
     pub object: Option<ObjectName>,
-    /// Its new place, from 0; beyond the last counts as the last.
+    /// Its new index, from 0; beyond the last means last.
     pub to: u32,
 }
 
@@ -96,7 +96,7 @@ mod tests {
             &mut document,
             json!({ "op": "set_parent", "objects": ["two"], "parent": "one", "keep_transform": true }),
         );
-        // Roundings of an inverse and a product of numbers up to 3.
+        // Rounding of an inverse and of a product of numbers up to 3.
         assert!(document.nodes().world_transform(two).abs_diff_eq(before, 1e-14), "it did not move");
         run(&mut document, json!({ "op": "set_parent", "objects": ["three"], "parent": "one" }));
         let moved = document.nodes().world_transform(three);
@@ -129,7 +129,7 @@ mod tests {
     #[test]
     fn the_order_of_roots_is_saved() {
         let (mut document, _) = document();
-        // A file without any mesh is not opened.
+        // A file without any mesh cannot be opened.
         run(&mut document, json!({ "op": "add_object", "object": { "shape": "cube", "edge": 1.0 } }));
         run(&mut document, json!({ "op": "reorder_object", "object": "three", "to": 0 }));
         let bytes = document.encode().expect("small").to_bytes();

@@ -1,4 +1,4 @@
-//! Adding what another file holds to the scene.
+//! Adding the contents of another file to the scene.
 
 use std::path::Path;
 
@@ -10,8 +10,8 @@ use super::{Action, Outcome};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// Adds the objects of a file of any format that can be read, placed as they are there, and selects them. The
-/// file is read again when the command is repeated, in a script or for a recovery.
+/// Adds the objects of a file in any readable format, placed as they are there, and selects them. The file is
+/// read again whenever the command runs again, in a script or from a recovery file.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ImportFile {
@@ -28,7 +28,7 @@ impl Action for ImportFile {
 }
 
 impl ImportFile {
-    /// Adds what the file holds.
+    /// Adds the contents of a file.
     pub(crate) fn add(&self, change: &mut Change<'_>, loaded: &Loaded) -> Result<Outcome, EditError> {
         if change.selection().is_editing() {
             return Err(EditError::Editing("importing a file"));

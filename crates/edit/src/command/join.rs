@@ -1,4 +1,4 @@
-//! Several objects become one.
+//! Joining several objects into one.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,8 +10,8 @@ use super::{Action, Outcome};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// Puts the meshes of the selected objects into that of the active one, each where it is. The others are
-/// removed; what hangs on them stays where it is and hangs on what they hung on.
+/// Moves the meshes of the selected objects into that of the active one, keeping their positions. The other
+/// objects are removed; their children stay in place and move to the removed object's parent.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct JoinObjects {}
@@ -66,7 +66,7 @@ fn join(
     Ok(())
 }
 
-/// Removes a node. Its children stay where they are, and hang on its parent.
+/// Removes a node. Its children stay in place and move to its parent.
 fn remove_alone(scene: &mut Scene, id: NodeId) {
     let Some(node) = scene.node(id) else { return };
     let (parent, children) = (node.parent(), node.children().to_vec());
@@ -82,13 +82,13 @@ fn remove_alone(scene: &mut Scene, id: NodeId) {
 /// The material slots of the object that the others are joined to.
 struct Slots {
     materials: Vec<MaterialId>,
-    /// What is drawn where a slot has none, once it is needed.
+    /// The material that is drawn for empty slots, once it is needed.
     default: Option<MaterialId>,
 }
 
 impl Slots {
-    /// The active object's own. Its faces in slots without a material get one with the default
-    /// material: the others' slots follow.
+    /// The active object's own slots. Faces in slots without a material get a slot with the default
+    /// material, before the others' slots.
     fn of_active(change: &mut Change<'_>, active: NodeId, mesh: MeshId) -> Result<Self, EditError> {
         let materials = change.scene().node(active).map(|node| node.materials.clone()).unwrap_or_default();
         let count = materials.len() as u32;
@@ -105,7 +105,7 @@ impl Slots {
         Ok(slots)
     }
 
-    /// Gives the faces of a mesh with these materials the slots that have the same ones here.
+    /// Maps the faces of a mesh with these materials to the slots that hold the same ones here.
     fn assign(&mut self, scene: &mut Scene, mesh: &mut EditMesh, materials: &[MaterialId]) {
         let faces: Vec<_> = mesh.faces().collect();
         for face in faces {
@@ -115,7 +115,7 @@ impl Slots {
         }
     }
 
-    /// The slot of a material, or of the default one; a new slot if there is none yet.
+    /// The slot of a material, or of the default one; added if there is none yet.
     fn slot(&mut self, scene: &mut Scene, material: Option<MaterialId>) -> u32 {
         let known = material.filter(|&id| scene.materials.get(id).is_some());
         let material = known

@@ -10,12 +10,12 @@ use crate::document::Change;
 use crate::error::EditError;
 use crate::selection::Elements;
 
-/// Cuts faces along a path of points, and selects the edges of the cut. Consecutive points belong to the
+/// Cuts faces along a path of points, and selects the edges of the cut. Consecutive points must belong to the
 /// same face; the path begins and ends at vertices or on edges.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Knife {
-    /// The object whose mesh is cut; the only one that is edited if none is named.
+    /// The object whose mesh is cut. Default: the only edited one.
     pub object: Option<ObjectName>,
     /// At least two points.
     pub path: Vec<PathPoint>,
@@ -34,15 +34,15 @@ pub enum PathPoint {
     Edge {
         /// Its number.
         edge: u32,
-        /// The share of the way from its first vertex to its second: 0 to 1.
+        /// The position from the edge's first vertex to its second: 0 to 1.
         #[schemars(range(min = 0.0, max = 1.0))]
         position: f64,
     },
-    /// Within a face.
+    /// Inside a face.
     Face {
         /// Its number.
         face: u32,
-        /// Where, in metres in the space of the mesh; it is moved along the face's normal onto the face.
+        /// The position, in metres in the space of the mesh; it is projected onto the face along its normal.
         position: [f32; 3],
     },
 }

@@ -1,4 +1,4 @@
-//! What users mark elements with: sharp, seam, crease, smooth, material, hidden.
+//! Marks of elements: sharp, seam, crease, smooth, material, hidden.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -17,7 +17,7 @@ const FACES: &str = "at least one selected face";
 pub struct MarkSharp {
     /// Whether the mark is set.
     pub sharp: bool,
-    /// Marks those whose faces meet at more than this angle in degrees, and clears the others.
+    /// Marks edges whose faces meet at more than this angle in degrees, and clears the others.
     pub angle: Option<f64>,
 }
 
@@ -42,7 +42,7 @@ impl Action for MarkSharp {
     }
 }
 
-/// Marks the selected edges as seams of texture coordinates, or clears the mark.
+/// Marks the selected edges as UV seams, or clears the mark.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MarkSeam {
@@ -87,7 +87,7 @@ impl Action for Crease {
     }
 }
 
-/// Shades the selected faces smoothly, or flat.
+/// Shades the selected faces smooth or flat.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Shade {
@@ -112,7 +112,7 @@ impl Action for Shade {
     }
 }
 
-/// Gives the selected faces a material slot of their object.
+/// Assigns a material slot of the object to the selected faces.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AssignMaterial {
@@ -131,11 +131,11 @@ impl Action for AssignMaterial {
     }
 }
 
-/// Hides what is selected; it is selected no more.
+/// Hides the selection, and deselects it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Hide {
-    /// Whether what is not selected is hidden instead.
+    /// Whether everything that is not selected is hidden instead.
     pub unselected: bool,
 }
 
@@ -147,7 +147,7 @@ impl Action for Hide {
                 let (vertices, faces) = (selection.vertices(mesh, kind), selection.faces(mesh, kind));
                 match kind {
                     ElementKind::Face => mesh.hide_faces(&but(mesh.faces(), &faces))?,
-                    // Hidden edges would take the selected ones along, whose faces go with them.
+                    // Hiding an edge would hide selected edges of the same faces.
                     _ => mesh.hide_vertices(&but(mesh.vertices(), &vertices))?,
                 };
                 return Ok(AfterEdit::Keep);
@@ -168,7 +168,7 @@ fn but<T: Ord>(all: impl Iterator<Item = T>, left_out: &[T]) -> Vec<T> {
     all.filter(|element| left_out.binary_search(element).is_err()).collect()
 }
 
-/// Shows all that is hidden of the meshes that are edited.
+/// Shows all hidden elements of the edited meshes.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Reveal {}

@@ -1,4 +1,4 @@
-//! Materials: new ones, their values, and which object shows which.
+//! Materials: new ones, their values, and the material slots of objects.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ use super::{Action, ObjectName, Outcome};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// A material by its number, or by its name: the first of that name.
+/// A material by its number, or by its name: the first one with that name.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum MaterialName {
@@ -21,13 +21,13 @@ pub enum MaterialName {
 }
 
 impl MaterialName {
-    /// Of a material of a scene.
+    /// A material of a scene.
     #[must_use]
     pub fn of(id: MaterialId) -> Self {
         Self::Number(id.index() as u32)
     }
 
-    /// The material of this name.
+    /// The material with this name.
     fn find(&self, scene: &Scene) -> Result<MaterialId, EditError> {
         let found = match self {
             Self::Number(number) => scene.materials.id_at(*number as usize),
@@ -57,11 +57,11 @@ pub(super) fn named_or_first(
     first.ok_or(EditError::NothingSelected { command, needed: "an active object with a material" })
 }
 
-/// Gives an object one more material slot with a new material: light grey, half rough.
+/// Adds a material slot with a new material to an object: light grey, half rough.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AddMaterial {
-    /// Which object; the active one if none is named.
+    /// The object. Default: the active one.
     pub object: Option<ObjectName>,
     /// The name of the material.
     pub name: String,
@@ -84,14 +84,14 @@ impl Action for AddMaterial {
     }
 }
 
-/// Shows a slot of an object in another material that the scene has.
+/// Puts another material of the scene into a slot of an object.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SetMaterialSlot {
-    /// Which object; the active one if none is named.
+    /// The object. Default: the active one.
     #[serde(default)]
     pub object: Option<ObjectName>,
-    /// The slot, from 0; the one after the last is added.
+    /// The slot, from 0; one beyond the last adds a slot.
     #[serde(default)]
     pub slot: u32,
     /// The material.
@@ -111,11 +111,11 @@ impl Action for SetMaterialSlot {
     }
 }
 
-/// How a surface answers to light.
+/// How a surface reflects light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SurfaceShading {
-    /// Not at all: it shows its base colour.
+    /// Shows the base colour, independent of light.
     Unlit,
     /// Diffuse.
     Lambert,
@@ -129,23 +129,24 @@ pub enum SurfaceShading {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SurfaceAlpha {
-    /// Nothing: the surface is opaque.
+    /// Ignored: the surface is opaque.
     Opaque,
-    /// Holes where alpha is below the cutoff.
+    /// The surface has holes where alpha is below the cutoff.
     Mask,
-    /// What lies behind shows through.
+    /// The surface is blended with what lies behind it.
     Blend,
 }
 
-/// Changes a material, for all objects that show it. What is not given stays as it is.
+/// Changes a material, for all objects that use it. Parameters that are not given keep their
+/// values.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SetMaterial {
-    /// Which; the first of the active object if none is named.
+    /// The material. Default: the first one of the active object.
     pub material: Option<MaterialName>,
     /// Its name.
     pub name: Option<String>,
-    /// How it answers to light.
+    /// How it reflects light.
     pub shading: Option<SurfaceShading>,
     /// Linear red, green, blue and alpha, 0 to 1.
     pub base_color: Option<[f32; 4]>,
@@ -155,21 +156,21 @@ pub struct SetMaterial {
     /// 0 (mirror) to 1 (matt); makes it metallic-roughness.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub roughness: Option<f32>,
-    /// Linear red, green and blue of light that it sends out.
+    /// Linear red, green and blue of emitted light.
     pub emissive: Option<[f32; 3]>,
-    /// How strong its normal map is, if it has one.
+    /// The strength of its normal map, if it has one.
     pub normal_scale: Option<f32>,
-    /// How strong its occlusion map is, if it has one, 0 to 1.
+    /// The strength of its occlusion map, if it has one, 0 to 1.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub occlusion_strength: Option<f32>,
     /// What alpha means.
     pub alpha: Option<SurfaceAlpha>,
-    /// Of a mask: the smallest alpha that is surface, 0 to 1.
+    /// For a mask: the smallest alpha that counts as surface, 0 to 1.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub alpha_cutoff: Option<f32>,
     /// Whether back faces are shown.
     pub double_sided: Option<bool>,
-    /// The share of light that passes through, 0 to 1; seen where rays are followed.
+    /// The fraction of light that passes through, 0 to 1; visible where rays are traced.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub transmission: Option<f32>,
     /// Index of refraction.
@@ -226,7 +227,7 @@ impl SetMaterial {
     }
 
     fn change_alpha(&self, mode: &mut AlphaMode) {
-        // glTF's cutoff where none is told.
+        // . glTF's cutoff if none is given.
         let cutoff = if let AlphaMode::Mask { cutoff } = *mode { cutoff } else { 0.5 };
         match self.alpha {
             Some(SurfaceAlpha::Opaque) => *mode = AlphaMode::Opaque,

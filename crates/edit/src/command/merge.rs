@@ -13,16 +13,16 @@ use crate::selection::{ElementKind, Elements};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MergeAt {
-    /// In their middle.
+    /// At their centre.
     #[default]
     Center,
-    /// At the one that was selected first.
+    /// At the vertex selected first.
     First,
-    /// At the one that was selected last.
+    /// At the vertex selected last.
     Last,
-    /// What hangs together by selected edges, each in its own middle.
+    /// Each group connected by selected edges, at its own centre.
     Collapse,
-    /// Those that are near one another.
+    /// Vertices that are close to one another.
     Distance,
 }
 
@@ -32,7 +32,7 @@ pub enum MergeAt {
 pub struct Merge {
     /// Where.
     pub at: MergeAt,
-    /// How near vertices have to be that are merged by distance, in metres.
+    /// The largest distance of vertices that are merged by distance, in metres.
     #[schemars(range(min = 0.0))]
     pub distance: f64,
 }
@@ -50,7 +50,7 @@ impl Action for Merge {
         change.edit_selected("merging", "at least two selected vertices", |mesh, selection| {
             let mut vertices = selection.vertices(mesh, kind);
             if kind == ElementKind::Vertex {
-                // In the order in which they were selected, as far as that is known.
+                // In the order of selection, as far as it is known.
                 let order: Vec<VertexId> = selection.order().iter().map(|&v| VertexId::new(v)).collect();
                 let place = |vertex: &VertexId| order.iter().rposition(|other| other == vertex);
                 if !order.is_empty() {

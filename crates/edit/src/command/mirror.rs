@@ -16,7 +16,7 @@ use crate::selection::Elements;
 pub struct MirrorPlane {
     /// On the plane, in metres.
     pub point: [f64; 3],
-    /// Perpendicular to it; its length does not count.
+    /// Perpendicular to it; its length does not matter.
     pub normal: [f64; 3],
 }
 
@@ -34,15 +34,15 @@ impl MirrorPlane {
     }
 }
 
-/// Mirrors what is selected, in place or as a copy.
+/// Mirrors the selection, in place or as a copy.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Mirror {
-    /// Where the mirror is.
+    /// The mirror plane.
     pub plane: MirrorPlane,
-    /// Whether the selected stays, and a copy is mirrored.
+    /// Whether the selection stays and a copy is mirrored.
     pub copy: bool,
-    /// Of a copy: vertices at most so far from the plane, in metres, are shared by both halves.
+    /// For a copy: vertices at most this far from the plane, in metres, are shared by both halves.
     pub merge_distance: Option<f64>,
 }
 
@@ -63,14 +63,13 @@ impl Action for Mirror {
     }
 }
 
-/// Makes the selected faces symmetric: what is on the side of the plane's normal replaces what is on the
-/// other.
+/// Makes the selected faces symmetric: the side of the plane's normal replaces the other side.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Symmetrize {
     /// The plane of symmetry.
     pub plane: MirrorPlane,
-    /// Vertices at most so far from the plane, in metres, are moved onto it.
+    /// Vertices at most this far from the plane, in metres, are moved onto it.
     #[schemars(range(min = 0.0))]
     pub merge_distance: f64,
 }

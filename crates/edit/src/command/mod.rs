@@ -1,9 +1,8 @@
-//! Commands as data: what was done, with all its parameters, so that it can be written down, run
-//! again, and adjusted.
+//! Commands as data: an action with all its parameters, so that it can be recorded, run again, and
+//! adjusted.
 //!
-//! A command is one variant of [`Command`] and one file with its parameters and what it does.
-//! Its description, for scripts and for the documentation, is made from the comments of its
-//! parameters.
+//! A command is one variant of [`Command`] and one file with its parameters and its implementation.
+//! Its description in scripts and documentation is generated from the comments of its parameters.
 
 mod bevel;
 mod camera;
@@ -101,18 +100,18 @@ pub use transform::{
 pub use uvs::{ProjectUvs, ProjectUvsOnBox};
 pub use visibility::{HideOthers, RevealObjects};
 
-/// What a command does to a document.
+/// The implementation of a command.
 pub(crate) trait Action {
-    /// Does it. After a refusal the document takes back what was done until then.
+    /// Runs the command. On an error the caller undoes all changes made so far.
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError>;
 }
 
-/// Lists all commands: variant, type, name for people.
+/// Lists all commands: variant, type, display name.
 macro_rules! commands {
     ($($(#[$doc:meta])* $variant:ident($name:literal, $selects:literal)),* $(,)?) => {
-        /// A command with its parameters. In JSON an object whose `op` is the command's name in lower
-        /// case with underscores, as `{ "op": "select_all" }`; parameters that are not
-        /// given have their defaults, unknown ones are refused.
+        /// A command with its parameters. In JSON an object whose `op` is the command's name in lower case
+        /// with underscores, as `{ "op": "select_all" }`; missing parameters have their defaults, unknown
+        /// ones are errors.
         #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(tag = "op", rename_all = "snake_case")]
         #[non_exhaustive]
@@ -121,7 +120,7 @@ macro_rules! commands {
         }
 
         impl Command {
-            /// What a user sees in menus and in the history.
+            /// The name in menus and in the history.
             #[must_use]
             pub fn name(&self) -> &'static str {
                 match self {
@@ -129,7 +128,7 @@ macro_rules! commands {
                 }
             }
 
-            /// Whether it changes only what is selected.
+            /// Whether it changes only the selection.
             #[must_use]
             pub fn is_selection(&self) -> bool {
                 match self {
@@ -153,37 +152,37 @@ macro_rules! commands {
 }
 
 commands! {
-    /// Starts to edit the meshes of objects.
+    /// Enters edit mode with objects' meshes.
     EditObjects("Edit Mode", true),
-    /// Goes back to whole objects.
+    /// Returns to object mode.
     LeaveEditMode("Object Mode", true),
-    /// Selects vertices, edges or faces from now on.
+    /// Sets whether vertices, edges or faces are selected.
     SetElementKind("Select Mode", true),
-    /// Selects, adds to or takes from what is selected.
+    /// Replaces or changes the selection by name or number.
     Select("Select", true),
-    /// Selects many elements of objects at once.
+    /// Replaces or changes the selection in several objects at once.
     SelectElements("Select Region", true),
-    /// Selects all that is not hidden.
+    /// Selects everything that is not hidden.
     SelectAll("Select All", true),
     /// Selects nothing.
     SelectNone("Select None", true),
-    /// Selects what was not selected.
+    /// Inverts the selection.
     SelectInverse("Invert Selection", true),
-    /// Selects all that hangs together with what is selected.
+    /// Selects everything connected to the selection.
     SelectLinked("Select Linked", true),
-    /// Selects what touches the selected.
+    /// Grows the selection by its neighbours.
     SelectMore("Select More", true),
-    /// Selects no more what touches something that is not selected.
+    /// Shrinks the selection at its boundary.
     SelectLess("Select Less", true),
     /// Selects loops of edges or faces.
     SelectLoop("Select Loops", true),
     /// Selects rings of edges.
     SelectRing("Select Rings", true),
-    /// Selects the shortest path between the last two.
+    /// Selects the shortest path between the last two elements.
     SelectPath("Select Shortest Path", true),
-    /// Selects edges at a border.
+    /// Selects boundary edges.
     SelectBorder("Select Border", true),
-    /// Selects edges where not exactly two faces meet.
+    /// Selects edges where the number of faces is not two.
     SelectNonManifold("Select Non-Manifold", true),
     /// Selects sharp edges.
     SelectSharp("Select Sharp Edges", true),
@@ -191,19 +190,19 @@ commands! {
     SelectByNormal("Select by Normal", true),
     /// Selects faces by material.
     SelectByMaterial("Select by Material", true),
-    /// Selects what has something in common with the selected.
+    /// Selects elements with the same property as the selection.
     SelectSimilar("Select Similar", true),
-    /// Selects by place.
+    /// Selects by position.
     SelectWithin("Select Within", true),
-    /// Deletes what is selected of meshes.
+    /// Deletes selected elements of meshes.
     Delete("Delete", false),
-    /// Deletes the selected objects and what hangs on them.
+    /// Deletes the selected objects and their descendants.
     DeleteObjects("Delete Objects", false),
-    /// Moves what is selected.
+    /// Moves the selection.
     Translate("Move", false),
-    /// Turns what is selected.
+    /// Rotates the selection.
     Rotate("Rotate", false),
-    /// Scales what is selected.
+    /// Scales the selection.
     Scale("Scale", false),
     /// Shears the selected vertices.
     Shear("Shear", false),
@@ -213,35 +212,35 @@ commands! {
     ShrinkFatten("Shrink/Fatten", false),
     /// Moves the selected vertices away from a centre.
     PushPull("Push/Pull", false),
-    /// Takes the selected vertices back to their first positions.
-    ResetVertices("Reset to First Positions", false),
-    /// Extrudes what is selected.
+    /// Moves the selected vertices back to their original positions.
+    ResetVertices("Reset to Original Positions", false),
+    /// Extrudes the selection.
     Extrude("Extrude", false),
-    /// Makes a rim inside the selected faces.
+    /// Makes a border inside the selected faces.
     Inset("Inset", false),
-    /// Replaces edges or vertices by new faces.
+    /// Replaces edges or vertices with new faces.
     Bevel("Bevel", false),
-    /// Copies what is selected within its mesh.
+    /// Duplicates the selection within its mesh.
     Duplicate("Duplicate", false),
-    /// Splits the selected faces off.
+    /// Splits off the selected faces.
     SplitOff("Split", false),
-    /// Makes the selected faces an object.
+    /// Makes the selected faces a separate object.
     Separate("Separate", false),
-    /// Puts several objects into one.
+    /// Joins several objects into one.
     JoinObjects("Join", false),
-    /// Subdivides meshes to smooth surfaces.
+    /// Subdivides meshes into smooth surfaces.
     CatmullClark("Catmull-Clark", false),
     /// Cuts faces into triangles.
     Triangulate("Triangulate", false),
-    /// Joins triangles to quads.
+    /// Joins triangles into quads.
     TrisToQuads("Tris to Quads", false),
-    /// Makes faces where there are none.
+    /// Fills loops with faces.
     Fill("Fill", false),
     /// Fills a loop with a grid.
     GridFill("Grid Fill", false),
-    /// Removes elements, and leaves the surface.
+    /// Removes elements without leaving holes.
     Dissolve("Dissolve", false),
-    /// Unites what lies flat.
+    /// Dissolves elements in flat areas.
     DissolveFlat("Limited Dissolve", false),
     /// Cuts the selected edges into pieces.
     Subdivide("Subdivide", false),
@@ -263,31 +262,31 @@ commands! {
     Crease("Crease", false),
     /// Shades faces smoothly or flat.
     Shade("Shade Smooth/Flat", false),
-    /// Gives faces a material slot.
+    /// Assigns a material slot to faces.
     AssignMaterial("Assign Material", false),
-    /// Hides what is selected.
+    /// Hides the selection.
     Hide("Hide", false),
-    /// Shows all that is hidden.
+    /// Shows everything hidden.
     Reveal("Reveal", false),
-    /// Turns faces over.
+    /// Flips faces.
     FlipNormals("Flip Normals", false),
-    /// Lets faces look outwards.
+    /// Makes faces point outwards.
     RecalculateNormals("Recalculate Normals", false),
-    /// Mirrors what is selected.
+    /// Mirrors the selection.
     Mirror("Mirror", false),
     /// Makes faces symmetric.
     Symmetrize("Symmetrize", false),
-    /// Joins two loops of edges by faces; selected faces are removed and their outlines joined.
+    /// Joins two edge loops with faces; selected faces are removed and their outlines joined.
     Bridge("Bridge Edge Loops", false),
-    /// Joins vertices by edges through faces.
+    /// Connects vertices with edges through faces.
     ConnectVertices("Connect Vertices", false),
-    /// Projects a picture from one side.
+    /// Projects texture coordinates from one side.
     ProjectUvs("Project from View", false),
-    /// Projects a picture from the sides of a box.
+    /// Projects texture coordinates from the sides of a box.
     ProjectUvsOnBox("Box Projection", false),
-    /// Repairs what an inspection finds.
+    /// Repairs faults found by inspection.
     Repair("Repair", false),
-    /// Adds what a file holds.
+    /// Adds the contents of a file.
     ImportFile("Import", false),
     /// Adds a standard object.
     AddObject("Add Object", false),
@@ -297,21 +296,21 @@ commands! {
     AddLight("Add Light", false),
     /// Adds a camera.
     AddCamera("Add Camera", false),
-    /// Gives an object another name.
+    /// Renames an object.
     RenameObject("Rename", false),
     /// Shows or hides objects.
     ShowObjects("Show/Hide Objects", false),
-    /// Hides all objects but the selected ones.
+    /// Hides all objects except the selected ones.
     HideOthers("Hide Others", false),
     /// Shows all hidden objects and selects them.
     RevealObjects("Show Hidden Objects", false),
-    /// Hangs objects on another one.
+    /// Sets the parent of objects.
     SetParent("Set Parent", false),
-    /// Lists an object at another place.
+    /// Changes an object's position in the list.
     ReorderObject("Reorder", false),
-    /// Places an object exactly.
+    /// Sets an object's exact placement.
     SetTransform("Set Transform", false),
-    /// Takes placements back.
+    /// Clears placements.
     ClearTransform("Clear Transform", false),
     /// Changes a light.
     SetLight("Set Light", false),
@@ -319,9 +318,9 @@ commands! {
     AddMaterial("Add Material", false),
     /// Changes a material.
     SetMaterial("Set Material", false),
-    /// Shows a slot of an object in another material.
+    /// Sets the material of an object's slot.
     SetMaterialSlot("Set Material Slot", false),
-    /// Gives a material a picture, or takes it off.
+    /// Sets or removes a texture of a material.
     AssignTexture("Assign Texture", false),
     /// Copies objects.
     DuplicateObjects("Duplicate Objects", false),

@@ -1,4 +1,4 @@
-//! Object mode, edit mode, and which kind of element is selected.
+//! Object mode, edit mode, and the kind of element that is selected.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -8,11 +8,11 @@ use crate::document::Change;
 use crate::error::EditError;
 use crate::selection::ElementKind;
 
-/// Starts to edit the meshes of objects: vertices, edges and faces can be selected then.
+/// Enters edit mode, in which vertices, edges and faces of the objects' meshes can be selected.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct EditObjects {
-    /// The objects; those that are selected if none are named.
+    /// The objects. Default: the selected ones.
     pub objects: Vec<ObjectName>,
 }
 
@@ -41,7 +41,7 @@ impl Action for EditObjects {
     }
 }
 
-/// Goes back to whole objects. What was selected within them is forgotten.
+/// Returns to object mode. The selection of elements is forgotten.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LeaveEditMode {}
@@ -53,8 +53,7 @@ impl Action for LeaveEditMode {
     }
 }
 
-/// Selects vertices, edges or faces from now on. What follows from the old selection stays
-/// selected.
+/// Sets whether vertices, edges or faces are selected. The current selection is converted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SetElementKind {

@@ -1,4 +1,4 @@
-//! Which side of faces is outside.
+//! Orientation of faces.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use crate::error::EditError;
 
 const FACES: &str = "at least one selected face";
 
-/// Turns the selected faces over.
+/// Flips the selected faces.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FlipNormals {}
@@ -21,11 +21,11 @@ impl Action for FlipNormals {
     }
 }
 
-/// Turns over those of the selected faces that look inwards.
+/// Flips the selected faces that point inwards.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RecalculateNormals {
-    /// Lets all look inwards instead.
+    /// Makes all point inwards instead.
     pub inside: bool,
 }
 

@@ -6,7 +6,7 @@ use trigon_scene::{NodeId, Scene};
 
 use crate::error::EditError;
 
-/// An object by its number, or by its name: the first of that name.
+/// An object by its number, or by its name: the first one with that name.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ObjectName {
@@ -17,13 +17,13 @@ pub enum ObjectName {
 }
 
 impl ObjectName {
-    /// Of an object of a scene.
+    /// An object of a scene.
     #[must_use]
     pub fn of(id: NodeId) -> Self {
         Self::Number(id.index() as u32)
     }
 
-    /// The object of this name.
+    /// The object with this name.
     pub(crate) fn find(&self, scene: &Scene) -> Result<NodeId, EditError> {
         let found = match self {
             Self::Number(number) => scene.nodes().id_at(*number as usize),

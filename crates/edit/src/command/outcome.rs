@@ -1,16 +1,16 @@
-//! What a command tells when it is done.
+//! What a command reports when it is done.
 
-/// What a user is told.
+/// A report to the user.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Outcome {
-    /// A line for the status bar, as "merged 12 vertices"; empty where the picture says it all.
+    /// A line for the status bar, as "merged 12 vertices"; empty if the image shows everything.
     pub message: String,
-    /// What a user should know, as "cube: 2 corners …".
+    /// A warning, as "cube: 2 corners …".
     pub warnings: Vec<String>,
 }
 
 impl Outcome {
-    /// Nothing to tell.
+    /// Nothing to report.
     pub(crate) fn silent() -> Self {
         Self::default()
     }

@@ -1,4 +1,4 @@
-//! Copies and parts of meshes: duplicate, split off, separate.
+//! Copying and separating parts of meshes: duplicate, split off, separate.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -12,11 +12,11 @@ use crate::selection::Elements;
 
 const FACES: &str = "at least one selected face";
 
-/// Copies what is selected within its mesh, and selects the copies.
+/// Duplicates the selection within its mesh, and selects the copies.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Duplicate {
-    /// How far the copies are moved, in metres.
+    /// The offset of the copies, in metres.
     pub offset: [f64; 3],
 }
 
@@ -53,7 +53,7 @@ impl Action for SplitOff {
     }
 }
 
-/// Makes the selected faces of each mesh an object of its own, at the same place.
+/// Makes the selected faces of each mesh a separate object in the same place.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Separate {}

@@ -1,4 +1,4 @@
-//! Moving and turning: elements in edit mode, objects in object mode.
+//! Moving and rotating: elements in edit mode, objects in object mode.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -14,34 +14,34 @@ use super::{Action, Outcome};
 use crate::document::{AfterEdit, Change};
 use crate::error::EditError;
 
-/// Moves what is selected.
+/// Moves the selection.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Translate {
-    /// How far, in metres.
+    /// The offset, in metres.
     pub offset: [f64; 3],
     /// The space of the offset.
     pub space: TransformSpace,
-    /// Moves what is near, too.
+    /// Also moves nearby elements.
     pub proportional: Option<Proportional>,
 }
 
-/// Turns what is selected about a centre, counter-clockwise seen from the tip of the axis.
+/// Rotates the selection about a centre, counter-clockwise when looking from the tip of the axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Rotate {
-    /// By how much, in degrees.
+    /// The angle, in degrees.
     pub angle: f64,
-    /// The axis; its length does not count.
+    /// The axis; its length does not matter.
     pub axis: [f64; 3],
-    /// What stays, in metres: the middle of each mesh's selected vertices if it is not given, and of
-    /// objects each one's origin.
+    /// The fixed point, in metres. Default: the centre of each mesh's selected vertices; for
+    /// objects, each one's origin.
     pub center: Option<[f64; 3]>,
     /// The space of the axis and of the centre.
     pub space: TransformSpace,
-    /// Whether vertices that hang together turn about their own middle; there is no centre then.
+    /// Whether connected vertices rotate about their own centre; `center` is then ignored.
     pub individual: bool,
-    /// Turns what is near, too.
+    /// Also rotates nearby elements.
     pub proportional: Option<Proportional>,
 }
 
@@ -58,7 +58,7 @@ impl Default for Rotate {
     }
 }
 
-/// What moves, turns and scales have in common.
+/// The common part of moving, rotating and scaling.
 pub(super) struct Placing<'a> {
     pub(super) command: &'static str,
     pub(super) space: TransformSpace,
@@ -68,8 +68,8 @@ pub(super) struct Placing<'a> {
 }
 
 impl Placing<'_> {
-    /// Transforms the selected vertices of each mesh; `transform` is given the centre in the
-    /// space of the mesh, and the map into that space.
+    /// Transforms the selected vertices of each mesh; `transform` gets the centre in the space of
+    /// the mesh, and the map into that space.
     pub(super) fn transform_vertices(
         &self,
         change: &mut Change<'_>,
@@ -100,8 +100,8 @@ impl Placing<'_> {
         Ok(Outcome::silent())
     }
 
-    /// Changes each selected object; `transform` is given the map from its parent into
-    /// the space of the command, and the map back.
+    /// Changes each selected object; `transform` gets the map from its parent into the space of the
+    /// command, and the inverse.
     pub(super) fn transform_objects(
         &self,
         change: &mut Change<'_>,
@@ -166,13 +166,14 @@ impl Action for Rotate {
     }
 }
 
-/// Turns an object about its origin; the axis is in the space into which `outward` leads.
+/// Rotates an object about its origin; the axis is in the space into which `outward` maps.
 fn turn_object(node: &mut NodeTransform, outward: &DAffine3, inward: &DAffine3, axis: DVec3, angle: f64) {
     if keeps_angles(&outward.matrix3) {
         let handedness = if outward.matrix3.determinant() < 0.0 { -1.0 } else { 1.0 };
         return node.rotate(inward.matrix3 * axis, angle * handedness);
     }
-    // Within an unevenly scaled parent a turn is none; the map can be kept as a whole only.
+    // Within an unevenly scaled parent the result is not a rotation, so only the whole map can be
+    // kept.
     let Some(axis) = axis.try_normalize() else { return };
     let mut map = node.to_affine();
     let column = |vector: DVec3| inward.matrix3 * turned(outward.matrix3 * vector, axis, angle);
@@ -181,7 +182,7 @@ fn turn_object(node: &mut NodeTransform, outward: &DAffine3, inward: &DAffine3, 
     *node = NodeTransform::Affine(map);
 }
 
-/// A vector turned about an axis of unit length (Olinde Rodrigues, 1840).
+/// Rotates a vector about an axis of unit length (Olinde Rodrigues, 1840).
 fn turned(vector: DVec3, axis: DVec3, angle: f64) -> DVec3 {
     let (sine, cosine) = elementary::sin_cos(angle);
     vector * cosine + axis.cross(vector) * sine + axis * (axis.dot(vector) * (1.0 - cosine))

@@ -1,10 +1,10 @@
-//! All commands with their parameters as a page of documentation, made from the comments in the code.
+//! Generates the reference page of all commands from the comments in the code.
 
 use serde_json::Value;
 
 use super::Command;
 
-/// The reference of all commands in Markdown: what each does, and its parameters with types,
+/// The reference of all commands in Markdown: what each one does, and its parameters with types,
 /// defaults and ranges. `docs/commands.md` is this text.
 #[must_use]
 pub fn command_reference() -> String {
@@ -31,7 +31,7 @@ pub fn command_reference() -> String {
     page
 }
 
-/// The JSON schema of [`Command`]: what a program makes a form for a command from.
+/// The JSON schema of [`Command`], from which a program can build a form for a command.
 #[must_use]
 pub fn command_schema() -> Value {
     schemars::schema_for!(Command).to_value()
@@ -39,14 +39,14 @@ pub fn command_schema() -> Value {
 
 const HEAD: &str = "# Commands
 
-All that `trigon-edit` can do to a document, for scripts (`trigon-editor --run`) and for programs. A script is
-JSON: `{ \"version\": 1, \"commands\": [ { \"op\": \"select_all\" }, … ] }`. Parameters that are not given have
-the default; a parameter that does not exist is refused.
+Everything that `trigon-edit` can do to a document, for scripts (`trigon-editor --run`) and for programs. A script is
+JSON: `{ \"version\": 1, \"commands\": [ { \"op\": \"select_all\" }, … ] }`. Missing parameters have their defaults; unknown
+parameters are errors.
 
-This page is made from the comments in the code (`command_reference`, held by a test).
+This page is generated from the comments in the code (`command_reference`, checked by a test).
 ";
 
-/// What a `$ref` leads to.
+/// The target of a `$ref`.
 fn resolve<'s>(value: &'s Value, definitions: &'s Value) -> &'s Value {
     match value["$ref"].as_str().and_then(|path| path.rsplit('/').next()) {
         Some(name) => &definitions[name],
@@ -59,7 +59,7 @@ fn is_command(name: &str, schema: &Value) -> bool {
     schema["oneOf"].as_array().is_some_and(|variants| variants.iter().any(|variant| variant["$ref"] == path))
 }
 
-/// A comment on one line.
+/// A description on one line.
 fn described(value: &Value) -> String {
     value["description"].as_str().unwrap_or_default().replace('\n', " ")
 }
@@ -71,7 +71,7 @@ fn choices(definition: &Value) -> String {
     for variant in variants {
         let name = variant["const"].as_str().map(str::to_owned).or_else(|| {
             let properties = variant["properties"].as_object()?;
-            // The one that tells which variant it is.
+            // The tag that identifies the variant.
             let (tag, name) = properties.iter().find_map(|(tag, of)| Some((tag, of["const"].as_str()?)))?;
             let parameters = properties.keys().filter(|key| *key != tag);
             Some(format!("{name}: {}", parameters.cloned().collect::<Vec<_>>().join(", ")))
@@ -129,7 +129,7 @@ fn type_of(property: &Value) -> String {
             let of = type_of(&property["items"]);
             match property["maxItems"].as_u64() {
                 Some(count) => format!("{count} × {of}"),
-                // A name with a link has no plural.
+                // A name with a link gets no plural.
                 None if of.ends_with(')') => format!("list of {of}"),
                 None => format!("list of {of}s"),
             }

@@ -1,4 +1,4 @@
-//! Repairing what an inspection finds.
+//! Repairing faults found by inspection.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,7 +7,7 @@ use super::{Action, Outcome};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// Repairs the meshes that are edited: each kind of fault that is asked for.
+/// Repairs the selected kinds of faults in the edited meshes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Repair {
@@ -17,9 +17,9 @@ pub struct Repair {
     pub loose_edges: bool,
     /// Removes vertices without edges.
     pub loose_vertices: bool,
-    /// Collapses edges that are at most so long, in metres.
+    /// Collapses edges of at most this length, in metres.
     pub zero_length: Option<f64>,
-    /// Joins faces of at most this area with their neighbours, in square metres.
+    /// Merges faces of at most this area with their neighbours, in square metres.
     pub zero_area: Option<f64>,
 }
 

@@ -12,20 +12,20 @@ use trigon_mesh::math::{DMat3, DQuat, DVec3, elementary};
     Rotation::Quaternion { xyzw: [0.0, 0.0, 0.0, 1.0] },
 ]))]
 pub enum Rotation {
-    /// Three turns about the fixed axes of the space: first about x, then y, then z.
+    /// Three rotations about the fixed axes of the space: first about x, then y, then z.
     Euler {
         /// About x, y and z, in degrees.
         angles: [f64; 3],
     },
-    /// A quaternion; its length does not count.
+    /// A quaternion; its length does not matter.
     Quaternion {
-        /// The imaginary part, and the real part at the end.
+        /// The imaginary part, then the real part.
         xyzw: [f64; 4],
     },
 }
 
 impl Rotation {
-    /// As a unit quaternion; no rotation where a quaternion has no direction.
+    /// As a unit quaternion; no rotation if a quaternion has no direction.
     #[must_use]
     pub fn to_quaternion(self) -> DQuat {
         let quaternion = match self {
@@ -43,13 +43,13 @@ impl Rotation {
         if length.is_finite() && length > 0.0 { quaternion / length } else { DQuat::IDENTITY }
     }
 
-    /// The angles of a unit quaternion: y from −90° to 90°, x and z from −180° to 180°. Where y is
+    /// The angles of a unit quaternion: y from −90° to 90°, x and z from −180° to 180°. If y is
     /// ±90°, z is 0.
     #[must_use]
     pub fn euler(quaternion: DQuat) -> Self {
         let matrix = DMat3::from_quat(quaternion);
         let sine = -matrix.x_axis.z;
-        // Closer to the pole than this, the other columns are rounding.
+        // Closer to the pole than this, the other columns hold only rounding errors.
         const POLE: f64 = 1.0 - 1e-12;
         let radians = if sine.abs() < POLE {
             let x = elementary::atan2(matrix.y_axis.z, matrix.z_axis.z);
@@ -71,7 +71,7 @@ mod tests {
         for y in [90.0, -90.0] {
             let turned = Rotation::Euler { angles: [20.0, y, 50.0] }.to_quaternion();
             let again = Rotation::euler(turned).to_quaternion();
-            // At the pole the sine tells the angle to half of its digits.
+            // Near the pole the sine gives the angle with half of its digits.
             assert!(turned.dot(again).abs() > 1.0 - 1e-7, "{y}: {turned} and {again}");
         }
     }

@@ -13,26 +13,26 @@ use super::{Action, Outcome};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// Scales what is selected about a centre, along three axes.
+/// Scales the selection about a centre, along three axes.
 ///
-/// An object is never sheared: where the axes are not its own, it is scaled along its own by as much as
-/// it gets longer along them.
+/// An object is never sheared: if the given axes are not its own, it is scaled along its own axes by the
+/// amount that these get longer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Scale {
-    /// Along the three axes; negative ones mirror.
+    /// The factors along the three axes; negative ones mirror.
     pub factors: [f64; 3],
-    /// The axes, one after another; they have to be independent. Those of the space if they are not given,
-    /// and of objects in the local space each one's own.
+    /// The axes, one after another; they must be linearly independent. Default: those of the space; for
+    /// objects in local space, each one's own.
     pub orientation: Option<[[f64; 3]; 3]>,
-    /// What stays, in metres: the middle of each mesh's selected vertices if it is not given, and of
-    /// objects each one's origin.
+    /// The fixed point, in metres. Default: the centre of each mesh's selected vertices; for
+    /// objects, each one's origin.
     pub center: Option<[f64; 3]>,
     /// The space of the axes and of the centre.
     pub space: TransformSpace,
-    /// Whether vertices that hang together are scaled about their own middle; there is no centre then.
+    /// Whether connected vertices are scaled about their own centre; `center` is then ignored.
     pub individual: bool,
-    /// Scales what is near, too.
+    /// Also scales nearby elements.
     pub proportional: Option<Proportional>,
 }
 
@@ -107,7 +107,7 @@ impl Axes {
         self.axes * (self.factors * (self.inverse * vector))
     }
 
-    /// By how much each of an object's own axes gets longer along itself.
+    /// The factor by which each of an object's own axes gets longer along itself.
     fn own_factors(&self, node: &NodeTransform, outward: &DAffine3) -> DVec3 {
         if self.factors.x == self.factors.y && self.factors.y == self.factors.z {
             return self.factors;

@@ -15,12 +15,12 @@ use crate::error::EditError;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AddObject {
-    /// Which, with its measures.
+    /// The shape, with its dimensions.
     pub object: Shape,
-    /// Its name; that of the shape if none is given.
+    /// The name. Default: that of the shape.
     #[serde(default)]
     pub name: Option<String>,
-    /// Where its origin is, in metres.
+    /// The position of its origin, in metres.
     #[serde(default)]
     pub position: [f64; 3],
 }
@@ -44,10 +44,10 @@ impl Action for AddObject {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LightShape {
-    /// Shines from a point to all sides.
+    /// Shines from a point in all directions.
     #[default]
     Point,
-    /// Shines from far away, along −Z of its object.
+    /// Shines from infinitely far away, along −Z of its object.
     Directional,
     /// Shines in a cone along −Z of its object.
     Spot,
@@ -61,13 +61,13 @@ pub struct AddLight {
     pub light: LightShape,
     /// Its name.
     pub name: String,
-    /// What a white surface shows that the light meets head-on, of points and spots from one metre
-    /// away: 1 is white.
+    /// The brightness of a white surface that the light hits head-on, for points and spots from one
+    /// metre away: 1 is white.
     #[schemars(range(min = 0.0))]
     pub intensity: f32,
     /// Linear red, green and blue.
     pub color: [f32; 3],
-    /// Where it is, in metres.
+    /// The position, in metres.
     pub position: [f64; 3],
 }
 
@@ -95,13 +95,13 @@ impl Action for AddLight {
     }
 }
 
-/// Adds an object that shows nothing, for others to hang on, and selects it.
+/// Adds an object without content, as a parent for others, and selects it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AddEmpty {
     /// Its name.
     pub name: String,
-    /// Where its origin is, in metres.
+    /// The position of its origin, in metres.
     pub position: [f64; 3],
 }
 
@@ -129,7 +129,7 @@ pub(super) fn select_only(change: &mut Change<'_>, id: NodeId) {
     selection.active = Some(id);
 }
 
-/// Gives an object another name.
+/// Renames an object.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RenameObject {
@@ -147,14 +147,14 @@ impl Action for RenameObject {
     }
 }
 
-/// Shows or hides objects with what hangs on them. Hidden ones are not selected any more.
+/// Shows or hides objects with their descendants. Hidden ones are deselected.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ShowObjects {
-    /// Which; those that are selected if none are named.
+    /// The objects. Default: the selected ones.
     #[serde(default)]
     pub objects: Vec<ObjectName>,
-    /// Whether they are shown.
+    /// Whether to show or hide them.
     pub visible: bool,
 }
 
@@ -178,13 +178,13 @@ impl Action for ShowObjects {
     }
 }
 
-/// Copies the selected objects, and selects the copies. What hangs on them is not copied.
+/// Duplicates the selected objects, and selects the copies. Their children are not copied.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DuplicateObjects {
-    /// Whether the copies show the same mesh, so that changing one changes all.
+    /// Whether the copies share the mesh, so that editing one changes all.
     pub linked: bool,
-    /// How far the copies are moved, in metres.
+    /// The offset of the copies, in metres.
     pub offset: [f64; 3],
 }
 

@@ -1,4 +1,4 @@
-//! Selecting objects and elements by number or name, all, none, and the rest.
+//! Selecting objects and elements by number or name; all, none, inverse.
 
 use std::collections::BTreeSet;
 
@@ -13,34 +13,34 @@ use crate::document::Change;
 use crate::error::EditError;
 use crate::selection::ElementKind;
 
-/// What becomes of what was selected before.
+/// How a selection combines with the previous one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SelectAction {
-    /// It is selected no more.
+    /// Replaces it.
     #[default]
     Replace,
-    /// It stays selected.
+    /// Adds to it.
     Add,
-    /// What is named is selected no more.
+    /// Removes from it.
     Remove,
-    /// Of what is named, the selected is selected no more, and the rest is.
+    /// Toggles: selected elements are deselected, the others selected.
     Toggle,
-    /// Only what is named stays selected.
+    /// Intersects with it.
     Intersect,
 }
 
-/// Selects objects, or elements of an object that is edited. In edit mode `elements` are numbers of
+/// Selects objects, or elements of an edited object. In edit mode `elements` are numbers of
 /// vertices, edges or faces, whichever kind is selected.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Select {
-    /// In object mode: which. In edit mode: the one whose elements are meant; the only one
-    /// that is edited if none is named.
+    /// In object mode: the objects. In edit mode: the object with the elements. Default: the only
+    /// edited one.
     pub objects: Vec<ObjectName>,
-    /// In edit mode: the numbers of elements.
+    /// In edit mode: the numbers of the elements.
     pub elements: Vec<u32>,
-    /// What becomes of what was selected before.
+    /// How this combines with the previous selection.
     pub action: SelectAction,
 }
 
@@ -96,7 +96,7 @@ impl Action for Select {
 }
 
 impl Select {
-    /// Whether an element that is named is selected afterwards.
+    /// Whether a named element is selected afterwards.
     fn selects(&self, was_selected: bool) -> bool {
         match self.action {
             SelectAction::Replace | SelectAction::Add => true,
@@ -122,7 +122,7 @@ pub(super) fn check_element(mesh: &EditMesh, kind: ElementKind, index: u32) -> R
     }
 }
 
-/// Selects all objects, or all elements that are not hidden of the meshes that are edited.
+/// Selects all objects, or all elements of the edited meshes that are not hidden.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectAll {}
@@ -159,7 +159,7 @@ impl Action for SelectNone {
     }
 }
 
-/// Selects what was not selected and is not hidden.
+/// Inverts the selection; hidden elements stay unselected.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectInverse {}

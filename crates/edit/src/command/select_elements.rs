@@ -1,4 +1,4 @@
-//! Selecting many elements at once, of several objects: what a region of a picture holds.
+//! Selecting many elements of several objects at once, such as those in a region of an image.
 
 use fixedbitset::FixedBitSet;
 use schemars::JsonSchema;
@@ -10,13 +10,13 @@ use super::{Action, ObjectName, Outcome, SelectAction};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// Selects elements of objects that are edited, in bulk: none of them becomes the active one.
+/// Selects elements of edited objects in bulk: none of them becomes active.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectElements {
-    /// Whose elements, and which.
+    /// The objects and their elements.
     pub parts: Vec<ElementsOf>,
-    /// What becomes of what was selected before.
+    /// How this combines with the previous selection.
     pub action: SelectAction,
 }
 
@@ -26,7 +26,7 @@ pub struct SelectElements {
 pub struct ElementsOf {
     /// The object.
     pub object: ObjectName,
-    /// Numbers of elements of the kind that is selected, as ranges: the first and the last of each.
+    /// Numbers of elements of the selected kind, as ranges: the first and the last of each.
     pub ranges: Vec<[u32; 2]>,
 }
 
@@ -70,7 +70,7 @@ impl Action for SelectElements {
 }
 
 impl SelectElements {
-    /// What is selected afterwards. With [`SelectAction::Replace`] nothing was before.
+    /// The selection afterwards. [`SelectAction::Replace`] starts from an empty one.
     fn joined(&self, before: &FixedBitSet, named: &FixedBitSet) -> FixedBitSet {
         let mut after = before.clone();
         after.grow(named.len());
@@ -84,7 +84,7 @@ impl SelectElements {
     }
 }
 
-/// The mesh and the elements that are meant.
+/// The mesh and its elements.
 fn named(change: &mut Change<'_>, part: &ElementsOf) -> Result<(MeshId, FixedBitSet), EditError> {
     let object = part.object.find(change.scene())?;
     let kind = change.selection().kind();
@@ -95,7 +95,8 @@ fn named(change: &mut Change<'_>, part: &ElementsOf) -> Result<(MeshId, FixedBit
     let mut bits = FixedBitSet::new();
     for &[first, last] in &part.ranges {
         for element in first..=last {
-            // A range may name four thousand million: the first that does not exist ends it.
+            // A range may claim four thousand million elements: the first that does not exist ends
+            // it.
             check_element(mesh, kind, element)?;
             bits.grow(element as usize + 1);
             bits.insert(element as usize);

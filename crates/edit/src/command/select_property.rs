@@ -1,4 +1,4 @@
-//! Selecting by what elements are.
+//! Selecting by properties of elements.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -13,7 +13,7 @@ use crate::selection::{
     sharp_edges, similar,
 };
 
-/// Selects the edges that have one face only, and no others.
+/// Selects exactly the edges that have one face only.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectBorder {}
@@ -27,7 +27,7 @@ impl Action for SelectBorder {
     }
 }
 
-/// Selects the edges where not exactly two faces meet that wind alike, and no others.
+/// Selects exactly the edges that do not have two faces of consistent winding.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectNonManifold {}
@@ -41,8 +41,7 @@ impl Action for SelectNonManifold {
     }
 }
 
-/// Selects the edges that are marked sharp, or whose faces meet at more than an angle, and no
-/// others.
+/// Selects exactly the edges that are marked sharp, or whose faces meet at more than an angle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectSharp {
@@ -66,13 +65,13 @@ impl Action for SelectSharp {
     }
 }
 
-/// Selects the faces that look in a direction, and no others.
+/// Selects exactly the faces that point in a direction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectByNormal {
-    /// The direction, in the space of the mesh; its length does not count.
+    /// The direction, in the space of the mesh; its length does not matter.
     pub direction: [f64; 3],
-    /// By how much faces may differ, in degrees.
+    /// The largest deviation of faces, in degrees.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub angle: f64,
 }
@@ -93,7 +92,7 @@ impl Action for SelectByNormal {
     }
 }
 
-/// Selects the faces of a material slot, and no others.
+/// Selects exactly the faces of a material slot.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectByMaterial {
@@ -110,16 +109,16 @@ impl Action for SelectByMaterial {
     }
 }
 
-/// Selects what has something in common with what is selected.
+/// Selects elements that share a property with the selection.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectSimilar {
-    /// What elements have to have in common.
+    /// The property that elements must share.
     pub by: Similarity,
-    /// The share by which lengths and areas may differ.
+    /// The relative difference allowed for lengths and areas.
     #[schemars(range(min = 0.0))]
     pub tolerance: f64,
-    /// The angle by which directions may differ, in degrees.
+    /// The angle allowed between directions, in degrees.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub angle: f64,
 }

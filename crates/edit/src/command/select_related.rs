@@ -31,7 +31,7 @@ pub(super) fn change_selections(
     Ok(Outcome::silent())
 }
 
-/// Selects all that hangs together with what is selected.
+/// Selects everything connected to the selection.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectLinked {}
@@ -45,7 +45,7 @@ impl Action for SelectLinked {
     }
 }
 
-/// Selects what touches the selected.
+/// Grows the selection by its neighbours.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectMore {}
@@ -59,7 +59,7 @@ impl Action for SelectMore {
     }
 }
 
-/// Selects no more what touches something that is not selected.
+/// Shrinks the selection: elements that touch an unselected one are deselected.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectLess {}
@@ -73,8 +73,8 @@ impl Action for SelectLess {
     }
 }
 
-/// Selects the loops of edges through the selected edges; of faces, the loops of quads across their
-/// edges that are selected wholly.
+/// Selects the edge loops through the selected edges; in face mode, the loops of quads across their
+/// fully selected edges.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectLoop {}
@@ -91,7 +91,7 @@ impl Action for SelectLoop {
     }
 }
 
-/// Selects the rings of edges across quads, from the selected edges on.
+/// Selects the rings of edges across quads, starting from the selected edges.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectRing {}
@@ -105,8 +105,8 @@ impl Action for SelectRing {
     }
 }
 
-/// Adds what belongs to each selected edge. An edge that another one brought along is not
-/// asked again.
+/// Adds the edges related to each selected edge. An edge that another one added is not examined
+/// again.
 fn extend(
     mesh: &EditMesh,
     kind: ElementKind,
@@ -130,7 +130,7 @@ fn extend(
     selection.set(bits);
 }
 
-/// Selects the shortest path between the last two elements that were selected one by one.
+/// Selects the shortest path between the last two elements that were selected individually.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectPath {}

@@ -1,4 +1,4 @@
-//! Selecting by place: what scripts use where a user would draw a box.
+//! Selecting by position: scripts use this where a user would draw a box.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use super::{Action, Outcome};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// Selects the elements whose middle (the mean of their vertices) lies within a box, bounds included.
+/// Selects the elements whose centre (the mean of their vertices) lies within a box, boundary included.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SelectWithin {
@@ -17,7 +17,7 @@ pub struct SelectWithin {
     pub min: [f64; 3],
     /// The largest coordinates, in metres in the space of the mesh.
     pub max: [f64; 3],
-    /// Whether what was selected before stays so.
+    /// Whether to add to the previous selection.
     pub add: bool,
 }
 

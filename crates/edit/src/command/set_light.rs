@@ -1,4 +1,4 @@
-//! What a light sends out.
+//! Parameters of lights.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,27 +10,27 @@ use super::{Action, LightShape, ObjectName, Outcome};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// Changes the light of an object. What is not given stays as it is.
+/// Changes an object's light. Parameters that are not given keep their values.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SetLight {
-    /// Which; the active one if none is named.
+    /// The object. Default: the active one.
     pub object: Option<ObjectName>,
     /// The kind of light.
     pub light: Option<LightShape>,
     /// Linear red, green and blue.
     pub color: Option<[f32; 3]>,
-    /// What a white surface shows that the light meets head-on, of points and spots from one metre
-    /// away: 1 is white.
+    /// The brightness of a white surface that the light hits head-on, for points and spots from one
+    /// metre away: 1 is white.
     #[schemars(range(min = 0.0))]
     pub intensity: Option<f32>,
-    /// Beyond it a point or spot does not shine, in metres; 0 for no such limit.
+    /// The distance beyond which a point or spot does not shine, in metres; 0 for no limit.
     #[schemars(range(min = 0.0))]
     pub range: Option<f32>,
-    /// Of a spot: from its axis to where it begins to fade, in degrees.
+    /// For a spot: the angle from its axis at which it begins to fade, in degrees.
     #[schemars(range(min = 0.0, max = 90.0))]
     pub inner_angle: Option<f32>,
-    /// Of a spot: from its axis to where there is no light, in degrees.
+    /// For a spot: the angle from its axis beyond which there is no light, in degrees.
     #[schemars(range(min = 0.0, max = 90.0))]
     pub outer_angle: Option<f32>,
 }
@@ -48,7 +48,7 @@ impl Action for SetLight {
 }
 
 impl SetLight {
-    /// A light with what is given here.
+    /// A light with the given parameters.
     fn changed(&self, light: Light) -> Light {
         let kind = self.light.map_or(light.kind, |shape| match (shape, light.kind) {
             (LightShape::Point, _) => LightKind::Point,
@@ -65,7 +65,7 @@ impl SetLight {
         }
     }
 
-    /// The outer angle is never smaller than the inner: the one that is not given follows.
+    /// The outer angle is never smaller than the inner: the one that is not given is adjusted.
     fn cone(&self, kind: LightKind) -> LightKind {
         let LightKind::Spot { inner, outer } = kind else { return kind };
         let given = |degrees: Option<f32>| degrees.map(|angle| angle.clamp(0.0, 90.0).to_radians());

@@ -1,4 +1,4 @@
-//! Exact placements of objects: what a user types instead of dragging.
+//! Exact placements of objects, typed instead of dragged.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,19 +10,19 @@ use super::{Action, ObjectName, Outcome, Rotation};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// Places an object exactly. What is not given stays as it is.
+/// Sets an object's exact placement. Parameters that are not given keep their values.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SetTransform {
-    /// Which; the active one if none is named.
+    /// The object. Default: the active one.
     pub object: Option<ObjectName>,
-    /// Relative to what.
+    /// What the placement is relative to.
     pub space: TransformSpace,
-    /// Where its origin is, in metres.
+    /// The position of its origin, in metres.
     pub location: Option<[f64; 3]>,
-    /// How it is turned.
+    /// The orientation.
     pub rotation: Option<Rotation>,
-    /// Its size along its own axes; negative ones mirror.
+    /// The scale along its own axes; negative values mirror.
     pub scale: Option<[f64; 3]>,
 }
 
@@ -43,7 +43,7 @@ impl Action for SetTransform {
 }
 
 impl SetTransform {
-    /// A placement with what is given here.
+    /// A placement with the given parts.
     pub(super) fn placed(&self, transform: Transform) -> Transform {
         let mut placed = transform;
         if self.rotation.is_some() || self.scale.is_some() {
@@ -60,7 +60,7 @@ impl SetTransform {
         placed
     }
 
-    /// The same in the world, as a placement in the parent.
+    /// The same in world space, as a placement in the parent.
     fn placed_in_world(&self, parent: DAffine3, local: Transform) -> Transform {
         let to_parent = parent.inverse();
         let mut placed = local;
@@ -75,7 +75,7 @@ impl SetTransform {
     }
 }
 
-/// Scale, rotation and translation of a placement; what it shears is left out.
+/// Scale, rotation and translation of a placement, without its shear.
 fn parts(transform: &Transform) -> (DVec3, DQuat, DVec3) {
     match *transform {
         Transform::Decomposed { translation, rotation, scale } => (scale, rotation, translation),
@@ -87,13 +87,12 @@ fn parts(transform: &Transform) -> (DVec3, DQuat, DVec3) {
     }
 }
 
-/// A placement by its parts, or as the map itself where parts do not make it, as under a parent that is
-/// scaled unevenly.
+/// A placement from its parts, or the map itself if it has no such parts, as under an unevenly scaled parent.
 pub(super) fn transform_of(affine: DAffine3) -> Transform {
     let (scale, rotation, translation) = affine.to_scale_rotation_translation();
     let whole = Transform::from_scale_rotation_translation(scale, rotation, translation);
     let largest = affine.matrix3.to_cols_array().iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-    // Some roundings of numbers of that size.
+    // A few roundings of numbers of this size.
     if whole.to_affine().matrix3.abs_diff_eq(affine.matrix3, 1e-12 * largest) {
         whole
     } else {
@@ -144,7 +143,7 @@ mod tests {
         };
         assert_eq!((translation, scale), (DVec3::new(1.0, 2.0, 3.0), DVec3::new(1.0, -2.0, 3.0)), "exact");
         let Rotation::Euler { angles } = Rotation::euler(rotation) else { panic!("angles") };
-        // Roundings of three half turns and back.
+        // The rounding of three half turns and back.
         assert!((DVec3::from(angles) - DVec3::new(30.0, -45.0, 60.0)).length() < 1e-12, "{angles:?}");
         let z_first = rotation * DVec3::X;
         let by_hand = DQuat::from_rotation_z(60f64.to_radians())
@@ -177,7 +176,7 @@ mod tests {
             DQuat::from_xyzw(0.0, 0.0, 1.0, 0.0),
             DVec3::new(1.0, 2.0, 3.0),
         );
-        // The inverse of a parent that is scaled by 0.5 to 2 rounds a few times.
+        // The inverse of a parent scaled by 0.5 to 2 rounds a few times.
         assert!(world.abs_diff_eq(half_turn, 1e-13), "{world:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! Standard objects with their measures.
+//! Standard objects with their dimensions.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -28,7 +28,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Each of them with usual measures: about two metres in size.
+    /// Each of them with default dimensions: about two metres in size.
     pub const USUAL: [Self; 15] = [
         Self::Plane { width: 2.0, depth: 2.0 },
         Self::Grid { width: 2.0, depth: 2.0, columns: 10, rows: 10 },
@@ -47,7 +47,7 @@ impl Shape {
         Self::Teapot { subdivisions: 4 },
     ];
 
-    /// What it is called.
+    /// Its name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

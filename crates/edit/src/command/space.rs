@@ -1,4 +1,4 @@
-//! In which space moves, turns and scales are given, and the way from there to meshes and objects.
+//! The space of moves, rotations and scales, and the maps from there to meshes and objects.
 
 use std::collections::BTreeMap;
 
@@ -19,14 +19,14 @@ pub enum TransformSpace {
     /// Elements in the space of their mesh, objects in that of their parent.
     #[default]
     Local,
-    /// All in the world. Of objects that hang on each other only the uppermost are changed, and the
-    /// others follow.
+    /// World space. If selected objects are parents of each other, only the topmost are changed,
+    /// and the others follow.
     World,
 }
 
 impl TransformSpace {
-    /// The map from this space into that of each mesh that is edited. A mesh that several objects show is
-    /// where the first one is that is selected.
+    /// The map from this space into that of each edited mesh. A mesh that several objects share is placed by
+    /// the first selected one.
     pub(super) fn into_meshes(
         self,
         command: &'static str,
@@ -44,7 +44,7 @@ impl TransformSpace {
     }
 }
 
-/// The map back.
+/// The inverse map.
 pub(super) fn inverse(map: DAffine3, command: &'static str) -> Result<DAffine3, EditError> {
     let reason = "the object or its parent is scaled to nothing; scale it up first";
     let flat = Refusal::NotPossible { operation: command, reason };
@@ -52,15 +52,15 @@ pub(super) fn inverse(map: DAffine3, command: &'static str) -> Result<DAffine3, 
     Ok(DAffine3 { matrix3: matrix, translation: -(matrix * map.translation) })
 }
 
-/// How lengths change on the way into another space; exactly 1 where they do not.
+/// The factor by which lengths change on the way into another space; exactly 1 if they do not.
 pub(super) fn length_factor(map: &DAffine3) -> f64 {
     let volume = map.matrix3.determinant().abs();
     if volume == 1.0 { 1.0 } else { trigon_mesh::math::elementary::cbrt(volume) }
 }
 
-/// Whether a matrix keeps angles: it turns, mirrors and scales evenly.
+/// Whether a matrix preserves angles: it rotates, mirrors and scales uniformly.
 pub(super) fn keeps_angles(matrix: &DMat3) -> bool {
-    // What rounding leaves of a product of a few turns and even scales; unequal scales that a user can
+    // The rounding error of a product of a few rotations and uniform scales; unequal scales that a user can
     // see are far above it.
     const ROUNDING: f64 = 1e-9;
     let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
@@ -69,8 +69,8 @@ pub(super) fn keeps_angles(matrix: &DMat3) -> bool {
     uneven.iter().all(|difference| difference.abs() <= ROUNDING * square)
 }
 
-/// The selected objects that a command in a space changes: in the world those that hang on no other
-/// one.
+/// The selected objects that a command in a space changes: in world space those without a selected
+/// ancestor.
 pub(super) fn objects_to_change(
     change: &Change<'_>,
     command: &'static str,
@@ -91,17 +91,17 @@ pub(super) fn parent_to_world(scene: &Scene, object: NodeId) -> DAffine3 {
     parent.map_or(DAffine3::IDENTITY, |parent| scene.world_transform(parent))
 }
 
-/// The mean of some vertices; the origin where it is not finite.
+/// The mean of some vertices; the origin if it is not finite.
 pub(super) fn middle(mesh: &EditMesh, vertices: &[VertexId]) -> DVec3 {
     let sum: DVec3 = vertices.iter().map(|&vertex| mesh.position(vertex).as_dvec3()).sum();
     let mean = sum / vertices.len() as f64;
     if mean.is_finite() { mean } else { DVec3::ZERO }
 }
 
-/// The selected vertices in groups that selected edges and faces hold together.
+/// The selected vertices in groups connected by selected edges and faces.
 pub(super) fn islands(mesh: &EditMesh, selection: &MeshSelection, kind: ElementKind) -> Vec<Vec<VertexId>> {
     let vertices = selection.vertices(mesh, kind);
-    // Each place points to a lower one of its group, or to itself.
+    // Each entry points to a lower one of its group, or to itself.
     let mut first: Vec<usize> = (0..vertices.len()).collect();
     for edge in selection.edges(mesh, kind) {
         let [a, b] = mesh.edge_vertices(edge).map(|vertex| vertices.binary_search(&vertex));
@@ -118,7 +118,7 @@ pub(super) fn islands(mesh: &EditMesh, selection: &MeshSelection, kind: ElementK
     groups
 }
 
-/// The lowest place of a group; ways become shorter as they are gone.
+/// The lowest entry of a group; paths are shortened along the way.
 fn lowest(first: &mut [usize], mut place: usize) -> usize {
     while first[place] != place {
         first[place] = first[first[place]];

@@ -1,4 +1,4 @@
-//! Other faces for the same surface: Catmull-Clark, triangles, quads; and faces where there are none.
+//! Other faces for the same surface: Catmull-Clark, triangles, quads; and filling holes.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -11,11 +11,11 @@ use crate::selection::{ElementKind, Elements};
 
 const FACES: &str = "at least one selected face";
 
-/// Subdivides whole meshes to smooth surfaces: those that are edited, or those of the selected objects.
+/// Subdivides whole meshes into smooth surfaces: the edited ones, or those of the selected objects.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CatmullClark {
-    /// How many times.
+    /// The number of subdivisions.
     #[schemars(range(min = 1, max = 10))]
     pub levels: u32,
 }
@@ -46,7 +46,7 @@ impl Action for CatmullClark {
             let kind = change.selection().kind();
             let selection = change.selection_mut().of_mut(id);
             if let Some(selection) = selection.filter(|_| kind != ElementKind::Vertex) {
-                // All edges and faces are new ones, whatever their numbers.
+                // All edges and faces are new, whatever their numbers.
                 selection.clear();
             }
         }
@@ -76,14 +76,14 @@ impl Action for Triangulate {
     }
 }
 
-/// Joins pairs of the selected triangles to quads.
+/// Joins pairs of selected triangles into quads.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct TrisToQuads {
-    /// How far two triangles may be from one plane, in degrees.
+    /// The largest angle between the two triangles, in degrees.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub face_angle: f64,
-    /// How far the corners of a quad may be from right angles, in degrees.
+    /// The largest deviation of the quad's corners from right angles, in degrees.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub shape_angle: f64,
 }
@@ -110,7 +110,7 @@ impl Action for TrisToQuads {
     }
 }
 
-/// Makes a face of a loop or a chain of edges, or of vertices; of two vertices an edge.
+/// Makes a face from a loop or a chain of edges, or from vertices; two vertices become an edge.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Fill {}
@@ -133,8 +133,8 @@ impl Action for Fill {
     }
 }
 
-/// Joins two selected loops or chains of edges by a band of faces. Selected faces are removed, and their outlines
-/// are joined: so two faces become a handle or a hole.
+/// Joins two selected loops or chains of edges with a band of faces. Selected faces are removed and their
+/// outlines joined, so two faces become a handle or a hole.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bridge {}
@@ -154,7 +154,7 @@ impl Action for Bridge {
     }
 }
 
-/// Joins the selected vertices by edges, through the faces between them.
+/// Connects the selected vertices with edges through the faces between them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ConnectVertices {}

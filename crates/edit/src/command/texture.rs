@@ -1,4 +1,4 @@
-//! Pictures on materials.
+//! Textures of materials.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use super::{Action, MaterialName, Outcome, TextureSlot};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// Where a picture comes from.
+/// The source of a texture.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "from", rename_all = "snake_case", deny_unknown_fields)]
 pub enum TextureSource {
@@ -21,24 +21,24 @@ pub enum TextureSource {
         /// Its path.
         path: String,
     },
-    /// A picture that the scene has.
+    /// A texture that the scene already has.
     Scene {
         /// Its number.
         texture: u32,
     },
 }
 
-/// Gives a material a picture, or takes it off.
+/// Sets or removes a texture of a material.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AssignTexture {
-    /// Which material; the first of the active object if none is named.
+    /// The material. Default: the first one of the active object.
     pub material: Option<MaterialName>,
-    /// What the picture says.
+    /// The use of the texture.
     pub slot: TextureSlot,
-    /// The picture; none takes it off.
+    /// The texture; without one the slot is cleared.
     pub texture: Option<TextureSource>,
-    /// By which texture coordinates of the mesh it is laid on, from 0.
+    /// The set of texture coordinates that places it, from 0.
     pub uv_set: u32,
 }
 
@@ -61,7 +61,7 @@ impl Action for AssignTexture {
 }
 
 impl AssignTexture {
-    /// A picture of the scene, if it holds what the slot needs.
+    /// A texture of the scene, if it has the content that the slot needs.
     fn known(&self, scene: &Scene, number: u32) -> Result<TextureId, EditError> {
         let id = scene.textures.id_at(number as usize);
         let id = id.ok_or_else(|| EditError::Texture(format!("there is no texture number {number}")))?;

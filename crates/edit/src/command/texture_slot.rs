@@ -1,4 +1,4 @@
-//! Where a material has pictures.
+//! The texture slots of a material.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,25 +6,25 @@ use trigon_scene::{
     Material, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding, TextureFormat,
 };
 
-/// What a picture of a material says.
+/// The use of a texture in a material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TextureSlot {
-    /// Its colour and alpha.
+    /// Colour and alpha.
     #[default]
     BaseColor,
-    /// Green: how rough it is. Blue: how metallic.
+    /// Green: roughness. Blue: metalness.
     MetallicRoughness,
-    /// Directions that bend its normals.
+    /// A normal map.
     Normal,
-    /// Red: how much light from everywhere arrives.
+    /// Red: the fraction of ambient light that arrives.
     Occlusion,
-    /// The colour of light that it sends out.
+    /// The colour of emitted light.
     Emissive,
 }
 
 impl TextureSlot {
-    /// Whether its pictures hold colours or data.
+    /// Whether its textures hold colours or data.
     pub(super) fn format(self) -> TextureFormat {
         match self {
             Self::BaseColor | Self::Emissive => TextureFormat::Srgb,
@@ -32,7 +32,7 @@ impl TextureSlot {
         }
     }
 
-    /// The picture that a material has there.
+    /// The texture of a material in this slot.
     #[must_use]
     pub fn of(self, material: &Material) -> Option<TextureBinding> {
         match self {
@@ -67,7 +67,7 @@ impl TextureSlot {
 fn bind_metallic_roughness(shading: &mut Shading, binding: Option<TextureBinding>) {
     match shading {
         Shading::MetallicRoughness(model) => model.texture = binding,
-        // The picture multiplies both.
+        // The texture multiplies both.
         _ if binding.is_some() => {
             let model =
                 MetallicRoughness { metallic: 1.0, roughness: 1.0, texture: binding, ..Default::default() };

@@ -11,16 +11,16 @@ use super::{Action, Outcome};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// Moves what is near the selected, too, the less the farther it is.
+/// Also moves elements near the selection, less with greater distance.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Proportional {
-    /// How far it reaches, in metres.
+    /// The radius of influence, in metres.
     #[schemars(range(min = 0.0))]
     pub radius: f64,
-    /// How it falls off.
+    /// The shape of the falloff.
     pub shape: ProportionalShape,
-    /// Whether only what hangs together with the selected is moved, by its distance along edges.
+    /// Whether only vertices connected to the selection move, by their distance along edges.
     pub connected: bool,
 }
 
@@ -45,7 +45,7 @@ pub enum ProportionalShape {
 }
 
 impl Proportional {
-    /// For a mesh whose lengths are the command's times a factor.
+    /// For a mesh whose lengths are those of the command times a factor.
     pub(super) fn falloff(&self, length_factor: f64) -> Falloff {
         Falloff {
             radius: self.radius * length_factor,
@@ -62,19 +62,20 @@ impl Proportional {
     }
 }
 
-/// Shears the selected vertices: each moves in a direction by a share of its distance from a plane.
+/// Shears the selected vertices: each moves in a direction in proportion to its distance from a
+/// plane.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Shear {
-    /// How far, for each metre from the plane.
+    /// The offset per metre from the plane.
     pub factor: f64,
     /// Perpendicular to the plane.
     pub normal: [f64; 3],
     /// Where to.
     pub direction: [f64; 3],
-    /// On the plane: the middle of the selected vertices if it is not given.
+    /// A point of the plane. Default: the centre of the selected vertices.
     pub center: Option<[f64; 3]>,
-    /// Shears what is near, too.
+    /// Also shears nearby vertices.
     pub proportional: Option<Proportional>,
 }
 
@@ -85,15 +86,15 @@ impl Default for Shear {
     }
 }
 
-/// Moves the selected vertices towards a sphere around their middle.
+/// Moves the selected vertices towards a sphere around their centre.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ToSphere {
-    /// 0 (as they are) to 1 (on the sphere).
+    /// 0 (unchanged) to 1 (on the sphere).
     pub factor: f64,
-    /// The middle of the sphere: that of the selected vertices if it is not given.
+    /// The centre of the sphere. Default: that of the selected vertices.
     pub center: Option<[f64; 3]>,
-    /// Moves what is near, too.
+    /// Also moves nearby vertices.
     pub proportional: Option<Proportional>,
 }
 
@@ -109,30 +110,30 @@ impl Default for ToSphere {
 pub struct ShrinkFatten {
     /// Outwards, in metres; negative inwards.
     pub distance: f64,
-    /// Moves what is near, too.
+    /// Also moves nearby vertices.
     pub proportional: Option<Proportional>,
 }
 
-/// Moves the selected vertices straight away from a centre, all by the same distance.
+/// Moves the selected vertices directly away from a centre, all by the same distance.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PushPull {
     /// Outwards, in metres; negative inwards.
     pub distance: f64,
-    /// From where: the middle of the selected vertices if it is not given.
+    /// The centre. Default: that of the selected vertices.
     pub center: Option<[f64; 3]>,
-    /// Moves what is near, too.
+    /// Also moves nearby vertices.
     pub proportional: Option<Proportional>,
 }
 
-/// Takes the selected vertices back to where they were when they were made or loaded.
+/// Moves the selected vertices back to where they were created or loaded.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ResetVertices {}
 
 pub(super) const VERTICES: &str = "at least one selected vertex";
 
-/// Runs a transform on the selected vertices of each mesh. The selection stays.
+/// Runs a transform on the selected vertices of each mesh. The selection is unchanged.
 fn transform_vertices(
     change: &mut Change<'_>,
     command: &'static str,

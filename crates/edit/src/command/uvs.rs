@@ -11,21 +11,21 @@ use crate::error::EditError;
 
 const FACES: &str = "at least one selected face";
 
-/// Projects a picture onto the selected faces, from one side.
+/// Projects texture coordinates onto the selected faces, from one side.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ProjectUvs {
-    /// Which set of texture coordinates, from 0; the next one is made if there is none.
+    /// The set of texture coordinates, from 0; the next one is added if it does not exist.
     pub uv_set: u32,
-    /// What is in the middle of the picture, in metres.
+    /// The point at the centre of the image, in metres.
     pub center: [f64; 3],
     /// Towards the viewer.
     pub normal: [f64; 3],
-    /// Up in the picture.
+    /// The upward direction in the image.
     pub up: [f64; 3],
-    /// The height of the picture, in metres.
+    /// The height of the image, in metres.
     pub height: f64,
-    /// Its width by its height.
+    /// Its aspect ratio, width divided by height.
     pub aspect: f64,
 }
 
@@ -52,18 +52,18 @@ impl Action for ProjectUvs {
     }
 }
 
-/// Projects a picture onto the selected faces from the six sides of a box, each face from that which it faces
-/// most.
+/// Projects texture coordinates onto the selected faces from the six sides of a box, each face from the side
+/// that it faces most.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ProjectUvsOnBox {
-    /// Which set of texture coordinates, from 0; the next one is made if there is none.
+    /// The set of texture coordinates, from 0; the next one is added if it does not exist.
     pub uv_set: u32,
-    /// What is in the middle of each picture, in metres.
+    /// The point at the centre of each image, in metres.
     pub center: [f64; 3],
-    /// The height of the picture, in metres.
+    /// The height of the image, in metres.
     pub height: f64,
-    /// Its width by its height.
+    /// Its aspect ratio, width divided by height.
     pub aspect: f64,
 }
 

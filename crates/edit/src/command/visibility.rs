@@ -1,4 +1,4 @@
-//! Hiding all objects but some, and showing all that are hidden.
+//! Hiding all objects except some, and showing hidden ones.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use super::{Action, Outcome};
 use crate::document::Change;
 use crate::error::EditError;
 
-/// Hides all objects but the selected ones and those that they hang on.
+/// Hides all objects except the selected ones and their ancestors.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct HideOthers {}
@@ -20,7 +20,7 @@ impl Action for HideOthers {
     fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError> {
         let kept = named_or_selected(change, &[], "hiding other objects")?;
         let scene = change.scene();
-        // What a hidden object carries is hidden with it.
+        // Hiding a parent hides its children.
         let kept: BTreeSet<NodeId> = kept.into_iter().flat_map(|id| scene.ancestors(id)).collect();
         let is_shown =
             |(id, node): (NodeId, &trigon_scene::Node)| (node.visible && !kept.contains(&id)).then_some(id);
@@ -30,7 +30,7 @@ impl Action for HideOthers {
     }
 }
 
-/// Shows all objects that are hidden, and selects them.
+/// Shows all hidden objects, and selects them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RevealObjects {}

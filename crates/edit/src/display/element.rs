@@ -1,5 +1,5 @@
-//! Elements under their numbers in a picture, which of them can be selected, and how far they are from
-//! the pointer.
+//! Elements by their numbers in an image: which of them can be selected, and how far they are from the
+//! pointer.
 
 use trigon_mesh::edit::{EdgeId, EditMesh, ElementMap, ElementNumbers, FaceId, VertexId};
 use trigon_mesh::math::DVec2;
@@ -8,17 +8,17 @@ use trigon_scene::{MeshId, NodeId};
 use super::pick::Picks;
 use crate::selection::ElementKind;
 
-/// An element that is edited, with an object that shows it.
+/// An edited element, with an object that shows it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Target {
     pub(super) node: NodeId,
     pub(super) mesh: MeshId,
-    /// Its number of the kind that is looked for.
+    /// Its number among elements of the requested kind.
     pub(super) element: u32,
 }
 
-/// Pixels from a point to a vertex, to an edge's line, or to a face's middle; infinite where it
-/// is not on the screen.
+/// Pixels from a point to a vertex, to an edge's line, or to a face's centre; infinite if it is not
+/// on the screen.
 pub(super) fn distance(picks: &Picks<'_>, kind: ElementKind, target: &Target, point: DVec2) -> f64 {
     let Some(mesh) = picks.document.mesh(target.mesh) else { return f64::INFINITY };
     let world = picks.document.nodes().world_transform(target.node);
@@ -47,7 +47,7 @@ fn distance_to_line([a, b]: [DVec2; 2], point: DVec2) -> f64 {
     (a + along * share).distance(point)
 }
 
-/// The elements of a mesh under their numbers in a picture.
+/// The elements of a mesh by their numbers in an image.
 pub(super) struct Numbering<'d> {
     pub(super) id: MeshId,
     pub(super) mesh: &'d EditMesh,

@@ -1,8 +1,8 @@
-//! Which edges of a mesh have marks, and whether anything is hidden: looked up once after a change of marks.
+//! Which edges of a mesh have marks, and whether anything is hidden: computed once after a change of marks.
 
 use trigon_mesh::edit::{EdgeId, EditMesh};
 
-/// What users have marked of a mesh.
+/// The marks of a mesh.
 #[derive(Debug)]
 pub(crate) struct MarkedElements {
     pub(crate) sharp: Vec<EdgeId>,
@@ -16,7 +16,7 @@ impl MarkedElements {
     pub(crate) const NONE: Self =
         Self { sharp: Vec::new(), seams: Vec::new(), creases: Vec::new(), has_hidden: false };
 
-    /// In time proportional to the mesh.
+    /// Takes time proportional to the mesh.
     pub(crate) fn of(mesh: &EditMesh) -> Self {
         let mut marked = Self::NONE;
         for edge in mesh.edges() {

@@ -1,8 +1,8 @@
-//! The selection as a picture shows it: elements in colours of their own in edit mode, an
-//! outline around objects in object mode.
+//! How an image shows the selection: elements in their own colours in edit mode, an outline around
+//! objects in object mode.
 //!
-//! Colours are those of Blender's default theme. They are made anew when the selection or the marks
-//! of edges have changed, never for a frame: dragging vertices changes neither.
+//! Colours are those of Blender's default theme. They are rebuilt when the selection or the marks
+//! of edges change, never per frame: dragging vertices changes neither.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use trigon_scene::{
 use crate::document::Document;
 use crate::selection::{ElementKind, MeshSelection, Selection};
 
-/// How much faces let show through them in X-ray.
+/// The opacity of faces in X-ray mode.
 pub const X_RAY: f32 = 0.5;
 
 const SELECTED_VERTEX: [u8; 3] = [0xff, 0x7a, 0x00];
@@ -30,17 +30,17 @@ const SEAM: [u8; 3] = [0xdb, 0x25, 0x12];
 const CREASE: [u8; 3] = [0xcc, 0x00, 0x99];
 const OBJECT: [u8; 3] = [0xff, 0xa0, 0x28];
 
-/// Of the colour of a selected face, so that its own shows.
+/// The opacity of the colour of a selected face, so that its own colour shows.
 const FACE_OPACITY: f32 = 0.3;
 const ACTIVE_FACE_OPACITY: f32 = 0.5;
 
 /// In pixels.
 const OUTLINE_WIDTH: u32 = 2;
 
-/// What the selection of a document looks like, kept as long as it stays.
+/// How a document's selection is displayed, kept while it is unchanged.
 #[derive(Debug, Clone, Default)]
 pub struct DisplayMarks {
-    /// Of what they were made.
+    /// What they were computed from.
     known: Option<(u64, Selection)>,
     marks: Marks,
     vertices: Option<VertexPoints>,
@@ -49,8 +49,9 @@ pub struct DisplayMarks {
 }
 
 impl DisplayMarks {
-    /// Brings the marks up to date. Whether they changed: then hand them to the settings again.
-    /// In time proportional to the selected meshes if something changed, and else to the selection.
+    /// Brings the marks up to date. Returns whether they changed; if so, pass them to the settings
+    /// again. Takes time proportional to the selected meshes if something changed, and otherwise to
+    /// the selection.
     pub fn update(&mut self, document: &mut Document) -> bool {
         document.scene();
         let state = (document.marks_revision(), document.selection());
@@ -62,7 +63,7 @@ impl DisplayMarks {
         true
     }
 
-    /// Shows them in a picture. With [`Reach::Through`] faces let show what they hide (X-ray).
+    /// Shows them in an image. With [`Reach::Through`] faces are translucent (X-ray).
     pub fn apply(&self, settings: &mut RenderSettings, reach: Reach) {
         settings.marks = self.marks.clone();
         settings.vertices = self.vertices;
@@ -83,7 +84,7 @@ impl DisplayMarks {
     }
 }
 
-/// A line around the selected objects and what hangs on them.
+/// A line around the selected objects and their descendants.
 fn outline(document: &Document) -> Option<Outline> {
     let scene = document.nodes();
     let mut nodes: Vec<NodeId> = Vec::new();
@@ -101,10 +102,10 @@ fn outline(document: &Document) -> Option<Outline> {
     (!nodes.is_empty()).then(|| Outline { nodes, color: linear(OBJECT), width: OUTLINE_WIDTH })
 }
 
-/// The elements of one kind of look, of all meshes.
+/// The elements of all meshes that are displayed in one way.
 #[derive(Default)]
 struct Sets {
-    /// Of objects that are not edited.
+    /// Elements of objects that are not edited.
     plain_edges: ElementSet,
     plain_vertices: ElementSet,
     active: [ElementSet; 3],
@@ -114,7 +115,7 @@ struct Sets {
     creases: ElementSet,
 }
 
-/// The places of the kinds in [`Sets`].
+/// The indices of the kinds in [`Sets`].
 const VERTICES: usize = 0;
 const EDGES: usize = 1;
 const FACES: usize = 2;
@@ -133,7 +134,7 @@ fn edit_marks(document: &Document) -> Marks {
 }
 
 impl Sets {
-    /// The elements of an object that is edited.
+    /// The elements of an edited object.
     fn add(&mut self, document: &Document, node: NodeId, id: MeshId, selected: &MeshSelection) {
         let (Some(mesh), Some(numbers)) = (document.mesh(id), document.shown_numbers(id)) else { return };
         let kind = document.selection().kind();
@@ -154,7 +155,7 @@ impl Sets {
         self.creases.add(node, numbered(&marked.creases));
     }
 
-    /// Only what is edited shows its edges and vertices.
+    /// Only edited objects show their edges and vertices.
     fn hide_elements(&mut self, scene: &Scene, node: NodeId, id: MeshId) {
         let Some(asset) = scene.meshes().get(id) else { return };
         let all = |count: usize| {
@@ -166,7 +167,7 @@ impl Sets {
         self.plain_vertices.add(node, all(asset.mesh().vertex_count()));
     }
 
-    /// In the order of priority.
+    /// In order of priority.
     fn into_marks(self) -> Marks {
         let mark = |elements: ElementSet, srgb: [u8; 3], opacity: f32| {
             (!elements.is_empty()).then(|| Mark {

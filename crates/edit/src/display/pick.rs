@@ -1,8 +1,8 @@
-//! What a user points at, as a command that selects it.
+//! Turns what a user points at into a command that selects it.
 //!
-//! The scene's [`Picker`] finds the elements of the meshes that are drawn. Here they become those
-//! that are edited: elements of other objects hide what lies behind them, but are never
-//! selected, and neither is what is hidden.
+//! The scene's [`Picker`] finds elements of the meshes as drawn. Here they are mapped to elements
+//! of the edited meshes: elements of other objects hide what lies behind them but are never
+//! selected, and neither are hidden elements.
 
 use std::collections::BTreeMap;
 
@@ -18,26 +18,27 @@ use crate::selection::{
     ElementKind, Elements, MeshSelection, edge_loop, edge_ring, face_loop, shortest_path,
 };
 
-/// How far from the pointer an element is still meant, in logical pixels: as in Blender.
+/// The largest distance from the pointer at which an element is picked, in logical pixels, as in
+/// Blender.
 pub const PICK_RADIUS: f64 = 25.0;
 
-/// Turns points and regions of a picture into commands that select what is there.
+/// Turns points and regions of an image into commands that select what is there.
 ///
 /// The picker's scene is the document's, or a copy that has followed all its changes
-/// ([`Document::take_scene_changes`]); after an edit that added or removed elements nothing
-/// is found until the scene was brought up to date.
+/// ([`Document::take_scene_changes`]). After an edit that added or removed elements nothing is
+/// found until the scene is brought up to date.
 pub struct Picks<'p> {
     pub(super) document: &'p Document,
     pub(super) picker: &'p Picker<'p>,
     /// Pixels to world, for distances between the pointer and elements.
     pub(super) projector: trigon_scene::camera::Projector,
-    /// Whether what is hidden counts: X-ray.
+    /// Whether hidden surfaces count: X-ray.
     pub(super) reach: Reach,
 }
 
 impl<'p> Picks<'p> {
-    /// For the picture of a picker. The projector has the camera and the size of the same
-    /// picture; all points are in its pixels.
+    /// For the image of a picker. The projector has the camera and the size of the same image; all
+    /// points are in its pixels.
     #[must_use]
     pub fn new(
         document: &'p Document,
@@ -48,8 +49,9 @@ impl<'p> Picks<'p> {
         Self { document, picker, projector, reach }
     }
 
-    /// A click: the nearest element within a radius in pixels, or the nearest object. Nothing is
-    /// selected where nothing is; [`SelectAction::Add`], `Remove` and `Toggle` do nothing there.
+    /// A click: selects the nearest element within a radius in pixels, or the nearest object. On
+    /// empty space it clears the selection; [`SelectAction::Add`], `Remove` and `Toggle` do nothing
+    /// there.
     #[must_use]
     pub fn click(&self, point: DVec2, radius: f64, action: SelectAction) -> Option<Command> {
         if !self.document.selection().is_editing() {
@@ -77,7 +79,7 @@ impl<'p> Picks<'p> {
         if parts.is_empty() { nothing(action) } else { Some(SelectElements { parts, action }.into()) }
     }
 
-    /// The loop of edges through the edge under the pointer; of faces, the loop of faces across it.
+    /// The edge loop through the edge under the pointer; in face mode, the loop of faces across it.
     #[must_use]
     pub fn edge_loop(&self, point: DVec2, radius: f64, action: SelectAction) -> Option<Command> {
         self.along_edge(point, radius, action, |mesh, kind, edge| match kind {
@@ -86,7 +88,7 @@ impl<'p> Picks<'p> {
         })
     }
 
-    /// The ring of edges from the edge under the pointer; of faces, the faces between its edges.
+    /// The edge ring from the edge under the pointer; in face mode, the faces between its edges.
     #[must_use]
     pub fn edge_ring(&self, point: DVec2, radius: f64, action: SelectAction) -> Option<Command> {
         self.along_edge(point, radius, action, |mesh, kind, edge| match kind {
@@ -95,8 +97,8 @@ impl<'p> Picks<'p> {
         })
     }
 
-    /// The shortest path from the active element to the one under the pointer, which becomes the active
-    /// one. It alone, where there is no active one in the same part of the same mesh.
+    /// The shortest path from the active element to the one under the pointer, which becomes active. Only
+    /// that one, if there is no active element in the same part of the same mesh.
     #[must_use]
     pub fn path(&self, point: DVec2, radius: f64) -> Option<Command> {
         let kind = self.document.selection().kind();
@@ -111,7 +113,7 @@ impl<'p> Picks<'p> {
         Some(target.select(visible, SelectAction::Add))
     }
 
-    /// All that hangs together with the element under the pointer.
+    /// Everything connected to the element under the pointer.
     #[must_use]
     pub fn linked(&self, point: DVec2, radius: f64, action: SelectAction) -> Option<Command> {
         let kind = self.document.selection().kind();
@@ -146,7 +148,7 @@ impl<'p> Picks<'p> {
         SelectElements { parts, action }.into()
     }
 
-    /// The object that is seen at a point, or nearest to it.
+    /// The object visible at a point, or nearest to it.
     fn object(&self, point: DVec2, radius: f64) -> Option<NodeId> {
         let under = Region::Point(point);
         let seen = self.picker.nodes(&under, Reach::Visible).into_iter().next();
@@ -173,8 +175,8 @@ impl<'p> Picks<'p> {
         }
     }
 
-    /// Those that can be selected, by the numbers under which they are edited, with the first object
-    /// that shows the mesh.
+    /// The selectable ones, by their numbers in the edited meshes, with the first object that shows
+    /// the mesh.
     pub(super) fn edited(
         &self,
         kind: ElementKind,
@@ -196,7 +198,7 @@ impl<'p> Picks<'p> {
         all
     }
 
-    /// The numbers of an object that is edited; `None` of others.
+    /// The numbers of an edited object; `None` for others.
     fn numbering(&self, node: NodeId) -> Option<Numbering<'_>> {
         let id = self.document.nodes().node(node)?.mesh?;
         self.document.selection().of(id)?;
@@ -208,13 +210,13 @@ impl<'p> Picks<'p> {
         })
     }
 
-    /// An element of the scene as one that is edited; `None` if it cannot be selected.
+    /// An element of the scene as an edited one; `None` if it cannot be selected.
     pub(super) fn target(&self, kind: ElementKind, node: NodeId, number: u32) -> Option<Target> {
         let numbering = self.numbering(node)?;
         Some(Target { node, mesh: numbering.id, element: numbering.element(kind, number)? })
     }
 
-    /// The nearest element that can be selected.
+    /// The nearest selectable element.
     pub(super) fn nearest(&self, kind: ElementKind, point: DVec2, radius: f64) -> Option<Target> {
         let nearest = self.picker.nearest(point, radius, self.reach);
         let found = match kind {
@@ -226,7 +228,7 @@ impl<'p> Picks<'p> {
         self.target(kind, node, number).or_else(|| self.nearest_of_others(kind, point, radius))
     }
 
-    /// The same where the very nearest cannot be selected: the nearest of all within the radius.
+    /// The same if the very nearest cannot be selected: the nearest of all within the radius.
     fn nearest_of_others(&self, kind: ElementKind, point: DVec2, radius: f64) -> Option<Target> {
         let found = self.elements(kind, &Region::Circle { center: point, radius });
         let targets = found.iter().filter_map(|(node, number)| self.target(kind, node, number));
@@ -238,13 +240,13 @@ impl<'p> Picks<'p> {
 }
 
 impl Target {
-    /// Selects elements of the same mesh one by one.
+    /// Selects elements of one mesh individually.
     fn select(&self, elements: Vec<u32>, action: SelectAction) -> Command {
         Select { objects: vec![ObjectName::of(self.node)], elements, action }.into()
     }
 }
 
-/// What pointing at nothing does.
+/// The effect of pointing at nothing.
 fn nothing(action: SelectAction) -> Option<Command> {
     let clears = matches!(action, SelectAction::Replace | SelectAction::Intersect);
     clears.then(|| SelectNone {}.into())

@@ -1,4 +1,4 @@
-//! What a command may change while it runs.
+//! The changes that a running command may make.
 
 use std::collections::BTreeMap;
 
@@ -9,20 +9,20 @@ use super::Document;
 use crate::error::EditError;
 use crate::selection::{Elements, MeshSelection, Selection};
 
-/// A command that runs: all changes go through it, so that they can be taken back.
+/// A running command: all changes go through it, so that they can be undone.
 pub(crate) struct Change<'d> {
     pub(super) document: &'d mut Document,
     pub(super) meshes: Vec<(MeshId, Difference)>,
     pub(super) parts: Option<Box<SceneParts>>,
 }
 
-/// What is selected of a mesh after it was changed.
+/// The selection of a mesh after a change.
 pub(crate) enum AfterEdit {
     /// What was.
     Keep,
     /// Nothing.
     Clear,
-    /// These, or what represents them in the kind that is selected.
+    /// These, or what represents them in the selected kind.
     Select(Elements),
 }
 
@@ -35,7 +35,7 @@ impl Change<'_> {
         &self.document.file.scene
     }
 
-    /// The scene with its nodes and materials to be changed. Meshes may be added, but not replaced: use
+    /// The scene, for changing nodes and materials. Meshes may be added, but not replaced: use
     /// [`Self::edit`].
     pub(crate) fn scene_mut(&mut self) -> &mut Scene {
         if self.parts.is_none() {
@@ -53,12 +53,12 @@ impl Change<'_> {
         &mut self.document.selection
     }
 
-    /// What is selected, to be changed, and the meshes to look at.
+    /// The selection, for changing it, and the meshes, for reading.
     pub(crate) fn selection_and_meshes(&mut self) -> (&mut Selection, &BTreeMap<MeshId, EditMesh>) {
         (&mut self.document.selection, &self.document.file.edited)
     }
 
-    /// A mesh with its neighbours, made from the scene's at the first call.
+    /// A mesh with its adjacency, built from the scene's at the first call.
     pub(crate) fn mesh(&mut self, id: MeshId) -> Option<&EditMesh> {
         if !self.document.file.edited.contains_key(&id) {
             let asset = self.document.file.scene.meshes().get(id)?;
@@ -70,7 +70,7 @@ impl Change<'_> {
         self.document.file.edited.get(&id)
     }
 
-    /// Changes a mesh. A refusal leaves that mesh as it was.
+    /// Changes a mesh. On an error that mesh is unchanged.
     pub(crate) fn edit<T>(
         &mut self,
         id: MeshId,
@@ -96,7 +96,7 @@ impl Change<'_> {
         let asset = self.document.file.scene.meshes().get(id)?;
         let (name, mesh) = (asset.name.clone(), asset.mesh().clone());
         let edited = self.document.file.edited.get(&id).cloned();
-        // Meshes are only ever added, so this needs no record: an undone copy stays unused.
+        // Meshes are only ever added, so this needs no undo record: an undone copy stays unused.
         let copy = self.document.file.scene.add_mesh(name, mesh);
         if let Some(edited) = edited {
             self.document.file.edited.insert(copy, edited);
@@ -105,7 +105,7 @@ impl Change<'_> {
         Some(copy)
     }
 
-    /// Makes a part of a mesh an object of its own, beside the first object that shows the mesh.
+    /// Makes a part of a mesh a separate object, next to the first object that shows the mesh.
     pub(crate) fn add_part(&mut self, of: MeshId, part: EditMesh) {
         let owner = self.scene().nodes().iter().find(|(_, node)| node.mesh == Some(of));
         let mut node = owner.map(|(_, node)| node.clone()).unwrap_or_default();
@@ -121,7 +121,7 @@ impl Change<'_> {
         }
     }
 
-    /// The meshes of objects that have one, each once, in the order of objects.
+    /// The meshes of objects, each once, in the order of objects.
     pub(crate) fn meshes_of(&self, objects: impl IntoIterator<Item = NodeId>) -> Vec<MeshId> {
         let mut meshes = Vec::new();
         for object in objects {
@@ -131,7 +131,7 @@ impl Change<'_> {
         meshes
     }
 
-    /// The mesh of these objects, or the only one that is edited if none is given.
+    /// The mesh of these objects, or the only edited one if none is given.
     pub(crate) fn only_edited_mesh(
         &self,
         objects: impl IntoIterator<Item = NodeId>,
@@ -149,9 +149,9 @@ impl Change<'_> {
         }
     }
 
-    /// Changes each mesh that is edited and of which something is selected; the change is given what
-    /// is selected, and tells what is to be selected afterwards. A mesh
-    /// that refuses is passed over if another does not. Tells how many were changed.
+    /// Changes each edited mesh with a selection. `change` gets the selection and returns the new
+    /// one. A mesh whose change fails is skipped if another succeeds. Returns how many were
+    /// changed.
     pub(crate) fn edit_selected(
         &mut self,
         command: &'static str,
@@ -161,7 +161,7 @@ impl Change<'_> {
         self.edit_selected_meshes(command, needed, |_, mesh, selection| operation(mesh, selection))
     }
 
-    /// The same for a change that has to know which mesh it is.
+    /// The same for a change that needs to know the mesh.
     pub(crate) fn edit_selected_meshes(
         &mut self,
         command: &'static str,
@@ -201,7 +201,7 @@ impl Change<'_> {
         }
     }
 
-    /// Changes the selected vertices of each mesh that is edited; what is selected stays so.
+    /// Changes the selected vertices of each edited mesh; the selection is kept.
     pub(crate) fn edit_selected_vertices(
         &mut self,
         command: &'static str,
@@ -215,7 +215,7 @@ impl Change<'_> {
         })
     }
 
-    /// Changes the selected edges of each mesh that is edited; what is selected stays so.
+    /// Changes the selected edges of each edited mesh; the selection is kept.
     pub(crate) fn edit_selected_edges(
         &mut self,
         command: &'static str,
@@ -229,7 +229,7 @@ impl Change<'_> {
         })
     }
 
-    /// Changes the selected faces of each mesh that is edited; what is selected stays so.
+    /// Changes the selected faces of each edited mesh; the selection is kept.
     pub(crate) fn edit_selected_faces(
         &mut self,
         command: &'static str,

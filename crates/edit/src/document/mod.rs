@@ -1,4 +1,4 @@
-//! An open document: a scene, its meshes while they are edited, what is selected, what was done.
+//! An open document: a scene, its edited meshes, the selection, the history.
 
 mod change;
 mod preview;
@@ -27,11 +27,11 @@ pub(crate) use change::{AfterEdit, Change};
 pub use scene::SceneChange;
 use shown::Shown;
 
-/// A scene that is edited by commands.
+/// A scene that commands edit.
 ///
-/// Everything that changes goes through [`Document::run`], so that it can be undone to the same
-/// bytes, repeated, adjusted, and written down as a script. The document never draws:
-/// [`Document::scene`] is what is to be drawn.
+/// All changes go through [`Document::run`], so that they can be undone to the same bytes,
+/// repeated, adjusted, and written as a script. The document never draws: [`Document::scene`] is
+/// the scene to draw.
 ///
 /// ```
 /// use trigon_edit::{Command, Document};
@@ -49,17 +49,18 @@ use shown::Shown;
 /// ```
 #[derive(Debug, Default)]
 pub struct Document {
-    /// The scene, its meshes while they are edited, and what is kept of the file.
+    /// The scene, its edited meshes, and what is kept of the file.
     file: NativeDocument,
     selection: Selection,
     history: History,
-    /// What the scene shows of edited meshes.
+    /// How the scene follows the edited meshes.
     shown: Shown,
-    /// What was left out of meshes when they were made editable and no outcome has told yet.
+    /// What was lost when meshes were made editable and has not been reported yet.
     untold: Vec<String>,
-    /// What was done since the last time that somebody asked; `None` until somebody asks.
+    /// The events since they were last requested; `None` until the first request.
     events: Option<Vec<Event>>,
-    /// What is tried out and neither confirmed nor cancelled yet; its other state is that before.
+    /// The preview that is neither confirmed nor cancelled yet; its other state is the one before
+    /// it.
     preview: Option<Entry>,
     revision: u64,
 }
@@ -71,7 +72,7 @@ impl Document {
         Self::from_file(NativeDocument::new(scene))
     }
 
-    /// Opens a file of any format that can be read, with what there is to say about it.
+    /// Opens a file of any readable format, with its warnings.
     ///
     /// # Errors
     /// As [`NativeDocument::load`].
@@ -97,8 +98,8 @@ impl Document {
         Self { file, revision: next_revision(), ..Self::default() }
     }
 
-    /// The document as a native file, not written yet: [`save`](crate::save) writes it once
-    /// nobody minds what would be lost.
+    /// The document as a native file, not written yet: [`save`](crate::save) writes it once the
+    /// caller accepts what would be lost.
     ///
     /// # Errors
     /// When the file would have 4 GiB or more.
@@ -106,18 +107,18 @@ impl Document {
         self.file.encode()
     }
 
-    /// The document as it is now, to be encoded on another thread while this one goes on changing. It takes the time
-    /// of copying the meshes that are or were edited.
+    /// The document as it is now, for encoding on another thread while editing continues. Takes the time to
+    /// copy the meshes that are or were edited.
     #[must_use]
     pub fn snapshot(&self) -> NativeDocument {
         self.file.clone()
     }
 
-    /// Adds what was loaded of a file, as [`ImportFile`](crate::ImportFile) does with its path, without reading it
-    /// again.
+    /// Adds the contents of a loaded file, as [`ImportFile`](crate::ImportFile) does with its path, without
+    /// reading it again.
     ///
     /// # Errors
-    /// As those of the command, but that the file cannot be read.
+    /// Those of the command, except that the file cannot be read.
     pub fn import(&mut self, path: String, loaded: &Loaded) -> Result<Outcome, EditError> {
         self.confirm();
         let import = ImportFile { path };
@@ -140,21 +141,20 @@ impl Document {
         self.file.export(name, format, options)
     }
 
-    /// The nodes and materials as they are now, and meshes as they were when [`Self::scene`] was called
-    /// last.
+    /// The nodes and materials as they are now, and meshes as of the last call of [`Self::scene`].
     #[must_use]
     pub fn nodes(&self) -> &Scene {
         &self.file.scene
     }
 
-    /// A mesh with its neighbours, if it is or was edited.
+    /// A mesh with its adjacency, if it is or was edited.
     #[must_use]
     pub fn mesh(&self, id: MeshId) -> Option<&EditMesh> {
         self.file.edited.get(&id)
     }
 
-    /// The map from a mesh into the world, where it is edited: that of the first selected object that shows
-    /// it, or of the first one at all; identity where none does.
+    /// The map from a mesh into the world in which it is edited: that of the first selected object that shows
+    /// it, or of the first one at all; the identity if none does.
     #[must_use]
     pub fn mesh_transform(&self, id: MeshId) -> DAffine3 {
         let scene = &self.file.scene;
@@ -164,35 +164,35 @@ impl Document {
         object.map_or(DAffine3::IDENTITY, |object| scene.world_transform(object))
     }
 
-    /// What is selected.
+    /// The selection.
     #[must_use]
     pub fn selection(&self) -> &Selection {
         &self.selection
     }
 
-    /// Another number after everything that was done or taken back, and for every document that is
-    /// opened: what was computed of a document holds as long as this stays.
+    /// A number that changes with every edit and undo, and with every document that is opened: data
+    /// computed from a document is valid as long as it is unchanged.
     #[must_use]
     pub fn revision(&self) -> u64 {
         self.revision
     }
 
-    /// What was done.
+    /// The history.
     #[must_use]
     pub fn history(&self) -> &History {
         &self.history
     }
 
-    /// Sets how much memory the history may take, in bytes.
+    /// Sets the memory budget of the history, in bytes.
     pub fn set_history_budget(&mut self, bytes: usize) {
         self.history.set_budget(bytes);
     }
 
-    /// Runs a command: one entry in the history. A preview that is under way is confirmed first, as by
-    /// all that changes the document ([`Self::preview`]).
+    /// Runs a command: one entry in the history. A preview in progress is confirmed first, as by every change
+    /// of the document ([`Self::preview`]).
     ///
     /// # Errors
-    /// Why it was refused. The document is as it was before.
+    /// The command failed. The document is unchanged.
     pub fn run(&mut self, command: Command) -> Result<Outcome, EditError> {
         self.confirm();
         let (entry, outcome) = self.attempt(command)?;
@@ -200,12 +200,12 @@ impl Document {
         Ok(outcome)
     }
 
-    /// Runs a command without a trace in the history. A refusal leaves the document as it was.
+    /// Runs a command without an entry in the history. On an error the document is unchanged.
     fn attempt(&mut self, command: Command) -> Result<(Entry, Outcome), EditError> {
         self.attempt_as(command, |command, change| command.action().run(change))
     }
 
-    /// The same for a command whose work is done by a function.
+    /// The same for a command implemented by a function.
     fn attempt_as(
         &mut self,
         command: Command,
@@ -229,16 +229,16 @@ impl Document {
         }
     }
 
-    /// Puts what was just done into the history.
+    /// Adds the last change to the history.
     fn enter(&mut self, entry: Entry) {
         self.note(|| Event::Run(Box::new(entry.command.clone())));
         self.history.push(entry);
     }
 
-    /// Takes back the last command.
+    /// Undoes the last command.
     ///
     /// # Errors
-    /// There is none.
+    /// There is nothing to undo.
     pub fn undo(&mut self) -> Result<(), EditError> {
         self.confirm();
         let mut history = std::mem::take(&mut self.history);
@@ -251,10 +251,10 @@ impl Document {
         result
     }
 
-    /// Does again what was taken back last.
+    /// Redoes the command that was undone last.
     ///
     /// # Errors
-    /// There is nothing.
+    /// There is nothing to redo.
     pub fn redo(&mut self) -> Result<(), EditError> {
         self.confirm();
         let mut history = std::mem::take(&mut self.history);
@@ -267,10 +267,10 @@ impl Document {
         result
     }
 
-    /// Runs the last command that was not a selection once more.
+    /// Runs the last command that was not a selection again.
     ///
     /// # Errors
-    /// There is none, or it is refused now.
+    /// There is none, or it fails now.
     pub fn repeat_last(&mut self) -> Result<Outcome, EditError> {
         self.confirm();
         let last = self.history.done().iter().rev().find(|entry| !entry.command.is_selection());
@@ -278,10 +278,10 @@ impl Document {
         self.run(command)
     }
 
-    /// Runs another command in place of the last one, usually the same with other parameters.
+    /// Replaces the last command with another, usually the same with other parameters.
     ///
     /// # Errors
-    /// There is none, or the other one is refused: then the last one stays done.
+    /// There is none, or the other one fails: then the last one stays done.
     pub fn adjust_last(&mut self, command: Command) -> Result<Outcome, EditError> {
         self.confirm();
         if self.history.done().is_empty() {
@@ -297,15 +297,14 @@ impl Document {
         })
     }
 
-    /// All commands that are done, to be run again on the document as it was opened. Not
-    /// complete when entries were dropped ([`History::dropped`]).
+    /// All commands that are done, to run again on the document as it was opened. Incomplete if
+    /// entries were dropped ([`History::dropped`]).
     #[must_use]
     pub fn script(&self) -> Vec<Command> {
         self.history.done().iter().map(|entry| entry.command.clone()).collect()
     }
 
-    /// What was done since the last call: what a recovery file is told. The first call starts to
-    /// write down.
+    /// The events since the last call, for a recovery file. The first call starts recording.
     pub fn take_events(&mut self) -> Vec<Event> {
         self.events.replace(Vec::new()).unwrap_or_default()
     }
@@ -319,7 +318,8 @@ impl Document {
     /// Goes to an entry's other state.
     fn exchange(&mut self, entry: &mut Entry) {
         self.revision = next_revision();
-        // A command may change a mesh several times: backwards in time, and the next time forwards.
+        // A command may change a mesh several times: undo goes backwards through them, redo
+        // forwards.
         for (id, difference) in entry.meshes.iter_mut().rev() {
             if let Some(mesh) = self.file.edited.get_mut(id) {
                 difference.apply(mesh);

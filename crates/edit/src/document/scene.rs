@@ -1,4 +1,4 @@
-//! The document's scene for whoever draws it, and what a copy has to do to stay equal to it.
+//! The document's scene for drawing, and the changes that keep a copy of it equal.
 
 use trigon_mesh::edit::{ElementMap, ElementNumbers};
 use trigon_mesh::{Mesh, MeshChange};
@@ -8,25 +8,25 @@ use super::Document;
 use super::shown::{Outdated, Untold};
 use crate::display::MarkedElements;
 
-/// What a copy of a document's scene has to do to be equal to it again.
+/// A change that keeps a copy of a document's scene equal to it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SceneChange {
-    /// Become a clone of it.
+    /// Replace the copy with a clone.
     Whole,
     /// Take over a mesh: [`Scene::adopt_mesh`].
     Mesh(MeshId),
-    /// Show another mesh than the scene's: the part of one that is edited that is not hidden.
+    /// Show another mesh than the scene's: the visible part of an edited one.
     /// [`Scene::replace_mesh`].
     Visible(MeshId, Box<Mesh>),
-    /// Take over everything but meshes: [`Scene::swap_parts`].
+    /// Take over everything except meshes: [`Scene::swap_parts`].
     Parts,
     /// Give a mesh other values: [`Scene::change_mesh`].
     Values(MeshId, MeshChange),
 }
 
 impl SceneChange {
-    /// Makes the change in a copy. For a scene that tells others of changes, such as a
-    /// window's, call what the variants name.
+    /// Applies the change to a copy. For a scene that reports changes to others, such as a
+    /// window's, call the methods that the variants name.
     pub fn apply(self, from: &Scene, copy: &mut Scene) {
         match self {
             Self::Whole => *copy = from.clone(),
@@ -41,17 +41,17 @@ impl SceneChange {
 }
 
 impl Document {
-    /// The scene as it is now, to be drawn. Its meshes follow the edits since the last call: in
-    /// time proportional to these where vertices were moved or corners got other values, and
-    /// else to the whole mesh. What is hidden is part of it.
+    /// The scene as it is now, for drawing. Its meshes follow the edits since the last call: in
+    /// time proportional to these if only vertices moved or corner values changed, and otherwise to
+    /// the whole mesh. Hidden elements are part of it.
     pub fn scene(&mut self) -> &Scene {
         let Self { file, shown, selection, .. } = self;
         shown.update(&mut file.scene, &file.edited, selection);
         &file.scene
     }
 
-    /// What changed in [`Self::scene`] since the last call, for a copy of it that is shown: to
-    /// be applied in this order. The first call asks for the whole scene.
+    /// The changes of [`Self::scene`] since the last call, for a displayed copy; apply them in this
+    /// order. The first call returns the whole scene.
     ///
     /// ```
     /// use trigon_edit::{Command, Document};
@@ -75,7 +75,7 @@ impl Document {
         let Self { file, shown, .. } = self;
         let untold = shown.untold.as_mut().expect("it was just made");
         if is_first {
-            // The whole scene holds all that would be told of it.
+            // The whole scene includes all other changes.
             let visible = std::mem::take(&mut untold.visible);
             let known_meshes = file.scene.meshes().index_bound();
             *untold = Untold { known_meshes, visible, ..Untold::default() };
@@ -91,17 +91,17 @@ impl Document {
         changes
     }
 
-    /// Which elements of an edited mesh are shown, by the numbers of the mesh in a copy of the
-    /// scene that follows it, or in the scene if there is none: as of the last [`Self::scene`]. `None` for a mesh
-    /// that was never edited, where all numbers are the same.
+    /// Which elements of an edited mesh are visible, by their numbers in the mesh of a copy of the scene that
+    /// follows it, or in the scene if there is none; as of the last [`Self::scene`]. `None` for a mesh that
+    /// was never edited, whose numbers are all the same.
     #[must_use]
     pub fn shown_elements(&self, id: MeshId) -> Option<&ElementMap> {
         let visible = self.shown.visible.get(&id).map(|visible| &visible.map);
         visible.or_else(|| self.shown.meshes.get(&id).map(|shown| &shown.map))
     }
 
-    /// The numbers of an edited mesh's elements there; `None` for a mesh that was never edited,
-    /// or that got or lost elements since. Found at the first call after that, in time
+    /// The numbers of an edited mesh's elements there; `None` for a mesh that was never edited, or
+    /// whose elements were added or removed since. Computed at the first call after that, in time
     /// proportional to the mesh.
     #[must_use]
     pub fn shown_numbers(&self, id: MeshId) -> Option<&ElementNumbers> {
@@ -116,13 +116,13 @@ impl Document {
         Some(shown.numbers(self.file.edited.get(&id)?, mesh))
     }
 
-    /// Another number after every change of nodes or elements or of their marks, as of the
-    /// last [`Self::scene`].
+    /// A number that changes with every change of nodes, elements or their marks, as of the last
+    /// [`Self::scene`].
     pub(crate) fn marks_revision(&self) -> u64 {
         self.shown.marks_revision
     }
 
-    /// What is marked of a mesh; `None` if it is not edited.
+    /// The marks of a mesh; `None` if it is not edited.
     pub(crate) fn marked(&self, id: MeshId) -> Option<&MarkedElements> {
         Some(self.shown.marked(id, self.file.edited.get(&id)?))
     }

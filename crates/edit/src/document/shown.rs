@@ -1,8 +1,8 @@
-//! The scene in step with what is edited, and a window's scene in step with that.
+//! Keeps the scene in step with the edited meshes, and a window's scene in step with that.
 //!
-//! An edit notes which of a mesh's values it changed. When the scene is asked for, its mesh is
-//! given these values, and is made anew only after edits that add, remove or join
-//! elements. What a copy of the scene has to be told is noted, too.
+//! An edit records which values of a mesh it changed. When the scene is requested, its mesh gets
+//! these values; it is rebuilt only after edits that add, remove or join elements. Changes for the
+//! copy of the scene are recorded, too.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
@@ -16,45 +16,45 @@ use super::visible::{VisibleMesh, refresh};
 use crate::display::MarkedElements;
 use crate::selection::Selection;
 
-/// What the scene shows of a mesh that is edited.
+/// How the scene shows an edited mesh.
 #[derive(Debug)]
 pub(super) struct ShownMesh {
     pub(super) map: ElementMap,
-    /// Found when somebody asks.
+    /// Computed on demand.
     numbers: OnceLock<ElementNumbers>,
     /// Likewise.
     marked: OnceLock<MarkedElements>,
 }
 
-/// How the scene's mesh differs from the one that is edited.
+/// How the scene's mesh differs from the edited one.
 #[derive(Debug)]
 pub(super) enum Outdated {
     Whole,
     Values(ChangedValues),
 }
 
-/// What the copy of the scene has not been told yet.
+/// Changes that the copy of the scene has not received yet.
 #[derive(Debug, Default)]
 pub(super) struct Untold {
     pub(super) parts: bool,
     pub(super) meshes: BTreeSet<MeshId>,
-    /// In the place of the scene's.
+    /// Shown instead of the scene's.
     pub(super) visible: BTreeMap<MeshId, Mesh>,
     pub(super) values: BTreeMap<MeshId, ChangedElements>,
-    /// How many meshes the copy has.
+    /// The number of meshes in the copy.
     pub(super) known_meshes: usize,
 }
 
-/// What a document knows of its scene.
+/// A document's record of its scene.
 #[derive(Debug, Default)]
 pub(super) struct Shown {
     pub(super) meshes: BTreeMap<MeshId, ShownMesh>,
     pub(super) outdated: BTreeMap<MeshId, Outdated>,
-    /// `None` until somebody asks.
+    /// `None` until the first request.
     pub(super) untold: Option<Untold>,
-    /// Of meshes that are edited and of which something is hidden, what a copy shows.
+    /// For edited meshes with hidden elements: what a copy shows.
     pub(super) visible: BTreeMap<MeshId, VisibleMesh>,
-    /// Counts changes of what marks are made of, beside the selection.
+    /// Counts changes that affect marks, other than the selection.
     pub(super) marks_revision: u64,
 }
 
@@ -78,14 +78,14 @@ impl Shown {
         }
     }
 
-    /// What is visible of a mesh has to be found anew.
+    /// The visible part of a mesh must be computed again.
     fn note_visible(&mut self, id: MeshId) {
         if let Some(visible) = self.visible.get_mut(&id) {
             visible.is_outdated = true;
         }
     }
 
-    /// The scene's mesh has to be made anew.
+    /// The scene's mesh must be rebuilt.
     pub(super) fn note_mesh(&mut self, id: MeshId) {
         self.outdated.insert(id, Outdated::Whole);
     }
@@ -105,7 +105,7 @@ impl Shown {
         }
     }
 
-    /// Makes the scene show what is edited now.
+    /// Makes the scene show the current state of the edited meshes.
     pub(super) fn update(
         &mut self,
         scene: &mut Scene,
@@ -127,7 +127,7 @@ impl Shown {
 
     fn make_anew(&mut self, scene: &mut Scene, id: MeshId, edited: &EditMesh) {
         let (mesh, map) = edited.to_mesh();
-        // A mesh is never taken out of the scene, so that an undone object finds it again.
+        // A mesh is never removed from the scene, so that an undone object finds it again.
         if scene.replace_mesh(id, mesh).is_some() {
             self.marks_revision += 1;
             self.note_visible(id);
@@ -146,7 +146,7 @@ impl Shown {
         }
     }
 
-    /// Gives the scene's mesh the values that changed; `None` if it cannot take them.
+    /// Gives the scene's mesh the changed values; `None` if it cannot take them.
     fn follow(
         &mut self,
         scene: &mut Scene,
@@ -175,8 +175,8 @@ impl ShownMesh {
 }
 
 impl Untold {
-    /// What was not told, meshes first: nodes name them. Of meshes that the copy shows in part
-    /// another function tells.
+    /// The pending changes, meshes first, because nodes refer to them. Another function handles
+    /// meshes of which the copy shows a part.
     pub(super) fn take(&mut self, scene: &Scene, partly: &BTreeMap<MeshId, VisibleMesh>) -> Vec<SceneChange> {
         let known = std::mem::replace(&mut self.known_meshes, scene.meshes().index_bound());
         let mut meshes = std::mem::take(&mut self.meshes);

@@ -1,7 +1,7 @@
-//! What a view shows of meshes that are edited while some of their elements are hidden.
+//! What a view shows of edited meshes with hidden elements.
 //!
-//! The document's scene always has all elements, so that what is exported is whole; a copy
-//! that is shown gets a mesh without the hidden ones.
+//! The document's scene always has all elements, so that exports are complete; a displayed copy
+//! gets a mesh without the hidden ones.
 
 use std::collections::BTreeMap;
 
@@ -17,14 +17,14 @@ use crate::selection::Selection;
 pub(super) struct VisibleMesh {
     pub(super) map: ElementMap,
     pub(super) numbers: ElementNumbers,
-    /// What the copy has not been told.
+    /// Changes that the copy has not received.
     pub(super) values: ChangedValues,
-    /// Whether other elements are visible by now.
+    /// Whether the visible elements have changed since.
     pub(super) is_outdated: bool,
 }
 
 impl VisibleMesh {
-    /// The change that the copy has not been told.
+    /// The change that the copy has not received.
     pub(super) fn take(&mut self, edited: &EditMesh) -> Option<MeshChange> {
         let values = std::mem::take(&mut self.values);
         (!values.is_empty()).then(|| edited.mesh_change(&values, &self.numbers))

@@ -13,31 +13,31 @@ const MAGIC: &[u8; 8] = b"TRGNREC1";
 /// Length and checksum.
 const HEADER: usize = 16;
 
-/// Something that a user did.
+/// A user's action.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Event {
-    /// A command was run, and not refused.
+    /// A command was run successfully.
     Run(Box<Command>),
-    /// The last command was taken back.
+    /// The last command was undone.
     Undo,
-    /// What was taken back was done again.
+    /// An undone command was redone.
     Redo,
 }
 
-/// What a recovery file holds.
+/// The contents of a recovery file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecoveryLog {
     /// The document as it was opened: a native file.
     pub base: Vec<u8>,
-    /// What was done since.
+    /// The events since.
     pub events: Vec<Event>,
-    /// Whether the end of the file is damaged or was never written wholly: then the last action or
-    /// actions are missing.
+    /// Whether the end of the file is damaged or incomplete: then the last action or actions are
+    /// missing.
     pub is_cut_off: bool,
 }
 
-/// The file is not a recovery file, or nothing of it can be used.
+/// The file is not a recovery file, or nothing in it can be used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error(
     "this is not a recovery file of this version, or its first record is damaged; open the saved file instead"
@@ -45,7 +45,7 @@ pub struct RecoveryLog {
 pub struct UnreadableRecovery;
 
 impl RecoveryLog {
-    /// Reads a recovery file as far as it is whole.
+    /// Reads the intact part of a recovery file.
     ///
     /// # Errors
     /// Not even the document as it was opened can be read.
@@ -84,7 +84,7 @@ fn append_record(bytes: &mut Vec<u8>, payload: &[u8]) {
     bytes.extend(payload);
 }
 
-/// The first record and the rest; none where it is not whole.
+/// The first record and the rest; none if it is incomplete.
 fn split_record(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let (length, rest) = bytes.split_first_chunk::<8>()?;
     let (sum, rest) = rest.split_first_chunk::<8>()?;
@@ -94,7 +94,7 @@ fn split_record(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
 }
 
 /// Eight bytes at a time through the mixer of SplitMix64 (Steele, Lea and Flood, "Fast splittable
-/// pseudorandom number generators", 2014): it finds damage, and keeps nobody from forging.
+/// pseudorandom number generators", 2014). It detects damage, but does not prevent forgery.
 fn checksum(bytes: &[u8]) -> u64 {
     let mix = |word: u64| {
         let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

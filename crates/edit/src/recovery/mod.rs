@@ -1,9 +1,9 @@
-//! What was done since a document was opened, kept on the disk while it is edited: after a crash the
-//! document and its history are as they were.
+//! Recovery files: all actions since a document was opened, on disk while it is edited. After a
+//! crash the document and its history are restored.
 //!
-//! A recovery file is the document as it was opened and then one record for each action. Records
-//! are only ever added, each with a checksum; what was being written when the power went is left out.
-//! Commands are data and give the same bytes each time, so running them again gives the document, its
+//! A recovery file is the document as it was opened, followed by one record for each action. Records are only
+//! ever appended, each with a checksum; a record that was being written during a power failure is dropped.
+//! Commands are data and give the same bytes each time, so running them again restores the document, its
 //! selection and its history.
 
 mod log;
@@ -16,11 +16,11 @@ use crate::document::Document;
 use crate::error::EditError;
 
 impl Document {
-    /// Does again what a recovery file tells, on the document as it was opened.
+    /// Replays a recovery file on the document as it was opened.
     ///
     /// # Errors
-    /// An event is refused that was not refused before: then the base was another document.
-    /// Those before it stay done.
+    /// An event fails that succeeded before: then the base is another document. The events before
+    /// it stay done.
     pub fn replay(&mut self, events: &[Event]) -> Result<(), EditError> {
         for event in events {
             match event {

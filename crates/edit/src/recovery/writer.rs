@@ -1,4 +1,4 @@
-//! Writing the recovery file on another thread, so that nobody waits for a disk.
+//! Writing the recovery file on another thread, so that the caller never waits for a disk.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -8,16 +8,16 @@ use std::thread::{self, JoinHandle};
 use super::log::{self, Event};
 use crate::storage::Storage;
 
-/// How far the recovery file is.
+/// The state of the recovery file.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct RecoveryStatus {
     /// How many events are on the disk, synced.
     pub written: usize,
-    /// Why nothing more is written: shown to the user, who should save.
+    /// Why nothing more is written; show it to the user, who should save.
     pub error: Option<String>,
 }
 
-/// Adds what is done to a recovery file. When it is dropped, all that was added is written.
+/// Appends events to a recovery file. Dropping it waits until everything is written.
 #[derive(Debug)]
 pub struct RecoveryWriter {
     path: PathBuf,
@@ -28,8 +28,8 @@ pub struct RecoveryWriter {
 }
 
 impl RecoveryWriter {
-    /// Starts a recovery file with the document as it was opened, a native file. It takes the place of
-    /// another one under this name at once, when it is whole.
+    /// Starts a recovery file with the document as it was opened, a native file. It replaces another file of
+    /// this name in one step, once it is complete.
     #[must_use]
     pub fn start(storage: Box<dyn Storage + Send>, path: &Path, base: Vec<u8>) -> Self {
         let (events, receiver) = channel();
@@ -39,24 +39,25 @@ impl RecoveryWriter {
         Self { path: path.to_owned(), events: Some(events), thread: Some(thread), status }
     }
 
-    /// Adds what was done. It returns at once.
+    /// Appends events. Returns at once.
     pub fn add(&self, event: Event) {
         if let Some(events) = &self.events {
-            // A thread that gave up has said why in the status.
+            // A thread that gave up has recorded the reason in the status.
             drop(events.send(event));
         }
     }
 
-    /// How far the file is.
+    /// The state of the file.
     #[must_use]
     pub fn status(&self) -> RecoveryStatus {
         self.status.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Waits until all is written, and removes the file: the document was closed, and needs none.
+    /// Waits until everything is written, then removes the file: the document was closed and does
+    /// not need one.
     pub fn remove(mut self) {
         if let Some(mut storage) = self.end() {
-            // One that is left over is offered at the next start, which does no harm.
+            // A file that is left over is offered at the next start, which does no harm.
             drop(storage.remove(&self.path));
         }
     }
@@ -73,7 +74,7 @@ impl Drop for RecoveryWriter {
     }
 }
 
-/// What the thread has.
+/// The data of the thread.
 struct Writing {
     storage: Box<dyn Storage + Send>,
     path: PathBuf,
@@ -89,7 +90,7 @@ impl Writing {
         while let Ok(event) = events.recv() {
             let mut bytes = log::record(&event);
             let mut count = 1;
-            // What has come meanwhile is written with one sync.
+            // Events that arrived meanwhile are written with one sync.
             while let Ok(event) = events.try_recv() {
                 bytes.extend(log::record(&event));
                 count += 1;

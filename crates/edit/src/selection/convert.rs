@@ -1,4 +1,4 @@
-//! From selected elements of one kind to those of another that follow from them.
+//! Converts selected elements of one kind to those of another.
 
 use rayon::prelude::*;
 use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
@@ -6,8 +6,8 @@ use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
 use super::{ElementKind, Elements, MeshSelection, bits, each_once};
 
 impl MeshSelection {
-    /// The selected vertices that exist and are not hidden, increasing. It takes time
-    /// proportional to what is selected, and so do the others.
+    /// The selected vertices that exist and are not hidden, in increasing order. Takes time
+    /// proportional to the selection, like the functions below.
     #[must_use]
     pub fn vertices(&self, mesh: &EditMesh, kind: ElementKind) -> Vec<VertexId> {
         let vertices: Vec<u32> = match kind {
@@ -22,7 +22,7 @@ impl MeshSelection {
         each_once(mesh.vertex_capacity(), vertices).into_iter().map(VertexId::new).collect()
     }
 
-    /// The selected edges that exist and are not hidden, increasing.
+    /// The selected edges that exist and are not hidden, in increasing order.
     #[must_use]
     pub fn edges(&self, mesh: &EditMesh, kind: ElementKind) -> Vec<EdgeId> {
         let edges: Vec<u32> = match kind {
@@ -46,7 +46,7 @@ impl MeshSelection {
         each_once(mesh.edge_capacity(), edges).into_iter().map(EdgeId::new).collect()
     }
 
-    /// The selected faces that exist and are not hidden, increasing.
+    /// The selected faces that exist and are not hidden, in increasing order.
     #[must_use]
     pub fn faces(&self, mesh: &EditMesh, kind: ElementKind) -> Vec<FaceId> {
         let faces: Vec<u32> = match kind {
@@ -92,15 +92,15 @@ impl MeshSelection {
         all.filter(|&face| mesh.has_face(face) && !mesh.is_face_hidden(face))
     }
 
-    /// Whether so much is selected that it takes less time to ask each element of another kind than
-    /// to go through the neighbours of what is selected.
+    /// Whether the selection is so large that testing each element of another kind is faster than
+    /// visiting the neighbours of the selected ones.
     fn is_much_of(&self, capacity: usize) -> bool {
-        /// Of all, the part from which on it is.
+        /// The fraction of all elements above which it is.
         const PART: usize = 16;
         self.len() * PART > capacity
     }
 
-    /// Selects elements of another kind: those that followed from what was selected.
+    /// Converts the selection to another kind of element.
     pub(super) fn convert(&mut self, mesh: &EditMesh, from: ElementKind, to: ElementKind) {
         let elements = match to {
             ElementKind::Vertex => Elements::Vertices(self.vertices(mesh, from)),
@@ -110,8 +110,9 @@ impl MeshSelection {
         self.select(mesh, to, &elements);
     }
 
-    /// Selects elements and no others, as far as they are not hidden. Those of another kind than the
-    /// selection's are represented by what they consist of, or by what consists of them alone.
+    /// Selects exactly these elements, as far as they are not hidden. Elements of another kind than
+    /// the selection's are represented by their parts, or by the elements that consist only of
+    /// them.
     pub fn select(&mut self, mesh: &EditMesh, kind: ElementKind, elements: &Elements) {
         let own = match elements {
             Elements::Vertices(vertices) => bits(mesh.vertex_capacity(), vertices.iter().map(|v| v.index())),
@@ -131,9 +132,9 @@ impl MeshSelection {
     }
 }
 
-/// The elements for which something is so, increasing, found on all threads.
+/// The elements for which a predicate holds, in increasing order, computed on all threads.
 fn those<T: Send>(capacity: usize, is_so: impl Fn(u32) -> bool + Sync, name: fn(u32) -> T) -> Vec<T> {
-    /// Elements that a thread asks at a time.
+    /// The number of elements that a thread tests at a time.
     const SHARE: usize = 1 << 14;
     let starts: Vec<usize> = (0..capacity).step_by(SHARE).collect();
     let found = starts.into_par_iter().map(|start| {
@@ -149,7 +150,7 @@ mod tests {
 
     use super::*;
 
-    /// Few and many selected elements are asked in different ways, which find the same.
+    /// Few and many selected elements are tested in different ways with the same result.
     #[test]
     fn what_follows_from_many_elements_is_what_follows_from_few() {
         let mut mesh = EditMesh::from_mesh(&primitives::grid(1.0, 1.0, 9, 7)).0;

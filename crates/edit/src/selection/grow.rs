@@ -1,4 +1,4 @@
-//! Selections that grow from what is selected: linked, more, less.
+//! Growing and shrinking selections: linked, more, less.
 
 use fixedbitset::FixedBitSet;
 use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
@@ -6,7 +6,7 @@ use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
 use super::{ElementKind, MeshSelection, bits};
 
 impl MeshSelection {
-    /// Selects all that hangs together with what is selected, by edges.
+    /// Selects everything connected to the selection by edges.
     pub fn grow_linked(&mut self, mesh: &EditMesh, kind: ElementKind) {
         let mut reached = FixedBitSet::with_capacity(mesh.vertex_capacity());
         let mut waiting = self.vertices(mesh, kind);
@@ -32,7 +32,7 @@ impl MeshSelection {
                 self.set(bits(mesh.edge_capacity(), visible.map(EdgeId::index)));
             }
             ElementKind::Face => {
-                // All vertices of a face hang together, so one tells of all.
+                // All vertices of a face are connected, so one represents all.
                 let is_linked = |&face: &FaceId| mesh.face_vertices(face).next().is_some_and(has);
                 let visible = mesh.faces().filter(is_linked).filter(|&face| !mesh.is_face_hidden(face));
                 self.set(bits(mesh.face_capacity(), visible.map(FaceId::index)));
@@ -40,8 +40,8 @@ impl MeshSelection {
         }
     }
 
-    /// Selects what touches the selected: vertices of a common face or edge, edges and faces with a
-    /// common vertex.
+    /// Grows the selection: vertices with a common face or edge, edges and faces with a common
+    /// vertex.
     pub fn grow(&mut self, mesh: &EditMesh, kind: ElementKind) {
         let vertices = self.vertices(mesh, kind);
         let mut grown = self.bits().clone();
@@ -74,8 +74,8 @@ impl MeshSelection {
         self.set(grown);
     }
 
-    /// Selects no more what touches something that is not selected, in the sense of
-    /// [`Self::grow`]. The border of a mesh is no such thing.
+    /// Shrinks the selection: deselects elements that touch an unselected one, in the sense of
+    /// [`Self::grow`]. The border of a mesh does not count.
     pub fn shrink(&mut self, mesh: &EditMesh, kind: ElementKind) {
         let mut shrunk = self.bits().clone();
         let is_border = |vertex: VertexId| match kind {
@@ -95,7 +95,7 @@ impl MeshSelection {
     }
 }
 
-/// The vertices that share a face or an edge with a vertex, itself among them.
+/// The vertices that share a face or an edge with a vertex, including itself.
 fn around(mesh: &EditMesh, vertex: VertexId) -> impl Iterator<Item = VertexId> + '_ {
     let by_faces = mesh.vertex_faces(vertex).flat_map(|face| mesh.face_vertices(face));
     by_faces.chain(mesh.vertex_neighbors(vertex))

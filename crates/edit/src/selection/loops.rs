@@ -1,10 +1,10 @@
-//! Loops and rings: the lines along which a mesh of quads is laid out.
+//! Edge loops and rings of quad meshes.
 
 use trigon_mesh::edit::{CornerId, EdgeId, EditMesh, FaceId, VertexId};
 
-/// The loop of edges through an edge. It goes on over vertices where four edges
-/// and four faces meet, to the edge opposite; an edge at the border goes on along the border. It ends
-/// anywhere else, and where it meets itself.
+/// The edge loop through an edge. It continues across vertices where four edges and four faces meet, to the
+/// opposite edge; an edge at the border continues along the border. It ends everywhere else, and where it
+/// closes.
 #[must_use]
 pub fn edge_loop(mesh: &EditMesh, start: EdgeId) -> Vec<EdgeId> {
     let mut found = vec![start];
@@ -13,7 +13,7 @@ pub fn edge_loop(mesh: &EditMesh, start: EdgeId) -> Vec<EdgeId> {
         let (mut edge, mut vertex) = (start, first);
         while let Some(next) = loop_continues(mesh, edge, vertex) {
             if next == start {
-                // It is closed: the other direction would find the same.
+                // It is closed: the other direction would find the same edges.
                 return found;
             }
             if found.len() > mesh.edge_count() {
@@ -34,7 +34,7 @@ fn loop_continues(mesh: &EditMesh, edge: EdgeId, vertex: VertexId) -> Option<Edg
         return others.next().is_none().then_some(next);
     }
     if mesh.edge_faces(edge).count() == 0 {
-        // Wires go on over vertices between two of them.
+        // Loose edges continue across vertices that have exactly two.
         let mut others = mesh.vertex_edges(vertex).filter(|&other| other != edge);
         let next = others.next()?;
         let is_wire = mesh.edge_faces(next).count() == 0;
@@ -48,7 +48,7 @@ fn loop_continues(mesh: &EditMesh, edge: EdgeId, vertex: VertexId) -> Option<Edg
     mesh.vertex_edges(vertex).find(|&other| other != edge && !shares_face(other))
 }
 
-/// The ring of edges across quads, from an edge to the opposite one and so on, both ways.
+/// The edge ring across quads, from an edge to the opposite one and so on, in both directions.
 #[must_use]
 pub fn edge_ring(mesh: &EditMesh, start: EdgeId) -> Vec<EdgeId> {
     let mut found = vec![start];

@@ -1,4 +1,4 @@
-//! What is selected: objects, and within them vertices, edges or faces.
+//! The selection: objects, and within them vertices, edges or faces.
 
 mod convert;
 mod grow;
@@ -22,7 +22,7 @@ pub use properties::{
     Similarity, border_edges, faces_of_material, faces_towards, non_manifold_edges, sharp_edges, similar,
 };
 
-/// Which kind of element is selected in edit mode. The other kinds follow from it.
+/// The kind of element that is selected in edit mode. The other kinds are derived from it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ElementKind {
@@ -35,58 +35,58 @@ pub enum ElementKind {
     Face,
 }
 
-/// The objects that are selected, and the elements of the meshes that are edited.
+/// The selected objects, and the selected elements of edited meshes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Selection {
     /// Objects, in object mode.
     pub objects: BTreeSet<NodeId>,
-    /// The object that was selected last: the one that joins others, or whose values are shown.
+    /// The object selected last: the one that others are joined to, and whose values are shown.
     pub active: Option<NodeId>,
     kind: ElementKind,
     elements: BTreeMap<MeshId, MeshSelection>,
 }
 
-/// The selected elements of one mesh, of the kind that its [`Selection`] tells. In a document all of
+/// The selected elements of one mesh, of the kind given by its [`Selection`]. In a document all of
 /// them exist and none is hidden.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MeshSelection {
-    /// Shared by copies until one of them changes: a history of moves holds a selection once.
+    /// Shared by copies until one of them changes: a history of moves stores a selection once.
     bits: Arc<FixedBitSet>,
-    /// Those that were selected one by one, the last at the end; bulk selections clear it.
+    /// Elements that were selected individually, the last at the end; bulk selections clear it.
     order: Vec<u32>,
 }
 
 impl Selection {
-    /// Which kind of element is selected.
+    /// The kind of element that is selected.
     #[must_use]
     pub fn kind(&self) -> ElementKind {
         self.kind
     }
 
-    /// The meshes of which elements may be selected: those that are edited.
+    /// The meshes whose elements can be selected: the edited ones.
     pub fn meshes(&self) -> impl Iterator<Item = (MeshId, &MeshSelection)> {
         self.elements.iter().map(|(&mesh, selection)| (mesh, selection))
     }
 
-    /// The elements of a mesh that are selected; `None` where it is not edited.
+    /// The selected elements of a mesh; `None` if it is not edited.
     #[must_use]
     pub fn of(&self, mesh: MeshId) -> Option<&MeshSelection> {
         self.elements.get(&mesh)
     }
 
-    /// The same, to be changed.
+    /// The same, mutable.
     pub fn of_mut(&mut self, mesh: MeshId) -> Option<&mut MeshSelection> {
         self.elements.get_mut(&mesh)
     }
 
-    /// Whether elements of meshes are selected rather than objects.
+    /// Whether elements are selected rather than objects.
     #[must_use]
     pub fn is_editing(&self) -> bool {
         !self.elements.is_empty()
     }
 
-    /// Selects elements of a mesh no more that do not exist any more, or are hidden. Their numbers may be
-    /// given to other elements later, which nobody selected.
+    /// Deselects elements of a mesh that no longer exist or are hidden. Their numbers may later be reused for
+    /// elements that nobody selected.
     pub(crate) fn keep_selectable(&mut self, id: MeshId, mesh: &EditMesh) {
         let kind = self.kind;
         if let Some(selection) = self.elements.get_mut(&id) {
@@ -94,17 +94,17 @@ impl Selection {
         }
     }
 
-    /// Starts to select elements of a mesh, or goes on to.
+    /// Enables selecting elements of a mesh, if it is not already.
     pub(crate) fn enter(&mut self, mesh: MeshId) {
         self.elements.entry(mesh).or_default();
     }
 
-    /// Selects objects again. What was selected within them is forgotten.
+    /// Returns to selecting objects. The selection of elements is forgotten.
     pub(crate) fn leave(&mut self) {
         self.elements.clear();
     }
 
-    /// Selects another kind of element: those that followed from what was selected.
+    /// Converts the selection to another kind of element.
     pub(crate) fn set_kind(&mut self, kind: ElementKind, meshes: &BTreeMap<MeshId, EditMesh>) {
         let old = self.kind;
         self.kind = kind;
@@ -115,7 +115,7 @@ impl Selection {
         }
     }
 
-    /// Roughly the memory that it takes beside another one, in bytes: what both share is not counted.
+    /// The approximate memory that it takes in addition to another one, in bytes: shared data is not counted.
     pub(crate) fn bytes_beside(&self, other: Option<&Self>) -> usize {
         let is_shared = |id: MeshId, selection: &MeshSelection| {
             other
@@ -154,13 +154,13 @@ impl MeshSelection {
         self.bits.is_clear()
     }
 
-    /// The elements that were selected one by one, the last at the end.
+    /// The elements that were selected individually, the last at the end.
     #[must_use]
     pub fn order(&self) -> &[u32] {
         &self.order
     }
 
-    /// Selects more elements one by one.
+    /// Selects more elements individually.
     pub fn insert(&mut self, indices: &[u32]) {
         self.forget_order(indices);
         let bits = Arc::make_mut(&mut self.bits);
@@ -172,12 +172,12 @@ impl MeshSelection {
         }
     }
 
-    /// Selects elements no more.
+    /// Deselects elements.
     pub fn remove(&mut self, indices: &[u32]) {
         self.forget_order(indices);
     }
 
-    /// Takes elements out of the bits and out of the order.
+    /// Removes elements from the bits and from the order.
     fn forget_order(&mut self, indices: &[u32]) {
         let bits = Arc::make_mut(&mut self.bits);
         let length = bits.len();
@@ -187,7 +187,7 @@ impl MeshSelection {
         self.order.retain(|&index| self.bits.contains(index as usize));
     }
 
-    /// Keeps only the selected elements that `stays` is true for.
+    /// Keeps only the selected elements for which `stays` returns true.
     fn retain(&mut self, stays: impl Fn(u32) -> bool) {
         let gone: Vec<u32> = self.indices().filter(|&index| !stays(index)).collect();
         if !gone.is_empty() {
@@ -201,7 +201,7 @@ impl MeshSelection {
         self.order.clear();
     }
 
-    /// Selects these elements and no others.
+    /// Selects exactly these elements.
     pub fn set(&mut self, bits: FixedBitSet) {
         self.bits = Arc::new(bits);
         self.order.clear();
@@ -250,7 +250,7 @@ impl ElementKind {
         bits(self.capacity(mesh), all.filter(|&index| self.is_selectable(mesh, index)))
     }
 
-    /// How many indices elements of this kind may have.
+    /// The number of indices of this kind.
     pub(crate) fn capacity(self, mesh: &EditMesh) -> usize {
         match self {
             Self::Vertex => mesh.vertex_capacity(),
@@ -260,9 +260,10 @@ impl ElementKind {
     }
 }
 
-/// The indices of a list, each once and increasing; there are so many at most. Time grows with the list.
+/// The distinct indices of a list in increasing order; `limit` is an upper bound on their number. Takes time
+/// proportional to the list.
 fn each_once(capacity: usize, mut indices: Vec<u32>) -> Vec<u32> {
-    /// Setting and reading a bit for each index that there may be takes less time than sorting from here on.
+    /// From this size on, setting and reading a bit for each possible index is faster than sorting.
     const DENSE: usize = 16;
     if indices.len() * DENSE < capacity {
         indices.sort_unstable();
@@ -279,7 +280,7 @@ fn bits(capacity: usize, indices: impl Iterator<Item = u32>) -> FixedBitSet {
     bits
 }
 
-/// A set of elements of one mesh of any kind: what an operation made.
+/// A set of elements of any kind of one mesh, such as those that an operation made.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Elements {
     /// Vertices.

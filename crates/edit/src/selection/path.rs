@@ -7,10 +7,10 @@ use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
 
 use super::ElementKind;
 
-/// The elements on the shortest path between two, both included, in order; `None` where none leads
-/// there. Vertices are joined by edges, and lengths are those of edges; edges and faces are joined by
-/// common vertices and common edges, and lengths are those between their middles. Of several
-/// shortest paths the one with the smaller indices is taken. Both elements have to exist.
+/// The elements on the shortest path between two, both included, in order; `None` if they are not connected.
+/// Vertices are connected by edges, and the path has the length of these; edges and faces are connected by
+/// common vertices and common edges, and lengths are those between their centres. Of several shortest paths
+/// the one with the smaller indices is taken. Both elements must exist.
 #[must_use]
 pub fn shortest_path(mesh: &EditMesh, kind: ElementKind, from: u32, to: u32) -> Option<Vec<u32>> {
     let capacity = kind.capacity(mesh);
@@ -23,7 +23,7 @@ struct Search {
     lengths: Vec<f64>,
 }
 
-/// An element and the length of the way to it, the nearest first out of a heap.
+/// An element and the length of the path to it; the heap returns the nearest first.
 #[derive(PartialEq)]
 struct Reached(f64, u32);
 
@@ -58,10 +58,10 @@ impl Search {
             let middle = kind.middle_of(mesh, here);
             for &next in &neighbors {
                 let step = (kind.middle_of(mesh, next) - middle).length();
-                // A place that is not finite is as far away as can be.
+                // A position that is not finite is infinitely far away.
                 let sum = if step.is_finite() { length + step } else { f64::MAX };
                 let known = &mut self.lengths[next as usize];
-                // Only along steps that lead on: others could make the way back a circle.
+                // Only steps that make progress: others could close the way back into a circle.
                 let is_equal_but_smaller = sum == *known && length < sum && here < self.before[next as usize];
                 if sum < *known {
                     *known = sum;
@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn vertices_at_one_place_do_not_make_a_path_a_circle() {
         let mut mesh = EditMesh::new();
-        // The last two are at one place, and the first of them is joined to both others.
+        // The last two are in the same place, and the first of them is connected to both others.
         let places = [0.0, 3.0, 1.0, 3.0].map(|x| trigon_mesh::math::Vec3::new(x, 0.0, 0.0));
         let vertices = places.map(|place| mesh.add_vertex(place).expect("room"));
         let [start, low, middle, high] = vertices;

@@ -1,4 +1,5 @@
-//! Selecting by what elements are: border, non-manifold, sharp, similar, by normal, by material.
+//! Selecting by properties of elements: border, non-manifold, sharp, similar, by normal, by
+//! material.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,11 +8,11 @@ use trigon_mesh::math::DVec3;
 
 use super::Elements;
 
-/// What elements have to have in common with one that is selected.
+/// The property that elements must share with a selected one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Similarity {
-    /// Faces: as many corners.
+    /// Faces: the same number of corners.
     #[default]
     Corners,
     /// Faces: the same material slot.
@@ -22,9 +23,9 @@ pub enum Similarity {
     Normal,
     /// Edges: about the same length.
     Length,
-    /// Edges: as many faces.
+    /// Edges: the same number of faces.
     Faces,
-    /// Vertices: as many edges.
+    /// Vertices: the same number of edges.
     Edges,
 }
 
@@ -34,7 +35,7 @@ pub fn border_edges(mesh: &EditMesh) -> Elements {
     Elements::Edges(mesh.edges().filter(|&edge| mesh.is_boundary(edge)).collect())
 }
 
-/// Edges where not exactly two sides of faces meet that run in opposite directions.
+/// Edges that do not have exactly two faces running in opposite directions.
 #[must_use]
 pub fn non_manifold_edges(mesh: &EditMesh) -> Elements {
     let is_manifold = |edge: EdgeId| {
@@ -70,12 +71,12 @@ pub fn faces_of_material(mesh: &EditMesh, material: u32) -> Elements {
     Elements::Faces(mesh.faces().filter(|&face| mesh.material(face) == material).collect())
 }
 
-/// Elements that have something in common with at least one of those that are given. Lengths and areas
-/// may differ by the share `tolerance`, directions by that many radians.
+/// Elements that share a property with at least one of the given ones. Lengths and areas may differ by the
+/// fraction `tolerance`, directions by that many radians.
 #[must_use]
 pub fn similar(mesh: &EditMesh, given: &Elements, what: Similarity, tolerance: f64) -> Elements {
     let near = |values: &[f64], value: f64| {
-        // The values increase: the nearest ones are at the place where it would be put in.
+        // The values are sorted: the nearest ones are next to the insertion point.
         let place = values.partition_point(|&other| other < value);
         let is_near = |other: &f64| (other - value).abs() <= tolerance * other.abs().max(value.abs());
         values[..place].last().is_some_and(is_near) || values[place..].first().is_some_and(is_near)
@@ -100,7 +101,7 @@ pub fn similar(mesh: &EditMesh, given: &Elements, what: Similarity, tolerance: f
         }
         Elements::Faces(faces) if what == Similarity::Normal => {
             let least = trigon_mesh::math::elementary::sin_cos(tolerance).1;
-            // Few directions are different on most meshes.
+            // Most meshes have few different directions.
             let mut known: Vec<DVec3> = faces.iter().map(|&face| face_direction(mesh, face)).collect();
             known.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
             known.dedup();

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::Storage;
 
-/// Files where the operating system keeps them.
+/// Files of the operating system.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Disk;
 
@@ -20,11 +20,11 @@ impl Storage for Disk {
     }
 
     fn resolve(&self, path: &Path) -> PathBuf {
-        /// As many links as Linux follows.
+        /// The number of links that Linux follows.
         const MOST_LINKS: usize = 40;
         let mut path = path.to_owned();
         for _ in 0..MOST_LINKS {
-            // A link may lead to where no file is yet.
+            // A link may point to a file that does not exist yet.
             let Ok(target) = fs::read_link(&path) else { break };
             path = path.parent().map_or_else(|| target.clone(), |folder| folder.join(&target));
         }
@@ -48,7 +48,7 @@ impl Storage for Disk {
     }
 
     fn sync(&mut self, path: &Path) -> io::Result<()> {
-        // Some systems sync only what was opened to be written to.
+        // Some systems sync only files that were opened for writing.
         OpenOptions::new().write(true).open(path)?.sync_all()
     }
 

@@ -1,5 +1,5 @@
-//! A disk in memory that remembers every step, can fail at one, and can lose what was not synced:
-//! what saving and recovery are tested with.
+//! An in-memory disk that records every step, can fail at one, and can lose unsynced data: for
+//! testing saving and recovery.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 
 use super::Storage;
 
-/// One step of a program.
+/// One operation of a program.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Step {
-    /// A file is emptied and then written, or written at its end.
+    /// A file is truncated and then written, or appended to.
     Write {
         path: PathBuf,
         bytes: Vec<u8>,
@@ -48,7 +48,7 @@ impl FailingDisk {
         &self.log
     }
 
-    /// The step with this number fails, and is not done.
+    /// The operation with this number fails without effect.
     pub(crate) fn fail_at(&mut self, step: usize) {
         self.fails_at = Some(step);
     }
@@ -116,13 +116,13 @@ impl Storage for FailingDisk {
     }
 }
 
-/// A disk's contents: files by number, and which names lead to them.
+/// The contents of a disk: files by number, and the names that refer to them.
 #[derive(Debug, Clone, Default)]
 struct State {
-    /// For each file what is there, and what is synced.
+    /// For each file its current and its synced contents.
     files: Vec<(Vec<u8>, Vec<u8>)>,
     names: BTreeMap<PathBuf, usize>,
-    /// The names as they were at the last sync of the folder, and what was done to them since.
+    /// The names as of the last sync of the folder, and the changes since.
     synced_names: BTreeMap<PathBuf, usize>,
     unsynced: Vec<NameChange>,
 }
@@ -199,9 +199,9 @@ impl NameChange {
     }
 }
 
-/// What a crash after these steps can leave: of the changes of names since the last sync of
-/// the folder any first ones were done; of contents that were not synced there is nothing, half,
-/// all, or something else of the same length.
+/// The states that a crash after these steps can leave: of the changes of names since the last sync
+/// of the folder, any number of the first ones were done; of unsynced contents there is nothing,
+/// half, all, or something else of the same length.
 pub(crate) fn crashes(log: &[Step]) -> Vec<Files> {
     let state = State::after(log);
     let mut results = Vec::new();

@@ -1,5 +1,5 @@
-//! Files on a disk, as saving needs them: behind a trait, so that tests can let a disk lose
-//! what was not synced.
+//! File operations that saving needs, behind a trait, so that tests can make a disk lose unsynced
+//! data.
 
 mod disk;
 #[cfg(test)]
@@ -13,72 +13,72 @@ pub use disk::Disk;
 pub(crate) use save::replace;
 pub use save::{SaveError, backup_path, save};
 
-/// What saving asks of a disk. Nothing that was written survives a loss of power for certain until it
-/// was synced: contents by [`Storage::sync`], names by [`Storage::sync_folder`].
+/// The operations of a disk that saving needs. Data survives a power failure for certain only after it was
+/// synced: contents by [`Storage::sync`], names by [`Storage::sync_folder`].
 pub trait Storage {
     /// All bytes of a file.
     ///
     /// # Errors
-    /// What the system says, here and below.
+    /// The operating system's error, here and below.
     fn read(&self, path: &Path) -> io::Result<Vec<u8>>;
 
-    /// Whether there is such a file.
+    /// Whether the file exists.
     fn exists(&self, path: &Path) -> bool;
 
-    /// Where a path leads in the end: to itself where there are no symbolic links.
+    /// The final target of a path: itself if there are no symbolic links.
     fn resolve(&self, path: &Path) -> PathBuf {
         path.to_owned()
     }
 
-    /// Gives a new file the permissions of the one that it is to replace. Does nothing where files have
-    /// none.
+    /// Gives a new file the permissions of the one that it will replace. Does nothing on systems without
+    /// permissions.
     ///
     /// # Errors
-    /// The old file is not to be written ([`io::ErrorKind::PermissionDenied`]), or what the system says.
+    /// The old file is read-only ([`io::ErrorKind::PermissionDenied`]), or an error of the operating system.
     fn keep_permissions(&mut self, old: &Path, new: &Path) -> io::Result<()> {
         let _ = (old, new);
         Ok(())
     }
 
-    /// Writes a file; what it held before is gone.
+    /// Writes a file, replacing its contents.
     ///
     /// # Errors
-    /// What the system says. The file may hold a part then.
+    /// An error of the operating system. The file may then be incomplete.
     fn write(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()>;
 
-    /// Writes at the end of a file, which is made if there is none.
+    /// Appends to a file, which is created if it does not exist.
     ///
     /// # Errors
-    /// What the system says. A part may be written then.
+    /// An error of the operating system. A part may then be written.
     fn append(&mut self, path: &Path, bytes: &[u8]) -> io::Result<()>;
 
     /// Makes the contents of a file durable.
     ///
     /// # Errors
-    /// What the system says.
+    /// An error of the operating system.
     fn sync(&mut self, path: &Path) -> io::Result<()>;
 
-    /// Gives a file a second name, which must be free.
+    /// Gives a file a second name, which must not exist.
     ///
     /// # Errors
-    /// What the system says; some file systems cannot.
+    /// An error of the operating system; some file systems cannot do this.
     fn link(&mut self, from: &Path, to: &Path) -> io::Result<()>;
 
-    /// Gives a file another name at once; what had that name before is gone.
+    /// Renames a file in one step; a file with the new name is replaced.
     ///
     /// # Errors
-    /// What the system says.
+    /// An error of the operating system.
     fn rename(&mut self, from: &Path, to: &Path) -> io::Result<()>;
 
     /// Removes a name.
     ///
     /// # Errors
-    /// What the system says.
+    /// An error of the operating system.
     fn remove(&mut self, path: &Path) -> io::Result<()>;
 
     /// Makes the names in a folder durable.
     ///
     /// # Errors
-    /// What the system says.
+    /// An error of the operating system.
     fn sync_folder(&mut self, folder: &Path) -> io::Result<()>;
 }

@@ -1,5 +1,5 @@
-//! Saving a file so that at each moment the old or the new one is there, whole, and the one before as a
-//! backup.
+//! Saving a file so that at each moment either the old or the new version exists completely, with the
+//! previous one as a backup.
 
 use std::ffi::OsString;
 use std::io;
@@ -9,32 +9,31 @@ use thiserror::Error;
 
 use super::Storage;
 
-/// Why a file was not saved. The old one is still there.
+/// Why a file was not saved. The old one still exists.
 #[derive(Debug, Error)]
 #[error("{}: cannot be saved, {step} failed ({source}); the file is as it was before: check that its folder is writable and has room, or save under another name", path.display())]
 pub struct SaveError {
     /// The file.
     pub path: PathBuf,
-    /// What was being done.
+    /// The step that failed.
     pub step: &'static str,
-    /// What the system said.
+    /// The operating system's error.
     pub source: io::Error,
 }
 
-/// Where the version before the last one is kept: the same name with `.bak` at its end.
+/// The path of the backup: the same name with `.bak` appended.
 #[must_use]
 pub fn backup_path(path: &Path) -> PathBuf {
     with_suffix(path, ".bak")
 }
 
-/// Saves a file: writes and syncs a new one beside it, keeps the old one as a backup, gives the new one
-/// the name, and syncs the folder. A symbolic link is followed: its target is replaced. The new file has
-/// the permissions of the old one; one that is read-only is not replaced.
-/// Wherever this is interrupted, the path leads to the old or to the new contents, whole; what is left
-/// over beside it ends in `.part`.
+/// Saves a file: writes and syncs a new one next to it, keeps the old one as a backup, renames the new one,
+/// and syncs the folder. A symbolic link is followed: its target is replaced. The new file has the
+/// permissions of the old one; a read-only file is not replaced. If saving is interrupted anywhere, the path
+/// still refers to the complete old or new contents; leftover files end in `.part`.
 ///
 /// # Errors
-/// Which step failed. The file is as it was before.
+/// The step that failed. The file is unchanged.
 ///
 /// ```
 /// use trigon_edit::{Disk, backup_path, save};
@@ -71,7 +70,7 @@ fn failed(path: &Path, step: &'static str) -> impl FnOnce(io::Error) -> SaveErro
     move |source| SaveError { path: path.to_owned(), step, source }
 }
 
-/// Writes and syncs a file beside the one that it is to replace.
+/// Writes and syncs a file next to the one that it will replace.
 fn write_new(storage: &mut dyn Storage, path: &Path, bytes: &[u8]) -> Result<PathBuf, SaveError> {
     let new = part_path(path, "new");
     let written = storage.write(&new, bytes).and_then(|()| storage.sync(&new));
@@ -79,7 +78,7 @@ fn write_new(storage: &mut dyn Storage, path: &Path, bytes: &[u8]) -> Result<Pat
     Ok(new)
 }
 
-/// Removes a new file that a step failed for. If it cannot be removed either, it does no harm.
+/// Removes the new file after a failed step. If that fails too, the file does no harm.
 fn remove_on_failure(storage: &mut dyn Storage, new: &Path, step: io::Result<()>) -> io::Result<()> {
     step.inspect_err(|_| drop(storage.remove(new)))
 }
@@ -92,11 +91,11 @@ fn give_name(storage: &mut dyn Storage, new: &Path, path: &Path) -> Result<(), S
 fn keep_backup(storage: &mut dyn Storage, target: &Path) -> io::Result<()> {
     let part = part_path(target, "old");
     if storage.exists(&part) {
-        // Left over from a save that was interrupted.
+        // Left over from an interrupted save.
         storage.remove(&part)?;
     }
     if storage.link(target, &part).is_err() {
-        // A file system without second names: a copy takes longer, and is as good.
+        // On file systems without hard links a copy takes longer, but is just as good.
         let old = storage.read(target)?;
         storage.write(&part, &old)?;
         storage.sync(&part)?;
@@ -127,8 +126,8 @@ mod tests {
     use super::super::failing::{FailingDisk, crashes};
     use super::*;
 
-    /// Saves several versions one after another, and looks at every state in which a crash can
-    /// leave the disk.
+    /// Saves several versions one after another, and checks every state in which a crash can leave
+    /// the disk.
     fn check_all_crashes(versions: &[Vec<u8>]) {
         let path = Path::new("/models/chair.glb");
         let mut disk = FailingDisk::default();
@@ -138,7 +137,7 @@ mod tests {
             saved_after.push(disk.log().len());
         }
         for steps in 0..=disk.log().len() {
-            // How many versions were saved for certain, their folders synced.
+            // The number of versions that were certainly saved, with their folders synced.
             let certain = saved_after.iter().filter(|&&end| end <= steps).count();
             for state in crashes(&disk.log()[..steps]) {
                 match state.get(path) {
@@ -174,7 +173,7 @@ mod tests {
     fn whatever_step_fails_the_old_file_is_there() {
         let path = Path::new("/models/chair.glb");
         let mut failures = 0;
-        // More than there are; where a step that failed was a link, a copy takes its place.
+        // More than there are; if the failed step was a hard link, a copy takes its place.
         for step in 0..12 {
             let mut disk = FailingDisk::default();
             save(&mut disk, path, b"first").expect("nothing fails");

@@ -1,11 +1,11 @@
-//! Which nodes hang on which.
+//! The node hierarchy.
 
 use trigon_scene::{NodeId, Scene};
 
 use super::stored::Stored;
 use super::stream::{Damage, Reader};
 
-/// Reads the children of every node and hangs them there.
+/// Reads the children of every node and sets their parents.
 pub(super) fn read(from: &mut Reader<'_>, scene: &mut Scene) -> Result<(), Damage> {
     let nodes: Vec<NodeId> = scene.nodes().iter().map(|(id, _)| id).collect();
     let mut children = vec![Vec::<NodeId>::new(); scene.nodes().index_bound()];
@@ -24,7 +24,7 @@ pub(super) fn read(from: &mut Reader<'_>, scene: &mut Scene) -> Result<(), Damag
     if order.len() < nodes.len() {
         return Err(Damage::malformed("nodes hang on each other in a ring"));
     }
-    // From below: the scene looks for rings above the new parent, where nothing is yet.
+    // From below: the scene looks for cycles above the new parent, which has no parent yet.
     for parent in order.into_iter().rev() {
         for &child in &children[parent.index()] {
             scene.set_parent(child, Some(parent)).map_err(|error| Damage::malformed(error.to_string()))?;
@@ -33,7 +33,7 @@ pub(super) fn read(from: &mut Reader<'_>, scene: &mut Scene) -> Result<(), Damag
     Ok(())
 }
 
-/// Every node that is reached from the roots, after its parent.
+/// Every node reachable from the roots, after its parent.
 fn downwards(roots: Vec<NodeId>, children: &[Vec<NodeId>], limit: usize) -> Result<Vec<NodeId>, Damage> {
     let (mut order, mut level, mut depth) = (Vec::new(), roots, 0);
     while !level.is_empty() {

@@ -1,5 +1,5 @@
-//! The hash of captures: FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo), 64 bits. It tells
-//! accidents, not forgeries.
+//! The hash of captures: FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo), 64 bits. It detects accidents,
+//! not forgeries.
 
 pub(super) fn fnv1a(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {

@@ -1,5 +1,5 @@
-//! Ids: an index in a capture, the living item of that index after reading. An id
-//! of an item that was removed stays one that finds nothing.
+//! Ids: an index in a capture becomes the item of that index after reading. An id of a removed item
+//! becomes one that finds nothing.
 
 use trigon_scene::{
     Arena, Id, Material, MaterialId, MeshAsset, MeshId, Node, NodeId, Scene, Skin, SkinId, TextureAsset,
@@ -12,8 +12,7 @@ use super::stream::{Damage, Reader, Writer};
 /// Stands for an item that was removed.
 const GONE: u32 = u32::MAX;
 
-/// The ids of one kind of item that have been read, by their indices, and one that
-/// finds nothing.
+/// The ids of one kind of item read so far, by their indices, and one that finds nothing.
 pub(super) struct Table<T> {
     pub(super) ids: Vec<Id<T>>,
     pub(super) gone: Option<Id<T>>,

@@ -69,7 +69,7 @@ impl Stored for TextureBinding {
     }
 }
 
-/// The base level; the smaller ones are made again.
+/// The base level; the smaller ones are recomputed.
 impl Stored for Texture {
     fn write(&self, to: &mut Writer<'_>) {
         self.format().write(to);

@@ -1,4 +1,4 @@
-//! Elements in colours of their own, and sets of elements.
+//! Marks: elements in their own colours, and sets of elements.
 
 use trigon_scene::{ElementSet, FixedBitSet, Mark, Marks, NodeId, VertexPoints};
 
@@ -12,7 +12,7 @@ record!(Marks { edges, faces, vertices });
 record!(Mark { elements, color, opacity });
 record!(VertexPoints { size, marked_size, color });
 
-/// For each node how many elements it has, and a bit for each, from the lowest of a word on.
+/// For each node its number of elements, and a bit for each, from the lowest of a word on.
 impl Stored for ElementSet {
     fn write(&self, to: &mut Writer<'_>) {
         let of_nodes = self.nodes().map(|(node, bits)| (node, (bits.len() as u32, words(bits))));

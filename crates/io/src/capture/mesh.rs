@@ -1,4 +1,4 @@
-//! Meshes: what they were built from; everything else is found again.
+//! Meshes: the data from which they were built; everything else is recomputed.
 
 use trigon_mesh::{Attributes, Deltas, Mesh, MeshBuilder, MeshError, MorphTarget, SkinWeights};
 

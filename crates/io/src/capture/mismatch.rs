@@ -1,37 +1,37 @@
-//! How a picture differs from the one that was captured.
+//! The difference between an image and the captured one.
 
 use std::fmt;
 
 use super::hash::fnv1a;
 
-/// How a picture differs from the one that was captured. Its `Display` is one line.
+/// The difference between an image and the captured one. Its `Display` is one line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mismatch {
     /// The hash of the captured picture.
     pub captured_hash: u64,
-    /// The hash of the picture that was drawn.
+    /// The hash of the new image.
     pub drawn_hash: u64,
-    /// Where they differ; `None` when their sizes do.
+    /// Where they differ; `None` if their sizes do.
     pub pixels: Option<PixelMismatch>,
 }
 
-/// Which pixels differ.
+/// The pixels that differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PixelMismatch {
     /// How many.
     pub count: usize,
-    /// Of how many.
+    /// Out of this many.
     pub total: usize,
-    /// The place of the first one, in rows from the top: x and y.
+    /// The position of the first one, in rows from the top: x and y.
     pub first: [u32; 2],
-    /// Red, green, blue and alpha of the first one in the captured picture.
+    /// Red, green, blue and alpha of the first one in the captured image.
     pub captured: [u8; 4],
-    /// And in the picture that was drawn.
+    /// And in the new image.
     pub drawn: [u8; 4],
 }
 
 impl Mismatch {
-    /// Compares two pictures of four bytes a pixel and a width each.
+    /// Compares two images of four bytes per pixel and a width each.
     pub(super) fn between(captured: (u32, &[u8]), drawn: (u32, &[u8])) -> Option<Self> {
         if captured == drawn {
             return None;

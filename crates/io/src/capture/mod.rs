@@ -1,8 +1,8 @@
-//! Captures: a scene, a camera, settings and the picture that they made, in one file,
-//! so that any machine can draw it again and tell whether it is the same.
+//! Captures: a scene, a camera, settings and the resulting image, in one file, so that any machine
+//! can draw it again and compare.
 //!
-//! What is drawn from is stored, bit by bit; what is derived from it (triangles,
-//! normals, mip levels, blurred environments, hierarchies, caches) is made again.
+//! The input is stored bit by bit; derived data (triangles, normals, mip levels, blurred
+//! environments, hierarchies, caches) is recomputed.
 //!
 //! # The file
 //! Numbers are little-endian.
@@ -15,8 +15,8 @@
 //! | 8 | the hash of what follows (FNV-1a, 64 bits) |
 //! | rest | scene, settings, camera and the picture's bytes, compressed by zlib |
 //!
-//! Within the last part values follow each other without tags; the lists of fields
-//! in this folder are its order. Any change of them is a new version.
+//! Within the last part values follow each other without tags; the lists of fields in this folder
+//! are its order. Any change of them is a new version.
 
 mod forest;
 mod hash;
@@ -54,7 +54,7 @@ const MAGIC: [u8; 8] = *b"\x93TRIGON\n";
 /// The version of the format.
 const VERSION: u32 = 4;
 
-/// A scene, a camera, settings and the picture that they made.
+/// A scene, a camera, settings and the resulting image.
 ///
 /// ```
 /// use trigon_io::{Capture, Limits};
@@ -73,24 +73,24 @@ const VERSION: u32 = 4;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Capture {
-    /// What was drawn.
+    /// The scene and camera.
     pub scene: Scene,
     /// From where.
     pub camera: Camera,
-    /// How. The colours do not depend on outputs beside them, threads and SIMD level,
-    /// so these are not captured.
+    /// The settings. The colours do not depend on other outputs, threads and SIMD level, so these
+    /// are not captured.
     pub settings: RenderSettings,
-    /// The picture: four bytes a pixel, sRGB and straight alpha, rows from the top.
+    /// The image: four bytes per pixel, sRGB and straight alpha, rows from the top.
     pub color: Vec<u8>,
     /// The version of the program that captured it.
     pub program: String,
 }
 
 impl Capture {
-    /// A capture of what was drawn by this program.
+    /// A capture of a frame drawn by this program.
     ///
     /// # Panics
-    /// When the frame has not the size that the settings ask for, or no colours.
+    /// The frame does not have the size given by the settings, or has no colours.
     pub fn new(scene: Scene, camera: Camera, settings: RenderSettings, frame: &Frame) -> Self {
         let asked = (settings.width, settings.height);
         assert_eq!((frame.width, frame.height), asked, "the frame was drawn by these settings");
@@ -100,12 +100,12 @@ impl Capture {
         Self { scene, camera, settings, color: frame.color.clone(), program }
     }
 
-    /// The hash of the captured picture: FNV-1a, 64 bits, over its bytes.
+    /// The hash of the captured image: FNV-1a, 64 bits, over its bytes.
     pub fn picture_hash(&self) -> u64 {
         fnv1a(&self.color)
     }
 
-    /// How a picture differs from the captured one; `None` when every byte is the same.
+    /// How an image differs from the captured one; `None` if every byte is the same.
     pub fn mismatch(&self, drawn: &Frame) -> Option<Mismatch> {
         Mismatch::between((self.settings.width, &self.color), (drawn.width, &drawn.color))
     }
@@ -120,10 +120,10 @@ impl Capture {
         sealed(VERSION, &self.program, &to.bytes)
     }
 
-    /// Writes the file; an old one of that name is replaced at once or not at all.
+    /// Writes the file atomically.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// The file cannot be written.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), WriteError> {
         write_atomically(path.as_ref(), |file| file.write_all(&self.to_bytes()))
     }
@@ -131,7 +131,7 @@ impl Capture {
     /// Reads a file.
     ///
     /// # Errors
-    /// When it cannot be read, or as [`Self::from_bytes`].
+    /// It cannot be read, or as for [`Self::from_bytes`].
     pub fn read(path: impl AsRef<Path>, limits: &Limits) -> Result<Self, LoadError> {
         let path = path.as_ref();
         let bytes = Folder::none(limits).read_model(path, &to_the_end)?;
@@ -141,8 +141,8 @@ impl Capture {
     /// The capture in a file's bytes; `name` stands for the file in messages.
     ///
     /// # Errors
-    /// When it is no capture, was written in another version of the format (the
-    /// message names both), is damaged, or asks for more than the limits.
+    /// It is not a capture, was written in another version of the format (the message names both),
+    /// is damaged, or exceeds the limits.
     pub fn from_bytes(name: impl AsRef<Path>, bytes: &[u8], limits: &Limits) -> Result<Self, LoadError> {
         let name = name.as_ref();
         let (program, compressed) = opened(name, bytes)?;
@@ -166,7 +166,7 @@ impl Capture {
 
 const CAPTURE_AGAIN: &str = "capture the picture again, or copy the file again";
 
-/// A file around uncompressed parts.
+/// A file with uncompressed parts.
 fn sealed(version: u32, program: &str, parts: &[u8]) -> Vec<u8> {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
     let compressed = encoder.write_all(parts).and_then(|()| encoder.finish());

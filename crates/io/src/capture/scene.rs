@@ -1,6 +1,6 @@
-//! The scene: its parts at their indices, so that nothing that depends on the order
-//! of nodes changes. What refers to something comes after it; as skins and nodes
-//! refer to each other, the places of skins come first and their joints last.
+//! The scene: its parts at their indices, so that nothing that depends on the order of nodes
+//! changes. References come after their targets; since skins and nodes refer to each other, the
+//! slots of skins come first and their joints last.
 
 use std::sync::Arc;
 
@@ -67,7 +67,7 @@ impl Stored for Scene {
     }
 }
 
-/// Everything but parent and children, which [`forest`] finds again.
+/// Everything except parent and children, which [`forest`] restores.
 impl Stored for Node {
     fn write(&self, to: &mut Writer<'_>) {
         let Self { name, transform, mesh, materials, skin, morph_weights, light, camera, visible, .. } = self;
@@ -112,7 +112,7 @@ impl Stored for Curve {
     }
 }
 
-/// The items of an arena up to the last one, and which places are empty.
+/// The items of an arena up to the last one, and which slots are empty.
 fn write_places<T>(to: &mut Writer<'_>, arena: &Arena<T>, write: impl Fn(&T, &mut Writer<'_>)) {
     let count = arena.iter().last().map_or(0, |(id, _)| id.index() + 1);
     (count as u64).write(to);
@@ -123,7 +123,7 @@ fn write_places<T>(to: &mut Writer<'_>, arena: &Arena<T>, write: impl Fn(&T, &mu
     }
 }
 
-/// How many parts of a kind follow.
+/// The number of parts of a kind that follow.
 fn part_count<T>(from: &mut Reader<'_>) -> Result<usize, Damage> {
     let (count, allowed) = (from.count(size_of::<T>())?, from.limits.nodes);
     if count > allowed {
@@ -132,14 +132,14 @@ fn part_count<T>(from: &mut Reader<'_>) -> Result<usize, Damage> {
     Ok(count)
 }
 
-/// The places of an arena. Empty ones hold stand-ins until all are there, else a
-/// later item would take them.
+/// The slots of an arena. Empty ones hold placeholders until all are there; otherwise a later item
+/// would take them.
 struct Places<T> {
     ids: Vec<Id<T>>,
     stand_ins: Vec<Id<T>>,
 }
 
-/// The ids that `insert` gives to what is at each place, and to stand-ins.
+/// The ids that `insert` returns for the content of each slot, and for placeholders.
 fn read_places<T, I: Stored>(
     from: &mut Reader<'_>,
     mut insert: impl FnMut(Option<I>) -> Id<T>,
@@ -152,7 +152,7 @@ fn read_places<T, I: Stored>(
         places.ids.push(id);
         places.stand_ins.extend(is_empty.then_some(id));
     }
-    // One for ids that are to find nothing.
+    // One for ids that should find nothing.
     places.stand_ins.push(insert(None));
     Ok(places)
 }

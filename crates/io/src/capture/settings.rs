@@ -1,4 +1,4 @@
-//! Camera and settings: everything but what the colours do not depend on.
+//! Camera and settings: everything that the colours depend on.
 
 use trigon_camera::{Camera, CameraError, PixelCenters, Projection, Viewport};
 use trigon_math::{DQuat, DVec2, DVec3};
@@ -34,8 +34,8 @@ choice!(Lighting { 0 => Automatic, 1 => Scene, 2 => Studio });
 choice!(ShadingModel { 0 => Flat, 1 => Gouraud, 2 => Phong });
 choice!(Reflection { 0 => Material, 1 => Lambert, 2 => BlinnPhong, 3 => MetallicRoughness });
 
-/// A sky's colours behind a side of 0, or the map of directions. What follows from
-/// them is made again.
+/// A sky's colours after a side of 0, or the map of directions. What follows from them is
+/// recomputed.
 impl Stored for Environment {
     fn write(&self, to: &mut Writer<'_>) {
         if let Some(Sky { zenith, horizon, ground }) = self.sky() {
@@ -175,7 +175,7 @@ fn parts<const N: usize>(from: &mut Reader<'_>) -> Result<([f64; N], Planes), Da
 
 fn pinhole(shape: [f64; 6], (near, far): Planes) -> Result<Projection, CameraError> {
     let [fx, fy, cx, cy, width, height] = shape;
-    // A size in pixels is a whole number; what is none becomes 0, which is refused.
+    // A size in pixels is an integer; anything else becomes 0, which is rejected.
     let image = Viewport { width: width as u32, height: height as u32 };
     let (focal, center) = (DVec2::new(fx, fy), DVec2::new(cx, cy));
     Projection::pinhole(focal, center, image, PixelCenters::AtHalves, near)?.with_planes(near, far)

@@ -1,5 +1,5 @@
-//! How values are stored: one after the other, in the order in which they are
-//! listed, with nothing between them. The lists in this folder are the format.
+//! The encoding of values: one after the other, in the order in which they are listed, with nothing
+//! between them. The lists in this folder are the format.
 
 use std::sync::Arc;
 
@@ -8,13 +8,13 @@ use trigon_math::{DQuat, DVec3, Vec2, Vec3, Vec4};
 
 use super::stream::{Damage, Reader, Writer};
 
-/// What a capture can hold.
+/// A value that a capture can contain.
 pub(super) trait Stored: Sized {
     fn write(&self, to: &mut Writer<'_>);
     fn read(from: &mut Reader<'_>) -> Result<Self, Damage>;
 }
 
-/// A struct with all its fields. One that is forgotten does not compile.
+/// A struct with all its fields. Omitting one does not compile.
 macro_rules! record {
     ($type:ty { $($field:ident),+ $(,)? }) => {
         impl Stored for $type {
@@ -178,7 +178,7 @@ impl<T: Stored> Stored for Vec<T> {
     }
 
     fn read(from: &mut Reader<'_>) -> Result<Self, Damage> {
-        // Not reserved: a claim is believed as far as its items come.
+        // Not reserved: a length is trusted only as far as its items arrive.
         (0..from.count(size_of::<T>())?).map(|_| T::read(from)).collect()
     }
 }

@@ -1,4 +1,4 @@
-//! Bytes of a capture: numbers are little-endian, floats their bits.
+//! The byte stream of a capture: numbers are little-endian, floats their bits.
 
 use std::io::{BufReader, Read};
 
@@ -8,17 +8,17 @@ use trigon_scene::Scene;
 use super::ids::Ids;
 use crate::limits::Limits;
 
-/// Takes the parts of a capture, uncompressed.
+/// Receives the parts of a capture, uncompressed.
 pub(super) struct Writer<'a> {
     pub(super) bytes: Vec<u8>,
-    /// Ids are written for what is alive in it.
+    /// Ids are written relative to the existing items of this.
     pub(super) scene: &'a Scene,
 }
 
-/// Gives them back.
+/// Returns them.
 pub(super) struct Reader<'a> {
     stream: BufReader<ZlibDecoder<&'a [u8]>>,
-    /// Bytes of memory that may still be asked for.
+    /// The remaining memory budget in bytes.
     left: u64,
     pub(super) limits: &'a Limits,
     /// What has been read so far, for ids.
@@ -28,9 +28,9 @@ pub(super) struct Reader<'a> {
 /// Why a part cannot be read.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Damage {
-    /// The parts contradict each other or their types.
+    /// The parts are inconsistent or invalid.
     Malformed(String),
-    /// More than the limits allow.
+    /// A limit is exceeded.
     Limit(String),
 }
 
@@ -41,8 +41,7 @@ impl Damage {
 }
 
 impl<'a> Reader<'a> {
-    /// Reads compressed parts. What they take in memory is held to the limit for
-    /// all files of a model.
+    /// Reads compressed parts. Their memory is limited by that for all files of a model.
     pub(super) fn new(compressed: &'a [u8], limits: &'a Limits) -> Self {
         let stream = BufReader::new(ZlibDecoder::new(compressed));
         Self { stream, left: limits.total_bytes, limits, ids: Ids::default() }
@@ -54,7 +53,7 @@ impl<'a> Reader<'a> {
         Ok(bytes)
     }
 
-    /// How many items follow, each of which takes so many bytes of memory.
+    /// The number of items that follow, each of which takes this many bytes of memory.
     pub(super) fn count(&mut self, each: usize) -> Result<usize, Damage> {
         let count = u64::from_le_bytes(self.bytes()?);
         let wanted = count.checked_mul(each.max(1) as u64).filter(|&wanted| wanted <= self.left);
@@ -66,7 +65,7 @@ impl<'a> Reader<'a> {
         usize::try_from(count).map_err(|_| Damage::malformed("a list is longer than memory"))
     }
 
-    /// So many bytes in a row, already counted. Memory is taken as they come.
+    /// This many bytes in a row, already counted. Memory is allocated as they arrive.
     pub(super) fn run(&mut self, length: usize) -> Result<Vec<u8>, Damage> {
         let mut bytes = Vec::new();
         let read = (&mut self.stream).take(length as u64).read_to_end(&mut bytes);
@@ -76,7 +75,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Whether everything has been read, checksum included.
+    /// Whether everything has been read, including the checksum.
     pub(super) fn finish(mut self) -> Result<(), Damage> {
         match self.stream.read(&mut [0]) {
             Ok(0) => Ok(()),

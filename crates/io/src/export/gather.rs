@@ -1,4 +1,4 @@
-//! The visible meshes of a scene in their places in a file.
+//! Collects the visible meshes of a scene, transformed for a file.
 
 use std::collections::BTreeSet;
 
@@ -11,11 +11,11 @@ use crate::error::Place;
 use crate::loss::Loss;
 use crate::rebase::offset_for;
 
-/// What is to be written.
+/// What to write.
 pub(crate) struct Gathered<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) objects: Vec<Object<'a>>,
-    /// How precise positions have to be.
+    /// The precision of positions.
     pub(crate) precision: Precision,
     pub(crate) losses: Vec<Loss>,
 }
@@ -28,11 +28,11 @@ pub(crate) struct Object<'a> {
     map: DAffine3,
     /// For normals; none if they stay as they are.
     normal_map: Option<DMat3>,
-    /// How many corners each face has that is written.
+    /// The number of corners of each face that is written.
     pub(crate) face_sizes: Vec<u32>,
-    /// The corners of these faces, as the mesh numbers them, counter-clockwise in the file.
+    /// The corners of these faces, by the mesh's numbers, counter-clockwise in the file.
     pub(crate) corners: Vec<u32>,
-    /// The face of the mesh that each of these faces is, or is a part of.
+    /// The face of the mesh that each of these faces is, or is part of.
     pub(crate) sources: Vec<u32>,
 }
 
@@ -59,7 +59,7 @@ impl<'a> Gathered<'a> {
         Self { scene, objects, precision, losses }
     }
 
-    /// The position of a vertex in the file, finite and as precise as it is written.
+    /// The position of a vertex in the file, finite and in the precision in which it is written.
     pub(crate) fn position(&self, object: &Object<'_>, vertex: u32) -> DVec3 {
         let position = object.exact_position(vertex).to_array().map(|value| self.precision.rounded(value));
         Some(DVec3::from_array(position)).filter(|position| position.is_finite()).unwrap_or_default()
@@ -88,7 +88,7 @@ impl<'a> Object<'a> {
         object
     }
 
-    /// Cuts the faces into triangles.
+    /// Triangulates the faces.
     pub(crate) fn cut(&mut self) {
         (self.face_sizes, self.corners, self.sources) = Default::default();
         let cut = self.mesh.triangulation();
@@ -97,8 +97,8 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// Adds a face, unless a vertex has no place. A map that mirrors turns faces over, so their
-    /// corners go the other way, from the same first one.
+    /// Adds a face, unless a vertex has no valid position. A mirroring map flips faces, so their
+    /// corners are reversed, starting with the same one.
     fn push(&mut self, face: u32, corners: impl ExactSizeIterator<Item = u32> + Clone) {
         let vertices = self.mesh.corner_vertices();
         let is_placed = |corner: u32| self.mesh.positions()[vertices[corner as usize] as usize].is_finite();
@@ -131,11 +131,11 @@ impl<'a> Object<'a> {
 
     fn exact_position(&self, vertex: u32) -> DVec3 {
         let position = self.mesh.positions()[vertex as usize].as_dvec3();
-        // A map that changes nothing keeps the sign of a zero.
+        // The identity map keeps the sign of a zero.
         if self.map == DAffine3::IDENTITY { position } else { self.map.transform_point3(position) }
     }
 
-    /// The normal of a corner in the file; zero where there is none.
+    /// The normal of a corner in the file; zero if there is none.
     pub(crate) fn normal(&self, corner: u32) -> Vec3 {
         let Some(normals) = &self.mesh.attributes().corner_normals else { return Vec3::ZERO };
         let normal = normals[corner as usize];

@@ -1,4 +1,4 @@
-//! What of a scene a format cannot hold, as data.
+//! What a format cannot hold of a scene, as data.
 
 use trigon_mesh::Mesh;
 use trigon_scene::{Node, NodeId, Scene};
@@ -9,16 +9,16 @@ use crate::loss::Loss;
 
 const POLYGONS: &str = "polygons: they are cut into triangles";
 
-/// Which single vertices that are to be seen a format holds.
+/// Which isolated vertices a format can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum HeldPoints {
     All,
-    /// Those of a file that has nothing else.
+    /// Those of a file with nothing else.
     Clouds,
     None,
 }
 
-/// What a format holds beside vertices and faces.
+/// What a format can hold besides vertices and faces.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Holds {
     pub(crate) materials: bool,
@@ -29,7 +29,7 @@ pub(crate) struct Holds {
     pub(crate) edges: bool,
     pub(crate) points: HeldPoints,
     pub(crate) polygons: bool,
-    /// Several objects with names.
+    /// Several named objects.
     pub(crate) objects: bool,
 }
 
@@ -72,7 +72,7 @@ pub(super) fn add(gathered: &mut Gathered<'_>, holds: &Holds) {
     gathered.losses.append(&mut losses);
 }
 
-/// What will not be in a file that holds all of a scene but polygons.
+/// What is missing in a file that holds everything of a scene except polygons.
 pub(super) fn of_whole(scene: &Scene, options: &ExportOptions<'_>) -> Vec<Loss> {
     let is_wanted = |id: NodeId| options.nodes.as_ref().is_none_or(|wanted| wanted.contains(&id));
     let mesh = |node: &Node| scene.meshes().get(node.mesh?).map(|asset| asset.mesh());

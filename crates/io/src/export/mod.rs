@@ -1,8 +1,8 @@
-//! Scenes for other programs, in formats that hold less than a scene does.
+//! Export of scenes for other programs, in formats that hold less than a scene.
 //!
-//! `gather` puts every visible mesh in its place in the file, `losses` says what the format cannot
-//! hold, and the module of the format writes (`obj/write`, `ply/write`, `stl/write`, `off/write`). A GLB
-//! holds nearly everything and goes its own way (`gltf/write`).
+//! `gather` transforms every visible mesh for the file, `losses` lists what the format cannot hold, and the
+//! module of the format writes (`obj/write`, `ply/write`, `stl/write`, `off/write`). A GLB holds nearly
+//! everything and has its own path (`gltf/write`).
 
 mod files;
 mod gather;
@@ -26,12 +26,12 @@ pub use options::{Encoding, ExportOptions, FaceExport, UpAxis};
 pub(crate) use plain_name::plain_name;
 pub(crate) use vertex_table::{Columns, VertexTable};
 
-/// Makes the files of a scene in a format. `name` is that of the model's file, such as `chair.obj`:
-/// what is written beside it has names that begin with `chair`.
+/// Creates the files of a scene in a format. `name` is that of the model's file, such as
+/// `chair.obj`: the names of its other files begin with `chair`.
 ///
-/// Positions are in the world, as f32 like those of meshes; where a model lies so far from the origin
-/// that f32 would not do, text and PLY have all digits of f64. What is written and read
-/// again has positions with the same bits.
+/// Positions are in world space, as f32 like those of meshes; if a model lies so far from the origin that f32
+/// is not enough, text and PLY have all digits of f64. Positions that are written and read again have the
+/// same bits.
 ///
 /// ```
 /// use trigon_io::{ExportOptions, Format, LoadOptions, export, load_from_slice};
@@ -50,7 +50,7 @@ pub(crate) use vertex_table::{Columns, VertexTable};
 /// ```
 ///
 /// # Errors
-/// When the format is not written, or cannot count as much.
+/// The format is not written, or the file would be too large for it.
 pub fn export(
     scene: &Scene,
     name: &str,

@@ -1,8 +1,8 @@
-//! Numbers as text that brings back the same bits.
+//! Numbers as text that reads back as the same bits.
 
 use std::fmt::Write;
 
-/// How many digits of a number count.
+/// The number of significant digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Precision {
     /// Those of an f32: the number is rounded to one.
@@ -12,7 +12,7 @@ pub(crate) enum Precision {
 }
 
 impl Precision {
-    /// The number that a reader finds.
+    /// The number that a reader gets.
     pub(crate) fn rounded(self, value: f64) -> f64 {
         match self {
             Self::Single => f64::from(value as f32),
@@ -21,14 +21,14 @@ impl Precision {
     }
 }
 
-/// Appends the shortest digits that are read as the same number.
+/// Appends the shortest digits that read as the same number.
 pub(crate) fn push_number(text: &mut String, value: f64, precision: Precision) {
     let start = text.len();
     if precision == Precision::Single {
         let single = value as f32;
         push_shortest(text, single, f64::from(single));
-        // Readers round to f64 first. Where that takes the number across the middle between two f32,
-        // the digits of the f64 itself do it.
+        // Readers round to f64 first. If that moves the number across the middle between two f32,
+        // the digits of the f64 itself are used.
         if text[start..].parse::<f64>().is_ok_and(|read| (read as f32).to_bits() == single.to_bits()) {
             return;
         }
@@ -38,7 +38,7 @@ pub(crate) fn push_number(text: &mut String, value: f64, precision: Precision) {
     push_shortest(text, value, value);
 }
 
-/// With an exponent where there would be many zeros.
+/// With an exponent if there would be many zeros.
 fn push_shortest(text: &mut String, number: impl std::fmt::Display + std::fmt::LowerExp, size: f64) {
     let size = size.abs();
     let written = if size == 0.0 || (1e-5..1e16).contains(&size) {
@@ -49,7 +49,7 @@ fn push_shortest(text: &mut String, number: impl std::fmt::Display + std::fmt::L
     written.expect("text takes everything");
 }
 
-/// The number as a text of its own.
+/// The number as a string.
 pub(crate) fn number_text(value: f64, precision: Precision) -> String {
     let mut text = String::new();
     push_number(&mut text, value, precision);

@@ -1,56 +1,57 @@
-//! How to write a model.
+//! Export options.
 
 use trigon_math::{DAffine3, DMat3, DVec3};
 use trigon_scene::NodeId;
 
 use crate::gltf::GltfSource;
 
-/// Which way is up in a file.
+/// The up axis of a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UpAxis {
-    /// +Y, as glTF and OBJ define it.
+    /// +Y, as in glTF and OBJ.
     #[default]
     Y,
-    /// +Z, as programs for printing and scanning have it.
+    /// +Z, as in programs for printing and scanning.
     Z,
 }
 
-/// What faces are in a file.
+/// The faces of a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FaceExport {
-    /// Polygons, where the format has them.
+    /// Polygons, if the format has them.
     #[default]
     Polygons,
     /// Triangles.
     Triangles,
 }
 
-/// How numbers are in a file, where the format leaves a choice: PLY and STL.
+/// The encoding of numbers, if the format leaves a choice: PLY and STL.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Encoding {
-    /// Bytes, the lowest first.
+    /// Binary, little-endian.
     #[default]
     Binary,
-    /// Bytes, the highest first; only PLY has it, and STL is written with the lowest first.
+    /// Binary, big-endian; only for PLY. STL is written little-endian.
     BinaryBigEndian,
-    /// Decimal digits, as many as bring back the same number.
+    /// Decimal digits, as many as read back as the same number.
     Text,
 }
 
-/// How to write a model for other programs.
+/// Options for exporting a model for other programs.
 #[derive(Clone, Debug)]
 pub struct ExportOptions<'a> {
-    /// The nodes to write, in their places; all by default. What hangs on them is written only
-    /// if it is named, too.
+    /// The nodes to write, with their transforms; all by default. Their children are written only
+    /// if they are named, too.
     pub nodes: Option<Vec<NodeId>>,
-    /// Units of the file per metre: 1 is what glTF defines. Positive and finite, else it counts as 1.
+    /// Units of the file per metre: 1 is what glTF defines. Must be positive and finite, otherwise it counts
+    /// as 1.
     pub scale: f64,
-    /// Which way is up.
+    /// The up axis.
     pub up: UpAxis,
-    /// The file that the scene came from: pictures are taken from it as they were encoded.
-    /// Others are written as PNG.
+    /// The file that the scene came from: images are taken from it as they were encoded. Others are
+    /// written as PNG.
     pub pictures: Option<&'a GltfSource>,
-    /// Whether polygons are cut into triangles. GLB and STL have nothing else.
+    /// Whether polygons are triangulated. GLB and STL have nothing else.
     pub faces: FaceExport,
     /// How numbers are written.
     pub encoding: Encoding,

@@ -1,7 +1,7 @@
-//! Values of corners as values of vertices, for formats that have no others.
+//! Converts corner values to vertex values, for formats without corner values.
 //!
-//! A vertex whose corners agree keeps its number. Where they differ, as at a seam or a sharp
-//! edge, further vertices at the same place follow behind those of the object.
+//! A vertex whose corners agree keeps its number. Where they differ, as at a seam or a sharp edge,
+//! additional vertices at the same position follow after those of the object.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use trigon_math::{DVec3, Vec2, Vec3, Vec4};
 
 use super::{Gathered, Object};
 
-/// Which values vertices are to have.
+/// The values that vertices need.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Columns {
     pub(crate) normals: bool,
@@ -29,7 +29,7 @@ impl Columns {
     }
 }
 
-/// What a vertex has. Values that are not asked for stay at those of `Default`.
+/// The values of a vertex. Values that are not requested keep those of `Default`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Values {
     pub(crate) normal: Vec3,
@@ -65,7 +65,7 @@ impl Values {
     }
 }
 
-/// The vertices of all objects, one after the other.
+/// The vertices of all objects, one object after the other.
 #[derive(Default)]
 pub(crate) struct VertexTable {
     pub(crate) positions: Vec<DVec3>,
@@ -73,7 +73,7 @@ pub(crate) struct VertexTable {
     /// The vertices of all faces.
     pub(crate) corner_vertices: Vec<u32>,
     pub(crate) edges: Vec<[u32; 2]>,
-    /// How many vertices are there more than once.
+    /// The number of repeated vertices.
     pub(crate) split: usize,
 }
 

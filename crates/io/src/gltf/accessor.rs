@@ -16,15 +16,15 @@ use crate::error::{LoadErrorKind, Place};
 use crate::folder::Folder;
 use crate::warning::Warnings;
 
-/// The most elements of an accessor that has no bytes: such elements are zero,
-/// and nothing else bounds them.
+/// The maximum number of elements of an accessor without bytes: its elements are zero, and nothing
+/// else limits them.
 const MOST_ZEROS: usize = 1 << 20;
 
-/// Strips of one-byte indices make three corners of a byte; the rest is room
-/// for primitives that share vertices.
+/// Strips of one-byte indices make three corners per byte; the rest is room for primitives that
+/// share vertices.
 const CORNERS_PER_BYTE: usize = 8;
 
-/// What even a small file may make.
+/// The allowance for small files.
 const CORNERS_ALWAYS: usize = 1 << 24;
 
 /// Reads accessors of one document.
@@ -32,18 +32,17 @@ pub(crate) struct Accessors<'a, 'b> {
     pub(crate) root: &'a Root,
     pub(crate) buffers: &'a mut Buffers<'b>,
     pub(crate) folder: &'a mut Folder,
-    /// The most elements that one accessor may have.
+    /// The maximum number of elements of one accessor.
     pub(crate) most: usize,
-    /// How many vertices and corners primitives may make in all, whatever the
-    /// bytes say.
+    /// How many vertices and corners primitives may use in total, whatever the bytes say.
     pub(crate) most_corners: usize,
-    /// How many they have made.
+    /// The number used so far.
     pub(crate) spent: &'a mut usize,
-    /// What was odd about accessors that were read all the same.
+    /// Problems of accessors that were read anyway.
     pub(crate) doubts: Doubts,
 }
 
-/// Oddities of accessors, by their index; each once, however often it is read.
+/// Problems of accessors, by their index; each once, however often it is read.
 #[derive(Default)]
 pub(crate) struct Doubts(BTreeSet<(usize, &'static str)>);
 
@@ -55,7 +54,7 @@ impl Doubts {
     }
 }
 
-/// What [`Accessors::tight_bytes`] finds.
+/// The result of [`Accessors::tight_bytes`].
 pub(crate) struct TightBytes {
     pub(crate) bytes: Bytes,
     pub(crate) component: ComponentType,
@@ -67,7 +66,7 @@ pub(crate) struct TightBytes {
 const ALL_TYPES: &[Type] =
     &[Type::Scalar, Type::Vec2, Type::Vec3, Type::Vec4, Type::Mat2, Type::Mat3, Type::Mat4];
 
-/// Where the elements of an accessor lie in the bytes of a view.
+/// The location of an accessor's elements in the bytes of a view.
 #[derive(Clone, Copy)]
 struct Layout {
     count: usize,
@@ -80,14 +79,14 @@ struct Layout {
 }
 
 impl Accessors<'_, '_> {
-    /// How many elements an accessor claims.
+    /// The claimed number of elements.
     pub(crate) fn count(&self, index: usize) -> u64 {
         self.root.accessors[index].count.0
     }
 
-    /// Accounts for the vertices or corners that a primitive makes of bytes.
-    /// Thousands of primitives may share one accessor and so ask for thousands
-    /// of times what the file holds; no honest file goes far in that.
+    /// Counts the vertices or corners of a primitive. Thousands of primitives may share one
+    /// accessor and so use thousands of times what the file holds; no legitimate file goes far in
+    /// that.
     pub(crate) fn spend(&mut self, corners: usize, place: &Place) -> Result<(), Unplaced> {
         let sharing = self.buffers.bytes_read().saturating_mul(CORNERS_PER_BYTE).max(CORNERS_ALWAYS);
         let most = sharing.min(self.most_corners);
@@ -100,9 +99,8 @@ impl Accessors<'_, '_> {
         Err(Unplaced(place.clone(), Unread { kind: LoadErrorKind::Limit, what, remedy }))
     }
 
-    /// Decodes an accessor of a vector type to f32. `allowed` are the types
-    /// that the use allows; `N` is the size of the largest. Components that the
-    /// type does not have are 1, as an alpha is.
+    /// Decodes an accessor of a vector type to f32. `allowed` are the valid types; `N` is the size
+    /// of the largest. Missing components are 1, as for alpha.
     pub(crate) fn vectors<const N: usize>(
         &mut self,
         index: usize,
@@ -133,8 +131,8 @@ impl Accessors<'_, '_> {
         Ok(elements)
     }
 
-    /// The bytes of an accessor whose elements follow each other without gaps; none of others,
-    /// and of those with sparse or no storage.
+    /// The bytes of an accessor whose elements are contiguous; `None` for others, and for sparse or
+    /// missing storage.
     pub(crate) fn tight_bytes(&mut self, index: usize) -> Result<Option<TightBytes>, Unplaced> {
         let accessor = &self.root.accessors[index];
         if accessor.sparse.is_some() {
@@ -149,8 +147,8 @@ impl Accessors<'_, '_> {
         Ok((layout.stride == size).then_some(TightBytes { bytes, component, kind, normalized, count }))
     }
 
-    /// Notes a stride in a view that may have none: glTF allows one for
-    /// attributes only, and other programs read past it.
+    /// Records a stride in a view that may not have one: glTF allows strides for attributes only,
+    /// and other programs read past them.
     pub(crate) fn doubt_stride(&mut self, index: usize) {
         let accessor = &self.root.accessors[index];
         let (Some(view), Some(type_), Some(component)) =
@@ -186,8 +184,8 @@ impl Accessors<'_, '_> {
         Ok(indices)
     }
 
-    /// Checks an accessor against its view; the bytes are `None` when it has
-    /// no view and so is all zero.
+    /// Checks an accessor against its view; the bytes are `None` if it has no view and so is all
+    /// zero.
     fn open(&mut self, index: usize, allowed: &[Type]) -> Result<(Layout, Option<Bytes>), Unplaced> {
         let accessor = &self.root.accessors[index];
         let type_ = valid(&accessor.type_).filter(|type_| allowed.contains(type_));
@@ -256,8 +254,8 @@ impl Accessors<'_, '_> {
         }
     }
 
-    /// The elements that sparse storage replaces, where in the bytes their
-    /// values start, and those bytes.
+    /// The elements that sparse storage replaces, the offset of their values in the bytes, and
+    /// those bytes.
     fn sparse(
         &mut self,
         index: usize,

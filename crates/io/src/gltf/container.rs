@@ -1,5 +1,5 @@
-//! The GLB container: a header, a JSON chunk, and perhaps a binary chunk
-//! (glTF 2.0 specification, section 4.4).
+//! The GLB container: a header, a JSON chunk, and optionally a binary chunk (glTF 2.0
+//! specification, section 4.4).
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ pub(crate) struct Container<'a> {
     pub(crate) binary: Option<&'a [u8]>,
 }
 
-/// Takes a GLB apart. Every length is checked against what is really there.
+/// Parses a GLB. Every length is checked against the actual size.
 pub(crate) fn open_glb<'a>(
     path: &Path,
     bytes: &'a [u8],
@@ -73,17 +73,17 @@ fn read_chunks(bytes: &[u8]) -> Result<Container<'_>, (usize, String)> {
             BIN if binary.is_none() => binary = Some(data),
             BIN => return Err((at, "there is a second binary chunk".to_owned())),
             JSON => return Err((at, "there is a second JSON chunk".to_owned())),
-            // Chunks of other kinds belong to extensions and are to be skipped.
+            // Chunks of other kinds belong to extensions and are skipped.
             _ => {}
         }
         at = next;
     }
-    // Some exporters fill up with zeros where spaces belong.
+    // Some exporters pad with zeros instead of spaces.
     let text = json.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
     Ok(Container { json: &json[..text], binary })
 }
 
-/// A chunk's kind, its data, and where the next one starts.
+/// A chunk's kind, its data, and the start of the next one.
 fn read_chunk(bytes: &[u8], at: usize) -> Result<(u32, &[u8], usize), (usize, String)> {
     let rest = bytes.len() - at;
     if rest < CHUNK_HEADER {

@@ -1,5 +1,5 @@
-//! The JSON of a glTF file: parsed by gltf::json, without its validation
-//! (which panics on some files), with node transforms read again as f64.
+//! The JSON of a glTF file: parsed by gltf::json without its validation (which panics on some
+//! files), with node transforms read separately as f64.
 
 use std::collections::BTreeSet;
 use std::path::Path;

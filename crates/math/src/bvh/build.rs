@@ -1,14 +1,14 @@
-//! Building: triangles are parted where that is expected to save most tests.
+//! Building: triangles are split where this is expected to save the most tests.
 
 use glam::Vec3;
 
 use super::Bvh;
 use super::wide::{Child, Leaf, Node, WIDTH};
 
-/// More bins part better and build slower; beyond sixteen hardly anything is won.
+/// More bins split better and build slower; beyond sixteen there is hardly any gain.
 const BINS: usize = 16;
 
-/// The box and the middle of one triangle.
+/// The box and the centre of one triangle.
 #[derive(Clone, Copy)]
 struct Item {
     min: Vec3,
@@ -17,7 +17,7 @@ struct Item {
 }
 
 impl Item {
-    /// Twice the middle of the box.
+    /// Twice the centre of the box.
     fn middle(&self) -> Vec3 {
         self.min + self.max
     }
@@ -43,7 +43,7 @@ impl Extent {
         extent
     }
 
-    /// Half the area of its sides; 0 where it is empty.
+    /// Half the surface area; 0 if it is empty.
     fn half_area(&self) -> f32 {
         let size = self.max - self.min;
         if size.x >= 0.0 { size.x * size.y + size.y * size.z + size.z * size.x } else { 0.0 }
@@ -51,8 +51,8 @@ impl Extent {
 }
 
 impl Bvh {
-    /// A hierarchy over triangles, numbered in their order. Triangles with a
-    /// coordinate that is not finite are met by no ray.
+    /// A hierarchy over triangles, numbered in their order. No ray hits a triangle with a
+    /// coordinate that is not finite.
     pub fn new(triangles: &[[Vec3; 3]]) -> Self {
         let usable = |corners: &[Vec3; 3]| corners.iter().all(|corner| corner.is_finite());
         let numbered = (0_u32..).zip(triangles).filter(|(_, corners)| usable(corners));
@@ -67,9 +67,8 @@ impl Bvh {
         tree
     }
 
-    /// Adds the nodes of some items, which it puts in order, children first; none
-    /// without items. The depth of the recursion is bounded by parting in the middle
-    /// where bins do not part well.
+    /// Adds the nodes of some items, which it reorders, children first; none without items. The
+    /// depth of the recursion is bounded by splitting in the middle if the bins do not split well.
     fn grow(&mut self, items: &mut [Item], triangles: &[[Vec3; 3]]) -> Option<Child> {
         if items.len() <= WIDTH {
             let numbered = items.iter().map(|item| (item.number, triangles[item.number as usize]));
@@ -87,8 +86,8 @@ impl Bvh {
     }
 }
 
-/// Parts items in two, then the part with the largest box that is no leaf, and so on
-/// until there are as many as a node has places.
+/// Splits items in two, then the part with the largest box that is not a leaf, and so on until the
+/// node is full.
 fn parts(items: &mut [Item]) -> Vec<(Extent, &mut [Item])> {
     let mut parts = vec![boxed(items)];
     while parts.len() < WIDTH {
@@ -118,7 +117,7 @@ fn item(number: u32, corners: &[Vec3; 3]) -> Item {
     Item { min: extent.min, max: extent.max, number }
 }
 
-/// Puts the items of one side before those of the other; how many the first has.
+/// Moves the items of one side before those of the other, and returns the number of the first.
 fn parted(items: &mut [Item]) -> usize {
     let mut middles = Extent::EMPTY;
     items.iter().for_each(|item| middles.add(item.middle(), item.middle()));
@@ -139,7 +138,7 @@ fn parted(items: &mut [Item]) -> usize {
         if place < BINS as f32 { place as usize } else { BINS - 1 }
     };
     let border = border(items, bin);
-    // Stable, so that the order is one.
+    // Stable, so that the order is unique.
     items.sort_by_key(|item| bin(item) >= border);
     let first = items.partition_point(|item| bin(item) < border);
     // A lopsided tree is deep: no side gets less than a sixteenth.

@@ -1,14 +1,13 @@
-//! A bounding volume hierarchy over triangles: what a ray meets first, and
-//! whether it meets anything.
+//! A bounding volume hierarchy over triangles: the first hit of a ray, and whether it hits
+//! anything.
 //!
-//! Built by the surface area heuristic over bins (I. Wald, "On fast Construction of
-//! SAH-based Bounding Volume Hierarchies", 2007), in one fixed order, so that the
-//! same triangles give the same tree. Rays leak through no edge and no vertex (S.
-//! Woop, C. Benthin and I. Wald, "Watertight Ray/Triangle Intersection", 2013),
-//! four boxes or four triangles are tested at once (H. Dammertz, J. Hanika and A.
-//! Keller, "Shallow Bounding Volume Hierarchies for Fast SIMD Ray Tracing", 2008),
-//! and the test of boxes is widened by its own rounding (T. Ize, "Robust BVH Ray
-//! Traversal", 2013), so that a tree answers as a look at every triangle would.
+//! Built by the surface area heuristic over bins (I. Wald, "On fast Construction of SAH-based
+//! Bounding Volume Hierarchies", 2007), in one fixed order, so that the same triangles give the
+//! same tree. Rays leak through no edge and no vertex (S. Woop, C. Benthin and I. Wald, "Watertight
+//! Ray/Triangle Intersection", 2013), four boxes or four triangles are tested at once (H. Dammertz,
+//! J. Hanika and A. Keller, "Shallow Bounding Volume Hierarchies for Fast SIMD Ray Tracing", 2008),
+//! and the box test is widened by its own rounding (T. Ize, "Robust BVH Ray Traversal", 2013), so
+//! that the tree gives the same results as testing every triangle.
 
 mod build;
 mod ray;
@@ -45,17 +44,17 @@ pub struct Bvh {
 }
 
 impl Bvh {
-    /// How many triangles there are.
+    /// The number of triangles.
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Whether there are none.
+    /// Whether there are no triangles.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    /// What it holds in memory, in bytes.
+    /// Its memory in bytes.
     pub fn byte_count(&self) -> usize {
         size_of_val(self.nodes.as_slice()) + size_of_val(self.leaves.as_slice())
     }

@@ -1,13 +1,13 @@
-//! Rays, and what they meet.
+//! Rays and hits.
 
 use glam::Vec3;
 
-/// A half line.
+/// A ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts.
+    /// Its origin.
     pub origin: Vec3,
-    /// Any length but zero; distances are counted in it.
+    /// Any length but zero; distances are measured in it.
     pub direction: Vec3,
 }
 
@@ -18,14 +18,13 @@ impl Ray {
     }
 }
 
-/// Where a ray meets a triangle.
+/// The hit of a ray on a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit {
     /// From the origin, in lengths of the direction.
     pub distance: f32,
     /// The number of the triangle.
     pub triangle: u32,
-    /// Weights of the three corners; their sum is 1 but for rounding, and none is
-    /// negative.
+    /// Barycentrics of the three corners; their sum is 1 up to rounding, and none is negative.
     pub weights: [f32; 3],
 }

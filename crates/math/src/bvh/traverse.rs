@@ -1,4 +1,4 @@
-//! Rays on their way through the tree.
+//! Traversal of the tree.
 
 use std::ops::Range;
 
@@ -8,24 +8,25 @@ use super::triangle::ShearedRay;
 use super::wide::{Child, Four, Inside, Node, WIDTH};
 use super::{Bvh, Ray, RayHit};
 
-/// By how much the far side of a box, and the end of the range, are moved away: the
+/// The factor by which the far side of a box, and the end of the range, are moved away: the
 /// rounding of four operations, twice (Ize 2013, section 4).
 const WIDENED: f32 = 1.0 + 8.0 * f32::EPSILON;
 
-/// How far a triangle may be met outside of its box, as a share of the distance at which the ray leaves the
+/// How far outside its box a triangle may be hit, as a fraction of the distance at which the ray leaves the
 /// whole tree.
 ///
-/// The test of triangles moves corners to the ray and shears them so that it runs along z, each in f32. For the
-/// place x of a corner with the difference z along the ray, and a shear S of at most 1, that is
-/// `fl(fl(x − o) − fl(S · z))`, with errors of u·|x − o| and 2u·|S|·|z|, u being half of `EPSILON`; those of the
-/// last subtraction and of the products of edges are as if corners were scaled by 1 ± 3u. Scaling takes no corner to
-/// the ray's other side, so the ray passes the box at most by what |S|·|z| is wrong by: less than 16u·|S|·|z|. Along
-/// the ray that is 16u times the distance of z, whatever the direction. Twice that is left for distances.
+/// The triangle test translates corners relative to the ray and shears them so that it runs along z, each in
+/// f32. For the coordinate x of a corner with the difference z along the ray, and a shear S of at most 1,
+/// that is `fl(fl(x − o) − fl(S · z))`, with errors of u·|x − o| and 2u·|S|·|z|, u being half of `EPSILON`;
+/// those of the last subtraction and of the products of edges are as if corners were scaled by 1 ± 3u.
+/// Scaling moves no corner to the ray's other side, so the ray misses the box at most by the error of
+/// |S|·|z|: less than 16u·|S|·|z|. Along the ray that is 16u times the distance of z, whatever the direction.
+/// Twice that is allowed for distances.
 const OUTSIDE: f32 = 16.0 * f32::EPSILON;
 
 impl Bvh {
-    /// What the ray meets first within a range of distances; of equally near
-    /// triangles that with the smallest number.
+    /// The first hit of the ray within a range of distances; of equally near triangles the one with
+    /// the smallest number.
     pub fn nearest(&self, ray: &Ray, range: Range<f32>) -> Option<RayHit> {
         let mut nearest: Option<RayHit> = None;
         let mut end = range.end;
@@ -43,8 +44,7 @@ impl Bvh {
         nearest
     }
 
-    /// Whether the ray meets anything within a range of distances, the end left
-    /// out.
+    /// Whether the ray hits anything within a range of distances, excluding its end.
     pub fn meets_any(&self, ray: &Ray, range: Range<f32>) -> bool {
         let mut found = false;
         let mut end = range.end;
@@ -55,15 +55,15 @@ impl Bvh {
         found
     }
 
-    /// At most how far along the ray anything in the tree lies.
+    /// An upper bound of distances along the ray to anything in the tree.
     fn leaving(&self, ray: &ShearedRay) -> f32 {
         let sides = self.nodes.last().map_or([0.0; 2], |root| root.sides[ray.axis()].map(|side| side[0]));
         let [low, high] = sides.map(|side| ray.distance_along(side).abs());
         if low > high { low } else { high }
     }
 
-    /// Calls `found` with what the ray meets, in some order, until it says that
-    /// this is enough; it may move the end of the range.
+    /// Calls `found` with the hits of the ray, in some order, until it stops the traversal; it may
+    /// move the end of the range.
     #[inline(always)]
     fn visit(&self, ray: &Ray, start: f32, end: &mut f32, mut found: impl FnMut(RayHit, &mut f32) -> bool) {
         let possible = ray.origin.is_finite() && ray.direction.is_finite() && ray.direction != Vec3::ZERO;
@@ -74,7 +74,7 @@ impl Bvh {
         let slabs = Slabs::new(ray, self.leaving(&sheared) * OUTSIDE);
         let mut waiting = Waiting::new((start, Child::node(self.nodes.len() - 1)));
         while let Some((near, child)) = waiting.pop() {
-            // What was found meanwhile may be nearer.
+            // A hit found meanwhile may be nearer.
             if near > *end * WIDENED + slabs.outside {
                 continue;
             }
@@ -88,7 +88,7 @@ impl Bvh {
                     let met = sheared.meet(&leaf.corners);
                     for place in 0..WIDTH {
                         let distance = met.distances[place];
-                        // Not so where it is no number: missed.
+                        // False for NaN, which means a miss.
                         if distance >= start && distance <= *end {
                             let triangle = leaf.numbers[place];
                             let weights = met.weights.map(|weight| weight[place]);
@@ -103,15 +103,15 @@ impl Bvh {
     }
 }
 
-/// A ray made ready for boxes.
+/// A ray prepared for box tests.
 struct Slabs {
     origin: [f32; 3],
     inverse: [f32; 3],
     /// The same, widened: for the far sides.
     wider: [f32; 3],
-    /// Which side of a box it meets first: 0 is the lower one.
+    /// Which side of a box it hits first: 0 is the lower one.
     first: [usize; 3],
-    /// How far along the ray a triangle may be met outside of its box.
+    /// How far along the ray a triangle may be hit outside its box.
     outside: f32,
 }
 
@@ -127,8 +127,8 @@ impl Slabs {
         }
     }
 
-    /// Where the ray enters each of four boxes; no number where it certainly does not
-    /// meet the box within the range.
+    /// Where the ray enters each of four boxes; NaN if it certainly misses the box within the
+    /// range.
     #[inline(always)]
     fn meet(&self, node: &Node, start: f32, end: f32) -> Four {
         let (mut from, mut to) = ([start; WIDTH], [end; WIDTH]);
@@ -136,7 +136,7 @@ impl Slabs {
             let (origin, first) = (self.origin[axis], self.first[axis]);
             let (near, far) = (&node.sides[axis][first], &node.sides[axis][1 - first]);
             for place in 0..WIDTH {
-                // A ray within a side of a box gives no number, and is let through.
+                // A ray within a side of a box gives NaN, and passes the test.
                 let near = (near[place] - origin) * self.inverse[axis];
                 from[place] = if near > from[place] { near } else { from[place] };
                 let far = (far[place] - origin) * self.wider[axis];
@@ -148,11 +148,11 @@ impl Slabs {
     }
 }
 
-/// Boxes that are to be visited, the next one last.
+/// Boxes to visit, the next one last.
 struct Waiting {
     few: [(f32, Child); Self::FEW],
     count: usize,
-    /// What is below those, of lopsided trees.
+    /// The entries below these, for lopsided trees.
     more: Vec<(f32, Child)>,
 }
 
@@ -181,7 +181,7 @@ impl Waiting {
         }
         let first = self.count;
         for place in 0..WIDTH {
-            // Without a branch: what is not entered is overwritten by the next.
+            // Without branches: a box that is not entered is overwritten by the next.
             self.few[self.count % Self::FEW] = (entered[place], children[place]);
             self.count += usize::from(!entered[place].is_nan());
         }

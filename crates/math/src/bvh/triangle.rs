@@ -1,23 +1,22 @@
-//! A ray against four triangles, without leaks.
+//! Watertight intersection of a ray with four triangles.
 
 use glam::Vec3;
 
 use super::Ray;
 use super::wide::{Four, WIDTH};
 
-/// Where a ray meets four triangles.
+/// The hits of a ray on four triangles.
 pub(super) struct MetFour {
-    /// No number where it misses one, runs along it, or meets it too far away for a
-    /// number.
+    /// NaN if it misses one, runs parallel to it, or the distance overflows.
     pub(super) distances: Four,
-    /// Of the three corners; meaningless where there is no distance.
+    /// Of the three corners; meaningless without a distance.
     pub(super) weights: [Four; 3],
 }
 
-/// A ray made ready for many triangles: sheared so that it runs along one axis.
+/// A ray prepared for many triangles: sheared so that it runs along one axis.
 pub(super) struct ShearedRay {
     origin: Vec3,
-    /// The axes, that along which it runs fastest last.
+    /// The axes; the last is the one along which the ray runs fastest.
     axes: [usize; 3],
     shear: [f32; 3],
 }
@@ -46,12 +45,12 @@ impl ShearedRay {
         self.axes[2]
     }
 
-    /// How far along the ray a place of that axis is.
+    /// The distance along the ray to a coordinate on that axis.
     pub(super) fn distance_along(&self, place: f32) -> f32 {
         (place - self.origin[self.axes[2]]) * self.shear[2]
     }
 
-    /// Where the ray meets four triangles.
+    /// The hits of the ray on four triangles.
     #[inline(always)]
     pub(super) fn meet(&self, corners: &[[Four; 3]; 3]) -> MetFour {
         let corners = [0, 1, 2].map(|corner| self.sheared(&corners[corner]));
@@ -60,7 +59,7 @@ impl ShearedRay {
         let mut met = MetFour { distances: [f32::NAN; WIDTH], weights: [[0.0; WIDTH]; 3] };
         for i in 0..WIDTH {
             let [u, v, w] = edges.map(|edge| edge[i]);
-            // What may have any sign counts for both.
+            // Where a sign is uncertain, both count.
             if (u.high >= 0.0 && v.high >= 0.0 && w.high >= 0.0)
                 || (u.low <= 0.0 && v.low <= 0.0 && w.low <= 0.0)
             {
@@ -70,9 +69,9 @@ impl ShearedRay {
         met
     }
 
-    /// Where the ray meets one triangle, if it does. Products of two f32 are exact in f64, so
-    /// the signs of their differences are right, and weights are within a rounding of f32 even
-    /// where the triangle is seen from its edge.
+    /// The hit of the ray on one triangle, if any. Products of two f32 are exact in f64, so the
+    /// signs of their differences are right, and barycentrics are within one f32 rounding even if
+    /// the triangle is seen from its edge.
     #[cold]
     fn meet_exactly(&self, [a, b, c]: [[f32; 3]; 3], place: usize, met: &mut MetFour) {
         let exact =
@@ -106,16 +105,16 @@ impl ShearedRay {
     }
 }
 
-/// An edge function: which values it may have.
+/// An edge function, as an interval.
 #[derive(Clone, Copy)]
 struct Edge {
     low: f32,
     high: f32,
 }
 
-/// The edge function of two corners. Two products and their difference are each rounded
-/// once: it is wrong by less than 2u of the one product and u of the other, and where its
-/// sign is in doubt the two are nearly equal.
+/// The edge function of two corners. Two products and their difference are each rounded once: the
+/// error is less than 2u of one product and u of the other, and where the sign is uncertain the two
+/// are nearly equal.
 #[inline(always)]
 fn crossed(p: &[Four; 3], q: &[Four; 3]) -> [Edge; WIDTH] {
     std::array::from_fn(|i| {

@@ -1,16 +1,16 @@
-//! The tree as rays walk it: boxes and triangles in groups of four, number by number.
-//! Plain arrays: a compiler makes vectors of them, and the numbers are the same as one
-//! by one.
+//! The tree as rays traverse it: boxes and triangles in groups of four, component by component.
+//! These are plain arrays: the compiler vectorizes them, and the results are the same as one by
+//! one.
 
 use glam::Vec3;
 
 /// Boxes of a node, and triangles of a leaf.
 pub(super) const WIDTH: usize = 4;
 
-/// A number for each of a group.
+/// One number for each element of a group.
 pub(super) type Four = [f32; WIDTH];
 
-/// Up to four boxes and what is in them.
+/// Up to four boxes and their contents.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     /// By axis, then the lower and the upper side.
@@ -18,11 +18,11 @@ pub(super) struct Node {
     pub(super) children: [Child; WIDTH],
 }
 
-/// What is in a box: a node or, with the topmost bit set, a leaf.
+/// The content of a box: a node or, with the topmost bit set, a leaf.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Child(u32);
 
-/// What a [`Child`] means, by its number.
+/// The meaning of a [`Child`] number.
 pub(super) enum Inside {
     Node(usize),
     Leaf(usize),
@@ -33,7 +33,7 @@ pub(super) enum Inside {
 pub(super) struct Leaf {
     /// By corner, then axis.
     pub(super) corners: [[Four; 3]; 3],
-    /// Which triangles they are.
+    /// The numbers of the triangles.
     pub(super) numbers: [u32; WIDTH],
 }
 
@@ -55,7 +55,7 @@ impl Child {
 }
 
 impl Node {
-    /// Boxes that no ray meets.
+    /// Boxes that no ray hits.
     pub(super) const EMPTY: Self = Self {
         sides: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
         children: [Child(0); WIDTH],
@@ -71,7 +71,7 @@ impl Node {
 }
 
 impl Leaf {
-    /// Places beyond the triangles hold no number, and are met by no ray.
+    /// Entries beyond the triangles hold NaN, and no ray hits them.
     pub(super) fn new(triangles: impl Iterator<Item = (u32, [Vec3; 3])>) -> Self {
         let mut leaf = Self { corners: [[[f32::NAN; WIDTH]; 3]; 3], numbers: [u32::MAX; WIDTH] };
         for (place, (number, corners)) in triangles.take(WIDTH).enumerate() {

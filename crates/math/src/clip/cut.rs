@@ -1,10 +1,10 @@
-//! The one place where an edge meets a half-space.
+//! The intersection of an edge with a half-space, the only place where it is computed.
 
 use glam::Vec4;
 
 use super::{ClipVertex, ClipVolume, HalfSpace};
 
-/// A vertex under way: in `f64`, so that several cuts do not add up roundings.
+/// An intermediate vertex: in `f64`, so that several cuts do not accumulate rounding.
 #[derive(Clone, Copy)]
 pub(super) struct Vertex<const CORNERS: usize> {
     pub(super) position: [f64; 4],
@@ -28,11 +28,10 @@ impl<const CORNERS: usize> Vertex<CORNERS> {
     }
 }
 
-/// Where the edge from `inside` to `outside` meets the border of a half-space.
+/// The intersection of the edge from `inside` to `outside` with the boundary of a half-space.
 ///
-/// The roles are fixed by the sides and not by the direction of an edge, so
-/// every triangle at the edge gets the same bits. `inside` must be at a positive
-/// distance and `outside` at a negative one.
+/// The roles are fixed by the sides and not by the direction of an edge, so both triangles at the
+/// edge get the same bits. `inside` must be at a positive distance and `outside` at a negative one.
 pub(super) fn cut<const CORNERS: usize>(
     inside: &Vertex<CORNERS>,
     outside: &Vertex<CORNERS>,
@@ -48,8 +47,8 @@ pub(super) fn cut<const CORNERS: usize>(
     Vertex { position, weights: mix.each(inside.weights, outside.weights) }
 }
 
-/// Puts a cut point onto the border of each half-space which rounding has made
-/// it cross alone: neither end of its edge is on that side.
+/// Moves a cut point onto the boundary of each half-space that only rounding made it cross: neither
+/// end of its edge is on that side.
 fn keep_sides<const CORNERS: usize>(
     position: &mut [f64; 4],
     inside: &Vertex<CORNERS>,
@@ -67,17 +66,15 @@ fn keep_sides<const CORNERS: usize>(
     }
 }
 
-/// The shares of two ends in a point between them; not negative, and 1 in sum up
-/// to rounding.
+/// The weights of two ends for a point between them; not negative, with sum 1 up to rounding.
 struct Mix {
     inside: f64,
     outside: f64,
 }
 
 impl Mix {
-    /// Monotone in both ends, with rounding. What the sum of the shares is off
-    /// by, a few 2⁻⁵³, never shows after rounding to `f32`: next to a value that
-    /// is an `f32`, the result is that value.
+    /// Monotone in both ends, with rounding. The error of the sum, a few 2⁻⁵³, never shows after
+    /// rounding to `f32`: next to a value that is an `f32`, the result is that value.
     fn each<const N: usize>(&self, inside: [f64; N], outside: [f64; N]) -> [f64; N] {
         std::array::from_fn(|index| inside[index] * self.inside + outside[index] * self.outside)
     }

@@ -1,10 +1,9 @@
-//! The half-spaces that clipping knows, each with an exact test.
+//! The half-spaces that clipping uses, each with an exact test.
 
 use glam::Vec4;
 
-/// How far the clip volume reaches beyond the view volume: `x` or `y` may be up
-/// to this factor times `w`. A power of two from 1 to 65536, so that the
-/// product with `w` is exact.
+/// How far the clip volume extends beyond the view volume: `x` or `y` may be up to this factor
+/// times `w`. A power of two from 1 to 65536, so that the product with `w` is exact.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Band(f32);
 
@@ -14,9 +13,8 @@ impl Band {
     /// The widest band: a viewport of one pixel, clipped at ±32768 pixels.
     pub const WIDEST: Self = Self(65536.0);
 
-    /// The widest band that is not wider than `factor`. For a guard band of
-    /// ±32768 pixels about the centre of a viewport, the factor is 65536 over
-    /// its extent in pixels.
+    /// The widest band that is not wider than `factor`. For a guard band of ±32768 pixels about the
+    /// centre of a viewport, the factor is 65536 divided by its extent in pixels.
     ///
     /// `None` if `factor` is below 1 or NaN: clipping inside the view would cut
     /// off what is visible.
@@ -36,7 +34,7 @@ impl Band {
     }
 }
 
-/// A half-space of clip space. It is closed: its border belongs to it.
+/// A half-space of clip space. It is closed: its boundary belongs to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace(Kind);
 
@@ -53,12 +51,12 @@ enum Kind {
 }
 
 impl HalfSpace {
-    /// `z <= w`: beyond the near plane, as depth is reversed.
+    /// `z <= w`: beyond the near plane (depth is reversed).
     pub const NEAR: Self = Self(Kind::Near);
-    /// `z >= 0`: before the far plane.
+    /// `z >= 0`: in front of the far plane.
     pub const FAR: Self = Self(Kind::Far);
 
-    /// `w >= minimum`: before the eye.
+    /// `w >= minimum`: in front of the eye.
     ///
     /// `None` unless the minimum is a normal, positive, finite number.
     #[must_use]
@@ -90,14 +88,14 @@ impl HalfSpace {
         Self(Kind::Top(band))
     }
 
-    /// Whether a position is inside or on the border, exactly. NaN is outside
-    /// where the half-space depends on it.
+    /// Whether a position is inside or on the boundary, exactly. NaN is outside if the half-space
+    /// depends on it.
     #[must_use]
     pub fn contains(self, position: Vec4) -> bool {
         self.distance(position.to_array().map(f64::from)) >= 0.0
     }
 
-    /// The place in the clipping order, below [`HalfSpace::COUNT`].
+    /// The index in the clipping order, below [`HalfSpace::COUNT`].
     pub(super) fn order(self) -> usize {
         match self.0 {
             Kind::MinimalW(_) => 0,
@@ -110,7 +108,7 @@ impl HalfSpace {
         }
     }
 
-    /// How many kinds there are.
+    /// The number of kinds.
     pub(super) const COUNT: usize = 7;
 
     /// Positive inside, zero on the border, negative outside: the sign is
@@ -127,7 +125,7 @@ impl HalfSpace {
         }
     }
 
-    /// Sets the coordinate that the border fixes, so that the distance is zero.
+    /// Sets the coordinate that the boundary fixes, so that the distance is zero.
     pub(super) fn land(self, position: &mut [f64; 4]) {
         let [x, y, z, w] = position;
         match self.0 {

@@ -10,17 +10,17 @@ use super::{ClipVolume, HalfSpace, Outcode};
 pub struct ClipVertex<const CORNERS: usize = 3> {
     /// In clip space.
     pub position: Vec4,
-    /// The share of each original corner, each in `[0, 1]`. For an attribute
-    /// that is linear in clip space (every vertex attribute), the value here is
-    /// the sum of the corners' values times these.
+    /// The weight of each original corner, each in `[0, 1]`. For an attribute that is linear in
+    /// clip space (every vertex attribute), the value here is the sum of the corners' values times
+    /// these weights.
     pub weights: [f32; CORNERS],
 }
 
-/// One vertex more per half-space.
+/// One additional vertex per half-space.
 const CAPACITY: usize = 3 + HalfSpace::COUNT;
 
-/// What is left of a triangle: a convex polygon, in the winding of the triangle,
-/// or nothing. Neighbouring vertices may coincide after rounding.
+/// The result of clipping a triangle: a convex polygon with the winding of the triangle, or
+/// nothing. Neighbouring vertices may coincide after rounding.
 #[derive(Clone, Copy, Debug)]
 pub struct ClipPolygon {
     vertices: [ClipVertex; CAPACITY],
@@ -31,7 +31,7 @@ impl ClipPolygon {
     const EMPTY: Self =
         Self { vertices: [ClipVertex { position: Vec4::ZERO, weights: [0.0; 3] }; CAPACITY], count: 0 };
 
-    /// The vertices: none, or from 3 up to 3 plus the number of half-spaces.
+    /// The vertices: none, or from 3 to 3 plus the number of half-spaces.
     #[must_use]
     pub fn vertices(&self) -> &[ClipVertex] {
         &self.vertices[..self.count]
@@ -46,9 +46,8 @@ impl ClipPolygon {
 
 /// Clips a triangle in clip space.
 ///
-/// Empty if no area is left, also if only a corner or an edge touches the
-/// volume, and if a position has NaN or an infinity. See the
-/// [module's guarantees](crate::clip).
+/// Empty if no area is left, also if only a corner or an edge touches the volume, and if a position
+/// contains NaN or an infinity. See the [module's guarantees](crate::clip).
 ///
 /// ```
 /// use trigon_math::{ClipVolume, HalfSpace, Vec4, clip_triangle};
@@ -82,7 +81,7 @@ pub fn clip_triangle(triangle: [Vec4; 3], volume: &ClipVolume) -> ClipPolygon {
     polygon.rounded()
 }
 
-/// The polygon under way.
+/// The intermediate polygon.
 struct Polygon {
     vertices: [Vertex<3>; CAPACITY],
     count: usize,
@@ -111,7 +110,7 @@ impl Polygon {
             if from >= 0.0 {
                 result.push(*start);
             }
-            // A vertex on the border is its own cut point.
+            // A vertex on the boundary is its own cut point.
             if from > 0.0 && to < 0.0 {
                 result.push(cut(start, end, half_space, volume));
             } else if from < 0.0 && to > 0.0 {

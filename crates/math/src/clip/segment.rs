@@ -7,9 +7,9 @@ use super::{ClipVertex, ClipVolume};
 
 /// Clips a segment in clip space; the ends keep their order.
 ///
-/// The result has the same bits as the edge of a triangle with the same ends.
-/// `None` if no length is left, also if only an end touches the volume, and if a
-/// position has NaN or an infinity. See the [module's guarantees](crate::clip).
+/// The result has the same bits as the edge of a triangle with the same ends. `None` if no length
+/// is left, also if only an end touches the volume, and if a position contains NaN or an infinity.
+/// See the [module's guarantees](crate::clip).
 #[must_use]
 pub fn clip_segment(segment: [Vec4; 2], volume: &ClipVolume) -> Option<[ClipVertex<2>; 2]> {
     if !segment.iter().all(|position| position.is_finite()) {

@@ -6,18 +6,18 @@ use glam::Vec4;
 
 use super::{Band, HalfSpace};
 
-/// The half-spaces to clip by: always `w` at least a minimum, and of the near
-/// and far plane and the four bands those that were asked for.
+/// The half-spaces to clip by: always `w` at least a minimum, and optionally the near and far plane
+/// and the four bands.
 ///
-/// They clip in the order `w`, near, far, left, right, bottom, top, whatever the
-/// order in which they were added.
+/// They clip in the order `w`, near, far, left, right, bottom, top, whatever the order in which
+/// they were added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClipVolume {
     half_spaces: [Option<HalfSpace>; HalfSpace::COUNT],
 }
 
 impl ClipVolume {
-    /// Everything before the eye: `w` at least the minimum.
+    /// Everything in front of the eye: `w` at least the minimum.
     ///
     /// `None` unless the minimum is a normal, positive, finite number.
     #[must_use]
@@ -26,7 +26,7 @@ impl ClipVolume {
         Some(Self { half_spaces }.with(HalfSpace::w_at_least(minimal_w)?))
     }
 
-    /// With one more half-space, in the place of one of the same kind.
+    /// With one more half-space, replacing one of the same kind.
     #[must_use]
     pub fn with(mut self, half_space: HalfSpace) -> Self {
         self.half_spaces[half_space.order()] = Some(half_space);
@@ -47,8 +47,8 @@ impl ClipVolume {
         self.half_spaces.iter().copied().flatten()
     }
 
-    /// Which half-spaces a position is outside of, exactly. A position with NaN
-    /// or an infinity is outside of everything.
+    /// Which half-spaces a position is outside of, exactly. A position with NaN or an infinity is
+    /// outside all of them.
     #[must_use]
     pub fn outcode(&self, position: Vec4) -> Outcode {
         if !position.is_finite() {

@@ -1,4 +1,4 @@
-//! Many weighted sums of corners' values at once, all of them of the old values.
+//! Many weighted sums of corners' values at once, all computed from the old values.
 
 use smallvec::SmallVec;
 use trigon_math::DVec3;
@@ -10,19 +10,19 @@ use super::layers::{Blend, Layer, LayerKind, LayerValues, blended, heaviest, uni
 
 /// Weighted sums of corners' values, and the corners that get them.
 ///
-/// An operation collects them while it reads the old mesh and runs them after it has changed the
-/// structure: so a corner may give its old value to others and get a new one.
+/// An operation collects them while it reads the old mesh and applies them after changing the
+/// structure, so a corner can both contribute its old value and receive a new one.
 #[derive(Debug, Default)]
 pub(super) struct CornerBlends {
     parts: Vec<(u32, f64)>,
-    /// Where the parts of each sum end.
+    /// The end of each sum's parts.
     ends: Vec<u32>,
-    /// A corner, and the sum whose value it gets.
+    /// A corner, and the sum that becomes its value.
     targets: Vec<(u32, u32)>,
 }
 
 impl CornerBlends {
-    /// With room for so many parts, sums and targets.
+    /// With reserved memory for this many parts, sums and targets.
     pub(super) fn with_capacity(parts: usize, sums: usize, targets: usize) -> Self {
         Self {
             parts: Vec::with_capacity(parts),
@@ -31,7 +31,7 @@ impl CornerBlends {
         }
     }
 
-    /// Adds a sum, whose weights add up to 1; its number.
+    /// Adds a sum, whose weights add up to 1, and returns its number.
     pub(super) fn sum(&mut self, parts: impl IntoIterator<Item = (CornerId, f64)>) -> u32 {
         self.parts.extend(parts.into_iter().map(|(corner, weight)| (corner.0, weight)));
         self.ends.push(self.parts.len() as u32);
@@ -55,7 +55,7 @@ impl CornerBlends {
 }
 
 impl EditMesh {
-    /// Gives corners their sums, in all layers.
+    /// Assigns the sums to their corners, in all layers.
     pub(super) fn blend_corners(&mut self, blends: &CornerBlends) {
         for layer in &mut self.corner_layers {
             layer.blend_corners(blends);
@@ -70,8 +70,8 @@ impl EditMesh {
         })
     }
 
-    /// The parts of the value at a way from a corner, as its face knows it: what of the way is not in
-    /// the plane of the corner's edges does not count, nor any of it where these have no plane.
+    /// The parts of the value at an offset from a corner, within its face: the component of the offset
+    /// outside the plane of the corner's edges is ignored, and all of it if these define no plane.
     pub(super) fn parts_beside(&self, corner: CornerId, way: DVec3) -> [(CornerId, f64); 3] {
         let (next, previous) = (self.next_corner(corner), self.previous_corner(corner));
         let here = self.point(self.corner_vertex(corner));
@@ -81,7 +81,7 @@ impl EditMesh {
     }
 }
 
-/// The least squares of `way = alpha a + beta b`; `None` where `a` and `b` have no plane.
+/// The least squares of `way = alpha a + beta b`; `None` if `a` and `b` define no plane.
 pub(super) fn in_plane(way: DVec3, a: DVec3, b: DVec3) -> Option<[f64; 2]> {
     let (aa, ab, bb) = (a.dot(a), a.dot(b), b.dot(b));
     let determinant = aa * bb - ab * ab;

@@ -1,8 +1,8 @@
 //! One value for each element, with a record of what a change replaced.
 //!
-//! A [`Column`] is a plain list while nothing is recorded. While a transaction runs, the
-//! first write to an element keeps its old value; once these take more memory than the old
-//! list, the old list is kept whole and writes are as cheap as without a record.
+//! A [`Column`] is a plain list while nothing is recorded. During a transaction, the first write to
+//! an element keeps its old value; once these take more memory than the old list, the whole old
+//! list is kept and writes cost no more than without a record.
 
 use std::ops::Index;
 
@@ -11,18 +11,18 @@ use std::ops::Index;
 pub(super) struct Column<T> {
     values: Vec<T>,
     record: Record<T>,
-    /// Writes below this index are recorded: 0 unless [`Record::Elements`] runs, so that one comparison
-    /// tells.
+    /// Writes below this index are recorded: 0 unless [`Record::Elements`] is active, so that one comparison
+    /// suffices.
     recorded: u32,
-    /// One bit for each element of the old list whose old value is in the record. All zero
-    /// while nothing is recorded; kept for its memory.
+    /// One bit for each element of the old list whose old value is in the record. All zero while
+    /// nothing is recorded; kept to reuse its memory.
     noted: Vec<u64>,
 }
 
 #[derive(Debug, Clone)]
 enum Record<T> {
     Off,
-    /// The old values of elements that were written to, and the old length.
+    /// The old values of changed elements, and the old length.
     Elements {
         old: Vec<(u32, T)>,
         length: usize,
@@ -30,7 +30,7 @@ enum Record<T> {
     Whole(Vec<T>),
 }
 
-/// How to get from one state of a column to another.
+/// The difference between two states of a column.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum ColumnDifference<T> {
     /// Values for some elements, and then those from `kept` on.
@@ -48,8 +48,8 @@ impl<T: Copy> Column<T> {
         Self { values, record: Record::Off, recorded: 0, noted: Vec::new() }
     }
 
-    /// A list with room for an eighth more: the first elements that are added do not move all others to
-    /// another place, which takes 30 ms for a million quads. Memory that is not used yet costs nothing.
+    /// A list with an eighth of spare capacity: otherwise the first added elements would move all others,
+    /// which takes 30 ms for a million quads. Unused memory costs nothing.
     pub(super) fn with_room(values: impl ExactSizeIterator<Item = T>) -> Self {
         let mut list = Vec::with_capacity(values.len() + values.len() / 8);
         list.extend(values);
@@ -64,7 +64,7 @@ impl<T: Copy> Column<T> {
         self.values.len() as u32
     }
 
-    /// The memory that the list takes, in bytes.
+    /// The memory of the list, in bytes.
     pub(super) fn bytes(&self) -> usize {
         self.values.capacity() * size_of::<T>()
     }
@@ -73,12 +73,12 @@ impl<T: Copy> Column<T> {
         self.values.push(value);
     }
 
-    /// Takes away elements at the end, none of which was there when recording began.
+    /// Removes elements at the end, none of which existed when recording began.
     pub(super) fn truncate(&mut self, length: u32) {
         self.values.truncate(length as usize);
     }
 
-    /// An element, to be changed.
+    /// An element, mutable.
     #[inline]
     pub(super) fn write(&mut self, index: u32) -> &mut T {
         if index < self.recorded && self.noted[index as usize / 64] >> (index % 64) & 1 == 0 {
@@ -110,13 +110,13 @@ impl<T: Copy> Column<T> {
         self.record = Record::Whole(whole);
     }
 
-    /// All elements, to be changed: the old list is kept whole.
+    /// All elements, mutable: the whole old list is kept.
     pub(super) fn write_all(&mut self) -> &mut [T] {
         self.keep_whole();
         &mut self.values
     }
 
-    /// Puts another list in the place of all values. The old list is kept as it is, not copied.
+    /// Replaces all values with another list. The old list is kept as it is, not copied.
     pub(super) fn replace(&mut self, values: Vec<T>) {
         let mut whole = std::mem::replace(&mut self.values, values);
         let Record::Elements { old, length } = &self.record else { return };
@@ -128,7 +128,7 @@ impl<T: Copy> Column<T> {
         self.record = Record::Whole(whole);
     }
 
-    /// Starts to record.
+    /// Starts recording.
     pub(super) fn begin(&mut self) {
         let length = self.values.len();
         self.record = Record::Elements { old: Vec::new(), length };
@@ -138,8 +138,8 @@ impl<T: Copy> Column<T> {
         }
     }
 
-    /// Stops to record. What leads back to the state at [`Self::begin`]; `None` where
-    /// nothing changed.
+    /// Stops recording. Returns the difference that leads back to the state at [`Self::begin`];
+    /// `None` if nothing changed.
     pub(super) fn finish(&mut self) -> Option<ColumnDifference<T>> {
         self.recorded = 0;
         match std::mem::replace(&mut self.record, Record::Off) {
@@ -157,8 +157,8 @@ impl<T: Copy> Column<T> {
         }
     }
 
-    /// The elements whose values differ between the two states; `None` if these have not equally
-    /// many elements. In time proportional to the difference.
+    /// The elements whose values differ between the two states; `None` if their numbers differ.
+    /// Takes time proportional to the difference.
     pub(super) fn differing(
         &self,
         difference: &ColumnDifference<T>,
@@ -180,7 +180,7 @@ impl<T: Copy> Column<T> {
         }
     }
 
-    /// Goes to the other state, and makes the difference lead back.
+    /// Switches to the other state, and reverses the difference.
     pub(super) fn swap(&mut self, difference: &mut ColumnDifference<T>) {
         debug_assert!(matches!(self.record, Record::Off), "nothing is undone within a transaction");
         match difference {
@@ -208,7 +208,7 @@ impl<T> Index<u32> for Column<T> {
     }
 }
 
-/// Whether the values are the same; what is recorded does not count.
+/// Whether the values are equal, ignoring the record.
 impl<T: PartialEq> PartialEq for Column<T> {
     fn eq(&self, other: &Self) -> bool {
         self.values == other.values
@@ -216,7 +216,7 @@ impl<T: PartialEq> PartialEq for Column<T> {
 }
 
 impl<T> ColumnDifference<T> {
-    /// The memory that it takes, in bytes.
+    /// Its memory, in bytes.
     pub(super) fn bytes(&self) -> usize {
         match self {
             Self::Whole(whole) => whole.capacity() * size_of::<T>(),

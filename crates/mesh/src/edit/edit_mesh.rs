@@ -1,4 +1,4 @@
-//! The editing mesh: its columns, and which slots of them are in use.
+//! The editable mesh: its columns, and which slots of them are in use.
 
 use trigon_math::{DVec3, Vec3};
 
@@ -8,19 +8,18 @@ use super::layers::Layer;
 use super::records::{ALIVE, CornerRecord, EdgeRecord, FaceRecord, Slots, VertexRecord};
 use super::refusal::Refusal;
 
-/// A polygon mesh that can be edited: explicit vertices, edges, corners and faces that know
-/// their neighbours in every direction.
+/// An editable polygon mesh: explicit vertices, edges, corners and faces with full adjacency.
 ///
-/// Any number of faces may share an edge, edges and vertices may stand alone, and faces may
-/// be open, folded or doubled: what is usually called non-manifold is ordinary here. Two
-/// vertices are joined by at most one edge. A face has at least three corners, at three
-/// different vertices at least; its consecutive vertices differ.
+/// Any number of faces may share an edge, edges and vertices may stand alone, and faces may be
+/// open, folded or duplicated: non-manifold meshes need no special treatment. Two vertices are
+/// joined by at most one edge. A face has at least three corners, at at least three different
+/// vertices; consecutive vertices differ.
 ///
-/// An id stays valid while its element lives; a local edit takes time proportional to its
-/// neighbourhood, not to the mesh. Changes within [`EditMesh::transaction`] can be undone to
-/// the same bytes.
+/// An id stays valid while its element exists; a local edit takes time proportional to its
+/// neighbourhood, not to the mesh. Changes within [`EditMesh::transaction`] can be undone to the
+/// same bytes.
 ///
-/// Made from a [`Mesh`](crate::Mesh) by [`EditMesh::from_mesh`], and back by
+/// Created from a [`Mesh`](crate::Mesh) by [`EditMesh::from_mesh`], and converted back by
 /// [`EditMesh::to_mesh`].
 ///
 /// ```
@@ -35,14 +34,14 @@ use super::refusal::Refusal;
 /// }
 /// ```
 ///
-/// Two are equal if all elements have the same ids, neighbours in the same order, and values,
-/// and the same slots are free.
+/// Two are equal if all elements have the same ids, neighbours in the same order, and values, and
+/// the same slots are free.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EditMesh {
     pub(super) vertices: Column<VertexRecord>,
     /// In metres.
     pub(super) positions: Column<Vec3>,
-    /// Where each vertex was when it was made: what it can be reset to.
+    /// The original position of each vertex, to which it can be reset.
     pub(super) first_positions: Column<Vec3>,
     pub(super) edges: Column<EdgeRecord>,
     pub(super) corners: Column<CornerRecord>,
@@ -50,7 +49,7 @@ pub struct EditMesh {
     pub(super) vertex_layers: Vec<Layer>,
     pub(super) corner_layers: Vec<Layer>,
     pub(super) slots: AllSlots,
-    /// Whether a transaction runs.
+    /// Whether a transaction is active.
     pub(super) is_recording: bool,
 }
 
@@ -69,7 +68,7 @@ impl Default for EditMesh {
 }
 
 impl EditMesh {
-    /// A mesh with nothing in it.
+    /// An empty mesh.
     pub fn new() -> Self {
         Self {
             vertices: Column::new(Vec::new()),
@@ -85,62 +84,62 @@ impl EditMesh {
         }
     }
 
-    /// How many vertices there are.
+    /// The number of vertices.
     pub fn vertex_count(&self) -> usize {
         self.slots.vertices.alive as usize
     }
 
-    /// How many edges there are, loose ones included.
+    /// The number of edges, including loose ones.
     pub fn edge_count(&self) -> usize {
         self.slots.edges.alive as usize
     }
 
-    /// How many corners all faces have together.
+    /// The number of corners of all faces.
     pub fn corner_count(&self) -> usize {
         self.slots.corners.alive as usize
     }
 
-    /// How many faces there are.
+    /// The number of faces.
     pub fn face_count(&self) -> usize {
         self.slots.faces.alive as usize
     }
 
-    /// All indices of vertices are below this: how long a list by index has to be.
+    /// An upper bound of vertex indices: the required length of a list by index.
     pub fn vertex_capacity(&self) -> usize {
         self.vertices.len() as usize
     }
 
-    /// All indices of edges are below this.
+    /// An upper bound of edge indices.
     pub fn edge_capacity(&self) -> usize {
         self.edges.len() as usize
     }
 
-    /// All indices of corners are below this.
+    /// An upper bound of corner indices.
     pub fn corner_capacity(&self) -> usize {
         self.corners.len() as usize
     }
 
-    /// All indices of faces are below this.
+    /// An upper bound of face indices.
     pub fn face_capacity(&self) -> usize {
         self.faces.len() as usize
     }
 
-    /// Whether there is such a vertex.
+    /// Whether this vertex exists.
     pub fn has_vertex(&self, vertex: VertexId) -> bool {
         self.vertices.values().get(vertex.0 as usize).is_some_and(|record| record.flags & ALIVE != 0)
     }
 
-    /// Whether there is such an edge.
+    /// Whether this edge exists.
     pub fn has_edge(&self, edge: EdgeId) -> bool {
         self.edges.values().get(edge.0 as usize).is_some_and(|record| record.flags & ALIVE != 0)
     }
 
-    /// Whether there is such a corner.
+    /// Whether this corner exists.
     pub fn has_corner(&self, corner: CornerId) -> bool {
         self.corners.values().get(corner.0 as usize).is_some_and(|record| record.face != NONE)
     }
 
-    /// Whether there is such a face.
+    /// Whether this face exists.
     pub fn has_face(&self, face: FaceId) -> bool {
         self.faces.values().get(face.0 as usize).is_some_and(|record| record.flags & ALIVE != 0)
     }
@@ -169,16 +168,16 @@ impl EditMesh {
         alive.map(|(index, _)| FaceId(index))
     }
 
-    /// Where a vertex is, in metres. Any value is kept, also one that is not finite.
+    /// The position of a vertex, in metres. Any value is kept, even if it is not finite.
     ///
     /// # Panics
-    /// When there is no such index. So do all functions that take an id, unless they say
-    /// otherwise; of a slot that is free they tell nothing of use.
+    /// The index is out of range. All functions that take an id panic in this case, unless they say
+    /// otherwise; for a free slot they return unspecified values.
     pub fn position(&self, vertex: VertexId) -> Vec3 {
         self.positions[vertex.0]
     }
 
-    /// The same for computations.
+    /// The same in double precision, for computations.
     pub(super) fn point(&self, vertex: VertexId) -> DVec3 {
         self.positions[vertex.0].as_dvec3()
     }
@@ -188,17 +187,17 @@ impl EditMesh {
         *self.positions.write(vertex.0) = position;
     }
 
-    /// Where a vertex was when it was made: what it can be reset to.
+    /// The original position of a vertex, to which it can be reset.
     pub fn first_position(&self, vertex: VertexId) -> Vec3 {
         self.first_positions[vertex.0]
     }
 
-    /// Declares a place to be that to which a vertex is reset.
+    /// Sets the position to which a vertex is reset.
     pub fn set_first_position(&mut self, vertex: VertexId, position: Vec3) {
         *self.first_positions.write(vertex.0) = position;
     }
 
-    /// The memory that the mesh takes, in bytes, without what is recorded for undo.
+    /// The memory of the mesh, in bytes, without undo records.
     pub fn bytes(&self) -> usize {
         let layers = self.vertex_layers.iter().chain(&self.corner_layers).map(Layer::bytes);
         self.vertices.bytes()

@@ -1,8 +1,8 @@
-//! What a change of an editing mesh means for the mesh that is shown of it.
+//! Follows changes of an editable mesh in the mesh that is displayed.
 //!
-//! A shown mesh of a million faces takes longer to make than to draw. Most edits move vertices
-//! or give corners other values, which the shown mesh can follow by a [`MeshChange`], in time
-//! proportional to what changed and its neighbours. All others ask for [`EditMesh::to_mesh`].
+//! A displayed mesh of a million faces takes longer to build than to draw. Most edits move vertices
+//! or change corner values, which the displayed mesh can follow with a [`MeshChange`], in time
+//! proportional to the change and its neighbourhood. All others need [`EditMesh::to_mesh`].
 
 use trigon_math::{Vec2, Vec3, Vec4};
 
@@ -15,22 +15,21 @@ use super::to_mesh::ElementMap;
 use super::transaction::Difference;
 use crate::{Mesh, MeshChange};
 
-/// For each element that is edited its number in the mesh that is shown: the inverse of an
-/// [`ElementMap`].
+/// For each edited element its number in the displayed mesh: the inverse of an [`ElementMap`].
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ElementNumbers {
     vertices: Vec<u32>,
     faces: Vec<u32>,
     corners: Vec<u32>,
     edges: Vec<u32>,
-    /// By the edges of the shown mesh.
+    /// By the edges of the displayed mesh.
     edges_of_mesh: Vec<EdgeId>,
-    /// Whether the shown mesh has normals of corners.
+    /// Whether the displayed mesh has corner normals.
     has_normals: bool,
 }
 
 impl ElementNumbers {
-    /// Of what [`EditMesh::to_mesh`] gave. In time proportional to the whole mesh.
+    /// From the result of [`EditMesh::to_mesh`]. Takes time proportional to the whole mesh.
     pub fn new(edited: &EditMesh, mesh: &Mesh, map: &ElementMap) -> Self {
         let edges_of_mesh = map.edges(mesh, edited);
         Self {
@@ -43,17 +42,17 @@ impl ElementNumbers {
         }
     }
 
-    /// The number of a vertex in the shown mesh; `None` if it is not shown.
+    /// The number of a vertex in the displayed mesh; `None` if it is not displayed.
     pub fn vertex(&self, vertex: VertexId) -> Option<u32> {
         number(&self.vertices, vertex.0)
     }
 
-    /// The number of a face in the shown mesh; `None` if it is not shown.
+    /// The number of a face in the displayed mesh; `None` if it is not displayed.
     pub fn face(&self, face: FaceId) -> Option<u32> {
         number(&self.faces, face.0)
     }
 
-    /// The number of an edge in [`Mesh::edges`]; `None` if it is not shown.
+    /// The number of an edge in [`Mesh::edges`]; `None` if it is not displayed.
     pub fn edge(&self, edge: EdgeId) -> Option<u32> {
         number(&self.edges, edge.0)
     }
@@ -90,16 +89,16 @@ pub struct ChangedValues {
 }
 
 impl ChangedValues {
-    /// Whether there are none.
+    /// Whether it is empty.
     pub fn is_empty(&self) -> bool {
         self.vertices.is_empty() && self.corners.is_empty()
     }
 
-    /// Adds what another change changed.
+    /// Merges another change.
     pub fn append(&mut self, mut other: Self) {
         self.vertices.append(&mut other.vertices);
         self.corners.append(&mut other.corners);
-        // Undone and done again, the same elements come again and again.
+        // Undo and redo report the same elements again and again.
         sort(&mut self.vertices);
         sort(&mut self.corners);
     }
@@ -113,17 +112,16 @@ fn sort<T: Ord>(ids: &mut Vec<T>) {
 }
 
 impl Difference {
-    /// Whether elements, or any marks of theirs (sharp, seam, crease, hidden, …) may differ
-    /// between the two states.
+    /// Whether elements, or any of their marks (sharp, seam, crease, hidden, …) may differ between
+    /// the two states.
     pub fn changes_marks(&self) -> bool {
         self.vertices.is_some() || self.edges.is_some() || self.corners.is_some() || self.faces.is_some()
     }
 }
 
 impl EditMesh {
-    /// What a difference changed of the shown mesh, if that can follow; `None` if it has to
-    /// be made anew. The mesh is in one of the difference's two states. In time proportional
-    /// to the difference.
+    /// What a difference changed in the displayed mesh; `None` if that must be rebuilt. The mesh is
+    /// in one of the difference's two states. Takes time proportional to the difference.
     pub fn changed_values(&self, difference: &Difference) -> Option<ChangedValues> {
         if difference.slots != self.slots || !self.shows_the_same(difference) {
             return None;
@@ -148,8 +146,8 @@ impl EditMesh {
         Some(changed)
     }
 
-    /// Whether both states have the same elements with the same neighbours, and those marks
-    /// of theirs that a shown mesh has.
+    /// Whether both states have the same elements with the same adjacency, and the same of those
+    /// marks that a displayed mesh has.
     fn shows_the_same(&self, difference: &Difference) -> bool {
         let vertex = |record: &VertexRecord| VertexRecord { flags: record.flags & !HIDDEN, ..*record };
         let edge = |record: &EdgeRecord| EdgeRecord {
@@ -164,7 +162,7 @@ impl EditMesh {
             && is_same(&self.faces, &difference.faces, face)
     }
 
-    /// The change that gives a shown mesh, whose numbers are given, the values that changed. In
+    /// The change that gives a displayed mesh, whose numbers are given, the changed values. Takes
     /// time proportional to these and their neighbours.
     pub fn mesh_change(&self, changed: &ChangedValues, numbers: &ElementNumbers) -> MeshChange {
         let vertices = changed.vertices.iter();

@@ -1,13 +1,13 @@
-//! Meshes that can be edited, and the operations on them.
+//! Editable meshes and their operations.
 //!
-//! [`EditMesh`] knows every neighbour of every element, so that an operation finds what it needs
-//! at once. Each operation is a file with one function, which returns what it made or a
-//! [`Refusal`] that says why it did nothing. Run in [`EditMesh::transaction`], it can be
-//! undone to the last byte.
+//! [`EditMesh`] stores the full adjacency of every element, so an operation finds what it needs at
+//! once. Each operation is a file with one function, which returns what it made or a [`Refusal`]
+//! with the reason why it did nothing. Within [`EditMesh::transaction`] it can be undone to the
+//! last byte.
 //!
-//! From low to high: `ids`, `column` (values with a record of changes), `records` and
-//! `layers` (what is stored), `edit_mesh` (all columns), `slots` and `rings` (the only places
-//! that write neighbours), `walk` (from element to element), `euler` (elementary changes), and the
+//! From low to high: `ids`, `column` (values with a record of changes), `records` and `layers` (the
+//! stored data), `edit_mesh` (all columns), `slots` and `rings` (the only places that write
+//! adjacency), `walk` (navigation between elements), `euler` (elementary changes), and the
 //! operations.
 
 mod blends;

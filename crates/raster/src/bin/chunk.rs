@@ -47,6 +47,11 @@ pub(crate) struct Chunk {
 }
 
 impl Chunk {
+    /// The chunk of a triangle among those of a frame, which are in the order of their ordinals.
+    pub(crate) fn of(chunks: &[Self], place: Place) -> &Self {
+        &chunks[chunks.partition_point(|chunk| chunk.ordinals.end <= place.ordinal)]
+    }
+
     /// Empties the chunk for another frame and keeps its memory.
     pub(crate) fn reset(&mut self, ordinals: Range<u32>, surface: Surface) {
         self.ordinals = ordinals;

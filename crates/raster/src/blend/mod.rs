@@ -31,7 +31,7 @@ use crate::frame::FrameView;
 use crate::resolve::saturated;
 use crate::shade::{Shading, shade_jobs};
 use crate::simd::LANES;
-use crate::tile::{Blocks, Scratch, TileArea, TileView};
+use crate::tile::{Blocks, TileArea, TileState, TileView};
 use gather::Beside;
 use joints::Joints;
 use list::Fragments;
@@ -52,6 +52,8 @@ pub(crate) struct Layers {
     runs: Runs,
     fragments: Fragments,
     colors: Vec<[f32; 4]>,
+    /// Colours of samples, where something translucent is laid over them.
+    samples: Vec<Vec4>,
     joints: Joints,
     /// The segments joined to the one that is looked at.
     beside: Vec<Beside>,
@@ -87,18 +89,23 @@ impl Round {
     }
 }
 
-/// Lays the translucent triangles of a tile over its colours.
+/// Lays the translucent triangles of a tile over its colours, after which all of its pixels have
+/// one. Tells how many fragments were shaded.
 pub(crate) fn blend_translucent(
     frame: &FrameView<'_>,
     area: &TileArea,
-    scratch: &mut Scratch,
+    state: &TileState,
+    (layers, shading): (&mut Layers, &mut Shading),
     places: Range<usize>,
-) {
-    samples::expand(frame, area, scratch);
-    let Scratch { buffer, places: all, ties, layers, samples, shading, stats, .. } = scratch;
+) -> u64 {
+    let TileState { buffer, places: all, ties, .. } = state;
+    let mut samples = std::mem::take(&mut layers.samples);
+    samples::expand(frame, area, buffer, (shading, &mut samples));
     let tile = TileView { frame, area, buffer, places: all, ties };
-    stats.pixels_shaded += layers.blend(tile, places, shading, samples);
-    samples::collapse(frame, scratch);
+    let shaded = layers.blend(tile, places, shading, &mut samples);
+    samples::collapse(frame, buffer, (shading, &samples));
+    layers.samples = samples;
+    shaded
 }
 
 impl Layers {

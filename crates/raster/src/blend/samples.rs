@@ -5,12 +5,16 @@ use crate::frame::FrameView;
 use crate::resolve::mean;
 use crate::shade::{BEHIND, Shading};
 use crate::simd::LANES;
-use crate::tile::{NOBODY, Scratch, TileArea};
+use crate::tile::{NOBODY, TileArea, VisibilityBuffer};
 use trigon_math::Vec4;
 
 /// Gives every sample the colour of what it sees.
-pub(super) fn expand(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) {
-    let Scratch { buffer, shading, samples, .. } = scratch;
+pub(super) fn expand(
+    frame: &FrameView<'_>,
+    area: &TileArea,
+    buffer: &VisibilityBuffer,
+    (shading, samples): (&Shading, &mut Vec<Vec4>),
+) {
     let count = buffer.samples;
     samples.clear();
     samples.resize(buffer.span() * count, Vec4::ZERO);
@@ -40,8 +44,11 @@ pub(super) fn expand(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scrat
 
 /// Gives every pixel the mean of its samples. All of the tile's pixels have a
 /// colour then, and none is an edge pixel.
-pub(super) fn collapse(frame: &FrameView<'_>, scratch: &mut Scratch) {
-    let Scratch { buffer, shading, samples, .. } = scratch;
+pub(super) fn collapse(
+    frame: &FrameView<'_>,
+    buffer: &VisibilityBuffer,
+    (shading, samples): (&mut Shading, &[Vec4]),
+) {
     let Shading { colors, edges, .. } = shading;
     let count = frame.grid.pattern.count();
     edges.forget();
@@ -50,5 +57,4 @@ pub(super) fn collapse(frame: &FrameView<'_>, scratch: &mut Scratch) {
         let of_pixel = (0..count).map(|sample| samples[first + sample * LANES]);
         *color = mean(of_pixel, count).to_array();
     }
-    scratch.blended = true;
 }

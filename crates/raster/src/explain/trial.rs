@@ -5,12 +5,12 @@ use super::{EdgeExplanation, FragmentExplanation, PrimitiveKind, SampleExplanati
 use crate::Surface;
 use crate::bin::Place;
 use crate::blend::leaves;
-use crate::frame::FrameView;
+use crate::frame::{FrameView, outer_ink};
 use crate::ink::OuterInk;
 use crate::line::{Form, Stroke};
 use crate::resolve::saturated;
 use crate::setup::{Corners, Kind, SetupTriangle};
-use crate::tile::{BEHIND_ALL, Covering, Edge, outer_ink};
+use crate::tile::{BEHIND_ALL, Covering, Edge};
 use crate::ulps;
 use std::cmp::Ordering;
 use trigon_math::Vec4;

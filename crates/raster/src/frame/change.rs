@@ -7,7 +7,7 @@
 //! that it lists, or listed, has a vertex with other values, nor has one of its face.
 
 use super::layout::Layout;
-use super::{Plan, Wants};
+use super::{Plan, RequestedOutputs};
 use crate::bin::{Chunk, Grid};
 use crate::geometry::Shape;
 use crate::paint2d::Rect;
@@ -43,7 +43,7 @@ pub struct Redraw {
 /// What has to be the same in two frames for one to follow from the other.
 #[derive(PartialEq)]
 pub(super) struct Signature {
-    wants: Wants,
+    wants: RequestedOutputs,
     samples_per_axis: u32,
     samples: usize,
     /// Of the viewport, a tile, and its apron.

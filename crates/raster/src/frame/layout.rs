@@ -1,7 +1,7 @@
 //! What is settled about a frame before any vertex is run.
 
-use super::Wants;
-use super::stages::How;
+use super::RequestedOutputs;
+use super::options::FrameOptions;
 use crate::Target;
 use crate::bin::Grid;
 use crate::geometry::Geometry;
@@ -14,19 +14,19 @@ use crate::viewport::Viewport;
 /// How a target is cut into tiles, and what is wanted of it.
 pub(super) struct Layout {
     pub(super) axis: u32,
-    pub(super) wants: Wants,
+    pub(super) wants: RequestedOutputs,
     pub(super) ink: Option<Ink>,
     pub(super) grid: Grid,
 }
 
 impl Layout {
-    pub(super) fn new(pass: &Pass<'_>, target: &Target<'_>, how: How<'_>) -> Self {
+    pub(super) fn new(pass: &Pass<'_>, target: &Target<'_>, options: FrameOptions<'_>) -> Self {
         let axis = target.samples_per_axis();
         let viewport = Viewport { width: target.width() * axis, height: target.height() * axis };
         let wants = wants(target);
-        let ink = if wants.color || how.finds_colors { ink(pass, axis) } else { None };
+        let ink = if wants.color || options.finds_colors { ink(pass, axis) } else { None };
         let apron = ink.as_ref().map_or(0, |ink| ink.reach().next_multiple_of(axis));
-        let tile_pixels = (own_side(how.tile_size, apron) / axis).max(1);
+        let tile_pixels = (own_side(options.tile_size, apron) / axis).max(1);
         let grid = Grid::new(viewport, target.pattern(), tile_pixels * axis).with_apron(apron);
         Self { axis, wants, ink, grid }
     }
@@ -46,7 +46,7 @@ fn own_side(tile_size: u32, apron: u32) -> u32 {
     if tile_size >= 4 * apron { tile_size - 2 * apron } else { tile_size.min(MAX_SIDE as u32 - 2 * apron) }
 }
 
-fn wants(target: &Target<'_>) -> Wants {
+fn wants(target: &Target<'_>) -> RequestedOutputs {
     let (srgb8, unorm8) = (target.srgb8().is_some(), target.unorm8().is_some());
     let linear = target.linear().is_some();
     let bytes = match (srgb8, unorm8, linear, target.samples_per_axis()) {
@@ -55,5 +55,5 @@ fn wants(target: &Target<'_>) -> Wants {
         _ => None,
     };
     let ids = target.objects().is_some() || target.faces().is_some() || target.triangles().is_some();
-    Wants { color: srgb8 || unorm8 || linear, depth: target.depth().is_some(), ids, bytes }
+    RequestedOutputs { color: srgb8 || unorm8 || linear, depth: target.depth().is_some(), ids, bytes }
 }

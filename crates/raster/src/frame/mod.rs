@@ -1,207 +1,24 @@
-//! A frame on its way: what the stages leave for the tiles.
+//! A frame from its plan to its tiles.
 
 mod change;
+mod draw_view;
 mod layout;
+mod options;
+mod outputs;
 mod plan;
 mod redraw;
 mod set_up;
 mod stages;
+mod tiles;
 mod touched;
+mod view;
 
 pub use change::{DrawChange, Redraw};
+pub(crate) use draw_view::DrawView;
+pub(crate) use options::FrameOptions;
+pub(crate) use outputs::RequestedOutputs;
 pub(crate) use plan::{DrawPlan, Plan};
 pub(crate) use redraw::redraw;
-pub(crate) use stages::{Arena, How, draw, prepare};
-
-use crate::StageTimes;
-use crate::bin::{Chunk, Grid, Place, TileRange};
-use crate::ink::Ink;
-use crate::paint2d::Rect;
-use crate::pass::{Background, Recorded};
-use crate::resolve::BackgroundRow;
-use crate::setup::SetupTriangle;
-use crate::shade::{AnyPipeline, Encoding};
-use crate::simd::{Each, Token};
-use crate::tile::TileArea;
-use crate::vertex::{DrawVertices, ScreenVertex};
-use std::cmp::Ordering;
-use std::ops::Range;
-
-/// What a frame is to leave behind.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Wants {
-    pub(crate) color: bool,
-    pub(crate) depth: bool,
-    pub(crate) ids: bool,
-    /// The encoding, if bytes of one kind are all of the colour that is asked for
-    /// and there is no supersampling.
-    pub(crate) bytes: Option<Encoding>,
-}
-
-/// Everything that tiles read.
-pub(crate) struct FrameView<'f> {
-    pub(crate) pass: &'f [Recorded<'f>],
-    pub(crate) background: Background<'f>,
-    /// The background's rows, if each has one colour of its own.
-    pub(crate) background_rows: &'f [BackgroundRow],
-    pub(crate) plan: &'f Plan,
-    pub(crate) places: &'f [ScreenVertex],
-    pub(crate) varyings: &'f [f32],
-    /// In the order of their ordinals.
-    pub(crate) chunks: &'f [Chunk],
-    pub(crate) grid: Grid,
-    /// The pixels of the target that are drawn.
-    pub(crate) drawn: Rect,
-    /// Internal pixels for each pixel of the target and axis.
-    pub(crate) supersampling: u32,
-    pub(crate) wants: Wants,
-    /// What paints the edges of faces, if anything does.
-    pub(crate) ink: Option<Ink>,
-    pub(crate) token: Token,
-    pub(crate) hierarchical: bool,
-    pub(crate) timed: bool,
-    /// How long the stages before the tiles took.
-    pub(crate) times: StageTimes,
-}
-
-impl<'f> FrameView<'f> {
-    /// Whether edges of faces are painted.
-    pub(crate) fn paints_lines(&self) -> bool {
-        self.ink.as_ref().is_some_and(Ink::has_lines)
-    }
-
-    /// The rectangle that a tile sees.
-    pub(crate) fn area(&self, tile: u32) -> TileArea {
-        let Grid { viewport, size, apron, columns, .. } = self.grid;
-        let own = [(tile % columns) * size, (tile / columns) * size];
-        let first = own.map(|v| v.saturating_sub(apron));
-        let side = |axis: usize, whole: u32| (whole.min(own[axis] + size + apron) - first[axis]) as usize;
-        TileArea {
-            origin: first.map(|v| v as i32),
-            size: [side(0, viewport.width), side(1, viewport.height)],
-            margin: [0, 1].map(|axis| (own[axis] - first[axis]) as usize),
-        }
-    }
-
-    /// The columns and rows of a tile that belong to it and to none of its neighbours.
-    pub(crate) fn own_part(&self, area: &TileArea) -> [Range<usize>; 2] {
-        [0, 1].map(|axis| {
-            let first = area.margin[axis];
-            first..area.size[axis].min(first + self.grid.size as usize)
-        })
-    }
-
-    /// The tiles that have pixels to be drawn.
-    pub(crate) fn tiles(&self) -> TileRange {
-        if self.drawn.is_empty() {
-            return TileRange { columns: 0..0, rows: 0..0 };
-        }
-        let axis = self.supersampling as i32;
-        let Rect { min, max } = self.drawn;
-        let pixels = |i: usize| [min[i] * axis, max[i] * axis - 1];
-        self.grid.tiles_of(pixels(0), pixels(1))
-    }
-
-    /// The columns and rows of a tile that are drawn, in pixels of the target
-    /// from the first one that is the tile's own.
-    pub(crate) fn drawn_part(&self, area: &TileArea) -> [Range<usize>; 2] {
-        let axis = self.supersampling;
-        let (origin, own) = (area.own_origin(), self.own_part(area));
-        [0, 1].map(|i| {
-            let first = origin[i] / axis as i32;
-            let side = own[i].len() / axis as usize;
-            let within = |end: i32| ((end - first).max(0) as usize).min(side);
-            within(self.drawn.min[i])..within(self.drawn.max[i])
-        })
-    }
-
-    /// The pixels of the target that a tile draws.
-    fn drawn_rect(&self, tile: u32) -> Rect {
-        let area = self.area(tile);
-        let (first, drawn) = (area.own_origin(), self.drawn_part(&area));
-        let end = |axis: usize, at: usize| first[axis] / self.supersampling as i32 + at as i32;
-        Rect::new(
-            [0, 1].map(|axis| end(axis, drawn[axis].start)),
-            [0, 1].map(|axis| end(axis, drawn[axis].end)),
-        )
-    }
-
-    pub(crate) fn is_multisampled(&self) -> bool {
-        self.grid.pattern.count() > 1
-    }
-
-    /// The index among the plans of the draw that a triangle belongs to.
-    #[inline(always)]
-    pub(crate) fn draw_of(&self, place: Place) -> usize {
-        self.plan.draw_of(place.ordinal)
-    }
-
-    pub(crate) fn pipeline(&self, draw: usize) -> &'f dyn AnyPipeline {
-        self.pass[self.plan.draws[draw].draw].pipeline
-    }
-
-    /// The vertices of a draw.
-    #[inline(always)]
-    pub(crate) fn vertices(&self, draw: usize) -> DrawVertices<'f> {
-        let plan = &self.plan.draws[draw];
-        let places = &self.places[plan.places.clone()];
-        let pipeline = self.pass[plan.draw].pipeline;
-        DrawVertices { slots: self.plan.slots(plan), places, pipeline, token: self.token }
-    }
-
-    /// A triangle of a tile, ready.
-    #[inline]
-    pub(crate) fn triangle(&self, place: Place) -> SetupTriangle {
-        if !place.is_whole()
-            && let Some(triangle) = self.chunk_of(place).made(place)
-        {
-            return triangle;
-        }
-        SetupTriangle::whole(self.corners(place).each(|vertex| *vertex), place.ordinal)
-    }
-
-    /// The vertices of a primitive.
-    #[inline(always)]
-    pub(crate) fn corners(&self, place: Place) -> [&'f ScreenVertex; 3] {
-        let draw = self.draw_of(place);
-        let plan = &self.plan.draws[draw];
-        let vertices = self.vertices(draw);
-        let corners = self.pass[plan.draw].geometry.corners(place.ordinal - plan.ordinals.start);
-        corners.each(
-            #[inline(always)]
-            |index| vertices.get(index),
-        )
-    }
-
-    /// The chunk that a triangle belongs to.
-    pub(crate) fn chunk_of(&self, place: Place) -> &'f Chunk {
-        &self.chunks[self.chunks.partition_point(|chunk| chunk.ordinals.end <= place.ordinal)]
-    }
-
-    /// What decides first between triangles at equal depth, from the index among the plans
-    /// of the triangle's draw: the smaller one is seen.
-    #[inline]
-    pub(crate) fn object_and_face(&self, draw: usize, place: Place) -> u64 {
-        let plan = &self.plan.draws[draw];
-        let geometry = &self.pass[plan.draw].geometry;
-        let face = geometry.face(place.ordinal - plan.ordinals.start);
-        u64::from(geometry.object) << 32 | u64::from(face)
-    }
-
-    /// The order of two triangles at equal depth: the smaller (object, face) is
-    /// seen. Within a face, and only there, the smaller index, then the earlier
-    /// draw.
-    pub(crate) fn compare(&self, a: Place, b: Place) -> Ordering {
-        let key = |place: Place| {
-            let draw = self.draw_of(place);
-            let plan = &self.plan.draws[draw];
-            (self.object_and_face(draw, place), place.ordinal - plan.ordinals.start, plan.draw)
-        };
-        key(a).cmp(&key(b))
-    }
-
-    /// Whether `a` is seen before `b` at equal depth.
-    pub(crate) fn precedes(&self, a: Place, b: Place) -> bool {
-        self.compare(a, b).is_lt()
-    }
-}
+pub(crate) use stages::{Arena, draw, prepare};
+pub(crate) use tiles::outer_ink;
+pub(crate) use view::FrameView;

@@ -1,6 +1,6 @@
 //! The stage that sets primitives up and bins them: chunk by chunk.
 
-use super::stages::How;
+use super::options::FrameOptions;
 use super::{DrawPlan, Plan};
 use crate::Culling;
 use crate::bin::{Chunk, EarlierEntries, Grid};
@@ -29,13 +29,13 @@ pub(super) struct SetUp<'a> {
 
 impl SetUp<'_> {
     /// Set-up and binning: every worker takes a chunk at a time.
-    pub(super) fn all(&self, how: How<'_>, chunks: &mut [Chunk]) {
+    pub(super) fn all(&self, options: FrameOptions<'_>, chunks: &mut [Chunk]) {
         let many = chunks.len() > 1;
         let rest = Mutex::new(chunks.iter_mut());
         let next = || rest.lock().unwrap_or_else(PoisonError::into_inner).next();
-        how.workers.run(many, |_| {
+        options.workers.run(many, |_| {
             while let Some(chunk) = next()
-                && !how.is_cancelled()
+                && !options.is_cancelled()
             {
                 self.chunk(chunk);
             }

@@ -3,25 +3,21 @@
 
 use super::change::Signature;
 use super::layout::Layout;
+use super::options::VERTICES;
 use super::set_up::SetUp;
+use super::tiles::{Scratch, draw_tile};
 use super::touched::Touched;
-use super::{FrameView, Plan};
+use super::{FrameOptions, FrameView, Plan};
 use crate::bin::Chunk;
 use crate::clock::Clock;
 use crate::pass::{Pass, Recorded};
-use crate::pool::Workers;
 use crate::resolve::{BackgroundRow, Strip};
-use crate::simd::Token;
 use crate::target::Bands;
-use crate::tile::{Scratch, draw_tile};
 use crate::vertex::ScreenVertex;
 use crate::viewport::Viewport;
-use crate::{Cancel, StageTimes, Stats, Target};
+use crate::{StageTimes, Stats, Target};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
-
-/// How many vertices a worker runs at a time.
-pub(super) const VERTICES: usize = 2048;
 
 /// What is kept from frame to frame, so that a warm frame allocates nothing.
 #[derive(Default)]
@@ -37,31 +33,16 @@ pub(crate) struct Arena {
     pub(super) touched: Touched,
 }
 
-/// How a frame is drawn.
-#[derive(Clone, Copy)]
-pub(crate) struct How<'w> {
-    pub(crate) token: Token,
-    pub(crate) workers: &'w Workers,
-    pub(crate) tile_size: u32,
-    pub(crate) hierarchical: bool,
-    pub(crate) timed: bool,
-    /// Whether colours are found, whatever the target keeps.
-    pub(crate) finds_colors: bool,
-    pub(crate) cancel: Option<&'w Cancel>,
-}
-
-impl How<'_> {
-    /// Whether no more work is to be begun.
-    pub(super) fn is_cancelled(self) -> bool {
-        self.cancel.is_some_and(Cancel::is_cancelled)
-    }
-}
-
 /// Draws a pass into a target.
-pub(crate) fn draw(arena: &mut Arena, pass: &Pass<'_>, target: &mut Target<'_>, how: How<'_>) -> Stats {
+pub(crate) fn draw(
+    arena: &mut Arena,
+    pass: &Pass<'_>,
+    target: &mut Target<'_>,
+    options: FrameOptions<'_>,
+) -> Stats {
     let mut scratches = std::mem::take(&mut arena.scratches);
-    let view = prepare(arena, pass, target, how);
-    let stats = finish(&view, (None, target), how, &mut scratches);
+    let view = prepare(arena, pass, target, options);
+    let stats = finish(&view, (None, target), options, &mut scratches);
     arena.scratches = scratches;
     stats
 }
@@ -70,14 +51,14 @@ pub(crate) fn draw(arena: &mut Arena, pass: &Pass<'_>, target: &mut Target<'_>, 
 pub(super) fn finish(
     view: &FrameView<'_>,
     (tiles, target): (Option<&[u32]>, &mut Target<'_>),
-    how: How<'_>,
+    options: FrameOptions<'_>,
     scratches: &mut Vec<Scratch>,
 ) -> Stats {
     let mut stats = Stats { times: view.times, ..count(view.plan, view.chunks) };
     let bands = Bands::new(target, view.grid.size / view.supersampling);
     // Those of workers that rest in this frame are kept.
-    scratches.resize_with(how.workers.count().max(scratches.len()), Scratch::new);
-    draw_tiles(view, tiles, &bands, how, scratches);
+    scratches.resize_with(options.workers.count().max(scratches.len()), Scratch::new);
+    draw_tiles(view, tiles, &bands, options, scratches);
     for scratch in scratches {
         stats += std::mem::take(&mut scratch.stats);
     }
@@ -89,23 +70,24 @@ pub(crate) fn prepare<'f>(
     arena: &'f mut Arena,
     pass: &'f Pass<'_>,
     target: &Target<'_>,
-    how: How<'_>,
+    options: FrameOptions<'_>,
 ) -> FrameView<'f> {
-    let layout = Layout::new(pass, target, how);
+    let layout = Layout::new(pass, target, options);
     let grid = layout.grid;
     arena.followed = None;
     let Arena { plan, places, varyings, chunks, .. } = arena;
-    let used = plan.make(&pass.draws, chunks, how.workers.count());
+    let used = plan.make(&pass.draws, chunks, options.workers.count());
     let chunks = &mut chunks[..used];
     places.resize(plan.places, ScreenVertex::MISSING);
     varyings.resize(plan.varyings, 0.0);
-    let mut clock = Clock::new(how.timed);
-    run_vertices(&pass.draws, plan, grid.viewport, how, (places, varyings));
+    let mut clock = Clock::new(options.timed);
+    run_vertices(&pass.draws, plan, grid.viewport, options, (places, varyings));
     let vertices = clock.lap();
-    let set_up = SetUp { pass: &pass.draws, plan, places, grid: &grid, axis: layout.axis, token: how.token };
-    set_up.all(how, chunks);
+    let set_up =
+        SetUp { pass: &pass.draws, plan, places, grid: &grid, axis: layout.axis, token: options.token };
+    set_up.all(options, chunks);
     let times = StageTimes { vertices, set_up: clock.lap(), ..StageTimes::default() };
-    arena.view((pass, target), layout, how, used, times)
+    arena.view((pass, target), layout, options, used, times)
 }
 
 impl Arena {
@@ -114,7 +96,7 @@ impl Arena {
         &'f mut self,
         (pass, target): (&'f Pass<'_>, &Target<'_>),
         Layout { axis, wants, ink, grid }: Layout,
-        how: How<'_>,
+        options: FrameOptions<'_>,
         used: usize,
         times: StageTimes,
     ) -> FrameView<'f> {
@@ -132,9 +114,9 @@ impl Arena {
             supersampling: axis,
             wants,
             ink,
-            token: how.token,
-            hierarchical: how.hierarchical,
-            timed: how.timed,
+            token: options.token,
+            hierarchical: options.hierarchical,
+            timed: options.timed,
             times,
         }
     }
@@ -155,7 +137,7 @@ fn run_vertices(
     pass: &[Recorded<'_>],
     plan: &Plan,
     viewport: Viewport,
-    how: How<'_>,
+    options: FrameOptions<'_>,
     (places, varyings): (&mut [ScreenVertex], &mut [f32]),
 ) {
     struct Rest<'a> {
@@ -183,12 +165,12 @@ fn run_vertices(
         rest.varyings = others;
         Some((draw, slots, places, varyings))
     };
-    how.workers.run(plan.vertices > VERTICES, |_| {
+    options.workers.run(plan.vertices > VERTICES, |_| {
         while let Some((draw, slots, places, varyings)) = next()
-            && !how.is_cancelled()
+            && !options.is_cancelled()
         {
             let pipeline = pass[draw.draw].pipeline;
-            pipeline.run_vertices(how.token, plan.slots(draw), slots, viewport, (places, varyings));
+            pipeline.run_vertices(options.token, plan.slots(draw), slots, viewport, (places, varyings));
         }
     });
 }
@@ -198,7 +180,7 @@ fn draw_tiles(
     view: &FrameView<'_>,
     some: Option<&[u32]>,
     bands: &Bands<'_>,
-    how: How<'_>,
+    options: FrameOptions<'_>,
     scratches: &mut [Scratch],
 ) {
     let tiles = view.tiles();
@@ -209,7 +191,7 @@ fn draw_tiles(
     };
     let next = AtomicU32::new(0);
     // Neighbours, which are written together; towards the end fewer, so that nobody waits long.
-    let shares = 4 * how.workers.count();
+    let shares = 4 * options.workers.count();
     let end = |start: u32| {
         let left = count.saturating_sub(start as usize);
         start + (left / shares).clamp(1, Strip::MOST) as u32
@@ -220,13 +202,13 @@ fn draw_tiles(
         start..end(start)
     };
     let free = Mutex::new(scratches.iter_mut());
-    how.workers.run(count > 1, |_| {
+    options.workers.run(count > 1, |_| {
         let Some(scratch) = free.lock().unwrap_or_else(PoisonError::into_inner).next() else {
             return;
         };
         let mut own = take();
         while let Some(index) = index_of(own.start)
-            && !how.is_cancelled()
+            && !options.is_cancelled()
         {
             draw_tile(view, scratch, bands, index);
             own.start += 1;

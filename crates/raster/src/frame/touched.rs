@@ -3,7 +3,7 @@
 
 use super::Plan;
 use super::change::DrawChange;
-use super::stages::{How, VERTICES};
+use super::options::{FrameOptions, VERTICES};
 use crate::bin::Chunk;
 use crate::geometry::{Geometry, Shape};
 use crate::ink::parts;
@@ -85,7 +85,7 @@ impl Touched {
         pass: &[Recorded<'_>],
         plan: &Plan,
         viewport: Viewport,
-        how: How<'_>,
+        options: FrameOptions<'_>,
         (mut places, mut varyings): (&mut [ScreenVertex], &mut [f32]),
     ) {
         let mut pieces = Vec::new();
@@ -115,11 +115,11 @@ impl Touched {
         let shared = pieces.len() > 1;
         let rest = Mutex::new(pieces.into_iter());
         let next = || rest.lock().unwrap_or_else(PoisonError::into_inner).next();
-        how.workers.run(shared, |_| {
+        options.workers.run(shared, |_| {
             while let Some(piece) = next()
-                && !how.is_cancelled()
+                && !options.is_cancelled()
             {
-                piece.run(how.token, viewport);
+                piece.run(options.token, viewport);
             }
         });
     }

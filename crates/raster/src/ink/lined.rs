@@ -1,6 +1,7 @@
 //! A triangle and the edges of its face: how far they are from a point, and what lies in
 //! front of what.
 
+use super::rule::EdgePoint;
 use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::geometry::Geometry;
@@ -21,17 +22,6 @@ struct Segment {
     rise: f64,
     /// See [`Marks`](crate::Marks).
     mark: u8,
-}
-
-/// The point of an edge that is nearest to another point.
-#[derive(Clone, Copy)]
-pub(super) struct EdgePoint {
-    /// In pixels.
-    pub(super) distance: f64,
-    /// In 1/256 pixel.
-    point: [f64; 2],
-    depth: f64,
-    pub(super) mark: u8,
 }
 
 /// A visible triangle and the edges of the face that it belongs to: slivers beside it may

@@ -19,12 +19,14 @@ mod rows;
 mod rule;
 #[cfg(test)]
 mod tests;
+mod visible_faces;
 
 pub(crate) use lined::parts;
 pub(crate) use marks::Overlap;
 pub use marks::{MarkColors, Marks};
-pub(crate) use outer::{Footprint, OuterInk};
+pub(crate) use outer::OuterInk;
 pub(crate) use rule::{FaceLine, LineColumns};
+pub(crate) use visible_faces::{Footprint, VisibleFaces};
 
 use crate::simd::{Each, F32, LANES, Simd, U32, prelude::*};
 use trigon_math::{Vec3, Vec4};

@@ -17,31 +17,16 @@
 
 use super::lined::LinedFace;
 use super::rows::{Rows, beside_large, in_front};
-use super::{FaceLine, Ink, Overlap};
+use super::visible_faces::{LARGE, VisibleFaces};
+use super::{Ink, Overlap};
 use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::simd::{LANES, Simd, at_level};
 use crate::tile::{MAX_SIDE, NOBODY, PIXELS, TileArea, VisibilityBuffer};
 use std::ops::Range;
 
-/// Triangles whose faces have at least this inner radius, in pixels, are large.
-const LARGE: f32 = 3.0;
-
 /// Triangles that are kept ready: neighbouring pixels ask for the same ones.
 const READY: usize = 16;
-
-/// The depths of a visible triangle.
-#[derive(Clone, Copy)]
-pub(crate) struct Footprint {
-    /// The least, of a triangle with lines; below all depths for others.
-    pub(crate) least: f32,
-    /// The greatest.
-    pub(crate) greatest: f32,
-}
-
-impl Footprint {
-    const NOBODY: Self = Self { least: f32::NEG_INFINITY, greatest: f32::NEG_INFINITY };
-}
 
 /// What outer halves of lines cover in a tile.
 #[derive(Default)]
@@ -50,11 +35,8 @@ pub(crate) struct OuterInk {
     covered: Vec<Overlap>,
     /// The pixels that something covers.
     touched: Vec<u32>,
-    /// Of the tile's triangles, and of nobody.
-    footprints: Vec<Footprint>,
-    lines: Vec<FaceLine>,
-    has_lines: bool,
-    has_large: bool,
+    /// The triangles that the tile sees.
+    faces: VisibleFaces,
     /// `None` until edges are painted.
     rows: Option<Box<Rows>>,
     /// The lanes of each group that the tile draws itself.
@@ -75,23 +57,12 @@ impl OuterInk {
         for pixel in self.touched.drain(..) {
             self.covered[pixel as usize] = Overlap::default();
         }
-        (self.has_lines, self.has_large) = (false, false);
-        // What is not seen is not asked for.
-        if self.footprints.len() < places + 1 {
-            self.footprints.resize(places + 1, Footprint::NOBODY);
-            self.lines.resize(places + 1, FaceLine::UNLINED);
-        }
-        self.footprints[places] = Footprint::NOBODY;
-        self.lines[places] = FaceLine::UNLINED;
+        self.faces.begin(places);
     }
 
-    /// Takes a visible triangle of the tile.
-    #[inline(always)]
-    pub(crate) fn note(&mut self, place: u32, footprint: Footprint, line: FaceLine) {
-        self.footprints[place as usize] = footprint;
-        self.lines[place as usize] = line;
-        self.has_lines |= footprint.least > f32::NEG_INFINITY;
-        self.has_large |= line.radius >= LARGE;
+    /// Where the triangles that the tile sees are noted.
+    pub(crate) fn faces_mut(&mut self) -> &mut VisibleFaces {
+        &mut self.faces
     }
 
     /// The lanes of each group of a tile that the tile draws itself; all that is beside is
@@ -137,7 +108,7 @@ impl OuterInk {
         buffer: &VisibilityBuffer,
         places: &[Place],
     ) {
-        if !self.has_lines {
+        if !self.faces.has_lines {
             return;
         }
         self.own_lanes(frame, area);
@@ -166,7 +137,7 @@ impl OuterInk {
         for y in rows {
             let around = y.saturating_sub(reach)..(y + reach + 1).min(area.size[1]);
             let mut bits = in_front(simd, visible, (y, around.clone()), reach);
-            if self.has_large {
+            if self.faces.has_large {
                 bits |= beside_large(simd, visible, (y, around), reach);
             }
             found[y] = bits & own;
@@ -186,16 +157,16 @@ impl OuterInk {
             let first = TileArea::index_of([x, y]);
             for lane in 0..4 {
                 let [near, far] = ends(buffer, first + lane);
-                let footprint = self.footprints[(near as usize).min(places)];
+                let footprint = self.faces.footprints[(near as usize).min(places)];
                 rows.least[y][x + lane] = footprint.least;
                 rows.nearest[y][x + lane] = near;
                 rows.farthest[y][x + lane] = far;
                 rows.greatest[y][x + lane] = match near == far {
                     true => footprint.greatest,
-                    false => self.footprints[(far as usize).min(places)].greatest,
+                    false => self.faces.footprints[(far as usize).min(places)].greatest,
                 };
-                if self.has_large {
-                    let is_large = self.lines[(near as usize).min(places)].radius >= LARGE;
+                if self.faces.has_large {
+                    let is_large = self.faces.lines[(near as usize).min(places)].radius >= LARGE;
                     rows.large[y][x + lane] = f32::from(u8::from(is_large));
                 }
             }
@@ -243,10 +214,10 @@ impl OuterInk {
         own: u32,
         point: [i32; 2],
     ) -> Overlap {
-        if own == NOBODY || self.lines[own as usize].radius < LARGE {
+        if own == NOBODY || self.faces.lines[own as usize].radius < LARGE {
             return Overlap::default();
         }
-        let line = self.lines[own as usize];
+        let line = self.faces.lines[own as usize];
         let ground = self.ready[1].face(frame, places, own);
         if !ground.has_parts() {
             return Overlap::default();
@@ -263,9 +234,9 @@ impl OuterInk {
         point: [i32; 2],
     ) -> Overlap {
         let index = |place: u32| (place as usize).min(places.len());
-        let [ours, theirs] = [own, other].map(|place| self.lines[index(place)]);
-        let least = self.footprints[index(other)].least;
-        let is_before = least > self.footprints[index(own)].greatest;
+        let [ours, theirs] = [own, other].map(|place| self.faces.lines[index(place)]);
+        let least = self.faces.footprints[index(other)].least;
+        let is_before = least > self.faces.footprints[index(own)].greatest;
         let is_large = ours.radius >= LARGE || theirs.radius >= LARGE;
         if !(is_before || (is_large && least > f32::NEG_INFINITY)) {
             return Overlap::default();

@@ -1,6 +1,5 @@
 //! How wide the lines on a face are: the rule of [`FaceEdges`](crate::FaceEdges).
 
-use super::lined::EdgePoint;
 use super::{Ink, Overlap};
 use crate::simd::{F32, Simd, greater, lesser, prelude::*};
 
@@ -46,6 +45,17 @@ impl<S: Simd> LineColumns<S> {
         let floor = (one - weight) * (one - inner * inner);
         Self { half, weight, floor, beyond: rising(BEYOND) }
     }
+}
+
+/// The point of an edge that is nearest to another point.
+#[derive(Clone, Copy)]
+pub(super) struct EdgePoint {
+    /// In pixels.
+    pub(super) distance: f64,
+    /// In 1/256 pixel.
+    pub(super) point: [f64; 2],
+    pub(super) depth: f64,
+    pub(super) mark: u8,
 }
 
 /// The lines on one face, as they show beyond it.

@@ -1,5 +1,6 @@
 //! What is seen where nothing is drawn.
 
+use super::background_row::finite;
 use crate::frame::FrameView;
 use crate::ink::OuterInk;
 use crate::pass::Background;
@@ -9,37 +10,6 @@ use crate::target::{Band, Bands};
 use crate::tile::TileArea;
 use std::ops::Range;
 use trigon_math::{UVec2, Vec4};
-
-/// A row of a background that has one colour in each row.
-#[derive(Clone, Copy)]
-pub(crate) struct BackgroundRow {
-    color: Vec4,
-    /// The colour as bytes, in frames that keep bytes of one kind and nothing else of colour.
-    code: u32,
-}
-
-impl BackgroundRow {
-    /// Lists the rows of a target of this height; none if the background has none.
-    pub(crate) fn list(
-        background: Background<'_>,
-        height: u32,
-        bytes: Option<Encoding>,
-        rows: &mut Vec<Self>,
-    ) {
-        rows.clear();
-        if let Background::PerRow(function) = background {
-            rows.extend((0..height).map(|y| {
-                let color = finite(function(y));
-                let code = bytes.map_or(0, |encoding| u32::from_le_bytes(encoding.encode(color)));
-                Self { color, code }
-            }));
-        }
-    }
-}
-
-fn finite(color: Vec4) -> Vec4 {
-    if color.is_finite() { color } else { Vec4::ZERO }
-}
 
 impl FrameView<'_> {
     /// The background at a pixel of the tile.

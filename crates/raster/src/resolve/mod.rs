@@ -2,11 +2,12 @@
 //! ids.
 
 mod background;
+mod background_row;
 mod edges;
 mod mean;
 mod strip;
 
-pub(crate) use background::BackgroundRow;
+pub(crate) use background_row::BackgroundRow;
 pub(crate) use mean::{mean, saturated};
 pub(crate) use strip::Strip;
 
@@ -14,49 +15,54 @@ use crate::frame::FrameView;
 use crate::shade::{Encoding, Shading};
 use crate::simd::at_level;
 use crate::target::{Band, Bands};
-use crate::tile::{NOBODY, Scratch, TileArea};
+use crate::tile::{NOBODY, TileArea, TileState};
 use background::fill_background;
 use trigon_math::Vec4;
 
-/// Writes the outputs of colour of a tile, bytes when tiles beside it are finished, too; `early` if
-/// its pixels are bytes already.
+/// How far the colours of a tile are.
+#[derive(Clone, Copy)]
+pub(crate) enum TileColors {
+    /// Pixels that see one triangle are bytes already.
+    Encoded(Encoding),
+    /// Pixels that see one triangle are in linear light.
+    Shaded,
+    /// All pixels are in linear light, the background's included.
+    Blended,
+}
+
+/// Writes the outputs of colour of a tile, bytes when tiles beside it are finished, too.
 pub(crate) fn resolve(
     frame: &FrameView<'_>,
     area: &TileArea,
-    scratch: &mut Scratch,
-    (bands, early): (&Bands<'_>, Option<Encoding>),
+    colors: TileColors,
+    (shading, strip): (&mut Shading, &mut Strip),
+    bands: &Bands<'_>,
 ) {
-    if let Some(encoding) = early {
-        background::lay_codes(frame, area, &mut scratch.shading, encoding);
-        edges::average_codes(frame, area, &mut scratch.shading, encoding);
-        scratch.strip.push(frame, area, &mut scratch.shading.codes, bands);
-    } else if frame.wants.color {
-        finish_colors(frame, area, scratch);
-        if let Some(encoding) = frame.wants.bytes {
-            let span = scratch.buffer.span();
-            let Shading { colors, codes, .. } = &mut scratch.shading;
-            at_level!(frame.token, simd => encoding.encode_all(simd, &colors[..span], codes));
-            scratch.strip.push(frame, area, &mut scratch.shading.codes, bands);
-        } else {
-            store_colors(frame, area, scratch, bands);
+    match colors {
+        TileColors::Encoded(encoding) => {
+            background::lay_codes(frame, area, shading, encoding);
+            edges::average_codes(frame, area, shading, encoding);
+            return strip.push(frame, area, &mut shading.codes, bands);
         }
+        TileColors::Shaded => {
+            background::lay_colors(frame, area, shading);
+            edges::average_colors(frame, area, shading);
+        }
+        TileColors::Blended => {}
     }
-}
-
-/// Gives every pixel of the finer grid its colour: the mean of its samples, or
-/// the background.
-fn finish_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch) {
-    if std::mem::take(&mut scratch.blended) {
-        return;
+    if let Some(encoding) = frame.wants.bytes {
+        let Shading { colors, codes, .. } = &mut *shading;
+        at_level!(frame.token, simd => encoding.encode_all(simd, &colors[..area.span()], codes));
+        strip.push(frame, area, codes, bands);
+    } else {
+        store_colors(frame, area, &shading.colors, bands);
     }
-    background::lay_colors(frame, area, &mut scratch.shading);
-    edges::average_colors(frame, area, &mut scratch.shading);
 }
 
 /// Writes the outputs of colour, pixel by pixel.
-fn store_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: &Bands<'_>) {
+fn store_colors(frame: &FrameView<'_>, area: &TileArea, colors: &[[f32; 4]], bands: &Bands<'_>) {
     let axis = frame.supersampling as usize;
-    let color_of = |cell| Vec4::from_array(scratch.shading.colors[TileArea::index_of(cell)]);
+    let color_of = |cell| Vec4::from_array(colors[TileArea::index_of(cell)]);
     for_each_drawn(frame, area, bands, |band, index, [x, y]| {
         let color = match axis {
             1 => color_of([x, y]),
@@ -78,7 +84,7 @@ fn store_colors(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands
 }
 
 /// Writes depth and ids, if they are asked for, each from one sample of the pixel, row by row.
-pub(crate) fn store_visibility(frame: &FrameView<'_>, area: &TileArea, scratch: &Scratch, bands: &Bands<'_>) {
+pub(crate) fn store_visibility(frame: &FrameView<'_>, area: &TileArea, state: &TileState, bands: &Bands<'_>) {
     if !(frame.wants.depth || frame.wants.ids) {
         return;
     }
@@ -92,17 +98,17 @@ pub(crate) fn store_visibility(frame: &FrameView<'_>, area: &TileArea, scratch: 
         let row = start + columns.start..start + columns.end;
         let middle = |v: usize| v * axis + axis / 2;
         let sample_in =
-            |x: usize| scratch.buffer.index(TileArea::index_of([middle(left + x), middle(top + y)]), 0);
+            |x: usize| state.buffer.index(TileArea::index_of([middle(left + x), middle(top + y)]), 0);
         let samples = columns.clone().map(sample_in);
         if frame.wants.depth {
             for (depth, sample) in band.depth[row.clone()].iter_mut().zip(samples.clone()) {
-                let seen = scratch.buffer.depth[sample];
+                let seen = state.buffer.depth[sample];
                 // The background is behind 0; and -0 becomes 0.
                 *depth = if seen > 0.0 { seen } else { 0.0 };
             }
         }
         if frame.wants.ids {
-            store_ids(frame, scratch, band, row.zip(samples));
+            store_ids(frame, state, band, row.zip(samples));
         }
     }
 }
@@ -110,16 +116,16 @@ pub(crate) fn store_visibility(frame: &FrameView<'_>, area: &TileArea, scratch: 
 /// Writes the ids of pixels, given by their index in the band and their sample.
 fn store_ids(
     frame: &FrameView<'_>,
-    scratch: &Scratch,
+    state: &TileState,
     band: &mut Band<'_>,
     pixels: impl Iterator<Item = (usize, usize)>,
 ) {
     let mut last = (NOBODY, [u32::MAX; 3]);
     for (index, sample) in pixels {
-        let winner = scratch.buffer.winner[sample];
+        let winner = state.buffer.winner[sample];
         // Neighbours often see the same triangle.
         if winner != last.0 {
-            last = (winner, frame.ids(scratch, winner));
+            last = (winner, frame.ids(state, winner));
         }
         let planes = [&mut band.objects, &mut band.faces, &mut band.triangles];
         for (plane, id) in planes.into_iter().zip(last.1) {
@@ -151,11 +157,11 @@ fn for_each_drawn(
 
 impl FrameView<'_> {
     /// The object, face and primitive of a winner.
-    fn ids(&self, scratch: &Scratch, winner: u32) -> [u32; 3] {
+    fn ids(&self, state: &TileState, winner: u32) -> [u32; 3] {
         match winner {
             NOBODY => [u32::MAX; 3],
             winner => {
-                let place = scratch.places[winner as usize];
+                let place = state.places[winner as usize];
                 let plan = &self.plan.draws[self.draw_of(place)];
                 let geometry = &self.pass[plan.draw].geometry;
                 let primitive = place.ordinal - plan.ordinals.start;

@@ -3,6 +3,10 @@
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, prelude::*, transposed};
 use crate::vertex::ScreenVertex;
 
+/// Triangles whose sides are shorter than this on both axes, in 1/256 pixel,
+/// have areas and edge functions within 32 bits, also a tile away.
+pub(crate) const SMALL: i32 = 1 << 14;
+
 /// A vertex of each lane's triangle.
 #[derive(Clone, Copy)]
 pub(crate) struct Column<S: Simd> {
@@ -70,10 +74,10 @@ pub(crate) fn sorted_columns<S: Simd>([a, b, c]: [Column<S>; 3]) -> ([Column<S>;
 }
 
 /// Which lanes hold a triangle whose sides are shorter than
-/// [`SMALL`](super::SMALL) on both axes.
+/// [`SMALL`] on both axes.
 #[inline(always)]
 pub(crate) fn small_lanes<S: Simd>(simd: S, [a, b, c]: &[Column<S>; 3]) -> Mask<S> {
-    let small = I32::splat(simd, super::SMALL);
+    let small = I32::splat(simd, SMALL);
     extent([a.x, b.x, c.x]).simd_lt(small) & extent([a.y, b.y, c.y]).simd_lt(small)
 }
 

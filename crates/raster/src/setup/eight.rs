@@ -1,15 +1,11 @@
 //! Culling and binning of whole triangles, eight at a time. Triangles that
 //! need cutting or more than 32 bits are left to the single way.
 
-use super::Setup;
+use super::{SMALL, Setup};
 use crate::Culling;
 use crate::bin::Entry;
 use crate::simd::{Each, I32, LANES, Mask, Simd, lane_numbers, lanes_of, prelude::*, transposed};
 use crate::vertex::ScreenVertex;
-
-/// Triangles whose sides are shorter than this on both axes, in 1/256 pixel,
-/// have areas and edge functions within 32 bits, also a tile away.
-pub(crate) const SMALL: i32 = 1 << 14;
 
 /// What eight triangles look like on the screen.
 struct Eight<S: Simd> {

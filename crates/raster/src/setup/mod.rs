@@ -9,21 +9,16 @@ mod quad;
 mod tests;
 mod triangle;
 
-pub(crate) use columns::{Column, small_lanes, sorted_columns};
+pub(crate) use columns::{Column, SMALL, small_lanes, sorted_columns};
 pub(crate) use ears::{cut_ears, doubled_area};
-pub(crate) use eight::SMALL;
 pub(crate) use quad::{DetailIndex, Ends, Quad, QuadDetail};
-pub(crate) use triangle::{Corners, Kind, SetupTriangle, sorted};
+pub(crate) use triangle::{Corners, CutWeights, Kind, SetupTriangle, sorted};
 
 use crate::Culling;
 use crate::bin::{Chunk, Entry, Grid};
 use crate::clip;
 use crate::vertex::{DrawVertices, ScreenVertex};
 use trigon_math::{ClipVertex, ClipVolume};
-
-/// The weights of a primitive's corners at the vertices of a cut triangle:
-/// `[vertex][corner]`.
-pub(crate) type CutWeights = [[f32; 3]; 3];
 
 /// Sets up primitives of one draw into a chunk.
 pub(crate) struct Setup<'a> {

@@ -33,6 +33,10 @@ pub(crate) enum Corners {
     Ends([u8; 3]),
 }
 
+/// The weights of a primitive's corners at the vertices of a cut triangle:
+/// `[vertex][corner]`.
+pub(crate) type CutWeights = [[f32; 3]; 3];
+
 /// A triangle with an area and, perhaps, samples inside.
 ///
 /// Its vertices are sorted by (y, x), so that nothing that is computed from

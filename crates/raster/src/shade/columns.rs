@@ -1,10 +1,11 @@
 //! The columns of eight pixels' triangles, from their records.
 
-use super::records::{RecordShape, Records, cold, hot, lined};
+use super::ShadeContext;
+use super::layout::{CutColumns, RecordShape, cold, hot, lined};
+use super::placed::Placed;
+use super::records::Records;
 use super::task::Vector;
-use super::triangle_lanes::CutColumns;
-use super::weights::Placed;
-use super::{MAX_VARYINGS, ShadeContext};
+use crate::MAX_VARYINGS;
 use crate::simd::{Each, I32, LANES, Mask, Row, Simd, U32, inlined, prelude::*, transpose};
 
 /// The records of the triangles of eight pixels, and the lanes of all but the first.
@@ -256,7 +257,7 @@ impl Special {
         self.is_cut = false;
         for lane in 0..LANES {
             let place = context.places[self.cold[cold::PLACE][lane] as usize];
-            let cut = place.part().and_then(|_| context.frame.chunk_of(place).weights_of(place));
+            let cut = place.part().and_then(|_| context.draw.chunk_of(place).weights_of(place));
             self.is_cut |= cut.is_some();
             let weights = cut.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
             for (columns, weights) in self.cut.iter_mut().zip(weights) {

@@ -1,94 +1,82 @@
-//! What shading has to know: the frame, the tile, and which pixels.
+//! What shading has to know: the draw, the tile, and which pixels.
 
 use crate::Surface;
 use crate::bin::Place;
-use crate::frame::{DrawPlan, FrameView};
+use crate::frame::DrawView;
 use crate::geometry::{Geometry, Shape};
 use crate::ink::{Ink, Marks, Overlap};
+use crate::samples::SamplePattern;
 use crate::simd::{I32, Mask, Simd, U32, prelude::*};
 use crate::tile::TileArea;
-use crate::vertex::{DrawVertices, Slots};
+use crate::vertex::Slots;
 use std::ops::Range;
 
-/// What a shader has to know of the frame.
+/// What a shader has to know of one draw in one tile.
 #[derive(Clone, Copy)]
 pub(crate) struct ShadeContext<'f> {
-    pub(crate) frame: &'f FrameView<'f>,
+    pub(crate) draw: DrawView<'f>,
+    /// The varyings of the draw's vertices.
+    pub(crate) varyings: DrawVaryings<'f>,
+    /// How many varyings a vertex has.
+    pub(crate) varying_count: usize,
+    /// See [`AnyPipeline::is_flat`](super::AnyPipeline::is_flat).
+    pub(crate) is_flat: bool,
+    /// See [`AnyPipeline::reads_all`](super::AnyPipeline::reads_all).
+    pub(crate) reads_all: bool,
+    /// What paints edges and marks in the frame, if anything does.
+    pub(crate) frame_ink: Option<&'f Ink>,
+    pub(crate) pattern: SamplePattern,
+    /// Internal pixels for each pixel of the target and axis.
+    pub(crate) supersampling: u32,
     pub(crate) area: TileArea,
     /// The tile's triangles.
     pub(crate) places: &'f [Place],
-    /// Index of the draw among the frame's plans.
-    pub(crate) draw: usize,
     /// What edges of other faces cover, by the number of the pixel, if anything.
     pub(crate) outer: Option<&'f [Overlap]>,
 }
 
 impl<'f> ShadeContext<'f> {
     #[inline(always)]
-    pub(crate) fn plan(&self) -> &'f DrawPlan {
-        &self.frame.plan.draws[self.draw]
-    }
-
-    #[inline(always)]
     pub(crate) fn geometry(&self) -> &'f Geometry<'f> {
-        &self.frame.pass[self.plan().draw].geometry
+        self.draw.geometry
     }
 
     /// What paints the edges of the draw's faces, if anything does.
     #[inline(always)]
     pub(crate) fn ink(&self) -> Option<&'f Ink> {
-        self.frame.ink.as_ref().filter(|ink| ink.has_lines() && self.geometry().shows_edges())
+        self.frame_ink.filter(|ink| ink.has_lines() && self.geometry().shows_edges())
     }
 
     /// What is marked of the draw's triangles, if marks are painted.
     #[inline(always)]
     pub(crate) fn marks(&self) -> Option<&'f Marks<'f>> {
-        let is_painted = self.frame.ink.as_ref().is_some_and(Ink::has_marks);
+        let is_painted = self.frame_ink.is_some_and(Ink::has_marks);
         if is_painted { self.geometry().marks() } else { None }
     }
 
     /// What paints over the draw's colours: edges, its own or those of others, or marks.
     #[inline(always)]
     pub(crate) fn ink_over(&self) -> Option<&'f Ink> {
-        let ink = self.frame.ink.as_ref();
-        ink.filter(|_| self.ink().is_some() || self.outer.is_some() || self.marks().is_some())
-    }
-
-    #[inline(always)]
-    pub(crate) fn vertices(&self) -> DrawVertices<'f> {
-        self.frame.vertices(self.draw)
-    }
-
-    /// The varyings of the draw's vertices.
-    #[inline(always)]
-    pub(crate) fn varyings(&self) -> DrawVaryings<'f> {
-        let (plan, stride) = (self.plan(), self.frame.pipeline(self.draw).stride());
-        let values = &self.frame.varyings[plan.varyings..plan.varyings + plan.used.len() * stride];
-        DrawVaryings { slots: self.frame.plan.slots(plan), values, stride }
+        let has_any = || self.ink().is_some() || self.outer.is_some() || self.marks().is_some();
+        self.frame_ink.filter(|_| has_any())
     }
 
     /// Whether the draw is of lines or points that have one colour each and no mask, which
     /// might ask for more.
     pub(crate) fn has_flat_marks(&self) -> bool {
         let Geometry { shape, surface, .. } = self.geometry();
-        self.frame.pipeline(self.draw).is_flat()
+        self.is_flat
             && !matches!(shape, Shape::Triangles { .. })
             && matches!(surface, Surface::Opaque | Surface::Overlay | Surface::Translucent)
-    }
-
-    /// How many varyings a vertex has.
-    #[inline(always)]
-    pub(crate) fn varying_count(&self) -> usize {
-        self.frame.pipeline(self.draw).varyings()
     }
 }
 
 /// Looks up varyings by the indices that a draw uses.
 #[derive(Clone, Copy)]
 pub(crate) struct DrawVaryings<'f> {
-    slots: Slots<'f>,
-    values: &'f [f32],
-    stride: usize,
+    pub(super) slots: Slots<'f>,
+    pub(super) values: &'f [f32],
+    pub(super) stride: usize,
 }
 
 impl<'f> DrawVaryings<'f> {

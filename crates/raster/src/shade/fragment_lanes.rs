@@ -2,11 +2,12 @@
 
 use super::ShadeContext;
 use super::columns::Columns;
-use super::records::{Records, Tag, cold, flag};
+use super::layout::{cold, flag};
+use super::records::{Records, Tag};
 use super::task::Vector;
 use super::weights::Weights;
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, lesser, prelude::*};
-use crate::{Fragment, Varyings};
+use crate::{Fragment, MAX_VARYINGS, Varyings};
 use trigon_math::{UVec2, Vec2};
 
 /// Up to eight visible pixels, to be shaded together.
@@ -103,7 +104,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
     /// the centre of the first pixel is (0.5, 0.5).
     #[inline(always)]
     pub fn position(&self) -> [F32<S>; 2] {
-        let pixel = F32::splat(self.simd, 256.0 * self.context.frame.supersampling as f32);
+        let pixel = F32::splat(self.simd, 256.0 * self.context.supersampling as f32);
         [0, 1].each(
             #[inline(always)]
             |axis| {
@@ -146,7 +147,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
         let depth: [f32; LANES] = self.place.depth(self.simd, &cold).into();
         let inverse_w: [f32; LANES] = self.place.inverse_w(self.simd, &cold).into();
         let geometry = self.context.geometry();
-        let supersampling = self.context.frame.supersampling as f32;
+        let supersampling = self.context.supersampling as f32;
         let distances: [[f32; LANES]; 3] = self.place.distances.each(Into::into);
         let tags = self.tags();
         for lane in (0..LANES).filter(|lane| self.active() >> lane & 1 != 0) {
@@ -215,9 +216,6 @@ impl RawFragment<'_> {
         }
     }
 }
-
-/// The most varyings that a pipeline may have.
-pub const MAX_VARYINGS: usize = 64;
 
 /// Values and derivatives, turned from columns of lanes to rows of components.
 struct Rows([[[f32; MAX_VARYINGS]; LANES]; 3]);

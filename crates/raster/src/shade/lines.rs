@@ -1,12 +1,12 @@
 //! The lines on eight triangles, on their way into records.
 
 use super::ShadeContext;
-use super::records::{RecordShape, lined};
+use super::layout::{RecordShape, lined};
+use super::perspective::perspective;
 use super::sorted::Sorted;
-use super::weights::perspective;
 use crate::EdgeFlags;
 use crate::bin::Place;
-use crate::ink::{FaceLine, Footprint, Ink, LineColumns, OuterInk};
+use crate::ink::{FaceLine, Footprint, Ink, LineColumns, VisibleFaces};
 use crate::setup::Corners;
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, inlined, lesser, prelude::*};
 
@@ -90,7 +90,7 @@ impl Lines {
         (place, flags, lane): (Place, EdgeFlags, usize),
     ) {
         let Some((weights, order)) = corners_of(context, place) else { return };
-        let weights = context.frame.chunk_of(place).weights[weights as usize];
+        let weights = context.draw.chunk_of(place).weights[weights as usize];
         let [x, y]: [[Row; 3]; 2] = [sorted.x, sorted.y].map(|axis| axis.map(Into::into));
         let q = perspective(simd, sorted.inverse_w).0.map(<[f32; LANES]>::from);
         let way = |from: usize, to: usize| {
@@ -123,7 +123,7 @@ impl Lines {
 
     /// Tells what the search for outer halves has to know of the triangles that are seen.
     #[inline(always)]
-    pub(super) fn note<S: Simd>(&self, simd: S, sorted: &Sorted<S>, seen: &[u32], outer: &mut OuterInk) {
+    pub(super) fn note<S: Simd>(&self, simd: S, sorted: &Sorted<S>, seen: &[u32], outer: &mut VisibleFaces) {
         let [a, b, c] = sorted.depth;
         let greatest: [f32; LANES] = greater(greater(a, b), c).into();
         let none = F32::splat(simd, f32::NEG_INFINITY);
@@ -221,7 +221,7 @@ fn inverses<S: Simd>(simd: S, sorted: &Sorted<S>, lengths: [F32<S>; 3]) -> [F32<
 /// The index of the weights of a triangle that was cut, and the corners of their columns.
 #[inline(always)]
 fn corners_of(context: &ShadeContext<'_>, place: Place) -> Option<(u32, [u8; 3])> {
-    match context.frame.chunk_of(place).made(place)?.corners {
+    match context.draw.chunk_of(place).made(place)?.corners {
         Corners::Cut { weights, order } => Some((weights, order)),
         Corners::Whole(_) | Corners::Ends(_) => None,
     }

@@ -2,7 +2,8 @@
 //! them.
 
 use super::columns::Columns;
-use super::records::{Records, lined};
+use super::layout::lined;
+use super::records::Records;
 use super::triangle_lanes::TriangleLanes;
 use super::{ShadeContext, Work};
 use crate::ink::{Ink, Overlap};

@@ -30,12 +30,12 @@ pub(crate) fn shade_jobs_with(
     (places, jobs, work): (&[Place], &[Job], &[Work]),
     (colors, outer): (&mut [[f32; 4]], Option<&[Overlap]>),
 ) {
-    for_each_part(frame, area, shading, (places, jobs, work), |context, shading| {
+    for_each_part(frame, area, shading, (places, jobs, work), |draw, context, shading| {
         let context = &ShadeContext { outer, ..*context };
         let Shading { records, columns, fragments, .. } = shading;
         let task = Task::of_fragments(records, 0, fragments.all());
         let mut output = ShadeOutput::colors(colors).with_ink(context.ink_over());
-        frame.pipeline(context.draw).shade(frame.token, context, (&task, columns), &mut output);
+        frame.pipeline(draw).shade(frame.token, context, (&task, columns), &mut output);
     });
 }
 
@@ -47,10 +47,10 @@ pub(crate) fn mask_jobs(
     (places, jobs, work): (&[Place], &[Job], &[Work]),
     kept: &mut [u8],
 ) {
-    for_each_part(frame, area, shading, (places, jobs, work), |context, shading| {
+    for_each_part(frame, area, shading, (places, jobs, work), |draw, context, shading| {
         let Shading { records, columns, fragments, .. } = shading;
         let task = Task::of_fragments(records, 0, fragments.all());
-        frame.pipeline(context.draw).mask(frame.token, context, (&task, columns), kept);
+        frame.pipeline(draw).mask(frame.token, context, (&task, columns), kept);
     });
 }
 
@@ -61,7 +61,7 @@ fn for_each_part(
     area: &TileArea,
     shading: &mut Shading,
     (places, jobs, work): (&[Place], &[Job], &[Work]),
-    mut visit: impl FnMut(&ShadeContext<'_>, &mut Shading),
+    mut visit: impl FnMut(usize, &ShadeContext<'_>, &mut Shading),
 ) {
     let mut rest = jobs;
     while let Some(first) = rest.first() {
@@ -77,9 +77,9 @@ fn for_each_part(
                 shading.fragments.push(slot as u32, work);
             }
         }
-        let context = ShadeContext { frame, area: *area, places, draw, outer: None };
+        let context = frame.shade_context(area, places, draw);
         shading.records.fill(frame.token, &context, &shading.seen);
-        visit(&context, shading);
+        visit(draw, &context, shading);
         rest = after;
     }
 }

@@ -1,11 +1,10 @@
 //! Where colours go.
 
 use super::lines_over::LinesOver;
-use super::run::finite;
 use super::task::Destination;
 use super::{Encoding, FragmentLanes};
 use crate::ink::Ink;
-use crate::simd::{F32, LANES, Simd, colors_of, prelude::*};
+use crate::simd::{Each, F32, LANES, Simd, colors_of, prelude::*};
 
 /// The colours of a tile's pixels or fragments.
 ///
@@ -123,4 +122,19 @@ impl Colors<'_> {
             }
         }
     }
+}
+
+/// A colour without anything that is not finite.
+#[inline(always)]
+pub(super) fn finite<S: Simd>(simd: S, color: [F32<S>; 4]) -> [F32<S>; 4] {
+    let zero = F32::splat(simd, 0.0);
+    // Infinity and NaN times zero are no numbers. Most often there are none.
+    let [r, g, b, a] = color;
+    if ((r + g + b + a) * zero).simd_eq(zero).all_true() {
+        return color;
+    }
+    color.each(
+        #[inline(always)]
+        |channel| (channel * zero).simd_eq(zero).select(channel, zero),
+    )
 }

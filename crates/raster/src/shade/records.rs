@@ -2,70 +2,12 @@
 //! which vectors of pixels take their columns.
 
 use super::ShadeContext;
+use super::layout::{RecordShape, cold, hot};
 use super::lines::Lines;
 use super::sorted::Sorted;
 use crate::bin::Place;
-use crate::ink::{Marks, OuterInk};
+use crate::ink::{Marks, VisibleFaces};
 use crate::simd::{Each, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
-
-/// The columns that every vector loads before those of varyings.
-pub(super) mod hot {
-    /// The first of the sorted vertices from the tile's corner, in 1/256 pixel: x in
-    /// the low half, y in the high one. Like the steps only of triangles that are
-    /// not wide.
-    pub(crate) const POINT: usize = 0;
-    /// Steps of the edge functions opposite vertices 1 and 2: to the right in the
-    /// low half, down in the high one. Nothing for triangles that are wide or cut.
-    pub(crate) const STEPS: usize = 1;
-    /// The vertices' 1/w over a power of two near the largest.
-    pub(crate) const Q: usize = 3;
-    /// How many there are.
-    pub(crate) const COUNT: usize = 6;
-}
-
-/// Columns of the two rows that few vectors load.
-pub(super) mod cold {
-    /// As in the hot row, each number by itself.
-    pub(crate) const POINT: usize = 0;
-    pub(crate) const RIGHT: usize = 2;
-    pub(crate) const DOWN: usize = 4;
-    /// The power of two.
-    pub(crate) const SCALE: usize = 6;
-    /// The triangle among the tile's.
-    pub(crate) const PLACE: usize = 7;
-    /// Depths of the vertices.
-    pub(crate) const DEPTH: usize = 8;
-    /// How many there are.
-    pub(crate) const COUNT: usize = 16;
-}
-
-/// Columns of the lines on triangles, behind the varyings, of draws whose edges are painted.
-pub(super) mod lined {
-    /// One over the slope of the corners' shares in pixels, times the weight: what turns a
-    /// share into the distance from the edge opposite the corner. Below 0 where that is no
-    /// edge of the face.
-    pub(crate) const INVERSE: usize = 0;
-    /// The distance at which a line ends to cover anything, and the most that it covers.
-    pub(crate) const REACH: usize = 3;
-    pub(crate) const MOST: usize = 4;
-    /// What is covered everywhere.
-    pub(crate) const FLOOR: usize = 5;
-    /// How many there are.
-    pub(crate) const COUNT: usize = 6;
-}
-
-/// Bits of a record's flags. The lowest six tell which corners the vertices are,
-/// two bits each.
-pub(super) mod flag {
-    /// It shows its back.
-    pub(crate) const BACK: i32 = 1 << 6;
-    /// It has edges to measure a distance to.
-    pub(crate) const EDGES: i32 = 1 << 7;
-    /// It needs more than 32 bits.
-    pub(crate) const WIDE: i32 = 1 << 8;
-    /// Its vertices were made by a cut.
-    pub(crate) const CUT: i32 = 1 << 9;
-}
 
 /// What few pipelines ask of a triangle.
 #[derive(Clone, Copy, Default)]
@@ -90,24 +32,6 @@ pub(crate) struct Records {
     used: [usize; 2],
 }
 
-/// Where the records of a draw are, and how each is laid out.
-#[derive(Clone, Copy, Default)]
-pub(super) struct RecordShape {
-    /// The first row and the first record.
-    first: [usize; 2],
-    /// All rows of a record.
-    size: usize,
-    /// The first of them, that every vector loads.
-    pub(super) loaded: usize,
-    /// How many varyings each vertex has.
-    pub(super) varyings: usize,
-    /// The first column of [`lined`], where edges are painted.
-    pub(super) lines: Option<usize>,
-    /// The column of the marks, where there are any: of the sides opposite the corners and of
-    /// the face, a byte each from the lowest on.
-    pub(super) marks: Option<usize>,
-}
-
 impl Records {
     /// Makes records of some of the tile's triangles, all of the context's draw, and forgets
     /// all others.
@@ -129,7 +53,7 @@ impl Records {
         token: Token,
         context: &ShadeContext<'_>,
         seen: &[u32],
-        mut outer: Option<&mut OuterInk>,
+        mut outer: Option<&mut VisibleFaces>,
     ) -> RecordShape {
         let shape = RecordShape { first: self.used, ..RecordShape::new(context) };
         let [row, record] = shape.first;
@@ -168,7 +92,7 @@ impl Records {
         let [row, record] = shape.first;
         let rows = &mut self.rows[row..self.used[0]];
         rows.fill([0; LANES]);
-        let first = context.plan().ordinals.start;
+        let first = context.draw.first;
         let tags = &mut self.tags[record..];
         for ((record, tag), &number) in rows.chunks_exact_mut(shape.size).zip(tags).zip(seen) {
             record[0][hot::STEPS] = 1;
@@ -259,27 +183,6 @@ impl<'r> SelectedRows<'r> {
     }
 }
 
-impl RecordShape {
-    /// All rows of a record.
-    #[inline(always)]
-    pub(super) fn rows(self) -> usize {
-        self.size
-    }
-
-    /// The first of all.
-    fn new(context: &ShadeContext<'_>) -> Self {
-        let varyings = context.varying_count();
-        let lines = context.ink().map(|_| hot::COUNT + 3 * varyings);
-        let columns = lines.map_or(hot::COUNT + 3 * varyings, |first| first + lined::COUNT);
-        let marks = context.marks().map(|_| columns);
-        let columns = columns + usize::from(marks.is_some());
-        let loaded = columns.div_ceil(LANES);
-        let is_asked_all = context.frame.pipeline(context.draw).asks_all();
-        let size = loaded + if is_asked_all { cold::COUNT / LANES } else { 0 };
-        Self { first: [0; 2], size, loaded, varyings, lines, marks }
-    }
-}
-
 /// Eight of the tile's triangles.
 #[inline(always)]
 fn places(context: &ShadeContext<'_>, seen: [u32; LANES]) -> [Place; LANES] {
@@ -296,14 +199,14 @@ fn eight<S: Simd>(
     context: &ShadeContext<'_>,
     seen: &[u32],
     (rows, shape): (&mut [Row], RecordShape),
-    (tags, outer): (&mut [Tag], Option<&mut OuterInk>),
+    (tags, outer): (&mut [Tag], Option<&mut VisibleFaces>),
 ) {
     let numbers = lanes_of(
         #[inline(always)]
         |lane| *seen.get(lane).unwrap_or(&seen[0]),
     );
     let places = places(context, numbers);
-    let first = context.plan().ordinals.start;
+    let first = context.draw.first;
     let primitives = places.each(
         #[inline(always)]
         |place| place.ordinal - first,
@@ -330,7 +233,7 @@ fn eight<S: Simd>(
             record[row] = turned;
         }
     }
-    if let Some(ink) = &context.frame.ink
+    if let Some(ink) = context.frame_ink
         && (shape.lines.is_some() || outer.is_some())
     {
         // Apart, so that it takes no registers where it is not needed.
@@ -394,7 +297,7 @@ fn copy_varyings<'r, const COUNT: usize>(
     context: &ShadeContext<'_>,
     records: impl Iterator<Item = (&'r mut [Row], &'r [u32; 3])>,
 ) {
-    let varyings = context.varyings();
+    let varyings = context.varyings;
     for (record, corners) in records {
         let values = record.as_flattened_mut()[hot::COUNT..].as_chunks_mut::<COUNT>().0;
         for (values, &corner) in values.iter_mut().zip(corners) {
@@ -411,9 +314,9 @@ fn copy_many_varyings<'r>(
     context: &ShadeContext<'_>,
     records: impl Iterator<Item = (&'r mut [Row], &'r [u32; 3])>,
 ) {
-    let varyings = context.varyings();
+    let varyings = context.varyings;
     for (record, corners) in records {
-        let values = record.as_flattened_mut()[hot::COUNT..].chunks_exact_mut(context.varying_count());
+        let values = record.as_flattened_mut()[hot::COUNT..].chunks_exact_mut(context.varying_count);
         for (values, &corner) in values.zip(corners) {
             for (to, from) in values.iter_mut().zip(varyings.of(corner)) {
                 *to = from.to_bits().cast_signed();

@@ -2,11 +2,12 @@
 //! pixels belong to.
 
 use super::columns::Columns;
+use super::output::finite;
 use super::task::{Task, Vector};
 use super::triangle_lanes::TriangleLanes;
 use super::{FragmentLanes, Records, ShadeContext, ShadeOutput, Spots, Work};
 use crate::LanePipeline;
-use crate::simd::{Each, F32, I32, Simd, U32, prelude::*};
+use crate::simd::{Each, I32, Simd, U32, prelude::*};
 
 /// Writes the colours of all pixels.
 #[inline(always)]
@@ -148,7 +149,7 @@ fn sample_points<S: Simd>(
     let asked = samples.simd_gt(I32::splat(simd, 0)) & !partly;
     let beside = partly & !triangle.covers(simd, points);
     let mut pending = asked | beside;
-    for (index, offset) in context.frame.grid.pattern.offsets().iter().enumerate() {
+    for (index, offset) in context.pattern.offsets().iter().enumerate() {
         if !pending.any_true() {
             break;
         }
@@ -165,19 +166,4 @@ fn sample_points<S: Simd>(
         pending &= !here;
     }
     points
-}
-
-/// A colour without anything that is not finite.
-#[inline(always)]
-pub(super) fn finite<S: Simd>(simd: S, color: [F32<S>; 4]) -> [F32<S>; 4] {
-    let zero = F32::splat(simd, 0.0);
-    // Infinity and NaN times zero are no numbers. Most often there are none.
-    let [r, g, b, a] = color;
-    if ((r + g + b + a) * zero).simd_eq(zero).all_true() {
-        return color;
-    }
-    color.each(
-        #[inline(always)]
-        |channel| (channel * zero).simd_eq(zero).select(channel, zero),
-    )
 }

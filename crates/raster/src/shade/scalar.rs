@@ -2,7 +2,8 @@
 //! all of them, and not for each at every level.
 
 use super::columns::Columns;
-use super::run::{finite, for_each_vector};
+use super::output::finite;
+use super::run::for_each_vector;
 use super::task::Task;
 use super::{ShadeContext, ShadeOutput};
 use crate::pipeline::ScalarPipeline;

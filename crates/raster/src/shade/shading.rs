@@ -4,7 +4,7 @@ use super::Records;
 use super::columns::Columns;
 use super::edges::Edges;
 use super::fragments::FragmentList;
-use super::records::RecordShape;
+use super::layout::RecordShape;
 use super::task::Group;
 use crate::ink::OuterInk;
 use crate::tile::PIXELS;

@@ -1,8 +1,8 @@
 //! Eight triangles side by side on their way into records.
 
 use super::ShadeContext;
-use super::records::flag;
-use super::weights::perspective;
+use super::layout::flag;
+use super::perspective::perspective;
 use crate::bin::Place;
 use crate::setup::{Column, Corners, Kind, SMALL, SetupTriangle, small_lanes, sorted_columns};
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, inlined, lanes_of, prelude::*};
@@ -26,7 +26,7 @@ impl<S: Simd> Sorted<S> {
     /// Triangles that are primitives as they are.
     #[inline(always)]
     pub(super) fn whole(simd: S, context: &ShadeContext<'_>, indices: [[u32; 3]; LANES]) -> Self {
-        let vertices = context.vertices();
+        let vertices = context.draw.vertices;
         let columns = [0, 1, 2].each(
             #[inline(always)]
             |corner| {
@@ -84,7 +84,7 @@ impl<S: Simd> Sorted<S> {
     pub(super) fn made(simd: S, context: &ShadeContext<'_>, places: [Place; LANES]) -> Self {
         let triangles = places.each(
             #[inline(always)]
-            |place| context.frame.triangle(place),
+            |place| context.draw.triangle(place),
         );
         let column = inlined(
             #[inline(always)]

@@ -9,35 +9,37 @@ use super::{Encoding, ShadeContext, ShadeOutput, Work};
 use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::simd::{LANES, at_level};
-use crate::tile::{Scratch, TileArea, VisibilityBuffer};
+use crate::tile::{TileArea, VisibilityBuffer};
 
 /// Shades all pixels of a tile: to bytes if an encoding is given, else in linear
-/// light. What covers a part of its pixel is left in linear light in any case.
+/// light. What covers a part of its pixel is left in linear light in any case. Tells how
+/// many fragments were shaded.
 pub(crate) fn shade_tile(
     frame: &FrameView<'_>,
     area: &TileArea,
-    scratch: &mut Scratch,
+    (buffer, places): (&VisibilityBuffer, &[Place]),
+    shading: &mut Shading,
     encoding: Option<Encoding>,
-) {
-    let Scratch { buffer, shading, places, stats, .. } = scratch;
-    stats.pixels_shaded += list_visible(frame, area, (buffer, places), shading) as u64;
+) -> u64 {
+    let count = list_visible(frame, area, (buffer, places), shading);
     let runs = std::mem::take(&mut shading.runs);
     let outer = std::mem::take(&mut shading.outer);
     for run in &runs {
-        let context = ShadeContext { frame, area: *area, places, draw: run.draw, outer: outer.covered() };
+        let context = ShadeContext { outer: outer.covered(), ..frame.shade_context(area, places, run.draw) };
         match run.records {
             Some(shape) => shading.records.select(shape),
             None => shading.records.fill(frame.token, &context, &shading.seen[run.slots.clone()]),
         }
         let winners = (buffer.winners(), LANES * buffer.samples);
         // With lines on it no triangle is flat.
-        if frame.pipeline(run.draw).is_flat() && frame.ink.is_none() {
-            shade_flat(&context, shading, (run, winners), encoding);
+        if context.is_flat && frame.ink.is_none() {
+            shade_flat(frame, &context, shading, (run, winners), encoding);
         } else {
-            shade_run(&context, shading, (run, winners), encoding);
+            shade_run(frame, &context, shading, (run, winners), encoding);
         }
     }
     (shading.runs, shading.outer) = (runs, outer);
+    count as u64
 }
 
 /// Lists what is visible in a tile, by draws; and finds what edges cover beyond their
@@ -58,9 +60,9 @@ pub(crate) fn list_visible(
         let Shading { runs, records, seen, .. } = shading;
         records.clear();
         for run in runs {
-            let context = ShadeContext { frame, area: *area, places, draw: run.draw, outer: None };
+            let context = frame.shade_context(area, places, run.draw);
             let seen = &seen[run.slots.clone()];
-            run.records = Some(records.append(frame.token, &context, seen, Some(&mut outer)));
+            run.records = Some(records.append(frame.token, &context, seen, Some(outer.faces_mut())));
         }
         outer.find(frame, (ink, area), buffer, places);
     } else if !outer.is_empty() {
@@ -74,13 +76,14 @@ pub(crate) fn list_visible(
 type Winners<'w> = (&'w [u32], usize);
 
 fn shade_run(
+    frame: &FrameView<'_>,
     context: &ShadeContext<'_>,
     shading: &mut Shading,
     (run, winners): (&Run, Winners<'_>),
     encoding: Option<Encoding>,
 ) {
     let Shading { records, columns, slots, groups, fragments, parts, codes, colors, .. } = shading;
-    let pipeline = context.frame.pipeline(context.draw);
+    let pipeline = frame.pipeline(run.draw);
     let base = run.slots.start as u32;
     let task = Task {
         records,
@@ -95,22 +98,23 @@ fn shade_run(
         None => ShadeOutput::colors(colors),
     };
     let mut output = output.with_ink(context.ink_over());
-    pipeline.shade(context.frame.token, context, (&task, columns), &mut output);
+    pipeline.shade(frame.token, context, (&task, columns), &mut output);
     if !run.parts.is_empty() {
         let task = Task::of_fragments(records, base, parts.part(run.parts.clone()));
         let mut output = ShadeOutput::colors(colors).with_ink(context.ink_over());
-        pipeline.shade(context.frame.token, context, (&task, columns), &mut output);
+        pipeline.shade(frame.token, context, (&task, columns), &mut output);
     }
 }
 
 /// One colour for each triangle, and that for all of its pixels.
 fn shade_flat(
+    frame: &FrameView<'_>,
     context: &ShadeContext<'_>,
     shading: &mut Shading,
     (run, (winners, step)): (&Run, Winners<'_>),
     encoding: Option<Encoding>,
 ) {
-    shade_triangles(context, shading, run.slots.len(), encoding);
+    shade_triangles(frame, context, shading, (run.draw, run.slots.len()), encoding);
     let Shading { slots, groups, fragments, parts, codes, colors, flat_codes, flat_colors, .. } = shading;
     let base = run.slots.start as u32;
     for group in &groups[run.groups.clone()] {
@@ -158,9 +162,10 @@ fn shade_flat(
 
 /// The colours of so many flat triangles.
 fn shade_triangles(
+    frame: &FrameView<'_>,
     context: &ShadeContext<'_>,
     shading: &mut Shading,
-    count: usize,
+    (draw, count): (usize, usize),
     encoding: Option<Encoding>,
 ) {
     let Shading { records, columns, flat, flat_codes, flat_colors, .. } = shading;
@@ -173,10 +178,9 @@ fn shade_triangles(
         flat_colors.resize(whole, [0.0; 4]);
         flat_codes.resize(whole, 0);
     }
-    let frame = context.frame;
     let task = Task::of_fragments(records, 0, flat.all());
     let mut output = ShadeOutput::colors(flat_colors);
-    frame.pipeline(context.draw).shade(frame.token, context, (&task, columns), &mut output);
+    frame.pipeline(draw).shade(frame.token, context, (&task, columns), &mut output);
     if let Some(encoding) = encoding {
         at_level!(frame.token, simd => encoding.encode_all(simd, &flat_colors[..whole], flat_codes));
     }

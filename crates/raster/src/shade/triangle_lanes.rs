@@ -2,7 +2,7 @@
 //! corners' shares.
 
 use super::columns::Columns;
-use super::records::{cold, hot};
+use super::layout::{CutColumns, cold, hot};
 use super::small::Small;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, inlined, prelude::*};
 
@@ -27,10 +27,6 @@ struct Wide<'c, S: Simd> {
     /// Twice the areas.
     areas: &'c [f64; LANES],
 }
-
-/// The weights of the corners at the vertices of cut triangles, in lanes:
-/// `[vertex][corner]`.
-pub(super) type CutColumns = [[[f32; LANES]; 3]; 3];
 
 impl<'c, S: Simd> TriangleLanes<'c, S> {
     /// From the columns of records. That a lane is wide or cut never changes

@@ -9,47 +9,10 @@
 //! "Hyperbolic Interpolation", 1992; P. Heckbert and H. Moreton, "Interpolation
 //! for Polygon Texture Mapping and Shading", 1991.)
 
-use super::records::cold;
+use super::layout::cold;
+use super::placed::Placed;
 use super::triangle_lanes::TriangleLanes;
-use crate::simd::{Each, F32, I32, Row, Simd, U32, greater, inlined, lesser, prelude::*};
-
-/// The largest ratio of w within a triangle that is told apart; beyond, a
-/// vertex counts as this much further away. Keeps all quotients finite.
-const RATIO_MAX: f32 = (1_u64 << 60) as f32;
-
-/// The vertices' 1/w over a power of two near the largest, and that power of two.
-#[inline(always)]
-pub(super) fn perspective<S: Simd>(simd: S, inverse_w: [F32<S>; 3]) -> ([F32<S>; 3], F32<S>) {
-    let scale = power_of_two(simd, greater(greater(inverse_w[0], inverse_w[1]), inverse_w[2]));
-    let least = F32::splat(simd, 1.0 / RATIO_MAX);
-    let inverse = F32::splat(simd, 1.0) / scale;
-    let q = inverse_w.each(
-        #[inline(always)]
-        |q| greater(q * inverse, least),
-    );
-    (q, scale)
-}
-
-/// Eight points, and what takes longest to find there: found for the next eight pixels
-/// before these are shaded, so that nobody waits for it.
-#[derive(Clone, Default)]
-#[repr(align(64))]
-pub(super) struct Placed {
-    /// In 1/256 pixel from the tile's corner.
-    point: [Row; 2],
-    /// Perspective-correct weights of the corners, and one over the sum of the corners'
-    /// shares: bits of f32.
-    weights: [Row; 3],
-    inverse: Row,
-}
-
-impl Placed {
-    #[inline(always)]
-    pub(super) fn point<S: Simd>(&self, simd: S) -> [I32<S>; 2] {
-        let [x, y] = self.point;
-        [I32::simd_from(simd, x), I32::simd_from(simd, y)]
-    }
-}
+use crate::simd::{Each, F32, I32, Row, Simd, greater, inlined, lesser, prelude::*};
 
 /// Where eight points lie in their triangles.
 pub(crate) struct Weights<S: Simd> {
@@ -154,11 +117,4 @@ fn slopes<S: Simd>(steps: [F32<S>; 3], weights: [F32<S>; 3], inverse: F32<S>) ->
         #[inline(always)]
         |k| (steps[k] - weights[k] * all) * inverse,
     )
-}
-
-/// The largest power of two not above a normal positive number.
-#[inline(always)]
-fn power_of_two<S: Simd>(simd: S, value: F32<S>) -> F32<S> {
-    let bits: U32<S> = value.bitcast();
-    (bits & U32::splat(simd, 0x7f80_0000)).bitcast()
 }

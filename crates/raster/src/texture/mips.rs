@@ -1,6 +1,6 @@
 //! Mip levels by an exact box filter in linear light.
 
-use super::{TextureFormat, decode, full_scale};
+use super::format::{TextureFormat, decode, full_scale};
 use trigon_math::{Vec4, color};
 
 /// One level as rows of texels, top row first.

@@ -4,6 +4,7 @@ mod axis;
 mod channels;
 mod detail;
 mod dual;
+mod format;
 mod lanes;
 mod mips;
 #[cfg(test)]
@@ -13,26 +14,15 @@ mod sampler;
 mod strips;
 
 pub use dual::Dual;
+pub use format::TextureFormat;
 pub use sampler::{Filter, MAX_ANISOTROPY, MipFilter, Sampler, Wrap};
 
-use crate::simd::{F32, Simd};
 use mips::Rows;
 use strips::Strips;
 use thiserror::Error;
-use trigon_math::{Vec2, Vec4, color};
 
 /// The largest width and height of a texture.
 pub const MAX_TEXTURE_SIZE: u32 = 16384;
-
-/// What the bytes of a texture mean.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum TextureFormat {
-    /// Colours: red, green and blue through the sRGB transfer function, alpha
-    /// linear and straight. Decoded before filtering.
-    Srgb,
-    /// Data such as normals or roughness: byte / 255.
-    Linear,
-}
 
 /// Why a texture cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -120,52 +110,5 @@ impl Texture {
     pub fn texels(&self) -> impl Iterator<Item = [u8; 4]> + '_ {
         let (width, height) = (self.width(), self.height());
         (0..height).flat_map(move |y| (0..width).map(move |x| self.strips.base_texel([x, y])))
-    }
-
-    /// The value at `uv` in linear light, alpha straight, filtered as the
-    /// `sampler` says for a footprint spanned by `ddx` and `ddy`, the change of
-    /// `uv` per sample step.
-    ///
-    /// Any coordinate is safe: one that is not finite counts as 0, a gradient
-    /// that is not finite selects the last level.
-    #[inline]
-    pub fn sample(&self, uv: Vec2, ddx: Vec2, ddy: Vec2, sampler: &Sampler) -> Vec4 {
-        sample::sample(self, uv, ddx, ddy, sampler)
-    }
-
-    /// [`Self::sample`] for eight samples: red, green, blue and alpha, in each
-    /// lane the same bits as for that sample alone.
-    ///
-    /// Fastest where neighbouring lanes look up neighbouring texels.
-    #[inline(always)]
-    pub fn sample_lanes<S: Simd>(
-        &self,
-        simd: S,
-        uv: [F32<S>; 2],
-        ddx: [F32<S>; 2],
-        ddy: [F32<S>; 2],
-        sampler: &Sampler,
-    ) -> [F32<S>; 4] {
-        lanes::sample(simd, self, uv, ddx, ddy, sampler)
-    }
-}
-
-/// A texel ready to be mixed with others, alpha straight: [`full_scale`] is 1.
-#[inline]
-fn decode([r, g, b, a]: [u8; 4], format: TextureFormat) -> Vec4 {
-    let light = |byte: u8| match format {
-        TextureFormat::Srgb => color::srgb8_to_linear(byte),
-        TextureFormat::Linear => f32::from(byte),
-    };
-    Vec4::new(light(r), light(g), light(b), f32::from(a))
-}
-
-/// What [`decode`] gives for the largest byte. Data is mixed as whole bytes and
-/// divided once, after the filter.
-#[inline]
-fn full_scale(format: TextureFormat) -> Vec4 {
-    match format {
-        TextureFormat::Srgb => Vec4::new(1.0, 1.0, 1.0, 255.0),
-        TextureFormat::Linear => Vec4::splat(255.0),
     }
 }

@@ -6,11 +6,25 @@
 
 use super::axis::{reduced, texel};
 use super::detail::{Footprint, log2_of_root};
+use super::format::{decode, full_scale};
 use super::strips::Strips;
-use super::{Filter, MipFilter, Sampler, Texture, decode, full_scale};
+use super::{Filter, MipFilter, Sampler, Texture};
 use trigon_math::{Vec2, Vec4};
 
-pub(super) fn sample(texture: &Texture, uv: Vec2, ddx: Vec2, ddy: Vec2, sampler: &Sampler) -> Vec4 {
+impl Texture {
+    /// The value at `uv` in linear light, alpha straight, filtered as the
+    /// `sampler` says for a footprint spanned by `ddx` and `ddy`, the change of
+    /// `uv` per sample step.
+    ///
+    /// Any coordinate is safe: one that is not finite counts as 0, a gradient
+    /// that is not finite selects the last level.
+    #[inline]
+    pub fn sample(&self, uv: Vec2, ddx: Vec2, ddy: Vec2, sampler: &Sampler) -> Vec4 {
+        sample(self, uv, ddx, ddy, sampler)
+    }
+}
+
+fn sample(texture: &Texture, uv: Vec2, ddx: Vec2, ddy: Vec2, sampler: &Sampler) -> Vec4 {
     let uv = Vec2::new(reduced(uv.x, sampler.wrap_u), reduced(uv.y, sampler.wrap_v));
     let footprint = Footprint::new(texture, ddx, ddy, sampler);
     let lookup = |uv: Vec2| Lookup::new(texture, uv, footprint.square, sampler).value();

@@ -5,6 +5,9 @@ use crate::simd::{Each, I32, Simd};
 /// The most pixels in a row or a column of a tile.
 pub(crate) const MAX_SIDE: usize = 64;
 
+/// Pixels of the largest tile.
+pub(crate) const PIXELS: usize = MAX_SIDE * MAX_SIDE;
+
 /// A tile's rectangle of pixels.
 ///
 /// Its pixels are kept in groups of eight, 4 by 2, one for each lane; eight of
@@ -88,6 +91,12 @@ impl TileArea {
         let [width, height] = self.size.map(|side| side.div_ceil(8));
         ((height - 1) * BLOCKS + width) * GROUPS * 8
     }
+}
+
+/// The point of a lane, from that of the first.
+#[inline(always)]
+pub(crate) fn lane_point([x, y]: [i32; 2], lane: usize) -> [i32; 2] {
+    [x + (lane as i32 & 3) * 256, y + (lane as i32 >> 2) * 256]
 }
 
 #[cfg(test)]

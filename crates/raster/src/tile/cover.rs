@@ -2,6 +2,7 @@
 
 use super::area::{BLOCKS, TileArea};
 use super::buffer::{NOBODY, VisibilityBuffer};
+use super::counts::Counts;
 use super::covering::Covering;
 use super::store::{store, store_where};
 use super::ties::Ties;
@@ -24,17 +25,6 @@ pub(crate) struct Cover<'f> {
     pub(crate) hierarchical: bool,
     /// Whether the first place is seen before the second at equal depth.
     pub(crate) precedes: &'f dyn Fn(u32, u32) -> bool,
-}
-
-/// Counts of blocks and samples.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Counts {
-    pub(crate) tiles_rejected: u64,
-    pub(crate) tiles_filled: u64,
-    pub(crate) blocks_rejected: u64,
-    pub(crate) blocks_accepted: u64,
-    pub(crate) groups: u64,
-    pub(crate) tiles_reordered: u64,
 }
 
 /// A triangle on its way through a tile.

@@ -1,6 +1,6 @@
 //! A triangle as one tile sees it: which samples it covers, and how deep.
 
-use super::{DepthPlane, Edge, TileArea};
+use super::{DepthPlane, Edge, TileArea, lane_point};
 use crate::bin::Grid;
 use crate::samples::MAX_SAMPLES;
 use crate::setup::{Kind, SetupTriangle};
@@ -48,12 +48,6 @@ impl Special {
         let lanes: [i32; LANES] = lanes_of(|lane| i32::from(self.covers(lane_point(point, lane))));
         I32::simd_from(simd, lanes).simd_gt(I32::splat(simd, 0))
     }
-}
-
-/// The point of a lane, from that of the first.
-#[inline(always)]
-pub(crate) fn lane_point([x, y]: [i32; 2], lane: usize) -> [i32; 2] {
-    [x + (lane as i32 & 3) * 256, y + (lane as i32 >> 2) * 256]
 }
 
 /// The round outline of a point.

@@ -1,6 +1,5 @@
 //! Eight small triangles of a tile made ready at once.
 
-use super::micro::MICRO;
 use super::{Covering, DepthPlane, TileArea};
 use crate::samples::{MAX_SAMPLES, SamplePattern};
 use crate::setup::{Column, small_lanes, sorted_columns};
@@ -37,6 +36,9 @@ pub(super) struct Eight {
 /// Triangles that reach over fewer pixels than this each way are not worth asking
 /// whether blocks lie outside of them.
 const TINY: i32 = 24;
+
+/// Triangles that reach over no more pixels than this each way.
+pub(super) const MICRO: i32 = 4;
 
 impl Eight {
     #[inline(always)]

@@ -4,14 +4,14 @@
 use super::blocks::Blocks;
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::seen::{Candidate, TileView};
+use super::single::single;
 use super::ties::Ties;
-use super::visibility::single;
-use super::{Scratch, TileArea};
-use crate::Surface;
+use super::{TileArea, TileState};
 use crate::bin::Place;
 use crate::frame::FrameView;
 use crate::shade::{Job, Shading, Work, mask_jobs};
 use crate::simd::{LANES, Simd, at_level, prelude::*};
+use crate::{Stats, Surface};
 use std::ops::Range;
 
 /// Masked fragments are asked for in portions of about this many, to bound
@@ -42,10 +42,11 @@ pub(crate) struct Questions {
 pub(super) fn cover_masked(
     frame: &FrameView<'_>,
     area: &TileArea,
-    scratch: &mut Scratch,
+    state: &mut TileState,
     range: Range<usize>,
+    (shading, stats): (&mut Shading, &mut Stats),
 ) {
-    let Scratch { buffer, places, ties, questions, shading, stats, .. } = scratch;
+    let TileState { buffer, places, ties, questions, .. } = state;
     let draw = |place: usize| frame.draw_of(places[place]);
     for place in range.clone() {
         let turns = place > range.start && draw(place) != draw(place - 1);

@@ -3,15 +3,13 @@
 
 use super::area::{BLOCKS, GROUPS};
 use super::buffer::{NOBODY, VisibilityBuffer};
-use super::cover::{Counts, Cover};
-use super::eight::Eight;
+use super::counts::Counts;
+use super::cover::Cover;
+use super::eight::{Eight, MICRO};
 use crate::simd::{
     Each, F32, I32, LANES, Mask, Simd, U32, greater, lane_numbers, lesser, prelude::*, widened,
 };
 use fearless_simd::f64x4;
-
-/// Triangles that reach over no more pixels than this each way.
-pub(super) const MICRO: i32 = 4;
 
 /// Depths of the lanes' triangles along a row of pixels.
 struct Depths<S: Simd> {

@@ -5,7 +5,8 @@
 
 use super::area::{BLOCKS, TileArea};
 use super::buffer::{NOBODY, VisibilityBuffer};
-use super::cover::{Counts, Cover};
+use super::counts::Counts;
+use super::cover::Cover;
 use super::eight::Eight;
 use super::several;
 use super::starts::Starts;

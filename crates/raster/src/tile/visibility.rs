@@ -5,12 +5,14 @@ use super::cover::Cover;
 use super::eight::Eight;
 use super::micro::Covered;
 use super::quad::QuadEdges;
+use super::single::covering_apart;
 use super::starts::Starts;
 use super::ties::COMPARISON;
-use super::{Counts, Covering, NOBODY, Scratch, Surfaces, TileArea, VisibilityBuffer, masked};
+use super::{Counts, NOBODY, Surfaces, TileArea, TileState, VisibilityBuffer, masked};
+use crate::Stats;
 use crate::bin::Place;
 use crate::frame::FrameView;
-use crate::setup::SetupTriangle;
+use crate::shade::Shading;
 use crate::simd::{Each, LANES, Simd, at_level, lanes_of};
 use crate::vertex::ScreenVertex;
 use std::cell::Cell;
@@ -19,20 +21,21 @@ use std::cell::Cell;
 pub(crate) fn resolve_visibility(
     frame: &FrameView<'_>,
     area: &TileArea,
-    scratch: &mut Scratch,
+    state: &mut TileState,
     surfaces: &Surfaces,
+    (shading, stats): (&mut Shading, &mut Stats),
 ) {
     let mut counts = Counts::default();
     if !surfaces.opaque.is_empty() {
-        counts = cover_opaque(frame, area, scratch, surfaces.opaque.len());
+        counts = cover_opaque(frame, area, state, surfaces.opaque.len());
     }
-    scratch.buffer.settle();
-    masked::cover_masked(frame, area, scratch, surfaces.masked.clone());
-    scratch.buffer.blank_outside(area);
+    state.buffer.settle();
+    masked::cover_masked(frame, area, state, surfaces.masked.clone(), (shading, stats));
+    state.buffer.blank_outside(area);
     if frame.timed {
-        scratch.stats.samples_seen += scratch.buffer.seen() as u64;
+        stats.samples_seen += state.buffer.seen() as u64;
     }
-    scratch.stats.add_counts(&counts);
+    stats.add_counts(&counts);
 }
 
 /// Lets what is shown over surfaces compete with them.
@@ -42,13 +45,14 @@ pub(crate) fn resolve_visibility(
 pub(crate) fn cover_overlay(
     frame: &FrameView<'_>,
     area: &TileArea,
-    scratch: &mut Scratch,
+    state: &mut TileState,
     surfaces: &Surfaces,
+    stats: &mut Stats,
 ) {
     if surfaces.overlay.is_empty() {
         return;
     }
-    let Scratch { places, buffer, ties, .. } = scratch;
+    let TileState { places, buffer, ties, .. } = state;
     if !surfaces.masked.is_empty() {
         buffer.forget_nearest();
     }
@@ -68,12 +72,12 @@ pub(crate) fn cover_overlay(
     cover_all(frame, &cover, (&places[..end], surfaces.overlay.start), (buffer, &mut counts));
     buffer.settle();
     buffer.blank_outside(area);
-    scratch.stats.add_counts(&counts);
+    stats.add_counts(&counts);
 }
 
 /// Lets the first so many of the tile's triangles compete.
-fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, scratch: &mut Scratch, opaque: usize) -> Counts {
-    let Scratch { places, buffer, ties, key_order, reordered, .. } = scratch;
+fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, opaque: usize) -> Counts {
+    let TileState { places, buffer, ties, key_order, reordered, .. } = state;
     let places = &places[..opaque];
     // Ties of one triangle are mostly with the same other one.
     let last = Cell::new(([NOBODY; 2], false));
@@ -289,15 +293,4 @@ fn corners_of_one<'f>(frame: &FrameView<'f>, places: &[Place]) -> [[&'f ScreenVe
 fn corners_of_several<'f>(frame: &FrameView<'f>, places: &[Place]) -> [[&'f ScreenVertex; LANES]; 3] {
     let corners = lanes_of(|lane| frame.corners(*places.get(lane).unwrap_or(&places[0])));
     [0, 1, 2].each(|corner| corners.each(|corners| corners[corner]))
-}
-
-/// One triangle of the tile.
-pub(crate) fn single(frame: &FrameView<'_>, area: &TileArea, place: Place) -> Option<Covering> {
-    covering_apart(frame, area, &frame.triangle(place))
-}
-
-/// Not inlined, so that it is compiled once.
-#[inline(never)]
-fn covering_apart(frame: &FrameView<'_>, area: &TileArea, triangle: &SetupTriangle) -> Option<Covering> {
-    Covering::new(triangle, &frame.grid, area)
 }

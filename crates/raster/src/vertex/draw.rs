@@ -1,8 +1,7 @@
 //! The vertices of one draw after the vertex stage.
 
-use super::{ScreenVertex, Slots};
+use super::{ScreenVertex, Slots, VertexProgram};
 use crate::clip::Outcode;
-use crate::shade::AnyPipeline;
 use crate::simd::Token;
 use trigon_math::Vec4;
 
@@ -12,7 +11,7 @@ pub(crate) struct DrawVertices<'a> {
     pub(crate) slots: Slots<'a>,
     /// The last is that of vertices that do not exist.
     pub(crate) places: &'a [ScreenVertex],
-    pub(crate) pipeline: &'a dyn AnyPipeline,
+    pub(crate) pipeline: &'a dyn VertexProgram,
     pub(crate) token: Token,
 }
 

@@ -1,9 +1,9 @@
-//! What an animation changes, and in which nodes.
+//! The properties that an animation changes, and their nodes.
 
 use super::Curve;
 use crate::node::NodeId;
 
-/// What of a node changes, and how wide the curve's vectors are.
+/// The property of a node that changes, and the width of the curve's vectors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Property {
     /// Three numbers: metres in the parent's space.
@@ -12,14 +12,14 @@ pub enum Property {
     Rotation,
     /// Three factors.
     Scale,
-    /// A number for each morph target of the node's mesh.
+    /// One number for each morph target of the node's mesh.
     MorphWeights,
 }
 
 /// A curve for one property of one node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// Whose; a channel of a removed node does nothing.
+    /// The node; a channel of a removed node does nothing.
     pub node: NodeId,
     /// Which.
     pub property: Property,
@@ -27,19 +27,19 @@ pub struct Channel {
     pub curve: Curve,
 }
 
-/// Movements that belong together. Of several channels for the same property
-/// of the same node, the last counts.
+/// An animation. If several channels change the same property of the same node, the last one
+/// counts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Animation {
-    /// For people; need not be unique.
+    /// A display name; need not be unique.
     pub name: String,
     /// What moves.
     pub channels: Vec<Channel>,
 }
 
 impl Animation {
-    /// Seconds from 0 to its last keyframe; 0 without any. Whether it then
-    /// starts again is for the caller to say: `time % duration`.
+    /// Seconds from 0 to its last keyframe; 0 without keyframes. The caller decides whether it
+    /// repeats: `time % duration`.
     pub fn duration(&self) -> f64 {
         let ends = self.channels.iter().filter_map(|channel| channel.curve.times().last());
         ends.fold(0.0, |longest, &end| if f64::from(end) > longest { f64::from(end) } else { longest })

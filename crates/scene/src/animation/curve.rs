@@ -1,24 +1,24 @@
-//! Keyframes, and what is between them (glTF 2.0 specification, appendix C).
+//! Keyframes and interpolation (glTF 2.0 specification, appendix C).
 
 use trigon_math::DQuat;
 use trigon_math::elementary;
 
-/// What is between two keyframes.
+/// The interpolation between two keyframes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Interpolation {
     /// The value of the earlier one.
     Step,
-    /// A straight line; for rotations the shortest way round, evenly fast.
+    /// Linear; for rotations the shortest arc, at constant speed.
     #[default]
     Linear,
-    /// A cubic Hermite spline through tangents of the file's own.
+    /// A cubic Hermite spline with tangents from the file.
     CubicSpline,
 }
 
 /// Vectors of one width over time.
 ///
-/// Guaranteed: at least one keyframe, times that are finite and increase, and
-/// one value a keyframe, or three with cubic splines.
+/// Guaranteed: at least one keyframe, times that are finite and increase, and one value per
+/// keyframe, or three with cubic splines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     interpolation: Interpolation,
@@ -27,28 +27,28 @@ pub struct Curve {
     values: Vec<f32>,
 }
 
-/// Where a time is among the keyframes.
+/// The position of a time among the keyframes.
 #[derive(Clone, Copy)]
 enum Place {
-    /// At one, or beyond the first or last.
+    /// At a keyframe, or before the first or after the last.
     At(usize),
-    /// Between one and the next.
+    /// Between two keyframes.
     Between {
         from: usize,
         /// 0 at the earlier, 1 at the later.
         share: f64,
-        /// Seconds from one to the other.
+        /// Seconds between the two.
         seconds: f64,
     },
 }
 
 impl Curve {
-    /// A curve of vectors with `width` numbers. `times` are seconds. `values`
-    /// has one vector a keyframe; with cubic splines three: the tangent that
-    /// arrives, the value, the tangent that leaves, both per second.
+    /// A curve of vectors with `width` numbers. `times` are seconds. `values` has one vector per
+    /// keyframe; with cubic splines three: the incoming tangent, the value, the outgoing tangent,
+    /// both per second.
     ///
-    /// None when the lengths do not match, there is no keyframe, a time is not
-    /// finite, or they do not increase. Values that are not finite become 0.
+    /// `None` if the lengths do not match, there is no keyframe, a time is not finite, or they do
+    /// not increase. Values that are not finite become 0.
     pub fn new(
         interpolation: Interpolation,
         width: usize,
@@ -68,12 +68,12 @@ impl Curve {
         Some(Self { interpolation, width, times, values })
     }
 
-    /// How many numbers a vector has.
+    /// The number of components of a vector.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// What is between keyframes.
+    /// The interpolation between keyframes.
     pub fn interpolation(&self) -> Interpolation {
         self.interpolation
     }
@@ -88,8 +88,8 @@ impl Curve {
         &self.values
     }
 
-    /// The vector at a time in seconds. Before the first keyframe, and at a
-    /// time that is no number, it is the first one's; after the last, the last's.
+    /// The vector at a time in seconds. Before the first keyframe, and for NaN, it is the first
+    /// one's; after the last, the last one's.
     pub fn at(&self, time: f64) -> Vec<f64> {
         let place = self.locate(time);
         (0..self.width).map(|channel| self.component(place, channel)).collect()
@@ -101,9 +101,9 @@ impl Curve {
         [0, 1, 2].map(|channel| if channel < self.width { self.component(place, channel) } else { 0.0 })
     }
 
-    /// The curve as a rotation, its vectors as quaternions (x, y, z, w): linear
-    /// ones turn about one axis, and the result is a unit quaternion. None when
-    /// vectors have not four numbers, or the result has no length.
+    /// The curve as a rotation, its vectors as quaternions (x, y, z, w): linear ones rotate about
+    /// one axis, and the result is a unit quaternion. `None` if vectors do not have four numbers,
+    /// or the result has no length.
     pub(super) fn rotation(&self, time: f64) -> Option<DQuat> {
         if self.width != 4 {
             return None;
@@ -125,7 +125,7 @@ impl Curve {
     }
 
     fn locate(&self, time: f64) -> Place {
-        // So many keyframes are not after the time.
+        // The number of keyframes at or before the time.
         let passed = self.times.partition_point(|&key| f64::from(key) <= time);
         if passed == 0 || passed == self.times.len() {
             return Place::At(passed.saturating_sub(1));
@@ -159,10 +159,10 @@ impl Curve {
     }
 }
 
-/// Spherical linear interpolation of unit quaternions, the shorter way.
+/// Spherical linear interpolation of unit quaternions along the shorter arc.
 fn slerp(from: DQuat, to: DQuat, t: f64) -> Option<DQuat> {
-    // Nearer than this, the sine in the denominator loses more than the chord
-    // differs from the arc.
+    // For smaller angles, the sine in the denominator loses more accuracy than the difference
+    // between chord and arc.
     const NEAR: f64 = 1.0 - 1e-9;
     let cosine = from.dot(to);
     let (to, cosine) = if cosine < 0.0 { (-to, -cosine) } else { (to, cosine) };
@@ -208,7 +208,7 @@ mod tests {
 
     #[test]
     fn a_cubic_spline_is_the_hermite_polynomial() {
-        // t³ from 0 to 2 seconds: value 0 and 8, slope 0 and 12. A cubic is met exactly.
+        // . t³ from 0 to 2 seconds: value 0 and 8, slope 0 and 12. A cubic is reproduced exactly.
         let curve = curve(Interpolation::CubicSpline, 1, &[0.0, 2.0], &[9.0, 0.0, 0.0, 12.0, 8.0, 9.0]);
         for time in [0.0, 0.3, 1.0, 1.7, 2.0] {
             let [value] = curve.at(time)[..] else { panic!("one number") };

@@ -1,9 +1,8 @@
-//! Animations: curves over time for what nodes do.
+//! Animations: curves over time for properties of nodes.
 //!
-//! `curve` (keyframes and what is between them) → `channel` (which property of
-//! which node) → `pose` (everything that an animation says of one moment).
-//! A pose is a pure function of scene, animation and time, and has the same
-//! bits on every machine.
+//! `curve` (keyframes and interpolation) → `channel` (which property of which node) → `pose` (the
+//! state of an animation at one moment). A pose is a pure function of scene, animation and time,
+//! and has the same bits on every machine.
 
 mod channel;
 mod curve;

@@ -1,4 +1,4 @@
-//! What an animation says of one moment.
+//! The state of an animation at one moment.
 
 use std::collections::BTreeMap;
 
@@ -12,13 +12,13 @@ use crate::transform::Transform;
 /// One node in a pose.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NodePose {
-    /// Its placement in its parent, if that is animated.
+    /// Its placement in its parent, if animated.
     pub transform: Option<Transform>,
-    /// The weights of its morph targets, if they are.
+    /// The weights of its morph targets, if animated.
     pub morph_weights: Option<Vec<f32>>,
 }
 
-/// What moves, at one moment. Nodes that do not move are not in it.
+/// All animated nodes at one moment. Other nodes are not included.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
     /// By node.
@@ -26,10 +26,10 @@ pub struct Pose {
 }
 
 impl Scene {
-    /// The pose of an animation at a time in seconds: a pure function of the
-    /// three. Before the first keyframe of a channel and after its last, it
-    /// stays at that keyframe. What a channel does not say (a node's scale
-    /// when only its rotation is animated) is the node's own.
+    /// The pose of an animation at a time in seconds: a pure function of the three. Before the
+    /// first keyframe of a channel and after its last, it stays at that keyframe. Properties that
+    /// no channel animates (a node's scale if only its rotation is animated) keep the node's own
+    /// values.
     pub fn pose(&self, animation: &Animation, time: f64) -> Pose {
         let mut pose = Pose::default();
         for channel in &animation.channels {
@@ -46,7 +46,7 @@ impl Scene {
         pose
     }
 
-    /// Puts nodes where a pose has them.
+    /// Applies a pose to the nodes.
     pub fn apply_pose(&mut self, pose: &Pose) {
         for (&id, posed) in &pose.nodes {
             let Some(node) = self.node_mut(id) else { continue };
@@ -60,7 +60,7 @@ impl Scene {
     }
 }
 
-/// A transform as its three parts.
+/// Splits a transform into its three parts.
 struct Parts {
     translation: DVec3,
     rotation: DQuat,
@@ -68,7 +68,7 @@ struct Parts {
 }
 
 impl Parts {
-    /// Shear, which only a matrix can hold, is lost: what is animated has none.
+    /// Shear, which only a matrix can hold, is lost: animated transforms have none.
     fn of(transform: &Transform) -> Self {
         let (scale, rotation, translation) = match *transform {
             Transform::Decomposed { translation, rotation, scale } => (scale, rotation, translation),

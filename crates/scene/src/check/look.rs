@@ -1,5 +1,5 @@
-//! What surfaces look like: black, invisible, metal with nothing to mirror, textures that
-//! are not shown, lights that give none.
+//! Checks of appearance: black, invisible, metal with nothing to mirror, textures that are not
+//! shown, lights that emit nothing.
 
 use std::collections::BTreeSet;
 
@@ -7,10 +7,10 @@ use super::{Finding, Severity, place};
 use crate::material::{AlphaMode, Material, MaterialId, Shading, TextureBinding};
 use crate::scene::Scene;
 
-/// Darker than this is black in a picture of 8 bits.
+/// Darker than this is black in an 8-bit image.
 const BLACK: f32 = 1.0 / 255.0 / 12.92;
 
-/// More transparent than this is not seen.
+/// More transparent than this is invisible.
 const INVISIBLE: f32 = 1.0 / 255.0;
 
 pub(super) fn check(scene: &Scene, findings: &mut Vec<Finding>) {
@@ -49,7 +49,7 @@ fn one(material: &Material, place: &str, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Metal shows nothing but what it mirrors.
+/// Metal shows only what it mirrors.
 fn all_metal(scene: &Scene, seen: &BTreeSet<MaterialId>, findings: &mut Vec<Finding>) {
     let materials: Vec<&Material> = seen.iter().filter_map(|&id| scene.materials.get(id)).collect();
     let is_mirror = |material: &&Material| match &material.shading {
@@ -83,7 +83,7 @@ fn lights(scene: &Scene, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Textures without coordinates, and colours of vertices that make everything black.
+/// Textures without coordinates, and vertex colours that make everything black.
 fn meshes(scene: &Scene, findings: &mut Vec<Finding>) {
     let visible = scene.visible_transforms();
     let mut known = BTreeSet::new();
@@ -121,7 +121,7 @@ fn meshes(scene: &Scene, findings: &mut Vec<Finding>) {
     }
 }
 
-/// All textures that a material shows.
+/// All textures of a material.
 fn bindings(material: &Material) -> Vec<TextureBinding> {
     let mut bindings = vec![material.base_color_texture, material.emissive_texture];
     bindings.push(material.normal_map.map(|map| map.binding));

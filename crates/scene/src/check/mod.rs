@@ -1,7 +1,7 @@
-//! What is wrong with a scene: why it would be black, inside out, invisible or tiny.
+//! Faults of a scene: why it would be black, inside out, invisible or tiny.
 //!
-//! Nothing is drawn for it. Each finding says what was found, where, and what to do about it;
-//! a scene that is as it should be has none.
+//! Nothing is drawn for these checks. Each finding states what was found, where, and how to fix it;
+//! a correct scene has none.
 
 mod look;
 mod space;
@@ -11,19 +11,19 @@ use std::fmt;
 
 use crate::scene::Scene;
 
-/// How bad a finding is.
+/// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// It may be meant so.
+    /// It may be intended.
     Warning,
-    /// The picture is wrong, here or in other programs.
+    /// The image is wrong, here or in other programs.
     Error,
 }
 
-/// Something that is wrong with a scene. Its `Display` is one line.
+/// A fault of a scene. Its `Display` is one line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// How bad it is.
+    /// Its severity.
     pub severity: Severity,
     /// A short name of the fault for programs, such as `inside-out`.
     pub fault: &'static str,
@@ -31,7 +31,7 @@ pub struct Finding {
     pub place: String,
     /// What was found.
     pub what: String,
-    /// What a person can do about it.
+    /// A remedy for people.
     pub remedy: &'static str,
 }
 
@@ -45,11 +45,11 @@ impl fmt::Display for Finding {
     }
 }
 
-/// At most this many findings of one fault are listed.
+/// The maximum number of listed findings per fault.
 const MOST_OF_A_KIND: usize = 5;
 
 impl Scene {
-    /// What is wrong with the scene as it stands, errors first; of each fault at most five.
+    /// The faults of the scene, errors first; at most five of each fault.
     ///
     /// ```
     /// use trigon_scene::{Material, Scene, Severity, mesh::primitives};
@@ -77,13 +77,13 @@ impl Scene {
             counts[index].1 += 1;
             counts[index].1 <= MOST_OF_A_KIND
         });
-        // Stable: within a severity in the order in which they were found.
+        // Stable: within a severity in the order of discovery.
         findings.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
         findings
     }
 }
 
-/// `mesh "wheel"`, or by its number where it has no name.
+/// `mesh "wheel"`, or its number if it has no name.
 fn place(kind: &str, name: &str, index: usize) -> String {
     if name.is_empty() { format!("{kind} {index}") } else { format!("{kind} {name:?}") }
 }

@@ -1,16 +1,16 @@
-//! Where and how large things are: nothing at all, NaN, flat nodes, scale, distance.
+//! Checks of position and size: empty scenes, NaN, flat nodes, scale, distance.
 
 use trigon_math::{Bounds3, DVec3};
 
 use super::{Finding, Severity, counted, place};
 use crate::scene::Scene;
 
-/// Smaller than a millimetre, or larger than a hundred kilometres: another unit was meant.
+/// Smaller than a millimetre, or larger than a hundred kilometres: probably the wrong unit.
 const TINY: f64 = 1e-3;
 const HUGE: f64 = 1e5;
 
-/// So many times its own size from the origin a model loses detail: the numbers of most
-/// files have 24 bits, of which this takes 17.
+/// At this many times its own size from the origin a model loses detail: the numbers of most files
+/// have 24 bits, of which this takes 17.
 const FAR: f64 = 131_072.0;
 
 pub(super) fn check(scene: &Scene, findings: &mut Vec<Finding>) {
@@ -31,7 +31,7 @@ pub(super) fn check(scene: &Scene, findings: &mut Vec<Finding>) {
     distance(&bounds, findings);
 }
 
-/// Why nothing is to be seen.
+/// Why nothing is visible.
 fn nothing(scene: &Scene) -> String {
     let hidden = scene.nodes().iter().filter(|(_, node)| !node.visible).count();
     match (scene.meshes().len(), hidden) {
@@ -68,7 +68,7 @@ fn not_finite(scene: &Scene, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Nodes with a mesh that are squeezed to a line or a point.
+/// Nodes with a mesh that are scaled to a line or a point.
 fn flattened(scene: &Scene, findings: &mut Vec<Finding>) {
     let visible = scene.visible_transforms();
     for (id, node) in scene.nodes().iter() {

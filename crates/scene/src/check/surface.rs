@@ -1,5 +1,5 @@
-//! Faces and how they join: inside out, turned against each other, joined by threes, without
-//! area, with normals that point inwards.
+//! Checks of faces and how they join: inside out, inconsistent winding, non-manifold, without area,
+//! with normals that point inwards.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use trigon_mesh::Mesh;
 use super::{Finding, Severity, counted, place};
 use crate::scene::Scene;
 
-/// Of so many faces and more, a share without area is a fault.
+/// From this number of faces on, a fraction without area counts as a fault.
 const SHARE_WITHOUT_AREA: f64 = 0.05;
 
 pub(super) fn check(scene: &Scene, findings: &mut Vec<Finding>) {
@@ -28,16 +28,16 @@ pub(super) fn check(scene: &Scene, findings: &mut Vec<Finding>) {
 
 /// How the faces of a mesh join.
 struct Surface {
-    /// Edges of two faces that run along them the same way.
+    /// Edges of two faces that traverse them in the same direction.
     turned: usize,
-    /// Edges of three faces and more.
+    /// Edges of three or more faces.
     crowded: usize,
-    /// Of the largest part that is closed and has its faces the same way round; 0 without one.
+    /// Volume of the largest closed part with consistent winding; 0 without one.
     volume: f64,
     faces: usize,
 }
 
-/// The faces of an edge: the first two with the direction in which they run, and how many.
+/// The faces of an edge: the first two with their direction, and their number.
 #[derive(Clone, Copy, Default)]
 struct EdgeUse {
     faces: [(usize, bool); 2],
@@ -59,7 +59,7 @@ impl Surface {
         }
         let mut parts = Parts::new(mesh.face_count());
         let (mut turned, mut crowded) = (0, 0);
-        // The order of the map does not matter: all of it is counted or joined.
+        // The order of the map does not matter: everything in it is counted or joined.
         for edge in edges.values() {
             let [one, other] = edge.faces;
             match edge.count {
@@ -81,18 +81,18 @@ impl Surface {
     }
 }
 
-/// For each vertex the first one at the same place: files split vertices at seams.
+/// For each vertex the first one at the same position: files split vertices at seams.
 fn welded(mesh: &Mesh) -> Vec<u32> {
     let mut first: HashMap<[u32; 3], u32> = HashMap::new();
     let at = |(position, index): (&Vec3, u32)| {
-        // 0 and −0 are the same place.
+        // . 0 and −0 are the same position.
         let key = position.to_array().map(|coordinate| (coordinate + 0.0).to_bits());
         *first.entry(key).or_insert(index)
     };
     mesh.positions().iter().zip(0..).map(at).collect()
 }
 
-/// The edges of a face, in its direction; without those that have no length.
+/// The edges of a face in its direction, without those of length 0.
 fn around<'m>(mesh: &'m Mesh, face: usize, points: &'m [u32]) -> impl Iterator<Item = (u32, u32)> + 'm {
     let vertices = mesh.face_vertices(face);
     let next = vertices.iter().cycle().skip(1);
@@ -100,7 +100,7 @@ fn around<'m>(mesh: &'m Mesh, face: usize, points: &'m [u32]) -> impl Iterator<I
     ends.filter(|(from, to)| from != to)
 }
 
-/// Faces that hang together.
+/// Connected faces.
 struct Parts {
     /// For each face another of its part, or itself.
     parents: Vec<usize>,
@@ -130,11 +130,11 @@ impl Parts {
         self.is_open[face] = true;
     }
 
-    /// The volume of the closed part that has the most of it, negative if it is inside out.
+    /// The volume of the largest closed part, negative if it is inside out.
     fn largest_volume(&mut self, mesh: &Mesh) -> f64 {
         let faces = self.parents.len();
         let (mut volumes, mut open) = (vec![0.0; faces], vec![false; faces]);
-        // Around a point of the mesh, so that a place far away takes no digits.
+        // Relative to a point of the mesh, so that a distant position costs no digits.
         let origin = mesh.positions().first().copied().unwrap_or_default().as_dvec3();
         for face in 0..faces {
             let root = self.root(face);
@@ -146,8 +146,8 @@ impl Parts {
     }
 }
 
-/// Six times the volume between a face and a point: a fan of triangles has the same as any
-/// other cut into triangles.
+/// Six times the volume between a face and a point: a fan of triangles gives the same as any other
+/// triangulation.
 fn cone(mesh: &Mesh, face: usize, origin: DVec3) -> f64 {
     let at = |vertex: u32| mesh.positions()[vertex as usize].as_dvec3() - origin;
     let vertices = mesh.face_vertices(face);
@@ -193,7 +193,7 @@ fn without_area(mesh: &Mesh, place: &str, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Normals of the file against its faces.
+/// Normals of the file compared with the faces.
 fn normals(mesh: &Mesh, place: &str, findings: &mut Vec<Finding>) {
     let Some(normals) = &mesh.attributes().corner_normals else { return };
     let (mut useless, mut against) = (0, 0);

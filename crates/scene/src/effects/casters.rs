@@ -1,5 +1,4 @@
-//! What keeps light away: everything opaque that is visible in the scene, in the
-//! camera's view or not.
+//! Shadow casters: everything opaque and visible in the scene, inside the camera's view or not.
 
 use std::sync::Arc;
 
@@ -11,7 +10,7 @@ use crate::node::Node;
 use crate::render::{Geometry, GeometryState, Shape, Shapes};
 use crate::scene::{Place, Scene};
 
-/// All that casts shadows in a scene.
+/// All shadow casters of a scene.
 #[derive(Debug)]
 pub(crate) struct Casters {
     pub(crate) list: Vec<Caster>,
@@ -27,21 +26,21 @@ pub(crate) struct Caster {
     bounds: Bounds3,
 }
 
-/// All that a caster's shadow depends on, to know it again in a later picture. It names the
-/// geometry without holding it: geometry that nobody else holds is changed in place.
+/// Everything that a caster's shadow depends on, to recognize it in a later frame. It identifies
+/// the geometry without holding it: geometry with no other owner is changed in place.
 #[derive(Clone, Debug)]
 pub(crate) struct ShadowSource {
     geometry: GeometryState,
     pub(crate) place: Place,
-    /// For each run of the geometry its material, or `None` where light passes.
+    /// For each run of the geometry its material, or `None` if light passes.
     pub(crate) materials: Vec<Option<Material>>,
-    /// What the materials' textures of colour and of transmission are at this moment:
-    /// a picture can be exchanged under its id, or be gone.
+    /// The current content of the materials' colour and transmission textures: an image can be
+    /// replaced under its id, or removed.
     textures: Vec<[Option<Arc<Texture>>; 2]>,
 }
 
 impl PartialEq for ShadowSource {
-    /// Whether the shadow is the same for sure.
+    /// Whether the shadow is certainly the same.
     fn eq(&self, other: &Self) -> bool {
         self.geometry == other.geometry
             && self.place == other.place
@@ -51,7 +50,7 @@ impl PartialEq for ShadowSource {
 }
 
 impl ShadowSource {
-    /// What tells textures apart: both keep theirs alive, so no two share one.
+    /// Distinguishes textures: both keys keep theirs alive, so no two share one.
     fn texture_addresses(&self) -> impl Iterator<Item = Option<*const Texture>> {
         self.textures.iter().flatten().map(|texture| texture.as_ref().map(Arc::as_ptr))
     }
@@ -77,7 +76,7 @@ impl Casters {
         casters
     }
 
-    /// What the shadows of all casters depend on.
+    /// Everything that the shadows of all casters depend on.
     pub(crate) fn shadow_sources(&self) -> impl Iterator<Item = &ShadowSource> {
         self.list.iter().map(|caster| &caster.shadow)
     }
@@ -88,8 +87,8 @@ impl Casters {
     }
 }
 
-/// The textures of a material that shadows and rays of sight look up: each in its own
-/// place, so that none can be taken for another when that is gone.
+/// The textures of a material that shadows and sight rays look up, each in its own slot, so that
+/// none can be mistaken for another after one is removed.
 fn textures(scene: &Scene, material: &Material) -> [Option<Arc<Texture>>; 2] {
     [material.base_color_texture, material.transmission_texture].map(|binding| {
         let asset = scene.textures.get(binding?.texture)?;
@@ -97,7 +96,7 @@ fn textures(scene: &Scene, material: &Material) -> [Option<Arc<Texture>>; 2] {
     })
 }
 
-/// The material of a slot if it keeps light away.
+/// The material of a slot if it blocks light.
 fn cast_by(scene: &Scene, node: &Node, slot: u32) -> Option<Material> {
     let id = node.materials.get(slot as usize);
     let material = id.and_then(|&id| scene.materials.get(id)).cloned().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Fog in lanes.
+//! Fog, eight lanes at a time.
 
 use trigon_math::Vec3;
 use trigon_raster::simd::{Simd, prelude::*};
@@ -6,7 +6,7 @@ use trigon_raster::simd::{Simd, prelude::*};
 use super::Fog;
 use crate::render::lanes::{V3, dot, exp2, mix, splat};
 
-/// Fog made ready.
+/// Precomputed fog.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mist {
     color: Vec3,
@@ -21,7 +21,7 @@ impl Mist {
         (halvings > 0.0 && halvings.is_finite()).then_some(Self { color: fog.color, halvings })
     }
 
-    /// Colours seen through the mist at places in camera space.
+    /// Colours seen through the fog at positions in camera space.
     #[inline(always)]
     pub(crate) fn over<S: Simd>(&self, simd: S, position: V3<S>, color: V3<S>) -> V3<S> {
         let distance = dot(position, position).sqrt();

@@ -1,14 +1,13 @@
-//! The built-in sky, as metals mirror it in a scene that says nothing of what is around
-//! it.
+//! The built-in sky that metals mirror in a scene without defined surroundings.
 //!
-//! Metals show hardly anything but what they mirror: with lamps alone they are black
-//! beside their highlights. The sky is the same all around, so what a metal mirrors
-//! depends on two numbers: how high the mirrored direction points, and the roughness. A
-//! table of both takes 14 kB and, once, at the first metal, a few milliseconds. An
-//! [`Environment`](super::Environment) of the same sky would hold maps of all directions.
+//! Metals show hardly anything but what they mirror: with lamps alone they are black except for
+//! their highlights. The sky is the same all around, so what a metal mirrors depends on two
+//! numbers: the elevation of the mirrored direction, and the roughness. A table of both takes 14 kB
+//! and, once, at the first metal, a few milliseconds. An [`Environment`](super::Environment) of the
+//! same sky would hold maps of all directions.
 //!
-//! The sky stays with the world, as environments do, while the studio's lamps move with
-//! the camera.
+//! The sky is fixed to the world, as environments are, while the studio's lamps move with the
+//! camera.
 
 use std::sync::LazyLock;
 
@@ -19,8 +18,8 @@ use super::Sky;
 use crate::render::lanes::{V3, dot, mix, mixed, splat, table_step};
 use crate::render::lighting::LitPoints;
 
-/// Directions of the table, from straight down to straight up in equal steps of height.
-/// The horizon is one of them: above and below it the sky changes differently.
+/// Directions of the table, from straight down to straight up in equal steps of height. One of them
+/// is the horizon, where the sky changes abruptly.
 const HEIGHTS: usize = 129;
 
 /// Roughnesses of the table, from 0 to 1 in equal steps.
@@ -50,14 +49,14 @@ pub(crate) struct MetalSky {
 
 /// The sky's light on eight points of metal, linear RGB.
 pub(crate) struct SkyOnMetal<S: Simd> {
-    /// From the mirrored direction, blurred by the roughness.
+    /// Light from the mirrored direction, blurred by the roughness.
     pub(crate) mirrored: V3<S>,
-    /// From everywhere, as a white matt surface shows it.
+    /// Light from all directions, as a white matt surface shows it.
     pub(crate) around: V3<S>,
 }
 
 impl MetalSky {
-    /// For a camera whose space `to_world` turns into the world's.
+    /// For a camera whose space `to_world` maps to world space.
     pub(crate) fn new(to_world: &Mat3, intensity: f32) -> Self {
         Self { up: to_world.row(1), intensity, table: &TABLE }
     }
@@ -69,9 +68,9 @@ impl MetalSky {
             || {
                 let up = splat(simd, self.up);
                 let (normal, view) = (dot(points.normal, up), dot(points.view, up));
-                // Of the direction 2 (n · v) n − v nothing but its height is needed.
+                // Only the height of the direction 2 (n · v) n − v is needed.
                 let height = normal * (dot(points.normal, points.view) * 2.0) - view;
-                // The roughest mirror weighs all directions as a matt surface does.
+                // The roughest mirror weights all directions as a matt surface does.
                 let roughest = [ROUGHNESSES as i32 - 1; LANES];
                 SkyOnMetal {
                     mirrored: self.at(simd, height, roughness),
@@ -90,7 +89,7 @@ impl MetalSky {
         size_of_val(self.table)
     }
 
-    /// Between the four entries of the table around each height and roughness.
+    /// Interpolates between the four entries of the table around each height and roughness.
     #[inline(always)]
     fn at<S: Simd>(&self, simd: S, height: F32<S>, roughness: F32<S>) -> V3<S> {
         let (row, share) = table_step(roughness, ROUGHNESSES);
@@ -98,7 +97,7 @@ impl MetalSky {
         mixed(sharper, self.in_row(simd, height, row.map(|row| row + 1)), share)
     }
 
-    /// Between the two entries of a row around each height.
+    /// Interpolates between the two entries of a row around each height.
     #[inline(always)]
     fn in_row<S: Simd>(&self, simd: S, height: F32<S>, row: [i32; LANES]) -> V3<S> {
         let (column, share) = table_step(height * 0.5 + 0.5, HEIGHTS);
@@ -124,12 +123,12 @@ impl MetalSky {
     }
 }
 
-/// What a mirror of a roughness shows where it is seen head-on and turned to a height:
-/// the sky weighed by GGX's distribution and the cosine (B. Karis, "Real Shading in
-/// Unreal Engine 4", 2013, section "Pre-Filtered Environment Map").
+/// What a mirror of a roughness shows when seen head-on at a height: the sky weighted by GGX's
+/// distribution and the cosine (B. Karis, "Real Shading in Unreal Engine 4", 2013, section
+/// "Pre-Filtered Environment Map").
 fn blurred(sky: &Sky, roughness: f32, height: f32) -> Vec3 {
-    /// Half vectors, by how far they are from the normal: as many in each ring as the
-    /// distribution has there.
+    /// Half vectors, by their distance from the normal: each ring has as many as the distribution
+    /// has there.
     const RINGS: u8 = 16;
     /// And around it, on one side: the other one mirrors the same.
     const SECTORS: usize = 16;
@@ -140,10 +139,10 @@ fn blurred(sky: &Sky, roughness: f32, height: f32) -> Vec3 {
     let level = (1.0 - height * height).sqrt();
     let (mut sum, mut weights) = (Vec3::ZERO, 0.0);
     for ring in 0..RINGS {
-        // Up to where the light grazes the surface.
+        // Up to grazing light.
         let across = (f32::from(ring) + 0.5) / (f32::from(RINGS) * (1.0 + square));
         let half = (1.0 - across) / (1.0 + (square - 1.0) * across);
-        // Of the angle between normal and light, which is twice that of the half vector.
+        // Half the angle between normal and light.
         let cosine = 2.0 * half - 1.0;
         let sine = (1.0 - cosine * cosine).sqrt();
         for around in around {
@@ -163,7 +162,7 @@ mod tests {
     use super::*;
     use crate::effects::Environment;
 
-    /// Not where maps of all directions are folded.
+    /// Not at the fold of octahedral maps.
     fn direction(height: f32) -> Vec3 {
         let level = (1.0 - height * height).sqrt();
         Vec3::new(level * 0.8, height, level * 0.6)
@@ -187,14 +186,14 @@ mod tests {
         let sky = MetalSky::new(&Mat3::IDENTITY, 1.0);
         for towards in heights() {
             let error = (head_on(&sky, towards, 0.0)[0] - Sky::default().radiance(towards)).abs();
-            // The table's steps are 1/64 high, and the sky's second derivative is below 38:
-            // what is between two entries is within 38/8 of the step's square.
+            // The table's steps are 1/64 high, and the sky's second derivative is below 38: values
+            // between two entries are within 38/8 of the step's square.
             assert!(error.max_element() < 1.2e-3, "{towards}: {error}");
         }
     }
 
-    /// The mean of the sky over all directions, weighed by the cosine and GGX's
-    /// distribution of the half vector, direction by direction.
+    /// The mean of the sky over all directions, weighted by the cosine and GGX's distribution of
+    /// the half vector, direction by direction.
     fn weighed(towards: Vec3, roughness: f64) -> DVec3 {
         const RINGS: u32 = 300;
         const SECTORS: u32 = 100;
@@ -203,7 +202,7 @@ mod tests {
         let square = roughness * roughness * roughness * roughness;
         let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
         for (ring, sector) in (0..RINGS).flat_map(|ring| (0..SECTORS).map(move |sector| (ring, sector))) {
-            // Denser near the normal, where smooth surfaces mirror from.
+            // Denser near the normal, from where smooth surfaces mirror.
             let place = (f64::from(ring) + 0.5) / f64::from(RINGS);
             let cosine = 1.0 - place * place * place;
             let angle = std::f64::consts::TAU * (f64::from(sector) + 0.5) / f64::from(SECTORS);
@@ -227,11 +226,11 @@ mod tests {
                 let [mirrored, around] = head_on(&sky, towards, roughness);
                 let exact = weighed(towards, f64::from(roughness));
                 let error = (mirrored.as_dvec3() - exact).abs().max_element();
-                // The table's own sum is within 0.005 (beside the horizon, where the sky
-                // changes most), and between its entries it errs as above.
+                // The table's own sum is within 0.005 (next to the horizon, where the sky changes
+                // most), and between its entries the error is as above.
                 assert!(error < 0.007, "roughness {roughness}, {towards}: {error}");
-                // An environment of this sky is the same, as far as its coarse maps and its
-                // nine coefficients tell (3 % of the brightest, Ramamoorthi 2001).
+                // An environment of this sky is the same, within the accuracy of its coarse maps
+                // and its nine coefficients (3 % of the brightest, Ramamoorthi 2001).
                 let error = (mirrored - environment.radiance(towards, roughness)).abs().max_element();
                 assert!(error < 0.02, "an environment, roughness {roughness}, {towards}: {error}");
                 let error = (around - environment.irradiance(towards)).abs().max_element();

@@ -1,5 +1,5 @@
-//! Everything beyond surfaces in plain light, one folder or file for each effect.
-//! What a scene does not call for is neither prepared nor asked about.
+//! All effects beyond directly lit surfaces, one folder or file for each effect. Effects that a
+//! scene does not need are neither prepared nor evaluated.
 
 mod casters;
 mod environment;

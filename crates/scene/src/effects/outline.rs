@@ -1,4 +1,4 @@
-//! A line around nodes, drawn over the finished picture from its node ids.
+//! Outlines around nodes, drawn over the finished image from its node ids.
 
 use trigon_math::color;
 
@@ -7,9 +7,8 @@ use super::Outline;
 /// The widest line in pixels.
 const WIDEST: u32 = 16;
 
-/// Lays the line over sRGB bytes: on pixels that show none of the nodes and lie
-/// within its width of one that does, fading out over the last pixel. `objects`
-/// are the node ids.
+/// Paints the line over sRGB bytes: on pixels that show none of the nodes and lie within its width
+/// of one that does, fading out over the last pixel. `objects` are the node ids.
 pub(crate) fn draw_outline(outline: &Outline, objects: &[u32], width: usize, pixels: &mut [[u8; 4]]) {
     let mut chosen: Vec<u32> = outline.nodes.iter().map(|node| node.index() as u32).collect();
     chosen.sort_unstable();
@@ -40,7 +39,7 @@ pub(crate) fn draw_outline(outline: &Outline, objects: &[u32], width: usize, pix
     }
 }
 
-/// Whether all four neighbours are inside, too.
+/// Whether all four neighbours are also inside.
 fn is_within(
     inside: impl Fn(usize) -> bool,
     (x, y): (usize, usize),

@@ -1,5 +1,5 @@
-//! What all surfaces of a picture have around them: its lights, what keeps light
-//! away, where ambient light comes from, and what is in the air.
+//! The lighting environment of all surfaces in a frame: its lights, shadow casters, ambient light,
+//! and fog.
 
 use trigon_math::Vec3;
 use trigon_raster::simd::{F32, Simd, prelude::*};
@@ -12,38 +12,37 @@ use super::shadow::ShadowMaps;
 use crate::render::lanes::{V3, dot, splat};
 use crate::render::lighting::{Arriving, Lamp, Lights, LitPoints, Microfacets};
 
-/// What all surfaces of a picture have around them.
+/// The lighting environment of all surfaces in a frame.
 #[derive(Debug, Default)]
 pub(crate) struct Scenery {
     pub(crate) lights: Lights,
     pub(crate) shadow_maps: Option<ShadowMaps>,
-    /// All casters, for whatever rays ask.
+    /// All casters, for rays.
     pub(crate) rays: Option<RayScene>,
-    /// Whether lamps are asked for by rays.
+    /// Whether rays test the visibility of lamps.
     pub(crate) shadow_rays: bool,
     pub(crate) ambient_rays: Option<AmbientRays>,
-    /// How often rays of sight go on; 0 for none.
+    /// The maximum number of reflections and refractions of sight rays; 0 for none.
     pub(crate) bounces: u32,
     pub(crate) surroundings: Option<Surroundings>,
-    /// What metals mirror in place of ambient light.
+    /// What metals mirror instead of ambient light.
     pub(crate) metal_sky: Option<MetalSky>,
     pub(crate) mist: Option<Mist>,
 }
 
 impl Scenery {
-    /// Whether light depends on where a surface is, and not only on how it is turned.
+    /// Whether light depends on a surface's position, and not only on its orientation.
     pub(crate) fn needs_position(&self) -> bool {
         let shadows = self.shadow_maps.is_some() || self.shadow_rays;
         shadows || self.bounces > 0 || self.ambient_rays.is_some() || self.lights.need_position()
     }
 
-    /// Whether what surfaces send out depends on the direction of sight even where
-    /// they have no highlights.
+    /// Whether reflected light depends on the view direction even without highlights.
     pub(crate) fn are_grey(&self) -> bool {
         self.lights.are_grey() && self.surroundings.is_none()
     }
 
-    /// The share of a lamp's light that nothing keeps away; `None` where all arrives.
+    /// The unshadowed fraction of a lamp's light; `None` if all of it arrives.
     #[inline(always)]
     pub(crate) fn share<S: Simd>(
         &self,
@@ -59,7 +58,7 @@ impl Scenery {
         Some(rays.lit(simd, lamp, points, arriving))
     }
 
-    /// What white matt surfaces show in the light from everywhere.
+    /// What white matt surfaces show in ambient light.
     #[inline(always)]
     pub(crate) fn around<S: Simd>(&self, simd: S, normal: V3<S>) -> V3<S> {
         match &self.surroundings {
@@ -68,7 +67,7 @@ impl Scenery {
         }
     }
 
-    /// What surfaces mirror of the light from everywhere.
+    /// What surfaces mirror of ambient light.
     #[inline(always)]
     pub(crate) fn mirrored<S: Simd>(&self, simd: S, points: &LitPoints<S>, roughness: F32<S>) -> V3<S> {
         match &self.surroundings {
@@ -82,7 +81,7 @@ impl Scenery {
         }
     }
 
-    /// The built-in sky's light on metals, if they mirror it and any point is a metal.
+    /// The built-in sky's light on metals, if they mirror it and any point is metallic.
     #[inline(always)]
     pub(crate) fn sky_on_metal<S: Simd>(
         &self,
@@ -94,7 +93,7 @@ impl Scenery {
         Some(sky.light(simd, points, facets.roughness))
     }
 
-    /// Whether there is any light from everywhere.
+    /// Whether there is any ambient light.
     pub(crate) fn has_ambient(&self) -> bool {
         self.surroundings.is_some() || self.lights.ambient != Vec3::ZERO
     }

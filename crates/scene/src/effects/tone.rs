@@ -1,8 +1,8 @@
-//! Exposure and tone mapping: from the picture's linear light to what the display
-//! shows, after all samples are averaged.
+//! Exposure and tone mapping: from the image's linear light to display values, after all samples
+//! are averaged.
 //!
-//! A background of colours is what the user chose for the display: it lies behind the
-//! mapped picture as it is. An environment is light and in the picture already.
+//! A background colour is chosen for the display: it lies unchanged behind the mapped image. An
+//! environment is light and already in the image.
 
 use trigon_math::{Vec3, Vec4, color};
 use trigon_raster::Rasterizer;
@@ -10,7 +10,7 @@ use trigon_raster::Rasterizer;
 use super::ToneMapping;
 use crate::settings::RenderSettings;
 
-/// A picture in linear light, premultiplied, on nothing, becomes sRGB bytes on its
+/// Converts an image in linear light, premultiplied, without background, to sRGB bytes on its
 /// background.
 pub(crate) fn map_picture(
     linear: &[Vec4],
@@ -29,7 +29,7 @@ pub(crate) fn map_picture(
     });
 }
 
-/// Lays a picture in linear light on its background.
+/// Composites an image in linear light over its background.
 pub(crate) fn lay_on_background(linear: &mut [Vec4], settings: &RenderSettings) {
     let RenderSettings { width, height, background, .. } = settings;
     for (y, row) in linear.chunks_mut(*width as usize).enumerate() {
@@ -40,7 +40,7 @@ pub(crate) fn lay_on_background(linear: &mut [Vec4], settings: &RenderSettings) 
     }
 }
 
-/// The colour is mapped as it is where nothing shines through it.
+/// The colour is mapped as it is where it is opaque.
 fn mapped(light: Vec4, factor: f32, tone: ToneMapping) -> Vec4 {
     if light.w <= 0.0 {
         return Vec4::ZERO;
@@ -90,8 +90,8 @@ mod tests {
 
     #[test]
     fn colours_below_the_knee_lose_only_the_reflection_of_the_surface() {
-        // A base colour of 0.5 in white light reflects 4 % more at its surface: that
-        // is what the mapping takes away.
+        // A base colour of 0.5 in white light reflects 4 % more at its surface, which the mapping
+        // removes.
         let mapped = khronos_pbr_neutral(Vec3::splat(0.54));
         assert!((mapped - Vec3::splat(0.5)).abs().max_element() < 1e-6, "{mapped}");
         assert_eq!(khronos_pbr_neutral(Vec3::ZERO), Vec3::ZERO, "black stays black");

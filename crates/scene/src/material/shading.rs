@@ -1,13 +1,13 @@
-//! Shading models: how a surface answers to light.
+//! Shading models: how a surface reflects light.
 
 use trigon_math::Vec3;
 
 use super::TextureBinding;
 
-/// How a surface answers to light.
+/// How a surface reflects light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shading {
-    /// The base colour as it is; light does not matter.
+    /// The base colour, independent of light.
     Unlit,
     /// Diffuse reflection: base colour × N·L (Lambert 1760).
     Lambert,
@@ -16,9 +16,9 @@ pub enum Shading {
     BlinnPhong {
         /// Linear RGB of the highlight; may exceed 1 for sharp highlights.
         specular: Vec3,
-        /// The exponent: 0 is as wide as the diffuse light, 1000 a pinprick.
+        /// The exponent: 0 is as wide as diffuse light, 1000 a tiny spot.
         shininess: f32,
-        /// RGB multiplies `specular`; the picture holds colours.
+        /// RGB multiplies `specular`; the texture holds colours.
         specular_texture: Option<TextureBinding>,
     },
     /// A microfacet surface between metal and dielectric: GGX specular over
@@ -32,7 +32,7 @@ impl Shading {
         Self::BlinnPhong { specular, shininess, specular_texture: None }
     }
 
-    /// The textures that it looks up, in the order of its fields.
+    /// Its textures, in the order of its fields.
     pub(super) fn textures_mut(&mut self) -> Vec<&mut Option<TextureBinding>> {
         match self {
             Self::Unlit | Self::Lambert => Vec::new(),
@@ -44,25 +44,25 @@ impl Shading {
     }
 }
 
-/// The metallic-roughness model of glTF 2.0 with KHR_materials_specular. The
-/// index of refraction, which says how much a dielectric reflects head-on, is
-/// the material's: rays of refraction need it too.
+/// The metallic-roughness model of glTF 2.0 with KHR_materials_specular. The index of refraction,
+/// which determines the head-on reflectance of dielectrics, belongs to the material, because
+/// refraction also needs it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MetallicRoughness {
-    /// 0 is a dielectric, 1 a metal, whose base colour is that of its highlights.
+    /// 0 is a dielectric, 1 a metal; the base colour of a metal is that of its highlights.
     pub metallic: f32,
     /// Perceptual roughness, 0 (a mirror) to 1 (matt); the α of GGX is its square.
     pub roughness: f32,
-    /// Green multiplies `roughness`, blue `metallic`; the picture holds data.
+    /// Green multiplies `roughness`, blue `metallic`; the texture holds data.
     pub texture: Option<TextureBinding>,
-    /// How much of its highlight a dielectric shows, 0 to 1.
+    /// The strength of a dielectric's highlight, 0 to 1.
     pub specular: f32,
-    /// Alpha multiplies `specular`; the picture holds data.
+    /// Alpha multiplies `specular`; the texture holds data.
     pub specular_texture: Option<TextureBinding>,
-    /// Linear RGB of a dielectric's highlight seen head-on; at least 0, and
-    /// limited so that no more is reflected than arrives.
+    /// Linear RGB of a dielectric's highlight seen head-on; at least 0, and limited so that no more
+    /// light is reflected than arrives.
     pub specular_color: Vec3,
-    /// RGB multiplies `specular_color`; the picture holds colours.
+    /// RGB multiplies `specular_color`; the texture holds colours.
     pub specular_color_texture: Option<TextureBinding>,
 }
 

@@ -1,17 +1,17 @@
-//! Textures as a material uses them.
+//! Textures as materials use them.
 
 use trigon_math::glam::Affine2;
 use trigon_raster::Sampler;
 
 use crate::texture_asset::TextureId;
 
-/// A texture, how its coordinates are found, and how it is sampled.
+/// A texture, its coordinates, and its sampling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureBinding {
-    /// The picture. Whether its bytes are colours or data is its own format
-    /// (`Texture::format`); a picture that is used both ways is two textures.
+    /// The texture. Its own format (`Texture::format`) says whether its bytes are colours or data;
+    /// an image used both ways is two textures.
     pub texture: TextureId,
-    /// Which of the mesh's UV sets. A mesh without it shows no texture.
+    /// The UV set of the mesh. A mesh without it shows no texture.
     pub uv_set: usize,
     /// Applied to the coordinates before sampling (v grows downwards).
     pub transform: Affine2,
@@ -26,27 +26,25 @@ impl TextureBinding {
     }
 }
 
-/// A picture of directions that bends the normals of a surface: red, green and
-/// blue, 0 to 1, stand for x, y and z from −1 to 1 along tangent, bitangent and
-/// normal; green points up in the picture, against v (as in glTF 2.0, section
-/// 3.9.3). A mesh without tangents gets them from the binding's UV set; beyond the
-/// eighth set there are none, and the map is not drawn.
+/// A normal map: red, green and blue, 0 to 1, stand for x, y and z from −1 to 1 along tangent,
+/// bitangent and normal; green points up in the image, against v (as in glTF 2.0, section 3.9.3). A
+/// mesh without tangents gets them from the binding's UV set; beyond the eighth set there are none,
+/// and the map is not drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalMap {
-    /// The directions; the picture holds data.
+    /// The directions; the texture holds data.
     pub binding: TextureBinding,
-    /// Multiplies x and y before the direction is made a unit vector; 1
-    /// leaves them as they are, 0 flattens, negative values turn bumps inside out.
+    /// Multiplies x and y before the direction is normalised; 1 leaves them as they are, 0
+    /// flattens, negative values invert bumps.
     pub scale: f32,
 }
 
-/// A picture of how much light from everywhere reaches the surface.
+/// A map of how much ambient light reaches the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Occlusion {
-    /// Red is the share that arrives; the picture holds data. Light from
-    /// lamps is not reduced.
+    /// Red is the fraction that arrives; the texture holds data. Light from lamps is not reduced.
     pub binding: TextureBinding,
-    /// 0 (no effect) to 1 (as in the picture): the factor on ambient light is
-    /// `1 + strength · (red − 1)`.
+    /// 0 (no effect) to 1 (as in the texture): the factor on ambient light is `1 + strength · (red
+    /// − 1)`.
     pub strength: f32,
 }

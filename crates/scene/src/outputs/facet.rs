@@ -1,24 +1,24 @@
-//! A triangle as rays from the eye meet it, in f64.
+//! Intersection of eye rays with a triangle, in f64.
 
 use trigon_math::{DVec2, DVec3, Vec3};
 
-/// A triangle that is seen, ready to be met by rays.
+/// A visible triangle, prepared for ray intersection.
 ///
-/// A ray through the picture has the direction (x, y, −1) in camera space. In a
-/// parallel projection corners are flattened to z = −1 first: then the same formulas
-/// find where the parallel ray meets them.
+/// A ray through the image has the direction (x, y, −1) in camera space. In a parallel projection
+/// corners are first flattened to z = −1; then the same formulas find the intersection with a
+/// parallel ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facet {
     /// In camera space.
     corners: [DVec3; 3],
     /// As rays meet them.
     projected: [DVec3; 3],
-    /// A ray's product with these is the volume that it spans with the opposite
-    /// edge: the share of each corner, but for a common factor.
+    /// A ray's product with these is the volume that it spans with the opposite edge: the
+    /// barycentrics up to a common factor.
     shares: [DVec3; 3],
 }
 
-/// How rays of a picture run.
+/// How the rays of an image run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Beam {
     /// From the eye.
@@ -38,23 +38,23 @@ impl Facet {
         Self { corners, projected, shares: [b.cross(c), c.cross(a), a.cross(b)] }
     }
 
-    /// Whether the triangle winds clockwise as it is seen.
+    /// Whether the triangle winds clockwise on the screen.
     pub(super) fn is_clockwise(&self) -> bool {
         self.projected[0].dot(self.shares[0]) > 0.0
     }
 
-    /// The shares of the corners in the point that a ray meets; of a ray that passes
-    /// by, in the nearest point of the outline. At least 0, together 1.
+    /// The barycentrics of the point that a ray hits; for a ray that misses, of the nearest point
+    /// of the outline. At least 0, with sum 1.
     pub(super) fn weights(&self, ray: DVec3) -> DVec3 {
         let volumes = self.volumes(ray);
         let weights = volumes / (volumes.x + volumes.y + volumes.z);
-        // NaN is not inside, nor is what lies behind the eye: its signs are turned.
+        // NaN is not inside, nor is a point behind the eye: its signs are flipped.
         let before = (volumes.x + volumes.y + volumes.z > 0.0) == self.is_clockwise();
         if before && weights.cmpge(DVec3::ZERO).all() { weights } else { self.nearest(ray) }
     }
 
-    /// By how much the weights change along one pixel, whose ray differs by `step`,
-    /// at the point where they are `weights`. All 0 where that is beyond all numbers.
+    /// The change of the barycentrics per pixel, whose ray differs by `step`, at the point where
+    /// they are `weights`. All 0 if they overflow.
     pub(super) fn slope(&self, (ray, weights): (DVec3, DVec3), step: DVec3) -> DVec3 {
         let (volumes, change) = (self.volumes(ray), self.volumes(step));
         let slope =
@@ -62,13 +62,13 @@ impl Facet {
         if slope.is_finite() { slope } else { DVec3::ZERO }
     }
 
-    /// The point with these weights, in camera space.
+    /// The point with these barycentrics, in camera space.
     pub(super) fn at(&self, weights: DVec3) -> DVec3 {
         let [a, b, c] = self.corners;
         a * weights.x + b * weights.y + c * weights.z
     }
 
-    /// Across the triangle's plane, in camera space: to the side from which it winds
+    /// The normal of the triangle in camera space, on the side from which it winds
     /// counter-clockwise. 0 without area.
     pub(super) fn normal(&self) -> DVec3 {
         let [a, b, c] = self.corners;
@@ -79,7 +79,7 @@ impl Facet {
         DVec3::from_array(self.shares.map(|share| share.dot(ray)))
     }
 
-    /// The point of the outline that is seen nearest to a ray.
+    /// The point of the outline that is nearest to a ray.
     fn nearest(&self, ray: DVec3) -> DVec3 {
         let ray = ray.normalize();
         let mut nearest = (f64::INFINITY, DVec3::X);
@@ -102,7 +102,7 @@ impl Facet {
     }
 }
 
-/// A value of each corner, mixed.
+/// Interpolates a value of each corner.
 pub(super) fn mixed(weights: DVec3, values: [f32; 3]) -> f64 {
     weights.dot(DVec3::from_array(values.map(f64::from)))
 }

@@ -1,4 +1,4 @@
-//! Visits the pixels, and puts into the frame what it is to hold.
+//! Visits the pixels and fills in the requested outputs.
 
 use trigon_camera::{Camera, Projector, Viewport};
 use trigon_math::{DVec2, DVec3, Vec2, Vec3};
@@ -10,11 +10,11 @@ use super::source::{Point, Source, Triangle};
 use crate::frame::Frame;
 use crate::render::Stage;
 
-/// Rows that are taken at a time: enough to be worth a worker's while.
+/// Rows per task: enough to be worth a worker's while.
 const ROWS: usize = 8;
 
-/// Finds everything that follows from the triangles that are seen. `sample` is where
-/// in each pixel they were seen.
+/// Computes everything that is derived from the visible triangles. `sample` is the sample position
+/// in each pixel.
 pub(crate) fn fill(
     frame: &mut Frame,
     stage: &Stage<'_>,
@@ -31,7 +31,7 @@ pub(crate) fn fill(
     });
 }
 
-/// The objects that are seen, by their indices.
+/// The visible objects, by their indices.
 fn sources<'s>(stage: &'s Stage<'_>, objects: &[u32]) -> Vec<Option<Source<'s>>> {
     let scene = stage.scene;
     let mut seen = vec![false; scene.nodes().index_bound()];
@@ -55,19 +55,19 @@ struct Lens {
     origin: DVec3,
     /// The ray through the sample of the first pixel.
     first: DVec3,
-    /// What it changes by in a pixel to the right, and in one downwards.
+    /// Its change per pixel to the right, and downwards.
     steps: [DVec3; 2],
 }
 
 impl Lens {
-    /// `None` for a picture without pixels.
+    /// `None` for an image without pixels.
     fn new(stage: &Stage<'_>, camera: &Camera, sample: [f64; 2]) -> Option<Self> {
         let (width, height) = (stage.settings.width, stage.settings.height);
         let before = Camera { projection: camera.projection, ..Camera::default() };
         let projector = Projector::new(&before, Viewport { width, height });
         let ray = |x, y| projector.at_distance(DVec2::new(x, y), 1.0);
         let corner = ray(0.0, 0.0)?;
-        // The whole picture's span, so that one pixel's is as exact as can be.
+        // Computed from the whole image's span, so that one pixel's is as exact as possible.
         let [right, down] = [ray(width.into(), 0.0)?, ray(0.0, height.into())?];
         let steps = [(right - corner) / f64::from(width), (down - corner) / f64::from(height)];
         let beam = if camera.projection.is_orthographic() { Beam::Parallel } else { Beam::Central };
@@ -79,13 +79,13 @@ impl Lens {
         self.first + self.steps[0] * x as f64 + self.steps[1] * y as f64
     }
 
-    /// A point of camera space as positions are told.
+    /// A point of camera space as the position output stores it.
     fn told(&self, point: DVec3) -> Vec3 {
         (self.camera.orientation * point + (self.camera.position - self.origin)).as_vec3()
     }
 }
 
-/// Some rows of what the frame is to hold; empty where it is not to.
+/// Some rows of the outputs; empty if not requested.
 struct Piece<'f> {
     length: usize,
     material_ids: &'f mut [u32],
@@ -129,7 +129,7 @@ impl<'f> Piece<'f> {
         (seen, width): (&Seen, usize),
         start: usize,
     ) {
-        // Neighbours mostly see the same triangle.
+        // Neighbours mostly show the same triangle.
         let mut last: Option<([u32; 3], Option<Triangle<'_>>)> = None;
         for at in 0..self.length {
             let pixel = start + at;
@@ -163,7 +163,7 @@ impl<'f> Piece<'f> {
         put(self.albedo, at, || triangle.albedo(&point));
     }
 
-    /// Nothing is seen, or what has no faces.
+    /// Background, or an object without faces.
     fn clear(&mut self, at: usize) {
         for ids in [&mut *self.material_ids, self.triangle_ids] {
             put(ids, at, || u32::MAX);
@@ -181,7 +181,7 @@ fn chunks<T>(list: &mut Option<Vec<T>>, size: usize) -> std::slice::ChunksMut<'_
     list.as_deref_mut().unwrap_or_default().chunks_mut(size)
 }
 
-/// Puts a value where it is wanted.
+/// Stores a value if its output is requested.
 fn put<T>(list: &mut [T], at: usize, value: impl FnOnce() -> T) {
     if let Some(place) = list.get_mut(at) {
         *place = value();

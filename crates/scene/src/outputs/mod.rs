@@ -1,10 +1,9 @@
-//! What a picture holds of its surfaces beside their colours: all of it follows from
-//! which triangle each pixel sees, and is found after the pass in one visit of the
-//! pixels, in rows.
+//! Outputs of visible surfaces other than colour. All of them are derived from the triangle visible
+//! in each pixel, and computed after the pass in one visit of the pixels, row by row.
 //!
-//! Rays through the pixels are met with the triangles in f64, with no step from
-//! pixel to pixel: every pixel is a function of its own triangle and place. So the
-//! bytes do not depend on threads, and positions are as exact as their f32.
+//! Rays through the pixels are intersected with the triangles in f64, with no stepping from pixel
+//! to pixel: every pixel depends only on its own triangle and position. So the bytes do not depend
+//! on threads, and positions are as exact as f32 allows.
 
 mod facet;
 mod fill;

@@ -1,11 +1,11 @@
-//! Which triangle each pixel sees, as the rasterizer leaves it.
+//! The triangle visible in each pixel, as the rasterizer stores it.
 
 use trigon_raster::{Target, TargetError};
 
 use crate::frame::{Frame, resize};
 use crate::settings::Outputs;
 
-/// Ids of each pixel; a list that nobody needs is empty.
+/// Ids of each pixel; unused lists are empty.
 #[derive(Debug, Default)]
 pub(crate) struct Seen {
     /// Indices of nodes.
@@ -25,7 +25,7 @@ pub(crate) struct Needed {
 }
 
 impl Needed {
-    /// What some outputs are found from.
+    /// Those needed for derived outputs.
     pub(crate) fn of(outputs: &Outputs) -> Self {
         let triangles = outputs.of_triangles();
         let ids = outputs.ids || triangles;
@@ -39,7 +39,7 @@ impl Needed {
 }
 
 impl Seen {
-    /// Makes room for a picture; `None` without memory.
+    /// Allocates the lists for an image; `None` if memory is exhausted.
     pub(crate) fn make_room(&mut self, pixels: usize, needed: Needed) -> Option<()> {
         let length = |needed: bool| if needed { pixels } else { 0 };
         resize(&mut self.objects, length(needed.objects), u32::MAX)?;
@@ -47,7 +47,7 @@ impl Seen {
         resize(&mut self.triangles, length(needed.triangles), u32::MAX)
     }
 
-    /// A target that leaves the ids here, and depths in a list if there is one.
+    /// A target that writes the ids here, and depths into a list if there is one.
     pub(crate) fn with<'a>(
         &'a mut self,
         mut target: Target<'a>,
@@ -68,7 +68,7 @@ impl Seen {
         Ok(target)
     }
 
-    /// Gives the frame those that it is to hold, for the memory that it had.
+    /// Moves the requested ones to the frame, in exchange for its memory.
     pub(crate) fn hand_over(&mut self, frame: &mut Frame) {
         if let Some(objects) = &mut frame.object_ids {
             std::mem::swap(objects, &mut self.objects);

@@ -1,4 +1,4 @@
-//! What outputs read of an object: its shape, its place, and its materials.
+//! What outputs read of an object: its mesh, its transform, and its materials.
 
 use trigon_math::{DAffine3, DVec2, DVec3, Mat3, Vec2, Vec3};
 use trigon_mesh::Mesh;
@@ -12,7 +12,7 @@ use crate::render::{Geometry, Shape, Stage};
 use crate::scene::Scene;
 use crate::settings::{Outputs, Style};
 
-/// An object that may be seen.
+/// An object that may be visible.
 pub(super) struct Source<'s> {
     geometry: &'s Geometry,
     looks: Vec<Look<'s>>,
@@ -35,20 +35,20 @@ struct Look<'s> {
     normal_map: Option<(Map<'s>, f32)>,
 }
 
-/// A texture on the coordinates of a mesh.
+/// A texture with the mesh's coordinates.
 struct Map<'s> {
     texture: &'s Texture,
     binding: TextureBinding,
 }
 
-/// A triangle that is seen.
+/// A visible triangle.
 #[derive(Clone, Copy)]
 pub(super) struct Triangle<'s> {
     source: &'s Source<'s>,
     look: &'s Look<'s>,
     pub(super) facet: Facet,
     index: usize,
-    /// Whether its outside is seen.
+    /// Whether its front is visible.
     front: bool,
 }
 
@@ -56,7 +56,7 @@ pub(super) struct Triangle<'s> {
 #[derive(Clone, Copy)]
 pub(super) struct Point {
     pub(super) weights: DVec3,
-    /// What the weights change by in a pixel to the right, and in one downwards.
+    /// The change of the barycentrics per pixel to the right, and downwards.
     pub(super) slopes: [DVec3; 2],
 }
 
@@ -132,7 +132,7 @@ impl<'s> Look<'s> {
     }
 }
 
-/// 0 where files hold what is no number, or infinity times nothing: an output does not.
+/// 0 where files hold NaN, or infinity times zero: an output never does.
 fn number(value: f32) -> f32 {
     if value.is_nan() { 0.0 } else { value }
 }
@@ -158,7 +158,7 @@ impl Triangle<'_> {
         set.map_or(Vec2::ZERO, |set| mixed2(weights, set, self.corners()).as_vec2().map(number))
     }
 
-    /// The colour before light falls on it.
+    /// The colour before lighting.
     pub(super) fn albedo(&self, point: &Point) -> Vec3 {
         let mut color = self.look.color;
         if let Some(map) = &self.look.texture {
@@ -172,7 +172,7 @@ impl Triangle<'_> {
         color.map(number)
     }
 
-    /// What a texture shows in a whole pixel.
+    /// The value of a texture over a whole pixel.
     fn look_up(&self, map: &Map<'_>, point: &Point) -> Vec3 {
         let set = &self.look.geometry.columns.uv_sets[map.binding.uv_set];
         let mix = |weights: DVec3| -> DVec2 { mixed2(weights, set, self.corners()) };
@@ -182,14 +182,14 @@ impl Triangle<'_> {
         map.texture.sample(uv, ddx, ddy, &map.binding.sampler).truncate()
     }
 
-    /// Across its plane, to the side that is seen; in camera space.
+    /// The geometric normal on the visible side, in camera space.
     pub(super) fn plane_normal(&self) -> DVec3 {
         let normal = self.facet.normal();
         // A clockwise triangle's normal points away from the eye.
         if self.facet.is_clockwise() { -normal } else { normal }
     }
 
-    /// The normal that light falls on, in the world.
+    /// The shading normal, in the world.
     pub(super) fn normal(&self, point: &Point) -> Vec3 {
         let columns = &self.look.geometry.columns;
         let [a, b, c] = self.corners();

@@ -1,4 +1,4 @@
-//! Which pixels' centres a face covers, whatever hides it.
+//! Pixels whose centres a face covers, hidden or not.
 
 use std::ops::{ControlFlow, Range};
 
@@ -36,8 +36,8 @@ impl Centers {
         self.inside.is_clear()
     }
 
-    /// Calls `visit` with each pixel whose centre a triangle covers between the near and
-    /// the far plane, and its depth there, until that is enough. A centre on the outline is
+    /// Calls `visit` with each pixel whose centre a triangle covers between the near and the far
+    /// plane, and its depth there, until `visit` stops it. A centre on the outline counts as
     /// covered.
     pub(super) fn covered(
         &self,

@@ -1,11 +1,10 @@
 //! Which points of elements are hidden by faces that they do not belong to.
 //!
-//! The points are sorted into the pixels that they lie in. Then every triangle that is drawn
-//! visits the points of the pixels around it: it hides those that lie within it on the
-//! screen and behind it. Each triangle is read once, and a triangle as small as a pixel asks
-//! few points, so that the time grows with triangles and points, not with their product. All
-//! of it is decided at the points themselves, in f64: no pixel's centre is taken for them.
-//! What need not be decided so exactly is left out before (`occluders`).
+//! The points are sorted into pixels. Then every drawn triangle visits the points in the pixels
+//! around it and hides those that lie within it on the screen and behind it. Each triangle is read
+//! once, and a triangle as small as a pixel tests few points, so the time grows with triangles plus
+//! points, not with their product. All tests are made at the points themselves in f64, never at
+//! pixel centres. Cases that do not need the exact test are removed before (`occluders`).
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};

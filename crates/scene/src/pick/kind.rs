@@ -1,4 +1,4 @@
-//! Vertices and edges: where they have to be seen, and what they belong to.
+//! Vertices and edges: the points at which they must be visible, and what they belong to.
 
 use trigon_mesh::Mesh;
 

@@ -1,10 +1,9 @@
-//! Points in polygons by the even-odd rule, without rounding.
+//! Point in polygon by the even-odd rule, without rounding.
 //!
-//! A ray to the right of a point crosses some sides; an odd number of them means that the
-//! point is inside. A side is crossed if one of its ends is above the point and the other is
-//! not, and if the exact orientation of its ends and the point says that it lies to the
-//! right. So each corner counts for one of its sides only, and a side belongs to one of the
-//! two areas that it divides.
+//! A ray to the right of a point crosses some sides; the point is inside if their number is odd. A
+//! side is crossed if one of its ends is above the point and the other is not, and if the exact
+//! orientation of its ends and the point says that it lies to the right. So each corner counts for
+//! one of its sides only, and a side belongs to one of the two areas that it divides.
 
 use std::ops::Range;
 

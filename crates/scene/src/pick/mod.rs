@@ -1,10 +1,10 @@
-//! Picking: what of a scene is under a pixel or in a region of a picture, down to the
-//! faces, edges and vertices of its polygons.
+//! Picking: what is under a pixel or in a region of an image, down to the faces, edges and vertices
+//! of polygons.
 //!
-//! The rule of what is hit stands at [`Picker`]. Faces that are seen are read from the ids of a
-//! picture (`search`); all else is decided in f64: `screen` and `object` tell where points of
-//! elements are, `nearby` (in small regions `few`, `beyond`) what may lie in a region (`region`, `lasso`), `kind` what does, `hiding` (with
-//! `occluders`) which of that a face hides, and `covering` which pixels' centres a face covers.
+//! [`Picker`] defines the rule. Visible faces are read from an image's ids (`search`); everything else is
+//! decided in f64: `screen` and `object` locate the points of elements, `nearby` (in small regions `few`,
+//! `beyond`) finds what may lie in a region (`region`, `lasso`), `kind` what does, `hiding` (with
+//! `occluders`) which of these a face hides, and `covering` which pixel centres a face covers.
 
 mod beyond;
 mod covering;

@@ -1,9 +1,9 @@
-//! The objects of a scene beside an area of a picture, and what of them may lie in it.
+//! The objects of a scene near an area of an image, and what of them may lie in it.
 //!
-//! In a small area, such as around a cursor, little lies: whole boxes of triangles are passed
-//! over, and nothing is kept (`few`). In a large one much does: where all points are is found and
-//! kept, and a byte a point, on which side of the area it lies, is all that elements and triangles
-//! look up before they are near.
+//! A small area, such as around a cursor, contains little: whole boxes of triangles are skipped,
+//! and nothing is stored (`few`). A large one contains much: the positions of all points are
+//! computed and stored, and one byte per point, its side of the area, is all that elements and
+//! triangles look up until they are near.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,4 +1,4 @@
-//! What is nearest to a point of a picture.
+//! The elements nearest to a point of an image.
 
 use std::cmp::Ordering;
 
@@ -6,7 +6,7 @@ use trigon_math::DVec2;
 
 use crate::node::NodeId;
 
-/// The elements nearest to a point of a picture, each with its node.
+/// The elements nearest to a point of an image, each with its node.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Nearest {
     /// The vertex whose point is nearest.

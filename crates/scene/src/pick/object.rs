@@ -1,5 +1,5 @@
-//! The objects of a scene as they are picked: what their elements are, and where their
-//! points are on the screen. All of it is found when it is first asked for.
+//! Objects for picking: their elements, and the screen positions of their points. Everything is
+//! computed on first use.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};

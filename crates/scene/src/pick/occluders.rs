@@ -1,8 +1,8 @@
-//! Triangles that may hide points, and the quick tests that come before the exact one.
+//! Triangles that may hide points, and the quick tests before the exact one.
 //!
-//! Most points in the pixels around a triangle lie beside it or before it. Boxes in f32 that are a
-//! little too large tell that of nearly all of them. Triangles that follow each other
-//! mostly lie side by side: a few such look at the points around them together.
+//! Most points in the pixels around a triangle lie beside it or in front of it. Slightly enlarged
+//! f32 boxes reject nearly all of them. Consecutive triangles are mostly neighbours: a few such
+//! triangles test the points around them together.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! The picker as its users see it.
+//! The public picker.
 
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
@@ -20,21 +20,20 @@ use crate::frame::{Frame, Hit};
 use crate::node::NodeId;
 use crate::scene::Scene;
 
-/// Whether what is hidden counts.
+/// Whether hidden elements count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reach {
-    /// Only what is seen.
+    /// Only visible elements.
     #[default]
     Visible,
-    /// Everything, whatever lies before it.
+    /// All elements, whatever is in front of them.
     Through,
 }
 
-/// Finds the elements of a scene's meshes under the pixels of a picture, and in regions of
-/// it.
+/// Finds the elements of a scene's meshes under pixels of an image, and in regions of it.
 ///
 /// # What is hit
-/// A [`Region`] is a part of the picture, and [`Reach`] says whether what is hidden counts.
+/// A [`Region`] is a part of the image, and [`Reach`] says whether hidden elements count.
 ///
 /// | | [`Reach::Visible`] | [`Reach::Through`] |
 /// |---|---|---|
@@ -47,21 +46,21 @@ pub enum Reach {
 ///   pixels, or of rows where it is steeper than 45°: one in each pixel that a thin line would
 ///   paint. An edge too short to cross any has its middle.
 /// - A face *hides* a point that it covers on the screen and that lies behind it by more than a
-///   thousandth of a pixel's width at its distance: what is nearer than that touches. Only
-///   faces that are drawn hide: not the backs of single-sided ones. Of a face whose material
-///   is masked or blended only the pixels hide that it wins.
-/// - What lies before the near plane is cut, and what lies beyond the far plane is left out.
-/// - Faces that are drawn from behind only are no less covered: `Through` finds them, too.
+///   thousandth of a pixel's width at its distance: anything closer touches it. Only drawn faces
+///   hide: not the backs of single-sided ones. A face with a masked or blended material hides only
+///   in the pixels where it is visible.
+/// - What lies in front of the near plane is cut, and what lies beyond the far plane is ignored.
+/// - Faces that are drawn only from behind still count as covered: `Through` finds them, too.
 ///
-/// Visible faces are those that the picture's ids tell, so that the picture should have one
-/// sample for each pixel, and the style [`Surface`](crate::Style::Surface). All else is decided
-/// in f64 at the points themselves: no pixel's centre is taken for them.
+/// Visible faces are read from the image's ids, so the image should have one sample per pixel, and
+/// the style [`Surface`](crate::Style::Surface). Everything else is decided in f64 at the points
+/// themselves, never at pixel centres.
 ///
 /// # What it costs
-/// It finds out where all vertices are on the screen when a question about a large region
-/// first needs that, and keeps it: ask one picker for as long as scene and camera stay. For a small
-/// region, such as around a cursor, it passes over most of a mesh in boxes of 64 triangles, which
-/// the scene keeps until the mesh changes.
+/// It computes the screen positions of all vertices when a large region first needs them, and keeps
+/// them: use one picker as long as scene and camera stay the same. For a small region, such as
+/// around a cursor, it skips most of a mesh in boxes of 64 triangles, which the scene keeps until
+/// the mesh changes.
 ///
 /// ```
 /// use trigon_scene::math::DVec2;
@@ -107,17 +106,18 @@ pub struct Picker<'p> {
 pub struct Pick {
     /// The node and its polygon.
     pub hit: Hit,
-    /// Of the polygon's vertices the one that is seen nearest to the pixel's centre;
-    /// of equally near ones the first. `None` for lines and points.
+    /// The polygon's vertex nearest to the pixel's centre on the screen; of equally near ones the
+    /// first. `None` for lines and points.
     pub vertex: Option<u32>,
-    /// Of the polygon's edges the one that is seen nearest, as an index into
-    /// [`Mesh::edges`](trigon_mesh::Mesh::edges); of equally near ones the first. `None` for lines and points.
+    /// The polygon's edge nearest to it on the screen, as an index into
+    /// [`Mesh::edges`](trigon_mesh::Mesh::edges); of equally near ones the first. `None` for lines and
+    /// points.
     pub edge: Option<u32>,
 }
 
 impl<'p> Picker<'p> {
-    /// For a frame with ids, of the scene as it was drawn. Without ids no face is visible,
-    /// and only opaque faces hide.
+    /// For a frame with ids, of the scene as it was drawn. Without ids no face is visible, and only
+    /// opaque faces hide.
     pub fn new(scene: &'p Scene, camera: &Camera, frame: &'p Frame) -> Self {
         let viewport = Viewport { width: frame.width, height: frame.height };
         Self {
@@ -129,8 +129,8 @@ impl<'p> Picker<'p> {
         }
     }
 
-    /// What is under a pixel; `None` for background, and outside the picture. It costs the
-    /// corners of one polygon, whatever the scene's size.
+    /// What is under a pixel; `None` for background, and outside the image. Takes time proportional
+    /// to the corners of one polygon, whatever the scene's size.
     pub fn at(&self, x: u32, y: u32) -> Option<Pick> {
         let hit = self.frame.hit(self.scene.nodes(), x, y)?;
         let outline = self.outline(&hit);
@@ -145,9 +145,9 @@ impl<'p> Picker<'p> {
         Some(Pick { hit, vertex, edge })
     }
 
-    /// The vertex, the edge and the face that are nearest to a point, of those that a circle
-    /// of this radius around it hits, in pixels. Of equally near ones that which is nearer to
-    /// the camera, then the first.
+    /// The vertex, the edge and the face that are nearest to a point, among those hit by a circle
+    /// of this radius around it, in pixels. Of equally near ones the one closer to the camera, then
+    /// the first.
     pub fn nearest(&self, point: DVec2, radius: f64, reach: Reach) -> Nearest {
         let region = Region::Circle { center: point, radius };
         let area = self.area(&region);
@@ -161,7 +161,7 @@ impl<'p> Picker<'p> {
         Nearest { vertex, edge, face: element(self.nearest_face(point, &area, reach)) }
     }
 
-    /// The faces that are hit in a region.
+    /// The faces hit in a region.
     pub fn faces(&self, region: &Region, reach: Reach) -> ElementSet {
         let area = self.area(region);
         match reach {
@@ -174,20 +174,19 @@ impl<'p> Picker<'p> {
         }
     }
 
-    /// The vertices that are hit in a region. Those that belong to no face, no edge and no
-    /// point are not drawn, and not found.
+    /// The vertices hit in a region. Vertices without a face, an edge or a point are not drawn, and
+    /// not found.
     pub fn vertices(&self, region: &Region, reach: Reach) -> ElementSet {
         self.elements(Kind::Vertex, region, reach)
     }
 
-    /// The edges that are hit in a region, as indices into
-    /// [`Mesh::edges`](trigon_mesh::Mesh::edges).
+    /// The edges hit in a region, as indices into [`Mesh::edges`](trigon_mesh::Mesh::edges).
     pub fn edges(&self, region: &Region, reach: Reach) -> ElementSet {
         self.elements(Kind::Edge, region, reach)
     }
 
-    /// The nodes of which something is hit in a region: by a pixel that it wins, with a face,
-    /// a line or a point; through everything a face, an edge or a vertex.
+    /// The nodes hit in a region: visible ones by a pixel that shows one of their faces, lines or
+    /// points; through everything, by a face, an edge or a vertex.
     pub fn nodes(&self, region: &Region, reach: Reach) -> BTreeSet<NodeId> {
         match reach {
             Reach::Visible => {

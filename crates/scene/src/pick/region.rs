@@ -1,4 +1,4 @@
-//! Regions of a picture, and which points and pixels lie in them.
+//! Regions of an image, and which points and pixels lie in them.
 
 use std::ops::Range;
 
@@ -7,12 +7,12 @@ use trigon_math::DVec2;
 
 use super::lasso::Lasso;
 
-/// A part of a picture, in pixels: the origin is the upper left corner, y points down,
-/// and pixel (i, j) has its centre at (i + 0.5, j + 0.5). What lies beyond the picture's
-/// borders is left out. A region with a coordinate that is not finite is empty.
+/// A part of an image, in pixels: the origin is the upper left corner, y points down, and pixel (i,
+/// j) has its centre at (i + 0.5, j + 0.5). Parts beyond the image's borders are ignored. A region
+/// with a coordinate that is not finite is empty.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region {
-    /// The pixel in which this point lies.
+    /// The pixel that contains this point.
     Point(DVec2),
     /// The points with `min ≤ point < max` in both coordinates, so that neighbouring
     /// rectangles share none.
@@ -29,14 +29,14 @@ pub enum Region {
         /// Pixels. A negative one contains nothing.
         radius: f64,
     },
-    /// The points inside a polygon by the even-odd rule. Its last corner is joined to its
-    /// first, and its sides may cross. Which side of a side a point is on is decided
-    /// exactly; of points on a side, one side of it counts as inside, so that neighbouring
-    /// polygons share none.
+    /// The points inside a polygon by the even-odd rule. Its last corner is joined to its first,
+    /// and its sides may cross. The side of a point relative to an edge is decided exactly; of
+    /// points on an edge, one side of it counts as inside, so that neighbouring polygons share
+    /// none.
     Lasso(Vec<DVec2>),
 }
 
-/// A region, made ready for a picture.
+/// A region prepared for an image.
 pub(super) struct Area<'r> {
     shape: Shape<'r>,
     /// The pixels around it, all of them in the picture.

@@ -1,17 +1,17 @@
-//! Where the points of objects are on the screen, in f64.
+//! Screen positions of objects' points, in f64.
 //!
-//! Objects are placed as the renderer places them: their maps are made relative to the
-//! camera before anything is multiplied. Depth is that of the depth buffer, which is linear
-//! across the screen: 1 on the near plane, 0 on the far plane or at infinity.
+//! Objects are placed as the renderer places them: their transforms are made relative to the camera
+//! before anything is multiplied. Depth is that of the depth buffer, which is linear across the
+//! screen: 1 on the near plane, 0 on the far plane or at infinity.
 
 use trigon_camera::{Camera, Viewport};
 use trigon_math::{DAffine3, DMat4, DVec2, DVec3, DVec4};
 
 use crate::render::placement::Eye;
 
-/// By how much a face has to be nearer to hide a point, in pixels' widths at the point's
-/// distance. What is nearer by less touches it: positions are rounded to f32, so that a
-/// vertex on another face would be before or behind it at random.
+/// How much nearer a face must be to hide a point, in pixel widths at the point's distance.
+/// Anything closer touches it: positions are rounded to f32, so a vertex on another face would be
+/// in front or behind at random.
 const TOUCHING: f64 = 1e-3;
 
 /// A camera and a picture's size.

@@ -1,4 +1,4 @@
-//! How a picker goes through pixels, triangles and points.
+//! How a picker traverses pixels, triangles and points.
 
 use std::collections::VecDeque;
 use std::ops::{ControlFlow, Range};

@@ -1,4 +1,4 @@
-//! The most accurate picture that fits into a time.
+//! Chooses the most accurate quality that fits into a time.
 
 use std::time::Duration;
 
@@ -11,15 +11,15 @@ use crate::render::{RenderError, Renderer};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 
-/// Of two qualities that fit the one of the last picture is kept, unless the other has
-/// less than this part of its error: pictures that flicker are ugly.
+/// Of two qualities that fit, that of the last image is kept, unless the other has less than this
+/// fraction of its error: images that alternate flicker.
 const WORTH_A_CHANGE: f64 = 0.9;
 
-/// Chooses for each picture of a scene the most accurate quality that fits into a time,
-/// from what the pictures before it took.
+/// Chooses for each frame of a scene the most accurate quality that fits into a time, based on the
+/// times of previous frames.
 ///
-/// It knows no clock: whoever draws measures, and tells. Where pictures are drawn here
-/// `clock` is asked before and after each; it tells the time since any fixed moment.
+/// It has no clock: the caller that draws measures and reports. If frames are drawn here, `clock`
+/// is called before and after each; it returns the time since any fixed moment.
 ///
 /// ```no_run
 /// use std::time::{Duration, Instant};
@@ -46,12 +46,12 @@ pub struct TimeBudget {
     pub(super) errors: ErrorModel,
     pub(super) patience: Patience,
     pub(super) last: Option<Quality>,
-    /// Windows that were looked at.
+    /// Windows compared so far.
     pub(super) windows: u32,
 }
 
 impl TimeBudget {
-    /// A budget of so much time for each picture. Nothing is known of the scene yet.
+    /// A budget of this time per frame. Nothing is known of the scene yet.
     pub fn new(limit: Duration) -> Self {
         Self {
             limit,
@@ -65,8 +65,8 @@ impl TimeBudget {
         }
     }
 
-    /// With all qualities changed, the reference, too: settings that somebody insists on
-    /// are then no longer chosen.
+    /// With all qualities changed, including the reference, so that fixed settings are never
+    /// varied.
     #[must_use]
     pub fn insisting(self, change: impl Fn(Quality) -> Quality) -> Self {
         let mut candidates: Vec<Quality> = Vec::new();
@@ -78,12 +78,12 @@ impl TimeBudget {
         Self { candidates, reference: change(self.reference), ..self }
     }
 
-    /// The time for each picture.
+    /// The time per frame.
     pub fn limit(&self) -> Duration {
         self.limit
     }
 
-    /// What will be drawn next, with settings that say all but the quality.
+    /// The choice for the next frame, with settings for everything but the quality.
     pub fn choose(&self, settings: &RenderSettings) -> Choice {
         let all = self.foreseen(settings);
         let fits = |foreseen: &&Foreseen| {
@@ -107,12 +107,12 @@ impl TimeBudget {
         }
     }
 
-    /// A picture was drawn as chosen.
+    /// Reports that a frame was drawn as chosen.
     pub fn saw(&mut self, choice: &Choice, frame: &Frame) {
         self.errors.saw(choice.chosen.quality, frame);
     }
 
-    /// It took this long.
+    /// The time that it took.
     pub fn took(&mut self, choice: &Choice, settings: &RenderSettings, time: Duration) {
         let Foreseen { quality, time: foreseen, .. } = choice.chosen;
         self.patience.note(quality, [time, foreseen, self.limit]);
@@ -120,8 +120,8 @@ impl TimeBudget {
         self.last = Some(quality);
     }
 
-    /// Chooses, draws, and learns from it. The renderer's settings have the quality that
-    /// was chosen afterwards.
+    /// Chooses, draws, and learns from the result. Afterwards the renderer's settings have the
+    /// chosen quality.
     ///
     /// # Errors
     /// As [`Renderer::render`].
@@ -137,7 +137,7 @@ impl TimeBudget {
         Ok((frame, choice))
     }
 
-    /// As [`render`](Self::render), into a frame whose memory is used again.
+    /// As [`render`](Self::render), into an existing frame.
     ///
     /// # Errors
     /// As [`Renderer::render`].
@@ -152,13 +152,13 @@ impl TimeBudget {
         let choice = self.choose(renderer.settings());
         choice.chosen.quality.apply(renderer.settings_mut());
         renderer.render_into(scene, camera, frame)?;
-        // Looking at the picture is part of what it takes.
+        // Comparing windows is part of the time.
         self.saw(&choice, frame);
         self.took(&choice, renderer.settings(), clock().saturating_sub(start));
         Ok(choice)
     }
 
-    /// What is known of all candidates, as far as such a picture tells them apart.
+    /// The known cost and error of all candidates, as far as such a frame distinguishes them.
     pub(super) fn foreseen(&self, settings: &RenderSettings) -> Vec<Foreseen> {
         let mut all: Vec<Foreseen> = Vec::new();
         for candidate in &self.candidates {
@@ -172,8 +172,8 @@ impl TimeBudget {
     }
 }
 
-/// The one with the smaller error; while an error is unknown the second, which comes later
-/// in the order of candidates.
+/// The one with the smaller error; while an error is unknown the second, which comes later in the
+/// order of candidates.
 fn more_accurate<'a>(first: &'a Foreseen, second: &'a Foreseen) -> &'a Foreseen {
     match (first.error, second.error) {
         (Some(a), Some(b)) if a <= b => first,
@@ -181,8 +181,8 @@ fn more_accurate<'a>(first: &'a Foreseen, second: &'a Foreseen) -> &'a Foreseen 
     }
 }
 
-/// The quickest of those that are more accurate than one of them; while errors are unknown,
-/// of those that come later.
+/// The fastest of those more accurate than one of them; while errors are unknown, of those that
+/// come later.
 fn next_better<'a>(all: &'a [Foreseen], than: &Foreseen) -> Option<&'a Foreseen> {
     let later = all.iter().skip_while(|one| one.quality != than.quality).skip(1);
     match than.error {

@@ -2,11 +2,10 @@
 
 use super::{Preset, Quality};
 
-/// The qualities that a budget chooses from, the quickest first; the presets are among
-/// them.
+/// The qualities that a budget chooses from, fastest first; the presets are among them.
 ///
-/// Ways to find shadows and numbers of rays are few, because changing the size of shadow
-/// maps means to draw them again.
+/// There are few shadow methods and ray counts, because changing the size of shadow maps means
+/// drawing them again.
 pub fn candidates() -> [Quality; 12] {
     let [draft, standard, high, reference] = Preset::ALL.map(Preset::quality);
     let samples = |quality, samples| Quality { samples, ..quality };

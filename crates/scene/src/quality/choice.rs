@@ -1,37 +1,37 @@
-//! What a budget has chosen, and what that gives up.
+//! The choice of a budget, and what it gave up.
 
 use std::fmt;
 use std::time::Duration;
 
 use super::Quality;
 
-/// A quality, and what is foreseen of a picture in it.
+/// A quality with the predicted time and error of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foreseen {
     /// The quality.
     pub quality: Quality,
-    /// How long drawing will take.
+    /// The predicted time.
     pub time: Duration,
-    /// How far the picture will be from the reference, as [`rmse`](super::rmse) measures
-    /// it; `None` as long as nothing was learnt.
+    /// The predicted error relative to the reference, as [`rmse`](super::rmse) measures it; `None`
+    /// until something was learnt.
     pub error: Option<f64>,
 }
 
-/// What a budget has chosen for the next picture, and what that gives up.
+/// The choice of a budget for the next frame, and what it gave up.
 ///
-/// As text it says so: `2×2 samples, light at each pixel: about 9.3 ms of 16.0 ms, error
+/// Its `Display` is such a line: `2×2 samples, lighting per pixel: about 9.3 ms of 16.0 ms, error
 /// about 0.0034 …`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Choice {
-    /// The most accurate quality that fits, or the quickest of all.
+    /// The most accurate quality that fits, or the fastest of all.
     pub chosen: Foreseen,
-    /// The time that there is.
+    /// The available time.
     pub limit: Duration,
-    /// Whether the choice is foreseen to fit.
+    /// Whether the choice is predicted to fit.
     pub fits: bool,
     /// The next more accurate quality, which was given up; `None` if there is none.
     pub given_up: Option<Foreseen>,
-    /// What errors are measured against.
+    /// The quality that errors are relative to.
     pub reference: Quality,
 }
 
@@ -39,7 +39,7 @@ fn milliseconds(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
-/// An error with two digits that count.
+/// An error with two significant digits.
 fn write_error(f: &mut fmt::Formatter<'_>, error: Option<f64>) -> fmt::Result {
     match error {
         Some(error) => write!(f, ", error about {error:.4}"),

@@ -1,4 +1,4 @@
-//! What pictures cost, learnt from those that were drawn.
+//! The cost of frames, learnt from those that were drawn.
 
 use std::time::Duration;
 
@@ -6,33 +6,32 @@ use super::Quality;
 use crate::effects::Shadows;
 use crate::settings::{RenderSettings, ShadingModel};
 
-/// Units of work that a picture's time is a sum of: the frame itself (its vertices and
-/// triangles), pixels, shaded samples, further samples, light found at each shaded
-/// sample, shadows found by rays there, rays of ambient occlusion.
+/// The units of work that make up a frame's time: the frame itself (its vertices and triangles),
+/// pixels, shaded samples, additional samples, lighting at each shaded sample, shadow rays there,
+/// ambient occlusion rays.
 const UNITS: usize = 7;
 
-/// Nanoseconds of a unit each, before anything was measured. Only their proportions
-/// count, and only until frames have told more; they are those of the built-in scene on
-/// two threads.
+/// Nanoseconds per unit before anything was measured. Only their proportions count, and only until
+/// frames have given better values; they are those of the built-in scene on two threads.
 const USUAL: [f64; UNITS] = [500_000.0, 4.0, 15.0, 4.0, 10.0, 60.0, 40.0];
 
-/// How much the usual proportions count against a frame that was measured.
+/// The weight of the default proportions relative to a measured frame.
 const TRUST_IN_USUAL: f64 = 0.001;
 
-/// As many frames of different work are remembered.
+/// The number of frames of different work that are remembered.
 const MOST_SEEN: usize = 32;
 
 /// Learns from measured frames of a scene how long others will take.
 ///
-/// Time is taken to be linear in a few units of work, none of which saves time. What each
-/// costs is fitted to relative errors by least squares that hold it at 0 or above
-/// (cyclic coordinate descent; C. Lawson and R. Hanson, "Solving Least Squares Problems",
-/// 1974, chapter 23, has the problem), drawn to usual proportions where frames do not
-/// tell. More of every unit so never is predicted to take less.
+/// Time is assumed to be linear in a few units of work, with costs that are not negative. The costs
+/// are fitted to relative errors by non-negative least squares (cyclic coordinate descent; C.
+/// Lawson and R. Hanson, "Solving Least Squares Problems", 1974, chapter 23, has the problem),
+/// regularized towards default proportions where frames give no information. So more work is never
+/// predicted to take less time.
 ///
-/// When work that was done before takes longer now, the scene has come to cost more, and
-/// all that is remembered is scaled half of the way: a moving camera is followed, and
-/// a frame that had to wait for another program misleads only once.
+/// If work that was done before takes longer now, the scene has become more expensive, and all
+/// remembered times are scaled half of the way: this follows a moving camera, and a frame that had
+/// to wait for another program misleads only once.
 ///
 /// ```
 /// use std::time::Duration;
@@ -54,7 +53,7 @@ pub struct CostModel {
     costs: [f64; UNITS],
 }
 
-/// Work that was measured.
+/// Measured work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Seen {
     work: [f64; UNITS],
@@ -63,16 +62,16 @@ struct Seen {
 }
 
 impl Default for CostModel {
-    /// Of a scene and a machine that nothing is known about.
+    /// For an unknown scene and machine.
     fn default() -> Self {
         Self { seen: Vec::new(), costs: USUAL }
     }
 }
 
 impl CostModel {
-    /// A frame with these settings took this long.
+    /// Reports that a frame with these settings took this long.
     pub fn learn(&mut self, settings: &RenderSettings, time: Duration) {
-        /// One frame tells of no more than such a change.
+        /// The largest change that one frame may cause.
         const MOST_CHANGE: f64 = 8.0;
         let (work, time) = (work(settings), (time.as_nanos() as f64).max(1.0));
         if let Some(known) = self.seen.iter().find(|seen| seen.work == work) {
@@ -88,12 +87,12 @@ impl CostModel {
         self.costs = fitted(&self.seen);
     }
 
-    /// How long a frame with these settings will take.
+    /// The predicted time of a frame with these settings.
     pub fn predict(&self, settings: &RenderSettings) -> Duration {
         let work = work(settings);
         let same = self.seen.iter().find(|seen| seen.work == work).map(|seen| seen.time);
         let time = same.unwrap_or_else(|| sum(&work, &self.costs));
-        // No less than what was measured of less work in as many pixels.
+        // At least the time measured for less work in the same number of pixels.
         let is_part = |seen: &&Seen| {
             seen.work[1] == work[1] && seen.work.iter().zip(&work).all(|(part, whole)| part <= whole)
         };
@@ -102,7 +101,7 @@ impl CostModel {
     }
 }
 
-/// The units of work in a picture.
+/// The units of work in a frame.
 fn work(settings: &RenderSettings) -> [f64; UNITS] {
     let quality = Quality::of(settings);
     let pixels = f64::from(settings.width) * f64::from(settings.height);
@@ -123,15 +122,15 @@ fn sum(work: &[f64; UNITS], costs: &[f64; UNITS]) -> f64 {
     work.iter().zip(costs).map(|(work, cost)| work * cost).sum()
 }
 
-/// The costs that fit what was seen.
+/// The costs that fit the measured frames.
 fn fitted(seen: &[Seen]) -> [f64; UNITS] {
-    /// More than it takes until nothing changes that matters.
+    /// More iterations than needed for convergence.
     const SWEEPS: usize = 256;
     let mut scales: Vec<f64> = seen.iter().map(|seen| seen.time / sum(&seen.work, &USUAL)).collect();
     scales.sort_by(f64::total_cmp);
     let scale = scales.get(scales.len() / 2).copied().unwrap_or(1.0);
     let usual = USUAL.map(|cost| cost * scale);
-    // Each unit's share of each time, if it costs what is usual.
+    // Each unit's share of each time, at its default cost.
     let share = |seen: &Seen| std::array::from_fn(|unit| seen.work[unit] * usual[unit] / seen.time);
     let rows: Vec<[f64; UNITS]> = seen.iter().map(share).collect();
     let mut factors = [1.0; UNITS];
@@ -160,7 +159,7 @@ mod tests {
         settings
     }
 
-    /// Milliseconds on an invented machine, which follows no usual proportions.
+    /// Milliseconds on a fictional machine that does not follow the default proportions.
     fn invented(settings: &RenderSettings) -> Duration {
         let costs = [3e6, 1.0, 40.0, 1.0, 2.0, 0.0, 0.0];
         Duration::from_nanos(sum(&work(settings), &costs) as u64)
@@ -184,7 +183,7 @@ mod tests {
     #[test]
     fn more_work_never_takes_less() {
         let mut costs = CostModel::default();
-        // Nonsense: the least work took longest.
+        // Contradictory: the least work took longest.
         let qualities = Preset::ALL.map(Preset::quality);
         for (quality, milliseconds) in qualities.into_iter().zip([9, 1, 5, 2]) {
             costs.learn(&picture(quality), Duration::from_millis(milliseconds));

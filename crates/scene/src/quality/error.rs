@@ -1,40 +1,40 @@
-//! How far pictures are from the reference, and how far the next ones will be.
+//! The error of images relative to the reference, and its prediction.
 
 use trigon_math::color;
 
 use super::Quality;
 use crate::frame::Frame;
 
-/// The root of the mean square of the differences between two pictures, in linear light:
-/// red, green and blue from 0 to 1, premultiplied. 0 for pictures of different sizes or
-/// without colours, which cannot be compared.
+/// The root mean square of the differences between two images, in linear light: red, green and blue
+/// from 0 to 1, premultiplied. 0 for images of different sizes or without colours, which cannot be
+/// compared.
 pub fn rmse(picture: &Frame, reference: &Frame) -> f64 {
     let pixels = picture.color.len() / 4;
     if pixels == 0 { 0.0 } else { (squares(picture, reference) / (3 * pixels) as f64).sqrt() }
 }
 
-/// Learns from pictures of a scene and their references what error others will have.
+/// Learns from images of a scene and their references what error others will have.
 ///
-/// What a shortcut misses lies where light changes from pixel to pixel: at outlines,
-/// edges of shadows, highlights, fine textures. The sum of squared second differences
-/// along rows and columns, called detail here, says how much of that a picture has, and
-/// needs no reference. The error of a quality is taken to be in proportion to the root of
-/// the detail in its own pictures; the proportion is learnt, and the detail is that of the
-/// last frame. So errors follow a moving camera without drawing anything twice.
+/// Errors of faster settings are concentrated where light changes from pixel to pixel: at outlines,
+/// edges of shadows, highlights, fine textures. The sum of squared second differences along rows
+/// and columns, called detail here, measures how much of that an image has, and needs no reference.
+/// The error of a quality is assumed to be proportional to the root of the detail in its own
+/// images; the proportion is learnt, and the detail is that of the last frame. So errors follow a
+/// moving camera without drawing anything twice.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ErrorModel {
     known: Vec<Known>,
-    /// The last frame's quality, and its detail of a pixel.
+    /// The last frame's quality, and its detail per pixel.
     last: Option<(Quality, f64)>,
 }
 
-/// What is known of one quality.
+/// What is known about one quality.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Known {
     quality: Quality,
-    /// Sums over all pictures, the newest counting most.
+    /// Sums over all images, with the highest weight on the newest.
     now: Sums,
-    /// Sums over those that every quality was learnt from.
+    /// Sums over those from which every quality was learnt.
     at_first: Sums,
 }
 
@@ -64,15 +64,15 @@ impl Sums {
         Self { squares: self.squares * factor, detail: self.detail * factor, pixels: self.pixels * factor }
     }
 
-    /// Of a pixel.
+    /// Per pixel.
     fn mean_detail(&self) -> f64 {
         self.detail / self.pixels
     }
 }
 
 impl ErrorModel {
-    /// A picture of a quality, and what it should be. Both may be a part of a frame; all
-    /// qualities are to be learnt from the same parts.
+    /// An image in a quality, and its reference. Both may be part of a frame; all qualities must be
+    /// learnt from the same parts.
     pub fn learn(&mut self, quality: Quality, picture: &Frame, reference: &Frame) {
         let new = Sums::of(picture, reference);
         if new.pixels == 0.0 {
@@ -84,13 +84,13 @@ impl ErrorModel {
         }
     }
 
-    /// A newer picture of a quality that was learnt, from any part of the scene, and what
-    /// it should be. Older ones count less from now on.
+    /// A newer image in a quality that was learnt, from any part of the scene, and its reference.
+    /// Older ones have less weight from now on.
     ///
-    /// Qualities with as many shaded samples and the same shadows are mostly wrong in the
-    /// same places: they go half of the way with it.
+    /// Qualities with the same number of shaded samples and the same shadows are mostly wrong in
+    /// the same places: they follow it half of the way.
     pub fn correct(&mut self, quality: Quality, picture: &Frame, reference: &Frame) {
-        /// Of what is older, this part stays: some ten pictures count.
+        /// The weight that older images keep: about ten images count.
         const KEPT: f64 = 0.9;
         let Some(known) = self.of_mut(quality) else { return };
         let before = known.now.squares / known.now.detail;
@@ -100,21 +100,21 @@ impl ErrorModel {
             other != quality
                 && (other.shaded_samples(), other.shadows) == (quality.shaded_samples(), quality.shadows)
         };
-        // Where nothing was wrong, or there was no detail, there is nothing to compare.
+        // Without errors, or without detail, there is nothing to compare.
         for known in self.known.iter_mut().filter(|known| change.is_normal() && is_alike(known.quality)) {
             known.now.squares *= change;
         }
     }
 
-    /// A frame of this quality was drawn; the next one will be like it.
+    /// Reports a frame of this quality; the next one is assumed to be similar.
     pub fn saw(&mut self, quality: Quality, frame: &Frame) {
         if !frame.color.is_empty() {
             self.last = Some((quality, mean_detail(frame)));
         }
     }
 
-    /// What [`rmse`] will be in the next frame; `None` of a quality that nothing was
-    /// learnt of.
+    /// The predicted [`rmse`] of the next frame; `None` for a quality about which nothing was
+    /// learnt.
     pub fn predict(&self, quality: Quality) -> Option<f64> {
         let known = self.of(quality)?;
         if known.now.detail == 0.0 {
@@ -123,7 +123,7 @@ impl ErrorModel {
         Some((known.now.squares / known.now.detail * self.detail_now(known) / 3.0).sqrt())
     }
 
-    /// The detail of a pixel that the next frame would have at a quality.
+    /// The predicted detail per pixel of the next frame in a quality.
     fn detail_now(&self, known: &Known) -> f64 {
         let Some((quality, detail)) = self.last else { return known.at_first.mean_detail() };
         match self.of(quality).map(|last| last.at_first.mean_detail()) {
@@ -169,7 +169,7 @@ fn apart(a: [f32; 3], b: [f32; 3]) -> f64 {
 
 /// The mean square of second differences in linear light, of every fourth row and column.
 fn mean_detail(frame: &Frame) -> f64 {
-    /// A quarter says enough of the whole, and takes a quarter of the time.
+    /// A quarter is enough, and takes a quarter of the time.
     const STEP: usize = 4;
     let (pixels, width) = (pixels(frame), frame.width as usize);
     let (mut sum, mut count) = (0.0, 0_usize);

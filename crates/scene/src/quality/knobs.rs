@@ -12,18 +12,16 @@ pub struct Quality {
     pub samples_per_axis: u32,
     /// As [`RenderSettings::samples`]: 1, 2, 4, 8 or 16.
     pub samples: u32,
-    /// Where on surfaces light is found.
+    /// Where lighting is computed.
     pub shading: ShadingModel,
-    /// How shadows are found where a picture has them; [`Shadows::Off`] leaves that as
-    /// it is.
+    /// How shadows are computed in frames that have them; [`Shadows::Off`] leaves that unchanged.
     pub shadows: Shadows,
-    /// Rays of each sample where a picture has ambient occlusion, 1 to 256; 0 leaves
-    /// them as they are.
+    /// Rays per sample in frames with ambient occlusion, 1 to 256; 0 leaves them unchanged.
     pub occlusion_rays: u32,
 }
 
 impl Quality {
-    /// What these settings say. What they do not ask for is off or 0.
+    /// The quality of these settings. What they do not request is off or 0.
     pub fn of(settings: &RenderSettings) -> Self {
         let RenderSettings { samples_per_axis, samples, shading, effects, .. } = settings;
         Self {
@@ -35,8 +33,8 @@ impl Quality {
         }
     }
 
-    /// Puts it into settings. What those do not ask for, shadows or ambient occlusion,
-    /// they do not get.
+    /// Applies it to settings. It does not add shadows or ambient occlusion that those do not
+    /// request.
     pub fn apply(&self, settings: &mut RenderSettings) {
         settings.samples_per_axis = self.samples_per_axis;
         settings.samples = self.samples;
@@ -52,7 +50,7 @@ impl Quality {
         }
     }
 
-    /// What becomes of it in such a picture: without what the picture does not ask for.
+    /// What it means for such a frame: without what the frame does not request.
     #[must_use]
     pub fn within(&self, settings: &RenderSettings) -> Self {
         let mut settings = settings.clone();
@@ -60,7 +58,7 @@ impl Quality {
         Self::of(&settings)
     }
 
-    /// Whether nothing about it is coarser, and something is finer.
+    /// Whether nothing in it is coarser, and something is finer.
     pub fn is_finer_than(&self, other: &Self) -> bool {
         let (own, others) = (self.fineness(), other.fineness());
         own != others && own.iter().zip(others).all(|(own, other)| *own >= other)
@@ -81,19 +79,19 @@ impl Quality {
         [self.shaded_samples(), self.covered_samples(), shading, shadows, self.occlusion_rays]
     }
 
-    /// Points of each pixel at which light is found.
+    /// Lighting evaluations per pixel.
     pub fn shaded_samples(&self) -> u32 {
         self.samples_per_axis * self.samples_per_axis
     }
 
-    /// Points of each pixel at which it is decided what is seen.
+    /// Visibility samples per pixel.
     pub fn covered_samples(&self) -> u32 {
         self.shaded_samples() * self.samples
     }
 }
 
 impl fmt::Display for Quality {
-    /// `3×3 samples of 2, light at each pixel, shadows by rays, 16 occlusion rays`.
+    /// `3×3 samples of 2, lighting per pixel, shadows by rays, 16 occlusion rays`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.samples_per_axis, self.samples) {
             (1, 1) => write!(f, "1 sample")?,

@@ -1,17 +1,15 @@
-//! How accurately a picture is drawn: named choices of all settings that trade
-//! accuracy for time, and the choice of one that fits into a time.
+//! Quality: named choices of all settings that trade accuracy for time, and choosing one that fits
+//! into a time.
 //!
-//! A [`Quality`] is what those settings say, and nothing else. A [`Preset`] is one with a
-//! name. Whether there are shadows at all, and all else that a picture is to show, is
-//! no quality: it stays as it is.
+//! A [`Quality`] is the values of these settings, and nothing else. A [`Preset`] is a named one.
+//! Whether there are shadows at all, and everything else that defines the content of a frame, is
+//! not part of it and stays unchanged.
 //!
-//! A [`TimeBudget`] chooses the most accurate quality that fits into a time: a
-//! [`CostModel`] foresees from measured frames how long others take, an [`ErrorModel`]
-//! from pictures and references how wrong they are. Times come from the caller; the
-//! same times give the same choices.
+//! A [`TimeBudget`] chooses the most accurate quality that fits into a time: a [`CostModel`]
+//! predicts times from measured frames, an [`ErrorModel`] predicts errors from images and
+//! references. Times come from the caller; the same times give the same choices.
 //!
-//! The renderer knows nothing of this module; whoever draws a picture applies a quality
-//! to its settings first.
+//! The renderer does not know this module; apply a quality to its settings before drawing.
 //!
 //! ```
 //! use trigon_scene::quality::{Preset, Quality};
@@ -22,7 +20,7 @@
 //! Preset::Reference.apply(&mut settings);
 //! assert_eq!((settings.samples_per_axis, settings.effects.shadows), (4, Shadows::Rays));
 //! assert!(settings.effects.ambient_occlusion.is_none(), "nobody asked for it");
-//! assert_eq!(Quality::of(&settings).to_string(), "4×4 samples of 16, light at each pixel, shadows by rays");
+//! assert_eq!(Quality::of(&settings).to_string(), "4×4 samples of 16, lighting per pixel, shadows by rays");
 //! ```
 
 mod budget;

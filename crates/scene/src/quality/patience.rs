@@ -1,28 +1,28 @@
-//! How far foreseen times are trusted, and which qualities have to wait.
+//! How far predicted times are trusted, and which qualities have to wait.
 
 use std::time::Duration;
 
 use super::Quality;
 
-/// Times are taken to be this much longer than foreseen at least.
+/// The smallest safety factor on predicted times.
 const LEAST_MARGIN: f64 = 0.08;
 
-/// And this much at most.
+/// The largest one.
 const MOST_MARGIN: f64 = 0.5;
 
-/// How many usual misses the margin leaves room for.
+/// How many typical misses the margin allows for.
 const MISSES: f64 = 2.5;
 
-/// A quality that was too slow waits for so many pictures, twice as many the next time.
+/// A quality that was too slow waits for this many frames, and twice as many the next time.
 const FIRST_REST: u32 = 8;
 
-/// It does not wait longer than that.
+/// The longest wait.
 const LONGEST_REST: u32 = 256;
 
-/// Learns how well times are foreseen, and lets wait what was too slow.
+/// Learns how well times are predicted, and delays qualities that were too slow.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Patience {
-    /// How much longer than foreseen pictures took of late, on average, as a part.
+    /// The recent relative excess of times over predictions, on average.
     miss: f64,
     resting: Vec<Rest>,
 }
@@ -31,16 +31,16 @@ pub(super) struct Patience {
 #[derive(Clone, Copy, Debug)]
 struct Rest {
     quality: Quality,
-    /// Pictures to wait.
+    /// Frames to wait.
     left: u32,
-    /// Pictures that it waits the next time.
+    /// Frames to wait the next time.
     next: u32,
 }
 
 impl Patience {
-    /// A picture took a time, was foreseen to take another, and had a limit.
+    /// Reports the time of a frame, its prediction, and its limit.
     pub(super) fn note(&mut self, quality: Quality, [time, foreseen, limit]: [Duration; 3]) {
-        /// What the last picture counts.
+        /// The weight of the last frame.
         const NEW: f64 = 0.1;
         let miss = time.as_secs_f64() / foreseen.as_secs_f64().max(1e-9) - 1.0;
         self.miss += NEW * (miss.clamp(0.0, MOST_MARGIN) - self.miss);
@@ -62,7 +62,7 @@ impl Patience {
         self.resting.iter().any(|rest| rest.quality == quality && rest.left > 0)
     }
 
-    /// The time that may be needed where this one is foreseen.
+    /// The time that may be needed for a prediction.
     pub(super) fn with_margin(&self, time: Duration) -> Duration {
         time.mul_f64(1.0 + (LEAST_MARGIN + MISSES * self.miss).min(MOST_MARGIN))
     }

@@ -1,4 +1,4 @@
-//! Qualities with names.
+//! Named qualities.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,30 +7,30 @@ use super::Quality;
 use crate::effects::Shadows;
 use crate::settings::{RenderSettings, ShadingModel};
 
-/// A quality with a name. Each takes two to five times as long as the one before it.
-/// [`Standard`](Self::Standard) and [`High`](Self::High) have about four tenths of the error of
-/// the one before, [`Reference`](Self::Reference) about eight tenths: `docs/accuracy.md` holds
-/// whole pictures against places that none of them shades.
+/// A named quality. Each takes two to five times as long as the one before it.
+/// [`Standard`](Self::Standard) and [`High`](Self::High) have about four tenths of the error of the
+/// one before, [`Reference`](Self::Reference) about eight tenths: `docs/accuracy.md` compares whole
+/// images with sample positions that none of them uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Preset {
-    /// One sample a pixel: to find a view, and for pictures that only programs see.
+    /// One sample per pixel: for finding a view, and for images that only programs see.
     Draft,
-    /// 2×2 samples: for pictures that move.
+    /// 2×2 samples: for moving images.
     Standard,
-    /// 4×4 samples and exact shadows: for pictures that stay.
+    /// 4×4 samples and exact shadows: for still images.
     High,
-    /// The best that the engine does: what the others are measured against.
+    /// The best that the engine does: the others are measured against it.
     Reference,
 }
 
 impl Preset {
-    /// From the quickest to the most accurate.
+    /// From the fastest to the most accurate.
     pub const ALL: [Self; 4] = [Self::Draft, Self::Standard, Self::High, Self::Reference];
 
-    /// What it stands for.
+    /// Its quality.
     ///
-    /// Light is found at each pixel in all of them: with light at the vertices pictures
-    /// are less accurate, and hardly drawn sooner.
+    /// All of them compute lighting per pixel: per-vertex lighting is less accurate, and hardly
+    /// faster.
     pub const fn quality(self) -> Quality {
         let (samples_per_axis, samples, shadows, occlusion_rays) = match self {
             Self::Draft => (1, 1, Shadows::Maps { resolution: 2048 }, 8),
@@ -41,7 +41,7 @@ impl Preset {
         Quality { samples_per_axis, samples, shading: ShadingModel::Phong, shadows, occlusion_rays }
     }
 
-    /// Puts its quality into settings, and leaves all else in them as it is.
+    /// Applies its quality to settings, and leaves everything else in them unchanged.
     pub fn apply(self, settings: &mut RenderSettings) {
         self.quality().apply(settings);
     }
@@ -72,7 +72,7 @@ impl FromStr for Preset {
     }
 }
 
-/// A name that no preset has.
+/// No preset has this name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no preset {0:?}; write draft, standard, high or reference")]
 pub struct UnknownPreset(pub String);

@@ -1,4 +1,4 @@
-//! What lies behind everything, ready for the pass of colours.
+//! The background of the colour pass.
 
 use std::sync::Arc;
 
@@ -9,33 +9,33 @@ use crate::background::Background;
 use crate::effects::Environment;
 use crate::settings::RenderSettings;
 
-/// What the pass of colours draws on.
+/// The background of the colour pass.
 #[derive(Clone, Debug)]
 pub(crate) enum Backdrop {
     /// The same everywhere, premultiplied.
     Color(Vec4),
-    /// The same in each row of a picture of this height.
+    /// A colour for each row of an image of this height.
     Rows(Background, u32),
     /// Light from far away.
     Environment(Panorama),
 }
 
-/// The environment, as a camera sees it.
+/// The environment as seen by a camera.
 #[derive(Clone, Debug)]
 pub(crate) struct Panorama {
     environment: Arc<Environment>,
     intensity: f32,
-    /// Directions of the world, of a length of 1 along the line of sight: at the
-    /// corner of the picture, and the steps to the next pixel to the right and below.
+    /// World directions with length 1 along the line of sight: at the corner of the image, and the
+    /// steps to the next pixel to the right and below.
     corner: Vec3,
     steps: [Vec3; 2],
-    /// Of a pixel in the middle of the picture, in radians.
+    /// The angular size of the middle pixel, in radians.
     pixel: f32,
 }
 
 impl Backdrop {
-    /// Where tones are mapped afterwards, what was chosen for the display waits until
-    /// then: the pass draws on nothing.
+    /// If tone mapping follows, a background chosen for the display waits until then: the pass
+    /// draws on a transparent background.
     pub(super) fn new(camera: &Camera, settings: &RenderSettings) -> Self {
         match settings.background {
             Background::Environment => match &settings.effects.environment {
@@ -62,7 +62,7 @@ impl Backdrop {
 }
 
 impl Panorama {
-    /// `None` if the picture has no area.
+    /// `None` if the image has no area.
     fn new(camera: &Camera, settings: &RenderSettings, environment: &Arc<Environment>) -> Option<Self> {
         let viewport = Viewport { width: settings.width, height: settings.height };
         let (projector, DVec2 { x: width, y: height }) = (Projector::new(camera, viewport), viewport.size());

@@ -1,4 +1,4 @@
-//! A renderer, put together by naming what differs from the usual.
+//! The renderer's builder.
 
 use std::num::NonZeroUsize;
 
@@ -7,14 +7,14 @@ use crate::background::Background;
 use crate::effects::EffectSettings;
 use crate::settings::{Outputs, RenderSettings, Style};
 
-/// The size of a picture when nobody names one, in pixels: the viewer's, and F3D's.
+/// The default size of an image in pixels: the viewer's, and F3D's.
 const USUAL_SIZE: [u32; 2] = [1000, 600];
 
-/// Makes a [`Renderer`] of the settings that are most often chosen. Those that are not
-/// named are [`RenderSettings::new`]'s; a picture has 1000×600 pixels.
+/// Builds a [`Renderer`] from the most common settings. The others are those of
+/// [`RenderSettings::new`]; the default size is 1000×600 pixels.
 ///
-/// Nothing is refused here: a size or a number of samples that is out of range is an
-/// error of the first picture.
+/// Nothing is checked here: a size or a number of samples out of range is an error of the first
+/// frame.
 #[derive(Clone, Debug)]
 pub struct RendererBuilder(RenderSettings);
 
@@ -31,27 +31,27 @@ impl RendererBuilder {
         Self(RenderSettings { width, height, ..self.0 })
     }
 
-    /// Multisampling: 1, 2, 4, 8 or 16 samples a pixel, of which those of one triangle
-    /// are shaded together. It takes the place of [`samples_per_axis`](Self::samples_per_axis).
+    /// Multisampling: 1, 2, 4, 8 or 16 samples per pixel, shaded once per triangle. Replaces
+    /// [`samples_per_axis`](Self::samples_per_axis).
     #[must_use]
     pub fn samples(self, samples: u32) -> Self {
         Self(RenderSettings { samples, samples_per_axis: 1, ..self.0 })
     }
 
-    /// Supersampling: 1 to 4 samples along each side of a pixel, each shaded; 3 when
-    /// nothing is said. It takes the place of [`samples`](Self::samples).
+    /// Supersampling: 1 to 4 samples along each side of a pixel, each shaded; 3 by default.
+    /// Replaces [`samples`](Self::samples).
     #[must_use]
     pub fn samples_per_axis(self, samples_per_axis: u32) -> Self {
         Self(RenderSettings { samples_per_axis, samples: 1, ..self.0 })
     }
 
-    /// At most this many threads; 0 for one per core. No picture depends on it.
+    /// The maximum number of threads; 0 for one per core. No image depends on it.
     #[must_use]
     pub fn threads(self, threads: usize) -> Self {
         Self(RenderSettings { threads: NonZeroUsize::new(threads), ..self.0 })
     }
 
-    /// What pictures hold.
+    /// The outputs of frames.
     #[must_use]
     pub fn outputs(self, outputs: Outputs) -> Self {
         Self(RenderSettings { outputs, ..self.0 })
@@ -69,13 +69,13 @@ impl RendererBuilder {
         Self(RenderSettings { style, ..self.0 })
     }
 
-    /// Everything beyond surfaces in plain light.
+    /// All effects beyond directly lit surfaces.
     #[must_use]
     pub fn effects(self, effects: EffectSettings) -> Self {
         Self(RenderSettings { effects, ..self.0 })
     }
 
-    /// The renderer. It holds no memory until its first picture.
+    /// The renderer. It allocates no memory until its first frame.
     #[must_use]
     pub fn build(self) -> Renderer {
         Renderer::new(self.0)

@@ -1,10 +1,9 @@
-//! The values of a mesh's vertices, column by column: what a vertex stage in
-//! vectors reads.
+//! The vertex values of a mesh, column by column, for the vectorized vertex stage.
 
 use trigon_math::{Vec2, Vec3, Vec4};
 use trigon_mesh::{Deformed, Mesh, RenderMesh, UpdatedVertex};
 
-/// The values of a mesh's vertices. All columns have the same length.
+/// The vertex values of a mesh. All columns have the same length.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Columns {
     pub(crate) positions: [Vec<f32>; 3],
@@ -38,8 +37,8 @@ impl Columns {
         }
     }
 
-    /// Writes the values of vertices that a change of the mesh has touched; new ones come
-    /// in the order of their numbers.
+    /// Writes the values of vertices that a change of the mesh has affected; new ones come in order
+    /// of their numbers.
     pub(crate) fn update(&mut self, mesh: &Mesh, vertices: &[UpdatedVertex]) {
         let Self { positions, normals, tangents, uv_sets, colors } = self;
         let attributes = mesh.attributes();

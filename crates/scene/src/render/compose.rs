@@ -1,5 +1,5 @@
-//! Which draws a picture needs, each with the pipeline that its material and
-//! mesh call for and no more.
+//! Composes the draws of a frame, each with the pipeline that its material and mesh need and no
+//! more.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -26,12 +26,12 @@ use crate::node::NodeId;
 use crate::scene::{MeshAsset, Scene};
 use crate::settings::{RenderSettings, Style};
 
-/// Size of loose points, in line widths.
+/// The size of loose points, in line widths.
 const POINT_TO_LINE: f32 = 3.0;
 
-/// The share of their distance by which points of vertices are drawn nearer, so that faces
-/// that slope towards the eye around a vertex do not cut its point. What is hidden by more
-/// than that stays hidden.
+/// The fraction of their distance by which vertex points are drawn nearer, so that faces that slope
+/// towards the eye around a vertex do not cut its point. Points hidden by more than that stay
+/// hidden.
 const VERTEX_TOWARD_EYE: f32 = 1.0 / 256.0;
 
 /// Everything that all draws of a picture share.
@@ -47,15 +47,15 @@ pub(super) struct Composer<'s> {
     purpose: Purpose,
 }
 
-/// What lies around the camera.
+/// The lighting environment.
 type Around<'s> = (&'s Shapes, &'s Scenery, &'s Eye, &'s Backdrop);
 
-/// What a pass is drawn for.
+/// The purpose of a pass.
 #[derive(Clone, Copy, PartialEq)]
 enum Purpose {
     /// Colours.
     Colors,
-    /// Depth and ids alone: nothing is shaded.
+    /// Depth and ids only: nothing is shaded.
     Shapes,
 }
 
@@ -67,7 +67,7 @@ struct Object<'s> {
     asset: &'s MeshAsset,
     geometry: &'s Geometry,
     place: Placement,
-    /// Of faces, and of edges on faces.
+    /// For faces, and for edges on faces.
     marks: Option<Arc<MarkNumbers>>,
 }
 
@@ -93,7 +93,7 @@ impl<'s> Composer<'s> {
         }
     }
 
-    /// For a pass of which only depth and ids are kept. The scenery has to be empty.
+    /// For a pass of which only depth and ids are kept. The lighting environment must be empty.
     pub(super) fn of_shapes(
         scene: &'s Scene,
         camera: &Camera,
@@ -103,7 +103,7 @@ impl<'s> Composer<'s> {
         Self { purpose: Purpose::Shapes, ..Self::new(scene, camera, settings, around) }
     }
 
-    /// All draws of the picture.
+    /// All draws of the frame.
     pub(super) fn draws(&self, counts: &mut Counts) -> Vec<Box<dyn Record + '_>> {
         let mut draws: Vec<Box<dyn Record>> = Vec::new();
         for (id, node) in self.scene.nodes().iter() {
@@ -112,7 +112,7 @@ impl<'s> Composer<'s> {
             if !self.may_show(asset, shape) {
                 continue;
             }
-            // A posed mesh is where its joints put it, however large it is at rest.
+            // A posed mesh is where its joints place it, however large it is at rest.
             let bounds = match shape.is_posed {
                 true => shape.geometry.bounds(),
                 false => shape.geometry.bounds().union(asset.bounds()),
@@ -125,8 +125,8 @@ impl<'s> Composer<'s> {
         draws
     }
 
-    /// What is out of view is not prepared. Lines and points reach beyond their
-    /// vertices by their width, so only surfaces are left out.
+    /// Objects out of view are not prepared. Lines and points extend beyond their vertices by their
+    /// width, so only surfaces are culled.
     fn may_show(&self, asset: &MeshAsset, shape: &Shape) -> bool {
         let mesh = asset.mesh();
         let wires = !mesh.loose_edges().is_empty() || !mesh.loose_points().is_empty();
@@ -172,7 +172,7 @@ impl<'s> Composer<'s> {
         draws.extend(self.vertices(object));
     }
 
-    /// What is marked of a node's faces, and of the edges on them.
+    /// The marks of a node's faces, and of the edges on them.
     fn marks(&self, node: NodeId) -> Option<Arc<MarkNumbers>> {
         let RenderSettings { marks, style, .. } = self.settings;
         if self.purpose != Purpose::Colors || marks.is_plain() {
@@ -185,7 +185,7 @@ impl<'s> Composer<'s> {
         is_marked.then(|| Arc::new(MarkNumbers { edges, faces }))
     }
 
-    /// The edges that the sides of triangles are, if some of them are marked.
+    /// The mesh edges of triangle sides, if some of them are marked.
     fn sides(&self, object: &Object<'s>, marks: &MarkNumbers) -> &'s [[u32; 3]] {
         if marks.edges.is_empty() { &[] } else { object.geometry.side_edges(object.asset.mesh()) }
     }
@@ -197,7 +197,7 @@ impl<'s> Composer<'s> {
         Some(ObjectMarks { sides, numbers })
     }
 
-    /// The material of a slot; the default where there is none.
+    /// The material of a slot; the default if there is none.
     fn material(&self, object: &Object<'s>, slot: u32) -> &Material {
         let id = object.node.materials.get(slot as usize);
         id.and_then(|&id| self.scene.materials.get(id)).unwrap_or(&self.default_material)
@@ -208,7 +208,7 @@ impl<'s> Composer<'s> {
         Occasion { scene: self.scene, scenery: self.scenery, rays: self.rays, shading, reflection }
     }
 
-    /// The triangles of one slot in their material.
+    /// The triangles of one slot with their material.
     fn surface<'c>(&'c self, object: &Object<'s>, run: &Run, counts: &mut Counts) -> Box<dyn Record + 'c>
     where
         's: 'c,
@@ -230,14 +230,14 @@ impl<'s> Composer<'s> {
         }
     }
 
-    /// The same triangles without a look: where they are, and where they have holes.
-    /// `None` where what is behind them is asked for.
+    /// The same triangles without shading: their positions and alpha masks. `None` if blended
+    /// surfaces are to be seen through.
     fn shape<'c>(&'c self, object: &Object<'s>, run: &Run) -> Option<Box<dyn Record + 'c>>
     where
         's: 'c,
     {
         let material = self.material(object, run.slot);
-        // Of the look only alpha is left.
+        // Only alpha is needed from the material.
         let mut bare = Material {
             shading: Shading::Unlit,
             emissive: Vec3::ZERO,
@@ -321,7 +321,7 @@ impl<'s> Composer<'s> {
         Wire { positions: object.asset.mesh().positions(), place: object.place, color, marks }
     }
 
-    /// Lines along edges of a mesh, from the first of them on.
+    /// Lines along edges of a mesh, starting with the given one.
     fn segments<'c>(
         &'c self,
         object: &Object<'s>,
@@ -356,7 +356,7 @@ impl<'s> Composer<'s> {
         (!points.is_empty()).then(|| Box::new(dots()) as Box<dyn Record>)
     }
 
-    /// The vertices of faces, edges and points. They write neither depth nor ids: what is seen
+    /// The vertices of faces, edges and points. They write neither depth nor ids, so that what lies
     /// below them can be picked.
     fn vertices<'c>(&'c self, object: &Object<'s>) -> Option<Box<dyn Record + 'c>> {
         let shown = self.settings.vertices.filter(|_| self.purpose == Purpose::Colors)?;

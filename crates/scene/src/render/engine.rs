@@ -1,5 +1,5 @@
-//! What draws: threads, memory and caches that last from picture to picture, and
-//! the order of the steps that make one.
+//! The drawing engine: threads, memory and caches that last from frame to frame, and the order of
+//! the steps of a frame.
 
 use trigon_camera::Camera;
 use trigon_math::UVec2;
@@ -19,7 +19,7 @@ use crate::outputs::{self, Needed};
 use crate::scene::Scene;
 use crate::settings::{RenderSettings, Style};
 
-/// Draws pictures one after the other. What it keeps between them changes no byte.
+/// Draws frames one after the other. What it keeps between them changes no byte.
 #[derive(Default)]
 pub(super) struct Engine {
     rasterizer: Option<Rasterizer>,
@@ -31,15 +31,14 @@ pub(super) struct Engine {
 }
 
 impl Engine {
-    /// Draws into a frame whose memory is used again; after an error it holds
-    /// nothing of use.
+    /// Draws into an existing frame; after an error its contents are unspecified.
     pub(super) fn draw(
         &mut self,
         (scene, camera, settings): (&Scene, &Camera, &RenderSettings),
         cancel: Option<&Cancel>,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
-        // Checks the size, before memory is taken for it.
+        // Checks the size before memory is allocated for it.
         let sample = blank(settings)?.visibility_sample();
         frame.make_room(settings)?;
         let mut rasterizer = self.rasterizer(settings)?;
@@ -53,7 +52,7 @@ impl Engine {
         if settings.outputs.of_light() {
             let drawn =
                 self.draw_colors(&stage, camera, (&plan, frame, apart), (&mut rasterizer, &mut counts));
-            // It may have been cancelled, too: its shadow maps may not be whole.
+            // It may have been cancelled, too: its shadow maps may be incomplete.
             is_kept = drawn.inspect_err(|_| self.kept.forget_unfinished())?;
         }
         if apart {
@@ -120,7 +119,7 @@ impl Engine {
         Ok(is_kept)
     }
 
-    /// Draws nothing but what is seen.
+    /// Draws only ids and depth.
     fn draw_seen(
         &mut self,
         stage: &Stage<'_>,
@@ -135,7 +134,7 @@ impl Engine {
             settings,
             (&stage.shapes, &dark, &stage.eye, &stage.backdrop),
         );
-        // Effects have no part in it.
+        // Effects do not matter for it.
         let draws = composer.draws(&mut Counts::default());
         let mut pass = Pass::new();
         draws.iter().for_each(|draw| draw.record(&mut pass));
@@ -162,7 +161,7 @@ impl Engine {
         [seen.objects.capacity(), seen.faces.capacity(), seen.triangles.capacity()]
     }
 
-    /// The last picture's rasterizer when its settings fit, or a new one.
+    /// The last frame's rasterizer if its settings fit, or a new one.
     fn rasterizer(&mut self, settings: &RenderSettings) -> Result<Rasterizer, RenderError> {
         let how = ExecuteSettings { threads: settings.threads, simd: settings.simd, ..Default::default() };
         let kept = self.rasterizer.take().filter(|rasterizer| *rasterizer.settings() == how);
@@ -201,7 +200,7 @@ fn record<T>(
     draw(&pass, &draws, counts)
 }
 
-/// A target of the right size and samples that keeps nothing.
+/// A target of the right size and samples that stores nothing.
 fn blank<'a>(settings: &RenderSettings) -> Result<Target<'a>, TargetError> {
     let target = Target::new(settings.width, settings.height, &[])?;
     target.with_samples_per_axis(settings.samples_per_axis)?.with_samples(settings.samples)
@@ -209,12 +208,12 @@ fn blank<'a>(settings: &RenderSettings) -> Result<Target<'a>, TargetError> {
 
 /// From stored depths to metres.
 fn measure_depth(frame: &mut Frame, camera: &Camera, settings: &RenderSettings, rasterizer: &Rasterizer) {
-    /// Pixels that a thread takes at a time.
+    /// Pixels per task.
     const PIECE: usize = 1 << 16;
     let Some(depths) = &mut frame.depth else { return };
     let distance = DepthToDistance::new(&camera.projection, settings.aspect());
     let measure = |depths: &mut [f32]| depths.iter_mut().for_each(|depth| *depth = distance.at(*depth));
-    // Waking others costs more than a small picture takes.
+    // Waking other threads costs more than a small image takes.
     if depths.len() <= PIECE {
         measure(depths);
     } else {

@@ -1,7 +1,7 @@
-//! A mesh as it is drawn: triangles grouped by material slot.
+//! A mesh as drawn: triangles grouped by material slot.
 //!
-//! Made once per mesh, at its first picture, and shared by all nodes that draw
-//! the mesh. After a change of few of the mesh's values it follows: see `change`.
+//! Created once per mesh, at its first frame, and shared by all nodes that draw the mesh. After a
+//! change of few of the mesh's values it is updated: see `change`.
 
 mod blocks;
 mod change;
@@ -26,17 +26,17 @@ use side_edges::{NO_EDGE, sides_of_mesh};
 /// with a normal map takes as much memory as the mesh, and a file may have thousands.
 const MOST_TANGENT_SETS: usize = 8;
 
-/// A mesh as it is drawn.
+/// A mesh as drawn.
 #[derive(Debug)]
 pub(crate) struct Geometry {
     pub(crate) columns: Columns,
     /// Vertices, ordered by material slot.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// The polygon that each triangle is a part of.
+    /// The polygon of each triangle.
     pub(crate) faces: Vec<u32>,
     /// The triangles of each slot, in the order of the slots.
     pub(crate) runs: Vec<Run>,
-    /// Where each triangle was in the triangulation; `None` when in place.
+    /// The original position of each triangle in the triangulation; `None` if unchanged.
     order: Option<Vec<u32>>,
     /// Places in the triangulation of triangles that a change has taken from their faces,
     /// increasing. The three corners of such a triangle are one.
@@ -46,36 +46,36 @@ pub(crate) struct Geometry {
     bounds: OnceLock<Bounds3>,
     blocks: OnceLock<Blocks>,
     edge_flags: OnceLock<Vec<EdgeFlags>>,
-    /// Poses share it.
+    /// Shared by poses.
     side_edges: OnceLock<Arc<Vec<[u32; 3]>>>,
     /// The mesh at rest, if a pose can change it.
     rest: Option<Box<RenderMesh>>,
-    /// For each of the first UV sets the same with its tangents, made when a normal map
-    /// on that set asks for them.
+    /// For each of the first UV sets the same with its tangents, created when a normal map on that
+    /// set needs them.
     tangential: Vec<OnceLock<Box<Geometry>>>,
     /// How a posed mesh without tangents came about, to make them.
     pose: Option<Pose>,
-    /// How it follows changes of the mesh; `None` until there was one.
+    /// The data to follow changes of the mesh; `None` until the first one.
     links: Option<RenderLinks>,
     /// What the last change has written.
     pub(crate) change: Option<GeometryChange>,
 }
 
-/// What differs between geometry and what it was before a change.
+/// The difference between geometry and its state before a change.
 #[derive(Debug)]
 pub(crate) struct GeometryChange {
     pub(crate) before: GeometryState,
     /// Vertices with other values.
     pub(crate) vertices: Vec<u32>,
-    /// Vertices of the mesh at other places.
+    /// Vertices of the mesh that moved.
     pub(crate) mesh_vertices: Vec<u32>,
-    /// Triangles that may have other corners or other flags of their edges; increasing.
+    /// Triangles that may have other corners or other edge flags; increasing.
     pub(crate) triangles: Vec<u32>,
 }
 
-/// Names geometry as it is at some moment. What is made of geometry is kept with its
-/// state, to know it again, and not with the geometry, which is changed in place where
-/// nobody else holds it.
+/// Identifies geometry in its state at some moment. Data derived from geometry is kept with its
+/// state, to recognize it later, and not with the geometry, which is changed in place if it has no
+/// other owner.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GeometryState(Arc<()>);
 
@@ -135,8 +135,7 @@ impl Geometry {
         }
     }
 
-    /// The mesh in a pose; see [`RenderMesh::deform`]. `None` when no pose can
-    /// change it.
+    /// The mesh in a pose; see [`RenderMesh::deform`]. `None` if no pose can change it.
     pub(crate) fn posed(self: &Arc<Self>, weights: &[f32], palette: &[Affine3]) -> Option<Self> {
         let posed = self.deformed(weights, palette)?;
         let pose = || Pose { rest: Arc::clone(self), weights: weights.to_vec(), palette: palette.to_vec() };
@@ -231,10 +230,9 @@ impl Geometry {
         self.blocks.get().expect("they were just made")
     }
 
-    /// The mesh as a normal map on a UV set needs it: with the tangents that it
-    /// has, or else with tangents of that set made at the first use, of the mesh at
-    /// rest: a pose moves them along. The mesh as it is where there is no such set: no
-    /// normal map is drawn on it.
+    /// The mesh as a normal map on a UV set needs it: with its own tangents, or else with tangents
+    /// of that set created on first use, from the mesh at rest: a pose moves them along. The mesh
+    /// unchanged if it has no such set, and no normal map is then drawn on it.
     pub(crate) fn with_tangents(&self, source: &Mesh, uv_set: usize) -> &Self {
         let Some(tangential) = self.tangential.get(uv_set).filter(|_| self.columns.tangents.is_none()) else {
             return self;
@@ -252,8 +250,8 @@ impl Geometry {
         })
     }
 
-    /// For each triangle, which of its edges are edges of its polygon. Only
-    /// pictures that show edges ask for it.
+    /// For each triangle, which of its sides are edges of its polygon. Computed only for frames
+    /// that show edges.
     pub(crate) fn edge_flags(&self, source: &Mesh) -> &[EdgeFlags] {
         self.edge_flags.get_or_init(|| {
             let mut flags = self.with_fillers(flags_of_mesh(source), EdgeFlags::NONE);
@@ -264,8 +262,8 @@ impl Geometry {
         })
     }
 
-    /// For each triangle the edges of the mesh that its sides are; `u32::MAX` for diagonals.
-    /// Only pictures with marked edges ask for it: it takes 12 bytes for each triangle.
+    /// For each triangle the mesh edges of its sides; `u32::MAX` for diagonals. Computed only for
+    /// frames with marked edges: it takes 12 bytes per triangle.
     pub(crate) fn side_edges(&self, source: &Mesh) -> &[[u32; 3]] {
         self.side_edges.get_or_init(|| {
             let mut sides = self.with_fillers(sides_of_mesh(source), [NO_EDGE; 3]);

@@ -1,4 +1,4 @@
-//! What a renderer keeps from picture to picture, and draws with.
+//! What a renderer keeps from frame to frame.
 
 use trigon_math::Vec4;
 use trigon_raster::{Pass, Rasterizer, Stats, Target, TargetError};
@@ -12,21 +12,21 @@ use crate::frame::{Frame, resize};
 use crate::outputs::{Needed, Seen};
 use crate::settings::RenderSettings;
 
-/// What a renderer keeps from picture to picture. It changes no byte of one.
+/// What a renderer keeps from frame to frame. It changes no byte of one.
 #[derive(Default)]
 pub(super) struct Kept {
     shadows: ShadowCache,
     rays: RayCache,
-    /// The picture before its tones are mapped.
+    /// The image before tone mapping.
     linear: Vec<Vec4>,
     /// What shows through its faces, likewise.
     beneath: Vec<Vec4>,
-    /// What each pixel sees, as far as outputs and outlines need it.
+    /// The visible triangle of each pixel, as far as outputs and outlines need it.
     pub(super) seen: Seen,
 }
 
 impl Kept {
-    /// What all surfaces have around them, as far as the plan asks for it.
+    /// The lighting environment, as far as the plan requires it.
     pub(super) fn scenery(
         &mut self,
         stage: &Stage<'_>,
@@ -67,7 +67,7 @@ impl Kept {
         Ok(scenery)
     }
 
-    /// The picture was cancelled: what was drawn for it may not be whole.
+    /// The frame was cancelled: what was drawn for it may be incomplete.
     pub(super) fn forget_unfinished(&mut self) {
         if self.shadows.drawn() > 0 {
             self.shadows = ShadowCache::default();

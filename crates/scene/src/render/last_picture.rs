@@ -1,9 +1,9 @@
-//! The last picture, kept so that the next one may follow from it: where few vertices of a
-//! mesh have moved since, and everything else is as it was, most of the picture is.
+//! The last image, kept so that the next frame can reuse it: if few vertices of a mesh have moved
+//! since, and everything else is unchanged, most of the image is the same.
 //!
-//! A picture that is kept is drawn here and copied to the frame, as frames are their users':
-//! nobody knows what they hold when they come back. So it takes its memory twice. Pictures of
-//! meshes that were never changed and of which nothing is marked keep nothing.
+//! A kept image is drawn here and copied to the frame, because a frame belongs to its user, who may
+//! change it. So it takes its memory twice. Images of meshes that were never changed and have no
+//! marks are not kept.
 
 mod marked;
 
@@ -27,8 +27,8 @@ use crate::outputs::{Needed, Seen};
 use crate::settings::RenderSettings;
 use crate::texture_asset::TextureId;
 
-/// Effects with which what a tile shows may depend on what others do, on geometry out of
-/// view, or on another pass. Pictures with them do not follow.
+/// Effects that make a tile depend on other tiles, on geometry out of view, or on another pass.
+/// Frames with them do not reuse the last image.
 const COUPLING: [Effect; 8] = [
     Effect::Poses,
     Effect::ShadowMaps,
@@ -43,11 +43,11 @@ const COUPLING: [Effect; 8] = [
 /// Rows of a picture that a thread copies at a time.
 const ROWS: usize = 32;
 
-/// The last picture, and what it was made from.
+/// The last image, and what it was made from.
 #[derive(Default)]
 pub(super) struct LastPicture {
     origin: Option<Box<Origin>>,
-    /// Whether the pictures below are of that origin, and whole.
+    /// Whether the images below have that origin, and are complete.
     is_whole: bool,
     color: Vec<u8>,
     /// In metres.
@@ -55,7 +55,7 @@ pub(super) struct LastPicture {
     seen: Seen,
 }
 
-/// Everything that a picture is made from, but for the values of meshes.
+/// Everything that a frame is made from, except the values of meshes.
 struct Origin {
     /// Without the environment, which takes long to compare, and without marks.
     settings: RenderSettings,
@@ -79,17 +79,17 @@ struct DrawOrigin {
     marks: MarkOrigin,
 }
 
-/// How a picture comes from the last one.
+/// How a frame follows from the last one.
 pub(super) enum Step {
     /// It does not. It is drawn as if nothing were kept.
     Apart,
-    /// It is to be kept, and all of it is drawn.
+    /// It is kept, and all of it is drawn.
     Whole,
-    /// It differs in this of each draw.
+    /// It differs in this for each draw.
     Changed(Vec<ChangedDraw>),
 }
 
-/// What of a draw is other than in the last picture.
+/// How a draw differs from that of the last frame.
 #[derive(Default)]
 pub(super) struct ChangedDraw {
     vertices: Vec<u32>,
@@ -98,7 +98,7 @@ pub(super) struct ChangedDraw {
 }
 
 impl LastPicture {
-    /// How the picture of a stage comes from the last one, of which it takes the place.
+    /// How the frame of a stage follows from the last one, which it replaces.
     pub(super) fn step(
         &mut self,
         (stage, camera, plan): (&Stage<'_>, &Camera, &EffectPlan),
@@ -153,7 +153,7 @@ impl LastPicture {
         Ok(redraw.stats)
     }
 
-    /// Whether the picture that was drawn can be used.
+    /// Whether the drawn image can be reused.
     pub(super) fn set_whole(&mut self, is_whole: bool) {
         self.is_whole = is_whole;
     }
@@ -194,7 +194,7 @@ impl LastPicture {
         });
     }
 
-    /// Copies what the frame is to hold.
+    /// Copies the requested outputs to the frame.
     fn copy_to(&self, frame: &mut Frame, rasterizer: &Rasterizer) {
         /// Bytes and numbers that a thread copies at a time.
         const PIECE: usize = 1 << 18;

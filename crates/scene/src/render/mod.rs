@@ -1,7 +1,7 @@
-//! From a scene to a picture: gather lights, compose a pipeline for each mesh
-//! and material, record one pass, execute it, and hand the outputs over.
+//! From a scene to a frame: gather lights, compose a pipeline for each mesh and material, record
+//! one pass, execute it, and compute the outputs.
 //!
-//! A picture is a pure function of scene, camera and settings.
+//! A frame is a pure function of scene, camera and settings.
 
 mod backdrop;
 mod builder;
@@ -38,13 +38,13 @@ use crate::frame::Frame;
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 
-/// Why a picture cannot be drawn.
+/// Why a frame cannot be drawn.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum RenderError {
     /// The size or the number of samples is out of range.
     #[error(transparent)]
     Target(#[from] TargetError),
-    /// The processor lacks the SIMD level asked for.
+    /// The processor lacks the requested SIMD level.
     #[error(transparent)]
     Simd(#[from] SimdLevelError),
     /// [`Renderer::render_cancellable`] was cancelled.
@@ -52,13 +52,12 @@ pub enum RenderError {
     Cancelled,
 }
 
-/// Draws one picture: a pure function of scene, camera and settings. It begins with
-/// nothing and keeps nothing; to draw many, keep a [`Renderer`], which gives the same
-/// bytes sooner.
+/// Draws one frame: a pure function of scene, camera and settings. It keeps nothing; to draw many,
+/// use a [`Renderer`], which gives the same bytes faster.
 ///
 /// # Errors
-/// When the size or the number of samples is out of range, or the processor lacks the
-/// SIMD level asked for.
+/// The size or the number of samples is out of range, or the processor lacks the requested SIMD
+/// level.
 pub fn render(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Result<Frame, RenderError> {
     Renderer::new(settings.clone()).render(scene, camera)
 }

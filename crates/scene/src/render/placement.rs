@@ -1,4 +1,4 @@
-//! The maps of one node: computed once per node in f64, cast once to f32.
+//! The transforms of one node: computed once per node in f64, cast once to f32.
 
 use trigon_camera::{Camera, Projection};
 use trigon_math::{Bounds3, DAffine3, DMat3, DMat4, DVec3, Frustum, Mat3, Mat4, Vec3};
@@ -8,23 +8,21 @@ use trigon_raster::simd::{F32, Simd};
 use super::lanes::{V3, difference, mapped, moved, splat};
 use crate::scene::Place;
 
-/// The maps of one node, ready for the vertex stage.
+/// The transforms of one node, ready for the vertex stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Placement {
-    /// What positions are counted from, in the mesh's space: the origin, or where the
-    /// eye is within a mesh that is large beside its distance.
+    /// The origin of positions, in the mesh's space: zero, or the point nearest to the eye within a
+    /// mesh that is large relative to its distance.
     pub(crate) anchor: Vec3,
     /// From the anchor.
     pub(crate) to_clip: Mat4,
     /// From the anchor.
     to_camera: Mat4,
-    /// Turns normals; the result has any length.
+    /// Transforms normals; the result has any length.
     pub(crate) normal_to_camera: Mat3,
-    /// The side to drop so that backs are: a mirroring placement turns the
-    /// winding over.
+    /// The culled side for back faces: a mirroring placement flips the winding.
     pub(crate) cull_back: Culling,
-    /// The side that a triangle shows when it winds counter-clockwise on the
-    /// screen.
+    /// The side that a triangle shows when it winds counter-clockwise on the screen.
     pub(crate) front: Side,
 }
 
@@ -41,12 +39,12 @@ impl Placement {
         moved(&self.to_camera, difference(position, splat(simd, self.anchor)))
     }
 
-    /// Turns what runs along a surface; the result has any length.
+    /// Transforms tangents; the result has any length.
     pub(crate) fn tangent_to_camera(&self) -> Mat3 {
         Mat3::from_mat4(self.to_camera)
     }
 
-    /// By what the side of the bitangent is multiplied: a mirror exchanges sides.
+    /// The factor on the handedness of the bitangent: a mirror exchanges sides.
     pub(crate) fn handedness(&self) -> f32 {
         if self.front == Side::Front { 1.0 } else { -1.0 }
     }
@@ -59,7 +57,7 @@ pub(crate) enum Side {
     Back,
 }
 
-/// How rays of view run.
+/// How view rays run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Rays {
     /// Perspective.
@@ -68,10 +66,10 @@ pub(crate) enum Rays {
     Parallel,
 }
 
-/// Everything about the camera that placements need.
+/// The camera data that placements need.
 pub(crate) struct Eye {
     position: DVec3,
-    /// The rotation alone: the eye is subtracted before it is applied.
+    /// Only the rotation: the eye is subtracted before it is applied.
     turn: DMat3,
     projection: DMat4,
     /// What the camera sees, in camera space.
@@ -86,14 +84,14 @@ impl Eye {
         Self { position: camera.position, turn, projection, frustum }
     }
 
-    /// Whether a box at a place of the world may be in view; `false` is a proof
-    /// that nothing in it is.
+    /// Whether a box at a placement in the world may be in view; `false` is a proof that nothing in
+    /// it is.
     pub(crate) fn may_see(&self, bounds: &Bounds3, world: &DAffine3) -> bool {
         self.frustum.intersects(&bounds.transformed(&self.to_camera(world)))
     }
 
-    /// A map of the world in camera space. Large translations cancel before
-    /// anything is rounded to f32.
+    /// A world transform in camera space. Large translations cancel before anything is rounded to
+    /// f32.
     pub(crate) fn to_camera(&self, world: &DAffine3) -> DAffine3 {
         DAffine3 {
             matrix3: self.turn * world.matrix3,
@@ -118,13 +116,13 @@ impl Eye {
     }
 }
 
-/// What positions are best counted from, so that a place in f32 is a sum of terms no
-/// larger than 9 times its distance from the eye. (A map that shears may add its shear.)
+/// The best origin for positions, so that a position in f32 is a sum of terms no larger than 9
+/// times its distance from the eye. (A shearing map may add its shear.)
 ///
-/// From the origin terms are as large as the mesh and its distance. In a land of
-/// kilometres that leaves millimetres of rounding at the eye's feet, which change with
-/// every step. From the point of the box that is nearest to the eye, no coordinate is
-/// farther than it is from the eye.
+/// Relative to the mesh's origin, terms are as large as the mesh and its distance. In a terrain of
+/// kilometres that leaves millimetres of rounding near the eye, which change with every step.
+/// Relative to the point of the box nearest to the eye, no coordinate is larger than its distance
+/// from the eye.
 fn anchor(to_camera: &DAffine3, bounds: &Bounds3) -> Vec3 {
     /// Meshes up to this many times as large as their distance keep their origin.
     const LARGE: f64 = 4.0;
@@ -165,7 +163,7 @@ fn largest_entry(matrix: &DMat3) -> f64 {
     entries.iter().fold(0.0, |largest, entry| if entry.abs() > largest { entry.abs() } else { largest })
 }
 
-/// From the depth that the rasterizer stores back to metres.
+/// Converts the depth that the rasterizer stores back to metres.
 pub(super) struct DepthToDistance {
     /// z_clip = a·z + b and w_clip = c·z + d for a point at z in camera space.
     a: f64,

@@ -1,4 +1,4 @@
-//! The renderer as its users see it.
+//! The public renderer.
 
 use trigon_camera::Camera;
 use trigon_raster::{Cancel, Stats};
@@ -11,12 +11,12 @@ use crate::frame::Frame;
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 
-/// Draws pictures one after the other, as its settings say, and keeps threads, memory
-/// and shadow maps between them. What it keeps changes no byte of a picture: the
-/// function [`render`](crate::render()) draws the same one, and begins anew each time.
+/// Draws frames one after the other, with its settings, and keeps threads, memory and shadow maps
+/// between them. These change no byte of a frame: the function [`render`](crate::render()) draws
+/// the same one, and starts from scratch each time.
 ///
-/// [`Renderer::builder`] takes the usual settings by name; all of them are in
-/// [`settings_mut`](Self::settings_mut), at any time.
+/// [`Renderer::builder`] takes the most common settings by name;
+/// [`settings_mut`](Self::settings_mut) gives access to all of them, at any time.
 ///
 /// It needs no window, no display and no global state; several can draw the same
 /// scene at the same time from several threads.
@@ -46,23 +46,22 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// A renderer with these settings that holds no memory yet.
+    /// A renderer with these settings that has not allocated memory yet.
     pub fn new(settings: RenderSettings) -> Self {
         Self { settings, engine: Engine::default() }
     }
 
-    /// A renderer from the settings that differ from the usual ones.
+    /// A builder for a renderer from the settings that differ from the defaults.
     pub fn builder() -> RendererBuilder {
         RendererBuilder::default()
     }
 
-    /// How pictures are drawn.
+    /// The current settings.
     pub fn settings(&self) -> &RenderSettings {
         &self.settings
     }
 
-    /// How the next picture is drawn, to change it. Memory and threads that still fit
-    /// are used on.
+    /// The settings of the next frame, mutable. Memory and threads that still fit are reused.
     pub fn settings_mut(&mut self) -> &mut RenderSettings {
         &mut self.settings
     }
@@ -70,16 +69,16 @@ impl Renderer {
     /// Draws what the camera sees of the scene.
     ///
     /// # Errors
-    /// When the size or the number of samples is out of range, or the processor lacks
-    /// the SIMD level asked for.
+    /// The size or the number of samples is out of range, or the processor lacks the requested SIMD
+    /// level.
     pub fn render(&mut self, scene: &Scene, camera: &Camera) -> Result<Frame, RenderError> {
         let mut frame = Frame::default();
         self.render_into(scene, camera, &mut frame)?;
         Ok(frame)
     }
 
-    /// As [`render`](Self::render), into a frame whose memory is used again. What
-    /// it held does not matter; after an error it holds nothing of use.
+    /// As [`render`](Self::render), into an existing frame. Its previous contents do not matter;
+    /// after an error they are unspecified.
     ///
     /// # Errors
     /// As [`render`](Self::render).
@@ -92,12 +91,12 @@ impl Renderer {
         self.engine.draw((scene, camera, &self.settings), None, frame)
     }
 
-    /// As [`render`](Self::render), but gives up soon after `cancel` is cancelled: when
-    /// the tiles under way are done, or what comes before the tiles. For pictures that
-    /// nobody will look at, because the camera has moved on.
+    /// As [`render`](Self::render), but returns soon after `cancel` is cancelled: when the current
+    /// tiles are done, or the stage before the tiles. For frames that nobody will see, because the
+    /// camera has moved on.
     ///
     /// # Errors
-    /// As [`render`](Self::render), and [`RenderError::Cancelled`].
+    /// Those of [`render`](Self::render), and [`RenderError::Cancelled`].
     pub fn render_cancellable(
         &mut self,
         scene: &Scene,
@@ -109,13 +108,13 @@ impl Renderer {
         Ok(frame)
     }
 
-    /// Draws what each of these cameras sees, one after the other, and shows every
-    /// picture with its number from 0 to `visit`. They all use the memory of one
-    /// frame: `visit` clones or writes what it wants to keep.
+    /// Draws what each of these cameras sees, one after the other, and passes every frame with its
+    /// number from 0 to `visit`. They all use the memory of one frame: `visit` clones or writes
+    /// what it wants to keep.
     ///
     /// # Errors
-    /// The first one of drawing, as [`render`](Self::render), or of `visit`; no more
-    /// pictures are drawn then.
+    /// The first error of drawing, as for [`render`](Self::render), or of `visit`; no more frames
+    /// are drawn then.
     pub fn render_many<E: From<RenderError>>(
         &mut self,
         scene: &Scene,
@@ -130,17 +129,17 @@ impl Renderer {
         Ok(())
     }
 
-    /// The plan of the last picture; `None` before the first.
+    /// The plan of the last frame; `None` before the first.
     pub fn plan(&self) -> Option<&EffectPlan> {
         self.engine.plan()
     }
 
-    /// What an effect took in the last picture.
+    /// The cost of an effect in the last frame.
     pub fn effect_counts(&self, effect: Effect) -> EffectCounts {
         self.engine.effect_counts(effect)
     }
 
-    /// What the last picture took, in counts.
+    /// The cost of the last frame, in counts.
     pub fn stats(&self) -> &Stats {
         self.engine.stats()
     }

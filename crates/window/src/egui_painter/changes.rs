@@ -1,6 +1,6 @@
-//! What differs between two passes: the triangles that came, went, or look
-//! different. A pixel that none of them touches is painted by the same triangles in
-//! the same order as before, and so keeps its colour.
+//! The difference between two passes: the triangles that were added, removed, or changed. A pixel
+//! that none of them touches is painted by the same triangles in the same order as before, and so
+//! keeps its colour.
 
 use egui::epaint::{ClippedPrimitive, Mesh, Primitive, Vertex};
 use trigon_raster::paint2d::Rect;
@@ -30,7 +30,7 @@ pub(super) fn mark(
     }
 }
 
-/// How many pairs from the start on are alike.
+/// The length of the common prefix of pairs that are alike.
 fn common<T>(mut pairs: impl Iterator<Item = (T, T)>, alike: impl Fn(T, T) -> bool) -> usize {
     let mut count = 0;
     while let Some((a, b)) = pairs.next()
@@ -67,7 +67,7 @@ impl Marker<'_> {
         }
     }
 
-    /// What differs between two primitives that are alike.
+    /// Marks the differences between two primitives that are alike.
     fn differences(&mut self, pair: [&ClippedPrimitive; 2], textures: &Textures) {
         let [Primitive::Mesh(before), Primitive::Mesh(after)] = pair.map(|one| &one.primitive) else {
             return;
@@ -91,8 +91,8 @@ impl Marker<'_> {
         }
     }
 
-    /// Two meshes of which one has triangles more than the other: what is between
-    /// those that both begin and end with.
+    /// Two meshes of which one has additional triangles: marks those between the common beginning
+    /// and the common end.
     fn rearranged(&mut self, meshes: [&Mesh; 2]) {
         let [before, after] = meshes.map(triangles);
         let first = common(before.zip(after), |a, b| a == b);
@@ -106,7 +106,7 @@ impl Marker<'_> {
 
     fn triangle(&mut self, triangle: &Triangle<'_>) {
         let bounds = around(triangle.map(|vertex| vertex.pos));
-        // Places are rounded to 1/256 pixel: what is within a pixel may be touched.
+        // Positions are rounded to 1/256 pixel: anything within a pixel may be touched.
         let pixels = to_pixels(bounds.expand(1.0 / self.pixels_per_point), self.pixels_per_point);
         self.damage.mark(pixels.intersection(self.clip));
     }
@@ -114,8 +114,7 @@ impl Marker<'_> {
 
 type Triangle<'a> = [&'a Vertex; 3];
 
-/// The triangles of a mesh. A corner whose index no vertex has is as good as any:
-/// that triangle is not painted.
+/// The triangles of a mesh. A triangle with an index that no vertex has is not painted.
 fn triangles(mesh: &Mesh) -> impl DoubleEndedIterator<Item = Triangle<'_>> + ExactSizeIterator {
     static NOWHERE: Vertex =
         Vertex { pos: egui::Pos2::ZERO, uv: egui::Pos2::ZERO, color: egui::Color32::TRANSPARENT };
@@ -123,7 +122,7 @@ fn triangles(mesh: &Mesh) -> impl DoubleEndedIterator<Item = Triangle<'_>> + Exa
     mesh.indices.as_chunks::<3>().0.iter().map(move |indices| indices.map(vertex))
 }
 
-/// The box around three places.
+/// The box around three positions.
 fn around(places: [egui::Pos2; 3]) -> egui::Rect {
     egui::Rect::from_points(&places)
 }

@@ -1,12 +1,12 @@
-//! What is to be painted anew: cells of the screen, and rectangles made of them.
+//! The damaged area: cells of the screen to repaint, and rectangles made of them.
 
 use trigon_raster::paint2d::Rect;
 
-/// The side of a cell in pixels: about two lines of text, so that a label that
-/// changes costs little beside itself, and few enough to list.
+/// The side of a cell in pixels: about two lines of text, so that a label that changes repaints
+/// little besides itself, and large enough to keep the list short.
 const CELL: i32 = 32;
 
-/// Cells that differ from what is on the screen.
+/// Cells that differ from the screen.
 #[derive(Debug, Default)]
 pub(super) struct Damage {
     /// Row by row, whether each cell is marked.
@@ -15,7 +15,7 @@ pub(super) struct Damage {
     /// Whether any is.
     some: bool,
     all: bool,
-    /// Of the pixels painted last.
+    /// The size of the last painted pixels.
     bounds: Rect,
 }
 
@@ -28,7 +28,7 @@ impl Damage {
         !self.all && !self.some
     }
 
-    /// Marks all cells that have some of these pixels.
+    /// Marks all cells that contain some of these pixels.
     pub(super) fn mark(&mut self, pixels: Rect) {
         let pixels = pixels.intersection(self.bounds);
         if self.all || pixels.is_empty() {
@@ -42,8 +42,8 @@ impl Damage {
         self.some = true;
     }
 
-    /// The marked cells as rectangles that do not overlap, inside `bounds`; nothing
-    /// is marked any more. Other bounds than the last ones mark everything.
+    /// The marked cells as rectangles that do not overlap, inside `bounds`; clears the marks.
+    /// Bounds that differ from the last ones mark everything.
     pub(super) fn take(&mut self, bounds: Rect) -> Vec<Rect> {
         let all = std::mem::take(&mut self.all) || self.bounds != bounds;
         self.bounds = bounds;
@@ -75,7 +75,7 @@ fn runs(cells: &[bool], row: i32) -> impl Iterator<Item = Rect> {
     })
 }
 
-/// Runs below each other that have the same columns as one rectangle.
+/// Vertically adjacent runs with the same columns as one rectangle.
 fn merged(runs: impl Iterator<Item = Rect>) -> Vec<Rect> {
     let mut merged: Vec<Rect> = Vec::new();
     for run in runs {

@@ -1,21 +1,21 @@
-//! From egui's meshes in points to the painter's in pixels: the triangles that
-//! touch a rectangle, and no others.
+//! Converts egui's meshes in points to the painter's in pixels: only triangles that touch a
+//! rectangle.
 
 use egui::epaint::{Mesh, Vertex};
 use trigon_raster::paint2d::{self, Image, Rect};
 
 use super::ChannelOrder;
 
-/// Triangles of one mesh; its memory is used again.
+/// Triangles of one mesh; its memory is reused.
 #[derive(Debug, Default)]
 pub(super) struct Gathered {
     vertices: Vec<paint2d::Vertex>,
-    /// 0, 1, 2 and so on: as many as there ever were vertices.
+    /// 0, 1, 2 and so on, up to the largest number of vertices so far.
     indices: Vec<u32>,
 }
 
 impl Gathered {
-    /// Takes the triangles that touch `rect`. What has no place is left out.
+    /// Takes the triangles that touch `rect`. Vertices without a valid position are left out.
     pub(super) fn gather(&mut self, mesh: &Mesh, rect: Rect, pixels_per_point: f32, order: ChannelOrder) {
         self.vertices.clear();
         let near = Near::new(rect, pixels_per_point);
@@ -31,14 +31,14 @@ impl Gathered {
         self.indices.extend((known..self.vertices.len()).map(|index| index as u32));
     }
 
-    /// What was gathered, as a mesh.
+    /// The result as a mesh.
     pub(super) fn mesh<'a>(&'a self, scissor: Rect, image: &'a Image) -> paint2d::Mesh<'a> {
         let indices = &self.indices[..self.vertices.len()];
         paint2d::Mesh { scissor, vertices: &self.vertices, indices, image: Some(image) }
     }
 }
 
-/// A rectangle in points, a little larger than asked for.
+/// A rectangle in points, slightly larger than requested.
 struct Near {
     min: [f32; 2],
     max: [f32; 2],
@@ -46,7 +46,7 @@ struct Near {
 
 impl Near {
     fn new(rect: Rect, pixels_per_point: f32) -> Self {
-        // A pixel is more than all rounding of places: to f32, and to 1/256 pixel.
+        // A pixel is more than all rounding of positions: to f32, and to 1/256 pixel.
         let point = |pixel: i32, by: i32| (pixel + by) as f32 / pixels_per_point;
         Self { min: rect.min.map(|pixel| point(pixel, -1)), max: rect.max.map(|pixel| point(pixel, 1)) }
     }
@@ -68,7 +68,7 @@ fn in_pixels(vertex: &Vertex, pixels_per_point: f32, order: ChannelOrder) -> pai
     }
 }
 
-/// A clip rectangle of egui's: its sides are rounded to whole pixels. No number is 0.
+/// A clip rectangle of egui: its sides are rounded to whole pixels. NaN counts as 0.
 pub(super) fn to_pixels(clip: egui::Rect, pixels_per_point: f32) -> Rect {
     let pixel = |point: f32| (point * pixels_per_point).round() as i32;
     Rect::new([pixel(clip.min.x), pixel(clip.min.y)], [pixel(clip.max.x), pixel(clip.max.y)])

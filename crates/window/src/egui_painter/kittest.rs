@@ -4,8 +4,8 @@ use egui_kittest::TestRenderer;
 
 use super::{ChannelOrder, EguiPainter};
 
-/// Draws what egui_kittest asks for: give it to the builder of a harness. Nothing
-/// but the interface is drawn, over transparent black.
+/// Draws for egui_kittest: pass it to the builder of a harness. Only the interface is drawn, over a
+/// transparent background.
 #[derive(Debug)]
 pub struct EguiTestRenderer {
     painter: EguiPainter,
@@ -35,7 +35,7 @@ impl TestRenderer for EguiTestRenderer {
         let mut pixels = vec![[0; 4]; width as usize * height as usize];
         let beneath = pixels.clone();
         self.painter.paint([width, height], &mut pixels, &beneath).map_err(|error| error.to_string())?;
-        // Picture files have straight alpha.
+        // Image files have straight alpha.
         let straight = pixels.iter().flat_map(|&[r, g, b, a]| {
             egui::Color32::from_rgba_premultiplied(r, g, b, a).to_srgba_unmultiplied()
         });

@@ -1,15 +1,14 @@
-//! Paints egui's triangles, and of them only what has changed.
+//! Paints egui's triangles, repainting only what has changed.
 //!
-//! egui hands over a list of clipped meshes for each pass. The painter compares it
-//! with the last one ([`changes`]), marks the cells of the screen that differ
-//! ([`damage`]), and paints these anew: first what lies beneath the interface, then
-//! every triangle that touches them, clipped to them. [`trigon_raster::paint2d`]
-//! promises that a scissor changes nothing of what is inside it, so the result is
-//! the same as if all had been painted.
+//! ! egui produces a list of clipped meshes for each pass. The painter compares it with the last
+//! one ([`changes`]), marks the cells of the screen that differ ([`damage`]), and repaints these:
+//! first what lies beneath the interface, then every triangle that touches them, clipped to them.
+//! [`trigon_raster::paint2d`] guarantees that a scissor does not change anything inside it, so the
+//! result is the same as repainting everything.
 //!
-//! As egui defines it, colours are premultiplied and multiplied and blended in
-//! gamma space, windings are mixed, and clip rectangles are rounded to whole
-//! pixels. Paint callbacks are left out: there is no graphics card to call.
+//! As egui defines it, colours are premultiplied and multiplied and blended in gamma space,
+//! windings are mixed, and clip rectangles are rounded to whole pixels. Paint callbacks are
+//! ignored, because there is no graphics card to call.
 
 mod changes;
 mod damage;
@@ -28,10 +27,10 @@ pub use kittest::EguiTestRenderer;
 pub use textures::MAX_TEXTURE_SIDE;
 use textures::Textures;
 
-/// The order of the channels in the pixels that are painted on. Alpha is last.
+/// The order of the channels in the painted pixels. Alpha is last.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ChannelOrder {
-    /// As in picture files.
+    /// As in image files.
     #[default]
     Rgba,
     /// As windows have it in memory.
@@ -51,15 +50,15 @@ impl ChannelOrder {
 
 /// Paints the passes of one egui context on pixels of one size.
 ///
-/// For each pass: [`update_textures`](Self::update_textures), always, then
-/// [`set_primitives`](Self::set_primitives). Whenever pixels are wanted:
-/// [`paint`](Self::paint).
+/// For each pass call [`update_textures`](Self::update_textures), always, then
+/// [`set_primitives`](Self::set_primitives). Call [`paint`](Self::paint) whenever pixels are
+/// needed.
 #[derive(Debug, Default)]
 pub struct EguiPainter {
     painter: paint2d::Painter,
     order: ChannelOrder,
     textures: Textures,
-    /// What was last set, in points.
+    /// The last primitives, in points.
     primitives: Vec<ClippedPrimitive>,
     pixels_per_point: f32,
     damage: Damage,
@@ -67,21 +66,21 @@ pub struct EguiPainter {
 }
 
 impl EguiPainter {
-    /// A painter that knows no texture yet.
+    /// A painter without textures.
     #[must_use]
     pub fn new(order: ChannelOrder) -> Self {
         Self { order, ..Self::default() }
     }
 
-    /// Takes over new and changed textures, and gives up those that were freed in
-    /// the pass before: the primitives of that one may still have used them. To be
-    /// called for every pass, also if nothing of it is painted; leaves `delta` empty.
+    /// Takes new and changed textures, and drops those that were freed in the previous pass, whose
+    /// primitives may still have used them. Call it for every pass, even if nothing of it is
+    /// painted; leaves `delta` empty.
     pub fn update_textures(&mut self, delta: &mut egui::TexturesDelta) {
         self.textures.update(delta, self.order);
     }
 
-    /// Takes over the triangles of a pass. What differs from the last ones is
-    /// painted by the next [`paint`](Self::paint).
+    /// Takes the triangles of a pass. The next [`paint`](Self::paint) paints the differences from
+    /// the last ones.
     pub fn set_primitives(&mut self, primitives: Vec<ClippedPrimitive>, pixels_per_point: f32) {
         if pixels_per_point == self.pixels_per_point {
             let before = std::mem::take(&mut self.primitives);
@@ -94,26 +93,25 @@ impl EguiPainter {
         self.primitives = primitives;
     }
 
-    /// What lies beneath the interface has changed: all is to be painted again.
+    /// The area beneath the interface has changed: everything must be repainted.
     pub fn invalidate(&mut self) {
         self.damage.mark_all();
     }
 
-    /// Whether the next [`paint`](Self::paint) has something to do.
+    /// Whether the next [`paint`](Self::paint) has anything to do.
     #[must_use]
     pub fn is_damaged(&self) -> bool {
         !self.damage.is_empty()
     }
 
-    /// Brings pixels up to date: rows from the top, `size` is width and height.
-    /// They hold what was last painted, or anything after
-    /// [`invalidate`](Self::invalidate) and at the first time; another size than the
-    /// last one invalidates. `beneath` is what lies under the interface.
+    /// Brings pixels up to date: rows from the top, `size` is width and height. They must contain
+    /// what was last painted, or anything after [`invalidate`](Self::invalidate) and at the first
+    /// call; a different size invalidates. `beneath` is what lies under the interface.
     ///
-    /// Returns the rectangles that were painted; they do not overlap.
+    /// Returns the repainted rectangles, which do not overlap.
     ///
     /// # Errors
-    /// If a side is 0 or too large, or the pixels are not as many as they should be.
+    /// A side is 0 or too large, or the number of pixels does not match.
     pub fn paint(
         &mut self,
         size: [u32; 2],
@@ -152,7 +150,7 @@ impl EguiPainter {
     }
 }
 
-/// Copies a rectangle of what lies beneath.
+/// Copies a rectangle from beneath the interface.
 fn restore(rect: Rect, width: usize, pixels: &mut [[u8; 4]], beneath: &[[u8; 4]]) {
     let [left, right] = [rect.min[0] as usize, rect.max[0] as usize];
     for y in rect.min[1] as usize..rect.max[1] as usize {

@@ -1,4 +1,4 @@
-//! egui's textures as images that triangles are painted with.
+//! ! egui's textures as images for painting triangles.
 
 use std::collections::HashMap;
 
@@ -8,16 +8,16 @@ use trigon_raster::paint2d::{self, Filter, Image, Rect, Wrap};
 
 use super::ChannelOrder;
 
-/// The longest side of a texture that can be painted, in texels; egui is to be told.
+/// The longest side of a texture that can be painted, in texels; egui must be told.
 pub const MAX_TEXTURE_SIDE: usize = paint2d::MAX_SIZE as usize;
 
 /// The textures of one context.
 #[derive(Debug, Default)]
 pub(super) struct Textures {
     images: HashMap<TextureId, Image>,
-    /// Freed by the last delta; the primitives that came with it may use them.
+    /// Freed by the last delta, whose primitives may still use them.
     freed: Vec<TextureId>,
-    /// Where textures have changed since the last primitives, in their coordinates.
+    /// Where textures have changed since the last primitives, in texture coordinates.
     changed: HashMap<TextureId, egui::Rect>,
 }
 
@@ -26,19 +26,18 @@ impl Textures {
         self.images.get(&id)
     }
 
-    /// Where a texture looks different than with the last primitives; nowhere is an
-    /// empty rectangle.
+    /// Where a texture looks different than with the last primitives; an empty rectangle if
+    /// nowhere.
     pub(super) fn changed(&self, id: TextureId) -> egui::Rect {
         self.changed.get(&id).copied().unwrap_or(egui::Rect::NOTHING)
     }
 
-    /// The primitives of this state have been taken over.
+    /// The primitives of this state have been received.
     pub(super) fn forget_changes(&mut self) {
         self.changed.clear();
     }
 
-    /// Gives up what was freed before, and takes over what is new. Leaves the delta
-    /// empty.
+    /// Drops what was freed before, and takes new and changed textures. Leaves the delta empty.
     pub(super) fn update(&mut self, delta: &mut TexturesDelta, order: ChannelOrder) {
         for id in self.freed.drain(..) {
             self.images.remove(&id);
@@ -49,8 +48,8 @@ impl Textures {
         self.freed.extend(delta.free.drain());
     }
 
-    /// One change of one texture. What cannot be painted is left out: a texture that
-    /// is too large, or a part that is not within it.
+    /// Applies one change to one texture. Invalid changes are ignored: a texture that is too large,
+    /// or a part outside it.
     fn set(&mut self, id: TextureId, delta: &ImageDelta, order: ChannelOrder) {
         let ImageData::Color(image) = &delta.image;
         let [width, height] = image.size.map(|side| u32::try_from(side).unwrap_or(u32::MAX));
@@ -76,22 +75,21 @@ impl Textures {
     }
 }
 
-/// The coordinates that some texels have a share in. Where the image is repeated
-/// that is anywhere.
+/// The coordinates that some texels affect. If the image is repeated, that is everywhere.
 fn uv_of(area: Rect, image: &Image) -> egui::Rect {
     if image.wrap != Wrap::Clamp {
         return egui::Rect::EVERYTHING;
     }
     let size = image.size();
     let uv = |place: i32, axis: usize| place as f32 / size[axis] as f32;
-    // Linear filters reach half a texel further; a whole one leaves room for rounding.
+    // Linear filters extend half a texel further; a whole one leaves room for rounding.
     egui::Rect::from_min_max(
         egui::pos2(uv(area.min[0] - 1, 0), uv(area.min[1] - 1, 1)),
         egui::pos2(uv(area.max[0] + 1, 0), uv(area.max[1] + 1, 1)),
     )
 }
 
-/// There is one filter for both; what interfaces show is mostly magnified.
+/// There is one filter for both directions; interfaces mostly magnify.
 fn filter(options: TextureOptions) -> Filter {
     match options.magnification {
         TextureFilter::Nearest => Filter::Nearest,

@@ -1,5 +1,5 @@
-//! What hands do to a window without a display. Each tells the interface and the session what the window system
-//! would tell them, in its order.
+//! Simulated user input for a window without a display. Each function sends the interface and the session the
+//! events of the window system, in their order.
 
 use egui::{Event, MouseWheelSource, MouseWheelUnit, TouchPhase};
 use std::path::PathBuf;
@@ -10,11 +10,11 @@ use trigon_math::DVec2;
 use super::HeadlessWindow;
 use crate::input::{Chord, InputEvent, Key, KeyCode, KeyPress, Modifiers, PointerButton, Press};
 
-/// A way of the pointer has so many places in between: tools see where it came from.
+/// The number of intermediate positions of a pointer movement: tools see where it came from.
 const STEPS: u32 = 4;
 
 impl HeadlessWindow<'_> {
-    /// Moves the pointer to a place in physical pixels, on a straight way.
+    /// Moves the pointer to a position in physical pixels, in a straight line.
     pub fn move_to(&mut self, to: DVec2) {
         let from = self.pointer;
         for step in 1..=STEPS {
@@ -26,8 +26,8 @@ impl HeadlessWindow<'_> {
         self.rest();
     }
 
-    /// Moves the pointer to a place in physical pixels at once, and draws one frame: a hand that goes on. What
-    /// waits for the hand to rest is not done.
+    /// Moves the pointer to a position in physical pixels at once, and draws one frame, as during a
+    /// continuing movement. Work that waits for the pointer to rest is not done.
     pub fn move_on_to(&mut self, to: DVec2) {
         self.pointer = to;
         let at = self.in_points();
@@ -36,7 +36,7 @@ impl HeadlessWindow<'_> {
         self.frame();
     }
 
-    /// Holds these modifier keys and no others from now on.
+    /// Sets the held modifier keys.
     pub fn hold(&mut self, modifiers: Modifiers) {
         if self.modifiers != modifiers {
             self.modifiers = modifiers;
@@ -45,12 +45,12 @@ impl HeadlessWindow<'_> {
         }
     }
 
-    /// Presses a button where the pointer is.
+    /// Presses a button at the pointer's position.
     pub fn press(&mut self, button: PointerButton) {
         self.button(button, Press::Down);
     }
 
-    /// Releases a button where the pointer is.
+    /// Releases a button at the pointer's position.
     pub fn release(&mut self, button: PointerButton) {
         self.button(button, Press::Up);
     }
@@ -83,14 +83,14 @@ impl HeadlessWindow<'_> {
         self.rest();
     }
 
-    /// Presses and releases a key with its modifiers. A key that types something types it, too.
+    /// Presses and releases a key with its modifiers. A key that types something also types it.
     pub fn key(&mut self, chord: Chord) {
         let held = self.modifiers;
         self.hold(chord.modifiers);
         let typed = typed(chord.key).filter(|_| !chord.modifiers.contains(Modifiers::CTRL));
         let press =
             |code| KeyPress { code, logical: Some(chord.key), physical: on_pad(chord.key), repeat: false };
-        // One hand presses one key at a time.
+        // Keys are pressed one at a time.
         let code = KeyCode(1);
         self.key_to_interface(chord.key, true);
         if let Some(typed) = typed {
@@ -148,7 +148,7 @@ impl HeadlessWindow<'_> {
     }
 }
 
-/// What a key writes into a text.
+/// The text that a key types.
 fn typed(key: Key) -> Option<char> {
     match key {
         Key::Character(typed) | Key::Numpad(typed) => Some(typed),
@@ -157,7 +157,7 @@ fn typed(key: Key) -> Option<char> {
     }
 }
 
-/// A key of the pad is one of the main block, too.
+/// A number pad key also acts as the corresponding main key.
 fn on_pad(key: Key) -> Option<Key> {
     match key {
         Key::Numpad(typed) => Some(Key::Character(typed)),

@@ -1,6 +1,6 @@
-//! A window without a display, for tests of whole applications: the same session as behind a real window, worked
-//! by mouse and keyboard alone. Its time stands still but for what a hand takes, its worker draws where it is
-//! asked, and so the same input gives the same pictures everywhere.
+//! A window without a display, for tests of whole applications: the same session as behind a real window,
+//! driven by mouse and keyboard alone. Its clock advances only by simulated input, and its worker draws on
+//! the calling thread, so the same input gives the same images everywhere.
 
 mod hands;
 
@@ -19,53 +19,53 @@ use crate::session::Session;
 use crate::worker::Worker;
 use crate::{Handler, Stage};
 
-/// What a hand takes for one movement, press or release. Twice within it is no double click of egui's.
+/// The duration of one movement, press or release. Twice this is too slow for a double click in egui.
 const HAND: Duration = Duration::from_millis(400);
 
-/// Frames of a hand that goes on are so far apart: 60 a second.
+/// The interval of frames during a continuing movement: 60 a second.
 const FRAME: Duration = Duration::from_micros(16_667);
 
-/// An application that is worked without a display.
+/// An application that runs without a display.
 pub struct HeadlessWindow<'a> {
     session: Session<'a>,
     now: Duration,
     pointer: DVec2,
     modifiers: Modifiers,
-    /// What the interface says to screen readers.
+    /// The interface's output for screen readers.
     tree: Option<State>,
     rings: Receiver<()>,
-    /// What frames are measured by.
+    /// The clock that measures frames.
     clock: Box<dyn Fn() -> Duration>,
     frames: Vec<DrawnFrame>,
 }
 
-/// A frame that was drawn: when that began and ended. The window's own time stands still meanwhile.
+/// A drawn frame: when it began and ended. The window's own time stands still meanwhile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DrawnFrame {
-    /// When all that happened before was dealt with.
+    /// When all previous events had been handled.
     pub begun: Duration,
-    /// When the picture of the scene was there, if another one was due.
+    /// When the image of the scene was ready, if a new one was due.
     pub drawn: Duration,
-    /// When the interface lay over it.
+    /// When the interface had been painted over it.
     pub ended: Duration,
-    /// Whether the picture is the right one, drawn in full: neither a draft nor an older one.
+    /// Whether the image is current and drawn in full: neither a draft nor outdated.
     pub is_full: bool,
 }
 
-/// Something on the interface, as a screen reader would tell of it.
+/// An element of the interface, as screen readers report it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Widget {
-    /// What it is called.
+    /// Its name.
     pub label: String,
-    /// What is written or chosen in it.
+    /// Its text or value.
     pub value: Option<String>,
-    /// Its middle, in physical pixels.
+    /// Its centre, in physical pixels.
     pub center: DVec2,
-    /// Whether it cannot be used now.
+    /// Whether it is disabled.
     pub is_disabled: bool,
-    /// Whether it is on, if it can be on or off.
+    /// Whether it is on, if it is a switch.
     pub is_on: Option<bool>,
-    /// What it is.
+    /// Its role.
     pub role: Role,
 }
 
@@ -76,8 +76,8 @@ impl<'a> HeadlessWindow<'a> {
         Self::open_measured(stage, handler, size, || Duration::ZERO)
     }
 
-    /// The same, its frames measured by a clock: the time since any fixed moment. Nothing that it does depends
-    /// on that: drafts are drawn in the window's full size however long they take.
+    /// The same, with frames measured by a clock: the time since any fixed moment. Nothing depends on that:
+    /// drafts are drawn in the window's full size however long they take.
     #[must_use]
     pub fn open_measured(
         stage: Stage,
@@ -87,12 +87,12 @@ impl<'a> HeadlessWindow<'a> {
     ) -> Self {
         let (ring, rings) = channel();
         stage.waker().connect(move || {
-            // Nobody waits any more when this fails.
+            // If this fails, nobody is waiting any more.
             let _ = ring.send(());
         });
         let mut session = Session::new(stage, handler, Worker::of_caller());
         session.interface().context().enable_accesskit();
-        // Nobody watches colours and folds move.
+        // Animations of colours and panels are not needed.
         session.interface().context().all_styles_mut(|style| style.animation_time = 0.0);
         session.record();
         let (pointer, modifiers) = (DVec2::ZERO, Modifiers::NONE);
@@ -105,7 +105,7 @@ impl<'a> HeadlessWindow<'a> {
         window
     }
 
-    /// What the window shows.
+    /// The contents of the window.
     #[must_use]
     pub fn stage(&self) -> &Stage {
         self.session.stage()
@@ -116,20 +116,20 @@ impl<'a> HeadlessWindow<'a> {
         self.session.is_over()
     }
 
-    /// Rows of pixels from the top: red, green, blue, and an alpha that does not matter.
+    /// Rows of pixels from the top: red, green, blue, and an unused alpha.
     #[must_use]
     pub fn pixels(&self) -> Vec<[u8; 4]> {
         self.session.canvas().pixels().iter().map(|&[b, g, r, a]| [r, g, b, a]).collect()
     }
 
-    /// All that was done so far, to be played again in a window of the same size.
+    /// All input so far, for replaying in a window of the same size.
     pub fn take_recorded(&mut self) -> Interaction {
         let recorded = self.session.take_recorded();
         self.session.record();
         recorded.unwrap_or_default()
     }
 
-    /// The frames since the last call, in their order.
+    /// The frames since the last call, in order.
     pub fn take_frames(&mut self) -> Vec<DrawnFrame> {
         std::mem::take(&mut self.frames)
     }
@@ -137,21 +137,21 @@ impl<'a> HeadlessWindow<'a> {
     /// Waits until another thread of the application wakes the window.
     ///
     /// # Panics
-    /// If no thread is left that could.
+    /// No thread is left that could.
     pub fn wait(&mut self) {
         self.rings.recv().expect("the stage holds a waker");
         self.session.woken(self.now);
         self.rest();
     }
 
-    /// All widgets of this name, in their order on the screen reader.
+    /// All widgets with this name, in screen reader order.
     #[must_use]
     pub fn widgets(&self, label: &str) -> Vec<Widget> {
         let is_meant = |widget: &Widget| widget.label == label;
         self.all_widgets().into_iter().filter(is_meant).collect()
     }
 
-    /// Everything on the interface that has a name and a place.
+    /// Every element of the interface that has a name and a position.
     #[must_use]
     pub fn all_widgets(&self) -> Vec<Widget> {
         let mut found = Vec::new();
@@ -179,7 +179,7 @@ impl<'a> HeadlessWindow<'a> {
         })
     }
 
-    /// Whether the interface takes what is pressed at the pointer.
+    /// Whether the interface receives presses at the pointer's position.
     #[must_use]
     pub fn is_on_interface(&mut self) -> bool {
         let at = self.pointer;
@@ -190,7 +190,7 @@ impl<'a> HeadlessWindow<'a> {
         self.session.event(event, self.now);
     }
 
-    /// Does all that follows from what was done, and lets the time of a hand pass.
+    /// Handles all consequences of the input, and advances the clock by the duration of one input.
     fn rest(&mut self) {
         self.session.settle(self.now);
         let until = self.now + HAND;
@@ -206,7 +206,7 @@ impl<'a> HeadlessWindow<'a> {
         }
     }
 
-    /// Lets the time of a frame pass, and draws what is due then.
+    /// Advances the clock by one frame, and draws what is due then.
     fn frame(&mut self) {
         self.session.settle(self.now);
         if let Wake::At(later) = self.session.next(self.now) {

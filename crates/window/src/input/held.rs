@@ -1,8 +1,8 @@
-//! Keys that act for as long as they are down.
+//! Keys that act while they are held.
 //!
-//! They move in steps of a fixed time, counted from when the first of them went down. So
-//! what they have moved follows from when they were pressed and released, and not from
-//! when frames were drawn meanwhile: the same again when a session is replayed.
+//! They move in steps of a fixed time, counted from the first press. So the total movement follows
+//! from the times of presses and releases, and not from when frames were drawn meanwhile: replaying
+//! a session gives the same result.
 
 use std::time::Duration;
 
@@ -10,27 +10,27 @@ use crate::keymap::Motion;
 
 use super::event::KeyCode;
 
-/// The time that keys move by at once.
+/// The length of a step.
 pub(crate) const STEP: Duration = Duration::from_millis(4);
 
-/// The shortest press moves by so many steps: a frame's time.
+/// The shortest press moves by this many steps: one frame's time.
 const LEAST_STEPS: u32 = 4;
 
-/// After a longer pause, as of a computer that slept, keys do not make up for it.
+/// After a longer pause, as of a suspended computer, keys do not catch up.
 const LONGEST_PAUSE: Duration = Duration::from_secs(1);
 
-/// The motions whose keys are down. A key keeps the motion it went down with,
-/// whatever happens to the modifiers meanwhile.
+/// The motions of the held keys. A key keeps the motion with which it was pressed, even if the
+/// modifiers change.
 #[derive(Debug, Default)]
 pub(crate) struct HeldKeys {
     down: Vec<(KeyCode, Motion)>,
-    /// Up to when all steps have been taken.
+    /// The time up to which all steps have been taken.
     stepped: Duration,
 }
 
 impl HeldKeys {
-    /// A key went down for a motion, after all steps before were taken. Returns how many
-    /// steps that is at once; none for a key that repeats.
+    /// A key was pressed for a motion, after all previous steps were taken. Returns the number of
+    /// steps to take at once; none for a key repeat.
     pub(crate) fn press(&mut self, code: KeyCode, motion: Motion, now: Duration) -> u32 {
         if self.down.iter().any(|&(held, _)| held == code) {
             return 0;
@@ -42,7 +42,7 @@ impl HeldKeys {
         LEAST_STEPS
     }
 
-    /// How many steps are due, which counts as taking them.
+    /// The number of due steps, which then count as taken.
     pub(crate) fn steps(&mut self, now: Duration) -> u32 {
         let pause = now.saturating_sub(self.stepped);
         if self.down.is_empty() || pause > LONGEST_PAUSE {
@@ -54,12 +54,12 @@ impl HeldKeys {
         steps
     }
 
-    /// A key came up.
+    /// A key was released.
     pub(crate) fn release(&mut self, code: KeyCode) {
         self.down.retain(|&(held, _)| held != code);
     }
 
-    /// The window lost the keyboard: it will not hear of releases.
+    /// The window lost the keyboard focus: it will not receive releases.
     pub(crate) fn clear(&mut self) {
         self.down.clear();
     }

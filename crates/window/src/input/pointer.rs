@@ -1,5 +1,5 @@
-//! The mouse as a state machine: drags belong to the button that began them,
-//! and a press that hardly moves is a click.
+//! The mouse as a state machine: drags belong to the button that began them, and a press that
+//! hardly moves is a click.
 
 use trigon_math::DVec2;
 
@@ -9,15 +9,15 @@ use super::key::{Modifiers, PointerButton};
 /// A press that moves less than this many logical pixels is a click.
 const CLICK_SLOP: f64 = 4.0;
 
-/// What the pointer means.
+/// The meaning of a pointer event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Gesture {
-    /// Moved with a button down, from one place to the other. The modifiers are
-    /// those of the press.
+    /// Moved with a button down, from one position to the other. The modifiers are those of the
+    /// press.
     Drag { button: PointerButton, modifiers: Modifiers, from: DVec2, to: DVec2 },
-    /// Pressed and released at one place.
+    /// Pressed and released at one position.
     Click { button: PointerButton, modifiers: Modifiers, at: DVec2 },
-    /// A drag is over, and with it whatever depends on its button.
+    /// A drag ended, and with it everything that depends on its button.
     Released,
 }
 
@@ -29,7 +29,7 @@ struct Held {
     moved: bool,
 }
 
-/// Where the pointer is and which button it holds.
+/// The position of the pointer and the button it holds.
 #[derive(Debug, Default)]
 pub(crate) struct Pointer {
     position: Option<DVec2>,
@@ -37,30 +37,30 @@ pub(crate) struct Pointer {
 }
 
 impl Pointer {
-    /// Where it was last seen, in physical pixels.
+    /// The last known position, in physical pixels.
     pub(crate) fn position(&self) -> Option<DVec2> {
         self.position
     }
 
-    /// Whether a button is held: then its owner gets all that follows.
+    /// Whether a button is held: then its owner receives all further events.
     pub(crate) fn is_held(&self) -> bool {
         self.held.is_some()
     }
 
-    /// It moved; `scale` is physical pixels per logical one.
+    /// The pointer moved; `scale` is physical pixels per logical one.
     pub(crate) fn moved(&mut self, to: DVec2, scale: f64) -> Option<Gesture> {
         let from = self.position.replace(to)?;
         let held = self.held.as_mut()?;
         if !held.moved && held.start.distance(to) < CLICK_SLOP * scale {
             return None;
         }
-        // The way that passed for a click is made up for at once.
+        // The distance before the drag was recognized is added at once.
         let from = if held.moved { from } else { held.start };
         held.moved = true;
         Some(Gesture::Drag { button: held.button, modifiers: held.modifiers, from, to })
     }
 
-    /// A button went down or came up.
+    /// A button was pressed or released.
     pub(crate) fn button(
         &mut self,
         button: PointerButton,
@@ -85,7 +85,7 @@ impl Pointer {
         }
     }
 
-    /// The window lost the pointer: whatever was held is no more.
+    /// The window lost the pointer: nothing is held any more.
     pub(crate) fn cancel(&mut self) {
         self.held = None;
     }

@@ -1,16 +1,16 @@
-//! One unit for all wheels. A notch of a mouse is one line; touchpads report
-//! pixels, dozens of them; and some systems hand over in one event what was
-//! scrolled while the window did not look.
+//! One unit for all wheels. A notch of a mouse is one line; touchpads report pixels, dozens of
+//! them; and some systems deliver in one event everything that was scrolled while the window was
+//! busy.
 
 use trigon_math::DVec2;
 
-/// Logical pixels that count as a line: what browsers scroll for one.
+/// Logical pixels that count as a line, as in browsers.
 const PIXELS_PER_LINE: f64 = 40.0;
 
-/// No single event turns the wheel further than this.
+/// The limit of a single event.
 const MOST_LINES: f64 = 10.0;
 
-/// What the window system reports.
+/// The window system's report.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum WheelDelta {
     Lines(DVec2),

@@ -8,14 +8,14 @@ use crate::overlay::Corner;
 use crate::pacing::Progress;
 use crate::stage::{FrameReport, Stage, Visibility};
 
-/// White on a dark backdrop is readable on any picture.
+/// White on a dark backdrop is readable over any image.
 pub(super) const INK: Color32 = Color32::from_gray(240);
 pub(super) const BACKDROP: Color32 = Color32::from_rgba_premultiplied(10, 11, 14, 170);
 
 /// From the edges, in points.
 pub(super) const GAP: f32 = 8.0;
 
-/// Writes all corners of what no panel covers; returns what is left between the upper and the lower ones.
+/// Writes all corners of the area that no panel covers; returns the area between the upper and the lower ones.
 pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: Duration) -> egui::Rect {
     let messages = stage.overlay.messages(now);
     let all = Corner::ALL.map(|corner| {
@@ -101,8 +101,7 @@ fn progress(progress: Progress) -> String {
     }
 }
 
-/// "12.3 ms, 81 fps": how long a picture takes, and how many of them would fit
-/// into a second.
+/// "12.3 ms, 81 fps": the time of an image, and the corresponding rate.
 fn frame_time(report: FrameReport) -> String {
     let seconds = (report.render + report.present).as_secs_f64();
     if seconds <= 0.0 {

@@ -1,4 +1,4 @@
-//! What the colours of the heat map mean.
+//! The legend of the heat map.
 
 use egui::{Align2, Area, Color32, Context, Frame, Id, Order, RichText, vec2};
 
@@ -9,7 +9,7 @@ use crate::stage::Stage;
 /// In points.
 const SWATCH: egui::Vec2 = vec2(14.0, 14.0);
 
-/// Shows it under the map, in the middle of what no panel covers.
+/// Shows it under the map, centred in the area that no panel covers.
 pub(super) fn show(context: &Context, free: egui::Rect, stage: &Stage) {
     if stage.comparison != Comparison::Shown {
         return;

@@ -1,6 +1,5 @@
-//! The interface over the picture: an egui context, what the window itself shows in
-//! it, and the painter that brings it into pixels. It knows no window system: events
-//! and moments go in, triangles come out.
+//! The interface over the image: an egui context, the window's own widgets, and the painter that
+//! turns it into pixels. It knows no window system: events and times go in, triangles come out.
 
 mod corners;
 mod drop_target;
@@ -21,7 +20,7 @@ use crate::egui_painter::{ChannelOrder, EguiPainter, MAX_TEXTURE_SIDE};
 use crate::keymap::Binding;
 use crate::stage::Stage;
 
-/// When, and on what.
+/// The time and size of a pass.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Moment {
     pub(crate) now: Duration,
@@ -36,13 +35,13 @@ pub(crate) struct Interface {
     pub(crate) painter: EguiPainter,
     events: Vec<Event>,
     focused: bool,
-    /// What no panel covers, in points.
+    /// The area that no panel covers, in points.
     free: egui::Rect,
-    /// When it wants to change by itself.
+    /// When it needs to change by itself.
     due: Option<Duration>,
-    /// What is for the window system: pointer shapes, copied text, links.
+    /// Output for the window system: pointer shapes, copied text, links.
     output: egui::PlatformOutput,
-    /// Whether a pass is under way: then asking for another one rings nobody.
+    /// Whether a pass is in progress: then requesting another one wakes nobody.
     in_pass: Arc<AtomicBool>,
 }
 
@@ -68,7 +67,7 @@ impl Interface {
         &self.context
     }
 
-    /// From now on `ring` is called when another thread asks for a pass.
+    /// From now on `ring` is called when another thread requests a pass.
     pub(crate) fn connect(&self, ring: impl Fn() + Send + Sync + 'static) {
         let in_pass = Arc::clone(&self.in_pass);
         self.context.set_request_repaint_callback(move |_| {
@@ -78,7 +77,7 @@ impl Interface {
         });
     }
 
-    /// Something for the next pass.
+    /// An event for the next pass.
     pub(crate) fn event(&mut self, event: Event) {
         if let Event::WindowFocused(focused) = event {
             self.focused = focused;
@@ -86,8 +85,8 @@ impl Interface {
         self.events.push(event);
     }
 
-    /// Whether a place in physical pixels is on a panel or a window of the interface, or
-    /// one of them is being dragged.
+    /// Whether a position in physical pixels is on a panel or a window of the interface, or one of
+    /// them is being dragged.
     pub(crate) fn wants_pointer(&self, at: DVec2) -> bool {
         let at = at / f64::from(self.context.pixels_per_point());
         let at = Pos2::new(at.x as f32, at.y as f32);
@@ -109,18 +108,18 @@ impl Interface {
         self.events.push(Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers });
     }
 
-    /// When it wants to change by itself; `None` for never.
+    /// When it needs to change by itself; `None` for never.
     pub(crate) fn due(&self) -> Option<Duration> {
         self.due
     }
 
-    /// What is for the window system since it was last asked.
+    /// The output for the window system since the last call.
     pub(crate) fn take_output(&mut self) -> egui::PlatformOutput {
         std::mem::take(&mut self.output)
     }
 
-    /// Runs a pass. `application` adds its own widgets, more than once where egui wants
-    /// to lay out again. Returns the command that was chosen from the list of keys.
+    /// Runs a pass. `application` adds its own widgets, more than once if egui lays out again.
+    /// Returns the command selected in the list of keys.
     pub(crate) fn run(
         &mut self,
         moment: Moment,
@@ -150,7 +149,7 @@ impl Interface {
         self.output.append(output.platform_output);
         self.painter.update_textures(&mut output.textures_delta);
         let root = output.viewport_output.get(&egui::ViewportId::ROOT);
-        // Far away is never.
+        // The distant future counts as never.
         self.due = root.and_then(|root| moment.now.checked_add(root.repaint_delay));
         self.due = self.due.filter(|due| *due < Duration::from_secs(u64::MAX / 2));
         let primitives = self.context.tessellate(output.shapes, output.pixels_per_point);
@@ -175,7 +174,7 @@ impl Interface {
     }
 }
 
-/// Tells those who cannot see it what the window and the picture are, if somebody listens.
+/// Describes window and image for screen readers, if one is active.
 fn name_view(context: &Context, free: egui::Rect, stage: &Stage) {
     context.accesskit_node_builder(egui::accesskit_root_id(), |window| window.set_label(stage.title()));
     context.accesskit_node_builder(egui::Id::unique("view"), |node| {

@@ -1,4 +1,4 @@
-//! A box drawn by its twelve edges: the mark of the selected object.
+//! The outline box of the selected object, drawn by its twelve edges.
 
 use egui::{Color32, Stroke, Ui};
 use trigon_camera::{Camera, Projector, Viewport};
@@ -11,7 +11,7 @@ const COLOR: Color32 = Color32::from_rgba_premultiplied(200, 138, 50, 200);
 /// In points.
 const WIDTH: f32 = 1.5;
 
-/// Draws the edges of a box that are before the eye, under all widgets.
+/// Draws the edges of a box in front of the eye, under all widgets.
 pub(super) fn show(ui: &Ui, camera: &Camera, viewport: Viewport, bounds: &Bounds3) {
     let projector = Projector::new(camera, viewport);
     let points = f64::from(ui.ctx().pixels_per_point());

@@ -1,5 +1,4 @@
-//! The list of keys, which is a list of commands, too: what is typed filters it, and
-//! a line that is clicked is done. As many columns as fit stand side by side.
+//! The list of keys and commands: typing filters it, and clicking a line runs it. It has as many columns as fit.
 
 use std::borrow::Cow;
 
@@ -14,7 +13,7 @@ const COLUMN: f32 = 360.0;
 /// What the window takes beside the columns: its frame, title and search, in points.
 const BESIDE: egui::Vec2 = vec2(48.0, 104.0);
 
-/// Shows the list if it is to be seen, over what no panel covers. Returns what was chosen.
+/// Shows the list if it is visible, in the area that no panel covers. Returns the selected command.
 pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<Binding> {
     if stage.cheat_sheet == Visibility::Hidden {
         return None;
@@ -96,7 +95,7 @@ fn columns(rows: &[SheetRow], count: usize) -> Vec<Vec<&[SheetRow]>> {
     (1..=all.max(1)).map(tall).find(|columns| columns.len() <= count).unwrap_or_default()
 }
 
-/// A row of the list; keys that do one thing can be clicked.
+/// A row of the list; keys with a single action can be clicked.
 fn line(ui: &mut egui::Ui, row: &SheetRow) -> Option<Binding> {
     ui.label(RichText::new(&row.keys).monospace().strong());
     match &row.binding {

@@ -1,15 +1,15 @@
-//! How small drafts are: as large as the time for a frame allows.
+//! The size of drafts: as large as the frame budget allows.
 
 use std::time::Duration;
 
-/// What a draft may take when nothing else is said: 30 frames a second.
+/// The default budget of a draft: 30 frames a second.
 pub(crate) const USUAL: Duration = Duration::from_millis(33);
 
-/// Drafts are not drawn smaller than by this factor in each direction.
+/// The largest reduction of drafts in each direction.
 const MOST_SHRINK: f64 = 4.0;
 
-/// A draft is made as long as this part of the budget, so that the next one, which
-/// shows something else, is likely to fit, too.
+/// A draft aims for this fraction of the budget, so that the next one, which shows something else,
+/// is likely to fit, too.
 const AIM: f64 = 0.8;
 
 /// Learns from each draft how large the next one may be.
@@ -17,7 +17,7 @@ const AIM: f64 = 0.8;
 pub(super) struct Budget {
     time: Duration,
     shrink: f64,
-    /// Of the budget, what the last draft of this size took.
+    /// The fraction of the budget that the last draft of this size took.
     last: Option<f64>,
 }
 
@@ -28,33 +28,33 @@ impl Default for Budget {
 }
 
 impl Budget {
-    /// The factor by which the next draft is smaller in each direction, 1 to 4.
+    /// The reduction factor of the next draft in each direction, 1 to 4.
     pub(super) fn shrink(&self) -> f64 {
         self.shrink
     }
 
-    /// What a draft may take.
+    /// The budget of a draft.
     pub(super) fn set(&mut self, time: Duration) {
-        // What was learned is a share of the time before.
+        // The learned value is a fraction of the previous budget.
         if std::mem::replace(&mut self.time, time) != time {
             self.last = None;
         }
     }
 
-    /// A draft of the current size took this long. The time is taken to grow with the
-    /// number of pixels. Where it does not, because of what has to be done before there
-    /// are any, the size falls until it does not matter any more.
+    /// Reports the time of a draft of the current size. The time is assumed to be proportional to
+    /// the number of pixels. Where it is not, because of work before the pixels, the size decreases
+    /// until it does not matter any more.
     ///
     /// A single draft changes nothing: it may have had to wait for other programs.
     pub(super) fn took(&mut self, time: Duration) {
         let share = time.as_secs_f64() / self.time.as_secs_f64();
         let Some(last) = self.last.replace(share) else { return };
         let (least, most) = if last < share { (last, share) } else { (share, last) };
-        // Between half and all of the budget it stays: sizes that flicker are ugly.
+        // Between half and all of the budget the size is kept: changing sizes flicker.
         let factor = if least > 1.0 {
             (least / AIM).sqrt()
         } else if most < 0.5 {
-            // Not to more than twice the size at once.
+            // At most twice the size at once.
             (most / AIM).sqrt().max(0.5)
         } else {
             return;
@@ -68,7 +68,7 @@ impl Budget {
 mod tests {
     use super::*;
 
-    /// Drafts that take this long at full size, until the size is settled.
+    /// Drafts that take this long at full size, until the size is stable.
     fn settled(milliseconds: f64) -> f64 {
         let mut budget = Budget::default();
         for _ in 0..20 {

@@ -1,4 +1,4 @@
-//! How far two pictures are apart.
+//! The difference between two images.
 
 use trigon_math::color;
 use trigon_raster::Cancel;
@@ -7,28 +7,28 @@ use trigon_scene::quality::rmse;
 
 use super::heat;
 
-/// How far a picture is from the reference, over all pixels and the three colours, on
+/// The difference between an image and the reference, over all pixels and the three colours, over
 /// black as a window shows them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Difference {
-    /// As [`rmse`] measures it.
+    /// As measured by [`rmse`].
     pub rmse: f64,
-    /// The greatest one, in linear light with white being 1.
+    /// The largest difference, in linear light with white being 1.
     pub worst: f64,
-    /// The greatest one, in levels of the 8-bit picture.
+    /// The largest difference, in levels of the 8-bit image.
     pub worst_levels: u8,
-    /// Pixels that differ at all, of 1.
+    /// The fraction of pixels that differ at all.
     pub share: f64,
 }
 
-/// Two pictures, compared.
+/// Two images, compared.
 pub(crate) struct Compared {
     pub(crate) difference: Difference,
-    /// As large as they are.
+    /// Their size.
     pub(crate) map: Frame,
 }
 
-/// Compares two pictures of one size; `None` if they are not, or when it was cancelled.
+/// Compares two images of the same size; `None` if the sizes differ, or if cancelled.
 pub(crate) fn compare(found: &Frame, right: &Frame, cancel: &Cancel) -> Option<Compared> {
     if [found.width, found.height] != [right.width, right.height] || found.color.len() != right.color.len() {
         return None;
@@ -67,7 +67,7 @@ struct Sums {
 }
 
 impl Sums {
-    /// Adds a pixel; returns how many levels it is off, in the colour that is most.
+    /// Adds a pixel; returns its largest difference in levels.
     fn add(&mut self, found: [u8; 3], right: [u8; 3]) -> u8 {
         self.pixels += 1;
         if found == right {

@@ -1,4 +1,4 @@
-//! The pictures that a window has of its scene, and which of them it shows.
+//! The images that a window has of its scene, and which of them it shows.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -11,13 +11,13 @@ use crate::pacing::Quality;
 use crate::panes::Views;
 use crate::shown::{DrawnNodes, Shown};
 
-/// Pictures of one state of the scene: a draft, the one that the settings give, the best
-/// so far, and what lies between the last two.
+/// Images of one state of the scene: a draft, the one that the settings define, the best so far,
+/// and the difference between the last two.
 #[derive(Default)]
 pub(crate) struct Gallery {
-    /// From where all were drawn.
+    /// The camera of all images.
     views: Option<Views>,
-    /// What all are of.
+    /// The state that all images show.
     nodes: Arc<DrawnNodes>,
     draft: Option<Arc<Frame>>,
     settings: Option<Arc<Frame>>,
@@ -26,19 +26,19 @@ pub(crate) struct Gallery {
     report: QualityReport,
 }
 
-/// Which picture is to be seen.
+/// Which image to show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Wanted {
-    /// The one that the settings give.
+    /// The one that the settings define.
     Settings,
-    /// The best there is.
+    /// The best one.
     Best,
-    /// How far they are apart.
+    /// Their difference.
     Difference,
 }
 
 impl Gallery {
-    /// A new picture. Those of other states of the scene are given back.
+    /// Adds an image. Those of other states of the scene are returned.
     pub(crate) fn add(&mut self, quality: Quality, Shown { frame, views, nodes }: Shown, took: Duration) {
         match quality {
             Quality::Draft { .. } => *self = Self { draft: Some(frame), ..Self::default() },
@@ -55,18 +55,18 @@ impl Gallery {
         (self.views, self.nodes) = (Some(views), nodes);
     }
 
-    /// The picture of the settings and the best one, which is the reference, are compared.
+    /// Compares the image of the settings with the best one, which is the reference.
     pub(crate) fn compared(&mut self, compared: Compared) {
         self.map = Some(Arc::new(compared.map));
         self.report.difference = Some(compared.difference);
     }
 
-    /// What is to be compared.
+    /// The images to compare.
     pub(crate) fn pair(&self) -> Option<[Arc<Frame>; 2]> {
         Some([Arc::clone(self.settings.as_ref()?), Arc::clone(self.best.as_ref()?)])
     }
 
-    /// What is shown, if that is wanted.
+    /// The displayed image, for the requested view.
     pub(crate) fn shown(&self, wanted: Wanted) -> Option<&Arc<Frame>> {
         let at_rest = match wanted {
             Wanted::Best => self.best.as_ref(),
@@ -76,20 +76,19 @@ impl Gallery {
         at_rest.or(self.draft.as_ref())
     }
 
-    /// What tells what is seen where that is shown: the picture itself, or one that it was
-    /// made of.
+    /// The image for picking in the displayed one: itself, or one that it was made from.
     pub(crate) fn picked(&self, wanted: Wanted) -> Option<Shown> {
         let shown = self.shown(wanted).filter(|frame| frame.object_ids.is_some());
         let frame = Arc::clone(shown.or(self.settings.as_ref())?);
         Some(Shown { frame, views: self.views.clone()?, nodes: Arc::clone(&self.nodes) })
     }
 
-    /// The camera of what is shown.
+    /// The camera of the displayed image.
     pub(crate) fn camera(&self) -> Option<&Camera> {
         self.views.as_ref().map(|views| &views.main)
     }
 
-    /// What was measured of pictures at rest; `None` for drafts.
+    /// The times of images at rest; `None` for drafts.
     pub(crate) fn report(&self) -> Option<QualityReport> {
         self.settings.as_ref().map(|_| self.report)
     }

@@ -1,13 +1,13 @@
-//! Colours of a heat map, in classes that each are twice as wide as the last: darker is
-//! less, and whoever sees no hues sees the order in the lightness.
+//! Colours of a heat map, in classes each twice as wide as the previous one: darker means less, and
+//! the order is visible in the lightness alone.
 
 /// A class of differences.
 pub(crate) struct Class {
-    /// The greatest that belongs to it, in levels of 255.
+    /// The largest difference in it, in levels of 255.
     pub(crate) up_to: u8,
     /// sRGB: after the map "inferno" of S. van der Walt and N. Smith (matplotlib 2.0).
     pub(crate) color: [u8; 3],
-    /// What the legend says.
+    /// The legend's text.
     pub(crate) label: &'static str,
 }
 
@@ -15,7 +15,7 @@ const fn class(up_to: u8, color: [u8; 3], label: &'static str) -> Class {
     Class { up_to, color, label }
 }
 
-/// From the smallest differences to the greatest.
+/// From the smallest differences to the largest.
 pub(crate) const CLASSES: [Class; 8] = [
     class(1, [87, 16, 110], "1"),
     class(2, [124, 29, 109], "2"),
@@ -27,10 +27,10 @@ pub(crate) const CLASSES: [Class; 8] = [
     class(255, [252, 255, 164], "65-255"),
 ];
 
-/// What is right is there in grey, as bright as this part of it, for orientation.
+/// Pixels without a difference are grey at this fraction of their brightness, for orientation.
 const GREY: u32 = 5;
 
-/// The colour of a pixel that is off by some levels; opaque.
+/// The opaque colour of a pixel with a difference in levels.
 pub(super) fn color(levels: u8, right: [u8; 3]) -> [u8; 4] {
     let class = CLASSES.iter().find(|class| (1..=class.up_to).contains(&levels));
     let [r, g, b] = class.map_or_else(|| [grey(right); 3], |class| class.color);

@@ -1,13 +1,13 @@
-//! Which pictures follow each other at rest.
+//! The sequence of images at rest.
 
 use trigon_scene::RenderSettings;
 use trigon_scene::quality::{Preset, Quality};
 
 use super::{Comparison, Refinement};
 
-/// The settings of the pictures at rest: these, the presets that are better, the reference.
-/// The last one is the reference in any case. Where the first is not drawn by the renderer,
-/// it is no reference, whatever its settings are.
+/// The settings of the images at rest: the given ones, the better presets, the reference. The last
+/// one is always the reference. If the first is not drawn by the renderer, it does not count as the
+/// reference, whatever its settings are.
 pub(crate) fn ladder(settings: &RenderSettings, drawn_otherwise: bool) -> Vec<RenderSettings> {
     let with = |preset: Preset| {
         let mut settings = settings.clone();
@@ -27,7 +27,7 @@ pub(crate) fn ladder(settings: &RenderSettings, drawn_otherwise: bool) -> Vec<Re
     steps
 }
 
-/// The steps to be done, of a ladder of some length and the comparison after it.
+/// The steps to do, for a ladder of some length and the comparison after it.
 pub(crate) fn wanted(length: usize, refinement: Refinement, comparison: Comparison) -> Vec<usize> {
     match (refinement, comparison) {
         (Refinement::Settings, Comparison::Off) => vec![0],

@@ -1,5 +1,5 @@
-//! What is drawn while nothing moves: first the picture as the settings say, then better
-//! ones up to the reference, and what lies between the two.
+//! Refinement at rest: first the image that the settings define, then better ones up to the
+//! reference, and their difference.
 
 mod difference;
 mod gallery;
@@ -14,36 +14,36 @@ pub(crate) use gallery::{Gallery, Wanted};
 pub(crate) use heat::CLASSES;
 pub(crate) use ladder::{ladder, wanted};
 
-/// How far a picture is refined at rest.
+/// How far an image is refined at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Refinement {
-    /// It is drawn as the settings say.
+    /// Only the image that the settings define.
     #[default]
     Settings,
-    /// It is drawn as the settings say, and then better and better up to the reference,
-    /// [`Preset::Reference`](trigon_scene::quality::Preset::Reference) on top of these settings: the
-    /// bytes of a picture file with those. Each is shown when it is ready.
+    /// The image that the settings define, and then better ones up to the reference,
+    /// [`Preset::Reference`](trigon_scene::quality::Preset::Reference) applied to these settings:
+    /// the bytes of an image file with those. Each is shown when it is ready.
     Reference,
 }
 
-/// Whether the picture that the settings give is compared with the reference at rest.
+/// Whether the image that the settings define is compared with the reference at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Comparison {
-    /// It is not.
+    /// It is not compared.
     #[default]
     Off,
     /// [`Stage::quality_report`](crate::Stage::quality_report) has the figures.
     Measured,
-    /// Their difference is shown in place of either, as a heat map with a legend.
+    /// Their difference is shown instead, as a heat map with a legend.
     Shown,
 }
 
-/// What the pictures of the scene at rest took, and how far they are apart.
+/// The times of the scene's images at rest, and their difference.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct QualityReport {
-    /// What the picture took that the settings give.
+    /// The time of the image that the settings define.
     pub settings: Duration,
-    /// What the best one took that is better, if there is one yet.
+    /// The time of the best image, if there is a better one yet.
     pub best: Option<Duration>,
     /// Between that of the settings and the reference, once they were compared.
     pub difference: Option<Difference>,

@@ -1,7 +1,7 @@
-//! What hands do to camera, objects and interface. The interface comes first: what
-//! happens on a panel or in a text field is its own. Then the application is asked
-//! (`offers`), and what it leaves goes to camera, keymap and clicks. A button belongs
-//! to whoever it was pressed on, until it is released; and all learn of releases.
+//! Applies user input to camera, objects and interface. The interface comes first: events on a
+//! panel or in a text field belong to it. Then the application gets the event (`offers`), and what
+//! it does not take goes to camera, keymap and clicks. A button belongs to whatever it was pressed
+//! on until it is released; and all are informed of releases.
 
 use std::time::Duration;
 
@@ -69,8 +69,8 @@ impl Session<'_> {
         self.offer(Input::FocusLost, now);
     }
 
-    /// What the interface is to know. Keys are only for it while a widget has the
-    /// keyboard, and the wheel while the pointer is on it.
+    /// Events for the interface. It receives keys only while a widget has the keyboard, and the
+    /// wheel only while the pointer is on it.
     fn interface_event(&mut self, event: Event, now: Duration) {
         let wanted = match event {
             Event::Key { .. }
@@ -95,7 +95,7 @@ impl Session<'_> {
         at.is_some_and(|at| self.interface.wants_pointer(at))
     }
 
-    /// Whether the pointer is the application's, wherever it is.
+    /// Whether the pointer belongs to the application, wherever it is.
     fn is_applications(&self) -> bool {
         self.stage.input_owner == InputOwner::Application || self.taken.has_button()
     }

@@ -49,7 +49,7 @@ impl EditMesh {
     /// - along a seam, a sharp or a creased edge, or one with other than two sides,
     /// - where texture coordinates or colours differ on both sides of the edge,
     /// - if materials or shading of the faces differ, or they are wound in opposite ways,
-    /// - if a triangle has no area or a place that is not finite.
+    /// - if a triangle has no area or a position that is not finite.
     ///
     /// A quad keeps the id of the face that comes first at the edge. Blender respects seams and values
     /// only when asked to.

@@ -16,7 +16,8 @@ pub(super) use edges::QuadEdges;
 
 use super::area::GROUPS;
 use super::buffer::VisibilityBuffer;
-use super::cover::{Counts, Cover};
+use super::counts::Counts;
+use super::cover::Cover;
 use super::store::store_places_where;
 use super::{DepthPlane, TileArea};
 use crate::samples::SamplePattern;

@@ -1,4 +1,4 @@
-//! What matt surfaces show, by the first nine spherical harmonics.
+//! Diffuse irradiance by the first nine spherical harmonics.
 
 use trigon_math::Vec3;
 use trigon_raster::simd::{F32, Simd, prelude::*};

@@ -1,10 +1,9 @@
-//! Ambient light that comes from somewhere: from a sky, or from a picture of all
-//! directions.
+//! Environment light: from a sky, or from an image of all directions.
 //!
-//! Kept in two forms, made once: what a matt surface shows for each way that it is
-//! turned, as nine coefficients (R. Ramamoorthi and P. Hanrahan, "An Efficient
-//! Representation for Irradiance Environment Maps", 2001), and what mirrors of
-//! five roughnesses show (B. Karis, "Real Shading in Unreal Engine 4", 2013).
+//! Stored in two forms, computed once: the diffuse irradiance for each orientation, as nine
+//! coefficients (R. Ramamoorthi and P. Hanrahan, "An Efficient Representation for Irradiance
+//! Environment Maps", 2001), and what mirrors of five roughnesses show (B. Karis, "Real Shading in
+//! Unreal Engine 4", 2013).
 
 mod harmonics;
 mod octahedral;
@@ -23,26 +22,26 @@ use trigon_raster::simd::{F32, LANES, Simd, lanes_of, prelude::*};
 
 use crate::render::lanes::{V3, turned};
 
-/// Side of the sharpest map in texels, at least. (The horizon is four sides long.)
+/// The smallest side of the sharpest map in texels. (The horizon is four sides long.)
 const LEAST: usize = 256;
-/// And at most: as sharp as a picture of 8192 × 4096 pixels, in 50 MB.
+/// The largest one: as sharp as an image of 8192 × 4096 pixels, in 50 MB.
 const MOST: usize = 2048;
 
-/// Ambient light that comes from somewhere. Radiance is in the unit of
+/// Ambient light from an environment. Radiance is in the unit of
 /// [`Light::intensity`](crate::Light): 1 all around shows a white surface as 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
-    /// What it was made from, if that was no picture.
+    /// What it was made from, unless it was an image.
     sky: Option<Sky>,
     matt: Harmonics,
-    /// From the sharpest map on, each half as wide as the last one.
+    /// From the sharpest map on, each half as wide as the previous one.
     halved: Vec<Octahedral>,
     /// What rough surfaces mirror, in equal steps of roughness; a mirror shows the
     /// sharpest map.
     blurred: Vec<Octahedral>,
 }
 
-/// Why a picture is no environment.
+/// Why an image is not a valid environment.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum EnvironmentError {
     /// A side is 0 (or too long for a map), or there are not `width * height` pixels.
@@ -54,18 +53,18 @@ pub enum EnvironmentError {
         width: usize,
         /// Pixels from top to bottom.
         height: usize,
-        /// The pixels that there are.
+        /// The number of pixels given.
         given: usize,
     },
 }
 
 impl Environment {
-    /// From a picture of all directions, as `.hdr` files hold it: row-major from
-    /// the top, linear RGB; the middle looks along −Z, the right half to +X, the
-    /// upper edge is +Y. Values that are negative or not finite count as 0.
+    /// From an image of all directions, as `.hdr` files hold it: row-major from the top, linear
+    /// RGB; the middle looks along −Z, the right half to +X, the upper edge is +Y. Values that are
+    /// negative or not finite count as 0.
     ///
     /// # Errors
-    /// If there are not `width * height` pixels, or none.
+    /// There are not `width * height` pixels, or none.
     pub fn from_equirectangular(
         width: usize,
         height: usize,
@@ -74,7 +73,7 @@ impl Environment {
         if width == 0 || height == 0 || width.checked_mul(height) != Some(pixels.len()) {
             return Err(EnvironmentError::Size { width, height, given: pixels.len() });
         }
-        // The horizon of the map is as long as the picture is wide.
+        // The horizon of the map is as long as the image is wide.
         let side = (width / 4).clamp(LEAST, MOST).next_power_of_two();
         Ok(Self::from_sharp(Octahedral::from_equirectangular(side, (width, height), pixels)))
     }
@@ -85,12 +84,12 @@ impl Environment {
         Self { sky: Some(*sky), ..Self::from_sharp(map) }
     }
 
-    /// The sky that it was made from, if it was.
+    /// The sky that it was made from, if any.
     pub fn sky(&self) -> Option<&Sky> {
         self.sky.as_ref()
     }
 
-    /// The same linear RGB from everywhere.
+    /// The same linear RGB from all directions.
     pub fn uniform(radiance: Vec3) -> Self {
         Self::from_sharp(Octahedral::from_function(32, |_| radiance))
     }
@@ -100,7 +99,7 @@ impl Environment {
     /// are negative or not finite count as 0.
     ///
     /// # Errors
-    /// If there are not `side * side` texels, or none, or more than 2048 on a side.
+    /// There are not `side * side` texels, or none, or more than 2048 on a side.
     pub fn from_texels(side: usize, texels: &[[f32; 3]]) -> Result<Self, EnvironmentError> {
         if side == 0 || side > MOST || side * side != texels.len() {
             return Err(EnvironmentError::Size { width: side, height: side, given: texels.len() });
@@ -118,14 +117,14 @@ impl Environment {
 
     fn from_sharp(sharp: Octahedral) -> Self {
         let halved = prefilter::halved(sharp);
-        // Finer ones would tell matt surfaces nothing.
+        // Finer ones would not change matt surfaces.
         let matt = Harmonics::of(halved.iter().find(|map| map.size() <= LEAST).unwrap_or(&halved[0]));
         let blurred = prefilter::blurred(&halved);
         Self { sky: None, matt, halved, blurred }
     }
 
-    /// The light from a direction of the world (of any length but 0) as a surface
-    /// of a roughness from 0 to 1 mirrors it.
+    /// The light that a surface of a roughness from 0 to 1 mirrors from a direction in the world
+    /// (of any length but 0).
     pub fn radiance(&self, direction: Vec3, roughness: f32) -> Vec3 {
         let last = self.blurred.len();
         let place = if roughness > 0.0 { roughness * last as f32 } else { 0.0 };
@@ -138,14 +137,13 @@ impl Environment {
         if share == 0.0 { shown(level) } else { shown(level).lerp(shown(level + 1), share) }
     }
 
-    /// The light from a direction of the world (of any length but 0) as a pixel shows
-    /// it that is so many radians wide: no finer than that, so that pixels do not miss
-    /// what lies between them.
+    /// The light from a direction in the world (of any length but 0), filtered to a pixel's width
+    /// in radians, so that pixels do not miss what lies between them.
     pub(crate) fn seen(&self, direction: Vec3, width: f32) -> Vec3 {
         if let Some(sky) = &self.sky {
             return sky.radiance(direction.normalize_or_zero());
         }
-        // On average, for a texel has its part of the whole sphere.
+        // On average, since each texel covers its part of the whole sphere.
         let texel = (4.0 * std::f32::consts::PI).sqrt() / self.halved[0].size() as f32;
         let last = self.halved.len() - 1;
         let wider = width / texel;
@@ -156,19 +154,19 @@ impl Environment {
         if share == 0.0 { shown } else { shown.lerp(self.halved[level + 1].at(direction), share) }
     }
 
-    /// What a white matt surface shows that is turned to a unit vector.
+    /// What a white matt surface shows whose normal is a unit vector.
     pub fn irradiance(&self, normal: Vec3) -> Vec3 {
         self.matt.at(normal)
     }
 
-    /// Bytes of memory that it takes.
+    /// Its memory in bytes.
     pub fn byte_count(&self) -> usize {
         let maps = self.halved.iter().chain(&self.blurred);
         maps.map(Octahedral::byte_count).sum::<usize>() + size_of::<Harmonics>()
     }
 }
 
-/// An environment as a picture uses it.
+/// An environment as a frame uses it.
 #[derive(Clone, Debug)]
 pub(crate) struct Surroundings {
     pub(crate) environment: Arc<Environment>,
@@ -198,7 +196,7 @@ impl Surroundings {
     }
 }
 
-/// The unit vector of a place in a picture of all directions, u and v from 0 to 1.
+/// The unit vector of a position in an image of all directions, u and v from 0 to 1.
 fn equirectangular(u: f32, v: f32) -> Vec3 {
     let (around, down) = ((u - 0.5) * std::f32::consts::TAU, v * std::f32::consts::PI);
     let flat = elementary::sin_f32(down);

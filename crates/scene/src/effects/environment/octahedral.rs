@@ -1,6 +1,5 @@
-//! All directions in a square: the octahedron of unit absolute sums, folded open
-//! (T. Engelhardt and C. Dachsbacher, "Octahedron Environment Maps", 2008). No
-//! trigonometry is needed to look a direction up.
+//! All directions in a square: the octahedron of unit absolute sums, unfolded (T. Engelhardt and C.
+//! Dachsbacher, "Octahedron Environment Maps", 2008). Looking up a direction needs no trigonometry.
 
 use trigon_math::{Vec2, Vec3};
 
@@ -11,7 +10,7 @@ use super::equirectangular;
 pub(super) struct Octahedral {
     /// Texels on a side, without the border.
     size: usize,
-    /// Rows with a border of one texel, which is what lies beyond the fold.
+    /// Rows with a border of one texel, which continues across the fold.
     texels: Vec<Vec3>,
 }
 
@@ -26,8 +25,8 @@ impl Octahedral {
         Self::bordered(size, |x, y| texels[y * size + x])
     }
 
-    /// Every pixel of the picture adds to the texel that it falls in, by the part of
-    /// the sphere that it covers: a small bright sun keeps its light.
+    /// Every pixel of the image adds to the texel that it falls in, weighted by its solid angle: a
+    /// small bright sun keeps its light.
     pub(super) fn from_equirectangular(
         size: usize,
         (width, height): (usize, usize),
@@ -66,7 +65,7 @@ impl Octahedral {
             texels[(y + 1) * side + x + 1] = texel(x, y);
         }
         for i in 0..size {
-            // Over an edge of the square lies the same edge, the other way round.
+            // Beyond an edge of the square lies the same edge, reversed.
             let mirrored = size - i;
             texels[i + 1] = texels[side + mirrored];
             texels[(size + 1) * side + i + 1] = texels[size * side + mirrored];
@@ -99,7 +98,7 @@ impl Octahedral {
         self.size
     }
 
-    /// All texels: their directions, their parts of the sphere, and their light.
+    /// All texels: their directions, their solid angles, and their light.
     pub(super) fn iter(&self) -> impl Iterator<Item = (Vec3, f32, Vec3)> + '_ {
         let (size, side) = (self.size, self.size + 2);
         (0..size * size).map(move |i| {
@@ -107,7 +106,7 @@ impl Octahedral {
             let place = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) / size as f32;
             let folded = folded(place);
             let length = folded.length();
-            // The octahedron's sides lie askew: what they cover of the sphere.
+            // The octahedron's faces are tilted, which changes the solid angle of texels.
             let step = 2.0 / size as f32;
             let area = step * step / (length * length * length);
             (folded / length, area, self.texels[(y + 1) * side + x + 1])
@@ -128,7 +127,7 @@ impl Octahedral {
     }
 }
 
-/// Light, or none where a number is not light.
+/// The light, or 0 if a number is not valid light.
 pub(super) fn clean(pixel: [f32; 3]) -> Vec3 {
     Vec3::from(pixel.map(|channel| if channel > 0.0 && channel.is_finite() { channel } else { 0.0 }))
 }
@@ -137,12 +136,12 @@ fn held(index: usize, size: usize) -> usize {
     if index < size { index } else { size - 1 }
 }
 
-/// The unit vector in the middle of a texel.
+/// The unit vector at the centre of a texel.
 pub(super) fn direction(size: usize, x: usize, y: usize) -> Vec3 {
     folded(Vec2::new(x as f32 + 0.5, y as f32 + 0.5) / size as f32).normalize()
 }
 
-/// The place of a direction in the unit square. Up is the middle, down the corners.
+/// The position of a direction in the unit square. Up is the middle, down the corners.
 fn unfolded(direction: Vec3) -> Vec2 {
     let Vec3 { x, y, z } = direction / (direction.x.abs() + direction.y.abs() + direction.z.abs());
     let flat = if y >= 0.0 { Vec2::new(x, z) } else { over_the_edge(x, z) };
@@ -150,7 +149,7 @@ fn unfolded(direction: Vec3) -> Vec2 {
     if place.is_finite() { place } else { Vec2::splat(0.5) }
 }
 
-/// The point of the octahedron at a place of the unit square.
+/// The point of the octahedron at a position in the unit square.
 fn folded(place: Vec2) -> Vec3 {
     let flat = place * 2.0 - 1.0;
     let y = 1.0 - flat.x.abs() - flat.y.abs();

@@ -1,5 +1,5 @@
-//! What mirrors of several roughnesses show: the light of all directions, weighed
-//! by GGX's distribution around each, as if it were seen head-on.
+//! What mirrors of several roughnesses show: the light of all directions, weighted by GGX's
+//! distribution around each, as if seen head-on.
 
 use rayon::prelude::*;
 use trigon_math::Vec3;
@@ -7,14 +7,14 @@ use trigon_math::Vec3;
 use super::Octahedral;
 use super::octahedral::direction;
 
-/// Sides of the maps in texels, from a quarter of the greatest roughness on: blurred
-/// light needs few.
+/// Sides of the maps in texels, from a quarter of the greatest roughness on: blurred light needs
+/// few.
 const SIDES: [usize; 4] = [64, 32, 16, 16];
 
-/// Sides of the maps that they are made from: texels no wider than the blur.
+/// Sides of their source maps: texels no wider than the blur.
 const SOURCES: [usize; 4] = [128, 64, 32, 32];
 
-/// The sharp map and halves of it, down to the smallest that is of use.
+/// The sharp map and its successive halves, down to the smallest useful one.
 pub(super) fn halved(sharp: Octahedral) -> Vec<Octahedral> {
     let mut maps = vec![sharp];
     while let Some(last) = maps.last().filter(|last| last.size() > SOURCES[3]) {
@@ -24,7 +24,7 @@ pub(super) fn halved(sharp: Octahedral) -> Vec<Octahedral> {
     maps
 }
 
-/// What rough surfaces mirror; nothing where the light is the same from everywhere.
+/// What rough surfaces mirror; empty if the light is the same from all directions.
 pub(super) fn blurred(halved: &[Octahedral]) -> Vec<Octahedral> {
     if halved[0].size() < SIDES[0] {
         return Vec::new();

@@ -15,8 +15,7 @@ pub struct Sky {
 }
 
 impl Default for Sky {
-    /// A clear day, as bright on a level white surface as light from everywhere of
-    /// about one half.
+    /// A clear day, as bright on a level white surface as ambient light of about one half.
     fn default() -> Self {
         Self {
             zenith: Vec3::new(0.28, 0.42, 0.78),
@@ -27,9 +26,9 @@ impl Default for Sky {
 }
 
 impl Sky {
-    /// The light from a unit vector of the world, +Y up. Above, it tends to the
-    /// zenith by the third power of how far the horizon is, below to the ground by
-    /// the eighth: haze is thick, and the ground ends soon.
+    /// The light from a unit vector of the world, +Y up. Above the horizon, it approaches the
+    /// zenith colour with the third power of the elevation; below, the ground colour with the
+    /// eighth: haze is thick, and the ground begins abruptly.
     pub fn radiance(&self, direction: Vec3) -> Vec3 {
         let level = 1.0 - direction.y.abs();
         let level = if level > 0.0 { level } else { 0.0 };

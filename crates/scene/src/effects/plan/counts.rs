@@ -1,19 +1,19 @@
-//! What an effect takes, in counts. Of an effect that is off, all are zero.
+//! The cost of an effect, in counts. For an effect that is off, all are zero.
 
 use super::Effect;
 
-/// What an effect took in a picture.
+/// The cost of an effect in a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EffectCounts {
-    /// Numbers that each vertex hands on to be interpolated, summed over draws.
+    /// Interpolated varyings per vertex, summed over draws.
     pub attributes: u64,
-    /// Textures that each pixel looks up, summed over draws.
+    /// Texture look-ups per pixel, summed over draws.
     pub look_ups: u64,
-    /// Passes over the picture, or over pictures of the effect's own.
+    /// Passes over the image, or over images of the effect's own.
     pub passes: u64,
     /// Rays.
     pub rays: u64,
-    /// Bytes of memory for buffers and trees.
+    /// Bytes of memory for buffers and BVHs.
     pub bytes: u64,
 }
 

@@ -1,52 +1,51 @@
-//! The effects that a picture can have, by name.
+//! The effects that a frame can have, by name.
 
 use std::fmt;
 
-/// Something that a picture shows only if its scene calls for it.
+/// Something that a frame shows only if its scene needs it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
     /// Lamps: directional, point and spot lights.
     Lamps,
-    /// Light from everywhere alike.
+    /// Ambient light.
     AmbientLight,
     /// Highlights of Blinn-Phong and metallic-roughness surfaces.
     Highlights,
-    /// Textures of base colours, highlights and emission; and the coordinates that
-    /// any texture is looked up at.
+    /// Textures of base colours, highlights and emission, and the coordinates of all textures.
     Textures,
-    /// Normals that are bent by textures.
+    /// Normal maps.
     NormalMaps,
-    /// Ambient light that textures take away.
+    /// Occlusion maps.
     OcclusionMaps,
-    /// Light that surfaces send out.
+    /// Emitted light.
     Emission,
-    /// Colours of the meshes' corners.
+    /// Vertex colours.
     VertexColors,
-    /// Surfaces with holes.
+    /// Alpha masks.
     Masks,
-    /// Surfaces that let what is behind shine through.
+    /// Blended surfaces.
     Transparency,
-    /// Meshes that follow joints or move towards other shapes.
+    /// Skins and morph targets.
     Poses,
-    /// Ambient light from a sky or a picture of one.
+    /// Ambient light from a sky or an environment image.
     Environment,
-    /// The built-in sky in metals, where nothing says what is around them.
+    /// The built-in sky in metals, if their surroundings are not defined.
     MetalSky,
-    /// Shadows by maps of depth.
+    /// Shadows by depth maps.
     ShadowMaps,
     /// Shadows by rays.
     ShadowRays,
-    /// Ambient light that the surroundings keep away, by rays.
+    /// Ambient occlusion by rays.
     AmbientOcclusion,
-    /// What metals without roughness mirror, by rays.
+    /// Reflections in metals without roughness, by rays.
     Reflection,
-    /// What is seen through transmissive surfaces, by rays.
+    /// Refractions through transmissive surfaces, by rays.
     Refraction,
     /// Mist.
     Fog,
     /// Exposure and tone mapping.
     ToneMapping,
-    /// A line around nodes.
+    /// Outlines around nodes.
     Outline,
     /// Edges of polygons.
     Edges,

@@ -1,4 +1,4 @@
-//! Pictures without one of their effects: what the effect adds, and what it costs.
+//! Frames without one of their effects: shows what the effect adds, and what it costs.
 
 use trigon_math::Vec3;
 
@@ -10,8 +10,8 @@ use crate::scene::Scene;
 use crate::settings::{Reflection, RenderSettings, Style};
 
 impl Effect {
-    /// The same scene and settings without the effect; `None` for one that is the
-    /// scene itself and not something on top of it.
+    /// The same scene and settings without the effect; `None` for an effect that is part of the
+    /// scene itself.
     pub fn left_out(self, scene: &Scene, settings: &RenderSettings) -> Option<(Scene, RenderSettings)> {
         let (mut scene, mut settings) = (scene.clone(), settings.clone());
         let effects = &mut settings.effects;
@@ -52,7 +52,7 @@ fn each_material(scene: &mut Scene, change: impl Fn(&mut Material)) {
     scene.materials.iter_mut().for_each(|(_, material)| change(material));
 }
 
-/// Takes all textures but those of normals and occlusion, which are effects of their own.
+/// Removes all textures except normal and occlusion maps, which are separate effects.
 fn strip_textures(material: &mut Material) {
     (material.base_color_texture, material.emissive_texture) = (None, None);
     material.transmission_texture = None;

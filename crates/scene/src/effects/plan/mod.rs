@@ -1,5 +1,5 @@
-//! The plan of a picture: which effects the scene calls for, as far as the camera
-//! sees it, and why. The renderer does what the plan says.
+//! The plan of a frame: which effects the scene needs, as far as the camera sees it, and why. The
+//! renderer does what the plan says.
 
 mod counts;
 mod effect;
@@ -24,7 +24,7 @@ use crate::scene::Scene;
 use crate::settings::{RenderSettings, ShadingModel, Style};
 use survey::Survey;
 
-/// Which effects a picture has, and why.
+/// The effects of a frame, and why.
 ///
 /// ```
 /// use trigon_scene::{Effect, EffectPlan, RenderSettings, showcase};
@@ -32,7 +32,7 @@ use survey::Survey;
 /// let scene = showcase();
 /// let plan = EffectPlan::new(&scene, &scene.cameras()[0].1, &RenderSettings::new(100, 60));
 /// assert!(plan.is_on(Effect::Lamps));
-/// assert_eq!(plan.decision(Effect::Fog).to_string(), "off, because the settings ask for none");
+/// assert_eq!(plan.decision(Effect::Fog).to_string(), "off, because the settings do not request it");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EffectPlan {
@@ -41,7 +41,7 @@ pub struct EffectPlan {
 }
 
 impl EffectPlan {
-    /// Visits the scene and what the camera can see of it.
+    /// Examines the scene and what the camera can see of it.
     pub fn new(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Self {
         Self::of_stage(&Stage::new(scene, camera, settings))
     }
@@ -61,7 +61,7 @@ impl EffectPlan {
         matches!(self.decision(effect), Decision::On(_))
     }
 
-    /// All effects with what is decided about them.
+    /// All effects with their decisions.
     pub fn iter(&self) -> impl Iterator<Item = (Effect, &Decision)> {
         Effect::ALL.into_iter().zip(&self.decisions)
     }
@@ -112,7 +112,7 @@ fn decide(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Decision {
     }
 }
 
-/// Whether an effect is about where surfaces are, and not what they look like.
+/// Whether an effect concerns the position of surfaces, and not their appearance.
 fn shapes(effect: Effect) -> bool {
     match effect {
         Effect::Masks | Effect::Poses | Effect::Edges => true,
@@ -144,7 +144,7 @@ fn asked(asked: bool) -> Outcome {
     if asked { Ok(Cause::Asked) } else { Err(Absence::NotAsked) }
 }
 
-/// Whether light is asked about at all.
+/// Whether light is evaluated at all.
 fn check_lit(stage: &Stage<'_>, survey: &Survey) -> Result<(), Absence> {
     match stage.settings.style {
         Style::Wireframe | Style::HiddenLine => Err(Absence::NoFaces),
@@ -234,7 +234,7 @@ fn ambient_occlusion(stage: &Stage<'_>, survey: &Survey) -> Outcome {
     }
 }
 
-/// Effects of objects that need light to be found at each pixel.
+/// Effects of objects that require per-pixel lighting.
 fn of_pixels(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Outcome {
     let cause = of_objects(effect, stage, survey)?;
     match stage.settings.shading {

@@ -5,32 +5,32 @@ use std::fmt;
 /// Whether an effect is on, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Decision {
-    /// It is simulated.
+    /// It is on.
     On(Cause),
-    /// It is not, and costs nothing.
+    /// It is off, and costs nothing.
     Off(Absence),
 }
 
 /// Why an effect is on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// The settings ask for it.
+    /// The settings request it.
     Asked,
     /// It is the background.
     Background,
-    /// Lights of the scene shine on what is in view.
+    /// Lights of the scene shine on visible objects.
     Lights(usize),
-    /// What is in view is lit, and the scene has no such light of its own.
+    /// Visible objects are lit, and the scene does not define this light.
     Studio,
-    /// Objects in view have it.
+    /// Visible objects have it.
     Objects(Named),
-    /// Objects in view are metal, and nothing says what is around them.
+    /// Visible objects are metal, and nothing defines their surroundings.
     Metals(Named),
-    /// The settings ask for it, and lamps meet what casts shadows.
+    /// The settings request it, and there are lamps and shadow casters.
     Shadows {
-        /// Lights that shine.
+        /// The number of lights that shine.
         lamps: usize,
-        /// Objects that are in their way.
+        /// The number of shadow casters.
         casters: usize,
     },
 }
@@ -38,38 +38,38 @@ pub enum Cause {
 /// Why an effect is off.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Absence {
-    /// The settings ask for none.
+    /// The settings do not request it.
     NotAsked,
     /// Nothing in the scene has it.
     Nowhere,
-    /// What has it is outside of the view.
+    /// Only objects outside the view have it.
     OutOfView(Named),
-    /// Nothing in view is lit.
+    /// No visible surface is lit.
     NothingLit,
-    /// The settings ask for it, but no lamp shines.
+    /// The settings request it, but no lamp shines.
     NoLamp,
-    /// The settings ask for it, but there is no light from everywhere.
+    /// The settings request it, but there is no ambient light.
     NoAmbientLight,
-    /// The settings ask for it, but nothing is in the way of light.
+    /// The settings request it, but there are no shadow casters.
     NoCaster,
-    /// No metal is in view.
+    /// No metal is visible.
     NoMetal,
-    /// Ambient light of the scene's own takes its place.
+    /// The scene's own ambient light replaces it.
     OwnAmbientLight,
-    /// The environment takes its place.
+    /// The environment replaces it.
     Environment,
-    /// The shading model leaves it out.
+    /// The shading model does not include it.
     ShadingModel,
     /// No faces are drawn.
     NoFaces,
-    /// The picture is to hold no colours.
+    /// Colour is not an output.
     NoColor,
 }
 
-/// Some objects, one of them by its name.
+/// Some objects, one of them by name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Named {
-    /// How many there are.
+    /// Their number.
     pub count: usize,
     /// The name of the first.
     pub first: String,

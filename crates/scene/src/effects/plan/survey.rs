@@ -1,18 +1,18 @@
-//! What a scene holds and what of it the camera can see.
+//! What a scene contains, and what of it the camera can see.
 
 use super::{Effect, Named};
 use crate::effects::Optics;
 use crate::material::{AlphaMode, Material, Shading};
 use crate::render::{Shape, Stage};
 
-/// What a scene holds and what of it the camera can see.
+/// What a scene contains, and what of it the camera can see.
 #[derive(Debug, Default)]
 pub(super) struct Survey {
-    /// For each effect by its number: what has it in view, and elsewhere.
+    /// For each effect by its number: the objects that have it, in view and elsewhere.
     found: [[Named; 2]; Effect::ALL.len()],
     /// Objects in view that light reaches.
     pub(super) lit: usize,
-    /// Objects that keep light away, in view or not.
+    /// Shadow casters, in view or not.
     pub(super) casters: usize,
 }
 
@@ -42,13 +42,13 @@ impl Survey {
         survey
     }
 
-    /// What has an effect in view, and elsewhere.
+    /// The objects that have an effect, in view and elsewhere.
     pub(super) fn of(&self, effect: Effect) -> &[Named; 2] {
         &self.found[effect as usize]
     }
 }
 
-/// Whether a material on a shape calls for an effect.
+/// Whether a material on a mesh needs an effect.
 fn has(effect: Effect, material: &Material, shape: &Shape, stage: &Stage<'_>) -> bool {
     let lit = material.shading != Shading::Unlit;
     match effect {
@@ -67,7 +67,7 @@ fn has(effect: Effect, material: &Material, shape: &Shape, stage: &Stage<'_>) ->
         Effect::MetalSky => is_metal(material, stage),
         Effect::Reflection => is_traced(material, false),
         Effect::Refraction => is_traced(material, true),
-        // Those that lights and settings call for, whatever the materials are.
+        // Those that depend on lights and settings, not on materials.
         Effect::Lamps
         | Effect::AmbientLight
         | Effect::Environment
@@ -81,7 +81,7 @@ fn has(effect: Effect, material: &Material, shape: &Shape, stage: &Stage<'_>) ->
     }
 }
 
-/// Whether a material may be a metal somewhere: textures are not searched for where.
+/// Whether a material may be metallic somewhere: textures are not searched.
 fn is_metal(material: &Material, stage: &Stage<'_>) -> bool {
     match stage.settings.reflection.of(material) {
         Shading::Unlit | Shading::Lambert | Shading::BlinnPhong { .. } => false,
@@ -89,7 +89,7 @@ fn is_metal(material: &Material, stage: &Stage<'_>) -> bool {
     }
 }
 
-/// Whether rays of sight go on at a material, and through it.
+/// Whether sight rays continue at a material, and through it.
 fn is_traced(material: &Material, through: bool) -> bool {
     match Optics::of(material) {
         None => false,

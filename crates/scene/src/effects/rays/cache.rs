@@ -1,4 +1,4 @@
-//! The tree over the casters' triangles is kept until they change.
+//! Keeps the BVH over the casters' triangles until they change.
 
 use std::sync::Arc;
 
@@ -8,14 +8,14 @@ use super::{RayScene, RayTriangles};
 use crate::effects::casters::{Casters, ShadowSource};
 use crate::scene::Scene;
 
-/// The tree of the last picture.
+/// The BVH of the last frame.
 #[derive(Debug, Default)]
 pub(crate) struct RayCache {
     kept: Option<(Vec<ShadowSource>, Arc<RayTriangles>)>,
 }
 
 impl RayCache {
-    /// With looks if rays of sight are to end on the casters of a scene.
+    /// With materials, if sight rays may end on the casters.
     pub(crate) fn scene(
         &mut self,
         casters: &Casters,

@@ -1,5 +1,4 @@
-//! What the triangles that rays meet look like: colour, normal, and whether a ray
-//! goes on from them.
+//! The appearance of triangles that rays hit: colour, normal, and whether a ray continues.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -13,14 +12,14 @@ use crate::render::Geometry;
 use crate::render::placement::normal_matrix;
 use crate::scene::Scene;
 
-/// Surfaces from which rays of sight go on.
+/// Surfaces from which sight rays continue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Optics {
     /// A metal without roughness.
     Mirror,
-    /// What lets light through.
+    /// A transmissive surface.
     Glass {
-        /// The share of it.
+        /// The transmitted fraction.
         transmission: f32,
         /// Index of refraction.
         ior: f32,
@@ -38,7 +37,7 @@ impl Optics {
     }
 }
 
-/// A point that a ray met, in the space of the triangles.
+/// A point that a ray hit, in the space of the triangles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Met {
     pub(crate) position: Vec3,
@@ -49,7 +48,7 @@ pub(crate) struct Met {
     pub(crate) optics: Option<Optics>,
 }
 
-/// The looks of all triangles that rays can meet.
+/// The appearance of all triangles that rays can hit.
 #[derive(Debug, Default)]
 pub(crate) struct MetSurfaces {
     /// For each triangle its caster, and its number there.
@@ -64,21 +63,21 @@ struct MetCaster {
     looks: Vec<(Range<usize>, MetLook)>,
 }
 
-/// A material as rays see it: its highlights are left out.
+/// A material as rays see it: without its highlights.
 #[derive(Debug)]
 struct MetLook {
     color: Vec3,
     texture: Option<(Arc<Texture>, TextureBinding)>,
-    /// Of glass: how much of its transmission there is.
+    /// For glass: the weight of its transmission.
     transmission_texture: Option<(Arc<Texture>, TextureBinding)>,
     emissive: Vec3,
-    /// Whether the colour is shown as it is.
+    /// Whether the colour is shown unlit.
     unlit: bool,
     optics: Option<Optics>,
 }
 
 impl MetSurfaces {
-    /// In the order in which the casters' triangles are listed for rays.
+    /// In the order of the casters' triangles.
     pub(super) fn new(scene: &Scene, casters: &Casters) -> Self {
         let mut surfaces = Self::default();
         for (number, caster) in (0_u32..).zip(&casters.list) {
@@ -91,7 +90,7 @@ impl MetSurfaces {
         surfaces
     }
 
-    /// What a ray met at a position.
+    /// What a ray hit at a position.
     pub(super) fn at(&self, hit: &RayHit, position: Vec3) -> Met {
         let [caster, triangle] = self.owners[hit.triangle as usize].map(|number| number as usize);
         let MetCaster { geometry, normal_to_scene, looks } = &self.casters[caster];

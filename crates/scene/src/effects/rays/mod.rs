@@ -1,6 +1,5 @@
-//! Rays among the casters of a scene: exact shadows, and how open the surroundings
-//! of a point are. Where a material masks parts of its triangles out, rays are
-//! stopped by the whole triangle.
+//! Rays among the casters of a scene: exact shadows and ambient occlusion. Rays ignore alpha masks:
+//! the whole triangle stops them.
 
 mod cache;
 mod met;
@@ -30,7 +29,7 @@ pub(crate) struct RayTriangles {
     middle: DVec3,
     /// The largest coordinate.
     reach: f32,
-    /// How they look, if rays of sight are to end on them.
+    /// Their appearance, if sight rays may end on them.
     surfaces: Option<MetSurfaces>,
 }
 
@@ -66,7 +65,7 @@ impl RayTriangles {
     }
 }
 
-/// The casters as rays of a picture meet them.
+/// The casters as the rays of a frame hit them.
 #[derive(Debug, Default)]
 pub(crate) struct RayScene {
     triangles: Arc<RayTriangles>,
@@ -74,7 +73,7 @@ pub(crate) struct RayScene {
     to_scene: Mat4,
     /// And back.
     from_scene: Mat4,
-    /// Rays to lamps, into the surroundings, and of sight.
+    /// Shadow, occlusion and sight rays.
     cast: [AtomicU64; 3],
 }
 
@@ -86,13 +85,13 @@ impl RayScene {
         Self { triangles, to_scene, from_scene, cast: Default::default() }
     }
 
-    /// What a ray meets first, where looks are known.
+    /// The first hit of a ray, if appearances are known.
     fn met(&self, ray: &Ray) -> Option<Met> {
         let hit = self.triangles.bvh.nearest(ray, 0.0..f32::INFINITY)?;
         Some(self.triangles.surfaces.as_ref()?.at(&hit, ray.at(hit.distance)))
     }
 
-    /// How many rays were cast to lamps, into the surroundings, and of sight.
+    /// The number of rays cast to lamps, into the surroundings, and along the line of sight.
     pub(crate) fn cast(&self) -> [u64; 3] {
         self.cast.each_ref().map(|cast| cast.load(Ordering::Relaxed))
     }
@@ -101,7 +100,7 @@ impl RayScene {
         self.triangles.byte_count()
     }
 
-    /// 1 where a lamp's light arrives, else 0.
+    /// 1 where a lamp's light arrives, otherwise 0.
     pub(crate) fn lit<S: Simd>(
         &self,
         simd: S,
@@ -138,7 +137,7 @@ impl RayScene {
         trigon_math::Mat3::from_mat4(self.to_scene)
     }
 
-    /// Where rays start: off the surface by what rounding can have moved it.
+    /// The start of rays: off the surface by the possible rounding error.
     fn origins<S: Simd>(&self, simd: S, points: &LitPoints<S>) -> [Vec3; LANES] {
         let [x, y, z] = rows(moved(&self.to_scene, points.position));
         let [nx, ny, nz] = rows(turned(&self.turn(), points.facing));
@@ -149,9 +148,9 @@ impl RayScene {
         })
     }
 
-    /// A point beside a surface, on the side to which a unit vector points.
+    /// A point next to a surface, on the side to which a unit vector points.
     fn off(&self, at: Vec3, side: Vec3) -> Vec3 {
-        /// In units of the last place of the largest coordinate.
+        /// In units in the last place of the largest coordinate.
         const OFF: f32 = 64.0 * f32::EPSILON;
         let largest = at.abs().max_element();
         let largest = if largest > self.triangles.reach { largest } else { self.triangles.reach };

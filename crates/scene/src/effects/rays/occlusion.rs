@@ -1,11 +1,9 @@
-//! Ambient occlusion: the share of cosine-weighted rays that leave the
-//! surroundings of a point (H. Landis, "Production-Ready Global Illumination",
-//! 2002).
+//! Ambient occlusion: the fraction of cosine-weighted rays that leave the surroundings of a point
+//! (H. Landis, "Production-Ready Global Illumination", 2002).
 //!
-//! Every pixel uses the same directions, a spiral over the disc below the
-//! hemisphere (which weighs them by the cosine), turned about the normal by one of
-//! 16 angles that its place in a square of four by four pixels chooses: neighbours
-//! differ, and a picture is the same each time.
+//! Every pixel uses the same directions, a spiral over the disc below the hemisphere (which gives
+//! the cosine weights), rotated about the normal by one of 16 angles selected by the pixel's
+//! position in a square of four by four: neighbours differ, and the image is reproducible.
 
 use std::sync::atomic::Ordering;
 
@@ -17,7 +15,7 @@ use crate::effects::AmbientOcclusion;
 use crate::render::lanes::turned;
 use crate::render::lighting::LitPoints;
 
-/// The most rays of a pixel.
+/// The maximum number of rays per pixel.
 const MOST: u32 = 256;
 
 /// Sines and cosines of the turns.
@@ -44,7 +42,7 @@ impl AmbientRays {
             flat.extend((1.0 - square).sqrt())
         };
         let turn = |i: usize| {
-            // Bits in reverse: neighbours differ most.
+            // Bit-reversed: neighbours differ most.
             let angle = ((i as u8).reverse_bits() >> 4) as f32 / TURNS as f32 * std::f32::consts::TAU;
             Vec2::new(elementary::cos_f32(angle), elementary::sin_f32(angle))
         };
@@ -55,8 +53,7 @@ impl AmbientRays {
         }
     }
 
-    /// The share of rays that leave the surroundings of eight points, which are
-    /// seen at these places of the picture.
+    /// The fraction of rays that leave the surroundings of eight points at these pixel positions.
     pub(crate) fn open<S: Simd>(
         &self,
         simd: S,

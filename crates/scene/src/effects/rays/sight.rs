@@ -1,10 +1,9 @@
-//! Rays of sight: what mirrors and glass show (T. Whitted, "An Improved Illumination
-//! Model for Shaded Display", 1980).
+//! Sight rays: reflections and refractions (T. Whitted, "An Improved Illumination Model for Shaded
+//! Display", 1980).
 //!
-//! Eight rays go together. A ray ends at a surface that is neither mirror nor glass,
-//! which shows its diffuse colour in the light of the scene, shadows included. At
-//! glass it follows what is refracted; what is reflected there comes from the
-//! surroundings alone.
+//! Eight rays are traced together. A ray ends at a surface that is neither mirror nor glass, which
+//! shows its diffuse colour in the light of the scene, including shadows. At glass it follows the
+//! refraction; reflections there come only from the environment.
 
 use std::sync::atomic::Ordering;
 
@@ -17,14 +16,14 @@ use crate::effects::Scenery;
 use crate::render::lanes::{V3, moved, normalized, sum, turned};
 use crate::render::lighting::{Answer, LitPoints};
 
-/// The most often that a ray goes on.
+/// The maximum number of bounces of a ray.
 const MOST: u32 = 16;
 
-/// Eight rays of sight on their way.
+/// Eight sight rays in flight.
 struct Walk {
     origins: [Vec3; LANES],
     directions: [Vec3; LANES],
-    /// What reaches the eye of their light.
+    /// The fraction of their light that reaches the eye.
     weights: [Vec3; LANES],
     light: [Vec3; LANES],
     alive: [bool; LANES],
@@ -33,8 +32,8 @@ struct Walk {
 }
 
 impl Scenery {
-    /// What is seen from eight points on surfaces of a kind in some directions; both in
-    /// camera space.
+    /// What is visible from eight points on surfaces of a kind in some directions; both in camera
+    /// space.
     pub(crate) fn seen<S: Simd>(
         &self,
         simd: S,
@@ -69,7 +68,7 @@ impl Scenery {
         [0, 1, 2].map(|channel| F32::simd_from(simd, walk.light.map(|light| light[channel])))
     }
 
-    /// What white matt surfaces show where rays met something.
+    /// What white matt surfaces show at the hits.
     fn lit<S: Simd>(
         &self,
         simd: S,
@@ -107,8 +106,8 @@ impl Scenery {
         )
     }
 
-    /// What is seen where nothing is in the way, in a direction of the world: from a
-    /// mirror, or else from glass.
+    /// What is visible in a world direction where a ray hits nothing: from a mirror, or otherwise
+    /// from glass.
     fn far(&self, direction: Vec3, from_mirror: bool) -> Vec3 {
         match (&self.surroundings, &self.metal_sky) {
             (Some(surroundings), _) => {
@@ -125,14 +124,14 @@ impl Walk {
         Ray { origin: self.origins[lane], direction: self.directions[lane] }
     }
 
-    /// A ray that meets nothing more.
+    /// A ray that hits nothing more.
     fn end(&mut self, lane: usize, scenery: &Scenery) {
         if std::mem::take(&mut self.alive[lane]) {
             self.light[lane] += self.weights[lane] * scenery.far(self.directions[lane], self.mirrored[lane]);
         }
     }
 
-    /// A ray that met something, on which white matt surfaces show `lit`.
+    /// A ray that hit a surface, on which white matt surfaces show `lit`.
     fn go_on(&mut self, lane: usize, (scenery, rays): (&Scenery, &RayScene), met: &Met, lit: Vec3) {
         self.light[lane] += self.weights[lane] * met.emissive;
         let along = self.directions[lane];
@@ -169,8 +168,7 @@ impl Walk {
         }
     }
 
-    /// Goes on in another direction, on the side of a surface to which a unit vector
-    /// points.
+    /// Continues in another direction, on the side of a surface to which a unit vector points.
     fn turn(&mut self, lane: usize, rays: &RayScene, (position, side): (Vec3, Vec3), direction: Vec3) {
         self.origins[lane] = rays.off(position, side);
         self.directions[lane] = direction;
@@ -183,13 +181,13 @@ fn fresnel(cosine: f32, head_on: f32) -> f32 {
     head_on + (1.0 - head_on) * away * away * away * away * away
 }
 
-/// A unit vector that comes back from a surface.
+/// A reflected unit vector.
 fn mirrored(along: Vec3, normal: Vec3) -> Vec3 {
     along - normal * (2.0 * along.dot(normal))
 }
 
-/// A unit vector bent by a surface whose normal points against it (Snell's law);
-/// `None` where all of the light is reflected.
+/// A unit vector refracted by a surface whose normal points against it (Snell's law); `None` at
+/// total reflection.
 pub(crate) fn refracted(along: Vec3, normal: Vec3, ratio: f32) -> Option<Vec3> {
     let cosine = -along.dot(normal);
     let square = 1.0 - ratio * ratio * (1.0 - cosine * cosine);

@@ -1,5 +1,5 @@
-//! Shadow maps are kept from picture to picture, until lamp, casters or resolution
-//! change. A map from the cache has the bytes of one that is drawn again.
+//! Keeps shadow maps from frame to frame, until lamp, casters or resolution change. A cached map
+//! has the same bytes as one that is drawn again.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use super::{LampPose, PlacedMap, ShadowMap, ShadowMaps, draw, fit};
 use crate::effects::casters::{Casters, ShadowSource};
 use crate::scene::Scene;
 
-/// The shadow maps of the last picture.
+/// The shadow maps of the last frame.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ShadowCache {
     /// What was drawn, and in which resolution.
@@ -46,7 +46,7 @@ impl ShadowCache {
         Ok(maps)
     }
 
-    /// How many maps the last picture had drawn anew.
+    /// How many maps the last frame had to draw.
     pub(crate) fn drawn(&self) -> usize {
         self.drawn
     }

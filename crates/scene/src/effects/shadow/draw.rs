@@ -1,4 +1,4 @@
-//! Draws a shadow map: depth alone.
+//! Draws a shadow map: depth only.
 
 use trigon_raster::{Culling, Draw, Pass, Rasterizer, Target, TargetError};
 
@@ -13,7 +13,7 @@ use crate::render::surface::{Dressed, Occasion, Surface};
 use crate::scene::Scene;
 use crate::settings::{Reflection, ShadingModel};
 
-/// What a run of triangles is drawn with.
+/// The parameters of a run of triangles.
 enum Shape<'a> {
     Whole(Surface<'a, true>),
     /// With holes.

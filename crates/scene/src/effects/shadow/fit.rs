@@ -1,4 +1,4 @@
-//! Where a lamp's map looks: fitted to the casters.
+//! The view of a lamp's map, fitted to the casters.
 
 use trigon_camera::{Camera, Projection};
 use trigon_math::{Bounds3, DMat4, DVec3, elementary};
@@ -6,8 +6,8 @@ use trigon_math::{Bounds3, DMat4, DVec3, elementary};
 use super::LampPose;
 use crate::effects::casters::Casters;
 
-/// How wide a cone may be (radians, the whole angle) to be seen in one view; wider
-/// ones would waste most texels on their rim.
+/// The widest cone (radians, the whole angle) that one view covers; wider ones would waste most
+/// texels on their edges.
 const WIDEST: f64 = 2.2;
 
 /// A lamp's camera.
@@ -16,7 +16,7 @@ pub(super) struct View {
     pub(super) camera: Camera,
     /// Width over height.
     pub(super) aspect: f64,
-    /// How wide it is in metres where w is 1, in its longer direction.
+    /// Its width in metres where w is 1, in its longer direction.
     pub(super) width_at_one: f64,
 }
 
@@ -27,7 +27,7 @@ impl View {
     }
 }
 
-/// The views of a lamp; none where there is nothing that it could see.
+/// The views of a lamp; none if there is nothing that it could see.
 pub(super) fn views(pose: &LampPose, casters: &Casters) -> Vec<View> {
     if casters.bounds.is_empty() {
         return Vec::new();
@@ -35,7 +35,7 @@ pub(super) fn views(pose: &LampPose, casters: &Casters) -> Vec<View> {
     match *pose {
         LampPose::Directional(along) => parallel(along, casters).into_iter().collect(),
         LampPose::Point { position, cone: Some((along, half)) } if 2.0 * half < WIDEST => {
-            // A hair wider, so that the rim has neighbours.
+            // Slightly wider, so that the edge has neighbours.
             meeting(position, along, 2.0 * half + 0.02, &casters.bounds).into_iter().collect()
         }
         LampPose::Point { position, .. } => {
@@ -54,7 +54,7 @@ fn parallel(along: DVec3, casters: &Casters) -> Option<View> {
         bounds.corners().into_iter().for_each(|corner| seen.include(turned.to_camera(corner)));
     }
     let (middle, size) = (seen.center()?, seen.size());
-    // Something flat still has two sides, and no caster lies at the ends.
+    // A flat caster still has two sides, and no caster lies at the ends.
     let margin = 1e-3 * size.length() + 1e-30;
     let (width, height, depth) = (size.x + margin, size.y + margin, size.z / 2.0 + margin);
     let projection = Projection::orthographic(height, -depth, depth).ok()?;
@@ -65,7 +65,7 @@ fn parallel(along: DVec3, casters: &Casters) -> Option<View> {
 
 /// Rays that meet in the lamp.
 fn meeting(position: DVec3, along: DVec3, angle: f64, casters: &Bounds3) -> Option<View> {
-    /// So much nearer than the furthest caster things throw shadows.
+    /// Objects down to this fraction of the farthest caster's distance cast shadows.
     const NEAREST: f64 = 1e-4;
     let farthest = casters.corners().into_iter().map(|corner| corner.distance(position));
     let farthest = farthest.fold(0.0, |far, distance| if distance > far { distance } else { far });

@@ -1,19 +1,17 @@
-//! Shadow maps: pictures of depth as each lamp sees it (L. Williams, "Casting
-//! Curved Shadows on Curved Surfaces", 1978).
+//! Shadow maps: depth images seen from each lamp (L. Williams, "Casting Curved Shadows on Curved
+//! Surfaces", 1978).
 //!
-//! **Where they look.** A map is a function of its lamp, of all casters and of its
-//! size, never of the camera: parallel light is fitted to the box of the casters,
-//! a cone is one view, and a point light six. So a map is drawn again only when one
-//! of the three changed.
+//! ! **View.** A map depends on its lamp, all casters and its size, never on the camera: parallel
+//! light is fitted to the box of the casters, a cone is one view, and a point light six. So a map
+//! is drawn again only if one of the three changes.
 //!
-//! **Bias.** A map holds the depth at the middles of its texels; a point on the same
-//! plane lies up to √2 texels aside, and would shadow itself. So points are moved
-//! along the normal of the surface, by √2 · sin θ texels where θ is the angle
-//! between normal and light: just what a plane needs; and by a quarter of a texel
-//! for curvature and rounding. No constant is added to depths. A shadow therefore
-//! begins at most 1.7 texels away from what casts it.
+//! ! **Bias.** A map holds the depth at the centres of its texels; a point on the same plane lies
+//! up to √2 texels away, and would shadow itself. So points are moved along the normal of the
+//! surface, by √2 · sin θ texels where θ is the angle between normal and light, which is exactly
+//! what a plane needs, and by a quarter of a texel for curvature and rounding. No constant is added
+//! to depths. A shadow therefore begins at most 1.7 texels away from its caster.
 //!
-//! Four depths around a point are compared, and the answers mixed bilinearly.
+//! Four depths around a point are compared, and the results mixed bilinearly.
 
 mod cache;
 mod draw;
@@ -30,7 +28,7 @@ use crate::render::lanes::{V3, dot, mapped, mix, positive, scaled, sum};
 use crate::render::lighting::LitPoints;
 use fit::View;
 
-/// What a lamp sees of the casters' depth.
+/// The casters' depth as seen from a lamp.
 #[derive(Clone, Debug)]
 pub(crate) struct ShadowMap {
     view: View,
@@ -39,14 +37,14 @@ pub(crate) struct ShadowMap {
     depths: Vec<f32>,
 }
 
-/// The shadow maps of a picture.
+/// The shadow maps of a frame.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ShadowMaps {
     /// For each lamp its views; none where it casts no shadow.
     lamps: Vec<Vec<PlacedMap>>,
 }
 
-/// A shadow map and how it is found from the picture's camera.
+/// A shadow map and its map from the frame's camera.
 #[derive(Clone, Debug)]
 struct PlacedMap {
     map: Arc<ShadowMap>,
@@ -71,8 +69,8 @@ impl PlacedMap {
         Self { to_texels: (to_texels * from_camera).as_mat4(), texel: texel as f32, map }
     }
 
-    /// Which share of the light arrives at eight points, and which of them the map
-    /// knows of.
+    /// The fraction of the light that arrives at eight points, and which of them lie inside the
+    /// map.
     #[inline(always)]
     fn share<S: Simd>(
         &self,
@@ -95,8 +93,8 @@ impl PlacedMap {
 }
 
 impl ShadowMap {
-    /// The share of four texels around points that are no nearer to the lamp than
-    /// the points are.
+    /// The fraction of four texels around points that are at least as far from the lamp as the
+    /// points.
     #[inline(always)]
     fn compared<S: Simd>(&self, simd: S, place: [F32<S>; 2], depth: F32<S>) -> F32<S> {
         let (zero, last) = (F32::splat(simd, 0.0), F32::splat(simd, self.resolution as f32));
@@ -124,7 +122,7 @@ impl ShadowMap {
         mix(mix(lit(0, 0), lit(1, 0), across), mix(lit(0, 1), lit(1, 1), across), down)
     }
 
-    /// The depth of a texel; beyond the edge that of the nearest.
+    /// The depth of a texel; beyond the edge that of the nearest texel.
     #[inline(always)]
     fn depth(&self, x: i32, y: i32) -> f32 {
         let last = self.resolution as i32 - 1;
@@ -142,8 +140,7 @@ impl ShadowMap {
 }
 
 impl ShadowMaps {
-    /// The share of a lamp's light that arrives at eight points; `None` where it
-    /// casts no shadow.
+    /// The fraction of a lamp's light that arrives at eight points; `None` if it casts no shadow.
     pub(crate) fn share<S: Simd>(
         &self,
         simd: S,
@@ -167,13 +164,13 @@ impl ShadowMaps {
         ))
     }
 
-    /// Bytes of memory that they take.
+    /// Their memory in bytes.
     pub(crate) fn byte_count(&self) -> usize {
         self.lamps.iter().flatten().map(|placed| size_of_val(placed.map.depths.as_slice())).sum()
     }
 }
 
-/// Where a lamp is and where it shines, in the world.
+/// A lamp's position and direction, in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum LampPose {
     /// Parallel light; the unit vector points along it.

@@ -9,7 +9,7 @@ use crate::triangulate::{area_vector, longest_axis, plane};
 impl EditMesh {
     /// Whether the straight line between two corners of a face runs inside the face and crosses
     /// none of its sides, seen along the axis along which the face is seen largest: exact. A face without
-    /// area or with a place that is not finite has no inside that a line could leave.
+    /// area or with a position that is not finite has no inside that a line could leave.
     pub(super) fn is_cut_inside(&self, from: CornerId, to: CornerId) -> bool {
         let face = self.corner_face(from);
         let point = |corner: CornerId| self.point(self.corner_vertex(corner));

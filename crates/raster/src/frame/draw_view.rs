@@ -1,0 +1,51 @@
+//! One draw of a frame, with its triangles as tiles list them.
+
+use crate::bin::{Chunk, Place};
+use crate::geometry::Geometry;
+use crate::setup::SetupTriangle;
+use crate::simd::Each;
+use crate::vertex::{DrawVertices, ScreenVertex};
+
+/// Looks up the triangles of one draw.
+#[derive(Clone, Copy)]
+pub(crate) struct DrawView<'f> {
+    pub(crate) geometry: &'f Geometry<'f>,
+    pub(crate) vertices: DrawVertices<'f>,
+    /// Ordinal of its first primitive in the frame.
+    pub(crate) first: u32,
+    /// Those of the whole frame, in the order of their ordinals.
+    pub(crate) chunks: &'f [Chunk],
+}
+
+impl<'f> DrawView<'f> {
+    /// The primitive of the draw that a triangle belongs to.
+    #[inline(always)]
+    pub(crate) fn primitive(&self, place: Place) -> u32 {
+        place.ordinal - self.first
+    }
+
+    /// A triangle, ready.
+    #[inline]
+    pub(crate) fn triangle(&self, place: Place) -> SetupTriangle {
+        if !place.is_whole()
+            && let Some(triangle) = self.chunk_of(place).made(place)
+        {
+            return triangle;
+        }
+        SetupTriangle::whole(self.corners(place).each(|vertex| *vertex), place.ordinal)
+    }
+
+    /// The vertices of a primitive.
+    #[inline(always)]
+    pub(crate) fn corners(&self, place: Place) -> [&'f ScreenVertex; 3] {
+        self.geometry.corners(self.primitive(place)).each(
+            #[inline(always)]
+            |index| self.vertices.get(index),
+        )
+    }
+
+    /// The chunk that a triangle belongs to.
+    pub(crate) fn chunk_of(&self, place: Place) -> &'f Chunk {
+        Chunk::of(self.chunks, place)
+    }
+}

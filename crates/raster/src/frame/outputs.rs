@@ -1,0 +1,14 @@
+//! What a frame leaves behind.
+
+use crate::shade::Encoding;
+
+/// What a frame is to leave behind.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) struct RequestedOutputs {
+    pub(crate) color: bool,
+    pub(crate) depth: bool,
+    pub(crate) ids: bool,
+    /// The encoding, if bytes of one kind are all of the colour that is asked for
+    /// and there is no supersampling.
+    pub(crate) bytes: Option<Encoding>,
+}

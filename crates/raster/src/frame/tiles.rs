@@ -1,0 +1,99 @@
+//! A tile in one visit: visibility, shading, blending, resolve.
+
+use super::FrameView;
+use crate::Stats;
+use crate::blend::{Layers, blend_translucent};
+use crate::clock::Clock;
+use crate::ink::OuterInk;
+use crate::resolve::{Strip, TileColors, resolve, store_visibility};
+use crate::shade::{Shading, list_visible, shade_tile};
+use crate::target::Bands;
+use crate::tile::{Surfaces, TileState, cover_overlay, resolve_visibility};
+
+/// What a worker keeps from tile to tile and from frame to frame, so that nothing allocates
+/// once it is warm: a part for each stage.
+pub(super) struct Scratch {
+    state: TileState,
+    shading: Shading,
+    layers: Layers,
+    /// Tiles that are not written yet.
+    pub(super) strip: Strip,
+    pub(super) stats: Stats,
+}
+
+impl Scratch {
+    pub(super) fn new() -> Self {
+        Self {
+            state: TileState::new(),
+            shading: Shading::new(),
+            layers: Layers::default(),
+            strip: Strip::default(),
+            stats: Stats::default(),
+        }
+    }
+}
+
+/// Draws the tile `index` of the frame. Its pixels may wait in `scratch` for those beside them.
+pub(super) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Bands<'_>, index: u32) {
+    let area = frame.area(index);
+    let Scratch { state, shading, strip, stats, .. } = scratch;
+    let surfaces = state.list(frame, index);
+    if state.places.is_empty() {
+        return strip.push_empty(frame, &area, bands);
+    }
+    stats.tiles += 1;
+    let mut clock = Clock::new(frame.timed);
+    state.begin(frame, index);
+    resolve_visibility(frame, &area, state, &surfaces, (shading, stats));
+    stats.times.visibility += clock.lap();
+    // Depth and ids know nothing of what is shown over the surfaces.
+    store_visibility(frame, &area, state, bands);
+    stats.times.resolve += clock.lap();
+    if frame.wants.color {
+        cover_overlay(frame, &area, state, &surfaces, stats);
+        stats.times.visibility += clock.lap();
+        draw_colors(frame, scratch, surfaces, (bands, index), &mut clock);
+    }
+}
+
+/// Gives a tile its colours, after all opaque triangles have competed.
+fn draw_colors(
+    frame: &FrameView<'_>,
+    scratch: &mut Scratch,
+    surfaces: Surfaces,
+    (bands, index): (&Bands<'_>, u32),
+    clock: &mut Clock,
+) {
+    let area = frame.area(index);
+    let Scratch { state, shading, layers, strip, stats } = scratch;
+    let is_blended = !surfaces.translucent.is_empty();
+    let encoding = if is_blended { None } else { frame.wants.bytes };
+    stats.pixels_shaded += shade_tile(frame, &area, (&state.buffer, &state.places), shading, encoding);
+    stats.times.shading += clock.lap();
+    let colors = match encoding {
+        Some(encoding) => TileColors::Encoded(encoding),
+        None if is_blended => TileColors::Blended,
+        None => TileColors::Shaded,
+    };
+    if is_blended {
+        let places = surfaces.translucent;
+        stats.pixels_shaded += blend_translucent(frame, &area, state, (layers, shading), places);
+        stats.times.blending += clock.lap();
+    }
+    resolve(frame, &area, colors, (shading, strip), bands);
+    stats.times.resolve += clock.lap();
+}
+
+/// What edges cover beyond their faces in a tile that is looked at by itself.
+pub(crate) fn outer_ink(frame: &FrameView<'_>, index: u32) -> OuterInk {
+    let Scratch { mut state, mut shading, mut stats, .. } = Scratch::new();
+    if frame.paints_lines() {
+        let area = frame.area(index);
+        let surfaces = state.list(frame, index);
+        state.begin(frame, index);
+        resolve_visibility(frame, &area, &mut state, &surfaces, (&mut shading, &mut stats));
+        cover_overlay(frame, &area, &mut state, &surfaces, &mut stats);
+        list_visible(frame, &area, (&state.buffer, &state.places), &mut shading);
+    }
+    shading.outer
+}

@@ -1,0 +1,53 @@
+//! What the search for outer halves of lines has to know of the triangles that a tile sees.
+
+use super::FaceLine;
+
+/// Triangles whose faces have at least this inner radius, in pixels, are large.
+pub(super) const LARGE: f32 = 3.0;
+
+/// The depths of a visible triangle.
+#[derive(Clone, Copy)]
+pub(crate) struct Footprint {
+    /// The least, of a triangle with lines; below all depths for others.
+    pub(crate) least: f32,
+    /// The greatest.
+    pub(crate) greatest: f32,
+}
+
+impl Footprint {
+    pub(super) const NOBODY: Self = Self { least: f32::NEG_INFINITY, greatest: f32::NEG_INFINITY };
+}
+
+/// The visible triangles of a tile, by their numbers among the tile's, and one more for nobody.
+#[derive(Default)]
+pub(crate) struct VisibleFaces {
+    pub(super) footprints: Vec<Footprint>,
+    pub(super) lines: Vec<FaceLine>,
+    /// Whether any of them shows lines.
+    pub(super) has_lines: bool,
+    /// Whether any of them is large.
+    pub(super) has_large: bool,
+}
+
+impl VisibleFaces {
+    /// Forgets the last tile; this one has so many triangles.
+    pub(super) fn begin(&mut self, places: usize) {
+        (self.has_lines, self.has_large) = (false, false);
+        // Triangles that are not seen keep what they had: nobody looks at it.
+        if self.footprints.len() < places + 1 {
+            self.footprints.resize(places + 1, Footprint::NOBODY);
+            self.lines.resize(places + 1, FaceLine::UNLINED);
+        }
+        self.footprints[places] = Footprint::NOBODY;
+        self.lines[places] = FaceLine::UNLINED;
+    }
+
+    /// Takes a visible triangle of the tile.
+    #[inline(always)]
+    pub(crate) fn note(&mut self, place: u32, footprint: Footprint, line: FaceLine) {
+        self.footprints[place as usize] = footprint;
+        self.lines[place as usize] = line;
+        self.has_lines |= footprint.least > f32::NEG_INFINITY;
+        self.has_large |= line.radius >= LARGE;
+    }
+}

@@ -1,0 +1,35 @@
+//! The context of a draw, from the frame that it belongs to.
+
+use super::ShadeContext;
+use super::context::DrawVaryings;
+use crate::bin::Place;
+use crate::frame::FrameView;
+use crate::tile::TileArea;
+
+impl<'f> FrameView<'f> {
+    /// What shading has to know of one of the frame's draws in a tile with these triangles. No
+    /// edges of other faces are laid over it.
+    pub(super) fn shade_context<'c>(
+        &'c self,
+        area: &TileArea,
+        places: &'c [Place],
+        draw: usize,
+    ) -> ShadeContext<'c> {
+        let (plan, pipeline) = (&self.plan.draws[draw], self.pipeline(draw));
+        let stride = pipeline.stride();
+        let values = &self.varyings[plan.varyings..plan.varyings + plan.used.len() * stride];
+        ShadeContext {
+            draw: self.draw_view(draw),
+            varyings: DrawVaryings { slots: self.plan.slots(plan), values, stride },
+            varying_count: pipeline.varyings(),
+            is_flat: pipeline.is_flat(),
+            reads_all: pipeline.reads_all(),
+            frame_ink: self.ink.as_ref(),
+            pattern: self.grid.pattern,
+            supersampling: self.supersampling,
+            area: *area,
+            places,
+            outer: None,
+        }
+    }
+}

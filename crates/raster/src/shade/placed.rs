@@ -1,0 +1,24 @@
+//! Where eight pixels lie in their triangles, found ahead of shading them.
+
+use crate::simd::{I32, Row, Simd, prelude::*};
+
+/// Eight points, and what takes longest to find there: found for the next eight pixels
+/// before these are shaded, so that nobody waits for it.
+#[derive(Clone, Default)]
+#[repr(align(64))]
+pub(super) struct Placed {
+    /// In 1/256 pixel from the tile's corner.
+    pub(super) point: [Row; 2],
+    /// Perspective-correct weights of the corners, and one over the sum of the corners'
+    /// shares: bits of f32.
+    pub(super) weights: [Row; 3],
+    pub(super) inverse: Row,
+}
+
+impl Placed {
+    #[inline(always)]
+    pub(super) fn point<S: Simd>(&self, simd: S) -> [I32<S>; 2] {
+        let [x, y] = self.point;
+        [I32::simd_from(simd, x), I32::simd_from(simd, y)]
+    }
+}

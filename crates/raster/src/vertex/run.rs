@@ -1,0 +1,222 @@
+//! Runs a pipeline's vertices, eight at a time, and snaps them to the sub-pixel grid.
+
+use super::depth::DEPTH_LEAST;
+use super::{ScreenVertex, Slots, VertexLanes, VertexProgram};
+use crate::clip::{COORDINATE_MAX, Outcode, W_MIN};
+use crate::pipeline::ScalarPipeline;
+use crate::simd::{Each, F32, LANES, Mask, Simd, Token, at_level, prelude::*};
+use crate::viewport::Viewport;
+use crate::{LanePipeline, MAX_VARYINGS};
+use std::ops::Range;
+use trigon_math::{Band, Vec4};
+
+/// From how many f32 on the next vertex's varyings start: see [`VertexProgram::stride`].
+const fn stride(varyings: usize) -> usize {
+    if varyings < 3 { varyings } else { varyings.next_multiple_of(4) }
+}
+
+impl<P: LanePipeline> VertexProgram for P {
+    fn vertex_count(&self) -> usize {
+        P::vertex_count(self)
+    }
+
+    fn stride(&self) -> usize {
+        let varyings = P::varyings(self);
+        assert!(varyings <= MAX_VARYINGS, "a pipeline has at most {MAX_VARYINGS} varyings, not {varyings}");
+        stride(varyings)
+    }
+
+    fn varyings(&self) -> usize {
+        P::varyings(self)
+    }
+
+    fn run_vertices(
+        &self,
+        token: Token,
+        used: Slots<'_>,
+        slots: Range<usize>,
+        viewport: Viewport,
+        out: (&mut [ScreenVertex], &mut [f32]),
+    ) {
+        // The other branch is not compiled.
+        if P::SCALAR {
+            let pipeline = self.as_scalar().expect("a scalar pipeline");
+            run_scalar(token, (pipeline, stride(P::VARYINGS)), (used, slots), viewport, out);
+        } else {
+            at_level!(token, simd => run(simd, self, (used, slots), viewport, out));
+        }
+    }
+
+    fn position(&self, token: Token, vertex: usize) -> Vec4 {
+        let mut varyings = [0.0; MAX_VARYINGS];
+        if P::SCALAR {
+            let pipeline = self.as_scalar().expect("a scalar pipeline");
+            Vec4::from_array(pipeline.run_vertex(vertex, &mut varyings))
+        } else {
+            at_level!(token, simd => position(simd, self, vertex, &mut varyings[..P::varyings(self)]))
+        }
+    }
+}
+
+/// Runs some of the vertices that a draw uses: their places and varyings.
+#[inline(always)]
+fn run<S: Simd, P: LanePipeline>(
+    simd: S,
+    pipeline: &P,
+    (used, slots): (Slots<'_>, Range<usize>),
+    viewport: Viewport,
+    (places, mut varyings): (&mut [ScreenVertex], &mut [f32]),
+) {
+    let (guard, stride) = (viewport.guard(), stride(pipeline.varyings()));
+    // Listed vertices do not lie side by side.
+    let together = if used.are_consecutive() { LANES } else { 1 };
+    for (group, places) in places.chunks_mut(together).enumerate() {
+        let first = used.index(slots.start + group * together);
+        let (rows, rest) = std::mem::take(&mut varyings).split_at_mut(places.len() * stride);
+        varyings = rest;
+        let mut lanes = VertexLanes::new(first, places.len(), rows, stride);
+        let position = pipeline.vertices(simd, &mut lanes);
+        place(simd, position, viewport, guard, places);
+    }
+}
+
+/// As [`run`], one vertex after the other; compiled once for all pipelines.
+fn run_scalar(
+    token: Token,
+    (pipeline, stride): (&dyn ScalarPipeline, usize),
+    (used, slots): (Slots<'_>, Range<usize>),
+    viewport: Viewport,
+    (places, mut varyings): (&mut [ScreenVertex], &mut [f32]),
+) {
+    let guard = viewport.guard();
+    for (group, places) in places.chunks_mut(LANES).enumerate() {
+        let mut columns = [[0.0; LANES]; 4];
+        for lane in 0..places.len() {
+            let (row, rest) = std::mem::take(&mut varyings).split_at_mut(stride);
+            varyings = rest;
+            let position = pipeline.run_vertex(used.index(slots.start + group * LANES + lane), row);
+            for (column, value) in columns.iter_mut().zip(position) {
+                column[lane] = value;
+            }
+        }
+        at_level!(token, simd => {
+            place(simd, columns.each(#[inline(always)] |column| F32::simd_from(simd, column)), viewport, guard, places);
+        });
+    }
+}
+
+/// The clip-space position of one vertex.
+#[inline(always)]
+fn position<S: Simd, P: LanePipeline>(simd: S, pipeline: &P, vertex: usize, varyings: &mut [f32]) -> Vec4 {
+    let mut lanes = VertexLanes::new(vertex, 1, varyings, pipeline.varyings());
+    let [x, y, z, w] = pipeline.vertices(simd, &mut lanes);
+    Vec4::new(x[0], y[0], z[0], w[0])
+}
+
+/// Snaps up to eight vertices.
+#[inline(always)]
+fn place<S: Simd>(
+    simd: S,
+    position: [F32<S>; 4],
+    viewport: Viewport,
+    guard: [Band; 2],
+    places: &mut [ScreenVertex],
+) {
+    let [x, y, z, w] = position;
+    let whole = is_whole(simd, position, guard).to_bitmask();
+    let one = F32::splat(simd, 1.0);
+    let depth = z / w;
+    let depth = depth.simd_gt(one).select(one, depth + F32::splat(simd, 0.0));
+    let least = F32::splat(simd, DEPTH_LEAST);
+    let depth: [f32; LANES] = depth.simd_gt(least).select(depth, least).into();
+    let inverse_w: [f32; LANES] = (one / w).into();
+    let [x, y, z, w]: [[f32; LANES]; 4] = [x.into(), y.into(), z.into(), w.into()];
+    let [column, row] = snap(viewport, x, y, w);
+    for (lane, place) in places.iter_mut().enumerate() {
+        *place = if whole >> lane & 1 != 0 {
+            ScreenVertex([
+                column[lane],
+                row[lane],
+                depth[lane].to_bits() as i32,
+                inverse_w[lane].to_bits() as i32,
+            ])
+        } else {
+            ScreenVertex::nowhere(Outcode::new(Vec4::new(x[lane], y[lane], z[lane], w[lane]), guard))
+        };
+    }
+}
+
+/// Which vertices need no cutting: those whose outcode would neither cut nor be
+/// invalid.
+#[inline(always)]
+fn is_whole<S: Simd>(simd: S, [x, y, z, w]: [F32<S>; 4], guard: [Band; 2]) -> Mask<S> {
+    let [guard_x, guard_y] = guard.each(
+        #[inline(always)]
+        |band| F32::splat(simd, band.factor()) * w,
+    );
+    let most = F32::splat(simd, COORDINATE_MAX);
+    x.abs().simd_le(guard_x)
+        & y.abs().simd_le(guard_y)
+        & x.abs().simd_le(most)
+        & y.abs().simd_le(most)
+        & z.simd_le(w)
+        & z.simd_ge(-most)
+        & w.simd_ge(F32::splat(simd, W_MIN))
+        & w.simd_le(most)
+}
+
+/// The grid points of eight vertices, in f64 so that the only rounding that
+/// matters is the one to the grid. Lanes that are not whole get anything.
+#[inline(always)]
+fn snap(viewport: Viewport, x: [f32; LANES], y: [f32; LANES], w: [f32; LANES]) -> [[i32; LANES]; 2] {
+    // Adding it rounds to whole numbers, ties to even, and leaves them in the
+    // low bits: for all numbers below 2^31, and the guard band ends at 2^24.
+    const ROUND: f64 = 1.5 * (1_u64 << 52) as f64;
+    let mut snapped = [[0; LANES]; 2];
+    for lane in 0..LANES {
+        let inverse_w = 1.0 / f64::from(w[lane]);
+        let place = viewport.place([f64::from(x[lane]), f64::from(y[lane])], inverse_w);
+        for (axis, place) in place.into_iter().enumerate() {
+            snapped[axis][lane] = (place * 256.0 + ROUND).to_bits() as i32;
+        }
+    }
+    snapped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::SimdLevel;
+    use proptest::prelude::*;
+
+    fn number() -> impl Strategy<Value = f32> {
+        prop_oneof![4 => -3.0_f32..3.0, 2 => -1e5_f32..1e5, 1 => any::<f32>()]
+    }
+
+    proptest! {
+        /// Against the outcode and the scalar way.
+        #[test]
+        fn lanes_agree_with_single_vertices(positions: [[f32; 4]; 8], near in [number(), number(), number(), number()]) {
+            let viewport = Viewport { width: 1920, height: 1080 };
+            let mut positions = positions;
+            positions[3] = near;
+            for level in SimdLevel::ALL.into_iter().filter_map(SimdLevel::token) {
+                let mut places = [ScreenVertex::default(); 8];
+                at_level!(level, simd => {
+                    let columns = [0, 1, 2, 3].map(|i| F32::simd_from(simd, positions.map(|p| p[i])));
+                    place(simd, columns, viewport, viewport.guard(), &mut places);
+                });
+                for (place, position) in places.iter().zip(positions) {
+                    let position = Vec4::from_array(position);
+                    let outcode = Outcode::new(position, viewport.guard());
+                    let expected = if outcode.is_invalid() || outcode.cuts() {
+                        ScreenVertex::nowhere(outcode)
+                    } else {
+                        ScreenVertex::of(position, viewport).expect("within the guard band")
+                    };
+                    prop_assert_eq!(place.0, expected.0, "{}", position);
+                }
+            }
+        }
+    }
+}
