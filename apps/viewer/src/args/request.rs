@@ -30,10 +30,10 @@ use crate::failure::Failure;
 use crate::folders;
 use crate::framing::{Eye, Framing};
 use crate::look::{Backfaces, Look, Textures};
-use crate::model::Source;
 use crate::moment::{Clip, Moment};
 use crate::report::Level;
 use crate::scenery::{Grid, Scenery, Sprites};
+use crate::source::{Grouping, Source};
 
 /// What the command line asks for.
 #[derive(Clone, Debug)]
@@ -167,19 +167,6 @@ pub(crate) enum Mode {
     ListReaders,
     /// List the keys of the window.
     ListBindings,
-}
-
-/// How several models are shown.
-#[derive(Clone, Debug)]
-pub(crate) enum Grouping {
-    /// One after the other.
-    OneByOne,
-    /// In one scene.
-    Together,
-    /// Those of a folder in one scene.
-    ByFolder,
-    /// In one scene what differs only in the groups of this expression.
-    ByName(Regex),
 }
 
 /// What stands for standard input among the files.

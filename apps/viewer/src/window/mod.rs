@@ -24,9 +24,9 @@ use trigon_window::{Application, Interaction, Refinement, Stage, Visibility, Win
 
 use crate::args::Request;
 use crate::failure::Failure;
-use crate::model::Source;
 use crate::report::Reporter;
 use crate::scripted;
+use crate::source::Source;
 use viewer::Viewer;
 
 /// Opens a window and returns the exit code when it is closed.

@@ -26,8 +26,9 @@ use super::watch::Watch;
 use crate::args::{InteractionStyle, Request};
 use crate::failure::Failure;
 use crate::folders;
-use crate::model::{Model, Source, Summary};
+use crate::model::{Model, Summary};
 use crate::report::Reporter;
+use crate::source::Source;
 
 /// What happens to the view when another model comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -52,7 +52,8 @@ fn is_lower(corner: Corner) -> bool {
 /// The most of the width that a corner takes beside others. They leave a gap between them.
 fn share(corner: Corner) -> f32 {
     match corner {
-        Corner::TopLeft | Corner::Top | Corner::TopRight => 0.32,
+        Corner::TopLeft => 0.46,
+        Corner::Top | Corner::TopRight => 0.25,
         Corner::BottomLeft => 0.66,
         Corner::BottomRight => 0.32,
     }

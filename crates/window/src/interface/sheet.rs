@@ -10,6 +10,9 @@ use crate::stage::{Stage, Visibility};
 /// A column is at least so wide, in points; its longest lines are wrapped.
 const COLUMN: f32 = 360.0;
 
+/// And no wider than this.
+const WIDEST: f32 = 440.0;
+
 /// What the window takes beside the columns: its frame, title and search, in points.
 const BESIDE: egui::Vec2 = vec2(48.0, 104.0);
 
@@ -24,6 +27,7 @@ pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<B
     let window = window.anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0));
     let size = (free.size() - BESIDE).max(vec2(200.0, 40.0));
     window.resizable(false).constrain_to(free).show(context, |ui| {
+        ui.set_max_width(size.x);
         let search = TextEdit::singleline(&mut stage.command_search).hint_text("search");
         let search = ui.add(search.desired_width(f32::INFINITY));
         context.accesskit_node_builder(search.id, |node| node.set_label("search keys and commands"));
@@ -34,11 +38,13 @@ pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<B
         }
         ScrollArea::vertical().max_height(size.y).show(ui, |ui| {
             let count = ((size.x / COLUMN) as u16).clamp(1, 3);
-            let cell = ((size.x / f32::from(count) - 32.0) / 2.0).clamp(60.0, 200.0);
+            let width = (size.x / f32::from(count) - 16.0).min(WIDEST);
+            let cell = (width - 16.0) / 2.0;
             ui.horizontal_top(|ui| {
                 for (number, column) in columns(&rows, count.into()).into_iter().enumerate() {
                     ui.push_id(number, |ui| {
                         ui.vertical(|ui| {
+                            ui.set_width(width);
                             for section in column {
                                 chosen = chosen.take().or(show_section(ui, section, cell));
                             }

@@ -47,7 +47,7 @@ fn broken_files_that_are_dropped_are_messages_that_stay() {
     let folder = tempfile::tempdir().expect("a folder");
     let good = written(folder.path(), "good.obj", OBJ);
     let mut viewer = viewer("", &[good]);
-    let mut window = open(&mut viewer, SIZE);
+    let mut window = open(&mut viewer, SMALL);
     assert_eq!(window.stage().title(), "good.obj - trigon", "shown");
     for (name, contents) in broken() {
         let file = written(folder.path(), name, contents);
@@ -69,8 +69,8 @@ fn folders_and_files_that_are_not_there_are_messages_too() {
     let folder = tempfile::tempdir().expect("a folder");
     let empty = folder.path().join("empty");
     fs::create_dir(&empty).expect("a folder in it");
-    let mut viewer = viewer("", &[]);
-    let mut window = open(&mut viewer, SIZE);
+    let (_folder, mut viewer) = simple();
+    let mut window = open(&mut viewer, SMALL);
     for path in [empty, folder.path().join("gone.obj")] {
         window.drop_files(&[path]);
         loaded(&mut window);
@@ -87,7 +87,7 @@ fn a_window_that_has_shown_nothing_yet_says_how_to_fill_it() {
     let broken = written(folder.path(), "broken.glb", "glTF");
     let good = written(folder.path(), "good.obj", OBJ);
     let mut viewer = viewer("", &[broken]);
-    let mut window = open(&mut viewer, SIZE);
+    let mut window = open(&mut viewer, SMALL);
     assert!(says(&window, "broken.glb is not shown"), "{:?}", said(&window));
     assert!(says(&window, "Drop a model here"), "and what to do: {:?}", said(&window));
     window.drop_files(&[good]);
@@ -101,7 +101,7 @@ fn a_half_written_file_that_is_watched_is_a_message_until_it_is_whole() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = written(folder.path(), "model.gltf", GLTF);
     let mut viewer = viewer("--watch --animation-progress=none", &[file.clone()]);
-    let mut window = open(&mut viewer, SIZE);
+    let mut window = open(&mut viewer, SMALL);
     for _ in 0..2 {
         fs::write(&file, &GLTF[..GLTF.len() / 2]).expect("written");
         while !says(&window, "model.gltf is not shown") {
@@ -124,7 +124,7 @@ fn a_file_that_is_deleted_while_it_is_open_stays_on_the_screen() {
     for flags in ["", "--watch"] {
         let file = written(folder.path(), "model.obj", OBJ);
         let mut viewer = viewer(flags, &[file.clone()]);
-        let mut window = open(&mut viewer, SIZE);
+        let mut window = open(&mut viewer, SMALL);
         fs::remove_file(&file).expect("it was there");
         if flags.is_empty() {
             key(&mut window, "Up");
@@ -147,7 +147,7 @@ fn title_counter_and_model_agree_beside_a_file_that_is_not_shown() {
     let files = [("a.obj", OBJ), ("b.obj", "v 0"), ("c.obj", OBJ)];
     let files = files.map(|(name, contents)| written(folder.path(), name, contents));
     let mut viewer = viewer("--filename", &files);
-    let mut window = open(&mut viewer, SIZE);
+    let mut window = open(&mut viewer, SMALL);
     let state = |window: &HeadlessWindow<'_>, counter: &str, title: &str| {
         assert!(says(window, counter), "{counter}: {:?}", said(window));
         assert_eq!(window.stage().title(), format!("{title} - trigon"), "{counter}");

@@ -26,7 +26,7 @@ fn screenshot(window: &HeadlessWindow<'_>, name: &str) {
     write_png(path, width, height, Pixels::Rgb8(&pixels)).expect("the folder is there");
 }
 
-/// Layers lie in the window, and none over another of its kind.
+/// Windows, menus and texts lie in the window, and none over another of its kind.
 fn check_layers(window: &mut HeadlessWindow<'_>, what: &str) {
     /// Rounding to whole pixels, and shadows of frames.
     const SLACK: f64 = 2.0;
@@ -34,13 +34,15 @@ fn check_layers(window: &mut HeadlessWindow<'_>, what: &str) {
     let layers = window.layers();
     for (name, [min, max]) in &layers {
         let is_inside = min.cmpge(DVec2::splat(-SLACK)).all() && max.cmple(size + SLACK).all();
-        assert!(is_inside, "{what}: {name} leaves the window: {min} to {max}");
+        assert!(is_inside, "{what}: {name:?} leaves the window: {min} to {max}");
     }
     for (i, (name, [min, max])) in layers.iter().enumerate() {
-        let covered = layers[..i].iter().find(|(_, [other_min, other_max])| {
-            min.cmplt(*other_max - SLACK).all() && other_min.cmplt(*max - SLACK).all()
+        let covered = layers[..i].iter().find(|(other, [other_min, other_max])| {
+            other.order == name.order
+                && min.cmplt(*other_max - SLACK).all()
+                && other_min.cmplt(*max - SLACK).all()
         });
-        assert_eq!(covered, None, "{what}: {name} covers it: {min} to {max}");
+        assert_eq!(covered, None, "{what}: {name:?} covers it: {min} to {max}");
     }
 }
 

@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn one_line_says_how_to_begin_until_somebody_has() {
-    let mut viewer = viewer("", &[]);
+    let (_folder, mut viewer) = simple();
     let mut window = open(&mut viewer, SIZE);
     let hint = "Drag: orbit";
     assert!(says(&window, hint), "{:?}", said(&window));
@@ -18,7 +18,7 @@ fn one_line_says_how_to_begin_until_somebody_has() {
 fn files_over_the_window_show_where_they_go() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = written(folder.path(), "a.obj", OBJ);
-    let mut viewer = viewer("", &[]);
+    let (_folder, mut viewer) = simple();
     let mut window = open(&mut viewer, SIZE);
     let before = window.pixels();
     window.hover(&[file.clone()]);
@@ -30,7 +30,7 @@ fn files_over_the_window_show_where_they_go() {
 
 #[test]
 fn the_menu_opens_by_a_right_click_and_by_keys_and_does_what_keys_do() {
-    let mut viewer = viewer("", &[]);
+    let (_folder, mut viewer) = simple();
     let mut window = open(&mut viewer, SIZE);
     click(&mut window, PointerButton::Right, DVec2::new(600.0, 100.0));
     assert!(says(&window, "Save a screenshot"), "{:?}", said(&window));
@@ -54,7 +54,7 @@ fn the_menu_opens_by_a_right_click_and_by_keys_and_does_what_keys_do() {
 
 #[test]
 fn the_list_of_keys_is_searched_and_chosen_from() {
-    let mut viewer = viewer("", &[]);
+    let (_folder, mut viewer) = simple();
     let mut window = open(&mut viewer, SIZE);
     key(&mut window, "H");
     let at = window.widgets("search keys and commands")[0].center;
@@ -75,7 +75,7 @@ fn a_path_is_typed_at_once_and_completed() {
     for name in ["chair.obj", "charm.obj"] {
         written(folder.path(), name, OBJ);
     }
-    let mut viewer = viewer("", &[]);
+    let (_folder, mut viewer) = simple();
     let mut window = open(&mut viewer, SIZE);
     key(&mut window, "Ctrl+O");
     type_text(&mut window, &format!("{}/c", folder.path().display()));
@@ -96,7 +96,7 @@ fn a_path_is_typed_at_once_and_completed() {
 fn escape_closes_every_panel() {
     let folder = tempfile::tempdir().expect("a folder");
     let broken = written(folder.path(), "broken.obj", "v");
-    let mut viewer = viewer("", &[]);
+    let (_folder, mut viewer) = simple();
     let mut window = open(&mut viewer, SIZE);
     for (chord, label) in [
         ("H", "Keys and commands"),
@@ -152,7 +152,7 @@ fn loading_again_asks_first_if_objects_were_moved() {
 
 #[test]
 fn up_axes_have_other_keys_than_undo() {
-    let mut viewer = viewer("", &[]);
+    let (_folder, mut viewer) = simple();
     let mut window = open(&mut viewer, SIZE);
     key(&mut window, "Alt+Z");
     assert!(says(&window, "+Z is up"), "{:?}", said(&window));
@@ -189,7 +189,7 @@ fn the_step_of_the_ladder_is_lit_and_arrows_change_a_setting() {
 
 #[test]
 fn f11_fills_the_screen_and_escape_leaves_it() {
-    let mut viewer = viewer("", &[]);
+    let (_folder, mut viewer) = simple();
     let mut window = open(&mut viewer, SIZE);
     key(&mut window, "F11");
     assert!(window.stage().full_screen, "filled");

@@ -15,10 +15,13 @@ use trigon_window::{Chord, HeadlessWindow, Key, Modifiers, PointerButton, Stage}
 use super::super::recent::Recent;
 use super::Viewer;
 use crate::args::{RawArgs, Request};
-use crate::model::Source;
 use crate::report::{Level, Reporter};
+use crate::source::Source;
 
 const SIZE: Viewport = Viewport { width: 800, height: 500 };
+
+/// Where only words matter: drawn sooner.
+const SMALL: Viewport = Viewport { width: 480, height: 320 };
 
 /// A triangle.
 const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -41,6 +44,13 @@ fn viewer(flags: &str, files: &[PathBuf]) -> Viewer {
     let mut viewer = Viewer::new(request, sources, Reporter::new(Level::Quiet));
     viewer.recent = Recent::default();
     viewer
+}
+
+/// A viewer of a triangle, and the folder with its file.
+fn simple() -> (tempfile::TempDir, Viewer) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = written(folder.path(), "simple.obj", OBJ);
+    (folder, viewer("", &[file]))
 }
 
 /// Opens its window and waits until nothing is loaded any more.
