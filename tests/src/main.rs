@@ -1,5 +1,6 @@
 //! The workspace tests, one module per subject.
 
+mod anywhere;
 mod blending;
 mod camera;
 mod certify;

@@ -1,4 +1,4 @@
-//! The result as a file for other programs.
+//! Exports the result as a file for other programs.
 
 use std::path::Path;
 

@@ -1,8 +1,8 @@
-//! The editor: a window on a document, or scripts of commands without one. A library, so that its program
-//! and what measures it ([`measured_editor`]) are built from the same.
+//! The editor: a window on a document, or scripts of commands without one. It is a library, so that its
+//! program and its benchmarks ([`measured_editor`]) share the code.
 //!
-//! It only assembles: documents and commands come from `trigon-edit`, files from `trigon-io`. What
-//! can go wrong becomes one line on standard error and an exit code here.
+//! It only assembles: documents and commands come from `trigon-edit`, files from `trigon-io`.
+//! Errors become one line on standard error and an exit code here.
 
 mod arguments;
 mod export;
@@ -29,7 +29,7 @@ use arguments::Arguments;
 #[cfg(feature = "window")]
 pub use window::measured_editor;
 
-/// The program: reads the command line, and does what it says.
+/// The program: parses the command line and runs it.
 #[must_use]
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();

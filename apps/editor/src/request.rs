@@ -1,5 +1,5 @@
-//! What a panel, a menu, a key or a tool asks the editor to do. Whatever shows the document changes nothing
-//! itself: it adds requests, and the editor carries them out one after the other.
+//! Requests of panels, menus, keys and tools to the editor. Code that shows the document never changes it: it
+//! adds requests, and the editor executes them one after the other.
 
 use std::path::PathBuf;
 

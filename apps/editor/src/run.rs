@@ -1,4 +1,4 @@
-//! A script from the first to the last command, and the result in a file.
+//! Runs a script from the first to the last command, and writes the result to a file.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! The window's scene in step with the document.
+//! Keeps the window's scene in step with the document.
 
 use trigon_edit::{Document, SceneChange};
 use trigon_window::SharedScene;

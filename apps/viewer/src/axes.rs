@@ -1,4 +1,4 @@
-//! The directions of the axes in a corner of a picture: arrows that turn with the camera.
+//! The axis directions in a corner of an image: arrows that rotate with the camera.
 
 use trigon_camera::{Camera, Projection};
 use trigon_math::{DAffine3, DQuat, DVec3, Vec3};

@@ -1,5 +1,4 @@
-//! `--check`: what is wrong with models, each with what to do about it; for people, or as
-//! JSON for other programs.
+//! `--check`: faults of models with remedies; for people, or as JSON for other programs.
 
 use std::fmt;
 use std::ops::ControlFlow;

@@ -1,4 +1,4 @@
-//! `--explain`: which effects a model calls for, why, and what they cost.
+//! `--explain`: which effects a model needs, why, and what they cost.
 
 use std::io::{self, Write};
 use std::time::Instant;

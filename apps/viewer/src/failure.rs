@@ -1,4 +1,4 @@
-//! Why a command ended early, sorted by exit code.
+//! Why a command failed, by exit code.
 
 use thiserror::Error;
 

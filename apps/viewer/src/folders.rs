@@ -1,4 +1,4 @@
-//! Folders among the files of the command line: the models in them take their place.
+//! Folders on the command line are replaced by the models in them.
 
 use std::path::{Path, PathBuf};
 

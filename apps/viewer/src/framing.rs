@@ -1,8 +1,7 @@
-//! Where the camera stands: the camera flags and the model become a camera
-//! that shows the model.
+//! Places the camera: combines the camera flags and the model's bounds.
 //!
-//! Turning (`azimuth`, `elevation`) comes before fitting, so that the model
-//! is in the picture whatever the angles are.
+//! Rotations (`azimuth`, `elevation`) come before fitting, so that the model is in view whatever
+//! the angles are.
 
 use std::str::FromStr;
 

@@ -1,5 +1,4 @@
-//! Text over a picture that is written to a file: the name above, counts on the left, as
-//! the window shows them.
+//! Text over an image file: the name at the top, counts on the left, as the window shows them.
 
 use trigon_scene::Frame;
 

@@ -1,5 +1,4 @@
-//! What goes to standard output as text: lists of formats and keys, and what
-//! is in a file.
+//! Text on standard output: lists of formats and keys, and the contents of a file.
 
 use std::io::{self, Write};
 

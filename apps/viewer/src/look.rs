@@ -1,4 +1,4 @@
-//! What the flags change about a model: materials, textures, back faces.
+//! Changes to a model by flags: materials, textures, back faces.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};

@@ -1,8 +1,8 @@
-//! The viewer: looks at models in a window, or turns them into picture files.
+//! The viewer: shows models in a window, or renders them to image files.
 //!
-//! It only assembles: flags come from [`args`], scenes from `trigon-io`,
-//! pictures from `trigon-scene`, the window from `trigon-window`. What can go
-//! wrong becomes one line on standard error and an exit code here.
+//! It only assembles: flags come from [`args`], scenes from `trigon-io`, images from
+//! `trigon-scene`, the window from `trigon-window`. Errors become one line on standard error and an
+//! exit code here.
 
 mod args;
 mod axes;

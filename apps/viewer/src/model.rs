@@ -1,5 +1,5 @@
-//! What is shown at one time: a scene from one file, from several, or the
-//! built-in one, with the flags' changes applied.
+//! The model shown at one time: a scene from one file, from several, or the built-in one, with the
+//! flags' changes applied.
 
 use std::path::PathBuf;
 

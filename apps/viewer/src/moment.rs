@@ -1,4 +1,4 @@
-//! The pose in which a model is shown: animations at a time.
+//! The pose of a model: animations at a time.
 
 use trigon_scene::{Animation, Scene};
 

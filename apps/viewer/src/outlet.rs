@@ -1,4 +1,4 @@
-//! Where finished pictures go: files by their endings, or standard output.
+//! The destination of finished images: files by their extensions, or standard output.
 
 use std::collections::HashSet;
 use std::io::{self, IsTerminal};

@@ -1,5 +1,5 @@
-//! Picture mode: models in, files of pictures and outputs, a PNG stream or a capture
-//! out. No display needed.
+//! Image mode: from models to files with images and outputs, a PNG stream or a capture. No display
+//! needed.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;

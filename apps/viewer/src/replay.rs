@@ -1,4 +1,4 @@
-//! Replay mode: draws a capture again and tells whether the picture is the same.
+//! Replay mode: draws a capture again and reports whether the image is the same.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! What the program says: one line per fact, on standard error, so that
-//! standard output is free for pictures and lists.
+//! Messages of the program: one line per fact, on standard error, so that standard output is free
+//! for images and lists.
 
 use std::fmt::Display;
 use std::io::{self, Write};

@@ -1,5 +1,5 @@
-//! What is shown beside the model: a grid, normals and bones as lines, and vertices as
-//! balls in place of faces. All of it is geometry of the scene, hidden and lit like any.
+//! Additional objects shown with the model: a grid, normals and bones as lines, and vertices as
+//! balls instead of faces. All of them are geometry of the scene, hidden and lit like any other.
 
 use trigon_camera::orientation_looking;
 use trigon_math::{Bounds3, DMat3, DVec3, Vec3, Vec4};

@@ -1,4 +1,4 @@
-//! Command scripts: what each line changes, and the pictures that they ask for.
+//! Command scripts: the changes of each line, and the images that they request.
 
 use std::fs;
 use std::path::Path;

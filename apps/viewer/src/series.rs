@@ -1,4 +1,4 @@
-//! Pictures that follow each other: once around the model, or an animation frame by frame.
+//! Image sequences: a turntable, or an animation frame by frame.
 
 use trigon_camera::Camera;
 use trigon_scene::Scene;

@@ -1,4 +1,5 @@
-//! The axes in the corner: which way x, y and z point, and a click on one looks along it.
+//! The axes in the corner: they show the directions of x, y and z, and a click on one looks along
+//! it.
 
 use trigon_edit::scene::camera::AxisView;
 use trigon_edit::scene::math::DVec3;

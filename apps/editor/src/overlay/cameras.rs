@@ -1,4 +1,4 @@
-//! The cameras of the scene, as the pyramid of what they see.
+//! The cameras of the scene, drawn as their view pyramids.
 
 use trigon_edit::Document;
 use trigon_edit::scene::NodeId;

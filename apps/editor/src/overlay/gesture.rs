@@ -1,4 +1,4 @@
-//! The outlines of selecting by a region.
+//! The outlines of region selections.
 
 use trigon_window::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind};
 

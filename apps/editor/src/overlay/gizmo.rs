@@ -1,4 +1,4 @@
-//! The gizmo on what is selected: handles to move, turn and scale it by the mouse.
+//! The gizmo on the selection: handles to move, rotate and scale it with the mouse.
 
 use trigon_edit::scene::math::{DMat3, DVec3, elementary};
 use trigon_window::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, vec2};

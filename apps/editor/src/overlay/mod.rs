@@ -1,9 +1,9 @@
-//! What lies over the picture and is not in the scene: lights, cameras, cursor, grid, gizmos and the
-//! outlines of gestures, as shapes of the interface.
+//! Overlays that are not in the scene: lights, cameras, cursor, grid, gizmos and the outlines of
+//! gestures, as shapes of the interface.
 //!
-//! `view` projects points and lines to logical pixels, cut at the near plane; each other file draws
-//! one thing with it and, where it can be clicked, tells what is under the pointer. Nothing
-//! here changes the document.
+//! `view` projects points and lines to logical pixels, clipped at the near plane; each other file
+//! draws one kind of overlay with it and, if it can be clicked, finds what is under the pointer.
+//! Nothing here changes the document.
 
 mod axes;
 mod cameras;

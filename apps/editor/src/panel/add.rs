@@ -1,4 +1,4 @@
-//! The tab *Add*: standard objects with their measures, lights, empties.
+//! The tab *Add*: standard objects with their dimensions, lights, empties.
 
 use trigon_edit::{AddEmpty, AddLight, AddObject, Command, Document, LeaveEditMode, LightShape, Shape};
 use trigon_window::egui::{self, Ui};

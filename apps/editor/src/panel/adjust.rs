@@ -1,4 +1,4 @@
-//! The parameters of the last command, to be changed afterwards (F9).
+//! The panel for adjusting the last command (F9).
 
 use trigon_edit::{Command, Document};
 use trigon_window::egui::{self, Ui};

@@ -1,4 +1,4 @@
-//! What the schema of the commands says about a parameter: which widget it needs.
+//! Chooses the widget of a parameter from the commands' schema.
 
 use std::sync::OnceLock;
 

@@ -1,4 +1,4 @@
-//! The list of what was done, the last at the top; a click goes back or forth to just after an entry.
+//! The history list, latest entry first; a click undoes or redoes up to an entry.
 
 use trigon_edit::{Document, Entry};
 use trigon_window::egui::{self, Ui};

@@ -1,5 +1,5 @@
-//! In which order the parameters of a command were declared: the most important first. The
-//! schema sorts them by name, the text of a command does not.
+//! The declaration order of a command's parameters: the most important first. The schema sorts them
+//! by name, the text of a command does not.
 
 use std::fmt;
 

@@ -1,10 +1,10 @@
-//! The panels: functions of the document and of what each remembers, which change nothing
-//! and return requests.
+//! The panels: functions of the document and their own state, which change nothing and return
+//! requests.
 //!
-//! `outliner` lists the objects. `properties`, `information`, `add` and `development` are
-//! the tabs; `history` is part of the second. `adjust` shows the parameters of the last command; its widgets are made from the
-//! schema of the commands (`form` says what there is, `parameters` shows it), so that a new command
-//! has its panel without a line of code here.
+//! `outliner` lists the objects. `properties`, `information`, `add` and `development` are the tabs; `history`
+//! is part of the second. `adjust` shows the parameters of the last command; its widgets are generated from
+//! the schema of the commands (`form` describes them, `parameters` shows them), so a new command needs no
+//! code here for its panel.
 
 mod add;
 mod adjust;

@@ -1,4 +1,4 @@
-//! Rows of a panel: a label and a widget, side by side or, where the panel is narrow, one above the other.
+//! Rows of a panel: a label and a widget, side by side or, in a narrow panel, one above the other.
 
 use trigon_window::egui::{self, DragValue, Response, Ui};
 

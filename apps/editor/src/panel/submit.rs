@@ -1,4 +1,4 @@
-//! From a changed widget to a request.
+//! Turns a changed widget into a request.
 
 use trigon_edit::{Command, Document};
 use trigon_window::egui::{Response, Ui};

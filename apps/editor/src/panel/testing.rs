@@ -1,4 +1,4 @@
-//! What tests of panels share: a document, a panel on it, and the requests that it makes.
+//! Shared helpers of panel tests: a document, a panel on it, and its requests.
 
 use egui_kittest::kittest::Queryable;
 use egui_kittest::{Harness, HarnessBuilder};

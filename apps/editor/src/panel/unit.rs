@@ -1,4 +1,4 @@
-//! Units of numbers: what a field shows behind its value.
+//! Units of numbers, shown after a field's value.
 
 /// What a number counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

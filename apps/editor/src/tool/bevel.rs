@@ -1,5 +1,5 @@
-//! Ctrl+B: bevels the selected edges or vertices. The farther the pointer goes away from their middle,
-//! the wider is the bevel; the wheel changes the number of segments.
+//! Ctrl+B: bevels the selected edges or vertices. The width grows with the distance of the pointer from their
+//! centre; the wheel changes the number of segments.
 
 use trigon_edit::mesh::math::{DVec2, DVec3};
 use trigon_edit::{Bevel, Document};

@@ -1,5 +1,5 @@
-//! Locks of a movement to an axis or a plane, as in Blender: X, Shift+X, the key once more for other
-//! axes and once more for none, C for none, the middle button for the nearest axis.
+//! Axis and plane locks, as in Blender: X, Shift+X, the key once more for other axes and once more
+//! for none, C for none, the middle button for the nearest axis.
 
 use trigon_edit::mesh::math::{DMat3, DVec2, DVec3};
 

@@ -1,5 +1,5 @@
-//! E: extrudes, then moves what was extruded: along the mean normal, or locked as a move is. Cancelling
-//! takes the new geometry away, too.
+//! E: extrudes, then moves the result: along the mean normal, or locked like a move. Cancelling also removes
+//! the new geometry.
 
 use trigon_edit::mesh::math::{DMat3, DVec2, DVec3};
 use trigon_edit::{Command, Document, ElementKind, Extrude, TransformSpace};

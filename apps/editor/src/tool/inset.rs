@@ -1,4 +1,4 @@
-//! I: insets the selected faces. The nearer the pointer comes to their middle, the wider is the rim.
+//! I: insets the selected faces. The thickness grows as the pointer approaches their centre.
 
 use trigon_edit::mesh::math::{DVec2, DVec3};
 use trigon_edit::{Document, Inset, InsetMode};

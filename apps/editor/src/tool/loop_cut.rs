@@ -1,4 +1,4 @@
-//! Ctrl+R: the ring under the pointer is shown, a click cuts it, and then the cuts slide.
+//! Ctrl+R: shows the ring under the pointer, a click cuts it, and then the cuts slide.
 
 use trigon_edit::mesh::edit::{EdgeId, EditMesh, FaceId};
 use trigon_edit::mesh::math::{DAffine3, DVec2, DVec3};

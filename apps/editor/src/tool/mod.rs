@@ -1,10 +1,10 @@
 //! Modal tools: state machines that turn mouse and keys into previews of commands.
 //!
-//! They know no window and draw nothing. A tool is started on what is selected, is given each input
-//! together with the view, previews its command on the document, and ends confirmed (one entry
-//! in the history) or cancelled (the first bytes). `numeric`, `constraint`, `snap`, `pivot` and
-//! `view` hold what all tools have in common; `transform` is move, turn and scale in one;
-//! `gesture` draws regions to select by.
+//! They know no window and draw nothing. A tool is started on the selection, receives each input
+//! together with the view, previews its command on the document, and ends confirmed (one entry in
+//! the history) or cancelled (with all bytes restored). `numeric`, `constraint`, `snap`, `pivot`
+//! and `view` are shared by all tools; `transform` is move, rotate and scale in one; `gesture`
+//! selects by regions.
 
 mod bevel;
 mod constraint;

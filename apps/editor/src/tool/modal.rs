@@ -1,5 +1,5 @@
-//! What all modal tools have in common: keys that confirm and cancel, the pointer, typed numbers, and the
-//! preview of a command.
+//! The common part of modal tools: keys that confirm and cancel, the pointer, typed numbers, and the preview
+//! of a command.
 
 use trigon_edit::mesh::math::DVec2;
 use trigon_edit::{Command, Document};

@@ -1,4 +1,4 @@
-//! What stays where it is when something turns or is scaled.
+//! Pivots: the fixed point of rotations and scales.
 
 use trigon_edit::mesh::math::DVec3;
 

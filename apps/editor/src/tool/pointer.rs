@@ -1,5 +1,5 @@
-//! The pointer of a tool: it goes on where the window's pointer jumps from one border to the other, and
-//! slows down while Shift is held.
+//! The pointer of a tool: it continues when the window's pointer wraps around at a border, and slows down
+//! while Shift is held.
 
 use trigon_edit::mesh::math::DVec2;
 

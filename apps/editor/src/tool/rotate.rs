@@ -1,4 +1,4 @@
-//! Turning: from the pointer or typed numbers to axis and angle.
+//! Rotating: from the pointer or typed numbers to axis and angle.
 
 use trigon_edit::mesh::math::DVec3;
 use trigon_edit::{Command, Rotate, TransformSpace};

@@ -1,5 +1,4 @@
-//! What a transform starts from: where the selected things are in the world, and which axes are
-//! theirs.
+//! The start of a transform: the world positions of the selection, and its axes.
 
 use trigon_edit::mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
 use trigon_edit::mesh::math::{DAffine3, DMat3, DVec3};

@@ -1,5 +1,4 @@
-//! G G: sliding along edges. How far a part of the way is in the picture is found from the vertex that is
-//! nearest to the pointer.
+//! G G: sliding along edges. The vertex nearest to the pointer determines the scale between screen and edge.
 
 use trigon_edit::mesh::edit::{EditMesh, VertexId};
 use trigon_edit::mesh::math::{DAffine3, DVec2, DVec3};

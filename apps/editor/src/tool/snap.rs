@@ -1,4 +1,5 @@
-//! Snapping: to steps, to the grid, and to vertices, edges and faces of what does not move.
+//! Snapping: to increments, to the grid, and to vertices, edges and faces of elements that do not
+//! move.
 
 use trigon_edit::mesh::math::{DMat3, DVec2, DVec3};
 

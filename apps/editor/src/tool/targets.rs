@@ -1,4 +1,4 @@
-//! What a movement may snap to: vertices, edges and faces that do not move with it.
+//! Snap targets: vertices, edges and faces that do not move with the selection.
 
 use trigon_edit::mesh::Mesh;
 use trigon_edit::mesh::edit::EditMesh;

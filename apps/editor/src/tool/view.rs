@@ -1,5 +1,4 @@
-//! From the pointer to the world: what a drag across the picture means for a point, along an axis
-//! and in a plane.
+//! From the pointer to the world: the meaning of a drag for a point, along an axis and in a plane.
 
 use trigon_edit::mesh::math::{DVec2, DVec3};
 use trigon_edit::scene::camera::{Camera, Projector, Viewport};

@@ -1,5 +1,6 @@
-//! Tools that a button or a menu started: the way from there to the model is no movement. They wait for a press in
-//! the view. A drag from there is the whole tool; after a click it follows the pointer, as by its key.
+//! Tools started from a button or a menu: the way from there to the model must not count as movement, so they
+//! wait for a press in the view. A drag from there is the whole tool; after a click it follows the pointer,
+//! as when started by its key.
 
 use trigon_window::scene::math::DVec2;
 use trigon_window::{Hands, Input, Modifiers, PointerButton, Stage};

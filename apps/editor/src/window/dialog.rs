@@ -1,5 +1,4 @@
-//! The window in which a file is chosen: the system's dialog, a typed path where there is none, and the files
-//! of last time.
+//! The file chooser: the system's dialog, or a typed path if there is none, and recent files.
 
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};

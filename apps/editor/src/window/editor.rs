@@ -1,4 +1,4 @@
-//! The editor's state, and what becomes of requests.
+//! The editor's state, and the execution of requests.
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! Opening, saving and closing: nothing that was done is lost without a question.
+//! Opening, saving and closing: no work is lost without a question.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! The gizmo on what is selected, the axes in the corner, and presses on them.
+//! The gizmo on the selection, the axes in the corner, and presses on them.
 
 use trigon_window::egui::{Pos2, Rect, vec2};
 use trigon_window::{Hands, Pane, Stage};

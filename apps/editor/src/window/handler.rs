@@ -1,4 +1,4 @@
-//! What the window tells the editor.
+//! The editor's callbacks for the window.
 
 use std::path::PathBuf;
 

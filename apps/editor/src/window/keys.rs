@@ -1,4 +1,4 @@
-//! Which chord does what: the table's own chords, and what a user's file says otherwise.
+//! Key bindings: the default chords, and the changes in a user's file.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;

@@ -1,5 +1,4 @@
-//! Loading on a thread of its own, so that the window stays alive and a load that nobody waits for any more ends
-//! early.
+//! Loading on its own thread, so that the window stays responsive and an abandoned load ends early.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};

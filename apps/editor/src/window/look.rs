@@ -1,4 +1,4 @@
-//! The document on the stage: its scene, what is selected of it, and how it is drawn.
+//! The document on the stage: its scene, its selection, and its display settings.
 
 use std::collections::BTreeSet;
 

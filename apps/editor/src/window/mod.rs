@@ -1,7 +1,7 @@
 //! The editor's window: its state, and everything around the 3D view.
 //!
-//! A key, a menu, a panel or a tool makes a [`Request`](crate::request::Request); [`Editor`]
-//! carries it out on the document; [`look`] brings the document onto the stage.
+//! Keys, menus, panels and tools make [`Request`](crate::request::Request)s; [`Editor`] executes
+//! them on the document; [`look`] brings the document onto the stage.
 
 mod actions;
 mod button_start;
@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
 }
 
 /// The editor on a document, and the stage that shows it, as the program opens them: for a window without a
-/// display that is worked by a program. What a crash would lose is written to this folder, if there is one.
+/// display that a program drives. Recovery files are written to this folder, if there is one.
 #[must_use]
 pub fn measured_editor(document: Document, folder: Option<PathBuf>) -> (Stage, Box<dyn Handler>) {
     let mut stage = Stage::new("trigon");

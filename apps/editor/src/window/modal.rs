@@ -1,4 +1,4 @@
-//! The tool that follows the pointer: how it is started, what it is given, and what becomes of what it did.
+//! The modal tool: how it is started, its input, and its result.
 
 use trigon_edit::scene::Region;
 use trigon_edit::scene::camera::AxisView;

@@ -1,4 +1,4 @@
-//! Changes of the view that come from keys and menus; drags are the window's own.
+//! View changes by keys and menus; the window itself handles drags.
 
 use trigon_edit::scene::NodeId;
 use trigon_edit::{Document, ObjectName, Rotation, SetTransform, TransformSpace};

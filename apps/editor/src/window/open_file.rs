@@ -1,4 +1,4 @@
-//! What is known about the document's file, and what has to be asked before it is replaced.
+//! The document's file: what is known about it, and the questions before it is replaced.
 
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
-//! One view or four: which of them the pointer is in, and what tools and drawings over the picture see of it.
+//! One view or four: which of them the pointer is in, and how tools and overlays see it.
 //!
-//! The window has one scene and one camera; `trigon_window::Pane` says where its views are. A tool keeps to the
-//! view that it was started in, and counts in that view's own pixels.
+//! The window has one scene and one camera; `trigon_window::Pane` says where its views are. A tool stays in
+//! the view in which it was started, and uses that view's own pixels.
 
 use trigon_window::egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, Visuals, pos2, vec2};
 use trigon_window::scene::camera::{AxisView, Viewport};

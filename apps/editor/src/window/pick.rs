@@ -1,4 +1,4 @@
-//! Clicks: what is selected by them.
+//! Clicks that select.
 
 use trigon_edit::scene::NodeId;
 use trigon_edit::{Command, ObjectName, PICK_RADIUS, Picks, Select, SelectAction};

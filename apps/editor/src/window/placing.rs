@@ -1,4 +1,4 @@
-//! Where menus put new objects, and on which object others are hung.
+//! Where menus put new objects, and parenting.
 
 use trigon_edit::{Command, ObjectName, SetParent};
 use trigon_window::scene::math::DVec3;

@@ -1,7 +1,7 @@
-//! The picture of ids in which the editor looks up what is under the pointer.
+//! The id image in which the editor looks up what is under the pointer.
 //!
-//! It is a picture of its own: that in the window may be a draft, and shows edges, vertices and X-ray. It is kept
-//! until scene or camera change, so that selecting one thing after the other draws nothing.
+//! It is a separate image: the one in the window may be a draft, and shows edges, vertices and X-ray. It is
+//! kept until scene or camera change, so that repeated selections draw nothing.
 
 use trigon_edit::mesh::edit::FaceId;
 use trigon_edit::scene::camera::{Camera, Projector, Viewport};

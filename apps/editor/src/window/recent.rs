@@ -1,4 +1,4 @@
-//! The files that were opened or saved last, in a file of the user's own.
+//! Recent files, stored in a file of the user.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,7 +1,7 @@
-//! What is written down beside the window while somebody edits, and what a crash has left behind.
+//! Recovery files: written in the background while somebody edits, and found after a crash.
 //!
-//! Each open document has a recovery file and beside it a file that this process holds locked. Where that lock
-//! is free, the process that held it is gone without having closed its document.
+//! Each open document has a recovery file and a lock file that this process holds. If that lock is free, the
+//! process that held it ended without closing its document.
 
 use std::fs::{self, File};
 use std::io::{Read, Write};

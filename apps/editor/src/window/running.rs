@@ -1,4 +1,4 @@
-//! A tool or a gesture that runs: what it says and draws, and which inputs are the camera's meanwhile.
+//! An active tool or gesture: its status line and drawing, and which inputs remain the camera's meanwhile.
 
 use trigon_edit::mesh::math::DVec2;
 use trigon_edit::scene::Region;

@@ -1,5 +1,5 @@
-//! Saving on a thread of its own. What is written is the document as it was when that began; the window goes on
-//! meanwhile, and what closes the document waits.
+//! Saving on its own thread. The document is written as it was when saving began; the window continues
+//! meanwhile, and closing the document waits.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};

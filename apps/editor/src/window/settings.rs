@@ -1,4 +1,4 @@
-//! How the window and its tools work, apart from the document.
+//! Settings of the window and its tools, independent of the document.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! The materials that a display mode shows in place of the scene's own.
+//! Materials that a display mode shows instead of the scene's own.
 
 use trigon_edit::scene::{AlphaMode, Material, Scene, Shading};
 use trigon_window::scene::math::{Vec3, Vec4};

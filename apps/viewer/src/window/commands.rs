@@ -1,4 +1,4 @@
-//! The viewer's own keys: those of F3D that concern files.
+//! The viewer's own keys: those of F3D for files.
 
 use std::str::FromStr;
 

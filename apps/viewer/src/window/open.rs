@@ -1,5 +1,4 @@
-//! Opening files: the system's dialog, a typed path where there is none, and the files
-//! opened last.
+//! Opening files: the system's dialog, or a typed path if there is none, and recent files.
 
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};

@@ -1,5 +1,5 @@
-//! Playing animations: a clock that ticks carry on, and the bar under the picture with a
-//! scrubber, the clips' names, speed and loop.
+//! Playing animations: a clock advanced by ticks, and the bar under the image with a scrubber, the
+//! clips' names, speed and loop.
 
 use std::time::Duration;
 

@@ -1,5 +1,5 @@
-//! Where screenshots go: a folder of their own among the user's pictures, or
-//! the working folder where there are none.
+//! The folder of screenshots: one in the user's pictures folder, or the working folder if there is
+//! none.
 
 use std::fs;
 use std::path::{Path, PathBuf};

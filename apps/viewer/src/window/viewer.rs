@@ -1,5 +1,4 @@
-//! The viewer's part of the window: which model is shown, loading it, and what
-//! the viewer's own keys do.
+//! The viewer's part of the window: the current model, loading, and the viewer's own keys.
 
 use std::path::PathBuf;
 

@@ -1,5 +1,5 @@
-//! Telling when files change. Their folders are watched, not the files: editors write
-//! another file and give it the old one's name, or delete and make anew.
+//! Watches files for changes. Their folders are watched, not the files: editors write another file
+//! and rename it, or delete and create it again.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,4 @@
-//! The textures of a material of the document: which there are, what each is
-//! for, and where in a mesh their coordinates are.
+//! The textures of a glTF material: their uses, and the location of their coordinates in a mesh.
 
 use gltf::json::extensions::texture::TextureTransform;
 use gltf::json::{Material, texture};
@@ -9,7 +8,7 @@ use trigon_math::{Vec2, elementary};
 
 use crate::texture_request::Purpose;
 
-/// What a texture of a material says.
+/// The use of a texture in a material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Slot {
     BaseColor,
@@ -90,8 +89,8 @@ fn loose_transform(others: &Map<String, Value>) -> Option<TextureTransform> {
     serde_json::from_value(others.get("KHR_texture_transform")?.clone()).ok()
 }
 
-/// KHR_texture_transform: translation · rotation · scale, turning
-/// counter-clockwise with v pointing down.
+/// KHR_texture_transform: translation · rotation · scale, rotating counter-clockwise with v
+/// pointing down.
 fn to_affine(from: &TextureTransform) -> Affine2 {
     let (sine, cosine) = elementary::sin_cos(f64::from(from.rotation.0));
     let (sine, cosine) = (sine as f32, cosine as f32);

@@ -1,5 +1,5 @@
-//! The hash of a mesh's triangles as a file has them: all accessors of all primitives, in a
-//! form that does not change when a program merely numbers or places them anew.
+//! The hash of a mesh's triangles in a file: all accessors of all primitives, in a form that does
+//! not change if a program only renumbers or moves them.
 
 use gltf::json::accessor::{ComponentType, Type};
 
@@ -27,20 +27,20 @@ pub(super) struct TriangleHash {
 }
 
 impl TriangleHash {
-    /// The next primitive, by its mode as OpenGL numbers it.
+    /// Begins the next primitive, with its OpenGL mode.
     pub(super) fn primitive(&mut self, mode: u32) {
         self.accessor("mode", u64::from(mode));
     }
 
-    /// The next accessor of the primitive. Attributes come sorted by their names, then
-    /// indices, then morph targets.
+    /// The next accessor of the primitive. Attributes come sorted by their names, then indices,
+    /// then morph targets.
     pub(super) fn accessor(&mut self, name: &str, hash: u64) {
         self.bytes.extend((name.len() as u32).to_le_bytes());
         self.bytes.extend(name.as_bytes());
         self.bytes.extend(hash.to_le_bytes());
     }
 
-    /// The hash as files name it.
+    /// The hash as stored in files.
     pub(super) fn finish(&self) -> String {
         format!("{:016x}", xxh64(&self.bytes))
     }

@@ -1,4 +1,4 @@
-//! The buffers of a picture as images.
+//! The buffers of a frame as images.
 
 use trigon_window::egui::{Color32, ColorImage};
 use trigon_window::scene::Frame;

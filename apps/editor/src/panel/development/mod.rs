@@ -1,7 +1,7 @@
-//! The tab *Development*: what a picture took and how it was made: stages, tiles, overdraw, buffers,
-//! effects with their reasons, single pixels, accuracy.
+//! The tab *Development*: how the frame was made: stages, tiles, overdraw, buffers, effects with
+//! their reasons, single pixels, accuracy.
 //!
-//! Figures of the stages need a picture of their own, which is drawn when it is asked for.
+//! Stage statistics need a separate frame, which is drawn on request.
 
 mod buffer;
 mod pixel;

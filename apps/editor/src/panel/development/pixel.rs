@@ -1,4 +1,4 @@
-//! What is known of one pixel.
+//! Details of one pixel.
 
 use trigon_window::egui::{self, Ui};
 use trigon_window::scene::{Frame, Scene};

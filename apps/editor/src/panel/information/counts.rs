@@ -1,4 +1,4 @@
-//! How much there is.
+//! Element counts.
 
 use trigon_edit::mesh::edit::EditMesh;
 use trigon_edit::mesh::math::Bounds3;

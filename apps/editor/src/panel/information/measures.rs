@@ -1,4 +1,4 @@
-//! Lengths, angles, areas, volumes, and what may be wrong with meshes: computed when asked for.
+//! Lengths, angles, areas, volumes, and possible faults of meshes: computed on request.
 
 use trigon_edit::mesh::edit::{EditMesh, Inspection, InspectionSettings, VertexId};
 use trigon_edit::mesh::math::{DVec3, elementary};

@@ -1,5 +1,4 @@
-//! The tab *Information*: what is selected, how much there is, how large it is, what was measured, and
-//! which keys do what.
+//! The tab *Information*: the selection, counts, dimensions, measurements, and keys.
 
 mod counts;
 mod measures;

@@ -1,4 +1,4 @@
-//! Dragging rows: onto another row to hang on it, between rows to stand there.
+//! Dragging rows: onto another row to set the parent, between rows to reorder.
 
 use trigon_edit::scene::{NodeId, Scene};
 use trigon_edit::{Command, Document, ObjectName, ReorderObject, SetParent};

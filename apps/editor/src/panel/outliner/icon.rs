@@ -1,4 +1,4 @@
-//! Small pictures in rows, painted: the interface's fonts have letters only.
+//! Icons in rows, painted: the interface's fonts have letters only.
 
 use trigon_edit::scene::Node;
 use trigon_window::egui::{Color32, Painter, Pos2, Rect, Stroke, StrokeKind, vec2};

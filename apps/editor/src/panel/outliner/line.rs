@@ -1,4 +1,4 @@
-//! One row of the outliner: fold, kind, name, eye.
+//! One row of the outliner: fold, kind, name, visibility.
 
 use trigon_edit::scene::{Node, NodeId};
 use trigon_edit::{Document, ObjectName, RenameObject, SelectAction, ShowObjects};

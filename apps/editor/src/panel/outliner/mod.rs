@@ -1,5 +1,5 @@
-//! The outliner: all objects as a tree, to be selected, named, hidden, hung on one another and put
-//! in order. However many there are, only the rows in view are laid out.
+//! The outliner: all objects as a tree, for selecting, renaming, hiding, parenting and reordering.
+//! However many there are, only the rows in view are laid out.
 
 mod drop;
 mod icon;

@@ -1,4 +1,5 @@
-//! Which rows there are: the tree from top to bottom, without what is folded or not searched for.
+//! The rows of the outliner: the tree from top to bottom, without folded rows and rows that the
+//! search excludes.
 
 use std::collections::BTreeSet;
 

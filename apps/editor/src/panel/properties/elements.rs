@@ -1,4 +1,4 @@
-//! What is selected of meshes: where it is, and what it is marked with.
+//! The selected elements of meshes: positions and marks.
 
 use trigon_edit::mesh::math::DVec3;
 use trigon_edit::{Command, Crease, Document, ResetVertices, Translate};

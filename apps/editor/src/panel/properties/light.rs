@@ -1,4 +1,4 @@
-//! What a light sends out.
+//! Parameters of a light.
 
 use trigon_edit::scene::{Light, LightKind, NodeId};
 use trigon_edit::{Document, LightShape, ObjectName, SetLight};

@@ -1,4 +1,4 @@
-//! The materials of an object: its slots, their values, their pictures.
+//! The materials of an object: its slots, their values, their textures.
 
 use trigon_edit::scene::{AlphaMode, Arena, Material, MaterialId, Node, NodeId, Shading};
 use trigon_edit::{

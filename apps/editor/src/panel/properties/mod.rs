@@ -1,4 +1,4 @@
-//! The tab *Properties*: exact values of the active object, or of what is selected of meshes.
+//! The tab *Properties*: exact values of the active object, or of selected elements.
 
 mod elements;
 mod light;

@@ -1,7 +1,7 @@
-//! Arithmetic that a user types in place of a number: `1/3`, `2 * (45 + 10)`, `pi rad`, `1 m + 20 cm`.
+//! Arithmetic expressions typed instead of a number: `1/3`, `2 * (45 + 10)`, `pi rad`, `1 m + 20 cm`.
 //!
-//! A recursive descent over the text; how deep parentheses and signs nest is bounded, so no
-//! text overflows the stack.
+//! A recursive descent parser; the nesting of parentheses and signs is limited, so no text
+//! overflows the stack.
 
 #[cfg(test)]
 mod tests;

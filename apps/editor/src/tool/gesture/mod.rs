@@ -1,4 +1,4 @@
-//! Selecting by a region of the picture: box, circle and lasso, as state machines.
+//! Region selection: box, circle and lasso, as state machines.
 
 #[cfg(test)]
 mod tests;

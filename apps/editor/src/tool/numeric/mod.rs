@@ -1,8 +1,8 @@
 //! Numbers typed while a tool runs, as in Blender: `G 2 Enter`.
 //!
-//! Digits and `.` add to the number, `-` negates all of it, `/` takes its reciprocal, Tab goes on to the next
-//! component, and Backspace takes back a character, then the signs, then the whole entry. `=` starts an
-//! expression, in which everything that is typed is text; Ctrl+`=` ends it.
+//! Digits and `.` extend the number, `-` negates all of it, `/` takes its reciprocal, Tab goes to the next
+//! component, and Backspace removes a character, then the signs, then the whole entry. `=` starts an
+//! expression, in which everything typed is text; Ctrl+`=` ends it.
 
 #[cfg(test)]
 mod tests;

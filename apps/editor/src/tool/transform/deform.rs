@@ -1,5 +1,5 @@
-//! Shrink and fatten, push and pull, to sphere: one number from the pointer, upwards or rightwards is
-//! more.
+//! Shrink and fatten, push and pull, to sphere: one number from the pointer, which grows upwards and
+//! rightwards.
 
 use trigon_edit::{Command, PushPull, ShrinkFatten, ToSphere};
 

@@ -1,4 +1,4 @@
-//! What keys, the wheel and the pointer do to a transform that runs.
+//! Keys, wheel and pointer during a transform.
 
 use trigon_edit::mesh::math::{DVec2, elementary};
 use trigon_edit::{Document, Proportional};

@@ -1,5 +1,5 @@
-//! Move, turn, scale, shrink and fatten, and slide: one tool, because each turns into another by its
-//! key.
+//! Move, rotate, scale, shrink and fatten, and slide: one tool, because each turns into another by
+//! its key.
 
 mod deform;
 mod input;

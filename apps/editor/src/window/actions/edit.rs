@@ -1,4 +1,4 @@
-//! The menu Edit, with what objects and elements have in common, and the menus of settings.
+//! The menu Edit, with actions for both objects and elements, and the settings menus.
 
 use super::{Action, Does::*, Needs, actions};
 use crate::request::{Orientation, Pivot, SnapTarget, ToolKind, UiRequest};

@@ -1,5 +1,5 @@
-//! Everything that a user can do, in one table: menus, keys, the command search and the help sheet are all
-//! made from it, so that none of them can lack or promise anything.
+//! Every user action, in one table: menus, keys, the command search and the key list are all generated from
+//! it, so that they always agree.
 
 mod add;
 mod edit;

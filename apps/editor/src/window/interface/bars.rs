@@ -1,4 +1,4 @@
-//! The bar on top with modes and settings, and the tools on the left.
+//! The top bar with modes and settings, and the tools on the left.
 
 use trigon_edit::ElementKind;
 use trigon_window::Stage;

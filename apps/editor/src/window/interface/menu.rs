@@ -1,4 +1,4 @@
-//! Menus, made from the table of actions.
+//! Menus, generated from the table of actions.
 
 use trigon_window::Stage;
 use trigon_window::egui::containers::menu::menu_style;

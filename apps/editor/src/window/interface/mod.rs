@@ -1,5 +1,5 @@
-//! Everything around the 3D view. Each part adds what it is asked for to a list, which the editor carries out
-//! when the interface is laid out.
+//! Everything around the 3D view. Each part adds its requests to a list, which the editor executes after the
+//! layout.
 
 mod bars;
 mod menu;

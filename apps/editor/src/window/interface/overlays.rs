@@ -1,4 +1,4 @@
-//! The list of keys, and the field for another name.
+//! The list of keys, and the rename field.
 
 use trigon_edit::{Document, ObjectName, RenameObject};
 use trigon_window::egui::{self, Align2, Context, Grid, Key, RichText, ScrollArea, TextEdit};

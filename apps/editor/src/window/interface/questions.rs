@@ -1,4 +1,4 @@
-//! Questions that have to be answered before anything else is done.
+//! Questions that must be answered before anything else.
 
 use trigon_window::Stage;
 use trigon_window::egui::{Context, Id, Key, Modal, Ui};

@@ -1,5 +1,5 @@
-//! The panels on the right: the outliner above, tabs below; and that of the last operation, at the lower left
-//! of the view.
+//! The panels on the right: the outliner above, tabs below; and the panel of the last operation, at the lower
+//! left of the view.
 
 use trigon_window::Stage;
 use trigon_window::egui::{self, Align2, Context, Id, Panel, Rect, ScrollArea, Ui};

@@ -1,5 +1,4 @@
-//! The line at the bottom: the keys and numbers of the tool that runs, what was done or refused, and what is
-//! selected.
+//! The status line: the keys and numbers of the active tool, results and errors, and the selection.
 
 use trigon_edit::{Document, ElementKind};
 use trigon_window::egui::{Align, Color32, Layout, RichText, Ui};

@@ -1,4 +1,5 @@
-//! What lies over the picture: the grid, lights, cameras, the cursor, gizmos, and what tools and gestures draw.
+//! Everything drawn over the image: the grid, lights, cameras, the cursor, gizmos, and the drawings of tools
+//! and gestures.
 
 use trigon_edit::scene::Region;
 use trigon_window::egui::{Color32, Painter, Shape, Stroke, Ui};

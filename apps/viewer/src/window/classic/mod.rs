@@ -1,4 +1,4 @@
-//! The loaded model, drawn by an algorithm of the sources in place of the renderer.
+//! Draws the loaded model with an algorithm of the sources instead of the renderer.
 
 mod projected;
 

@@ -1,4 +1,4 @@
-//! A scene as the algorithms of the study take it: bodies on the pixel grid.
+//! A scene in the form that the study's algorithms need: bodies on the pixel grid.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! What changing a setting did to the time that the picture takes.
+//! The effect of changing a setting on the time of an image.
 
 use std::collections::HashMap;
 use std::time::Duration;

@@ -1,5 +1,5 @@
-//! The panel of accuracy and its cost: each setting that trades one for the other, what
-//! the picture took, and how far it is from the reference.
+//! The accuracy panel: each setting that trades accuracy for time, the time of the image, and its
+//! difference from the reference.
 
 mod costs;
 mod settings;

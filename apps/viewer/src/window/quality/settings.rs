@@ -1,4 +1,4 @@
-//! The settings that trade accuracy for time, each with the choices it has.
+//! The settings that trade accuracy for time, with their choices.
 
 use trigon_scene::{AmbientOcclusion, Reflection, RenderSettings, ShadingModel, Shadows};
 

@@ -1,4 +1,4 @@
-//! Materials, samplers and images that say what cannot be drawn as they say it.
+//! Contradictions in materials, samplers and images, which cannot be drawn as specified.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use crate::gltf::images::image_of;
 use crate::gltf::slots::slot_textures;
 use crate::warning::Warnings;
 
-/// Which numbers a factor may be, and what it is otherwise.
+/// The valid range of a factor, and what happens outside it.
 #[derive(Clone, Copy)]
 struct Range {
     least: f32,
@@ -46,7 +46,7 @@ pub(super) fn warn_of_materials(root: &Root, used: &BTreeSet<usize>, warnings: &
     warn_of_images(root, &textures, warnings);
 }
 
-/// A number or several of a material, and where they must be.
+/// One or more numbers of a material, and their valid range.
 struct Factor {
     name: &'static str,
     values: Vec<f32>,
@@ -54,7 +54,7 @@ struct Factor {
 }
 
 impl Factor {
-    /// What to say of it when it is out of range.
+    /// The message if it is out of range.
     fn fault(&self) -> Option<String> {
         let Range { least, most, otherwise } = self.range;
         let is_sound = self.values.iter().all(|value| (least..=most).contains(value));
@@ -62,7 +62,7 @@ impl Factor {
     }
 }
 
-/// The factors that the material is drawn with: of an unlit one only its colour.
+/// The factors with which the material is drawn: for an unlit one only its colour.
 fn factors(material: &Material) -> Vec<Factor> {
     let pbr = &material.pbr_metallic_roughness;
     let factor = |name, values: &[f32], range| Factor { name, values: values.to_vec(), range };
@@ -95,7 +95,7 @@ fn factors(material: &Material) -> Vec<Factor> {
     list
 }
 
-/// Whether it is unlit and has effects that are drawn on lit surfaces only.
+/// Whether it is unlit and has effects that apply only to lit surfaces.
 fn is_unlit_and_more(material: &Material) -> bool {
     material.extensions.as_ref().is_some_and(|extensions| {
         let more = extensions.emissive_strength.is_some()
@@ -106,7 +106,7 @@ fn is_unlit_and_more(material: &Material) -> bool {
     })
 }
 
-/// The textures whose transform gltf-json does not look at, if it is malformed.
+/// The textures with a malformed transform, which gltf-json does not check.
 fn malformed_transforms(material: &Material) -> Vec<&'static str> {
     let is_malformed = |others: &Map<String, Value>| {
         let transform = others.get("KHR_texture_transform");

@@ -1,4 +1,4 @@
-//! Morph targets and weights that do not fit, and attributes that are not read.
+//! Morph targets and weights that do not match, and attributes that are not read.
 
 use std::collections::BTreeSet;
 
@@ -44,13 +44,13 @@ pub(super) fn warn_of_meshes(
     }
 }
 
-/// How many morph targets each primitive of a mesh has.
+/// The number of morph targets of each primitive of a mesh.
 fn target_counts(root: &Root, mesh: usize) -> impl Iterator<Item = usize> {
     let primitives = root.meshes[mesh].primitives.iter();
     primitives.map(|primitive| primitive.targets.as_ref().map_or(0, Vec::len))
 }
 
-/// Says when there is not one weight for each morph target of a mesh.
+/// Warns if the number of weights differs from the number of morph targets of a mesh.
 fn warn_of_weights(
     weights: Option<&Vec<f32>>,
     root: &Root,

@@ -1,8 +1,8 @@
-//! What a document says twice, or says and cannot mean: warnings before
-//! anything of it is read. It is drawn all the same, and each warning says how.
+//! Contradictions in a document, found before it is read. It is drawn anyway, and each warning says
+//! how.
 //!
-//! Only what the scene reaches is looked at: the rest does not show. What takes
-//! the numbers of accessors to see is said where they are read.
+//! Only parts that the scene reaches are checked, because the rest is not visible. Contradictions
+//! that only show in accessor data are reported where it is read.
 
 mod animations;
 mod materials;
@@ -42,7 +42,7 @@ fn warn_of_version(root: &Root, warnings: &mut Warnings) {
     }
 }
 
-/// Names nodes that the scene lists as its roots, and that hang on others.
+/// Reports nodes that the scene lists as its roots although they have a parent.
 fn warn_of_listed_children(hierarchy: &Hierarchy, warnings: &mut Warnings) {
     for &node in &hierarchy.listed_children {
         let what = match hierarchy.parents[node] {

@@ -1,3 +1,3 @@
-//! What helps against most contradictions.
+//! The remedy for most contradictions.
 
 pub(super) const REMEDY: &str = "export the model again";

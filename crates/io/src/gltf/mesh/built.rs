@@ -1,4 +1,4 @@
-//! What becomes of a mesh of the document, and what its materials want of it.
+//! A converted mesh, and what its materials need of it.
 
 use trigon_mesh::Mesh;
 use trigon_mesh::edit::Marks;
@@ -6,23 +6,23 @@ use trigon_mesh::edit::Marks;
 use crate::gltf::slots::{Slot, SlotTexture};
 use crate::gltf::source::PrimitiveFaces;
 
-/// A mesh, and what its slots hold.
+/// A mesh, and the contents of its slots.
 pub(crate) struct BuiltMesh {
     pub(crate) mesh: Mesh,
     /// The material of each slot: an index of the document, or the default.
     pub(crate) materials: Vec<Option<usize>>,
-    /// Which faces each primitive became.
+    /// The faces of each primitive.
     pub(crate) primitives: Vec<PrimitiveFaces>,
     /// Of a native file, if the mesh was being edited.
     pub(crate) marks: Option<Marks>,
 }
 
-/// What a material wants of the meshes that it covers.
+/// What a material needs of the meshes that use it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Needs {
-    /// The UV sets that its textures are looked up in.
+    /// The UV sets of its textures.
     pub(crate) uv_sets: Vec<u32>,
-    /// The one of its normal map.
+    /// The UV set of its normal map.
     pub(crate) tangents_of: Option<u32>,
 }
 

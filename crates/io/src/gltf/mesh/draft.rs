@@ -13,7 +13,7 @@ use super::part::Part;
 /// The mesh under construction.
 pub(super) struct Draft {
     builder: MeshBuilder,
-    /// The vertex at a place that moves in a certain way.
+    /// The vertex at a position with a given movement.
     welded: HashMap<([u32; 3], u32), u32>,
     movements: Movements,
     attributes: Attributes,
@@ -80,7 +80,7 @@ impl Draft {
     fn add_loose(&mut self, part: &Part, vertices: &[Option<u32>]) {
         for edge in &part.elements.edges {
             match edge.map(|end| vertices[end as usize]) {
-                // A line without length shows nothing.
+                // A line without length is invisible.
                 [Some(from), Some(to)] if from == to => {}
                 [Some(from), Some(to)] => {
                     self.builder.push_loose_edge(from, to).expect("both vertices exist and differ");
@@ -98,7 +98,7 @@ impl Draft {
         }
     }
 
-    /// The vertex at a place; `None` where there is no place.
+    /// The vertex at a position; `None` if the position is not finite.
     fn weld(&mut self, part: &Part, vertex: usize) -> Option<u32> {
         let position = part.positions[vertex];
         if !position.is_finite() {
@@ -145,7 +145,7 @@ impl Draft {
     }
 }
 
-/// Adding zero makes −0 and +0 the same.
+/// Adding zero makes −0 and +0 equal.
 fn bits(value: f32) -> u32 {
     (value + 0.0).to_bits()
 }
@@ -159,13 +159,13 @@ fn sound_tangent(tangent: Vec4) -> Vec4 {
     direction.extend(if tangent.w < 0.0 { -1.0 } else { 1.0 })
 }
 
-/// How the vertices move.
+/// The movement of vertices.
 struct Movements {
     per_vertex: usize,
     joints: Vec<u16>,
     weights: Vec<f32>,
     targets: Vec<Target>,
-    /// A number for each way to move; 0 is not at all.
+    /// A number for each movement; 0 means none.
     ways: HashMap<Vec<u32>, u32>,
 }
 
@@ -193,7 +193,7 @@ impl Movements {
         }
     }
 
-    /// A number that vertices share exactly when they move the same way.
+    /// A number that vertices share exactly if they move the same way.
     fn way(&mut self, part: &Part, vertex: usize) -> u32 {
         if part.skin.is_none() && part.targets.is_empty() {
             return 0;

@@ -1,13 +1,11 @@
-//! Meshes of the document: primitives become one polygon mesh with a material
-//! slot for each material.
+//! Meshes of the document: primitives become one polygon mesh with a material slot for each
+//! material.
 //!
-//! Vertices at the same place that move the same way are one vertex: glTF
-//! splits them wherever a normal or texture coordinate jumps, and the shape
-//! would fall apart into loose pieces.
+//! Vertices in the same position with the same movement are merged: glTF splits them wherever a
+//! normal or texture coordinate is discontinuous, and the shape would fall apart into loose pieces.
 //!
-//! `part` (one primitive, decoded) with `movement` (its skin and morph
-//! targets) → `draft` (all of them welded) → `tangents` (where normal maps
-//! need them and the file has none).
+//! `part` (one primitive, decoded) with `movement` (its skin and morph targets) → `draft` (all of
+//! them welded) → `tangents` (if normal maps need them and the file has none).
 
 mod built;
 mod draft;
@@ -30,7 +28,7 @@ pub(super) use built::{BuiltMesh, Needs};
 use draft::Draft;
 use part::read_primitive;
 
-/// Reads a mesh. `needs` says what a material wants of it.
+/// Reads a mesh. `needs` returns what a material needs of it.
 pub(crate) fn build_mesh(
     accessors: &mut Accessors<'_, '_>,
     index: usize,
@@ -72,7 +70,7 @@ pub(crate) fn build_mesh(
     Ok(built)
 }
 
-/// The weights of a mesh's morph targets where a node has none of its own.
+/// The weights of a mesh's morph targets, for nodes without their own.
 pub(crate) fn default_weights(root: &Root, mesh: usize) -> Vec<f32> {
     sound_weights(root.meshes[mesh].weights.as_deref().unwrap_or_default())
 }

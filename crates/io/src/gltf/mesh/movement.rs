@@ -1,4 +1,4 @@
-//! How the vertices of a primitive move: joints with weights, and morph targets.
+//! The movement of a primitive's vertices: joints with weights, and morph targets.
 
 use gltf::json::mesh::Semantic;
 use gltf::json::validation::Checked;
@@ -10,10 +10,10 @@ use crate::gltf::formats::{JOINTS, TARGET_NORMAL, TARGET_POSITION, TARGET_TANGEN
 
 /// Joints in a set of attributes: JOINTS_0 has four, JOINTS_1 four more.
 const PER_SET: usize = 4;
-/// The most sets that are followed.
+/// The maximum number of sets.
 const MOST_SETS: u32 = 4;
-/// How far the weights of a vertex may be from 1 in all before it is worth a
-/// warning: quantized weights are off by about 1/255 each.
+/// The largest deviation of a vertex's total weight from 1 without a warning: quantized weights are
+/// off by about 1/255 each.
 const TOLERANCE: f32 = 0.02;
 
 /// The joints of each vertex, all sets of a vertex together.
@@ -30,7 +30,7 @@ impl PartSkin {
     }
 }
 
-/// What a morph target adds to each vertex.
+/// The deltas of a morph target for each vertex.
 #[derive(Default)]
 pub(super) struct PartTarget {
     pub(super) positions: Option<Vec<[f32; 3]>>,
@@ -38,13 +38,13 @@ pub(super) struct PartTarget {
     pub(super) tangents: Option<Vec<[f32; 3]>>,
 }
 
-/// The vector of a vertex; zero where there is none or it is no number.
+/// The vector of a vertex; zero if it is missing or not finite.
 pub(super) fn delta(list: Option<&Vec<[f32; 3]>>, vertex: usize) -> Vec3 {
     let value = list.map_or(Vec3::ZERO, |list| Vec3::from(list[vertex]));
     if value.is_finite() { value } else { Vec3::ZERO }
 }
 
-/// Reads joints and weights; none unless there is a set of both.
+/// Reads joints and weights; `None` unless there is a set of both.
 pub(super) fn read_skin(from: &mut Optional<'_, '_, '_>) -> Result<Option<PartSkin>, Unplaced> {
     let mut sets = Vec::new();
     for set in 0..=MOST_SETS {
@@ -74,7 +74,7 @@ pub(super) fn read_skin(from: &mut Optional<'_, '_, '_>) -> Result<Option<PartSk
     for vertex in 0..from.vertices {
         let start = weights.len();
         for (of_joints, of_weights) in &sets {
-            // Indices are integers of at most 16 bits; a cast holds others to that.
+            // Indices are integers of at most 16 bits; a cast limits others to that.
             joints.extend(of_joints[vertex].map(|joint| joint as u16));
             weights.extend_from_slice(&of_weights[vertex]);
         }
@@ -91,7 +91,7 @@ pub(super) fn read_skin(from: &mut Optional<'_, '_, '_>) -> Result<Option<PartSk
     Ok(Some(PartSkin { per_vertex: sets.len() * PER_SET, joints, weights }))
 }
 
-/// Says when there are more sets than those that were read.
+/// Warns if there are more sets than were read.
 fn warn_of_later_sets(from: &mut Optional<'_, '_, '_>, read: u32) {
     let is_later = |key: &Checked<Semantic>| matches!(key, Checked::Valid(Semantic::Joints(set) | Semantic::Weights(set)) if *set >= read);
     if from.primitive.attributes.keys().any(is_later) {
@@ -106,7 +106,7 @@ fn are_sound(weights: &[f32]) -> bool {
     weights.iter().all(|&weight| weight >= 0.0) && (sum - 1.0).abs() <= TOLERANCE
 }
 
-/// Reads the morph targets. Their tangents are read where the base has some.
+/// Reads the morph targets. Their tangents are read if the base has some.
 pub(super) fn read_targets(
     from: &mut Optional<'_, '_, '_>,
     with_tangents: bool,

@@ -1,4 +1,4 @@
-//! Attributes that a primitive can do without.
+//! Optional attributes of primitives.
 
 use gltf::json::mesh::{Primitive, Semantic};
 use gltf::json::validation::Checked;
@@ -9,7 +9,7 @@ use crate::gltf::buffers::Unplaced;
 use crate::gltf::formats::{self, Usage};
 use crate::warning::Warnings;
 
-/// How many UV sets are read in any case, and at most.
+/// The number of UV sets always read, and the maximum.
 const UV_SETS: u32 = 2;
 const MOST_UV_SETS: u32 = 8;
 
@@ -18,7 +18,7 @@ pub(super) fn find(primitive: &Primitive, semantic: Semantic) -> Option<usize> {
     primitive.attributes.get(&Checked::Valid(semantic)).map(|accessor| accessor.value())
 }
 
-/// Reads attributes that a primitive can do without.
+/// Reads optional attributes of primitives.
 pub(super) struct Optional<'o, 'a, 'b> {
     pub(super) accessors: &'o mut Accessors<'a, 'b>,
     pub(super) primitive: &'o Primitive,
@@ -40,7 +40,7 @@ impl Optional<'_, '_, '_> {
         find(self.primitive, semantic).is_some()
     }
 
-    /// None, and a warning, when there is not one value a vertex.
+    /// `None`, with a warning, if there is not one value per vertex.
     pub(super) fn read_accessor<const N: usize>(
         &mut self,
         index: usize,
@@ -62,14 +62,13 @@ impl Optional<'_, '_, '_> {
         self.warnings.push(self.place.clone(), what, "export the model again");
     }
 
-    /// A warning of which `count` vertices are a case.
+    /// A warning about `count` vertices.
     pub(super) fn warn_counted(&mut self, count: usize, what: &str) {
         self.warnings.push_counted(count, self.place.clone(), what, "export the model again");
     }
 
-    /// The UV sets; those that a material wants and the primitive lacks are
-    /// copies of the first. Later sets keep their number: an absent one before
-    /// them is empty.
+    /// The UV sets; sets that a material needs and the primitive lacks are copies of the first.
+    /// Later sets keep their number: a missing one before them is empty.
     pub(super) fn uv_sets(&mut self, wanted: &[u32]) -> Result<Vec<Vec<[f32; 2]>>, Unplaced> {
         let last = wanted.iter().copied().filter(|&set| set < MOST_UV_SETS).max();
         let mut sets = Vec::new();

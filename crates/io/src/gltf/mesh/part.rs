@@ -18,7 +18,7 @@ use crate::warning::{Warnings, counted};
 pub(super) struct Part {
     pub(super) positions: Vec<Vec3>,
     pub(super) normals: Option<Vec<[f32; 3]>>,
-    /// Only where a normal map needs them.
+    /// Only if a normal map needs them.
     pub(super) tangents: Option<Vec<[f32; 4]>>,
     pub(super) uv_sets: Vec<Vec<[f32; 2]>>,
     pub(super) colors: Option<Vec<[f32; 4]>>,
@@ -57,7 +57,7 @@ pub(super) fn read_primitive(
     let mut optional = Optional { accessors, primitive, vertices: positions.len(), place: &place, warnings };
     let normals = optional.read::<3>(Semantic::Normals, &formats::NORMAL)?;
     let tangents = match (&normals, needs.tangents_of) {
-        // Without normals the file's tangents are to be ignored.
+        // Without normals the file's tangents must be ignored.
         (Some(_), Some(_)) => optional.read::<4>(Semantic::Tangents, &formats::TANGENT)?,
         _ => None,
     };
@@ -85,7 +85,7 @@ pub(super) fn read_primitive(
     }))
 }
 
-/// The bounds of POSITION need not be there, but must have three numbers.
+/// The bounds of POSITION may be missing, but must have three numbers.
 fn check_bounds(accessors: &Accessors<'_, '_>, index: usize) -> Result<(), Unplaced> {
     let accessor = &accessors.root.accessors[index];
     for (name, bound) in [("min", &accessor.min), ("max", &accessor.max)] {

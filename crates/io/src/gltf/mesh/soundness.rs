@@ -1,11 +1,10 @@
-//! What the values of attributes must be, counted over the vertices of a
-//! primitive; `draft` mends what is not so.
+//! Checks attribute values over the vertices of a primitive; `draft` corrects invalid ones.
 
 use super::movement::PartTarget;
 use super::optional::Optional;
 
-/// How far a colour may be out of 0 to 1 before it is worth a warning: half a
-/// step of eight bits, which no picture shows.
+/// How far a colour may be outside 0 to 1 without a warning: half an 8-bit step, which no image
+/// shows.
 const COLOR_TOLERANCE: f32 = 0.5 / 255.0;
 /// How far the sign of a tangent may be from 1 or −1: one step of a normalized byte.
 const SIGN_TOLERANCE: f32 = 1.0 / 127.0;
@@ -48,7 +47,7 @@ pub(super) fn warn_of_targets(from: &mut Optional<'_, '_, '_>, targets: &[PartTa
     from.warn_counted(count, "a morph target has a value that is not finite; it counts as 0");
 }
 
-/// Whether it is longer than 0; how long makes no difference.
+/// Whether it is longer than 0; the length itself does not matter.
 fn is_direction(vector: &[f32; 3]) -> bool {
     are_finite(vector) && vector.iter().any(|&value| value != 0.0)
 }

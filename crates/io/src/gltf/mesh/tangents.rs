@@ -1,4 +1,4 @@
-//! Tangents for normal maps whose mesh has none of its own.
+//! Tangents for normal maps of meshes without their own.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -8,9 +8,8 @@ use trigon_mesh::Mesh;
 
 use super::part::Part;
 
-/// Generates the tangents that materials need and the file does not have, each
-/// for the UV set of its primitive's normal map. `corners` are those of each
-/// part; others keep what they have.
+/// Generates the tangents that materials need and the file does not have, each for the UV set of
+/// its primitive's normal map. `corners` are those of each part; others are unchanged.
 pub(super) fn complete(mesh: &mut Mesh, parts: &[Part], corners: &[Range<usize>]) {
     let mut missing: BTreeMap<u32, Vec<Range<usize>>> = BTreeMap::new();
     for (part, corners) in parts.iter().zip(corners).filter(|(part, _)| part.tangents.is_none()) {

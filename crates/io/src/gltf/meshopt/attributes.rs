@@ -1,12 +1,12 @@
-//! Mode 0: elements as differences from the one before, byte by byte, in
-//! groups of sixteen that take as many bits as they need.
+//! Mode 0: elements as differences from the previous one, byte by byte, in groups of sixteen with
+//! as many bits as needed.
 
 use super::broken::Broken;
 use super::stream::Stream;
 
 /// Elements of a group.
 const GROUP: usize = 16;
-/// The most elements and the most bytes of a block.
+/// The maximum number of elements and of bytes of a block.
 const BLOCK: usize = 256;
 const BLOCK_BYTES: usize = 8192;
 
@@ -26,8 +26,7 @@ impl Version {
         }
     }
 
-    /// The last element before the first, how channels are coded, and before
-    /// both what fills them up.
+    /// The base element, the coding of channels, and before both their padding.
     fn tail(self, stride: usize) -> (usize, usize) {
         match self {
             Self::Zero => (stride.max(32), 0),
@@ -95,8 +94,7 @@ fn read_block(
     Ok(deltas)
 }
 
-/// Sixteen deltas of some bits each. One with all bits set stands for a byte
-/// that follows the group.
+/// Sixteen deltas with some bits each. One with all bits set stands for a byte after the group.
 fn read_group(stream: &mut Stream<'_>, width: usize, deltas: &mut Vec<u8>) -> Result<(), Broken> {
     let packed = stream.take(GROUP * width / 8)?;
     if width == 8 {
@@ -108,7 +106,7 @@ fn read_group(stream: &mut Stream<'_>, width: usize, deltas: &mut Vec<u8>) -> Re
         let bit = index * width;
         let delta = match width {
             0 => 0,
-            // Single bits come from the lowest on, others from the highest.
+            // Single bits are stored from the lowest on, others from the highest.
             1 => packed[bit / 8] >> (bit % 8) & 1,
             _ => packed[bit / 8] >> (8 - width - bit % 8) & escape,
         };
@@ -118,14 +116,14 @@ fn read_group(stream: &mut Stream<'_>, width: usize, deltas: &mut Vec<u8>) -> Re
     Ok(())
 }
 
-/// How four bytes of an element follow from those of the one before.
+/// How four bytes of an element follow from those of the previous one.
 #[derive(Clone, Copy)]
 enum Channel {
-    /// Each byte by a difference.
+    /// Differences of bytes.
     Bytes,
-    /// Two numbers of 16 bits by differences.
+    /// Differences of two 16-bit numbers.
     Words,
-    /// The bits that differ, rotated to the left by so many.
+    /// The differing bits, rotated to the left by this many.
     Bits(u32),
 }
 
@@ -166,7 +164,7 @@ fn unzigzag_word(value: u16) -> u16 {
     if value & 1 == 0 { value >> 1 } else { !(value >> 1) }
 }
 
-/// Turns the deltas of a block into elements.
+/// Converts the deltas of a block to elements.
 fn add_up(deltas: &[u8], elements: usize, channels: &[Channel], previous: &mut [u8], decoded: &mut Vec<u8>) {
     let pitch = elements.div_ceil(GROUP) * GROUP;
     for element in 0..elements {

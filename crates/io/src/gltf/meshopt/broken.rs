@@ -1,4 +1,4 @@
-//! What is wrong with a compressed view.
+//! Errors in compressed views.
 
-/// Why a stream is none.
+/// Why a stream is invalid.
 pub(crate) type Broken = &'static str;

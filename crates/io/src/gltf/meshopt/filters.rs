@@ -1,7 +1,7 @@
-//! What turns decoded attributes into the values that accessors describe.
+//! Filters: from decoded attributes to the values that accessors describe.
 //!
-//! Where the specification leaves a result open (an encoding of 1 that is
-//! none), it is whatever the formula gives, without a division by zero.
+//! Where the specification leaves a result open (an invalid encoding of 1), it is the result of the
+//! formula, without a division by zero.
 
 /// A filter of the extension.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub(crate) enum Filter {
 }
 
 impl Filter {
-    /// The filter of a name; none for an unknown one.
+    /// The filter with a name; `None` for an unknown one.
     pub(crate) fn from_name(name: &str) -> Option<Self> {
         match name {
             "NONE" => Some(Self::None),
@@ -32,7 +32,7 @@ impl Filter {
         }
     }
 
-    /// Whether elements may have so many bytes.
+    /// Whether elements may have this many bytes.
     pub(super) fn fits(self, stride: usize) -> bool {
         match self {
             Self::None | Self::Exponential => stride.is_multiple_of(4),
@@ -123,7 +123,7 @@ fn exponential(bytes: &mut [u8]) {
 }
 
 fn color(y: i32, co: i32, cg: i32, alpha: i32, most: f64) -> [i32; 4] {
-    // The highest bit of alpha says how many bits the others have.
+    // The highest bit of alpha gives the number of bits of the others.
     let bits = 32 - alpha.leading_zeros();
     let largest = (1i32 << bits) - 1;
     let scale = if largest > 0 { most / f64::from(largest) } else { 0.0 };

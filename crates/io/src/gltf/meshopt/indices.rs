@@ -1,4 +1,4 @@
-//! Mode 2: each index is a difference from one of two earlier ones.
+//! Mode 2: each index is a difference from one of two previous ones.
 
 use super::broken::Broken;
 use super::stream::{Stream, unzigzag};
@@ -12,7 +12,7 @@ pub(super) fn decode(bytes: &[u8], count: usize) -> Result<Vec<u32>, Broken> {
         return Err("it does not begin as a sequence of indices does");
     }
     let mut last = [0u32; 2];
-    // Not with the capacity that is claimed: each index takes a byte at least.
+    // Not with the claimed capacity: each index takes at least one byte.
     let mut indices = Vec::with_capacity(count.min(stream.0.len()));
     for _ in 0..count {
         let code = stream.varint()?;

@@ -2,9 +2,8 @@
 //! bytes are compressed. Written from the specification of the latter (Khronos,
 //! draft of 2025), which includes the former.
 //!
-//! `attributes`, `triangles` and `indices` are its three modes, `filters` what
-//! may follow the first. Every read is checked, and memory grows with what was
-//! decoded, never with what was claimed.
+//! `attributes`, `triangles` and `indices` are its three modes, `filters` are optional after the
+//! first. Every read is checked, and memory grows with the decoded data, never with claimed sizes.
 
 mod attributes;
 mod broken;
@@ -16,7 +15,7 @@ mod triangles;
 pub(crate) use broken::Broken;
 pub(crate) use filters::Filter;
 
-/// How a view is compressed.
+/// The compression of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mode {
     /// Elements of any kind, byte for byte.
@@ -27,14 +26,14 @@ pub(crate) enum Mode {
     Indices,
 }
 
-/// What a compressed view holds.
+/// The contents of a compressed view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Layout {
     pub(crate) mode: Mode,
     pub(crate) filter: Filter,
     /// Elements.
     pub(crate) count: usize,
-    /// Bytes of an element.
+    /// Bytes per element.
     pub(crate) stride: usize,
 }
 
@@ -51,7 +50,7 @@ pub(crate) fn decode(layout: &Layout, bytes: &[u8]) -> Result<Vec<u8>, Broken> {
 }
 
 impl Layout {
-    /// The conditions that the extension states.
+    /// The conditions of the extension.
     fn check(&self) -> Result<(), Broken> {
         let Self { mode, filter, count, stride } = *self;
         match mode {
@@ -70,7 +69,7 @@ impl Layout {
     }
 }
 
-/// Indices as little-endian bytes, the low ones of each.
+/// Indices as little-endian bytes, truncated to their size.
 fn written(indices: &[u32], stride: usize) -> Vec<u8> {
     indices.iter().flat_map(|index| index.to_le_bytes().into_iter().take(stride)).collect()
 }

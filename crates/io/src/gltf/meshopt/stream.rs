@@ -1,12 +1,12 @@
-//! Bytes that are read one after the other.
+//! A stream of bytes.
 
 use super::broken::Broken;
 
-/// What is left of a stream.
+/// The rest of a stream.
 pub(super) struct Stream<'b>(pub(super) &'b [u8]);
 
 impl<'b> Stream<'b> {
-    /// Splits the header byte off the front and a tail off the end.
+    /// Splits off the header byte at the front and a tail at the end.
     pub(super) fn open(bytes: &'b [u8], tail: usize) -> Result<(u8, Self, &'b [u8]), Broken> {
         let (&header, rest) = bytes.split_first().ok_or("it is empty")?;
         let middle = rest.len().checked_sub(tail).ok_or("it is too short for its tail")?;
@@ -43,7 +43,7 @@ impl<'b> Stream<'b> {
     }
 }
 
-/// What zigzag encoding stands for: 0, −1, 1, −2 …, modulo 2³².
+/// Decodes zigzag encoding: 0, −1, 1, −2 …, modulo 2³².
 pub(super) fn unzigzag(value: u32) -> u32 {
     if value & 1 == 0 { value >> 1 } else { !(value >> 1) }
 }

@@ -1,5 +1,5 @@
-//! Mode 1: each triangle is a byte that says which edge and which vertex of
-//! recent ones it has again, and few bytes where that does not do.
+//! Mode 1: each triangle is a byte that names a recent edge and vertex to reuse, plus a few bytes
+//! where that is not enough.
 
 use super::broken::Broken;
 use super::stream::{Stream, unzigzag};
@@ -7,8 +7,8 @@ use super::stream::{Stream, unzigzag};
 const HEADER: u8 = 0xe1;
 /// The table of frequent pairs.
 const TAIL: usize = 16;
-/// The codes of a vertex that no triangle has had, and of one that the data
-/// has; those between count recent ones.
+/// The codes of a vertex not used by any triangle yet, and of one stored in the data; those in
+/// between count recent ones.
 const NEW: u8 = 0;
 const WRITTEN: u8 = 0xf;
 
@@ -32,10 +32,10 @@ pub(super) fn decode(bytes: &[u8], count: usize) -> Result<Vec<u32>, Broken> {
     Ok(indices)
 }
 
-/// The last sixteen of something.
+/// The last sixteen items.
 struct Recent<T> {
     ring: [Option<T>; 16],
-    /// Where the next one goes.
+    /// The position of the next one.
     at: usize,
 }
 
@@ -49,7 +49,7 @@ impl<T: Copy> Recent<T> {
         self.at = (self.at + 1) % 16;
     }
 
-    /// 0 is the last one, 15 the one that goes next.
+    /// 0 is the last one, 15 the one to be replaced next.
     fn get(&self, back: u8) -> Result<T, Broken> {
         let index = (self.at + 15 - usize::from(back & 15)) % 16;
         self.ring[index].ok_or("it refers to something before its start")
@@ -59,7 +59,7 @@ impl<T: Copy> Recent<T> {
 struct Decoder<'b> {
     data: Stream<'b>,
     table: &'b [u8],
-    /// The index that no triangle has had yet.
+    /// The next unused index.
     next: u32,
     /// The last index that was written out.
     last: u32,
@@ -103,8 +103,7 @@ impl Decoder<'_> {
         Ok(self.remember([a, b, c], pair))
     }
 
-    /// Three vertices, told one by one: the first by `code`, the others by a
-    /// byte of the data.
+    /// Three vertices, encoded individually: the first by `code`, the others by a byte of the data.
     fn told_apart(&mut self, code: u8) -> Result<[u32; 3], Broken> {
         let pair = self.data.byte()?;
         if pair == 0 {
@@ -115,7 +114,7 @@ impl Decoder<'_> {
         Ok(self.remember(corners, pair))
     }
 
-    /// All three edges, and the vertices that are not recent ones already.
+    /// All three edges, and the vertices that are not recent already.
     fn remember(&mut self, [a, b, c]: [u32; 3], pair: u8) -> [u32; 3] {
         self.edges.push((b, a));
         self.edges.push((c, b));

@@ -1,7 +1,7 @@
 //! A mesh and its marks as named runs of little-endian numbers.
 //!
-//! Writer and reader visit the columns in the same order, and both hash what they visit: a file
-//! whose views are not those that were written is found out.
+//! Writer and reader visit the columns in the same order, and both hash them, so a file whose views
+//! differ from those written is detected.
 
 use std::collections::BTreeSet;
 
@@ -61,7 +61,7 @@ impl ColumnWriter {
     }
 }
 
-/// A column without values is as good as none.
+/// A column without values is equivalent to a missing one.
 fn hash_column(hashed: &mut Vec<u8>, name: &str, bytes: &[u8]) {
     if bytes.is_empty() {
         return;
@@ -72,7 +72,7 @@ fn hash_column(hashed: &mut Vec<u8>, name: &str, bytes: &[u8]) {
     hashed.extend(xxh64(bytes).to_le_bytes());
 }
 
-/// The columns of a mesh, and of its marks if it was edited; and what the header says of them.
+/// The columns of a mesh, and of its marks if it was edited, with the corresponding header fields.
 pub(in crate::gltf) fn columns_of_mesh(mesh: &Mesh, marks: Option<&Marks>) -> (ColumnWriter, Header) {
     let mut writer = ColumnWriter::default();
     let attributes = mesh.attributes();
@@ -124,7 +124,7 @@ pub(in crate::gltf) fn columns_of_mesh(mesh: &Mesh, marks: Option<&Marks>) -> (C
     (writer, header)
 }
 
-/// The columns of faces and corners that a mesh has: all empty, if it has no faces.
+/// The existing columns of faces and corners of a mesh without faces: all are empty.
 fn optional_columns(attributes: &Attributes) -> BTreeSet<String> {
     let known = [
         ("faceMaterials", attributes.face_materials.is_some()),
@@ -155,9 +155,9 @@ fn write_marks(writer: &mut ColumnWriter, marks: &Marks) {
     writer.words("sharpCorners", marks.sharp_corners.iter().copied());
 }
 
-/// Finds the bytes of columns by their names, and hashes what is asked for.
+/// Finds the bytes of columns by name, and hashes those requested.
 pub(in crate::gltf) struct ColumnReader<'b> {
-    /// Columns that are there, without values.
+    /// Columns that exist without values.
     empty: &'b BTreeSet<String>,
     /// The bytes of each column, by its name.
     find: &'b dyn Fn(&str) -> Option<&'b [u8]>,
@@ -173,14 +173,14 @@ impl<'b> ColumnReader<'b> {
         format!("{:016x}", xxh64(&self.hashed))
     }
 
-    /// A column; one that is not there is empty.
+    /// A column; a missing one is empty.
     fn column(&mut self, name: &str) -> &'b [u8] {
         let bytes = (self.find)(name).unwrap_or_default();
         hash_column(&mut self.hashed, name, bytes);
         bytes
     }
 
-    /// A column that need not be there.
+    /// An optional column.
     fn optional(&mut self, name: &str) -> Option<&'b [u8]> {
         let is_there = (self.find)(name).is_some() || self.empty.contains(name);
         is_there.then(|| self.column(name))
@@ -218,7 +218,7 @@ fn vec3(name: &str, bytes: &[u8]) -> Result<Vec<Vec3>, String> {
 /// The mesh in some columns, and its marks.
 ///
 /// # Errors
-/// What contradicts what, in words.
+/// The contradiction, in words.
 pub(in crate::gltf) fn mesh_from_columns(
     reader: &mut ColumnReader<'_>,
     header: &Header,

@@ -9,10 +9,10 @@ use serde_json::value::RawValue;
 /// The member of `extras` of some object.
 #[derive(Clone, Debug, Default)]
 pub(in crate::gltf) enum Extras<T> {
-    /// There is none.
+    /// It does not exist.
     #[default]
     Absent,
-    /// There is one that cannot be understood.
+    /// It exists but cannot be parsed.
     Broken,
     Present(T),
 }
@@ -27,7 +27,7 @@ impl<T> Extras<T> {
 }
 
 impl<'de, T: DeserializeOwned> Deserialize<'de> for Extras<T> {
-    /// From anything at all, at any depth, without recursion.
+    /// Parses any value, at any depth, without recursion.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]
         struct Members {
@@ -62,10 +62,10 @@ pub(in crate::gltf) struct Header {
     /// How many morph targets there are.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub(in crate::gltf) targets: usize,
-    /// Columns that are there, without values: views have at least one byte.
+    /// Columns that exist without values: views have at least one byte.
     #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
     pub(in crate::gltf) empty: BTreeSet<String>,
-    /// Whether the mesh was being edited, so that there are marks.
+    /// Whether the mesh was being edited, and so has marks.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(in crate::gltf) edited: bool,
 }
@@ -80,12 +80,12 @@ pub(in crate::gltf) struct NodeExtras {
     pub(in crate::gltf) version: u32,
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(in crate::gltf) hidden: bool,
-    /// The light, if it is one that the format does not have.
+    /// The light, if it is of a kind that the format lacks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(in crate::gltf) ambient: Option<AmbientExtras>,
 }
 
-/// Light from everywhere.
+/// Ambient light.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, PartialEq)]
 pub(in crate::gltf) struct AmbientExtras {
     pub(in crate::gltf) color: [f32; 3],
@@ -99,7 +99,7 @@ pub(in crate::gltf) struct MaterialExtras {
     pub(in crate::gltf) shading: ExactShading,
 }
 
-/// The shading models that the format does not have.
+/// The shading models that the format lacks.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq)]
 #[serde(rename_all = "camelCase", tag = "model")]
 pub(in crate::gltf) enum ExactShading {

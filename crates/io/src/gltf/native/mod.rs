@@ -1,10 +1,9 @@
-//! What a native file holds beside a glTF that every program reads: `extras.trigon` of meshes,
-//! nodes and materials.
+//! The editor's additions to a standard glTF file: `extras.trigon` of meshes, nodes and materials.
 //!
-//! A mesh names views of the buffer with its polygons, its exact values and its marks
-//! ([`Header`]), and the hash of the triangles that stand for them. If another program changed
-//! the triangles, the hash tells, and the triangles count. Transforms need nothing here: numbers
-//! of glTF are decimal, so a node's own members hold all digits of an f64.
+//! A mesh names buffer views with its polygons, its exact values and its marks ([`Header`]), and
+//! the hash of the triangles that represent them. If another program changed the triangles, the
+//! hash differs, and the triangles are used. Transforms need nothing here: numbers in glTF are
+//! decimal, so a node's own members hold all digits of an f64.
 
 mod columns;
 mod extras;
@@ -17,5 +16,5 @@ pub(super) use read::{NativeMesh, read_native_mesh};
 /// The member of `extras`.
 pub(super) const MEMBER: &str = "trigon";
 
-/// The version that is written, and the last that is read.
+/// The version that is written, and the latest that is read.
 pub(super) const VERSION: u32 = 1;

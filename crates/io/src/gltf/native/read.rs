@@ -1,5 +1,5 @@
-//! Meshes of native files: polygons and marks, as long as the triangles are those that were
-//! written with them.
+//! Meshes of native files: polygons and marks, as long as the triangles are those that were written
+//! with them.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -16,16 +16,16 @@ use crate::gltf::buffers::{Bytes, Unplaced};
 use crate::gltf::hash::xxh64;
 use crate::gltf::triangle_hash::{TriangleHash, accessor_hash};
 
-/// A mesh as it was modelled.
+/// A mesh as modelled.
 pub(in crate::gltf) struct NativeMesh {
     pub(in crate::gltf) mesh: Mesh,
     /// The material of each slot.
     pub(in crate::gltf) materials: Vec<Option<usize>>,
-    /// If it was being edited.
+    /// Only if it was being edited.
     pub(in crate::gltf) marks: Option<Marks>,
 }
 
-/// Reads the mesh that a header names; why not, in words, if its triangles are to be used.
+/// Reads the mesh that a header describes; an error in words if its triangles must be used instead.
 pub(in crate::gltf) fn read_native_mesh(
     accessors: &mut Accessors<'_, '_>,
     index: usize,
@@ -58,7 +58,7 @@ pub(in crate::gltf) fn read_native_mesh(
 
 const CHANGED: &str = "another program changed its triangles";
 
-/// The bytes of all accessors of a mesh, by their index; none where another program wrote them,
+/// The bytes of all accessors of a mesh, by their index; `None` if another program wrote them,
 /// since trigon writes no gaps.
 fn fetch_triangles(
     accessors: &mut Accessors<'_, '_>,
@@ -131,7 +131,7 @@ fn fetch_columns(
             return Ok(Err(format!("its {name} are in bufferView {view}, which does not exist")));
         }
         let bytes = accessors.buffers.view(root, view, accessors.folder)?;
-        // Of the smallest value that a column can have.
+        // At least the smallest value of a column.
         accessors.spend(bytes.1.len() / 12, &Place::Item("mesh", index))?;
         columns.insert(name.clone(), bytes);
     }
@@ -142,14 +142,14 @@ fn build(header: &Header, columns: &BTreeMap<String, Bytes>) -> Result<(Mesh, Op
     let find = |name: &str| columns.get(name).map(|(buffer, range)| &buffer[range.clone()]);
     let mut reader = ColumnReader::new(header, &find);
     let built = mesh_from_columns(&mut reader, header)?;
-    // Also what is whole may be another mesh's: views were numbered anew.
+    // Even an intact column may belong to another mesh: views may have been renumbered.
     if reader.hash() == header.data {
         return Ok(built);
     }
     Err("its polygons are not those that were written".to_owned())
 }
 
-/// The material of each slot: what its primitive has now, or else what it had.
+/// The material of each slot: the current one of its primitive, or otherwise the stored one.
 fn slot_materials(header: &Header, primitives: &[Primitive], count: usize) -> Vec<Option<usize>> {
     let known = |material: &Option<usize>| material.filter(|&material| material < count);
     let mut materials: Vec<Option<usize>> = header.materials.iter().map(known).collect();

@@ -1,4 +1,4 @@
-//! A source on its way: gathered during a load, where somebody asked for it; see `keep`.
+//! A source under construction, collected during a load on request; see `keep`.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -10,10 +10,10 @@ use super::text::JsonText;
 use super::{GltfSource, SharedBytes};
 use crate::texture_request::{PictureBytes, Request};
 
-/// What is known of a source so far.
+/// The data collected so far.
 #[derive(Default)]
 pub(crate) struct SourceDraft {
-    /// None as long as the file is not known to be a glTF.
+    /// `None` as long as the file is not known to be a glTF.
     pub(in crate::gltf) text: Option<JsonText>,
     pub(in crate::gltf) buffers: Vec<Option<Arc<[u8]>>>,
     pub(in crate::gltf) images: BTreeMap<usize, SharedBytes>,
@@ -22,15 +22,14 @@ pub(crate) struct SourceDraft {
 }
 
 impl SourceDraft {
-    /// Notes the pictures behind some images, given by their place in `requests`, and the
-    /// textures that these became.
+    /// Records the images given by their index in `requests`, and the textures that they became.
     pub(crate) fn note_images(
         &mut self,
         requests: &[Request],
         textures: &[Option<TextureId>],
         images: impl Iterator<Item = (usize, usize)>,
     ) {
-        // Many images may be one picture, which is kept once.
+        // Many images may be the same file, which is kept once.
         let shared: Vec<SharedBytes> = requests.iter().map(|request| share(&request.layers[0].1)).collect();
         for (image, request) in images {
             self.images.entry(image).or_insert_with(|| shared[request].clone());
@@ -40,12 +39,12 @@ impl SourceDraft {
         }
     }
 
-    /// Notes the next animation of the scene.
+    /// Records the next animation of the scene.
     pub(crate) fn note_animation(&mut self, index: usize) {
         self.origins.animations.push(index);
     }
 
-    /// The source; none when the file was no glTF.
+    /// The source; `None` if the file was not a glTF.
     pub(crate) fn finish(self) -> Option<GltfSource> {
         let Self { text, buffers, mut images, image_count, origins } = self;
         let images = (0..image_count).map(|image| images.remove(&image)).collect();

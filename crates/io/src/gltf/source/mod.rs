@@ -1,12 +1,13 @@
-//! The glTF file that a scene came from, for programs that write it back: its JSON, its
-//! buffers and pictures, and which object of the file each part of the scene was.
+//! The glTF file that a scene came from, for programs that write it back: its JSON, its buffers and
+//! images, and the object in the file for each part of the scene.
 //!
 //! A scene holds what is drawn. The file holds more: `extras`, extensions that trigon does not
-//! read, objects that nothing uses, numbers with more digits than an f64 has. An editor takes
-//! all of these from here, as text and bytes, so that none is rounded, sorted or lost.
+//! read, objects that nothing uses, numbers with more digits than an f64 has. An editor takes all
+//! of these from here, as text and bytes, so that nothing is rounded, sorted or lost.
 //!
-//! `draft` gathers it during a load (`keep` of the reader fills it), `origins` maps ids to indices, `text` finds parts of the
-//! JSON. Without [`LoadOptions::keep_source`](crate::LoadOptions::keep_source) none of it runs.
+//! `draft` collects it during a load (`keep` of the reader fills it), `origins` maps ids to indices, `text`
+//! finds parts of the JSON. None of it runs without
+//! [`LoadOptions::keep_source`](crate::LoadOptions::keep_source).
 
 mod draft;
 mod origins;
@@ -25,7 +26,7 @@ use origins::Origins;
 pub(crate) use origins::PrimitiveFaces;
 pub(super) use text::JsonText;
 
-/// A glTF or GLB file as it was read, beside the scene that was made of it.
+/// A glTF or GLB file as it was read, with its mapping to the scene.
 ///
 /// ```
 /// use trigon_io::{LoadOptions, load_from_slice};
@@ -50,9 +51,8 @@ pub(super) use text::JsonText;
 /// # Ok::<(), trigon_io::LoadError>(())
 /// ```
 ///
-/// Ids are those of the scene as it was loaded. They stay valid while the scene is edited;
-/// what is added to it later has no index here. Chunks of a GLB that are neither JSON nor
-/// binary are not kept.
+/// Ids are those of the scene as it was loaded. They stay valid while the scene is edited; parts
+/// added later have no index here. Chunks of a GLB that are neither JSON nor binary are not kept.
 pub struct GltfSource {
     text: JsonText,
     buffers: Vec<Option<Arc<[u8]>>>,
@@ -60,7 +60,7 @@ pub struct GltfSource {
     origins: Origins,
 }
 
-/// A part of bytes that others may share.
+/// A part of shared bytes.
 #[derive(Clone)]
 pub(super) struct SharedBytes {
     bytes: Arc<[u8]>,
@@ -74,38 +74,36 @@ impl SharedBytes {
 }
 
 impl GltfSource {
-    /// The JSON, byte by byte as in the file, without a byte order mark before it and
-    /// without the zeros that some exporters put behind it in a GLB.
+    /// The JSON, byte by byte as in the file, without a leading byte order mark and without the
+    /// zeros that some exporters append in a GLB.
     pub fn json(&self) -> &str {
         self.text.whole()
     }
 
-    /// The part of the JSON that a pointer leads to (RFC 6901, such as
-    /// `/materials/2/normalTexture/extras`), as it is written in the file; `None` when there
-    /// is no such part. Of members with the same name the last counts.
+    /// The part of the JSON at a pointer (RFC 6901, such as `/materials/2/normalTexture/extras`),
+    /// as written in the file; `None` if there is no such part. Of members with the same name the
+    /// last counts.
     ///
-    /// It reads through the object that the first two steps lead to, such as one node; for
-    /// pointers that begin with anything but a list of the format, through the whole file.
+    /// It reads through the object given by the first two steps, such as one node; for pointers
+    /// that do not begin with a list of the format, through the whole file.
     pub fn at(&self, pointer: &str) -> Option<&str> {
         self.text.at(pointer)
     }
 
-    /// The bytes of a buffer of the file, at least as many as its `byteLength`; `None` when
-    /// there is no such buffer, or it could not be read, or it is an empty stand-in for a
-    /// compressed one.
+    /// The bytes of a buffer of the file, at least as many as its `byteLength`; `None` if it does
+    /// not exist, could not be read, or is an empty stand-in for a compressed one.
     pub fn buffer(&self, buffer: usize) -> Option<&[u8]> {
         self.buffers.get(buffer)?.as_deref()
     }
 
-    /// The encoded bytes (PNG, JPEG, KTX2 …) of an image of the file, whether they lie in a
-    /// buffer, a file or a `data:` URI; `None` when there is no such image, or it could not
-    /// be read.
+    /// The encoded bytes (PNG, JPEG, KTX2 …) of an image of the file, whether in a buffer, a file
+    /// or a `data:` URI; `None` if it does not exist or could not be read.
     pub fn image(&self, image: usize) -> Option<&[u8]> {
         Some(self.images.get(image)?.as_ref()?.get())
     }
 
-    /// The index in `nodes` of a node; none for the copies that EXT_mesh_gpu_instancing
-    /// makes, which hang on the file's node.
+    /// The index in `nodes` of a node; `None` for the copies made by EXT_mesh_gpu_instancing, which
+    /// are children of the file's node.
     pub fn node(&self, id: NodeId) -> Option<usize> {
         self.origins.nodes.get(&id).copied()
     }
@@ -115,21 +113,20 @@ impl GltfSource {
         Some(self.origins.meshes.get(&id)?.index)
     }
 
-    /// The index in the `primitives` of its mesh of the primitive that a face came from.
-    /// `face` counts the faces of the mesh as it was loaded.
+    /// The index, in the `primitives` of its mesh, of the primitive that a face came from. `face`
+    /// counts the faces of the mesh as it was loaded.
     pub fn primitive(&self, id: MeshId, face: usize) -> Option<usize> {
         self.origins.meshes.get(&id)?.primitive(face)
     }
 
-    /// The index in `materials` of a material; none for the default one. Its textures are
-    /// found through the material: `/materials/2/normalTexture/index`.
+    /// The index in `materials` of a material; `None` for the default one. Its textures are found
+    /// through the material: `/materials/2/normalTexture/index`.
     pub fn material(&self, id: MaterialId) -> Option<usize> {
         self.origins.materials.get(&id).copied()
     }
 
-    /// The indices in `images` of what became a texture, in increasing order: images with
-    /// the same picture are one texture, and an image that is used both for colours and for
-    /// data is two.
+    /// The indices in `images` of a texture, in increasing order: identical images become one
+    /// texture, and an image used both for colours and for data becomes two.
     pub fn images(&self, id: TextureId) -> impl Iterator<Item = usize> {
         self.origins.textures.get(&id).into_iter().flatten().copied()
     }
@@ -139,14 +136,14 @@ impl GltfSource {
         self.origins.skins.get(&id).copied()
     }
 
-    /// The index in `animations` of an animation of the scene, by its place in
-    /// [`Scene::animations`](trigon_scene::Scene::animations): those that move nothing in
-    /// the scene are left out there.
+    /// The index in `animations` of an animation of the scene, by its position in
+    /// [`Scene::animations`](trigon_scene::Scene::animations), which leaves out those that move
+    /// nothing in the scene.
     pub fn animation(&self, animation: usize) -> Option<usize> {
         self.origins.animations.get(animation).copied()
     }
 
-    /// The index in `scenes` of the scene that was loaded; none if the file has no scenes.
+    /// The index in `scenes` of the loaded scene; `None` if the file has no scenes.
     pub fn scene(&self) -> Option<usize> {
         self.origins.scene
     }
@@ -162,7 +159,7 @@ impl GltfSource {
     }
 }
 
-/// How much there is, not all of it: megabytes help nobody.
+/// Prints sizes only, not megabytes of content.
 impl fmt::Debug for GltfSource {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let kept = |list: usize, bytes: usize| format!("{list} with {bytes} bytes");

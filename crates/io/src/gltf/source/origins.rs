@@ -1,4 +1,4 @@
-//! Which object of the file each part of the scene was.
+//! The object in the file for each part of the scene.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,11 +12,11 @@ pub(in crate::gltf) struct Origins {
     pub(in crate::gltf) materials: BTreeMap<MaterialId, usize>,
     pub(in crate::gltf) textures: BTreeMap<TextureId, BTreeSet<usize>>,
     pub(in crate::gltf) skins: BTreeMap<SkinId, usize>,
-    /// By their place in the scene.
+    /// By their index in the scene.
     pub(in crate::gltf) animations: Vec<usize>,
     pub(in crate::gltf) cameras: BTreeMap<NodeId, usize>,
     pub(in crate::gltf) lights: BTreeMap<NodeId, usize>,
-    /// The scene that was loaded, if the file has scenes.
+    /// The loaded scene, if the file has scenes.
     pub(in crate::gltf) scene: Option<usize>,
 }
 
@@ -27,7 +27,7 @@ pub(in crate::gltf) struct MeshOrigin {
     pub(in crate::gltf) primitives: Vec<PrimitiveFaces>,
 }
 
-/// The faces of a mesh that a primitive became: from where those of the one before end.
+/// The faces of a primitive: from the end of the previous one's.
 #[derive(Clone, Debug)]
 pub(crate) struct PrimitiveFaces {
     /// Its index in the mesh of the file.

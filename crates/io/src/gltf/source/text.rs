@@ -1,8 +1,7 @@
-//! The JSON text of a file, and how to find a part of it without building a tree.
+//! The JSON text of a file, and finding parts of it without building a tree.
 //!
-//! A parsed tree would round numbers, and would take many times the memory of the text. A
-//! part of the text is exact at any depth: the parser skips what it does not look at, without
-//! recursion.
+//! A parsed tree would round numbers, and would take many times the memory of the text. A part of
+//! the text is exact at any depth: the parser skips everything else, without recursion.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -11,7 +10,7 @@ use std::ops::Range;
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 
-/// The lists at the top of a glTF file: their items are found without reading the file again.
+/// The top-level lists of a glTF file: their items are found without reading the file again.
 const LISTS: &[&str] = &[
     "accessors",
     "animations",
@@ -28,10 +27,10 @@ const LISTS: &[&str] = &[
     "textures",
 ];
 
-/// Where the items of each list are in the text.
+/// The positions of each list's items in the text.
 type Lists = BTreeMap<&'static str, Vec<Range<usize>>>;
 
-/// The text, and where the items of its lists begin and end.
+/// The text, and the start and end of the items of its lists.
 pub(in crate::gltf) struct JsonText {
     text: Box<str>,
     lists: Lists,
@@ -48,7 +47,7 @@ impl JsonText {
         &self.text
     }
 
-    /// What a JSON pointer leads to.
+    /// The target of a JSON pointer.
     pub(super) fn at(&self, pointer: &str) -> Option<&str> {
         let mut steps = match pointer.strip_prefix('/') {
             Some(steps) => steps.split('/').map(unescape).collect::<Vec<_>>().into_iter(),
@@ -71,7 +70,7 @@ fn unescape(step: &str) -> String {
     step.replace("~1", "/").replace("~0", "~")
 }
 
-/// An index as RFC 6901 writes it: digits, without zeros before them.
+/// An index as in RFC 6901: digits without leading zeros.
 fn parse_index(step: &str) -> Option<usize> {
     let is_plain = step.bytes().all(|byte| byte.is_ascii_digit()) && (step == "0" || !step.starts_with('0'));
     step.parse().ok().filter(|_| is_plain)
@@ -83,7 +82,7 @@ fn child<'t>(text: &'t str, step: &str) -> Option<&'t str> {
     Some(FindChild(step).deserialize(&mut parser).ok()??.get())
 }
 
-/// Looks for one child, keeping nothing of the others.
+/// Looks for one child, skipping the others.
 struct FindChild<'s>(&'s str);
 
 impl<'t> DeserializeSeed<'t> for FindChild<'_> {
@@ -127,7 +126,7 @@ impl<'t> Visitor<'t> for FindChild<'_> {
     }
 }
 
-/// Notes where the items of the lists are.
+/// Records the positions of the lists' items.
 struct FindLists<'t>(&'t str);
 
 impl<'t> Visitor<'t> for FindLists<'t> {
@@ -152,7 +151,7 @@ impl<'t> Visitor<'t> for FindLists<'t> {
 }
 
 impl FindLists<'_> {
-    /// Where an item that was borrowed from the text begins and ends in it.
+    /// The start and end of an item borrowed from the text.
     fn range_of(&self, item: &RawValue) -> Range<usize> {
         let start = item.get().as_ptr().addr() - self.0.as_ptr().addr();
         start..start + item.get().len()
@@ -203,7 +202,7 @@ mod tests {
         assert_eq!(text(r#"{"nodes":[1],"nodes":[2]}"#).at("/nodes/0"), Some("2"), "a list");
     }
 
-    /// A tree of this depth would overflow the stack, or be refused by the parser's limit.
+    /// A tree of this depth would overflow the stack, or be rejected by the parser's limit.
     #[test]
     fn depth_takes_no_stack() {
         const DEPTH: usize = 1_000_000;

@@ -1,4 +1,4 @@
-//! A glTF document on its way into a file: lists of objects, and the bytes of its only buffer.
+//! A glTF document under construction: lists of objects, and the bytes of its only buffer.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,17 +14,17 @@ use crate::gltf::hash::xxh64;
 use crate::gltf::triangle_hash::accessor_hash;
 use crate::write::WriteError;
 
-/// Views start at multiples of this: the largest number in them has as many bytes.
+/// Views are aligned to this, the size of their largest number.
 pub(super) const ALIGNMENT: usize = 8;
 
-/// What a view of the buffer is for, as WebGL numbers it.
+/// The WebGL target of a buffer view.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Target {
     Vertices = 34962,
     Indices = 34963,
 }
 
-/// The extension that has a list of lights.
+/// The extension with the list of lights.
 pub(super) const LIGHTS: &str = "KHR_lights_punctual";
 
 /// The lists are written in this order, after everything else.
@@ -46,14 +46,14 @@ const LISTS: &[&str] = &[
 
 /// A document under construction.
 pub(super) struct Draft<'a> {
-    /// All members but the lists.
+    /// All members except the lists.
     pub(super) top: RawObject,
     lists: BTreeMap<&'static str, Vec<Box<RawValue>>>,
     segments: Vec<Cow<'a, [u8]>>,
     length: usize,
-    /// The extensions that objects of it have.
+    /// The extensions that its objects have.
     pub(super) extensions: BTreeSet<&'static str>,
-    /// Those of them without which the file cannot be read.
+    /// Those without which the file cannot be read.
     pub(super) required: BTreeSet<&'static str>,
     /// Of KHR_lights_punctual.
     lights: Vec<Box<RawValue>>,
@@ -86,7 +86,7 @@ struct Accessor<'m> {
 }
 
 impl<'a> Draft<'a> {
-    /// A document with a version and nothing else.
+    /// A document with only a version.
     pub(super) fn new() -> Self {
         let mut top = RawObject::default();
         let mut asset = RawObject::default();
@@ -96,7 +96,7 @@ impl<'a> Draft<'a> {
         Self::from_top(top)
     }
 
-    /// A document with the members of another one: its lists are taken out of them.
+    /// A document with the members of another one, without its lists.
     pub(super) fn from_top(mut top: RawObject) -> Self {
         let top_lights = top.object("extensions").object(LIGHTS).list("lights");
         let mut lists = BTreeMap::new();
@@ -124,7 +124,7 @@ impl<'a> Draft<'a> {
         self.lists.get_mut(list).expect("all lists are there")
     }
 
-    /// The text of an object in a list; nothing if there is no such object.
+    /// The text of an object in a list; empty if there is no such object.
     pub(super) fn object(&self, list: &'static str, index: usize) -> RawObject {
         self.lists[list].get(index).map(|item| RawObject::parse(item.get())).unwrap_or_default()
     }
@@ -141,21 +141,21 @@ impl<'a> Draft<'a> {
         }
     }
 
-    /// Changes an object, if it says something else now.
+    /// Changes an object, if its text differs.
     pub(super) fn update(&mut self, list: &'static str, index: usize, item: &RawObject) {
         if item.is_changed() {
             self.set(list, index, item);
         }
     }
 
-    /// Adds a light; its index.
+    /// Adds a light and returns its index.
     pub(super) fn light(&mut self, light: &RawObject) -> usize {
         self.extensions.insert(LIGHTS);
         self.lights.push(raw(light));
         self.lights.len() - 1
     }
 
-    /// Puts bytes into the buffer; where they start.
+    /// Appends bytes to the buffer and returns their offset.
     pub(super) fn append(&mut self, bytes: Cow<'a, [u8]>) -> usize {
         let start = self.length;
         let padding = bytes.len().next_multiple_of(ALIGNMENT) - bytes.len();
@@ -167,7 +167,7 @@ impl<'a> Draft<'a> {
         start
     }
 
-    /// Takes bytes out of the buffer: ranges in order, none of which overlap.
+    /// Removes bytes from the buffer: ranges in order, without overlap.
     pub(super) fn cut(&mut self, cuts: &[Range<usize>]) {
         let mut start = 0;
         let mut kept = Vec::with_capacity(self.segments.len() + cuts.len());
@@ -199,7 +199,7 @@ impl<'a> Draft<'a> {
         self.push("bufferViews", &View { buffer: 0, byte_offset, byte_length, target })
     }
 
-    /// Adds vectors of `N` numbers, at least one, with their bounds where `bounded`.
+    /// Adds vectors of `N` numbers, at least one, with their bounds if `bounded`.
     pub(super) fn floats<const N: usize>(
         &mut self,
         values: &[[f32; N]],
@@ -230,7 +230,7 @@ impl<'a> Draft<'a> {
         index
     }
 
-    /// Adds whole numbers, at least one.
+    /// Adds integers, at least one.
     pub(super) fn integers(&mut self, values: Integers<'_>, target: Option<Target>) -> usize {
         let (component, bytes, kind, name, count) = match values {
             Integers::Indices(list, limit) if limit <= u32::from(u16::MAX) => {
@@ -257,7 +257,7 @@ impl<'a> Draft<'a> {
     /// The file.
     ///
     /// # Errors
-    /// It would have more bytes than the format can count.
+    /// It would be larger than the format allows.
     pub(super) fn finish(mut self) -> Result<GlbFile<'a>, WriteError> {
         self.finish_extensions("extensionsUsed", &self.extensions.clone());
         self.finish_extensions("extensionsRequired", &self.required.clone());
@@ -292,7 +292,7 @@ impl<'a> Draft<'a> {
         }
     }
 
-    /// The first buffer is that of the file; those that are not in it come after it.
+    /// The first buffer is that of the file; external ones come after it.
     fn finish_buffers(&mut self) {
         if self.length == 0 && self.lists["buffers"].len() > 1 {
             // The others keep their numbers.
@@ -319,16 +319,16 @@ fn part<'a>(segment: &Cow<'a, [u8]>, range: Range<usize>) -> Cow<'a, [u8]> {
     }
 }
 
-/// Whether an accessor says how small and how large its values are.
+/// Whether an accessor has minimum and maximum.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Bounded {
     Yes,
     No,
 }
 
-/// Lists of whole numbers as glTF has them.
+/// Lists of integers as stored in glTF.
 pub(super) enum Integers<'v> {
-    /// And one more than the largest that there may be.
+    /// The exclusive upper bound.
     Indices(&'v [u32], u32),
     Joints(&'v [[u16; 4]]),
 }
@@ -353,7 +353,7 @@ fn strings(text: &str) -> Vec<String> {
     serde_json::from_str(text).unwrap_or_default()
 }
 
-/// The least and the largest of each component; the values are finite.
+/// The minimum and maximum of each component; the values are finite.
 fn bounds<const N: usize>(values: &[[f32; N]]) -> ([f32; N], [f32; N]) {
     let first = values[0];
     values.iter().fold((first, first), |(mut min, mut max), value| {

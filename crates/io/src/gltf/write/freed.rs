@@ -1,9 +1,9 @@
-//! What meshes of trigon's own files leave behind when they are written anew: without this,
-//! a file would grow by a mesh each time that it is opened, edited and saved.
+//! Frees what meshes of trigon's own files leave behind when they are rewritten: without this, a
+//! file would grow by a mesh each time it is opened, edited and saved.
 //!
-//! Other objects keep their numbers: an accessor or view that nothing uses any more becomes the
-//! smallest that there is, and its bytes go. Only what trigon wrote itself is looked at, since
-//! nobody knows what an unknown extension refers to.
+//! Other objects keep their numbers: an unused accessor or view becomes the smallest valid one, and
+//! its bytes are removed. Only objects that trigon wrote itself are considered, since unknown
+//! extensions may refer to anything.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use super::draft::{ALIGNMENT, Draft};
 use super::raw::RawObject;
 use crate::gltf::native::{Header, MEMBER};
 
-/// Accessors and views that may not be used any more.
+/// Accessors and views that may be unused now.
 #[derive(Default)]
 pub(super) struct Replaced {
     accessors: BTreeSet<usize>,
@@ -22,7 +22,7 @@ pub(super) struct Replaced {
 }
 
 impl Replaced {
-    /// Notes a mesh of trigon's own that is about to be written anew.
+    /// Records a mesh of trigon's own that is about to be rewritten.
     pub(super) fn note(&mut self, mesh: &RawObject) {
         let own = mesh.object("extras");
         let Some(header) = own.get(MEMBER).and_then(|own| serde_json::from_str::<Header>(own).ok()) else {
@@ -40,7 +40,7 @@ impl Replaced {
         if self.accessors.is_empty() && self.views.is_empty() {
             return;
         }
-        // What is nested too deeply to be read may use anything.
+        // If it is nested too deeply to be read, it may use anything.
         let Some(used) = used_accessors(draft) else { return };
         self.accessors.retain(|accessor| !used.contains(accessor));
         for &accessor in &self.accessors {
@@ -68,7 +68,7 @@ impl Replaced {
     }
 }
 
-/// Every number in a value: all that are indices are among them.
+/// Every number in a value, which includes all indices.
 fn numbers(value: &Value, found: &mut Vec<usize>) {
     match value {
         Value::Number(number) => found.extend(number.as_u64().and_then(|n| usize::try_from(n).ok())),
@@ -87,8 +87,8 @@ fn accessors_of(primitive: &Value) -> Vec<usize> {
     found
 }
 
-/// The accessors that meshes, skins, animations and instances use; none if some of these
-/// cannot be read.
+/// The accessors used by meshes, skins, animations and instances; `None` if some of these cannot be
+/// read.
 fn used_accessors(draft: &Draft<'_>) -> Option<BTreeSet<usize>> {
     let mut used = Vec::new();
     for mesh in draft.list("meshes") {
@@ -107,7 +107,7 @@ fn used_accessors(draft: &Draft<'_>) -> Option<BTreeSet<usize>> {
     Some(used.into_iter().collect())
 }
 
-/// The views that accessors, pictures and columns use; none if some of these cannot be read.
+/// The views used by accessors, images and columns; `None` if some of these cannot be read.
 fn used_views(draft: &Draft<'_>) -> Option<BTreeSet<usize>> {
     let mut used = Vec::new();
     for list in ["accessors", "images"] {
@@ -127,14 +127,14 @@ fn used_views(draft: &Draft<'_>) -> Option<BTreeSet<usize>> {
     Some(used.into_iter().collect())
 }
 
-/// Where a view lies in the file's buffer.
+/// The position of a view in the file's buffer.
 fn range_of(view: &RawObject) -> Option<Range<usize>> {
     let start = view.index("byteOffset").unwrap_or(0);
     let end = start.checked_add(view.index("byteLength")?)?;
     (view.index("buffer") == Some(0)).then_some(start..end)
 }
 
-/// The bytes of views that no other view has, in order, so that what follows stays aligned.
+/// The bytes of views that no other view covers, in order, aligned so that the rest stays aligned.
 fn cuts(draft: &Draft<'_>, views: &BTreeSet<usize>) -> Vec<Range<usize>> {
     let (mut gone, mut kept) = (Vec::new(), Vec::new());
     for (index, view) in draft.list("bufferViews").iter().enumerate() {
@@ -151,7 +151,7 @@ fn cuts(draft: &Draft<'_>, views: &BTreeSet<usize>) -> Vec<Range<usize>> {
     gone.sort_unstable_by_key(|range| (range.start, range.end));
     gone.dedup_by(|next, before| next.start < before.end);
     kept.sort_unstable_by_key(|range| (range.start, range.end));
-    // The furthest end of all that start before.
+    // The largest end of all that start before.
     let mut ends: Vec<usize> = kept.iter().map(|range| range.end).collect();
     for index in 1..ends.len() {
         ends[index] = ends[index].max(ends[index - 1]);
@@ -163,9 +163,9 @@ fn cuts(draft: &Draft<'_>, views: &BTreeSet<usize>) -> Vec<Range<usize>> {
     gone
 }
 
-/// How far bytes move when some before them go.
+/// How far bytes move when preceding ones are removed.
 struct Shift {
-    /// The end of each range that goes, and how many bytes go up to there.
+    /// The end of each removed range, and the number of bytes removed up to there.
     gone: Vec<(usize, usize)>,
 }
 
@@ -186,7 +186,7 @@ impl Shift {
     }
 }
 
-/// Moves a view, and what its extensions say of the buffer, to where the bytes are now.
+/// Updates a view, and the references of its extensions to the buffer, to the new positions.
 fn shift(view: &mut RawObject, by: &Shift) {
     shift_offset(view, by);
     let mut extensions = view.object("extensions");

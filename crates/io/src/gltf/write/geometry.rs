@@ -1,8 +1,8 @@
 //! The triangles, lines and points of a mesh as accessors, for every program to read.
 //!
-//! All triangles share their vertices; each material slot has indices of its own. What the
-//! format forbids is mended on the way: triangles with places that are not finite are left out,
-//! normals and tangents without a direction get one, colours are held to 0…1.
+//! All triangles share their vertices; each material slot has its own indices. Content that the
+//! format forbids is corrected: triangles with positions that are not finite are left out, normals
+//! and tangents without a direction get one, colours are clamped to 0…1.
 
 use std::collections::BTreeMap;
 
@@ -38,7 +38,7 @@ pub(super) fn write_geometry(draft: &mut Draft<'_>, mesh: &Mesh, render: &Render
     let mut points: Vec<u32> =
         mesh.loose_points().iter().filter(|&point| is_finite(point)).copied().collect();
     if parts.is_empty() && edges.is_empty() && points.is_empty() {
-        // Vertices alone: points are all that the format has for them.
+        // Isolated vertices: the format can only store them as points.
         points = (0..mesh.vertex_count() as u32).filter(is_finite).collect();
     }
     for (mode, vertices) in [(LINES, edges), (POINTS, points)] {
@@ -92,13 +92,13 @@ fn write_triangles(draft: &mut Draft<'_>, render: &RenderMesh) -> Vec<Part> {
     slots.into_iter().map(part).collect()
 }
 
-/// The vertices of all triangles whose places are finite, by their material slot.
+/// The vertices of all triangles with finite positions, by their material slot.
 fn sort_by_slot(render: &RenderMesh) -> BTreeMap<u32, Vec<u32>> {
     let mut slots: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     let all_finite = render.positions.iter().all(|position| position.is_finite());
     let is_finite = |&vertex: &u32| render.positions[vertex as usize].is_finite();
     let mut start = 0;
-    // Faces of one material mostly follow each other.
+    // Faces of one material are mostly consecutive.
     for same in render.triangle_materials.chunk_by(|a, b| a == b) {
         let triangles = &render.triangles[start..start + same.len()];
         start += same.len();
@@ -134,7 +134,7 @@ fn write_targets(
     all
 }
 
-/// Lines or points: what faces have is not theirs, but they move with the others.
+/// Lines or points: they have no face attributes, but move with the others.
 fn write_loose(draft: &mut Draft<'_>, mesh: &Mesh, mode: u32, vertices: &[u32]) -> Part {
     let mut used = vertices.to_vec();
     used.sort_unstable();
@@ -207,14 +207,14 @@ fn clamped(color: Vec4) -> [f32; 4] {
     color.to_array().map(channel)
 }
 
-/// Whether a vector has unit length, but for rounding.
+/// Whether a vector has unit length up to rounding.
 fn is_unit(vector: Vec3) -> bool {
-    /// Far less than other programs accept, and more than rounding makes.
+    /// Far less than the tolerance of other programs, and more than rounding error.
     const ROUNDING: f32 = 1e-4;
     (vector.length_squared() - 1.0).abs() <= ROUNDING
 }
 
-/// A unit vector: the same, or one along it, or any.
+/// A unit vector: the same, or its direction, or an arbitrary one.
 fn direction(normal: Vec3) -> Vec3 {
     if is_unit(normal) { normal } else { normal.try_normalize().unwrap_or(Vec3::Z) }
 }

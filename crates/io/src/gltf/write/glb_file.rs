@@ -6,10 +6,10 @@ use std::io::{self, Write};
 
 /// A GLB in parts.
 pub(super) struct GlbFile<'a> {
-    /// Padded to whole words.
+    /// Padded to 4 bytes.
     pub(super) json: Vec<u8>,
     pub(super) segments: Vec<Cow<'a, [u8]>>,
-    /// How many bytes the segments have in all.
+    /// The total size of the segments.
     pub(super) binary: usize,
 }
 

@@ -1,8 +1,8 @@
-//! The document that a scene came from, as the start of the one that is written: whatever is
+//! The document that a scene came from, as the start of the one being written: everything that is
 //! not changed afterwards stays as it was, to the byte.
 //!
-//! Only what a file beside others cannot keep changes: buffers become one, and pictures in files
-//! of their own move into it.
+//! Only external parts have to change: buffers are merged into one, and images in separate files
+//! move into it.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -14,14 +14,14 @@ use super::raw::{RawObject, raw};
 use super::textures::mime_type;
 use crate::GltfSource;
 
-/// Where the bytes of a buffer are now.
+/// The new offset of a buffer's bytes.
 #[derive(Clone, Copy)]
 struct Moved {
     buffer: usize,
     offset: usize,
 }
 
-/// A document that says what the file says.
+/// A document with the contents of the file.
 pub(super) fn draft_of(source: &GltfSource) -> Draft<'_> {
     let mut draft = Draft::from_top(RawObject::parse(source.json()));
     let places = join_buffers(&mut draft, source);
@@ -55,7 +55,7 @@ fn join_buffers<'a>(draft: &mut Draft<'a>, source: &'a GltfSource) -> Vec<Moved>
     places
 }
 
-/// A view with its place in the new buffer; the same text if it stays where it was.
+/// A view with its new offset; the same text if it does not move.
 fn moved_view(view: Box<RawValue>, places: &[Moved]) -> Box<RawValue> {
     let is_still = |place: &Moved| place.buffer == 0 && place.offset == 0;
     if places.first().is_none_or(is_still) && places.len() <= 1 {
@@ -75,7 +75,7 @@ fn moved_view(view: Box<RawValue>, places: &[Moved]) -> Box<RawValue> {
     if changed { raw(&object) } else { view }
 }
 
-/// Moves what names a buffer and an offset in it; whether anything changed.
+/// Updates references to a buffer and an offset in it; returns whether anything changed.
 fn move_within(object: &mut RawObject, places: &[Moved]) -> bool {
     let Some(buffer) = object.index("buffer") else { return false };
     let Some(place) = places.get(buffer).copied() else { return false };
@@ -89,14 +89,14 @@ fn move_within(object: &mut RawObject, places: &[Moved]) -> bool {
     place.buffer != buffer || place.offset > 0
 }
 
-/// Moves pictures that are files or URIs into the buffer.
+/// Moves images in files or URIs into the buffer.
 fn take_pictures_in<'a>(draft: &mut Draft<'a>, source: &'a GltfSource) {
     let mut views: HashMap<(usize, usize), usize> = HashMap::new();
     for index in 0..draft.list("images").len() {
         let mut image = draft.object("images", index);
         let Some(bytes) = source.image(index).filter(|_| image.get("uri").is_some()) else { continue };
         let Some(kind) = mime_type(bytes) else { continue };
-        // Many images may be one file.
+        // Many images may be the same file.
         let place = (bytes.as_ptr().addr(), bytes.len());
         let view = *views.entry(place).or_insert_with(|| draft.view(Cow::Borrowed(bytes), None));
         image.remove("uri");

@@ -1,4 +1,4 @@
-//! The file that a scene came from, beside what was made of it.
+//! The file that a scene came from, with the scene as loaded.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use trigon_scene::{MeshId, Scene};
 
 use crate::gltf::source::GltfSource;
 
-/// A file, and what was made of it: what is the same in a scene is the same in the file.
+/// A file, and the scene as loaded: whatever is unchanged in a scene is unchanged in the file.
 #[derive(Debug)]
 pub(super) struct KeptFile {
     pub(super) source: GltfSource,

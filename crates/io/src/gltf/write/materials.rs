@@ -1,5 +1,5 @@
-//! Materials: only what differs from what the file says already is written, so that members
-//! that trigon does not know stay where they are.
+//! Materials: only differences from the file are written, so that members that trigon does not know
+//! are preserved.
 
 use trigon_math::{Vec3, Vec4};
 use trigon_scene::{AlphaMode, Material, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding};
@@ -9,7 +9,7 @@ use super::raw::RawObject;
 use super::textures::Textures;
 use crate::gltf::native::{self, ExactShading, MaterialExtras};
 
-/// What an empty material of a file is.
+/// The defaults of a material in a file.
 pub(super) fn plain() -> Material {
     let model = MetallicRoughness { metallic: 1.0, roughness: 1.0, ..MetallicRoughness::default() };
     Material {
@@ -20,7 +20,7 @@ pub(super) fn plain() -> Material {
     }
 }
 
-/// Changes the object of a material from what it says to another material.
+/// Changes the object of a material to that of another material.
 pub(super) fn write_material<'a>(
     draft: &mut Draft<'a>,
     textures: &mut Textures<'a>,
@@ -156,9 +156,9 @@ impl Writer<'_, '_, '_> {
         self.extension(extensions, NAME, object, of(now) != plain);
     }
 
-    /// More than white needs a strength: a power of two, so that nothing is rounded.
+    /// Values above 1 need a strength: a power of two, so that nothing is rounded.
     fn emission(&mut self, extensions: &mut RawObject, emissive: Vec3) {
-        /// Beyond it, doubling would soon end at infinity.
+        /// Beyond it, doubling would soon overflow.
         const MOST: f32 = 1e30;
         let emissive = emissive.to_array().map(|channel| amount(channel, 0.0).min(MOST));
         let mut strength = 1.0f32;
@@ -171,7 +171,7 @@ impl Writer<'_, '_, '_> {
         self.extension(extensions, "KHR_materials_emissive_strength", object, strength > 1.0);
     }
 
-    /// Sets an extension, or takes it away.
+    /// Sets or removes an extension.
     fn extension(
         &mut self,
         extensions: &mut RawObject,
@@ -187,8 +187,8 @@ impl Writer<'_, '_, '_> {
         }
     }
 
-    /// Sets or removes a texture that changed. What the file says besides stays only with
-    /// the same texture.
+    /// Sets or removes a changed texture. Its other members are kept only if the texture is the
+    /// same.
     fn texture(
         &mut self,
         object: &mut RawObject,
@@ -203,7 +203,7 @@ impl Writer<'_, '_, '_> {
         object.set_or_remove(name, info.as_ref());
     }
 
-    /// Shading models that the format does not have are kept exactly beside what comes near.
+    /// Shading models that the format lacks are stored exactly, besides the nearest equivalent.
     fn exact_shading(&mut self, was: &Material, now: &Material) {
         if now.shading == was.shading {
             return;
@@ -228,7 +228,7 @@ fn set_number(object: &mut RawObject, name: &str, was: f32, now: f32) {
     }
 }
 
-/// The model of a material, or what comes near it.
+/// The model of a material, or the nearest equivalent.
 fn model(material: &Material) -> MetallicRoughness {
     match material.shading {
         Shading::MetallicRoughness(model) => model,
@@ -239,7 +239,7 @@ fn model(material: &Material) -> MetallicRoughness {
         Shading::Lambert => {
             MetallicRoughness { roughness: 1.0, specular: 0.0, ..MetallicRoughness::default() }
         }
-        // The highlight of GGX with α² = 2 / (n + 2) is as wide (Karis, "Specular BRDF
+        // The highlight of GGX with α² = 2 / (n + 2) has the same width (Karis, "Specular BRDF
         // Reference", 2013); α is the square of the roughness.
         Shading::BlinnPhong { shininess, specular_texture, .. } => MetallicRoughness {
             roughness: (2.0 / (amount(shininess, 0.0) + 2.0)).sqrt().sqrt(),

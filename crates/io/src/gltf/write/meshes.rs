@@ -1,7 +1,7 @@
-//! Meshes: those that did not change stay as the file has them, others are written anew.
+//! Meshes: unchanged ones stay as in the file, others are rewritten.
 //!
-//! The materials of a scene belong to nodes, those of a glTF to meshes: a mesh that nodes draw
-//! in different materials is written once for each choice, with shared accessors.
+//! The materials of a scene belong to nodes, those of a glTF to meshes: a mesh that nodes draw with
+//! different materials is written once for each combination, with shared accessors.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -21,7 +21,7 @@ use crate::gltf::native::{self, Header, columns_of_mesh};
 use crate::gltf::triangle_hash::TriangleHash;
 use crate::loss::Loss;
 
-/// A mesh as it is now.
+/// A mesh in its current state.
 pub(super) struct Shape<'a> {
     pub(super) mesh: Cow<'a, Mesh>,
     /// If it is being edited.
@@ -44,13 +44,13 @@ impl<'a> Shape<'a> {
         Self { mesh: Cow::Owned(mesh), marks: Some(marks) }
     }
 
-    /// Whether it is what a file was when it was read.
+    /// Whether it equals the file's mesh as it was read.
     pub(super) fn is_unchanged(&self, id: MeshId, kept: &KeptFile, edited: Option<&EditMesh>) -> bool {
         let Some(asset) = kept.scene.meshes().get(id) else { return false };
         let Some(edited) = edited else {
             return std::ptr::eq(&*self.mesh, asset.mesh()) || *self.mesh == *asset.mesh();
         };
-        // Most changes show here, and what follows takes as long as all of the saving.
+        // Most changes are found here, and the rest takes as long as saving everything.
         let (was, now) = (asset.mesh(), &self.mesh);
         if was.positions() != now.positions() || was.corner_vertices() != now.corner_vertices() {
             return false;
@@ -80,7 +80,7 @@ fn is_triangles(mode: &u32) -> bool {
 
 /// A mesh whose accessors are written.
 pub(super) struct Written {
-    /// What is the same in all materials.
+    /// The part that does not depend on materials.
     object: RawObject,
     form: Form,
     header: Option<Header>,
@@ -94,7 +94,7 @@ enum Form {
 }
 
 impl Written {
-    /// A mesh that stays as it was, but for its materials.
+    /// A mesh that is unchanged except for its materials.
     pub(super) fn kept(object: RawObject) -> Self {
         let primitives = object.list("primitives");
         let header = native_header(&object);
@@ -106,7 +106,7 @@ impl Written {
         Self { object, form: Form::Kept(primitives.into_iter().zip(slots).collect()), header }
     }
 
-    /// Writes the accessors of a mesh; none if there is nothing that a file could hold.
+    /// Writes the accessors of a mesh; `None` if there is nothing that a file could hold.
     pub(super) fn new(
         draft: &mut Draft<'_>,
         object: RawObject,
@@ -205,16 +205,16 @@ fn hash_parts(draft: &Draft<'_>, parts: &[Part]) -> String {
     hash.finish()
 }
 
-/// What a native file says of a mesh that is in it.
+/// The native file's header of a mesh.
 fn native_header(mesh: &RawObject) -> Option<Header> {
     serde_json::from_str(mesh.object("extras").get(native::MEMBER)?).ok()
 }
 
-/// The last kind of primitive that there is: fans of triangles.
+/// The last kind of primitive: triangle fans.
 const LAST_MODE: usize = 6;
 
-/// The slots of primitives as they are given when a file is read: a new one for each material,
-/// none for what is not read.
+/// The slots of primitives as assigned by the reader: a new one for each material, `None` for
+/// primitives that are not read.
 fn slots_of(primitives: &[Box<RawValue>]) -> Vec<Option<u32>> {
     let mut known: BTreeMap<Option<usize>, u32> = BTreeMap::new();
     let mut slot = |text: &RawValue| {
@@ -229,7 +229,7 @@ fn slots_of(primitives: &[Box<RawValue>]) -> Vec<Option<u32>> {
     primitives.iter().map(|text| slot(text)).collect()
 }
 
-/// The names of morph targets, where the file has others.
+/// The names of morph targets, if the file has others.
 fn write_extras(object: &mut RawObject, mesh: &Mesh) {
     let names: Vec<&str> =
         mesh.attributes().morph_targets.iter().map(|target| target.name.as_str()).collect();
@@ -242,7 +242,7 @@ fn write_extras(object: &mut RawObject, mesh: &Mesh) {
     object.set_object("extras", &extras);
 }
 
-/// What of a mesh of a file is not there when the mesh is written anew.
+/// What is lost when a mesh of a file is rewritten.
 pub(super) fn losses(object: &RawObject, index: usize, mesh: &Mesh) -> Vec<Loss> {
     let mut losses = Vec::new();
     for (number, text) in object.list("primitives").iter().enumerate() {
@@ -261,7 +261,7 @@ pub(super) fn losses(object: &RawObject, index: usize, mesh: &Mesh) -> Vec<Loss>
     losses
 }
 
-/// Whether a mesh of a scene holds an attribute of a file.
+/// Whether a mesh of a scene has an attribute of a file.
 fn is_held(name: &str, mesh: &Mesh) -> bool {
     let attributes = mesh.attributes();
     let Some((kind, number)) = name.rsplit_once('_') else {

@@ -1,10 +1,10 @@
-//! Scenes to GLB: for other programs, and as trigon's own file.
+//! Writes scenes as GLB: for other programs, and as trigon's native file.
 //!
 //! `draft` (lists of objects, and the bytes of the buffer) is filled by `scene`, part by part:
-//! `nodes`, `meshes` with `geometry`, `materials` with `textures`, `movement`. If the scene
-//! came from a glTF, the draft starts as that file (`kept`), and each part changes only what
-//! differs from it, as text (`raw`): what nobody touched is written as it was read. `freed` takes
-//! out what meshes leave behind that are written anew.
+//! `nodes`, `meshes` with `geometry`, `materials` with `textures`, `movement`. If the scene came
+//! from a glTF, the draft starts as that file (`kept`), and each part changes only the differences,
+//! as text (`raw`), so unchanged parts are written as they were read. `freed` removes what
+//! rewritten meshes leave behind.
 
 mod draft;
 mod freed;
@@ -32,13 +32,13 @@ pub(crate) use textures::mime_type;
 use crate::export::ExportOptions;
 use crate::write::{WriteError, write_atomically};
 
-/// The scene as one self-contained GLB, for other programs: nodes, meshes as triangles (loose
-/// edges as lines, loose points as points), materials with their pictures, lights, cameras,
-/// skins, morph targets and animations.
+/// The scene as one self-contained GLB, for other programs: nodes, meshes as triangles (loose edges
+/// as lines, loose points as points), materials with their textures, lights, cameras, skins, morph
+/// targets and animations.
 ///
-/// glTF has no Lambert and no Blinn-Phong: what comes near is written, and the exact model
-/// beside it in `extras`. It has no ambient light and no off-centre cameras. Transforms keep
-/// all digits of their f64; most programs round them to f32.
+/// glTF has no Lambert and no Blinn-Phong: the nearest equivalent is written, with the exact model
+/// in `extras`. It has no ambient light and no off-centre cameras. Transforms keep all digits of
+/// their f64; most programs round them to f32.
 ///
 /// ```
 /// use trigon_io::{ExportOptions, LoadOptions, encode_glb, load_from_slice};
@@ -52,16 +52,15 @@ use crate::write::{WriteError, write_atomically};
 /// ```
 ///
 /// # Errors
-/// When the file would have 4 GiB or more.
+/// The file would have 4 GiB or more.
 pub fn encode_glb(scene: &Scene, options: &ExportOptions<'_>) -> Result<Vec<u8>, WriteError> {
     Ok(write_scene(&export(scene, options))?.file.to_bytes())
 }
 
-/// Writes a file as [`encode_glb`] makes it; an old one of that name is replaced at once or
-/// not at all.
+/// Writes a file with the contents of [`encode_glb`] atomically.
 ///
 /// # Errors
-/// As [`encode_glb`], or when the file cannot be written.
+/// That of [`encode_glb`], or the file cannot be written.
 pub fn write_glb(
     path: impl AsRef<Path>,
     scene: &Scene,

@@ -10,7 +10,7 @@ use trigon_scene::{Animation, Channel, Curve, Interpolation, NodeId, Property, S
 use super::draft::{Bounded, Draft};
 use super::raw::RawObject;
 
-/// Changes the object of a skin to what another skin says. `joint` gives the index of a node.
+/// Changes the object of a skin to another skin. `joint` returns the index of a node.
 pub(super) fn write_skin(
     draft: &mut Draft<'_>,
     object: &mut RawObject,
@@ -44,7 +44,7 @@ struct Sampler {
     interpolation: &'static str,
 }
 
-/// An animation of the nodes that `node` knows; none if it moves none of them.
+/// An animation of the nodes that `node` knows; `None` if it moves none of them.
 pub(super) fn write_animation(
     draft: &mut Draft<'_>,
     animation: &Animation,
@@ -87,7 +87,7 @@ pub(super) fn write_animation(
     Some(object)
 }
 
-/// The accessor of the times of a curve; curves with the same times share one.
+/// The accessor of a curve's times; curves with the same times share one.
 fn input_of(draft: &mut Draft<'_>, known: &mut BTreeMap<Vec<u32>, usize>, curve: &Curve) -> usize {
     let bits: Vec<u32> = curve.times().iter().map(|time| time.to_bits()).collect();
     let times: Vec<[f32; 1]> = curve.times().iter().map(|&time| [time]).collect();

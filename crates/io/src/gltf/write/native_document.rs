@@ -1,5 +1,5 @@
-//! The editor's own file: a GLB that every program reads, with all that is edited beside the
-//! triangles.
+//! The editor's native file: a GLB that every program reads, with everything that is edited besides
+//! the triangles.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -23,11 +23,11 @@ use crate::write::{WriteError, write_atomically};
 
 /// A scene with the meshes that are being edited, and the glTF file that it came from.
 ///
-/// Saving writes one GLB. Polygons, first positions, marks and all values of meshes are in it
-/// beside their triangles, and come back to the bit; if another program changed the triangles of
-/// a mesh in the meantime, they count, and a warning says so. What was loaded from a glTF and
-/// not changed (also what trigon does not know: extensions, `extras`, other scenes) is
-/// written back as it was read; what cannot be is named before anything is written.
+/// Saving writes one GLB. It contains polygons, original positions, marks and all values of meshes
+/// besides their triangles, restored to the bit on reading; if another program changed the
+/// triangles of a mesh in the meantime, these are used, with a warning. Unchanged parts of a loaded
+/// glTF (including what trigon does not know: extensions, `extras`, other scenes) are written back
+/// as they were read; anything that cannot be is listed before anything is written.
 ///
 /// ```
 /// use trigon_io::{LoadOptions, NativeDocument};
@@ -56,23 +56,23 @@ use crate::write::{WriteError, write_atomically};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// A clone shares textures and the file that was loaded; meshes that are being edited are copied.
+/// A clone shares textures and the loaded file; meshes that are being edited are copied.
 #[derive(Debug, Clone, Default)]
 pub struct NativeDocument {
-    /// What there is. A mesh that is being edited may be an older one here.
+    /// The scene. A mesh that is being edited may be outdated here.
     pub scene: Scene,
-    /// The meshes that are being edited: these are saved in place of the scene's.
+    /// The meshes that are being edited: these are saved instead of the scene's.
     pub edited: BTreeMap<MeshId, EditMesh>,
     kept: Option<Arc<KeptFile>>,
 }
 
 impl NativeDocument {
-    /// A document that came from no file.
+    /// A document without a file.
     pub fn new(scene: Scene) -> Self {
         Self { scene, edited: BTreeMap::new(), kept: None }
     }
 
-    /// Loads a file of any format that can be read. A glTF is kept, to be written back.
+    /// Loads a file of any readable format. A glTF is kept for writing it back.
     ///
     /// # Errors
     /// As [`load`].
@@ -117,11 +117,10 @@ impl NativeDocument {
         (Self { scene, edited, kept }, warnings)
     }
 
-    /// The document as a file, not written yet, so that one can ask first if anything would
-    /// be lost.
+    /// The document as a file, not written yet, so that the caller can first ask about losses.
     ///
     /// # Errors
-    /// When the file would have 4 GiB or more.
+    /// The file would have 4 GiB or more.
     pub fn encode(&self) -> Result<NativeFile<'_>, WriteError> {
         let written = write_scene(&Input {
             scene: &self.scene,
@@ -134,8 +133,8 @@ impl NativeDocument {
         Ok(NativeFile { file: written.file, losses: written.losses })
     }
 
-    /// The document for other programs; see [`export`](crate::export). Pictures are those of the
-    /// file that was loaded, unless the options name another.
+    /// The document for other programs; see [`export`](crate::export). Images are those of the
+    /// loaded file, unless the options name another.
     ///
     /// # Errors
     /// As [`export`](crate::export).
@@ -145,7 +144,7 @@ impl NativeDocument {
         format: Format,
         options: &ExportOptions<'_>,
     ) -> Result<Export, WriteError> {
-        // Meshes are shared: a copy of the scene costs nothing but its lists.
+        // Meshes are shared: a copy of the scene only copies its lists.
         let mut scene = self.scene.clone();
         for (&id, edited) in &self.edited {
             if let Some(asset) = self.scene.meshes().get(id) {
@@ -161,14 +160,14 @@ fn keeping<'a>(options: &LoadOptions<'a>) -> LoadOptions<'a> {
     LoadOptions { keep_source: true, ..options.clone() }
 }
 
-/// A document that is ready to be written.
+/// A document ready to be written.
 pub struct NativeFile<'a> {
     file: GlbFile<'a>,
     losses: Vec<Loss>,
 }
 
 impl NativeFile<'_> {
-    /// What the file that was loaded holds, or the scene, and this one does not.
+    /// What the loaded file or the scene contains, and this one does not.
     pub fn what_would_be_lost(&self) -> &[Loss] {
         &self.losses
     }

@@ -1,4 +1,4 @@
-//! Joining two loops of edges by a strip of faces.
+//! Bridging two edge loops with a strip of faces.
 
 use trigon_math::DVec3;
 
@@ -13,31 +13,28 @@ use crate::triangulate::area_vector;
 
 const BRIDGING: &str = "bridging";
 
-/// The two rows of a strip: places in a list of vertices.
+/// The two rows of a strip: indices into a list of vertices.
 struct Rows {
     vertices: Vec<VertexId>,
-    /// For each of them a corner beside, whose values new corners take over.
+    /// For each of them an adjacent corner, whose values new corners take.
     sources: Vec<Option<CornerId>>,
-    /// A loop repeats its first place at the end.
+    /// A loop repeats its first vertex at the end.
     row: Vec<u32>,
     other: Vec<u32>,
 }
 
 impl EditMesh {
-    /// Joins two loops of edges, or two open chains, by a strip of faces: quads, and triangles where
-    /// the counts differ, spread evenly.
+    /// Joins two edge loops, or two open chains, with a strip of faces: quads, and evenly
+    /// distributed triangles where the counts differ.
     ///
-    /// It does not matter which of the two comes first and in what order or direction the edges are
-    /// given. The twist is the one with the shortest edges across: the sum of their squared lengths is
-    /// compared for both directions and every start, at up to 64 places that are spread evenly. New
-    /// faces are wound like the neighbours of both loops; without neighbours they face away from
-    /// the middle of the strip. They have the material of the first neighbour, and its values at the
-    /// corners there. Faces that fill a loop stay;
-    /// [`bridge_faces`](Self::bridge_faces) removes them.
+    /// The order and direction of the edges do not matter. The twist is chosen for the shortest edges across:
+    /// the sum of their squared lengths is compared for both directions and every start, at up to 64 evenly
+    /// spread positions. New faces are wound like the neighbours of both loops; without neighbours they face
+    /// away from the middle of the strip. They have the material of the first neighbour, and its values at
+    /// the corners there. Faces that fill a loop stay; [`bridge_faces`](Self::bridge_faces) removes them.
     ///
     /// # Errors
-    /// No edge is given, one does not exist, or they are not two loops or two chains without a common
-    /// vertex.
+    /// No edge is given, one does not exist, or they are not two loops or two chains without a common vertex.
     pub fn bridge_edges(&mut self, edges: &[EdgeId]) -> Result<Filled, Refusal> {
         require(edges, BRIDGING, "two loops of edges")?;
         let chains = self.chains(edges, BRIDGING)?;
@@ -68,7 +65,7 @@ impl EditMesh {
         })
     }
 
-    /// The second chain, turned so that edges across are shortest.
+    /// The second chain, rotated for the shortest edges across.
     fn aligned(&self, first: &Chain, second: &Chain) -> Chain {
         let from: Vec<DVec3> = first.vertices.iter().map(|&vertex| self.point(vertex)).collect();
         let mut best: Option<(f64, Chain)> = None;
@@ -81,7 +78,7 @@ impl EditMesh {
             let starts = if second.is_closed { to.len() } else { 1 };
             for start in 0..starts {
                 let cost = cost_across(&from, &to, start, first.is_closed);
-                // A cost that is not a number is never better.
+                // A cost of NaN is never better.
                 if best.as_ref().is_none_or(|(least, _)| cost < *least) {
                     let mut vertices = vertices.clone();
                     vertices.rotate_left(start);
@@ -106,8 +103,8 @@ impl EditMesh {
         Rows { vertices, sources, row, other }
     }
 
-    /// Whether the strip, which runs along the first chain and back along the second, has to be
-    /// wound the other way.
+    /// Whether the strip, which runs along the first chain and back along the second, must be wound
+    /// the other way.
     fn is_turned_over(&self, first: &Chain, second: &Chain, pieces: &[Vec<u32>], rows: &Rows) -> bool {
         let votes = self.winding_votes(first.steps()) - self.winding_votes(second.steps());
         if votes != 0 {
@@ -142,10 +139,10 @@ impl EditMesh {
     }
 }
 
-/// The sum of squared lengths across, from evenly spread places of one row to those of another
+/// The sum of squared lengths across, from evenly spread positions of one row to those of another
 /// that begins at `start`.
 fn cost_across(from: &[DVec3], to: &[DVec3], start: usize, is_closed: bool) -> f64 {
-    /// Compared at so many places, a loop of any length is aligned in time proportional to it.
+    /// Comparing this many positions aligns a loop of any length in time proportional to it.
     const MOST: usize = 64;
     let places = from.len().max(to.len()).min(MOST);
     let place = |count: usize, i: usize| match is_closed {

@@ -1,4 +1,4 @@
-//! Joining two regions of faces by a strip in their place: a handle, or a hole through a solid.
+//! Bridging two regions of faces: a handle, or a hole through a solid.
 
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{EdgeId, FaceId};
@@ -6,9 +6,9 @@ use super::super::refusal::Refusal;
 use super::fill::Filled;
 
 impl EditMesh {
-    /// Removes faces and joins what is left of their outlines by a strip of faces, as
-    /// [`bridge_edges`](Self::bridge_edges) does. Edges that are given and belong to none of the faces are part
-    /// of the loops, too: the other end may be a hole.
+    /// Removes faces and joins the remaining outlines with a strip of faces, as
+    /// [`bridge_edges`](Self::bridge_edges) does. Given edges that belong to none of the faces are also part
+    /// of the loops: the other end may be a hole.
     ///
     /// # Errors
     /// One does not exist, or the outlines are not two loops without a common vertex.
@@ -23,7 +23,7 @@ impl EditMesh {
         own.sort_unstable();
         own.dedup();
         let removed_at = |edge: EdgeId| self.edge_faces(edge).filter(|&face| is_removed(face)).count();
-        // Between two of the faces an edge is within the region, and goes with them.
+        // An edge between two of the faces is inside the region, and is removed with them.
         let (outline, inner): (Vec<EdgeId>, Vec<EdgeId>) =
             own.iter().copied().partition(|&edge| removed_at(edge) == 1);
         let mut loops: Vec<EdgeId> =

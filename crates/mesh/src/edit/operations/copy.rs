@@ -1,5 +1,5 @@
-//! Taking a part of a mesh out as a mesh of its own, and adding a whole mesh to another: what
-//! duplicating, separating and joining are made of.
+//! Extracting part of a mesh as a separate mesh, and adding a whole mesh to another: the basis of
+//! duplicating, separating and joining.
 
 use trigon_math::Vec4;
 
@@ -9,7 +9,7 @@ use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
 use super::super::layers::{Layer, LayerKind, LayerValues};
 use super::tables::{IndexSet, IndexTable};
 
-/// Elements that were added to a mesh as copies of others, in the order of the originals' ids.
+/// Copies of elements, in the order of the originals' ids.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CopiedElements {
     /// The new vertices.
@@ -55,7 +55,7 @@ impl Elements {
         elements
     }
 
-    /// All of a mesh.
+    /// The whole mesh.
     pub(super) fn all(mesh: &EditMesh) -> Self {
         Self {
             vertices: mesh.vertices().collect(),
@@ -66,8 +66,8 @@ impl Elements {
 }
 
 impl EditMesh {
-    /// A mesh of some elements, which have everything that they are made of among them. They get
-    /// indices in their order. All layers are there.
+    /// A mesh of some elements, which must include everything they consist of. They get indices in
+    /// order. All layers are included.
     pub(super) fn part(&self, elements: &Elements) -> Self {
         let layers = |layers: &[Layer]| layers.iter().map(Layer::empty_like).collect();
         let mut part = Self {
@@ -84,8 +84,8 @@ impl EditMesh {
         part
     }
 
-    /// Adds a whole other mesh. Layers that either lacks are added: with zeros, colours with white,
-    /// as which a mesh without colours is shown.
+    /// Adds another mesh as a whole. Layers that either lacks are added: with zeros, or white for
+    /// colours, which is how a mesh without colours is displayed.
     pub(super) fn append(&mut self, other: &Self) -> CopiedElements {
         let vertices = self.vertices.len();
         let corners = self.corners.len();
@@ -165,7 +165,7 @@ impl EditMesh {
     }
 }
 
-/// For each layer of the mesh that is added to, which of the other mesh's has its values.
+/// For each layer of the receiving mesh, the corresponding one of the other mesh.
 struct LayerPairs {
     of_vertices: Vec<Option<usize>>,
     of_corners: Vec<Option<usize>>,
@@ -180,12 +180,12 @@ fn copy_values(to: &mut [Layer], from: &[Layer], pairs: &[Option<usize>], [sourc
     }
 }
 
-/// Adds those layers of another mesh that are missing, so long. Which of the other's belongs to
-/// each of the own.
+/// Adds the missing layers of another mesh, with this length. Returns which of the other's layers
+/// corresponds to each own one.
 fn unite_layers(own: &mut Vec<Layer>, other: &[Layer], length: u32) -> Vec<Option<usize>> {
     let mut pairs: Vec<Option<usize>> = vec![None; own.len()];
     for (place, layer) in other.iter().enumerate() {
-        // Several sets of texture coordinates pair in their order.
+        // Sets of texture coordinates correspond by order.
         let same = |slot: &usize| own[*slot].kind == layer.kind && pairs[*slot].is_none();
         if let Some(slot) = (0..own.len()).find(same) {
             pairs[slot] = Some(place);
@@ -214,7 +214,7 @@ impl Layer {
         Self { kind: self.kind, values }
     }
 
-    /// Gives an element the value that stands for none: white for colours, else zero.
+    /// Gives an element the default value: white for colours, otherwise zero.
     fn set_usual(&mut self, index: u32) {
         self.clear(index);
         if let (LayerKind::Color, LayerValues::Vec4(column)) = (self.kind, &mut self.values) {
@@ -222,7 +222,7 @@ impl Layer {
         }
     }
 
-    /// Gives an element the value of one of another layer of the same kind.
+    /// Gives an element the value from another layer of the same kind.
     fn copy_from(&mut self, other: &Self, from: u32, to: u32) {
         match (&mut self.values, &other.values) {
             (LayerValues::Vec2(own), LayerValues::Vec2(other)) => *own.write(to) = other[from],

@@ -1,4 +1,4 @@
-//! Deleting what is selected, in the four ways that modellers offer.
+//! Deleting elements, in the four common ways.
 
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{EdgeId, FaceId, VertexId};
@@ -13,7 +13,7 @@ impl EditMesh {
         require(vertices, "deleting vertices", "at least one vertex")?;
         vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;
         for &vertex in vertices {
-            // One that was given twice is gone already.
+            // An element given twice is already gone.
             if self.has_vertex(vertex) {
                 self.remove_vertex(vertex)?;
             }
@@ -74,8 +74,8 @@ impl EditMesh {
         Ok(())
     }
 
-    /// Removes those of some edges that no face has, and vertices that no edge has then. Edges that
-    /// are gone already are passed over.
+    /// Removes those of some edges that have no face, and vertices then left without edges. Removed
+    /// edges are skipped.
     pub(super) fn remove_loose(&mut self, edges: &[EdgeId]) {
         for &edge in edges {
             if !self.has_edge(edge) {
@@ -91,7 +91,7 @@ impl EditMesh {
     }
 }
 
-/// Refuses an operation that was given nothing.
+/// An error for an operation that was given nothing.
 pub(super) fn require<T>(
     elements: &[T],
     operation: &'static str,

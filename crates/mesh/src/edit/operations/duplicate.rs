@@ -1,4 +1,4 @@
-//! Duplicating: copies that are joined to nothing.
+//! Duplicating: copies that are not joined to anything else.
 
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{EdgeId, FaceId, VertexId};
@@ -6,12 +6,12 @@ use super::super::refusal::Refusal;
 use super::copy::{CopiedElements, Elements};
 
 impl EditMesh {
-    /// Copies faces with their edges and vertices, edges with their ends, and vertices, all with their
-    /// values and marks, at the same places. What is given several ways is copied once; copies are joined
-    /// to each other as the originals are, and to nothing else.
+    /// Copies faces with their edges and vertices, edges with their ends, and vertices, all with their values
+    /// and marks, in the same positions. Elements given several times are copied once; copies are joined to
+    /// each other like the originals, and to nothing else.
     ///
     /// # Errors
-    /// Nothing is given, or something does not exist; there would be too many elements.
+    /// Nothing is given, something does not exist, or there would be too many elements.
     ///
     /// ```
     /// use trigon_mesh::edit::{EditMesh, FaceId};

@@ -1,4 +1,4 @@
-//! New faces and edges between what is there: a modeller's F.
+//! Filling: new faces and edges between existing elements (a modeller's F).
 
 use trigon_math::DVec3;
 use trigon_math::elementary::atan2;
@@ -10,30 +10,30 @@ use super::delete::require;
 use super::numbering::{Numbering, sorted_once};
 use super::outlines::Chain;
 
-/// What was filled in.
+/// The new elements.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Filled {
     /// The new faces.
     pub faces: Vec<FaceId>,
     /// The new edges.
     pub edges: Vec<EdgeId>,
-    /// The new vertices, within a grid.
+    /// The new vertices, inside a grid.
     pub vertices: Vec<VertexId>,
 }
 
 const FILLING: &str = "filling";
 
 impl EditMesh {
-    /// Fills each loop of some edges with a face; a chain of two or more edges is closed by a new
-    /// edge first.
+    /// Fills each loop of some edges with a face; a chain of two or more edges is first closed by a
+    /// new edge.
     ///
-    /// A face is wound like its neighbours: against the side of a face at most of its edges. Without
-    /// neighbours it faces to the positive side of the axis along which it is seen largest. It has the
+    /// A face is wound like its neighbours: opposite to the adjacent faces at most of its edges. Without
+    /// neighbours it faces the positive side of the axis along which its projection is largest. It has the
     /// material of the first neighbour, and its corners have the values of neighbours' corners.
     ///
     /// # Errors
-    /// No edge is given, one does not exist, more than two meet in a vertex, one stands alone, or
-    /// there is a face with the same vertices already.
+    /// No edge is given, one does not exist, more than two meet in a vertex, one stands alone, or a
+    /// face with the same vertices exists already.
     pub fn fill_edges(&mut self, edges: &[EdgeId]) -> Result<Filled, Refusal> {
         require(edges, FILLING, "at least two edges, or one loop")?;
         let chains = self.chains(edges, FILLING)?;
@@ -46,13 +46,13 @@ impl EditMesh {
         })
     }
 
-    /// Joins two vertices by an edge, or three and more by a face. Where edges among them form a
-    /// single chain or loop, this is the face's outline; otherwise the vertices are taken in the order
-    /// of their direction from their mean place. The rest is as in [`Self::fill_edges`].
+    /// Joins two vertices with an edge, or three or more with a face. If edges among them form a single chain
+    /// or loop, this is the face's outline; otherwise the vertices are sorted by their direction from their
+    /// mean position. Otherwise as [`Self::fill_edges`].
     ///
     /// # Errors
     /// There are fewer than two vertices, one does not exist, the edge or a face with the same vertices
-    /// is there already, or no order can be told because all places are in a line.
+    /// exists already, or no order can be determined because all positions are collinear.
     pub fn fill_vertices(&mut self, vertices: &[VertexId]) -> Result<Filled, Refusal> {
         require(vertices, FILLING, "at least two vertices")?;
         vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;
@@ -138,7 +138,7 @@ impl EditMesh {
         Ok(())
     }
 
-    /// Whether some vertices are those of a face.
+    /// Whether some vertices are exactly those of a face.
     fn has_face_over(&self, vertices: &[VertexId]) -> bool {
         let Some(edge) = self.find_edge(vertices[0], vertices[1]) else { return false };
         let wanted = sorted_once(vertices.to_vec());

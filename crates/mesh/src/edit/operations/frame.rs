@@ -1,5 +1,5 @@
-//! A face in its plane: directions inwards from its edges, and which mixture of its corners belongs
-//! to a place.
+//! A face in its plane: directions inwards from its edges, and the combination of its corners for a
+//! position.
 
 use trigon_math::{DVec2, DVec3};
 
@@ -8,30 +8,30 @@ use super::super::ids::{CornerId, FaceId};
 use crate::normals::unit_or_zero;
 use crate::triangulate::area_vector;
 
-/// Up to this number of corners a place is a mixture of all; beyond it the work for all corners of a
-/// face would grow with their square.
+/// Up to this number of corners a position is a combination of all; beyond it the work for all
+/// corners of a face would grow with their square.
 const MANY: usize = 32;
 
-/// Weights beyond this are those of a place far outside, or of an outline that crosses itself: there
-/// mean values mean nothing.
+/// Larger weights belong to a position far outside, or to a self-intersecting outline, for which
+/// mean values are meaningless.
 const HEAVIEST: f64 = 64.0;
 
-/// One face, and memory that is used again for the next.
+/// One face; its memory is reused for the next.
 #[derive(Default)]
 pub(super) struct FaceFrame {
     pub(super) corners: Vec<CornerId>,
     pub(super) places: Vec<DVec3>,
     /// Of unit length; zero where the face has no area or is not finite.
     pub(super) normal: DVec3,
-    /// The places in the plane.
+    /// The positions in the plane.
     flat: Vec<DVec2>,
     axes: [DVec3; 2],
-    /// Three corners that span the plane; `None` until they are wanted.
+    /// Three corners that span the plane; `None` until needed.
     span: Option<[usize; 3]>,
 }
 
 impl FaceFrame {
-    /// Takes up a face.
+    /// Sets the face.
     pub(super) fn load(&mut self, mesh: &EditMesh, face: FaceId) {
         self.corners.clear();
         self.corners.extend(mesh.face_corners(face));
@@ -46,21 +46,21 @@ impl FaceFrame {
         self.span = None;
     }
 
-    /// The unit vector in the plane from an edge inwards, from the corner of this number to the next; zero
-    /// where it has no direction.
+    /// The unit vector in the plane pointing inwards from an edge, which runs from the corner of this number
+    /// to the next; zero if the edge has no direction.
     pub(super) fn inward(&self, index: usize) -> DVec3 {
         let next = self.places[(index + 1) % self.places.len()];
         unit_or_zero(self.normal.cross(next - self.places[index]))
     }
 
-    /// Writes the weights of corners, by their numbers, that belong to a place in the plane, for what
-    /// was at the corner `from` and moved there. They sum to 1, and of functions that are affine in the
-    /// plane they give the value at the place, also outside of the face.
+    /// Writes the weights of corners, by their numbers, for a position in the plane, which the content of the
+    /// corner `from` moved to. They sum to 1, and for functions that are affine in the plane they give the
+    /// value at the position, also outside the face.
     ///
-    /// Within the face, up to [`MANY`] corners, these are mean value coordinates (Michael S. Floater,
-    /// "Mean value coordinates", 2003; Kai Hormann and Floater, "Mean value coordinates for
-    /// arbitrary planar polygons", 2006). Elsewhere the value at the corner changes with the slope between three
-    /// corners of the face.
+    /// Inside the face, up to [`MANY`] corners, these are mean value coordinates (Michael S. Floater, "Mean
+    /// value coordinates", 2003; Kai Hormann and Floater, "Mean value coordinates for arbitrary planar
+    /// polygons", 2006). Elsewhere the value at the corner changes with the slope between three corners of
+    /// the face.
     pub(super) fn weights(&mut self, from: usize, place: DVec3, weights: &mut Vec<(usize, f64)>) {
         let at = flatten(place - self.places[0], &self.axes);
         if at == self.flat[from] || self.normal == DVec3::ZERO {
@@ -84,7 +84,7 @@ impl FaceFrame {
     }
 }
 
-/// Two unit vectors at right angles to a normal and each other, which they follow counter-clockwise.
+/// Two unit vectors perpendicular to a normal and each other, counter-clockwise around it.
 fn plane_axes(normal: DVec3) -> [DVec3; 2] {
     let across = if normal.x.abs() < 0.6 { DVec3::X } else { DVec3::Y };
     let u = unit_or_zero(across.cross(normal));
@@ -112,7 +112,7 @@ fn widest(flat: &[DVec2]) -> [usize; 3] {
     [0, b, c]
 }
 
-/// Mean value coordinates of a place; whether they are of use.
+/// Mean value coordinates of a position; returns whether they are usable.
 fn mean_values(flat: &[DVec2], at: DVec2, weights: &mut Vec<(usize, f64)>) -> bool {
     weights.clear();
     let mut sum = 0.0;
@@ -142,15 +142,15 @@ fn mean_values(flat: &[DVec2], at: DVec2, weights: &mut Vec<(usize, f64)>) -> bo
 }
 
 /// The tangent of half the angle from one direction to another, given the product of their lengths;
-/// `None` where they point in opposite directions or one is zero.
+/// `None` if they point in opposite directions or one is zero.
 fn half_tangent(a: DVec2, b: DVec2, lengths: f64) -> Option<f64> {
     let (cross, dot) = (a.perp_dot(b), a.dot(b));
-    // Of two forms the one that loses no digits.
+    // The one of two forms that loses no digits.
     let tangent = if dot >= 0.0 { cross / (lengths + dot) } else { (lengths - dot) / cross };
     tangent.is_finite().then_some(tangent)
 }
 
-/// The weights of a place on an edge, at these distances from its ends.
+/// The weights of a position on an edge, at these distances from its ends.
 fn on_edge(flat: &[DVec2], first: usize, [a, b]: [f64; 2], weights: &mut Vec<(usize, f64)>) -> bool {
     weights.clear();
     let sum = a + b;
@@ -175,7 +175,7 @@ mod tests {
     }
 
     proptest! {
-        /// Weights sum to 1 and give the place itself, whatever the polygon.
+        /// Weights sum to 1 and reproduce the position, for any polygon.
         #[test]
         fn weights_are_exact_for_affine_functions(
             outline in prop::collection::vec((-8i8..8, -8i8..8), 3..40),

@@ -16,10 +16,10 @@ const FILLING: &str = "filling with a grid";
 /// How a loop is divided into the four sides of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct GridSides {
-    /// How many edges the first and the third side have, 1 to half of all less 1; the two others have
-    /// the rest. `None` for a grid as square as can be.
+    /// The number of edges on the first and the third side, 1 to half of all minus 1; the two others have the
+    /// rest. `None` for a grid as square as possible.
     pub span: Option<usize>,
-    /// By how many edges the first corner is shifted along the loop; any number.
+    /// Shifts the first corner along the loop by this number of edges; any number.
     pub offset: usize,
 }
 
@@ -31,7 +31,7 @@ struct Grid<'a> {
 }
 
 impl Grid<'_> {
-    /// The place on the loop of a point of the border.
+    /// The index in the loop of a border point.
     fn on_border(&self, column: usize, row: usize) -> Option<usize> {
         let (columns, rows) = (self.columns, self.rows);
         let place = match (column, row) {
@@ -44,8 +44,8 @@ impl Grid<'_> {
         Some(place % self.border.len())
     }
 
-    /// Weights of points of the border that make a point within: the bilinearly blended patch of
-    /// S. A. Coons ("Surfaces for computer-aided design of space forms", 1967).
+    /// Weights of border points for an inner point: the bilinearly blended patch of S. A. Coons
+    /// ("Surfaces for computer-aided design of space forms", 1967).
     fn weights(&self, column: usize, row: usize) -> [(usize, f64); 8] {
         let (columns, rows) = (self.columns, self.rows);
         let (u, v) = (column as f64 / columns as f64, row as f64 / rows as f64);
@@ -66,15 +66,15 @@ impl Grid<'_> {
 }
 
 impl EditMesh {
-    /// Fills a loop of an even number of edges with a grid of quads. Its inner vertices continue the
-    /// sides smoothly (a Coons patch), and so do values: those of vertices always, those of corners
-    /// where all vertices of the loop have a face beside them.
+    /// Fills a loop with an even number of edges with a grid of quads. Its inner vertices continue
+    /// the sides smoothly (a Coons patch), and so do values: those of vertices always, those of
+    /// corners if all vertices of the loop have an adjacent face.
     ///
     /// Faces are wound like their neighbours, as in [`Self::fill_edges`], and have the material of the first.
     ///
     /// # Errors
-    /// No edge is given, one does not exist, they are not one loop of an even number, the span is out
-    /// of its range, or the mesh would have too many elements.
+    /// No edge is given, one does not exist, they do not form one loop with an even number of edges, the span
+    /// is out of range, or the mesh would have too many elements.
     pub fn grid_fill(&mut self, edges: &[EdgeId], sides: GridSides) -> Result<Filled, Refusal> {
         require(edges, FILLING, "one loop of edges")?;
         let refused = |reason| Err(Refusal::NotPossible { operation: FILLING, reason });
@@ -110,7 +110,7 @@ impl EditMesh {
         })
     }
 
-    /// Whether a face in a loop has to run against it.
+    /// Whether a face in a loop must run against it.
     pub(super) fn is_wound_against(&self, chain: &Chain) -> bool {
         let votes = self.winding_votes(chain.steps());
         let normal = area_vector(chain.vertices.iter().map(|&vertex| self.point(vertex)));
@@ -156,7 +156,7 @@ impl EditMesh {
         Ok(())
     }
 
-    /// All points, row by row, those within new.
+    /// All points, row by row, with new inner ones.
     fn grid_points(&mut self, grid: &Grid<'_>, filled: &mut Filled) -> Result<Vec<VertexId>, Refusal> {
         let mut points = Vec::with_capacity((grid.columns + 1) * (grid.rows + 1));
         for row in 0..=grid.rows {

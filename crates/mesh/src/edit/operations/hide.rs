@@ -1,28 +1,27 @@
-//! Hiding elements and showing them again.
+//! Hiding and revealing elements.
 //!
-//! What is hidden along: everything that cannot be seen without a hidden element. A hidden vertex
-//! hides its edges, a hidden edge its faces. Beyond that, hiding faces or edges hides what they
-//! leave behind: edges all of whose faces are hidden now, and vertices all of whose edges are.
-//! Hiding vertices leaves the rest of the outlines of their faces in view, as Blender does.
+//! Hiding is propagated to everything that is not visible without a hidden element. A hidden vertex
+//! hides its edges, a hidden edge its faces. In addition, hiding faces or edges hides what they
+//! leave behind: edges all of whose faces are now hidden, and vertices all of whose edges are.
+//! Hiding vertices leaves the rest of the outlines of their faces visible, as in Blender.
 
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{EdgeId, FaceId, VertexId};
 use super::super::refusal::Refusal;
 
-/// Elements that were hidden, or shown again: those whose state changed.
+/// Elements that were hidden or revealed: those whose state changed.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct VisibilityChange {
-    /// In the order in which they were reached.
+    /// In the order of discovery.
     pub vertices: Vec<VertexId>,
-    /// In the order in which they were reached.
+    /// In the order of discovery.
     pub edges: Vec<EdgeId>,
-    /// In the order in which they were reached.
+    /// In the order of discovery.
     pub faces: Vec<FaceId>,
 }
 
 impl EditMesh {
-    /// Hides faces, edges all of whose faces are hidden then, and vertices all of whose edges
-    /// are.
+    /// Hides faces, edges all of whose faces are then hidden, and vertices all of whose edges are.
     ///
     /// # Errors
     /// None is given, or one does not exist.
@@ -34,8 +33,8 @@ impl EditMesh {
         Ok(change)
     }
 
-    /// Hides edges, their faces, and what these leave behind: edges all of whose faces are hidden
-    /// then, and vertices all of whose edges are.
+    /// Hides edges, their faces, and what these leave behind: edges all of whose faces are then
+    /// hidden, and vertices all of whose edges are.
     ///
     /// # Errors
     /// None is given, or one does not exist.
@@ -65,7 +64,7 @@ impl EditMesh {
         Ok(change)
     }
 
-    /// Shows everything that is hidden.
+    /// Reveals everything that is hidden.
     pub fn reveal_all(&mut self) -> VisibilityChange {
         let change = VisibilityChange {
             vertices: self.vertices().filter(|&vertex| self.is_vertex_hidden(vertex)).collect(),
@@ -94,8 +93,8 @@ impl EditMesh {
         faces.into_iter().for_each(|face| self.hide_face(face, change));
     }
 
-    /// Hides edges without a visible face at faces that were hidden, and vertices without a
-    /// visible edge at edges that were.
+    /// Hides edges without a visible face at faces that were hidden, and vertices without a visible
+    /// edge at edges that were.
     fn hide_left_behind(&mut self, change: &mut VisibilityChange) {
         let mut edges: Vec<EdgeId> = change.faces.iter().flat_map(|&face| self.face_edges(face)).collect();
         edges.sort_unstable();
@@ -167,7 +166,7 @@ mod tests {
     }
 
     proptest! {
-        /// Whatever is hidden, nothing in view needs a hidden element.
+        /// Whatever is hidden, nothing visible needs a hidden element.
         #[test]
         fn nothing_in_view_needs_what_is_hidden(
             start in meshes(),

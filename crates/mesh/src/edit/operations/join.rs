@@ -9,14 +9,14 @@ use super::copy::CopiedElements;
 use crate::transform::{cofactors, transformed_delta, transformed_direction};
 
 impl EditMesh {
-    /// Adds all elements of another mesh, moved by a transform (from its space to this one's, in metres),
-    /// with their values and marks. The two are not joined where they touch.
+    /// Adds all elements of another mesh, transformed (from its space to this one's, in metres), with their
+    /// values and marks. The two are not welded where they touch.
     ///
-    /// Positions are computed in f64 and rounded once; normals, tangents and morph targets turn along,
-    /// and a transform that mirrors turns the faces over, so that outside stays outside. Sets of
-    /// texture coordinates pair in their order. Layers that either mesh lacks are zero for it,
-    /// colours white. Material slots, joints and numbers of morph targets stay what they are: who
-    /// joins objects that mean different things by them changes them before.
+    /// Positions are computed in f64 and rounded once; normals, tangents and morph targets are rotated, and a
+    /// mirroring transform flips the faces, so that outside stays outside. Sets of texture coordinates
+    /// correspond by order. Layers that either mesh lacks are zero for it, colours white. Material slots,
+    /// joints and numbers of morph targets are unchanged: if they mean different things in the two objects,
+    /// adjust them first.
     ///
     /// # Errors
     /// There would be too many elements.
@@ -34,8 +34,8 @@ impl EditMesh {
         Ok(added)
     }
 
-    /// Moves all values by a transform. Faces, and the sides to which normals point, stay
-    /// where a transform that mirrors would turn them over.
+    /// Transforms all values. Faces, and the sides to which normals point, are not flipped by a
+    /// mirroring transform.
     fn bake(&mut self, transform: &DAffine3) {
         for column in [&mut self.positions, &mut self.first_positions] {
             for place in column.write_all() {

@@ -1,5 +1,5 @@
-//! Lifting faces off a mesh: walls join what is lifted to where it was. Nothing moves yet, so walls
-//! have no area.
+//! Lifting faces off a mesh: walls connect the lifted faces to their old positions. Nothing moves
+//! yet, so walls have no area.
 
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
@@ -11,24 +11,24 @@ use trigon_math::DVec3;
 
 /// A region that was lifted as a whole.
 pub(super) struct Lifted {
-    /// One for each border edge, in their order. The corners of a wall, from its first on: at the base
-    /// of the vertex of the border's inner corner, at the base of the next corner's, and at both
-    /// vertices of the cap backwards.
+    /// One for each border edge, in order. The corners of a wall, from its first on: at the base of the
+    /// vertex of the border's inner corner, at the base of the next corner's, and at both vertices of the cap
+    /// backwards.
     pub(super) walls: Vec<FaceId>,
-    /// The faces turned over that close sheets.
+    /// The flipped faces that close sheets.
     pub(super) bottoms: Vec<FaceId>,
     pub(super) splits: Vec<SplitVertex>,
-    /// For each split vertex the edge from it to its base; `None` without a wall.
+    /// For each split vertex the edge to its base; `None` without a wall.
     pub(super) hinges: Vec<Option<EdgeId>>,
 }
 
-/// What lifting one face after the other makes, and memory that is used again for each.
+/// The result of lifting one face after the other, with memory reused for each.
 #[derive(Default)]
 pub(super) struct LiftedFaces {
-    /// The walls of all, for each corner of a face the one along the edge that leaves there. Corners are
-    /// as in [`Lifted::walls`].
+    /// The walls, for each corner of a face the one along the edge that leaves there. Corners are as in
+    /// [`Lifted::walls`].
     pub(super) walls: Vec<FaceId>,
-    /// The new vertices of all, for each corner of a face.
+    /// The new vertices, for each corner of a face.
     pub(super) vertices: Vec<VertexId>,
     corners: Vec<CornerId>,
     old: Vec<(VertexId, EdgeId)>,
@@ -37,7 +37,7 @@ pub(super) struct LiftedFaces {
 }
 
 impl EditMesh {
-    /// Lifts a region: walls along the border edges that are given, and bottoms for the faces of sheets.
+    /// Lifts a region: walls along the given border edges, and bottoms for the faces of sheets.
     pub(super) fn lift_region(
         &mut self,
         region: &Region,
@@ -66,7 +66,7 @@ impl EditMesh {
         Lifted { walls, bottoms, splits: splits.list, hinges }
     }
 
-    /// The wall along an edge of the border, wound as the face of the region there.
+    /// The wall along an edge of the border, wound like the face of the region there.
     fn add_wall(
         &mut self,
         border: &BorderEdge,
@@ -89,7 +89,7 @@ impl EditMesh {
         wall
     }
 
-    /// Gives the corners of a wall the values of the two corners on which it stands.
+    /// Gives the corners of a wall the values of the two corners below it.
     fn dress_wall(&mut self, wall: FaceId, from: CornerId, to: CornerId) {
         let mut corner = CornerId(self.faces[wall.0].corner);
         for source in [from, to, to, from] {
@@ -98,7 +98,7 @@ impl EditMesh {
         }
     }
 
-    /// The faces of sheets again, turned over, on the base's vertices.
+    /// The faces of sheets once more, flipped, on the base's vertices.
     fn add_bottoms(
         &mut self,
         sheets: &[FaceId],
@@ -153,8 +153,8 @@ impl EditMesh {
     }
 
     /// Lifts one face that visits each of its vertices once: the face gets new vertices at the given
-    /// places, one for each corner, the rest keeps the old ones. The corners of the walls have no values
-    /// yet.
+    /// positions, one for each corner, and the rest keeps the old ones. The corners of the walls have no
+    /// values yet.
     pub(super) fn lift_face(&mut self, face: FaceId, places: &[DVec3], lifted: &mut LiftedFaces) {
         let LiftedFaces { walls, vertices, corners, old, new_edges, hinges } = lifted;
         corners.clear();
@@ -199,7 +199,7 @@ impl EditMesh {
         }
     }
 
-    /// Gives the walls of the face that was lifted last the values of its corners.
+    /// Gives the walls of the last lifted face the values of its corners.
     pub(super) fn dress_walls(&mut self, lifted: &LiftedFaces) {
         let count = lifted.corners.len();
         let walls = &lifted.walls[lifted.walls.len() - count..];
@@ -210,7 +210,7 @@ impl EditMesh {
 
     /// Whether a face visits each of its vertices once.
     pub(super) fn is_simple(&self, face: FaceId) -> bool {
-        /// Up to this size looking through all pairs is faster than sorting.
+        /// Up to this size testing all pairs is faster than sorting.
         const FEW: usize = 8;
         let mut vertices: smallvec::SmallVec<[VertexId; FEW]> = self.face_vertices(face).collect();
         if vertices.len() <= FEW {
@@ -220,13 +220,13 @@ impl EditMesh {
         vertices.windows(2).all(|pair| pair[0] != pair[1])
     }
 
-    /// The unit normal of a face; zero where it has no area or is not finite.
+    /// The unit normal of a face; zero if it has no area or is not finite.
     pub(super) fn unit_normal(&self, face: FaceId) -> DVec3 {
         unit_or_zero(area_vector(self.face_vertices(face).map(|vertex| self.point(vertex))))
     }
 
-    /// For each vertex of a region the mean of the region's normals there, weighted by angle; zero
-    /// where it has no direction.
+    /// For each vertex of a region the angle-weighted mean of the region's normals there; zero if
+    /// it has no direction.
     pub(super) fn region_normals(&self, region: &Region, vertices: &[VertexId]) -> Vec<DVec3> {
         let mut places = IndexTable::new(self.vertex_capacity(), vertices.len());
         for (place, vertex) in (0..).zip(vertices) {

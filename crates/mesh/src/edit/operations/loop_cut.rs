@@ -11,19 +11,19 @@ use super::super::refusal::Refusal;
 /// The vertices on an edge: few rings have more cuts.
 pub(super) type Vertices = SmallVec<[VertexId; 8]>;
 
-/// How [`EditMesh::loop_cut`] cuts.
+/// Settings of [`EditMesh::loop_cut`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoopCutSettings {
-    /// How many parallel loops: 1 to 1000.
+    /// The number of parallel loops: 1 to 1000.
     pub cuts: usize,
-    /// How far the loops are moved together from their even distances: −1 to 1. At 1 the last
-    /// loop lies on the side of the given edge's second vertex, at −1 the first one on that of its
-    /// first vertex; 0 is even.
+    /// Moves all loops together from their even distances: −1 to 1. At 1 the last loop lies on the
+    /// side of the given edge's second vertex, at −1 the first one on that of its first vertex; 0
+    /// is even.
     pub position: f64,
-    /// Whether the loops keep on all edges of the ring the distances that they have on the given one,
-    /// instead of the same parts of each edge.
+    /// Whether the loops keep the same distances on all edges of the ring as on the given one, instead of the
+    /// same fraction of each edge.
     pub even: bool,
-    /// With `even`: whether distances count from the side of the given edge's second vertex.
+    /// With `even`: whether distances are measured from the side of the given edge's second vertex.
     pub flipped: bool,
 }
 
@@ -33,14 +33,14 @@ impl Default for LoopCutSettings {
     }
 }
 
-/// What [`EditMesh::loop_cut`] made.
+/// The result of [`EditMesh::loop_cut`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LoopCut {
-    /// The edges across the faces, face by face along the ring: of each face `cuts` edges.
+    /// The edges across the faces, face by face along the ring: `cuts` edges per face.
     pub edges: Vec<EdgeId>,
-    /// The vertices on the ring's edges, edge by edge: on each edge `cuts` vertices.
+    /// The vertices on the ring's edges, edge by edge: `cuts` vertices per edge.
     pub vertices: Vec<VertexId>,
-    /// Whether the ring leads back to the edge where it began.
+    /// Whether the ring closes at the edge where it began.
     pub is_closed: bool,
 }
 
@@ -67,18 +67,18 @@ struct EdgeRing {
 }
 
 impl EditMesh {
-    /// Cuts the ring of quads to which an edge belongs by new loops of edges.
+    /// Cuts the ring of quads to which an edge belongs with new edge loops.
     ///
-    /// The ring goes from the edge to the opposite edges of the quads on both of its sides. It
-    /// ends at borders, at faces that are hidden or have not four different vertices, at edges
-    /// with more than two faces, and where it would cross itself; or it leads back to the edge.
-    /// Faces beyond an end get the new vertices of the last edge. Values are interpolated along
-    /// the cut edges. On a Möbius band the two sides of a ring change places: there a position
-    /// other than 0 gives the last face a step.
+    /// The ring goes from the edge to the opposite edges of the quads on both of its sides. It ends
+    /// at borders, at faces that are hidden or do not have four different vertices, at edges with
+    /// more than two faces, and where it would cross itself; or it closes at the edge. Faces beyond
+    /// an end get the new vertices of the last edge. Values are interpolated along the cut edges.
+    /// On a Möbius band the two sides of a ring change places: there a position other than 0 gives
+    /// the last face a step.
     ///
-    /// All elements keep their ids; each face keeps its own for the strip at the end of the side
-    /// on which it was entered. As in Blender, except that a ring that crosses itself ends there,
-    /// and that an edge without quads is refused, not subdivided.
+    /// All elements keep their ids; each face keeps its own for the strip at the end of the side on
+    /// which it was entered. As in Blender, except that a ring that crosses itself ends there, and
+    /// that an edge without quads is an error and not subdivided.
     ///
     /// # Errors
     /// There is no such edge; it has no quad, or more than two faces; a setting is out of range.
@@ -113,7 +113,8 @@ impl EditMesh {
         self.whole(|mesh| mesh.cut_ring_of_quads(&ring, &places))
     }
 
-    /// Where the cuts lie on an edge of a ring, as parts of its length, for those on the ring's first edge.
+    /// The positions of cuts on an edge of a ring, as fractions of its length, given those on the ring's
+    /// first edge.
     fn places_on(&self, edge: EdgeId, first: EdgeId, places: &[f64], settings: &LoopCutSettings) -> Vec<f64> {
         let ratio = self.edge_length(first) / self.edge_length(edge);
         if !settings.even || !ratio.is_finite() {
@@ -127,7 +128,7 @@ impl EditMesh {
         places.iter().map(|&of_first| place(of_first).clamp(0.0, 1.0)).collect()
     }
 
-    /// The ring of an edge that exists.
+    /// The ring of an existing edge.
     fn ring_of_quads(&self, edge: EdgeId) -> Result<EdgeRing, Refusal> {
         let refused = |reason| Err(Refusal::NotPossible { operation: "a loop cut", reason });
         let sides: SmallVec<[CornerId; 2]> = self.edge_corners(edge).take(3).collect();
@@ -135,11 +136,11 @@ impl EditMesh {
             return refused("more than two faces meet at the edge; choose another edge of the ring");
         }
         let start = Rung { edge, from: self.edge_vertices(edge)[0] };
-        // A bit for each face: its zeros cost nothing until they are touched.
+        // One bit per face: zeros cost nothing until they are touched.
         let mut visited = FixedBitSet::with_capacity(self.face_capacity());
         let mut ring = EdgeRing { rungs: vec![start], crossings: Vec::new(), is_closed: false };
         for side in sides {
-            // What was found on the one side is turned around, to be continued on the other.
+            // The ring found on one side is reversed, to be continued on the other.
             ring.rungs.reverse();
             ring.crossings.reverse();
             self.follow_quads(side, start, &mut ring, &mut visited);
@@ -153,7 +154,7 @@ impl EditMesh {
         Ok(ring)
     }
 
-    /// Goes on from a corner that leaves along the ring's last edge.
+    /// Continues from a corner that leaves along the ring's last edge.
     fn follow_quads(&self, side: CornerId, start: Rung, ring: &mut EdgeRing, visited: &mut FixedBitSet) {
         let (mut enter, mut rung) = (side, start);
         while self.can_cut_across(self.corner_face(enter)) && !visited.put(self.corner_face(enter).0 as usize)
@@ -183,7 +184,7 @@ impl EditMesh {
         }
     }
 
-    /// Whether a ring goes through a face: a quad with four different vertices that is shown.
+    /// Whether a ring passes through a face: a visible quad with four different vertices.
     fn can_cut_across(&self, face: FaceId) -> bool {
         if self.face_size(face) != 4 || self.faces[face.0].flags & HIDDEN != 0 {
             return false;
@@ -192,7 +193,7 @@ impl EditMesh {
         vertices[0] != vertices[2] && vertices[1] != vertices[3]
     }
 
-    /// Cuts a ring at places on each of its edges, of which each has as many.
+    /// Cuts a ring at positions on each of its edges, the same number on each.
     fn cut_ring_of_quads(&mut self, ring: &EdgeRing, places: &[Vec<f64>]) -> Result<LoopCut, Refusal> {
         let cuts = places.first().map_or(0, Vec::len);
         let mut vertices = Vec::with_capacity(ring.rungs.len() * cuts);
@@ -206,7 +207,7 @@ impl EditMesh {
         Ok(LoopCut { edges, vertices, is_closed: ring.is_closed })
     }
 
-    /// Puts vertices on an edge, at growing parts of the way from one of its ends to the other.
+    /// Puts vertices on an edge, at increasing fractions from one of its ends to the other.
     pub(super) fn cut_rung(
         &mut self,
         edge: EdgeId,
@@ -231,7 +232,8 @@ impl EditMesh {
             vertices.push(split.vertex);
         }
         if vertices.len() > 1 {
-            // The splits have rounded in turns: now each vertex gets its values from the ends.
+            // The splits have rounded one after the other: now each vertex gets its values from the
+            // ends.
             for (&vertex, &t) in vertices.iter().zip(&places) {
                 let position = self.point(first) * (1.0 - t) + self.point(second) * t;
                 self.set_position(vertex, position.as_vec3());
@@ -247,8 +249,8 @@ impl EditMesh {
         Ok(vertices)
     }
 
-    /// Gives the corners between two corners of a face values at parts of the way between
-    /// the edge's first and second vertex.
+    /// Gives the corners between two corners of a face values at fractions between the edge's first
+    /// and second vertex.
     fn blend_rung(&mut self, side: CornerId, end: CornerId, vertices: &[VertexId], places: &[f64]) {
         let mut corner = self.next_corner(side);
         let is_forward = self.corner_vertex(corner) == vertices[0];

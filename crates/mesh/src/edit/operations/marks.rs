@@ -1,7 +1,7 @@
 //! Marks of edges and faces: sharp, seam, crease, smooth, flat, material.
 //!
-//! Each operation says how many elements it changed. Normals that were given for corners would hide
-//! what it does to the shading: they are cleared there, so that computed ones show.
+//! Each operation returns how many elements it changed. Given corner normals would hide the effect
+//! on shading, so they are cleared there and computed ones take their place.
 
 use std::f64::consts::PI;
 
@@ -13,12 +13,11 @@ use super::super::measure::FaceNormals;
 use super::super::refusal::Refusal;
 use super::delete::require;
 
-/// Normals are rounded: faces that meet at just the angle still blend.
+/// Normals are rounded: faces that meet at exactly the angle are still smooth.
 const COSINE_ROUNDING: f64 = 1e-6;
 
 impl EditMesh {
-    /// Keeps edges sharp in smooth shading. Normals that were given for the corners at their ends
-    /// are cleared.
+    /// Keeps edges sharp in smooth shading. Given normals of the corners at their ends are cleared.
     ///
     /// # Errors
     /// None is given, or one does not exist.
@@ -27,8 +26,7 @@ impl EditMesh {
         Ok(self.change_sharp(edges, |_, _| Some(true)))
     }
 
-    /// Lets smooth shading blend over edges again. Normals that were given for the corners at their ends
-    /// are cleared.
+    /// Makes shading smooth across edges again. Given normals of the corners at their ends are cleared.
     ///
     /// # Errors
     /// None is given, or one does not exist.
@@ -38,8 +36,8 @@ impl EditMesh {
     }
 
     /// Of the edges at which exactly two faces meet in opposite directions, marks those sharp at
-    /// which their normals differ by more than `angle` (radians, 0 to π), and clears the
-    /// others. All other edges, and those of a face without area, stay as they are.
+    /// which their normals differ by more than `angle` (radians, 0 to π), and clears the others.
+    /// All other edges, and those of a face without area, are unchanged.
     ///
     /// # Errors
     /// No edge is given, one does not exist, or the angle is not within 0…π.
@@ -55,8 +53,8 @@ impl EditMesh {
         }))
     }
 
-    /// Marks edges sharp or not as a function says, which leaves those alone of which it says
-    /// nothing. How many changed.
+    /// Marks edges sharp or not as a function decides; `None` leaves an edge unchanged. Returns how
+    /// many changed.
     fn change_sharp(
         &mut self,
         edges: &[EdgeId],
@@ -77,7 +75,7 @@ impl EditMesh {
         changed
     }
 
-    /// Makes edges seams, at which texture coordinates are cut when they are laid out.
+    /// Marks edges as seams, where texture coordinates are cut.
     ///
     /// # Errors
     /// None is given, or one does not exist.
@@ -86,7 +84,7 @@ impl EditMesh {
         Ok(edges.iter().filter(|&&edge| self.change_seam(edge, true)).count())
     }
 
-    /// Makes edges seams no longer.
+    /// Clears seams.
     ///
     /// # Errors
     /// None is given, or one does not exist.
@@ -103,8 +101,7 @@ impl EditMesh {
         changes
     }
 
-    /// Says how sharp edges stay in Catmull-Clark subdivision: 0 (smooth, which clears it) to 1
-    /// (sharp).
+    /// Sets how sharp edges stay in Catmull-Clark subdivision: 0 (smooth, clears it) to 1 (sharp).
     ///
     /// # Errors
     /// No edge is given, one does not exist, or the crease is not within 0…1.
@@ -124,8 +121,8 @@ impl EditMesh {
         Ok(changed)
     }
 
-    /// Shades faces smoothly: over all edges between smooth faces that are not sharp. Normals that
-    /// were given for their corners are cleared.
+    /// Shades faces smooth: across all edges between smooth faces that are not sharp. Given normals
+    /// of their corners are cleared.
     ///
     /// # Errors
     /// None is given, or one does not exist.
@@ -134,7 +131,7 @@ impl EditMesh {
         Ok(faces.iter().filter(|&&face| self.change_smooth(face, true)).count())
     }
 
-    /// Shades faces flat. Normals that were given for their corners are cleared.
+    /// Shades faces flat. Given normals of their corners are cleared.
     ///
     /// # Errors
     /// None is given, or one does not exist.
@@ -150,7 +147,7 @@ impl EditMesh {
         changes || had_normals
     }
 
-    /// Gives faces a material slot.
+    /// Assigns a material slot to faces.
     ///
     /// # Errors
     /// No face is given, or one does not exist.

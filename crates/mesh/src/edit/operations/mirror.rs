@@ -9,7 +9,7 @@ use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
 use super::super::refusal::Refusal;
 use super::transform::GivenNormals;
 
-/// What a mirrored copy consists of.
+/// A mirrored copy.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Mirrored {
     /// The new vertices.
@@ -23,10 +23,10 @@ pub struct Mirrored {
 }
 
 impl EditMesh {
-    /// Mirrors vertices in place. Faces all of whose vertices are among them are turned over, so
-    /// that their outside stays outside, and normals and tangents that were given for their
-    /// corners are mirrored; at other faces that they move, given normals are cleared. What
-    /// morph targets add to the vertices is mirrored, too.
+    /// Mirrors vertices in place. Faces all of whose vertices are among them are flipped, so that
+    /// their outside stays outside, and given normals and tangents of their corners are mirrored;
+    /// at other faces that they move, given normals are cleared. Morph target deltas of the
+    /// vertices are mirrored, too.
     ///
     /// # Errors
     /// None is given, or one does not exist.
@@ -56,13 +56,13 @@ impl EditMesh {
         faces.filter(|face| !seen.put(face.0 as usize)).filter(|&face| is_within(face)).collect()
     }
 
-    /// Adds a mirrored copy of faces, with their edges and vertices, and of other edges that are
-    /// given. Copies of faces wind the other way, so that their outside is outside; all values
-    /// and marks are copied, and directions mirrored.
+    /// Adds a mirrored copy of faces, with their edges and vertices, and of other given edges.
+    /// Copies of faces wind the other way, so that their outside is outside; all values and marks
+    /// are copied, and directions mirrored.
     ///
-    /// With a `merge_distance` (metres, from 0 on) vertices that are no farther from the plane than
-    /// that are moved onto it and shared by both halves. A face or edge that lies wholly on the
-    /// plane then gets no copy: it would be the same one.
+    /// With a `merge_distance` (metres, from 0 on) vertices within that distance of the plane are
+    /// moved onto it and shared by both halves. A face or edge entirely on the plane then gets no
+    /// copy, which would be identical.
     ///
     /// # Errors
     /// Neither a face nor an edge is given, one does not exist, the distance is negative or not
@@ -95,7 +95,7 @@ impl EditMesh {
         self.set_position(vertex, onto.as_vec3());
     }
 
-    /// The mirrored copy of faces that share the vertices for which `is_shared` says so.
+    /// The mirrored copy of faces that share the vertices for which `is_shared` returns true.
     pub(super) fn mirror_faces_sharing(
         &mut self,
         faces: &[FaceId],
@@ -123,11 +123,11 @@ fn reflection(normal: DVec3) -> DMat3 {
     DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
 }
 
-/// A copy that is being made.
+/// A copy in progress.
 struct Copy<'a> {
     mesh: &'a mut EditMesh,
     plane: &'a Plane,
-    /// By old vertex, one more than the index of its copy; 0 without one.
+    /// For each old vertex, one more than the index of its copy; 0 without one.
     copies: Vec<u32>,
     seen_edges: FixedBitSet,
     made: Mirrored,
@@ -156,7 +156,7 @@ impl<'a> Copy<'a> {
         Ok(copy.made)
     }
 
-    /// The copy of a vertex: made now, known already, or itself.
+    /// The copy of a vertex: created now, known already, or the vertex itself.
     fn vertex(
         &mut self,
         vertex: VertexId,
@@ -325,7 +325,7 @@ mod tests {
     }
 
     proptest! {
-        /// Mirrored twice, every place is back but for rounding, and the winding to the last corner.
+        /// Mirrored twice, every position is restored up to rounding, and the winding exactly.
         #[test]
         fn mirrored_twice_is_not_mirrored(start in meshes()) {
             let (mut mesh, _) = EditMesh::from_mesh(&start);
@@ -344,7 +344,7 @@ mod tests {
             }
         }
 
-        /// A copy is closed where the original is, turns no old element, and is undone.
+        /// A copy is closed if the original is, flips no old element, and can be undone.
         #[test]
         fn a_copy_is_as_closed_as_the_original(start in meshes(), at in -1.0f64..1.0) {
             let (mut mesh, _) = EditMesh::from_mesh(&start);

@@ -1,8 +1,8 @@
-//! The operations, a file each: what a user of a modeller calls by a name.
+//! The operations, one file each: what a user of a modeller knows by name.
 //!
 //! Each is a method of [`EditMesh`](super::EditMesh) that takes ids and parameters, in time
-//! proportional to what it changes, and returns what it made. Ids that are given twice count once.
-//! A refusal leaves the mesh as it was.
+//! proportional to what it changes, and returns what it made. Ids given twice count once. On an
+//! error the mesh is unchanged.
 
 mod bevel;
 mod bridge;

@@ -1,18 +1,17 @@
-//! Numbers for the elements of a list: what an operation looks up for each element that it
-//! meets.
+//! Numbering of the elements of a list, for operations that look up many elements.
 
-/// Tells at which place of a sorted list an index stands.
+/// Maps an index to its position in a sorted list.
 ///
-/// A table by index is fast, but takes time proportional to the mesh to make. It pays where the
-/// list is long; a short list is searched.
+/// A table by index is fast, but takes time proportional to the mesh to build, so it is used only
+/// for long lists; short lists are searched.
 pub(in super::super) enum Numbering {
     Searched(Vec<u32>),
-    /// By index: the place, or `u32::MAX`.
+    /// By index: the position, or `u32::MAX`.
     Table(Vec<u32>),
 }
 
 impl Numbering {
-    /// A table has at most so many entries for each element of the list.
+    /// A table has at most this many entries for each element of the list.
     const SPARSEST: usize = 32;
 
     /// The list holds ascending indices below `capacity`, each once.
@@ -27,12 +26,12 @@ impl Numbering {
         Self::Table(table)
     }
 
-    /// The place of an index in the list; `None` where it is not in it.
+    /// The position of an index in the list; `None` if it is not in it.
     #[inline]
     pub(in super::super) fn get(&self, index: u32) -> Option<usize> {
         match self {
             Self::Searched(sorted) => sorted.binary_search(&index).ok(),
-            // An element that came later is in no list.
+            // An element added later is in no list.
             Self::Table(table) => {
                 table.get(index as usize).filter(|&&place| place != u32::MAX).map(|&place| place as usize)
             }

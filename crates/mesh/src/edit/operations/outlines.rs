@@ -1,4 +1,4 @@
-//! Loops and chains of edges, as filling and bridging need them.
+//! Loops and chains of edges, for filling and bridging.
 
 use smallvec::SmallVec;
 
@@ -7,10 +7,10 @@ use super::super::ids::{CornerId, EdgeId, VertexId};
 use super::super::refusal::Refusal;
 use super::numbering::sorted_once;
 
-/// Edges in a row.
+/// Connected edges in order.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Chain {
-    /// In order; of a closed one the first is not repeated.
+    /// In order; the first is not repeated in a closed one.
     pub(super) vertices: Vec<VertexId>,
     pub(super) is_closed: bool,
 }
@@ -25,8 +25,8 @@ impl Chain {
 }
 
 impl EditMesh {
-    /// The connected parts of some edges: open chains first, then loops, each kind by its lowest end
-    /// or vertex.
+    /// The connected parts of some edges: open chains first, then loops, each kind by its lowest
+    /// end or vertex.
     ///
     /// # Errors
     /// More than two of the edges meet in a vertex, or one does not exist.
@@ -70,7 +70,7 @@ impl EditMesh {
     }
 
     /// How many more sides of faces run against the direction of some steps than with it: positive
-    /// where a new face has to run along them to be wound like its neighbours.
+    /// if a new face must run along them to be wound like its neighbours.
     pub(super) fn winding_votes(&self, steps: impl Iterator<Item = (VertexId, VertexId)>) -> i64 {
         let mut votes = 0;
         for (from, to) in steps {
@@ -81,8 +81,8 @@ impl EditMesh {
         votes
     }
 
-    /// For each vertex of a chain a corner there of a face beside it, whose values a new face takes
-    /// over.
+    /// For each vertex of a chain a corner there of an adjacent face, whose values a new face
+    /// takes.
     pub(super) fn corners_beside(&self, chain: &Chain) -> Vec<Option<CornerId>> {
         let mut corners = vec![None; chain.vertices.len()];
         let count = corners.len();

@@ -1,10 +1,10 @@
-//! Dividing a face into parts: what subdividing, triangulating and connecting have in common.
+//! Dividing a face into parts: shared by subdividing, triangulating and connecting.
 
 use super::super::edit_mesh::EditMesh;
 use super::super::euler::check_outline;
 use super::super::ids::{CornerId, EdgeId, FaceId, NONE, VertexId};
 
-/// A point that parts of a face have as corner.
+/// A point that becomes a corner of parts of a face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PartPoint {
     pub(super) vertex: VertexId,
@@ -14,7 +14,7 @@ pub(super) struct PartPoint {
     pub(super) is_taken: bool,
 }
 
-/// Outlines of parts, each as places in a list of points.
+/// Outlines of parts, as indices into a list of points.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Parts {
     places: Vec<u32>,
@@ -42,7 +42,7 @@ impl Parts {
     }
 }
 
-/// Elements that come from dividing faces.
+/// Elements created by dividing faces.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Divided {
     /// Those between parts that were not there before.
@@ -52,8 +52,8 @@ pub(super) struct Divided {
 }
 
 impl EditMesh {
-    /// Divides a face. All its corners are among the points, and each point is in a part. Each
-    /// part is the outline of a face.
+    /// Divides a face. All its corners are among the points, and each point is in a part. Each part
+    /// is the outline of a face.
     pub(super) fn divide_face(
         &mut self,
         face: FaceId,

@@ -1,5 +1,5 @@
-//! Texture coordinates by projection: along one direction, or along the axis that each face looks
-//! along.
+//! Texture coordinates by projection: along one direction, or along the axis that each face mostly
+//! faces.
 
 use trigon_math::{DVec2, DVec3, Vec2};
 
@@ -10,18 +10,18 @@ use super::super::layers::{Layer, LayerKind, LayerValues};
 use super::super::refusal::Refusal;
 use crate::normals::unit_or_zero;
 
-/// A projection along a direction, as a slide projector does it.
+/// A projection along a direction, like that of a slide projector.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanarProjection {
-    /// What is in the middle of the picture, in metres.
+    /// The point at the centre of the image, in metres.
     pub center: DVec3,
     /// Towards the viewer; of any length but zero.
     pub normal: DVec3,
-    /// Up in the picture; need not be perpendicular to the normal.
+    /// The upward direction in the image; need not be perpendicular to the normal.
     pub up: DVec3,
-    /// The height of the picture in metres, above 0.
+    /// The height of the image in metres, above 0.
     pub height: f64,
-    /// Its width by its height, above 0.
+    /// Its aspect ratio, width divided by height, above 0.
     pub aspect: f64,
 }
 
@@ -32,14 +32,14 @@ impl Default for PlanarProjection {
     }
 }
 
-/// A projection onto the six sides of a box, each face onto that which it faces most.
+/// A projection onto the six sides of a box, each face onto the side that it faces most.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoxProjection {
-    /// What is in the middle of each side's picture, in metres.
+    /// The point at the centre of each side's image, in metres.
     pub center: DVec3,
-    /// The height of the picture in metres, above 0.
+    /// The height of the image in metres, above 0.
     pub height: f64,
-    /// Its width by its height, above 0.
+    /// Its aspect ratio, width divided by height, above 0.
     pub aspect: f64,
 }
 
@@ -50,7 +50,7 @@ impl Default for BoxProjection {
     }
 }
 
-/// From a place to texture coordinates: (0, 0) is the upper left corner of the picture.
+/// From a position to texture coordinates: (0, 0) is the upper left corner of the image.
 struct Projector {
     center: DVec3,
     right: DVec3,
@@ -68,13 +68,13 @@ impl Projector {
 
 impl EditMesh {
     /// Gives the corners of faces texture coordinates by projecting their vertices along a
-    /// direction. Coordinates are outside of 0 to 1 where the mesh is larger than the picture. If
-    /// there are `uv_set` sets, one is added, with zero at all other corners. Tangents that
-    /// were given stay as they are.
+    /// direction. Coordinates are outside 0 to 1 where the mesh is larger than the image. If there
+    /// are `uv_set` sets, one is added, with zero at all other corners. Given tangents are
+    /// unchanged.
     ///
     /// # Errors
-    /// No face is given, one does not exist; there are fewer than `uv_set` sets; a parameter is
-    /// out of range, or the normal and up are on one line.
+    /// No face is given, one does not exist; there are fewer than `uv_set` sets; a parameter is out
+    /// of range, or the normal and up are parallel.
     pub fn project_uvs(
         &mut self,
         faces: &[FaceId],
@@ -93,10 +93,10 @@ impl EditMesh {
         self.write_uvs(faces, uv_set, |mesh, _, corner| projector.uv(mesh.point(mesh.corner_vertex(corner))))
     }
 
-    /// Gives the corners of faces texture coordinates by projecting each face along the axis that it
-    /// looks along most (the first of several: x, y, z), so that the picture is seen the right
-    /// way round from outside: upright on the four sides, on the top with −z up, on the bottom
-    /// with z up. Otherwise as [`Self::project_uvs`].
+    /// Gives the corners of faces texture coordinates by projecting each face along the axis that
+    /// it mostly faces (the first of several: x, y, z), so that the image is not mirrored when seen
+    /// from outside: upright on the four sides, on the top with −z up, on the bottom with z up.
+    /// Otherwise as [`Self::project_uvs`].
     ///
     /// # Errors
     /// No face is given, one does not exist; there are fewer than `uv_set` sets; or a parameter
@@ -115,7 +115,7 @@ impl EditMesh {
         })
     }
 
-    /// Writes what a function tells of each corner, from the normal of its face.
+    /// Writes the result of a function for each corner, given the normal of its face.
     fn write_uvs(
         &mut self,
         faces: &[FaceId],
@@ -161,7 +161,7 @@ fn side_of_box(normal: DVec3) -> [DVec3; 2] {
     }
 }
 
-/// The size of a picture, if all of it is in range.
+/// The size of an image, if all of it is in range.
 fn check_picture(center: DVec3, height: f64, aspect: f64) -> Result<DVec2, Refusal> {
     let positive = |parameter, value: f64| {
         if value > 0.0 && value.is_finite() {

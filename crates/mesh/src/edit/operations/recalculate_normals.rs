@@ -1,4 +1,4 @@
-//! Which side of faces is outside: turning them over, and finding it out for whole parts.
+//! Orientation of faces: flipping them, and determining it for whole parts.
 
 use fixedbitset::FixedBitSet;
 use trigon_math::DVec3;
@@ -7,23 +7,23 @@ use super::super::edit_mesh::EditMesh;
 use super::super::ids::FaceId;
 use super::super::refusal::Refusal;
 
-/// A part whose volume is less than this share of its area times its size counts as flat: that is
-/// what rounding to f32 makes of a plane, with room to spare.
+/// A part whose volume is less than this fraction of its area times its size counts as flat: that
+/// is what rounding to f32 makes of a plane, with some margin.
 const FLAT: f64 = 1e-6;
 
-/// What recalculating normals did.
+/// The result of recalculating normals.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct RecalculatedNormals {
-    /// The faces that were turned over, in the order in which they were reached.
+    /// The flipped faces, in the order of discovery.
     pub turned: Vec<FaceId>,
-    /// At how many edges the two faces still run in the same direction: a surface with one side,
-    /// as a Möbius strip, has some whatever is turned.
+    /// The number of edges at which the two faces still run in the same direction: a one-sided
+    /// surface, such as a Möbius strip, always has some.
     pub conflicts: usize,
 }
 
 impl EditMesh {
-    /// Turns faces over, so that their other side is outside: [`Self::flip_face`] for each. Normals
-    /// that were given for their corners point the other way then.
+    /// Flips faces, so that their other side is outside: [`Self::flip_face`] for each. Given
+    /// normals of their corners are reversed.
     ///
     /// # Errors
     /// None is given, or one does not exist.
@@ -35,9 +35,9 @@ impl EditMesh {
         self.flip_each(&faces)
     }
 
-    /// Turns over faces, each of which is given once.
+    /// Flips faces, each of which is given once.
     fn flip_each(&mut self, faces: &[FaceId]) -> Result<(), Refusal> {
-        /// From this share of the faces on, one pass over all of them costs less than what each costs by itself.
+        /// From this fraction of the faces on, one pass over all of them costs less than one flip each.
         const MANY: usize = 8;
         if faces.len() > self.face_count() / MANY {
             self.flip_together(&faces.iter().map(|face| face.0 as usize).collect());
@@ -46,15 +46,14 @@ impl EditMesh {
         faces.iter().try_for_each(|&face| self.flip_face(face))
     }
 
-    /// Turns faces over where that is needed for each connected part to look the same way, and
-    /// for that way to be outside. Given normals of faces that are turned point the other way
-    /// then.
+    /// Flips faces as needed so that each connected part is consistently oriented and points
+    /// outwards. Given normals of flipped faces are reversed.
     ///
-    /// Faces are connected over edges where exactly two sides of faces meet, both of the given faces. Of
-    /// a part, outside is where its volume is positive: that is exact for closed parts, each by
-    /// itself (also a cavity looks away from what it encloses). Of an open part it is the volume
-    /// between the surface and the mean of its faces' first corners, so that a bowl looks outwards. A part
-    /// that is flat looks to the side to which most of its area looked before.
+    /// Faces are connected across edges where exactly two sides of faces meet, both of the given faces. The
+    /// outside of a part is where its volume is positive: that is exact for closed parts, each by itself
+    /// (also a cavity faces away from what it encloses). For an open part it is the volume between the
+    /// surface and the mean of its faces' first corners, so that a bowl faces outwards. A flat part faces the
+    /// side to which most of its area faced before.
     ///
     /// # Errors
     /// None is given, or one does not exist.
@@ -62,7 +61,7 @@ impl EditMesh {
         self.check_faces(faces, "recalculating normals")?;
         let parts = Parts::find(self, faces);
         self.flip_each(&parts.turned)?;
-        // Each was seen from both of its faces.
+        // Each was found from both of its faces.
         Ok(RecalculatedNormals { turned: parts.turned, conflicts: parts.conflicts / 2 })
     }
 }
@@ -102,7 +101,7 @@ impl Parts {
         parts
     }
 
-    /// Finds all faces of the part of the first one, how they run, and how large it is.
+    /// Finds all faces of the part of the first one, their orientation, and their volume.
     fn reach(&mut self, mesh: &EditMesh, part: &mut Vec<FaceId>) -> PartSize {
         let start = mesh.face_vertices(part[0]).next().map_or(DVec3::ZERO, |vertex| mesh.point(vertex));
         let mut size = PartSize::new(if start.is_finite() { start } else { DVec3::ZERO });
@@ -164,9 +163,9 @@ impl Fan {
     }
 }
 
-/// How large a part is if all of its faces run as the first one does.
+/// The volume of a part if all of its faces run like the first one.
 struct PartSize {
-    /// Places are relative to it: a corner of the part.
+    /// Positions are relative to it: a corner of the part.
     origin: DVec3,
     /// Three times the volume between the surface and the origin.
     cones: f64,
@@ -215,7 +214,7 @@ impl PartSize {
         (self.cones - center.dot(self.area_vector)) / 3.0
     }
 
-    /// A volume up to this is that of a flat part.
+    /// A volume up to this counts as flat.
     fn rounding(&self) -> f64 {
         FLAT * (self.area_along + self.area_against) * self.reach.sqrt()
     }
@@ -316,8 +315,8 @@ mod tests {
     }
 
     proptest! {
-        /// Afterwards all two-sided edges run in opposite directions, but for the conflicts; where there
-        /// are none a second time turns nothing; undone, all is as it was.
+        /// Afterwards all two-sided edges run in opposite directions, except for the conflicts; if there are
+        /// none, a second run flips nothing; undo restores everything.
         #[test]
         fn parts_look_one_way(start in meshes(), flips in prop::collection::vec(any::<bool>(), 40)) {
             let (mut mesh, faces) = editable(&start);

@@ -1,9 +1,8 @@
-//! A region of faces: what borders on it, and how its border parts from what is outside.
+//! A region of faces: its neighbourhood, and how its border separates from the outside.
 //!
 //! Extruding, insetting and splitting have this in common: the region keeps its vertices and edges,
-//! so that what was selected stays selected; what is outside gets new ones along the border
-//! (the base), and walls join both. Few elements are written then, and none in the region's
-//! middle.
+//! so that the selection stays selected; the outside gets new ones along the border (the base), and
+//! walls connect both. Few elements are written then, and none inside the region.
 
 use smallvec::SmallVec;
 

@@ -1,4 +1,4 @@
-//! Separating: faces become a mesh of their own.
+//! Separating: faces become a separate mesh.
 
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::FaceId;
@@ -7,8 +7,8 @@ use super::copy::Elements;
 use super::region::Region;
 
 impl EditMesh {
-    /// Takes faces out into a mesh of their own, which has the same layers. Edges and vertices that other
-    /// faces or edges need stay here, too; the others leave with the faces.
+    /// Moves faces into a separate mesh with the same layers. Edges and vertices that other faces or edges
+    /// need are copied; the others move with the faces.
     ///
     /// # Errors
     /// No face is given, or one does not exist.

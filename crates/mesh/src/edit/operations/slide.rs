@@ -1,4 +1,4 @@
-//! Sliding: edge loops and vertices move along the edges beside them, and values follow.
+//! Sliding: edge loops and vertices move along adjacent edges, and values follow.
 
 use smallvec::{SmallVec, smallvec};
 use trigon_math::DVec3;
@@ -46,25 +46,23 @@ struct Link {
 }
 
 impl EditMesh {
-    /// Slides loops or chains of edges along the edges beside them: each vertex by `factor`
-    /// (−1 to 1) of the way to the other end of its edge on one side. At 1 it lies there.
+    /// Slides loops or chains of edges along the adjacent edges: each vertex by `factor` (−1 to 1)
+    /// of the way to the other end of its edge on one side. At 1 it reaches that end.
     ///
-    /// A loop runs from the first to the second vertex of that of its edges with the lowest
-    /// index. A positive factor slides to its left, seen from outside, a negative one to its right.
-    /// Where several edges are on a side, the vertex goes toward the middle of the ends of the first
-    /// and the last. Where a loop turns within one face, it goes to the opposite corner of a quad, or
-    /// parallel to the sides of a larger polygon. A vertex without any of these on that side
-    /// stays.
+    /// A loop runs from the first to the second vertex of its edge with the lowest index. A positive factor
+    /// slides to its left, seen from outside, a negative one to its right. If several edges are on a side,
+    /// the vertex moves toward the middle of the ends of the first and the last. If a loop turns within one
+    /// face, it moves to the opposite corner of a quad, or parallel to the sides of a larger polygon. A
+    /// vertex without any of these on that side stays.
     ///
-    /// Texture coordinates, colours and normals follow: they change as they do along the edge. So
-    /// a picture stays in its place, and values that are affine in position stay so. Values of
-    /// vertices (skin, morph targets) and first positions stay as they are. Returns the vertices that
-    /// moved, by index.
+    /// Texture coordinates, colours and normals follow: they change as they do along the edge. So a texture
+    /// stays in place, and values that are affine in position stay so. Values of vertices (skin, morph
+    /// targets) and original positions are unchanged. Returns the moved vertices, by index.
     ///
     /// # Errors
-    /// No edge is given, or one does not exist; more than two of them meet at a vertex; one has more
-    /// than two faces, or faces that wind in opposite ways; the factor is out of range; nothing is
-    /// there to slide along.
+    /// No edge is given, or one does not exist; more than two of them meet at a vertex; one has
+    /// more than two faces, or faces of opposite winding; the factor is out of range; there is
+    /// nothing to slide along.
     pub fn slide_edges(&mut self, edges: &[EdgeId], factor: f64) -> Result<Vec<VertexId>, Refusal> {
         require(edges, EDGE_SLIDE, "at least one edge")?;
         check_factor(factor)?;

@@ -1,4 +1,4 @@
-//! Splitting: faces come off the rest and stay in the mesh.
+//! Splitting: faces are detached from the rest and stay in the mesh.
 
 use super::super::edit_mesh::EditMesh;
 use super::super::ids::{FaceId, VertexId};
@@ -6,9 +6,9 @@ use super::super::refusal::Refusal;
 use super::region::{Region, SplitVertices};
 
 impl EditMesh {
-    /// Parts faces from the rest of the mesh, at the same places: where they shared edges and
-    /// vertices with other faces or loose edges, these get new ones, with the same values and marks. The
-    /// given faces stay joined to each other. Returns the new vertices of the rest.
+    /// Detaches faces from the rest of the mesh, in place: where they shared edges and vertices with other
+    /// faces or loose edges, these get new ones, with the same values and marks. The given faces stay joined
+    /// to each other. Returns the new vertices of the rest.
     ///
     /// # Errors
     /// No face is given, or one does not exist; nothing else is joined to the faces; there would be too

@@ -1,4 +1,4 @@
-//! Making a mesh symmetric: what is on one side of a plane replaces what is on the other.
+//! Symmetrizing: one side of a plane replaces the other.
 
 use fixedbitset::FixedBitSet;
 use smallvec::SmallVec;
@@ -9,26 +9,26 @@ use super::super::ids::{CornerId, EdgeId, FaceId, VertexId};
 use super::super::refusal::Refusal;
 use super::mirror::{Mirrored, check_merge_distance};
 
-/// What making a mesh symmetric did.
+/// The result of symmetrizing.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Symmetrized {
     /// The new half, and the vertices of the middle.
     pub mirrored: Mirrored,
-    /// The faces of the half that was kept, those on the plane included.
+    /// The faces of the kept half, including those on the plane.
     pub kept: Vec<FaceId>,
-    /// How many faces were removed on the other side, parts of cut ones included.
+    /// The number of faces removed on the other side, including parts of cut ones.
     pub removed: usize,
 }
 
 impl EditMesh {
-    /// Makes faces symmetric about a plane: removes what is behind it, and puts a mirrored copy
-    /// of what is in front there (the side of its normal). Faces and edges that cross the plane are cut
-    /// along it, with interpolated values. Vertices no farther from it than `merge_distance`
-    /// (metres, from 0 on) are moved onto it; the halves share the vertices there, so that the middle is
-    /// single, and a face that lies on the plane stays as it is.
+    /// Makes faces symmetric about a plane: removes what is behind it, and adds a mirrored copy of what is in
+    /// front (the side of its normal). Faces and edges that cross the plane are cut along it, with
+    /// interpolated values. Vertices within `merge_distance` (metres, from 0 on) of the plane are moved onto
+    /// it; the halves share the vertices there, so that there are no duplicates, and a face on the plane
+    /// stays as it is.
     ///
-    /// Other faces, and edges without faces, stay where they are. A vertex at a place that is not a
-    /// number counts as in front: nothing is removed for it.
+    /// Other faces, and edges without faces, are unchanged. A vertex whose position is NaN counts
+    /// as in front: nothing is removed for it.
     ///
     /// # Errors
     /// No face is given, one does not exist, the distance is negative or not finite; none is in

@@ -1,5 +1,5 @@
-//! Sets and tables by index: lists as long as the mesh where an operation touches much of it, trees
-//! where it touches little, so that the work follows what is touched.
+//! Sets and tables by index: lists as long as the mesh if an operation touches much of it, trees if
+//! it touches little, so that the work is proportional to what is touched.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,4 +1,4 @@
-//! Cutting faces into triangles.
+//! Triangulating faces.
 
 use smallvec::SmallVec;
 use trigon_math::Vec3;
@@ -12,15 +12,16 @@ use super::numbering::sorted_once;
 use super::parts::{Divided, PartPoint, Parts};
 use crate::triangulate::Triangulator;
 
-/// What came of a triangulation.
+/// The result of a triangulation.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Triangulated {
-    /// The triangles, also those that were triangles before; of each face first the one with its id.
+    /// The triangles, including those that were triangles before; for each face the one with its id
+    /// comes first.
     pub faces: Vec<FaceId>,
     /// The new edges.
     pub edges: Vec<EdgeId>,
-    /// Faces that stay polygons, in part or whole: they visit vertices several times, so that not all
-    /// triangles over their corners would have three different ones.
+    /// Faces that stay polygons, in part or whole: they visit vertices several times, so not all triangles
+    /// over their corners would have three different ones.
     pub left: Vec<FaceId>,
 }
 
@@ -35,13 +36,13 @@ struct Scratch {
 }
 
 impl EditMesh {
-    /// Cuts faces into triangles over their corners; nothing is moved and no vertex is added.
+    /// Cuts faces into triangles over their corners; nothing moves and no vertex is added.
     ///
-    /// The triangles are those of [`triangulate_polygon`](crate::triangulate_polygon), which are drawn
-    /// anyway: a quad is cut along its shorter diagonal, a concave polygon inside its outline. A
-    /// polygon that has none there (without area, or crossing itself) is cut into any n − 2 triangles,
-    /// so that all faces are triangles afterwards but for those that [`Triangulated::left`] tells
-    /// of. Corners keep their values, and triangles the face's material.
+    /// The triangles are those of [`triangulate_polygon`](crate::triangulate_polygon), which are also drawn:
+    /// a quad is cut along its shorter diagonal, a concave polygon inside its outline. A polygon without such
+    /// triangles (without area, or self-intersecting) is cut into any n − 2 triangles, so that all faces are
+    /// triangles afterwards except those in [`Triangulated::left`]. Corners keep their values, and triangles
+    /// the face's material.
     ///
     /// # Errors
     /// No face is given, one does not exist, or the mesh would have too many elements.

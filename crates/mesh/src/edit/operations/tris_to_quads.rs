@@ -1,4 +1,4 @@
-//! Joining pairs of triangles to quads.
+//! Joining pairs of triangles into quads.
 
 use fixedbitset::FixedBitSet;
 use trigon_math::DVec3;
@@ -17,7 +17,7 @@ use super::numbering::{Numbering, sorted_once};
 pub struct QuadLimits {
     /// The largest angle between both triangles' normals, in radians, 0 to π.
     pub face_angle: f64,
-    /// By how much each angle of a quad may differ from a right one, in radians, 0 to π.
+    /// The largest deviation of each angle of a quad from a right angle, in radians, 0 to π.
     pub shape_angle: f64,
 }
 
@@ -38,21 +38,21 @@ struct Candidate {
 }
 
 impl EditMesh {
-    /// Joins pairs of triangles to convex quads, and returns these. Other faces may be given; they
-    /// stay.
+    /// Joins pairs of triangles into convex quads, and returns these. Other faces may be given;
+    /// they are unchanged.
     ///
-    /// The pairs that differ least from a level rectangle come first: by the angle between the
-    /// normals plus the largest difference of a corner's angle from 90°, then by the id of
-    /// the edge. Each triangle is in one pair at most. A pair is not joined
+    /// The pairs that differ least from a flat rectangle come first: by the angle between the
+    /// normals plus the largest deviation of a corner's angle from 90°, then by the id of the edge.
+    /// Each triangle is in at most one pair. A pair is not joined
     ///
     /// - beyond the limits,
     /// - along a seam, a sharp or a creased edge, or one with other than two sides,
     /// - where texture coordinates or colours differ on both sides of the edge,
-    /// - if materials or shading of the faces differ, or they are wound in opposite ways,
+    /// - if materials or shading of the faces differ, or their windings are opposite,
     /// - if a triangle has no area or a position that is not finite.
     ///
-    /// A quad keeps the id of the face that comes first at the edge. Blender respects seams and values
-    /// only when asked to.
+    /// A quad keeps the id of the face that comes first at the edge. Blender respects seams and values only
+    /// on request.
     ///
     /// # Errors
     /// No face is given, one does not exist, or a limit is not within 0 to π.

@@ -1,4 +1,4 @@
-//! Makes what was laid out.
+//! Builds the planned bevel.
 
 use smallvec::SmallVec;
 

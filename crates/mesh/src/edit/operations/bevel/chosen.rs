@@ -1,4 +1,4 @@
-//! What of the given edges and vertices can be beveled, and the fans of faces there.
+//! Selects which given edges and vertices can be beveled, and finds the fans of faces there.
 
 use super::super::super::edit_mesh::EditMesh;
 use super::super::super::ids::{CornerId, EdgeId, VertexId};

@@ -1,4 +1,4 @@
-//! The faces round a vertex, in order.
+//! The faces around a vertex, in order.
 
 use super::super::super::edit_mesh::EditMesh;
 use super::super::super::ids::{CornerId, VertexId};

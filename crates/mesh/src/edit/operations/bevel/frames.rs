@@ -1,4 +1,4 @@
-//! The planes of faces, for corners where two edges do not tell enough.
+//! The planes of faces, for corners where two edges do not define one.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What is known of a bevel once its rims are laid out, as plain records.
+//! The planned bevel, once its rims are laid out, as plain records.
 
 use trigon_math::DVec3;
 

@@ -1,10 +1,10 @@
-//! Bevels: edges and vertices give way to flat or round faces.
+//! Bevels: edges and vertices are replaced with flat or round faces.
 //!
-//! In four steps. `chosen` finds what can be beveled, and the `fans` of faces round its vertices; `nodes`
-//! (with `sectors`, `places` and `frames`) finds the places of the new rims, which move in
-//! proportion to the width, so that overlaps are found before any width is fixed; `shape` lays out all new vertices, faces and values (`profile` is the cross-section, `patch`
-//! the grid where three or more bevels meet); `build` changes the mesh. Until then nothing is
-//! written, and a refusal costs nothing.
+//! In four steps. `chosen` finds what can be beveled, and the `fans` of faces around its vertices; `nodes`
+//! (with `sectors`, `places` and `frames`) finds the positions of the new rims, which move in proportion to
+//! the width, so that overlaps are found before any width is fixed; `shape` lays out all new vertices, faces
+//! and values (`profile` is the cross-section, `patch` the grid where three or more bevels meet); `build`
+//! changes the mesh. Until then nothing is written, and an error costs nothing.
 //!
 //! Arrangement and names follow Blender's bevel (Howard Trickey); the positions within patches
 //! are our own.
@@ -34,21 +34,20 @@ use profile::Profile;
 const OPERATION: &str = "a bevel";
 const MOST_SEGMENTS: usize = 100;
 
-/// How [`EditMesh::bevel_edges`] and [`EditMesh::bevel_vertices`] work.
+/// Settings of [`EditMesh::bevel_edges`] and [`EditMesh::bevel_vertices`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BevelSettings {
-    /// In metres, at least 0. Of edges the distance of each new rim from the old edge, in the
-    /// face's plane; of vertices the distance of each new vertex from the old one, along its
-    /// edge.
+    /// In metres, at least 0. For edges the distance of each new rim from the old edge, in the
+    /// face's plane; for vertices the distance of each new vertex from the old one, along its edge.
     pub width: f64,
-    /// How many faces go across a bevel: 1 to 100.
+    /// The number of faces across a bevel: 1 to 100.
     pub segments: usize,
-    /// The cross-section, 0 to 1. With `r = -2 ln 2 / ln profile` it is the superellipse
-    /// `x^r + y^r = 1` between the two rims at (1, 0) and (0, 1), whose tangents meet at the old
-    /// edge at (1, 1); so its middle lies at `√profile`. 0.5 is round, 0.25 flat, less is
-    /// hollow, 1 keeps the edge. 0 counts as 0.000001. Points are at even distances along it.
+    /// The cross-section, 0 to 1. With `r = -2 ln 2 / ln profile` it is the superellipse `x^r + y^r
+    /// = 1` between the two rims at (1, 0) and (0, 1), whose tangents meet at the old edge at (1,
+    /// 1); so its middle lies at `√profile`. 0.5 is round, 0.25 flat, less is concave, 1 keeps the
+    /// edge. 0 counts as 0.000001. Points are evenly spaced along it.
     pub profile: f64,
-    /// Whether the width is lessened where new vertices would pass each other along an edge.
+    /// Whether the width is reduced where new vertices would pass each other along an edge.
     pub clamp_overlap: bool,
 }
 
@@ -58,20 +57,20 @@ impl Default for BevelSettings {
     }
 }
 
-/// What a bevel made.
+/// The result of a bevel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Beveled {
     /// The new faces: those along the edges, edge by edge, then those at the vertices.
     pub faces: Vec<FaceId>,
     /// The new vertices.
     pub vertices: Vec<VertexId>,
-    /// The width that was used, in metres: less than was asked for where overlaps were avoided.
+    /// The width used, in metres: less than requested if overlaps were avoided.
     pub width: f64,
-    /// What was given, but not beveled.
+    /// Given elements that were not beveled.
     pub left_out: BevelLeftOut,
 }
 
-/// How many of the elements that were given were not beveled, and why.
+/// How many of the given elements were not beveled, and why.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct BevelLeftOut {
     /// Edges and vertices without faces.
@@ -80,15 +79,15 @@ pub struct BevelLeftOut {
     pub borders: usize,
     /// Edges with more than two faces.
     pub non_manifold: usize,
-    /// Edges whose two faces wind in opposite ways.
+    /// Edges whose two faces have opposite windings.
     pub opposite: usize,
-    /// Edges and vertices where such edges end or a face runs along an edge and back: what the
-    /// faces round a vertex are is not known there.
+    /// Edges and vertices where such edges end or a face runs along an edge and back: the order of
+    /// the faces around a vertex is undefined there.
     pub unclear: usize,
 }
 
 impl BevelLeftOut {
-    /// How many there are of all kinds.
+    /// The number of elements of all kinds.
     pub fn count(&self) -> usize {
         let Self { wires, borders, non_manifold, opposite, unclear } = self;
         wires + borders + non_manifold + opposite + unclear
@@ -110,24 +109,24 @@ impl BevelLeftOut {
 }
 
 impl EditMesh {
-    /// Replaces edges by faces: flat ones, or round ones of several segments.
+    /// Replaces edges with faces: flat ones, or round ones with several segments.
     ///
-    /// Each face beside an edge draws back by the width. Where one beveled edge ends, its rims end on
-    /// the edges beside it; if there are more, each gets a vertex and a polygon fills the middle. Where
-    /// two meet, their bevels meet in one curve. Where three or more meet, a polygon fills the
-    /// middle, or with several segments a grid, as on a cube with all edges beveled: a part of a
-    /// sphere. (A polygon, too, where the faces do not close round the vertex, or more than 32 meet.)
-    /// Edges between two beveled ones lead to the place between these.
+    /// Each face next to an edge retreats by the width. Where one beveled edge ends, its rims end on the
+    /// adjacent edges; if there are more, each gets a vertex and a polygon fills the middle. Where two meet,
+    /// their bevels meet in one curve. Where three or more meet, a polygon fills the middle, or with several
+    /// segments a grid, as on a cube with all edges beveled: part of a sphere. (Also a polygon if the faces
+    /// do not close around the vertex, or more than 32 meet.) Edges between two beveled ones end at the
+    /// position between these.
     ///
-    /// Faces keep their ids, and edges that were not beveled; the old edge is now the rim on the
-    /// side of its first face. New faces have the material of the face on their side, for an odd number
-    /// of segments the middle one that of the first side. Both rims take over sharp and crease, and the
-    /// line where the material changes takes over the seam. Values are interpolated; where texture
-    /// coordinates are cut, each side continues its own. Hidden faces are beveled like others.
+    /// Faces keep their ids, and so do edges that were not beveled; the old edge becomes the rim on the side
+    /// of its first face. New faces have the material of the face on their side, for an odd number of
+    /// segments the middle one that of the first side. Both rims take over sharp and crease, and the line
+    /// where the material changes takes over the seam. Values are interpolated; where texture coordinates are
+    /// cut, each side continues its own. Hidden faces are beveled like others.
     ///
-    /// Edges that cannot be beveled are left out and counted: a border, an edge with more than two
-    /// faces, and what ends at such. Unlike in Blender, overlaps are avoided unless asked
-    /// for, and marks are always kept.
+    /// Edges that cannot be beveled are skipped and counted: a border, an edge with more than two
+    /// faces, and edges that end at these. Unlike in Blender, overlaps are avoided by default, and
+    /// marks are always kept.
     ///
     /// # Errors
     /// No edge is given, or one does not exist; none of them can be beveled; a setting is out of
@@ -161,12 +160,11 @@ impl EditMesh {
         self.run_bevel(nodes.finish(&chosen), &chosen, settings, left_out)
     }
 
-    /// Replaces vertices by faces: the corner is cut off, flat or round.
+    /// Replaces vertices with faces: the corner is cut off, flat or round.
     ///
-    /// Each edge at a vertex ends at the width from it. Between them, the faces there end in straight
-    /// lines, or with several segments in curves of the profile; a polygon or a grid fills
-    /// the middle. At a border the polygon's last side is straight. All else is as for
-    /// [`Self::bevel_edges`].
+    /// Each edge at a vertex ends at the width from it. Between them, the faces there end in straight lines,
+    /// or with several segments in curves of the profile; a polygon or a grid fills the middle. At a border
+    /// the polygon's last side is straight. Otherwise as [`Self::bevel_edges`].
     ///
     /// # Errors
     /// No vertex is given, or one does not exist; none of them can be beveled; a setting is out of

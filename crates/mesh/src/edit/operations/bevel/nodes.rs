@@ -1,5 +1,5 @@
-//! Collects the nodes of a bevel, fan by fan: the places that take a vertex's place, each of which
-//! moves away from it in proportion to the width.
+//! Collects the nodes of a bevel, fan by fan: the points that replace a vertex, each of which moves
+//! away from it in proportion to the width.
 
 use smallvec::{SmallVec, smallvec};
 use trigon_math::DVec3;

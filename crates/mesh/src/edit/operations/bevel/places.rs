@@ -1,4 +1,4 @@
-//! Where nodes are: on edges beside beveled ones, or where two rims meet in a face.
+//! Positions of nodes: on edges next to beveled ones, or where two rims meet in a face.
 
 use smallvec::{SmallVec, smallvec};
 use trigon_math::DVec3;

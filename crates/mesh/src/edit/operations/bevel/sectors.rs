@@ -1,4 +1,5 @@
-//! Fills the parts of a fan between its beveled edges with nodes, and lays curves across the edges.
+//! Fills the parts of a fan between its beveled edges with nodes, and places curves across the
+//! edges.
 
 use smallvec::SmallVec;
 use trigon_math::DVec3;

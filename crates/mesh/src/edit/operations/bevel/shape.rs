@@ -1,5 +1,4 @@
-//! All that a bevel will make, before any of it is made: vertices, faces, and values for their
-//! corners.
+//! The complete plan of a bevel: vertices, faces, and values of their corners.
 
 use smallvec::SmallVec;
 use trigon_math::DVec3;

@@ -2,8 +2,8 @@
 //! topological meshes", 1978), with creases after DeRose, Kass and Truong ("Subdivision surfaces
 //! in character animation", 1998).
 //!
-//! All of the mesh changes, so each level writes whole new lists: what a slot of theirs holds
-//! follows from the old mesh by a formula, without any search, and slots can be filled in any order.
+//! The whole mesh changes, so each level writes complete new lists: the content of a slot follows
+//! from the old mesh by a formula, without any search, and slots can be filled in any order.
 
 mod numbers;
 mod points;
@@ -23,28 +23,27 @@ use numbers::Numbers;
 const MOST_LEVELS: u32 = 10;
 
 impl EditMesh {
-    /// Subdivides the whole mesh to a smooth surface: in each of `levels` steps a face of n corners
-    /// becomes n quads.
+    /// Subdivides the whole mesh into a smooth surface: in each of `levels` steps a face of n
+    /// corners becomes n quads.
     ///
-    /// - A new vertex in a face is the mean of its corners; one on an edge is the mean of the
-    ///   edge's ends and the two new vertices beside it; an old vertex with n edges moves to
-    ///   (n − 2)/n of itself, 1/n of the mean of its neighbours and 1/n of that of the new vertices in its
-    ///   faces.
-    /// - A crease c makes an edge sharp for 10·c² levels, as in Blender, and for all if it is 1. New
-    ///   vertices on a sharp edge are in its middle. A vertex with two sharp edges moves to ¾ of
-    ///   itself and ⅛ of each of their other ends; with three or more it is a corner, and stays.
-    ///   Where sharpness ends between two levels, smooth and sharp rule are blended. The pieces of an edge
-    ///   keep what sharpness is left as their crease.
+    /// - A new vertex in a face is the mean of its corners; one on an edge is the mean of the edge's ends and
+    ///   the two adjacent new face vertices; an old vertex with n edges moves to (n − 2)/n of itself, 1/n of
+    ///   the mean of its neighbours and 1/n of that of the new vertices in its faces.
+    /// - A crease c makes an edge sharp for 10·c² levels, as in Blender, and for all levels if it is 1. New
+    ///   vertices on a sharp edge are at its midpoint. A vertex with two sharp edges moves to ¾ of itself and
+    ///   ⅛ of each of their other ends; with three or more it is a corner, and stays. If sharpness ends
+    ///   between two levels, the smooth and sharp rules are blended. The pieces of an edge keep the remaining
+    ///   sharpness as their crease.
     /// - An edge with one face, with more than two, or with none is sharp at all levels. So borders
     ///   become curves of their own (corners of a border are rounded), and a vertex
     ///   with only one such edge stays.
     ///
-    /// Texture coordinates, colours and other values of corners are interpolated linearly within each
-    /// face, whatever its neighbours have, as are joints and their weights. Morph targets and first
-    /// positions follow the rule for positions. Pieces of edges and parts of faces have their marks.
+    /// Texture coordinates, colours and other values of corners are interpolated linearly within each face,
+    /// independent of its neighbours, as are joints and their weights. Morph targets and original positions
+    /// follow the rule for positions. Pieces of edges and parts of faces keep their marks.
     ///
-    /// All old ids stay: a vertex is the same one at its new place, an edge is its first half, a
-    /// face its part at its first corner, a corner is that of the part at its vertex.
+    /// All old ids are kept: a vertex is the same one in its new position, an edge is its first
+    /// half, a face its part at its first corner, a corner is that of the part at its vertex.
     ///
     /// # Errors
     /// There is no face, there are not 1 to 10 levels, or the mesh would have too many elements.

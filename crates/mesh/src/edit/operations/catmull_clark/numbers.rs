@@ -1,4 +1,4 @@
-//! Which slots new elements get.
+//! The slots of new elements.
 
 use super::super::super::edit_mesh::EditMesh;
 use super::super::super::ids::FaceId;

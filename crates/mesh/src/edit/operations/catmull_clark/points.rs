@@ -1,4 +1,4 @@
-//! Where vertices are after a level.
+//! Positions of vertices after a level.
 
 use trigon_math::{DVec3, Vec3};
 

@@ -1,4 +1,4 @@
-//! Who is whose neighbour after a level: the record of each slot, from the old mesh alone.
+//! Adjacency after a level: the record of each slot, from the old mesh alone.
 //!
 //! The part of a face at a corner has four corners: the old one, at its vertex; one on its edge;
 //! one in its face; one on the edge before. Rings keep the order of the old ones.

@@ -1,4 +1,4 @@
-//! What vertices and corners carry, after a level.
+//! Attributes of vertices and corners after a level.
 
 use smallvec::SmallVec;
 

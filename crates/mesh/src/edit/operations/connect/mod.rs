@@ -1,4 +1,4 @@
-//! Joining vertices by cuts through faces: a modeller's J.
+//! Connecting vertices by cuts through faces (a modeller's J).
 
 mod inside;
 mod path;
@@ -14,7 +14,7 @@ use super::numbering::{Numbering, sorted_once};
 /// What joins vertices.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Connected {
-    /// The new edges, and those of a path that were there already.
+    /// The new edges, and existing ones of a path.
     pub edges: Vec<EdgeId>,
     /// New vertices where a path crosses edges.
     pub vertices: Vec<VertexId>,
@@ -25,19 +25,19 @@ pub struct Connected {
 const CONNECTING: &str = "connecting vertices";
 
 impl EditMesh {
-    /// Joins vertices by cuts through their faces.
+    /// Connects vertices by cuts through their faces.
     ///
-    /// In each face that has several of them, each is joined to the next one around the face, unless
-    /// an edge does so already or the cut would leave the face (in a concave one). If there are
-    /// exactly two vertices without a common face, a path is cut from one to the other, straight in
-    /// the plane through both and the mean of the normals there; it may run over several faces, and
-    /// puts vertices on the edges that it crosses. Closer than a millionth of an edge to its end, it
-    /// runs through the vertex there.
+    /// In each face that has several of them, each is connected to the next one around the face,
+    /// unless an edge does so already or the cut would leave the face (in a concave one). If there
+    /// are exactly two vertices without a common face, a path is cut from one to the other,
+    /// straight in the plane through both and the mean of their normals; it may cross several
+    /// faces, and adds vertices on the edges that it crosses. Within a millionth of an edge from
+    /// its end, it goes through the vertex there.
     ///
     /// Values are kept at corners and interpolated at new vertices.
     ///
     /// # Errors
-    /// No vertex is given, one does not exist, no two of them could be joined, or a path runs into
+    /// No vertex is given, one does not exist, no two of them can be connected, or a path runs into
     /// a border.
     pub fn connect_vertices(&mut self, vertices: &[VertexId]) -> Result<Connected, Refusal> {
         require(vertices, CONNECTING, "at least two vertices")?;

@@ -1,4 +1,4 @@
-//! A straight path over several faces.
+//! A straight path across several faces.
 
 use trigon_math::DVec3;
 

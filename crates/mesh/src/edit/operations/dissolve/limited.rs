@@ -1,4 +1,4 @@
-//! Limited dissolve: what lies flat becomes one face, what runs straight one edge.
+//! Limited dissolve: flat areas become one face, straight lines one edge.
 
 use trigon_math::{DVec3, elementary};
 
@@ -12,11 +12,11 @@ use super::Dissolved;
 use super::merge::OnRefusal;
 use crate::normals::unit_or_zero;
 
-/// What a limited dissolve may change.
+/// Settings of a limited dissolve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LimitedDissolve {
-    /// How far the normals of faces that are united may be from that of the first of them, and how far a line may
-    /// bend at a vertex that is removed: radians, 0 to π.
+    /// The largest angle between the normals of merged faces and that of the first of them, and the largest
+    /// bend of a line at a removed vertex: radians, 0 to π.
     pub angle: f64,
 }
 
@@ -28,11 +28,11 @@ impl Default for LimitedDissolve {
 }
 
 impl EditMesh {
-    /// Unites faces that lie in one plane, within an angle, and removes vertices on straight lines between
-    /// two edges.
+    /// Merges faces that are coplanar within an angle, and removes vertices on straight lines between two
+    /// edges.
     ///
     /// Faces are gathered from the one with the lowest id on: each whose normal is within the angle of that
-    /// first one's, so that a gentle curve is not dissolved as a whole. (Blender unites pair after pair.)
+    /// first one's, so that a gentle curve is not dissolved as a whole. (Blender merges pair after pair.)
     /// Faces of different materials stay apart, as at seams and sharp edges; so do faces without area. Faces
     /// that would have a hole together stay as they are.
     ///

@@ -1,4 +1,4 @@
-//! Uniting faces across edges: each connected part becomes the polygon around it.
+//! Merging faces across edges: each connected part becomes the polygon around it.
 
 use super::super::super::edit_mesh::EditMesh;
 use super::super::super::ids::{CornerId, EdgeId, FaceId};

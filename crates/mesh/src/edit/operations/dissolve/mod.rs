@@ -1,4 +1,4 @@
-//! Dissolving: elements go, and the surface that they divided stays as larger faces.
+//! Dissolving: elements are removed, and the surface that they divided stays as larger faces.
 
 mod limited;
 mod merge;
@@ -15,21 +15,21 @@ use merge::OnRefusal;
 
 pub use limited::LimitedDissolve;
 
-/// What dissolving left in the place of what was dissolved.
+/// The result of dissolving.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Dissolved {
-    /// The faces that were united from several, in ascending order: each is the one with the lowest id.
+    /// The merged faces, in ascending order: each has the lowest id of its parts.
     pub faces: Vec<FaceId>,
-    /// How many vertices were removed.
+    /// The number of removed vertices.
     pub removed_vertices: usize,
 }
 
 impl EditMesh {
-    /// Unites faces that are joined by edges to one polygon for each connected part. It keeps the id,
+    /// Merges faces that are joined by edges into one polygon for each connected part. It keeps the id,
     /// material and marks of the face with the lowest id, and every corner on its outline its values.
     /// Vertices inside are removed.
     ///
-    /// Faces are joined where exactly two meet at an edge and wind alike.
+    /// Faces are joined where exactly two meet at an edge with the same winding.
     ///
     /// # Errors
     /// No face is given, or one does not exist; no two of them are joined; a part has a hole, is closed or has
@@ -53,12 +53,12 @@ impl EditMesh {
         })
     }
 
-    /// Removes edges between two faces, which become one; vertices that are left between two edges are
-    /// removed, too, if they had more before, as in Blender.
+    /// Removes edges between two faces, which become one; vertices that are left between two edges are also
+    /// removed, if they had more before, as in Blender.
     ///
     /// # Errors
-    /// No edge is given, or one does not exist, or is not between exactly two faces that wind alike; a united
-    /// face would have a hole, be closed or have fewer than three vertices.
+    /// No edge is given, or one does not exist, or is not between exactly two faces with the same winding; a
+    /// merged face would have a hole, be closed or have fewer than three vertices.
     pub fn dissolve_edges(&mut self, edges: &[EdgeId]) -> Result<Dissolved, Refusal> {
         require(edges, "dissolving edges", "at least one edge")?;
         edges.iter().try_for_each(|&edge| self.check_edge(edge))?;
@@ -87,9 +87,9 @@ impl EditMesh {
     /// goes with its edges unless it has exactly two.
     ///
     /// # Errors
-    /// No vertex is given, or one does not exist; the faces at one cannot be united, since more than two
-    /// meet at an edge, they wind against each other, or the union would have a hole, be closed or have
-    /// fewer than three vertices.
+    /// No vertex is given, or one does not exist; the faces at one cannot be merged, since more than two meet
+    /// at an edge, their windings are opposite, or the result would have a hole, be closed or have fewer than
+    /// three vertices.
     pub fn dissolve_vertices(&mut self, vertices: &[VertexId]) -> Result<Dissolved, Refusal> {
         require(vertices, "dissolving vertices", "at least one vertex")?;
         vertices.iter().try_for_each(|&vertex| self.check_vertex(vertex))?;

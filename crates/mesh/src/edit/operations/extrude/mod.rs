@@ -1,7 +1,7 @@
-//! Extruding: what is selected is drawn out of the mesh, and walls join it to where it was.
+//! Extruding: elements are lifted off the mesh, and walls connect them to their old position.
 //!
-//! The editor extrudes with no offset and then moves what it got; an extrusion that the user
-//! cancels is undone as a whole, so that it leaves no doubled vertices behind.
+//! The editor extrudes without an offset and then moves the result; an extrusion that the user
+//! cancels is undone as a whole, so that it leaves no duplicate vertices behind.
 
 #[cfg(test)]
 mod tests;
@@ -31,30 +31,29 @@ pub enum ExtrudeOffset {
     By(DVec3),
 }
 
-/// What extruding faces made. The extruded faces themselves keep their ids.
+/// The result of extruding faces. The extruded faces themselves keep their ids.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ExtrudedFaces {
-    /// The quads around what was extruded.
+    /// The quads around the extruded faces.
     pub walls: Vec<FaceId>,
     /// The faces that close an extruded sheet from below.
     pub bottoms: Vec<FaceId>,
-    /// The vertices of the extruded faces: what moves along.
+    /// The vertices of the extruded faces: move these.
     pub vertices: Vec<VertexId>,
 }
 
 impl EditMesh {
-    /// Extrudes faces as regions: a quad stands on each edge where the region ends, and faces inside
-    /// stay joined.
+    /// Extrudes faces as regions: a quad is added at each edge where the region ends, and faces
+    /// inside stay joined.
     ///
-    /// The region keeps its vertices, edges, faces and corners; the rest of the mesh, and loose edges at
-    /// the border, get new ones at the same places there. Walls are wound as the faces on
-    /// which they stand, with the material, texture coordinates and colours found there; they have no
-    /// normals of their own, where the mesh has such.
+    /// The region keeps its vertices, edges, faces and corners; the rest of the mesh, and loose edges at the
+    /// border, get new ones in the same positions. Walls are wound like the faces below them, with the
+    /// material, texture coordinates and colours found there; they have no given normals.
     ///
-    /// A part of the region that no edge joins to other faces is a sheet: its faces, turned over, become
-    /// its bottom, so that a plane becomes a closed box and a closed surface a hollow one. (Blender
-    /// decides this for all selected faces together.) A vertex in which parts touch gets one edge to
-    /// its base, as in Blender.
+    /// A part of the region that no edge joins to other faces is a sheet: its flipped faces become its
+    /// bottom, so that a plane becomes a closed box and a closed surface a hollow one. (Blender decides this
+    /// for all selected faces together.) A vertex in which parts touch gets one edge to its base, as in
+    /// Blender.
     ///
     /// # Errors
     /// No face is given, or one does not exist; the offset is not finite; there would be too many
@@ -99,7 +98,8 @@ impl EditMesh {
         Ok(ExtrudedFaces { walls: lifted.walls, bottoms: lifted.bottoms, vertices })
     }
 
-    /// Extrudes each face alone: every one gets its own vertices and a quad on each of its edges.
+    /// Extrudes each face individually: every one gets its own vertices and a quad on each of its
+    /// edges.
     ///
     /// Faces keep their ids and get new vertices, so neighbours that are both extruded come apart.
     /// Walls are as those of [`Self::extrude_region`]; there are no bottoms, as in Blender. A face that

@@ -10,29 +10,29 @@ use super::super::delete::require;
 use super::super::region::SplitVertices;
 use super::check_finite;
 
-/// What extruding edges made.
+/// The result of extruding edges.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ExtrudedEdges {
     /// The quads, one for each edge, in the order of their ids.
     pub walls: Vec<FaceId>,
-    /// The new edges opposite to those that were given: what moves along.
+    /// The new edges opposite to the given ones: move these.
     pub edges: Vec<EdgeId>,
     /// The ends of the new edges.
     pub vertices: Vec<VertexId>,
 }
 
-/// What extruding vertices made.
+/// The result of extruding vertices.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ExtrudedVertices {
     /// From each given vertex to its new one.
     pub edges: Vec<EdgeId>,
-    /// The new vertices: what moves along.
+    /// The new vertices: move these.
     pub vertices: Vec<VertexId>,
 }
 
 impl EditMesh {
-    /// Extrudes edges to quads: wires, open borders, or edges between faces, which then have a fin.
-    /// Edges that share a vertex share the new vertex, too.
+    /// Extrudes edges to quads: loose edges, open borders, or edges between faces, which then have
+    /// a fin. Edges that share a vertex share the new vertex, too.
     ///
     /// The given edges stay where they are; the new ones, with the same marks, move by the offset
     /// (metres). A quad at an open border is wound as the face there and has its material, texture

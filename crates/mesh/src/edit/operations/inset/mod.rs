@@ -1,4 +1,4 @@
-//! Insetting: faces shrink in their planes, and a ring of quads fills what they leave.
+//! Insetting: faces shrink in their planes, and a ring of quads fills the gap.
 
 mod region;
 #[cfg(test)]
@@ -13,25 +13,26 @@ use super::frame::FaceFrame;
 use super::lift::LiftedFaces;
 use super::region::Region;
 
-/// How faces are inset.
+/// Settings of an inset.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Inset {
-    /// How far each edge moves from where it was, in the plane of its face, in metres: at least 0.
-    /// A thickness beyond the middle of a face turns it inside out: the caller limits it.
+    /// The distance of each edge from its old position, in the plane of its face, in metres: at
+    /// least 0. A thickness beyond the middle of a face turns it inside out: the caller must limit
+    /// it.
     pub thickness: f64,
     /// How far the inset faces move along their normals, in metres; negative is inwards.
     pub depth: f64,
-    /// Whether open borders move, too; else their vertices slide along them. Of no meaning for
+    /// Whether open borders move, too; otherwise their vertices slide along them. Ignored for
     /// individual faces, which are inset from all of their edges.
     pub open_borders: bool,
 }
 
-/// What insetting faces made. The inset faces themselves keep their ids.
+/// The result of insetting faces. The inset faces themselves keep their ids.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct InsetFaces {
-    /// The quads between where the faces ended and where they end now.
+    /// The quads between the old and the new outlines of the faces.
     pub rim: Vec<FaceId>,
-    /// The vertices of the inset faces: what moves along.
+    /// The vertices of the inset faces: move these.
     pub vertices: Vec<VertexId>,
 }
 
@@ -50,13 +51,12 @@ impl Inset {
 }
 
 impl EditMesh {
-    /// Insets each face alone, from all of its edges.
+    /// Insets each face individually, from all of its edges.
     ///
-    /// Each edge of the inset face is as far from the old one as the thickness says: exactly in planar
-    /// faces, in others as seen along the normal. Faces keep their ids and get new vertices; all values
-    /// are interpolated in the face, so that those that are affine in position stay so. A face without
-    /// area gets its rim, but stays as large as it was. A face that visits a vertex twice is inset at each
-    /// visit.
+    /// The distance of each edge from its old position is the thickness: exactly in planar faces, in others
+    /// as seen along the normal. Faces keep their ids and get new vertices; all values are interpolated in
+    /// the face, so that those that are affine in position stay so. A face without area gets its border, but
+    /// keeps its size. A face that visits a vertex twice is inset at each visit.
     ///
     /// # Errors
     /// No face is given, or one does not exist; a parameter is out of its range; there would be too many

@@ -35,7 +35,7 @@ struct Slides {
 }
 
 impl EditMesh {
-    /// Insets faces as regions: where a region ends it shrinks, and faces inside stay joined.
+    /// Insets faces as regions: a region shrinks where it ends, and faces inside stay joined.
     ///
     /// Each edge where the region ends moves inwards by the thickness, in the plane of its face; a
     /// vertex between two such edges goes to where both are right. The region keeps its ids, and what
@@ -50,8 +50,8 @@ impl EditMesh {
         self.inset_border(faces, inset, Shrinks::Region)
     }
 
-    /// Insets the faces around a region: it stays as it is, and the ring of new quads is outside of it,
-    /// with the materials found there. Open borders stay where they are.
+    /// Insets the faces around a region: it stays as it is, and the ring of new quads is outside of it, with
+    /// the materials found there. Open borders stay in place.
     ///
     /// # Errors
     /// As [`Self::inset_region`]; also if no faces are around the region.

@@ -1,4 +1,4 @@
-//! Points within faces, and cuts through faces along them.
+//! Points inside faces, and cuts through faces along them.
 
 use trigon_math::{DVec3, Vec3};
 

@@ -42,19 +42,19 @@ impl EditMesh {
     /// Cuts faces along a path of points on edges, at vertices and within faces. Edges are
     /// split where the path crosses them, faces where it goes through them.
     ///
-    /// Consecutive points belong to the same face. If several faces have both, the one with the lowest
-    /// index is cut; between two points of the same edge nothing is. The path begins and ends at
-    /// vertices or on edges, does not cross itself within a face, and has no two stretches with the same
-    /// ends within one. Lines are not checked for leaving a hollow face. Values are interpolated: on edges along them, within
-    /// faces by mean value coordinates (Floater, "Mean value coordinates", 2003), which are
-    /// exact for values that are affine in position.
+    /// Consecutive points belong to the same face. If several faces have both, the one with the lowest index
+    /// is cut; between two points of the same edge nothing is cut. The path begins and ends at vertices or on
+    /// edges, does not cross itself within a face, and has no two stretches with the same ends within one.
+    /// Lines are not checked for leaving a concave face. Values are interpolated: on edges along them, within
+    /// faces by mean value coordinates (Floater, "Mean value coordinates", 2003), which are exact for values
+    /// that are affine in position.
     ///
-    /// Unlike in Blender's tool, the points are given: where lines seen from a camera meet edges is for
-    /// the caller.
+    /// Unlike in Blender's tool, the points are given: the caller determines where lines seen from a camera
+    /// meet edges.
     ///
     /// # Errors
-    /// There are fewer than two points; an element does not exist; a part of an edge is not within
-    /// 0…1; what is said above of points does not hold.
+    /// There are fewer than two points; an element does not exist; a position on an edge is not
+    /// within 0…1; the conditions above are violated.
     pub fn knife(&mut self, path: &[KnifePoint]) -> Result<KnifeCut, Refusal> {
         require(path, OPERATION, "a path of at least two points")?;
         path.iter().try_for_each(|point| self.check_knife_point(point))?;

@@ -1,4 +1,4 @@
-//! Merging vertices: those that are near one another, or all that were chosen, in one place.
+//! Merging vertices: those that are close to one another, or all given ones, in one place.
 
 mod near;
 #[cfg(test)]
@@ -13,26 +13,25 @@ use super::delete::require;
 use super::numbering::{Numbering, sorted_once};
 use near::NearPoints;
 
-/// What became of vertices that were merged.
+/// The result of merging vertices.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct MergedVertices {
-    /// Those that others were merged into, ascending.
+    /// The remaining vertices, ascending.
     pub vertices: Vec<VertexId>,
-    /// How many vertices are gone.
+    /// The number of removed vertices.
     pub removed: usize,
 }
 
 impl EditMesh {
-    /// Merges vertices that are at most `distance` metres apart, and tells how many are gone.
+    /// Merges vertices that are at most `distance` metres apart.
     ///
-    /// The vertex with the lowest index wins: in the order of indices, each vertex that is not
-    /// merged yet takes the place of all later ones within the distance that are not merged
-    /// yet, and stays where it is. So no vertex is moved farther than the distance, and a chain of near
-    /// vertices does not collapse as a whole; two vertices that stay are always farther apart.
-    /// The order in which vertices are given does not matter.
+    /// The vertex with the lowest index wins: in the order of indices, each vertex that is not merged yet
+    /// absorbs all later ones within the distance that are not merged yet, and stays in place. So no vertex
+    /// moves farther than the distance, and a chain of close vertices does not collapse as a whole; two
+    /// remaining vertices are always farther apart. The order in which vertices are given does not matter.
     ///
-    /// Corners keep their values. A vertex whose place is not finite is near no other. What becomes
-    /// of edges and faces: see [`Self::merge_vertices`].
+    /// Corners keep their values. A vertex whose position is not finite is close to no other. For
+    /// edges and faces, see [`Self::merge_vertices`].
     ///
     /// # Errors
     /// No vertex is given, one does not exist, or the distance is negative or not finite.
@@ -54,8 +53,8 @@ impl EditMesh {
         self.merge_pairs(&pairs)
     }
 
-    /// Merges vertices into one in their mean place: the one with the lowest index, which gets the
-    /// mean of their values, too. Corners keep theirs.
+    /// Merges vertices into one at their mean position: the one with the lowest index, which also
+    /// gets the mean of their values. Corners keep theirs.
     ///
     /// # Errors
     /// No vertex is given, or one does not exist.
@@ -67,7 +66,7 @@ impl EditMesh {
         self.merge_pairs(&all_into(&vertices, vertices[0]))
     }
 
-    /// Merges vertices into the first of them, which stays where it is.
+    /// Merges vertices into the first of them, which stays in place.
     ///
     /// # Errors
     /// No vertex is given, or one does not exist.
@@ -76,7 +75,7 @@ impl EditMesh {
         self.merge_pairs(&all_into(vertices, vertices[0]))
     }
 
-    /// Merges vertices into the last of them, which stays where it is.
+    /// Merges vertices into the last of them, which stays in place.
     ///
     /// # Errors
     /// No vertex is given, or one does not exist.
@@ -85,8 +84,8 @@ impl EditMesh {
         self.merge_pairs(&all_into(vertices, vertices[vertices.len() - 1]))
     }
 
-    /// Merges the vertices of each connected part of some edges in their mean place, each part
-    /// by itself, as [`Self::merge_at_center`] does.
+    /// Merges the vertices of each connected part of some edges at their mean position, each part
+    /// separately, as [`Self::merge_at_center`] does.
     ///
     /// # Errors
     /// No edge is given, or one does not exist.

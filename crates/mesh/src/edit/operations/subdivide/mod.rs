@@ -1,4 +1,4 @@
-//! Flat subdivision: edges are cut into equal pieces, and their faces along.
+//! Flat subdivision: edges are cut into equal pieces, and their faces with them.
 
 mod patterns;
 #[cfg(test)]
@@ -20,15 +20,14 @@ use patterns::{Interior, Outline, Pattern};
 /// The most cuts of an edge at once.
 const MOST_CUTS: u32 = 1000;
 
-/// What came of a subdivision.
+/// The result of a subdivision.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Subdivided {
-    /// The new vertices: those on edges, by edge from its first end on, then those within faces.
+    /// The new vertices: those on edges, by edge from its first end on, then those inside faces.
     pub vertices: Vec<VertexId>,
-    /// All pieces of the edges that were cut, the old edges among them, and the new edges within
-    /// faces.
+    /// All pieces of the cut edges, including the old edges, and the new edges inside faces.
     pub edges: Vec<EdgeId>,
-    /// All parts of the faces that were cut, the old faces among them.
+    /// All parts of the cut faces, including the old faces.
     pub faces: Vec<FaceId>,
 }
 
@@ -52,9 +51,9 @@ struct Scratch {
 }
 
 impl EditMesh {
-    /// Cuts edges into `cuts` + 1 equal pieces, and the faces at them so that no T-shaped joints
-    /// are left. Nothing is moved; all values are interpolated. How a face is cut depends on which
-    /// of its sides are:
+    /// Cuts edges into `cuts` + 1 equal pieces, and the faces at them so that no T-junctions
+    /// remain. Nothing moves; all values are interpolated. How a face is cut depends on which of
+    /// its sides are:
     ///
     /// | sides | cut | parts |
     /// |---|---|---|
@@ -70,7 +69,7 @@ impl EditMesh {
     /// | more | 3 or more | convex corners between two cut sides are cut off |
     /// | more | 1 | the face stays whole, with more corners |
     ///
-    /// A face that visits a vertex twice stays whole, too, where these parts could not be faces. The
+    /// A face that visits a vertex twice also stays whole if these parts could not be faces. The
     /// pieces of an edge have its marks, the parts of a face its material. Edge and face keep their
     /// ids as one of the parts.
     ///

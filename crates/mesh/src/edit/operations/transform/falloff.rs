@@ -1,4 +1,4 @@
-//! Proportional falloff: vertices near those that move follow in part.
+//! Proportional falloff: vertices near the moved ones follow in part.
 
 use fixedbitset::FixedBitSet;
 use rayon::prelude::*;
@@ -9,13 +9,13 @@ use super::super::super::refusal::Refusal;
 use super::along_edges::distances_along_edges;
 use super::nearest::NearestPoints;
 
-/// How far a movement reaches beyond the vertices that are moved, and how it fades. Hidden
-/// vertices never follow.
+/// How far a movement reaches beyond the moved vertices, and how it fades. Hidden vertices never
+/// follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Falloff {
     /// How it fades with distance.
     pub shape: FalloffShape,
-    /// In metres, above 0: from here on nothing moves.
+    /// In metres, above 0: from this distance on nothing moves.
     pub radius: f64,
     /// How distance is measured.
     pub distance: FalloffDistance,
@@ -45,7 +45,7 @@ pub enum FalloffShape {
     Constant,
 }
 
-/// How far a vertex is from those that are moved: to the nearest of them.
+/// The distance of a vertex to the nearest moved one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FalloffDistance {
     /// In a straight line, whether the mesh is connected there or not.
@@ -56,7 +56,7 @@ pub enum FalloffDistance {
 }
 
 impl FalloffShape {
-    /// How much of the movement is left, 1 to 0, at a distance given as a share of the radius.
+    /// The fraction of the movement, 1 to 0, at a distance given as a fraction of the radius.
     pub fn weight(self, share: f64) -> f64 {
         // Also without a distance nothing moves.
         let x = if share < 1.0 { (1.0 - share).min(1.0) } else { 0.0 };

@@ -1,9 +1,9 @@
-//! What becomes of normals and tangents that were given for corners when vertices move.
+//! How given normals and tangents of corners change when vertices move.
 //!
-//! The rule: where all vertices of a face move wholly by the same linear map, its normals and
-//! tangents turn with it. At any other face that moves, the given normals are cleared, so
-//! that computed ones take their place; it is marked smooth if they showed it as such. Its
-//! tangents stay. Morph targets stay: they add to whatever the place is.
+//! The rule: if all vertices of a face move entirely by the same linear map, its normals and
+//! tangents rotate with it. At any other face that moves, the given normals are cleared, so that
+//! computed ones take their place; it is marked smooth if they showed it as such. Its tangents are
+//! unchanged. So are morph targets: they are relative to the position.
 
 use fixedbitset::FixedBitSet;
 use smallvec::SmallVec;
