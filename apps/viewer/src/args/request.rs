@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 
 use clap::CommandFactory;
 use clap::error::ErrorKind;
-use regex::Regex;
 use trigon_camera::AxisView;
 use trigon_io::{Format, SceneChoice};
 use trigon_math::Vec3;
