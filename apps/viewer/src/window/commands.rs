@@ -2,6 +2,7 @@
 
 use std::str::FromStr;
 
+use super::overlay_commands::OverlayCommand;
 use trigon_window::{Action, Binding, Chord, Key, Keymap, MenuEntry, Modifiers};
 
 /// What the viewer's own keys do.
@@ -153,6 +154,10 @@ pub(super) fn keymap() -> Keymap {
     keymap.unbind(Key::Down);
     for command in Command::ALL {
         keymap.add(command.binding());
+    }
+    for command in OverlayCommand::ALL {
+        let (name, chord, description) = command.binding();
+        keymap.bind(chord, name, Action::Command, description);
     }
     keymap.set_menu(MENU);
     keymap

@@ -1,17 +1,24 @@
 //! Window mode: the models of the command line in a window, one at a time.
 
+mod axes;
 mod background;
 #[cfg(feature = "study")]
 mod classic;
 mod commands;
+mod comparing;
 mod hint;
+mod measuring;
 mod notices;
 mod open;
+mod overlay_commands;
 mod path_text;
 mod playback;
 mod quality;
 mod recent;
 mod screenshot;
+#[cfg(test)]
+mod sessions;
+mod side;
 mod viewer;
 mod watch;
 
@@ -23,6 +30,7 @@ use trigon_scene::ShadingModel;
 use trigon_window::{Application, Interaction, Refinement, Stage, Visibility, WindowError};
 
 use crate::args::Request;
+use crate::compare;
 use crate::failure::Failure;
 use crate::report::Reporter;
 use crate::scripted;
@@ -42,9 +50,13 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
             return failure.exit_code();
         }
     };
+    if let Some(Err(failure)) = request.compared.as_ref().map(|_| compare::only_source(request)) {
+        reporter.error(&failure);
+        return failure.exit_code();
+    }
     let sources = Source::all(request);
     let mut application = Application::new(sources[0].window_title());
-    prepare(&mut application.stage, request);
+    set_stage(&mut application.stage, request);
     if let Err(failure) = interactions(&mut application, request, reporter) {
         reporter.error(&failure);
         return failure.exit_code();
@@ -63,8 +75,8 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
     }
 }
 
-/// What the flags say of the window.
-fn prepare(stage: &mut Stage, request: &Request) {
+/// As the window begins.
+fn set_stage(stage: &mut Stage, request: &Request) {
     let (width, height) = (request.settings.width, request.settings.height);
     stage.set_size(Viewport { width, height });
     stage.settings = request.settings.clone();

@@ -1,31 +1,40 @@
 //! The viewer's part of the window: the current model, loading, and the viewer's own keys.
 
+mod overlays;
+mod state;
+
 use std::path::PathBuf;
 
 use trigon_camera::{Orbit, OrbitStyle};
 use trigon_io::Warning;
 use trigon_math::DVec3;
-use trigon_scene::{Background, Frame, NodeId, Scene};
+use trigon_scene::{Background, Frame, NodeId, RenderSettings, Scene};
 use trigon_window::{
     Animation, Corner, Handler, Hands, Input, Key, Modifiers, Stage, Taken, Tick, Visibility, egui,
 };
 
+use super::axes::AxesOverlay;
 use super::background::{Loading, Outcome};
 #[cfg(feature = "study")]
 use super::classic::Classics;
 use super::commands::Command;
+use super::comparing::Comparing;
 use super::hint::Hint;
+use super::measuring::Measuring;
 use super::notices::{Answer, Notices};
 use super::open::{OpenWindow, SystemDialog};
+use super::overlay_commands::OverlayCommand;
 use super::playback::Playback;
 use super::quality::QualityPanel;
 use super::recent::Recent;
 use super::screenshot;
+use super::side::SidePanel;
 use super::watch::Watch;
 use crate::args::{InteractionStyle, Request};
 use crate::failure::Failure;
 use crate::folders;
 use crate::model::{Model, Summary};
+use crate::picture;
 use crate::report::Reporter;
 use crate::source::Source;
 
@@ -79,6 +88,11 @@ pub(super) struct Viewer {
     show_metadata: bool,
     open: OpenWindow,
     quality: QualityPanel,
+    side: SidePanel,
+    measuring: Measuring,
+    /// If there is another model beside the one that is shown.
+    comparing: Option<Comparing>,
+    axes: AxesOverlay,
     #[cfg(feature = "study")]
     classics: Classics,
     recent: Recent,
@@ -97,6 +111,8 @@ impl Viewer {
     /// A viewer of these sources; there is at least one.
     pub(super) fn new(request: Request, sources: Vec<Source>, reporter: Reporter) -> Self {
         let (show_name, show_metadata) = (request.overlay.name, request.overlay.metadata);
+        let side = if request.overlay.tree { SidePanel::with_tree() } else { SidePanel::default() };
+        let comparing = request.compared.clone().map(Comparing::new);
         Self {
             request,
             reporter,
@@ -108,6 +124,10 @@ impl Viewer {
             show_metadata,
             open: OpenWindow::default(),
             quality: QualityPanel::default(),
+            side,
+            measuring: Measuring::default(),
+            comparing,
+            axes: AxesOverlay::default(),
             #[cfg(feature = "study")]
             classics: Classics::default(),
             recent: Recent::load(),
@@ -216,6 +236,8 @@ impl Viewer {
         }
         stage.set_title(model.source.window_title());
         stage.selection = None;
+        self.side.forget();
+        self.measuring.forget();
         let mut scene = model.scene;
         self.playback = Playback::new(&scene, &self.request);
         if self.playback.as_ref().is_some_and(Playback::is_playing) {
@@ -385,10 +407,17 @@ impl Viewer {
     }
 
     fn take_screenshot(stage: &mut Stage, background: Background) {
-        let mut settings = stage.settings.clone();
-        (settings.width, settings.height) = (stage.viewport().width, stage.viewport().height);
-        settings.background = background;
-        stage.request_picture(settings);
+        let settings = stage.picture_settings();
+        stage.request_picture(RenderSettings { background, ..settings });
+    }
+
+    /// Draws and writes over a screenshot what lies over the window's picture, as `--output` does.
+    fn with_overlay(&self, stage: &Stage, frame: Frame) -> Result<Frame, Failure> {
+        let Some(shown) = &self.shown else { return Ok(frame) };
+        let mut request = self.request.clone();
+        (request.overlay.name, request.overlay.metadata) = (self.show_name, self.show_metadata);
+        request.overlay.tree = false;
+        picture::finished(frame, &shown.model(stage), &stage.camera(), &request)
     }
 
     fn run(&mut self, stage: &mut Stage, command: Command) {
@@ -436,6 +465,9 @@ impl Handler for Viewer {
             stage.overlay.notify(format!("warning: {ignored}"));
         }
         self.load(stage, View::Fit);
+        if let Some(comparing) = &mut self.comparing {
+            comparing.load(stage, &self.request);
+        }
         self.write_overlay(stage);
     }
 
@@ -444,19 +476,26 @@ impl Handler for Viewer {
         if plays { Animation::Running } else { Animation::Resting }
     }
 
-    fn input(&mut self, stage: &mut Stage, input: &Input, _: Hands) -> Taken {
+    fn input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
         self.hint.input(stage, input);
-        match input {
+        let taken = match input {
             Input::Key { logical: Some(Key::Escape), .. } => self.close_panel(stage),
             Input::Key { logical: Some(Key::Enter), .. } if self.asks_to_load_again => {
                 self.load(stage, View::Keep);
                 Taken::Yes
             }
             _ => Taken::No,
+        };
+        if taken == Taken::Yes || self.measuring.input(stage, input, hands) == Taken::Yes {
+            return Taken::Yes;
         }
+        self.side.input(stage, input, hands)
     }
 
     fn command(&mut self, stage: &mut Stage, name: &str) {
+        if let Ok(command) = name.parse::<OverlayCommand>() {
+            self.run_overlay(stage, command);
+        }
         if let Ok(command) = name.parse() {
             self.run(stage, command);
             self.write_overlay(stage);
@@ -469,6 +508,15 @@ impl Handler for Viewer {
     }
 
     fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {
+        let beside = self.shown.as_ref().map_or(&[][..], |shown| &shown.scenery);
+        self.side.show(ui, stage, beside);
+        self.measuring.show(ui, stage);
+        if let Some(comparing) = &self.comparing {
+            comparing.show(ui, &self.sources[self.current].title());
+        }
+        if self.request.overlay.shows_axes {
+            self.axes.show(ui, stage, self.request.overlay.axes);
+        }
         #[cfg(feature = "study")]
         self.quality.show(ui, stage, |ui, stage| self.classics.show(ui, stage));
         #[cfg(not(feature = "study"))]
@@ -489,7 +537,10 @@ impl Handler for Viewer {
 
     fn picture(&mut self, stage: &mut Stage, frame: Frame) {
         let model = self.shown.as_ref().and_then(|shown| shown.source.first_file());
-        match screenshot::save(&frame, &self.request.screenshot, model) {
+        let saved = self
+            .with_overlay(stage, frame)
+            .and_then(|frame| screenshot::save(&frame, &self.request.screenshot, model));
+        match saved {
             Ok(path) => {
                 let path = std::path::absolute(&path).unwrap_or(path);
                 self.reporter.info(format_args!("wrote {}", path.display()));
@@ -502,6 +553,9 @@ impl Handler for Viewer {
     fn woken(&mut self, stage: &mut Stage) {
         let picked = self.open.picked();
         self.add(stage, picked);
+        if let Some(Err(failure)) = self.comparing.as_mut().map(|comparing| comparing.woken(stage)) {
+            self.tell_failure(stage, &failure);
+        }
         if self.watch.as_ref().is_some_and(Watch::take_changed) {
             self.load_again(stage);
         }

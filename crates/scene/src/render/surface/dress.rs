@@ -2,10 +2,12 @@
 //! textures are read, where light is found. What the material does not have, and
 //! what the mesh cannot show, is left out.
 
-use trigon_math::Vec3;
+use trigon_math::glam::Affine2;
+use trigon_math::{Mat3, Vec3};
 
 use super::reflection::head_on;
 use super::{Coverage, Illumination, Layout, LightSlots, Look, Map, MicrofacetModel, Model};
+use crate::display::Display;
 use crate::effects::{Optics, Scenery};
 use crate::material::{AlphaMode, Material, Shading, TextureBinding};
 use crate::render::columns::Columns;
@@ -21,6 +23,9 @@ pub(crate) struct Occasion<'a> {
     pub(crate) rays: Rays,
     pub(crate) shading: ShadingModel,
     pub(crate) reflection: Reflection,
+    pub(crate) display: Display,
+    /// From camera space.
+    pub(crate) to_world: Mat3,
 }
 
 /// A material made ready for a mesh.
@@ -33,22 +38,23 @@ pub(crate) struct Dressed<'a> {
 impl<'a> Dressed<'a> {
     pub(crate) fn new(material: &Material, columns: &Columns, occasion: &Occasion<'a>) -> Self {
         let mut fitting = Fitting { occasion, columns, layout: Layout::default() };
-        let shading = occasion.reflection.of(material);
-        let illumination = illumination(&shading, occasion.shading);
+        let (shading, illumination) = shown(material, occasion);
         let in_pixels = illumination == Illumination::InPixels;
+        let shows = |display| in_pixels || illumination == Illumination::Value(display);
+        let shows_model = shows(Display::Metallic) || shows(Display::Roughness);
         let optics = Optics::of(material).filter(|_| in_pixels && occasion.scenery.bounces > 0);
         let is_glass = matches!(optics, Some(Optics::Glass { .. }));
         let look = Look {
             base_color: material.base_color,
             base_map: fitting.map(material.base_color_texture.as_ref()),
-            model: fitting.model(material, &shading, in_pixels),
+            model: fitting.model(material, &shading, shows_model),
             normal_map: material
                 .normal_map
-                .filter(|_| in_pixels && columns.tangents.is_some())
+                .filter(|_| shows(Display::Normal) && columns.tangents.is_some())
                 .and_then(|normal_map| Some((fitting.map(Some(&normal_map.binding))?, normal_map.scale))),
             occlusion_map: material
                 .occlusion
-                .filter(|_| in_pixels)
+                .filter(|_| shows(Display::Occlusion))
                 .and_then(|occlusion| Some((fitting.map(Some(&occlusion.binding))?, occlusion.strength))),
             transmission_map: fitting.map(material.transmission_texture.as_ref().filter(|_| is_glass)),
             optics,
@@ -146,6 +152,14 @@ impl<'a> Fitting<'_, 'a> {
                     layout.tangent = Some(layout.add(4));
                 }
             }
+            Illumination::Value(Display::Normal) => {
+                layout.normal = Some(layout.add(3));
+                layout.tangent = look.normal_map.map(|_| layout.add(4));
+            }
+            Illumination::Value(Display::TextureCoordinates) if !columns.uv_sets.is_empty() => {
+                layout.shown_uv = Some(layout.add_coordinates(0, Affine2::IDENTITY));
+            }
+            Illumination::Value(_) => {}
         }
     }
 }
@@ -154,6 +168,19 @@ fn has_grey_highlights(model: &Model<'_>) -> bool {
     match model {
         Model::BlinnPhong { specular, .. } => specular.x == specular.y && specular.y == specular.z,
         Model::Lambert | Model::Microfacets(_) => true,
+    }
+}
+
+/// How a material answers to light, and where that is found. Of surfaces that show how metallic and how rough they
+/// are the answer is one that knows both.
+fn shown(material: &Material, occasion: &Occasion<'_>) -> (Shading, Illumination) {
+    let shading = occasion.reflection.of(material);
+    match occasion.display {
+        Display::Shaded | Display::Matcap => (shading, illumination(&shading, occasion.shading)),
+        Display::Metallic | Display::Roughness => {
+            (Reflection::MetallicRoughness.of(material), Illumination::Value(occasion.display))
+        }
+        display => (shading, Illumination::Value(display)),
     }
 }
 

@@ -15,6 +15,7 @@ mod points;
 mod reflection;
 mod tally;
 mod traced;
+mod value;
 mod values;
 
 pub(crate) use dress::{Dressed, Occasion};
@@ -23,7 +24,7 @@ pub(crate) use layout::{Layout, LightSlots};
 pub(crate) use look::{Coverage, Look, Map, MicrofacetModel, Model};
 pub(crate) use values::{Values, three};
 
-use trigon_math::Vec3;
+use trigon_math::{Mat3, Vec3};
 use trigon_raster::simd::{F32, Mask, Simd, prelude::*};
 use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
 
@@ -45,6 +46,8 @@ pub(crate) struct Surface<'a, const FLAT: bool> {
     /// Whether rays of view meet in the camera, or run parallel.
     pub(crate) rays: Rays,
     pub(crate) scenery: &'a Scenery,
+    /// From camera space.
+    pub(crate) to_world: Mat3,
 }
 
 impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
@@ -93,8 +96,8 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
         occasion: &Occasion<'a>,
     ) -> Self {
         let Dressed { look, layout, illumination } = dressed;
-        let Occasion { rays, scenery, .. } = *occasion;
-        Self { columns, triangles, place, layout, look, illumination, rays, scenery }
+        let Occasion { rays, scenery, to_world, .. } = *occasion;
+        Self { columns, triangles, place, layout, look, illumination, rays, scenery, to_world }
     }
 
     #[inline(always)]
@@ -135,6 +138,10 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
             Illumination::AtVertices => self.interpolated(fragments, [r, g, b]),
             Illumination::InPixels => self.lit(simd, fragments, [r, g, b]),
             Illumination::OnFacets => self.lit_facets(simd, fragments, [r, g, b]),
+            Illumination::Value(display) => {
+                let value = self.value(simd, fragments, display, [r, g, b, alpha]);
+                return self.finished(simd, value, alpha);
+            }
         };
         let mut shaded = self.with_emission(simd, fragments, shaded);
         if let (Some(mist), Some(at)) = (&self.scenery.mist, self.layout.position) {

@@ -56,7 +56,7 @@ fn simple() -> (tempfile::TempDir, Viewer) {
 /// Opens its window and waits until nothing is loaded any more.
 fn open(viewer: &mut Viewer, size: Viewport) -> HeadlessWindow<'_> {
     let mut stage = Stage::new(viewer.sources[0].window_title());
-    super::super::prepare(&mut stage, &viewer.request);
+    super::super::set_stage(&mut stage, &viewer.request);
     let mut window = HeadlessWindow::open(stage, viewer, size);
     loaded(&mut window);
     window
