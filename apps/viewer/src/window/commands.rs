@@ -157,7 +157,7 @@ pub(super) fn keymap() -> Keymap {
     }
     for command in OverlayCommand::ALL {
         let (name, chord, description) = command.binding();
-        keymap.bind(chord, name, Action::Command, description);
+        keymap.add(row("Inspect", name, chord, description));
     }
     keymap.set_menu(MENU);
     keymap
