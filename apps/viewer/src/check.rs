@@ -11,8 +11,8 @@ use crate::args::Request;
 use crate::failure::Failure;
 use crate::lists::{json_line, print_lines};
 use crate::loading;
-use crate::model::Source;
 use crate::report::Reporter;
+use crate::source::Source;
 
 /// One thing that is wrong.
 struct Fault {

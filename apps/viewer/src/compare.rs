@@ -10,9 +10,9 @@ use crate::args::{Destination, Request, Subject};
 use crate::failure::Failure;
 use crate::lists::json_line;
 use crate::loading;
-use crate::model::Source;
 use crate::outlet::Outlet;
 use crate::report::Reporter;
+use crate::source::Source;
 
 /// Writes both models beside each other and beside a map of their differences; returns the exit code, 3 if there are
 /// any.

@@ -9,8 +9,8 @@ use trigon_scene::{EffectPlan, Frame, RenderSettings, Renderer, Scene};
 use crate::args::{Explanation, Request};
 use crate::failure::Failure;
 use crate::loading;
-use crate::model::Source;
 use crate::report::Reporter;
+use crate::source::Source;
 
 /// Pictures of which the quickest counts.
 const REPETITIONS: usize = 5;

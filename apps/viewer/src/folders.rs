@@ -51,7 +51,8 @@ fn collect(folder: &Path, recursive: bool, all: &mut Vec<PathBuf>) -> Result<(),
     Ok(())
 }
 
-fn is_model(file: &Path) -> bool {
+/// Whether the ending of a file tells a format.
+pub(crate) fn is_model(file: &Path) -> bool {
     let ending = file.extension().map(|ending| ending.to_string_lossy());
     ending.is_some_and(|ending| Format::from_extension(&ending).is_some())
 }

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use crate::args::Request;
 use crate::loading;
-use crate::model::Source;
 use crate::report::Reporter;
+use crate::source::Source;
 
 /// `--list-readers`: one line per format.
 pub(crate) fn readers(reporter: Reporter) -> u8 {
@@ -26,19 +26,6 @@ pub(crate) fn backends(reporter: Reporter) -> u8 {
 /// One JSON object on a line of standard output.
 pub(crate) fn json_line(value: &serde_json::Value, reporter: Reporter) -> u8 {
     print_lines([value.to_string()], reporter)
-}
-
-/// `--list-bindings`: one line per key.
-pub(crate) fn bindings(reporter: Reporter) -> u8 {
-    #[cfg(feature = "window")]
-    {
-        print_lines(crate::window::bindings(), reporter)
-    }
-    #[cfg(not(feature = "window"))]
-    {
-        reporter.error("this trigon-viewer was built without its window, so there are no keys; build it with the feature `window`");
-        1
-    }
 }
 
 /// `--no-render`: what is in each file.

@@ -12,8 +12,9 @@ use trigon_scene::Scene;
 
 use crate::args::{Request, STDIN};
 use crate::failure::Failure;
-use crate::model::{Model, Source, short};
+use crate::model::{Model, short};
 use crate::report::Reporter;
+use crate::source::Source;
 
 /// Quick loads flash no bar.
 const PATIENCE: Duration = Duration::from_secs(1);

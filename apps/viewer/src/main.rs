@@ -12,6 +12,7 @@ mod explain;
 mod failure;
 mod folders;
 mod framing;
+mod ladder;
 mod lettering;
 mod lists;
 mod loading;
@@ -26,6 +27,7 @@ mod report;
 mod scenery;
 mod scripted;
 mod series;
+mod source;
 mod state;
 mod study;
 #[cfg(feature = "window")]
@@ -71,7 +73,7 @@ fn main() -> ExitCode {
         Mode::Check => check::run(&request, reporter),
         Mode::Inspect => lists::inspect(&request, reporter),
         Mode::ListReaders => lists::readers(reporter),
-        Mode::ListBindings => lists::bindings(reporter),
+        Mode::ListBindings => list_bindings(reporter),
         Mode::ListBackends => lists::backends(reporter),
     })
 }
@@ -84,6 +86,18 @@ fn help(length: HelpLength, reporter: Reporter) -> u8 {
         HelpLength::All => command.render_long_help().to_string(),
     };
     lists::print_lines(text.lines().map(str::to_owned), reporter)
+}
+
+/// `--list-bindings`: the keys under their headings.
+#[cfg(feature = "window")]
+fn list_bindings(reporter: Reporter) -> u8 {
+    lists::print_lines(window::bindings(), reporter)
+}
+
+#[cfg(not(feature = "window"))]
+fn list_bindings(reporter: Reporter) -> u8 {
+    reporter.error("this trigon-viewer was built without its window, so there are no keys; build it with the feature `window`");
+    1
 }
 
 #[cfg(feature = "window")]

@@ -15,11 +15,12 @@ use crate::failure::Failure;
 use crate::lettering::Lettering;
 use crate::lists::json_line;
 use crate::loading;
-use crate::model::{Model, Source};
+use crate::model::Model;
 use crate::outlet::{Outlet, write_file};
 use crate::report::Reporter;
 use crate::scripted;
 use crate::series::Series;
+use crate::source::Source;
 
 /// Draws and writes a picture of every source. A source that fails does not
 /// keep the others from being drawn; the worst exit code is returned.

@@ -11,8 +11,8 @@ use crate::args::Request;
 use crate::failure::Failure;
 use crate::lists::{json_line, print_lines};
 use crate::loading;
-use crate::model::Source;
 use crate::report::Reporter;
+use crate::source::Source;
 
 /// `--explain-pixel`: explains a pixel of every source's picture; returns the worst exit code.
 pub(crate) fn run(request: &Request, at: [u32; 2], reporter: Reporter) -> u8 {

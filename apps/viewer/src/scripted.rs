@@ -7,10 +7,10 @@ use crate::args::{CommandLine, Destination, Mode, RANGES, Request, Step, Templat
 use crate::failure::Failure;
 use crate::lists::print_lines;
 use crate::loading;
-use crate::model::Source;
 use crate::outlet::Outlet;
 use crate::picture;
 use crate::report::Reporter;
+use crate::source::Source;
 
 /// Where a script is: what it has changed, and which files there are.
 struct Session {

@@ -9,7 +9,10 @@ use crate::stage::{Stage, Visibility};
 /// Does it. Held keys and the application's commands are not for this function.
 pub(crate) fn act(stage: &mut Stage, action: Action) {
     match action {
-        Action::View(view) => stage.orbit.set_view(view),
+        Action::View(view) => {
+            stage.orbit.set_view(view);
+            stage.fit_view();
+        }
         Action::Elevate(angle) => stage.orbit.orbit(0.0, angle),
         Action::Roll(angle) => stage.orbit.roll(angle),
         Action::ResetView => stage.reset_view(),
@@ -18,12 +21,17 @@ pub(crate) fn act(stage: &mut Stage, action: Action) {
         Action::ToggleEdges => toggle_edges(stage),
         Action::CycleWireframe => cycle_wireframe(stage),
         Action::CycleSamples => cycle_samples(stage),
-        Action::ToggleCheatSheet => stage.cheat_sheet = stage.cheat_sheet.toggled(),
+        Action::ToggleCheatSheet => toggle_cheat_sheet(stage),
+        Action::OpenMenu => stage.open_menu(None),
+        Action::UndoMove => undo(stage),
+        Action::RedoMove => redo(stage),
+        Action::ToggleFullScreen => stage.full_screen = !stage.full_screen,
         Action::ToggleFrameTime => stage.frame_time = stage.frame_time.toggled(),
         Action::SelectNext => select(stage, Direction::Forward),
         Action::SelectPrevious => select(stage, Direction::Backward),
         Action::LookAtSelected => look_at_selected(stage),
         Action::Dismiss if stage.cheat_sheet == Visibility::Shown => stage.cheat_sheet = Visibility::Hidden,
+        Action::Dismiss if stage.selection.is_none() => stage.full_screen = false,
         Action::Dismiss => stage.selection = None,
         Action::Quit => stage.exit(),
         Action::ScaleText(factor) => stage.text_scale = (stage.text_scale * factor).clamp(0.5, 4.0),
@@ -60,6 +68,24 @@ fn select(stage: &mut Stage, direction: Direction) {
     };
     stage.selection = objects.get(next).copied();
     announce_selection(stage);
+}
+
+/// Shown again, the list is not searched for what was looked for last.
+fn toggle_cheat_sheet(stage: &mut Stage) {
+    stage.cheat_sheet = stage.cheat_sheet.toggled();
+    stage.command_search.clear();
+}
+
+fn undo(stage: &mut Stage) {
+    if !stage.undo_move() {
+        stage.overlay.notify("no object was moved");
+    }
+}
+
+fn redo(stage: &mut Stage) {
+    if !stage.redo_move() {
+        stage.overlay.notify("nothing was undone");
+    }
 }
 
 fn look_at_selected(stage: &mut Stage) {

@@ -34,6 +34,7 @@
 
 mod application;
 mod canvas;
+mod choice;
 mod clip_line;
 mod commands;
 mod drawer;
@@ -47,9 +48,11 @@ mod interaction;
 mod interface;
 mod keymap;
 mod motion;
+mod moves;
 mod overlay;
 mod pacing;
 mod panes;
+mod popup;
 mod present;
 mod refinement;
 mod session;
@@ -61,6 +64,7 @@ mod waker;
 mod worker;
 
 pub use application::Application;
+pub use choice::choose;
 pub use clip_line::clip_line;
 pub use drawer::Drawer;
 #[cfg(any(test, feature = "kittest"))]
@@ -73,11 +77,12 @@ pub use headless::{DrawnFrame, HeadlessWindow, Widget};
 pub use input::{Chord, ChordError, Hands, Input, InputOwner, Key, Modifiers, PointerButton, Taken};
 pub use interaction::{Interaction, InteractionError};
 pub use keymap::{
-    Action, Binding, CameraMotion, ClickAction, ClickBinding, DragAction, DragBinding, Keymap, Motion,
-    ObjectMotion,
+    Action, Binding, CameraMotion, ClickAction, ClickBinding, DragAction, DragBinding, Keymap, MenuEntry,
+    Motion, ObjectMotion, SheetRow, matches_search,
 };
 pub use overlay::{Corner, Overlay};
 pub use panes::{Area, Pane};
+pub use popup::{PopupEnd, popup_entry, popup_menu};
 pub use refinement::{Comparison, Difference, QualityReport, Refinement};
 pub use shared_scene::{Revision, SharedScene};
 pub use stage::{FrameReport, Stage, Visibility};

@@ -15,8 +15,8 @@ const TURN_PER_HEIGHT: f64 = PI;
 /// A drag over the height of the window magnifies by e to this power.
 const ZOOM_PER_HEIGHT: f64 = 3.0;
 
-/// A line of the wheel magnifies by e to this power: 15 %.
-const ZOOM_PER_LINE: f64 = 0.14;
+/// A line of the wheel magnifies by e to this power: to 1.1 times the size, as in F3D.
+const ZOOM_PER_LINE: f64 = 0.095_310_179_804_324_87;
 
 /// The pointer moved from one position to another with a button down. `anchor` is the world point
 /// that zooming to the pointer keeps in place.

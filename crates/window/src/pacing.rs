@@ -93,8 +93,8 @@ struct UnderWay {
 pub(crate) struct Pacing {
     shown: Shown,
     under_way: Option<UnderWay>,
-    /// Whether images have to wait for something else.
-    occupied: bool,
+    /// Since when images have to wait for something else.
+    occupied: Option<Duration>,
     /// Whether the interface over the image has changed.
     overlay: bool,
     /// The time of the last movement; `None` after a change without movement.
@@ -111,13 +111,15 @@ pub(crate) struct Pacing {
     wanted: Vec<usize>,
 }
 
-/// The progress of refinement at rest.
+/// What is being drawn, and for how many whole seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Progress {
-    /// The current step, counted from 1.
-    pub(crate) step: usize,
-    /// The number of steps.
-    pub(crate) of: usize,
+pub(crate) enum Progress {
+    /// The image that the settings define, for a second or more.
+    Drawing { seconds: u64 },
+    /// A refinement of the image on screen: the step, counted from 1, and the number of steps.
+    Refining { step: usize, of: usize, seconds: u64 },
+    /// An image for a file, for a second or more.
+    Picture { seconds: u64 },
 }
 
 impl Pacing {
@@ -125,7 +127,7 @@ impl Pacing {
         Self {
             shown: Shown::Old,
             under_way: None,
-            occupied: false,
+            occupied: None,
             overlay: true,
             moved: None,
             drawn: None,
@@ -147,10 +149,29 @@ impl Pacing {
         self.budget.set(budget);
     }
 
-    /// The progress of refinement; `None` if there is none.
-    pub(crate) fn progress(&self) -> Option<Progress> {
-        let next = self.wanted.iter().position(|&step| Some(step) == self.next_step())?;
-        Some(Progress { step: next + 1, of: self.wanted.len() })
+    /// What is being drawn at rest; `None` if nothing is, or if it took less than a second.
+    pub(crate) fn progress(&self, now: Duration) -> Option<Progress> {
+        let seconds = self.work_begun().map_or(0, |begun| now.saturating_sub(begun).as_secs());
+        if self.occupied.is_some() {
+            return (seconds > 0).then_some(Progress::Picture { seconds });
+        }
+        match self.wanted.iter().position(|&step| Some(step) == self.next_step()) {
+            Some(next) => Some(Progress::Refining { step: next + 1, of: self.wanted.len(), seconds }),
+            None => (seconds > 0).then_some(Progress::Drawing { seconds }),
+        }
+    }
+
+    /// When the drawing at rest began. An outdated image does not count.
+    fn work_begun(&self) -> Option<Duration> {
+        let is_full = |image: &UnderWay| matches!(image.quality, Quality::Full(_)) && !image.outdated;
+        self.occupied.or_else(|| self.under_way.as_ref().filter(|image| is_full(image)).and(self.begun))
+    }
+
+    /// When another whole second of drawing has passed since the last frame: then the badge changes.
+    fn next_second(&self) -> Option<Duration> {
+        let begun = self.work_begun()?;
+        let told = self.drawn.map_or(0, |drawn| drawn.saturating_sub(begun).as_secs());
+        Some(begun + Duration::from_secs(told + 1))
     }
 
     /// Whether the image on screen is the one that the settings define.
@@ -224,7 +245,7 @@ impl Pacing {
         let picture = match (self.under_way, self.shown, animated) {
             // Completion arrives as an event.
             (Some(UnderWay { quality: Quality::Draft { .. }, .. }), ..) => None,
-            _ if self.occupied => None,
+            _ if self.occupied.is_some() => None,
             // It is about to be given up, which takes a moment.
             (Some(_), _, Frames::Wanted) => Some(frame),
             (None, _, Frames::Wanted) => Some(paced),
@@ -234,7 +255,7 @@ impl Pacing {
             (None, Shown::Full(_), Frames::None) => self.next_step().map(|_| paced),
         };
         let expiry = expiry.map(|due| due.max(frame));
-        match [overlay, picture, expiry].into_iter().flatten().min() {
+        match [overlay, picture, expiry, self.next_second()].into_iter().flatten().min() {
             Some(due) if due <= now => Wake::Now,
             Some(due) => Wake::At(due),
             None => Wake::Never,
@@ -247,7 +268,7 @@ impl Pacing {
         let moving = animated == Frames::Wanted || self.moved.is_some_and(|moved| now < moved + REST);
         let draft = moving || (self.shown == Shown::Old && self.full.is_none_or(|full| full > PATIENCE));
         let quality = match self.shown {
-            _ if self.under_way.is_some() || self.occupied => return None,
+            _ if self.under_way.is_some() || self.occupied.is_some() => return None,
             // It will be refined when it rests.
             Shown::Full(_) | Shown::Draft if moving => return None,
             Shown::Full(_) => Quality::Full(self.next_step()?),
@@ -264,9 +285,9 @@ impl Pacing {
         self.overlay = false;
     }
 
-    /// Whether whoever draws is at something else, and no picture can be begun.
-    pub(crate) fn occupy(&mut self, occupied: bool) {
-        self.occupied = occupied;
+    /// Since when whoever draws is at something else, and no picture can be begun; `None` if nothing is.
+    pub(crate) fn occupy(&mut self, since: Option<Duration>) {
+        self.occupied = since;
     }
 
     /// The picture under way is in the window, and took this long.

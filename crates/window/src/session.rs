@@ -221,7 +221,12 @@ impl<'a> Session<'a> {
             recorded.record(event.clone(), now);
         }
         match event {
-            InputEvent::FileDropped(path) => self.dropped.push(path),
+            InputEvent::FileDropped(path) => {
+                self.dropped.push(path);
+                self.hovered(0, now);
+            }
+            InputEvent::FileHovered(_) => self.hovered(self.stage.hovered_files + 1, now),
+            InputEvent::HoverEnded => self.hovered(0, now),
             InputEvent::Resized { width, height } => self.resized(Viewport { width, height }, now),
             InputEvent::Scaled(scale) => {
                 self.stage.rescale(scale);
@@ -252,6 +257,12 @@ impl<'a> Session<'a> {
         } else {
             Frames::None
         }
+    }
+
+    /// So many files are dragged over the window.
+    fn hovered(&mut self, files: usize, now: Duration) {
+        self.stage.hovered_files = files;
+        self.pacing.changed(Change::Overlay, now);
     }
 
     fn resized(&mut self, viewport: Viewport, now: Duration) {

@@ -11,7 +11,7 @@ use winit::application::ApplicationHandler;
 use winit::dpi::{LogicalSize, PhysicalPosition, PhysicalSize};
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
-use winit::window::{CursorGrabMode, Window, WindowId};
+use winit::window::{CursorGrabMode, Fullscreen, Window, WindowId};
 
 use crate::egui_painter::MAX_TEXTURE_SIDE;
 use crate::input::{InputEvent, translate::translate};
@@ -49,6 +49,7 @@ struct Open {
     asked: bool,
     /// Whether the pointer is confined to it.
     keeps_pointer: bool,
+    full_screen: bool,
 }
 
 /// A running application.
@@ -150,6 +151,7 @@ impl<'a> Shell<'a> {
             minimised: false,
             asked: false,
             keeps_pointer: false,
+            full_screen: false,
         });
         Ok(())
     }
@@ -297,6 +299,10 @@ impl ApplicationHandler<Ring> for Shell<'_> {
             && open.window.set_cursor_position(PhysicalPosition::new(place.x, place.y)).is_err()
         {
             self.session.pointer_stays();
+        }
+        let full_screen = self.session.stage().full_screen;
+        if full_screen != std::mem::replace(&mut open.full_screen, full_screen) {
+            open.window.set_fullscreen(full_screen.then_some(Fullscreen::Borderless(None)));
         }
         let title = self.session.stage().title();
         if open.title != title {

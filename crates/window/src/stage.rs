@@ -7,11 +7,12 @@ use std::time::Duration;
 use trigon_camera::{Camera, DEFAULT_MARGIN, Orbit, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
 use trigon_scene::quality::Preset;
-use trigon_scene::{Hit, NodeId, RenderSettings, Shadows, Snap, StageTimes};
+use trigon_scene::{Hit, NodeId, RenderSettings, Scene, Shadows, Snap, StageTimes};
 
 use crate::drawer::{Drawer, DrawnBy};
 use crate::input::InputOwner;
 use crate::keymap::Keymap;
+use crate::moves::Moves;
 use crate::overlay::Overlay;
 use crate::pacing::{Progress, USUAL_BUDGET};
 use crate::panes::{self, Area, Pane};
@@ -105,12 +106,21 @@ pub struct Stage {
     pub cheat_sheet: Visibility,
     /// Whether the frame time is shown.
     pub frame_time: Visibility,
+    /// Whether the window fills the screen.
+    pub full_screen: bool,
+    /// Nodes beside the model, such as a grid: views are not fitted to them.
+    pub beside: Vec<NodeId>,
     /// Whether the time of each of its stages is shown.
     pub stage_times: Visibility,
     /// The size of text and widgets, in addition to the display's own scale: 0.5 to 4.
     pub text_scale: f32,
     /// The search text of the key list.
     pub(crate) command_search: String,
+    /// Where the menu is, if it is open.
+    pub(crate) menu: Option<Menu>,
+    /// How many files are dragged over the window.
+    pub(crate) hovered_files: usize,
+    moves: Moves,
     title: String,
     home: Home,
     /// The image in the window.
@@ -124,7 +134,16 @@ pub struct Stage {
     wishes: Wishes,
 }
 
-/// Requests of the application that the window has not handled yet.
+/// A menu that is open.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Menu {
+    /// Where it was asked for, in physical pixels.
+    pub(crate) asked: Option<DVec2>,
+    /// Where it is, in points, once it was shown.
+    pub(crate) at: Option<egui::Pos2>,
+}
+
+/// What the application has asked for and the window has not done yet.
 #[derive(Debug, Default)]
 pub(crate) struct Wishes {
     pub(crate) exit: bool,
@@ -152,9 +171,14 @@ impl Stage {
             selection: None,
             cheat_sheet: Visibility::Hidden,
             frame_time: Visibility::Hidden,
+            full_screen: false,
+            beside: Vec::new(),
             stage_times: Visibility::Hidden,
             text_scale: 1.0,
             command_search: String::new(),
+            menu: None,
+            hovered_files: 0,
+            moves: Moves::default(),
             title: title.into(),
             home: Home::Fit(DEFAULT_DIRECTION),
             shown: None,
@@ -259,9 +283,17 @@ impl Stage {
         }
     }
 
-    /// Fits the whole scene into the image, seen from the same side.
+    /// Takes the whole scene but for what is beside it into the picture, seen from the same side.
     pub fn fit_view(&mut self) {
-        let points: Vec<_> = self.scene.visible_points().collect();
+        let points: Vec<_> = if self.beside.is_empty() {
+            self.scene.visible_points().collect()
+        } else {
+            let mut alone = Scene::clone(&self.scene);
+            for &node in &self.beside {
+                alone.remove(node);
+            }
+            alone.visible_points().collect()
+        };
         self.orbit.fit_points(&points, self.viewport.aspect(), DEFAULT_MARGIN);
     }
 
@@ -299,9 +331,50 @@ impl Stage {
         Some(mesh.mesh().bounds().transformed(&self.scene.world_transform(id)))
     }
 
-    /// Requests an image with these settings, which [`crate::Handler::picture`] receives after the
-    /// current call. For an image of what is on the screen, use [`Stage::settings`] with
-    /// [`Stage::viewport`] for its size.
+    /// Opens the menu, at a place in physical pixels or at the pointer.
+    pub(crate) fn open_menu(&mut self, at: Option<DVec2>) {
+        self.cheat_sheet = Visibility::Hidden;
+        self.menu = Some(Menu { asked: at, at: None });
+    }
+
+    /// How many objects were moved by hand and not put back.
+    #[must_use]
+    pub fn moved_objects(&self) -> usize {
+        self.moves.moved()
+    }
+
+    /// Puts the object that was moved or turned last back. Returns whether there was one.
+    pub fn undo_move(&mut self) -> bool {
+        let undone = self.moves.undo(&mut self.scene);
+        self.selection = undone.or(self.selection);
+        undone.is_some()
+    }
+
+    /// Moves or turns the object again that was put back last. Returns whether there was one.
+    pub fn redo_move(&mut self) -> bool {
+        let redone = self.moves.redo(&mut self.scene);
+        self.selection = redone.or(self.selection);
+        redone.is_some()
+    }
+
+    /// Forgets how objects were moved: the scene is another one.
+    pub fn forget_moves(&mut self) {
+        self.moves = Moves::default();
+    }
+
+    /// The selected object is about to be moved by hand.
+    pub(crate) fn begin_move(&mut self) {
+        self.moves.begin(&self.scene, self.selection);
+    }
+
+    /// A hand has let go of it.
+    pub(crate) fn end_move(&mut self) {
+        self.moves.end(&self.scene);
+    }
+
+    /// Asks for a picture with these settings, which [`crate::Handler::picture`]
+    /// gets when the current call is over. For a picture of what is on the
+    /// screen, use [`Stage::settings`] with [`Stage::viewport`] for its size.
     pub fn request_picture(&mut self, settings: RenderSettings) {
         self.wishes.pictures.push(settings);
     }
@@ -349,7 +422,7 @@ impl Stage {
         self.quality_report = report;
     }
 
-    /// The progress of the current refinement.
+    /// What is being drawn.
     pub(crate) fn progress(&self) -> Option<Progress> {
         self.progress
     }

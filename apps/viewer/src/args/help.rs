@@ -40,7 +40,7 @@ const ESSENTIAL: [(&str, &[Row]); 7] = [
     (
         "Look",
         &[
-            ("preset", "draft, standard, high or reference: time against accuracy"),
+            ("preset", "From draft to reference: time against accuracy"),
             ("samples", "Samples along each side of a pixel, 1 to 4"),
             ("edges", ""),
             ("display", "base-color, normal, roughness, depth, matcap and others"),

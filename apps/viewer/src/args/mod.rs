@@ -35,7 +35,7 @@ pub(crate) use line::CommandLine;
 pub(crate) use output::{Destination, Subject, Template};
 pub(crate) use quality::Limit;
 pub(crate) use raw::{Command, HelpLength, RawArgs};
-pub(crate) use request::{Grouping, Mode, Reference, Request, STDIN, plain};
+pub(crate) use request::{Mode, Reference, Request, STDIN, plain};
 pub(crate) use script::{RANGES, Step, steps};
 #[cfg(feature = "window")]
 pub(crate) use window::InteractionStyle;

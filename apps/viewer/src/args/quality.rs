@@ -3,15 +3,16 @@
 
 use std::time::Duration;
 
-use trigon_scene::quality::{Preset, Quality, TimeBudget};
+use trigon_scene::quality::{Quality, TimeBudget};
 use trigon_scene::{ShadingModel, Shadows};
 
 use super::values;
+use crate::ladder::Step;
 
 /// Flags for the quality as a whole.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct QualityArgs {
-    /// Set samples, shading, shadows and rays together: draft, standard, high or reference
+    /// Set samples, shading, shadows and rays together: draft, standard, default, high or reference
     ///
     /// Other flags, such as --samples, override it. Shadows and ambient occlusion are drawn only on
     /// request; the preset chooses how.
@@ -21,7 +22,7 @@ pub(crate) struct QualityArgs {
         conflicts_with_all = ["time_budget", "replay"],
         help_heading = "Look"
     )]
-    pub(crate) preset: Option<Preset>,
+    pub(crate) preset: Option<Step>,
 
     /// Draw the image as accurately as this time allows, such as 16ms or 0.5s
     ///

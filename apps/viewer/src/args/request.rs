@@ -1,6 +1,7 @@
 //! The meaning of the command line as a whole, checked.
 
 mod checks;
+mod ignored;
 #[cfg(test)]
 mod tests;
 
@@ -8,7 +9,6 @@ use std::path::{Path, PathBuf};
 
 use clap::CommandFactory;
 use clap::error::ErrorKind;
-use regex::Regex;
 use trigon_camera::AxisView;
 use trigon_io::{Format, SceneChoice};
 use trigon_math::Vec3;
@@ -29,10 +29,10 @@ use crate::failure::Failure;
 use crate::folders;
 use crate::framing::{Eye, Framing};
 use crate::look::{Backfaces, Look, Textures};
-use crate::model::Source;
 use crate::moment::{Clip, Moment};
 use crate::report::Level;
 use crate::scenery::{Grid, Scenery, Sprites};
+use crate::source::{Grouping, Source};
 
 /// A checked request.
 #[derive(Clone, Debug)]
@@ -186,19 +186,6 @@ pub(crate) enum Mode {
     ListBindings,
 }
 
-/// How several models are shown.
-#[derive(Clone, Debug)]
-pub(crate) enum Grouping {
-    /// One after the other.
-    OneByOne,
-    /// In one scene.
-    Together,
-    /// All files of a folder in one scene.
-    ByFolder,
-    /// In one scene: files that differ only in the groups of this expression.
-    ByName(Regex),
-}
-
 /// The name that stands for standard input.
 pub(crate) const STDIN: &str = "-";
 
@@ -235,6 +222,8 @@ impl Request {
         let files = folders::expanded(&typed, raw.recursive_dir_add == Some(true))?;
         let grouping = grouping(&raw);
         let mode = mode(&raw);
+        let mut ignored = raw.gpu_only.warnings();
+        ignored.extend(ignored::warnings(&raw, &mode));
         check_stdin(&mode, &files)?;
         let pictures = Source::group(&files, &grouping).len();
         check_output(&mode, pictures)?;
@@ -275,7 +264,7 @@ impl Request {
             shows_frame_time: raw.scenery.fps == Some(true),
             notifies: raw.scenery.notifications != Some(false),
             level: raw.verbose,
-            ignored: raw.gpu_only.warnings(),
+            ignored,
             line: CommandLine::default(),
         })
     }

@@ -12,7 +12,8 @@ use trigon_window::Waker;
 use crate::args::Request;
 use crate::failure::Failure;
 use crate::loading;
-use crate::model::{Model, Source};
+use crate::model::Model;
+use crate::source::Source;
 
 /// What a load ends with.
 pub(super) type Outcome = Result<(Model, Vec<Warning>), Failure>;

@@ -11,7 +11,7 @@ use super::background::Loading;
 use crate::args::Request;
 use crate::compare;
 use crate::failure::Failure;
-use crate::model::Source;
+use crate::source::Source;
 
 /// The room of the file's name, in points.
 const BELOW_NAME: f32 = 42.0;

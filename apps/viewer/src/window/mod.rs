@@ -6,9 +6,12 @@ mod background;
 mod classic;
 mod commands;
 mod comparing;
+mod hint;
 mod measuring;
+mod notices;
 mod open;
 mod overlay_commands;
+mod path_text;
 mod playback;
 mod quality;
 mod recent;
@@ -24,14 +27,14 @@ use std::path::Path;
 
 use trigon_camera::Viewport;
 use trigon_scene::ShadingModel;
-use trigon_window::{Application, DragBinding, Interaction, Refinement, Stage, Visibility, WindowError};
+use trigon_window::{Application, Interaction, Refinement, Stage, Visibility, WindowError};
 
 use crate::args::Request;
 use crate::compare;
 use crate::failure::Failure;
-use crate::model::Source;
 use crate::report::Reporter;
 use crate::scripted;
+use crate::source::Source;
 use viewer::Viewer;
 
 /// Opens a window and returns the exit code when it is closed.
@@ -52,7 +55,7 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
         return failure.exit_code();
     }
     let sources = Source::all(request);
-    let mut application = Application::new(title(&sources[0]));
+    let mut application = Application::new(sources[0].window_title());
     set_stage(&mut application.stage, request);
     if let Err(failure) = interactions(&mut application, request, reporter) {
         reporter.error(&failure);
@@ -113,24 +116,15 @@ fn interactions(
     Ok(())
 }
 
-/// `--list-bindings`: the mouse, then the keys; those that do the same share a line.
+/// `--list-bindings`: the lines of the cheat sheet under their headings.
 pub(crate) fn bindings() -> Vec<String> {
-    let keymap = commands::keymap();
-    let line = |keys: String, does: &str| format!("{keys:48} {does}");
-    let drag =
-        |drag: &DragBinding| line(format!("{}{} drag", drag.modifiers, drag.button), &drag.description);
-    let mouse = keymap.drags().iter().map(drag).chain([line("Wheel".to_owned(), "zoom")]);
-    let runs = keymap.bindings().chunk_by(|one, next| one.description == next.description);
-    let keys = runs.map(|run| {
-        let chords: Vec<String> = run.iter().map(|binding| binding.chord.to_string()).collect();
-        line(chords.join(", "), &run[0].description)
+    let sheet = commands::keymap().sheet();
+    let sections = sheet.chunk_by(|one, next| one.section == next.section);
+    let lines = sections.flat_map(|rows| {
+        let rows_of = rows.iter().map(|row| format!("  {:46} {}", row.keys, row.description));
+        std::iter::once(rows[0].section.to_string()).chain(rows_of)
     });
-    mouse.chain(keys).collect()
-}
-
-/// What is written on the window.
-fn title(source: &Source) -> String {
-    format!("{} - trigon", source.title())
+    lines.collect()
 }
 
 /// Loading a large model only to find that it cannot be shown is no fun, so

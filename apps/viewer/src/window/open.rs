@@ -6,7 +6,11 @@ use std::thread;
 
 use trigon_window::egui;
 
+use super::path_text::{complete, path_of};
 use super::recent::Recent;
+
+/// So many names that Tab has found are listed.
+const MOST_NAMES: usize = 6;
 
 /// What asks a user for files.
 pub(super) trait FileDialog {
@@ -29,6 +33,10 @@ impl FileDialog for SystemDialog {
 pub(super) struct OpenWindow {
     shown: bool,
     path: String,
+    /// Whether it was not shown yet.
+    is_new: bool,
+    /// The names that Tab has found, where they are several.
+    names: Vec<String>,
     /// A dialog under way.
     dialog: Option<Receiver<Option<Vec<PathBuf>>>>,
     /// What the user should know.
@@ -36,10 +44,14 @@ pub(super) struct OpenWindow {
 }
 
 impl OpenWindow {
-    /// Shows or hides it.
+    /// Shows or hides it. Shown, its field has the keyboard.
     pub(super) fn toggle(&mut self) {
         self.shown = !self.shown;
-        self.note = "";
+        (self.is_new, self.note, self.names) = (true, "", Vec::new());
+    }
+
+    pub(super) fn is_shown(&self) -> bool {
+        self.shown
     }
 
     /// Asks for files by a dialog; `wake` is called when it is closed.
@@ -70,28 +82,34 @@ impl OpenWindow {
         ended.unwrap_or_default()
     }
 
-    /// Shows it, if it is to be seen. Returns the files to be opened.
+    /// Shows it, if it is to be seen, on what no panel covers. Returns the files to be opened.
     pub(super) fn show(
         &mut self,
-        context: &egui::Context,
+        ui: &egui::Ui,
         recent: &Recent,
         browse: impl FnOnce(&mut Self),
     ) -> Vec<PathBuf> {
+        let (context, free) = (ui.ctx(), ui.available_rect_before_wrap());
         let mut files = Vec::new();
         let (mut shown, mut wants_dialog) = (self.shown, false);
-        let window = egui::Window::new("Open").open(&mut shown).collapsible(false).default_width(420.0);
+        let width = (free.width() - 48.0).clamp(160.0, 520.0);
+        let window = egui::Window::new("Open").open(&mut shown).collapsible(false).resizable(false);
+        let window = window.constrain_to(free).max_width(width).fade_in(false);
         window.anchor(egui::Align2::CENTER_CENTER, [0.0; 2]).show(context, |ui| {
             ui.horizontal(|ui| {
-                let field = egui::TextEdit::singleline(&mut self.path).hint_text("path of a model");
-                let typed = ui.add(field.desired_width(260.0));
-                context.accesskit_node_builder(typed.id, |node| node.set_label("path of a model"));
-                let entered = typed.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+                let entered = self.field(ui, (width - 160.0).max(80.0));
                 let open = ui.add_enabled(!self.path.is_empty(), egui::Button::new("Open")).clicked();
-                if (open || entered) && !self.path.is_empty() {
-                    files.push(PathBuf::from(self.path.trim()));
+                if (open || entered) && !self.path.trim().is_empty() {
+                    files.push(path_of(&self.path, std::env::home_dir().as_deref()));
                 }
                 wants_dialog = ui.add_enabled(self.dialog.is_none(), egui::Button::new("Browse…")).clicked();
             });
+            for name in self.names.iter().take(MOST_NAMES) {
+                ui.weak(name);
+            }
+            if self.names.len() > MOST_NAMES {
+                ui.weak(format!("and {} more", self.names.len() - MOST_NAMES));
+            }
             if !self.note.is_empty() {
                 ui.label(self.note);
             }
@@ -99,18 +117,52 @@ impl OpenWindow {
                 ui.separator();
                 ui.label("opened before");
             }
-            for file in recent.files() {
-                if ui.button(file.display().to_string()).clicked() {
-                    files.push(file.clone());
+            let height = (free.height() - 220.0).max(60.0);
+            egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
+                for file in recent.files() {
+                    if ui.add(egui::Button::new(file.display().to_string()).truncate()).clicked() {
+                        files.push(file.clone());
+                    }
                 }
-            }
+            });
         });
-        self.shown = shown && files.is_empty();
+        let escaped = context.input(|input| input.key_pressed(egui::Key::Escape));
+        self.shown = self.shown && shown && files.is_empty() && !escaped;
         if wants_dialog {
             browse(self);
         }
         files
     }
+
+    /// The field of the path: Tab completes it. Returns whether Enter was pressed in it.
+    fn field(&mut self, ui: &mut egui::Ui, width: f32) -> bool {
+        let id = egui::Id::unique("path of a model");
+        let has_keyboard = ui.memory(|memory| memory.has_focus(id));
+        let tab = |input: &mut egui::InputState| input.consume_key(egui::Modifiers::NONE, egui::Key::Tab);
+        if has_keyboard && ui.input_mut(tab) {
+            let completion = complete(&self.path, std::env::home_dir().as_deref());
+            self.path = completion.text;
+            self.names = if completion.names.len() > 1 { completion.names } else { Vec::new() };
+            put_cursor_at_end(ui.ctx(), id, &self.path);
+        }
+        let field = egui::TextEdit::singleline(&mut self.path).hint_text("path of a model (Tab completes)");
+        let typed = ui.add(field.id(id).lock_focus(true).desired_width(width));
+        ui.ctx().accesskit_node_builder(typed.id, |node| node.set_label("path of a model"));
+        if std::mem::take(&mut self.is_new) {
+            typed.request_focus();
+        }
+        if typed.changed() {
+            self.names.clear();
+        }
+        typed.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter))
+    }
+}
+
+fn put_cursor_at_end(context: &egui::Context, id: egui::Id, text: &str) {
+    let Some(mut state) = egui::TextEdit::load_state(context, id) else { return };
+    let end = egui::text::CCursor::new(text.chars().count());
+    state.cursor.set_char_range(Some(egui::text::CCursorRange::one(end)));
+    state.store(context, id);
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use trigon_scene::Scene;
-use trigon_window::{Stage, egui};
+use trigon_window::{Stage, choose, egui};
 
 use crate::args::AnimationProgress;
 use crate::args::Request;
@@ -181,19 +181,13 @@ impl Playback {
         }
     }
 
-    /// Shows the bar, if it is to be seen.
-    pub(super) fn show(&mut self, ui: &egui::Ui, stage: &mut Stage) {
+    /// Shows the bar at the bottom, if it is to be seen.
+    pub(super) fn show(&mut self, ui: &mut egui::Ui, stage: &mut Stage) {
         if self.progress == AnimationProgress::None {
             return;
         }
-        let free = ui.available_rect_before_wrap();
-        let area = egui::Area::new(egui::Id::unique("animation"));
-        let area = area.anchor(egui::Align2::CENTER_BOTTOM, [0.0, -12.0]).fade_in(false);
-        area.constrain_to(free).show(ui.ctx(), |ui| {
-            egui::Frame::popup(ui.style()).show(ui, |ui| {
-                ui.spacing_mut().slider_width = (free.width() * 0.3).clamp(60.0, 400.0);
-                ui.horizontal(|ui| self.controls(ui, stage));
-            });
+        egui::Panel::bottom("animation").resizable(false).show(ui, |ui| {
+            ui.horizontal_wrapped(|ui| self.controls(ui, stage));
         });
     }
 
@@ -214,31 +208,28 @@ impl Playback {
 
     /// Clip, speed and loop.
     fn choices(&mut self, ui: &mut egui::Ui, stage: &mut Stage) {
-        let mut choice = self.choice;
-        let clips = egui::ComboBox::from_id_salt("clip").selected_text(self.label(choice));
-        clips.show_ui(ui, |ui| {
-            let all = (0..self.names.len()).map(Playing::One).chain([Playing::All, Playing::None]);
-            for option in all {
-                ui.selectable_value(&mut choice, option, self.label(option));
-            }
-        });
-        if choice != self.choice {
+        let clips = (0..self.names.len()).map(Playing::One).chain([Playing::All, Playing::None]);
+        let clips: Vec<_> = clips.map(|clip| (self.label(clip), clip)).collect();
+        let list = egui::ComboBox::from_id_salt("clip").selected_text(self.label(self.choice));
+        let (list, choice) = choose(ui, list, &clips, &self.choice);
+        label(&list, "clip");
+        if let Some(choice) = choice {
             self.choice = choice;
             self.rewind(stage);
         }
-        let backward = self.speed < 0.0;
-        let mut speed = self.speed.abs();
-        egui::ComboBox::from_id_salt("speed").selected_text(format!("{speed}×")).width(60.0).show_ui(
-            ui,
-            |ui| {
-                for option in SPEEDS {
-                    ui.selectable_value(&mut speed, option, format!("{option}×"));
-                }
-            },
-        );
-        self.speed = if backward { -speed } else { speed };
+        let (sign, speed) = (self.speed.signum(), self.speed.abs());
+        let speeds = SPEEDS.map(|speed| (format!("{speed}×"), speed));
+        let list = egui::ComboBox::from_id_salt("speed").selected_text(format!("{speed}×")).width(60.0);
+        let (list, chosen) = choose(ui, list, &speeds, &speed);
+        label(&list, "speed");
+        self.speed = chosen.map_or(self.speed, |speed| sign * speed);
         ui.checkbox(&mut self.loops, "Loop");
     }
+}
+
+/// For those who use a screen reader, and for tests.
+fn label(widget: &egui::Response, text: &str) {
+    widget.ctx.accesskit_node_builder(widget.id, |node| node.set_label(text));
 }
 
 #[cfg(test)]

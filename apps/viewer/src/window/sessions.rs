@@ -13,8 +13,8 @@ use trigon_window::{Chord, HeadlessWindow, Key, Modifiers, PointerButton, Stage}
 use super::set_stage;
 use super::viewer::Viewer;
 use crate::args::{CommandLine, Request};
-use crate::model::Source;
 use crate::report::{Level, Reporter};
+use crate::source::Source;
 
 /// The smallest window that is looked after.
 const SMALL: Viewport = Viewport { width: 800, height: 500 };

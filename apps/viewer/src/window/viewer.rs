@@ -9,7 +9,9 @@ use trigon_camera::{Orbit, OrbitStyle};
 use trigon_io::Warning;
 use trigon_math::DVec3;
 use trigon_scene::{Background, Frame, NodeId, RenderSettings, Scene};
-use trigon_window::{Animation, Corner, Handler, Hands, Input, Key, Modifiers, Stage, Taken, Tick, egui};
+use trigon_window::{
+    Animation, Corner, Handler, Hands, Input, Key, Modifiers, Stage, Taken, Tick, Visibility, egui,
+};
 
 use super::axes::AxesOverlay;
 use super::background::{Loading, Outcome};
@@ -17,20 +19,24 @@ use super::background::{Loading, Outcome};
 use super::classic::Classics;
 use super::commands::Command;
 use super::comparing::Comparing;
+use super::hint::Hint;
 use super::measuring::Measuring;
+use super::notices::{Answer, Notices};
 use super::open::{OpenWindow, SystemDialog};
 use super::overlay_commands::OverlayCommand;
 use super::playback::Playback;
 use super::quality::QualityPanel;
 use super::recent::Recent;
+use super::screenshot;
 use super::side::SidePanel;
 use super::watch::Watch;
-use super::{screenshot, title};
 use crate::args::{InteractionStyle, Request};
 use crate::failure::Failure;
-use crate::model::{Model, Source, Summary};
+use crate::folders;
+use crate::model::{Model, Summary};
 use crate::picture;
 use crate::report::Reporter;
+use crate::source::Source;
 
 /// What happens to the view when another model comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,6 +51,8 @@ enum View {
 struct Shown {
     /// Its scene is on the stage.
     source: Source,
+    /// Its place among the sources.
+    index: usize,
     /// Once somebody wants to see it: counting edges takes its time.
     summary: Option<Summary>,
     /// What is in the scene and not in the file.
@@ -92,6 +100,9 @@ pub(super) struct Viewer {
     playback: Option<Playback>,
     /// What went wrong last, until it is dismissed or put right.
     failure: Option<String>,
+    /// Whether it is asked if objects that were moved may go back.
+    asks_to_load_again: bool,
+    hint: Hint,
     /// If files are to be watched, and can be.
     watch: Option<Watch>,
 }
@@ -122,6 +133,8 @@ impl Viewer {
             recent: Recent::load(),
             playback: None,
             failure: None,
+            asks_to_load_again: false,
+            hint: Hint::default(),
             watch: None,
         }
     }
@@ -135,7 +148,16 @@ impl Viewer {
     fn load(&mut self, stage: &mut Stage, view: View) {
         let source = self.sources[self.current].clone();
         let loading = Loading::start(source, self.request.clone(), stage.waker());
+        self.asks_to_load_again = false;
         self.pending = Some(Pending { loading, view });
+    }
+
+    /// Loads the current source again, or asks first if that would put back what was moved.
+    fn load_again(&mut self, stage: &mut Stage) {
+        match stage.moved_objects() {
+            0 => self.load(stage, View::Keep),
+            _ => self.asks_to_load_again = true,
+        }
     }
 
     /// Goes to another source, around the ends.
@@ -159,22 +181,52 @@ impl Viewer {
         }
     }
 
-    /// Shows what went wrong, with what to do about it.
-    fn show_failure(&mut self, context: &egui::Context) {
-        let Some(text) = &self.failure else { return };
-        let mut closed = false;
-        let area = egui::Area::new(egui::Id::unique("failure")).anchor(egui::Align2::CENTER_CENTER, [0.0; 2]);
-        area.fade_in(false).show(context, |ui| {
-            egui::Frame::popup(ui.style()).inner_margin(12).show(ui, |ui| {
-                ui.set_max_width((context.content_rect().width() - 80.0).clamp(120.0, 480.0));
-                ui.strong(format!("{} is not shown", self.sources[self.current].title()));
-                ui.label(text.replace("; ", ".\n"));
-                closed = ui.button("Close (Escape)").clicked();
-            });
-        });
-        if closed {
-            self.failure = None;
+    /// Shows what stands in the middle of the view, unless a panel is there, and does what is answered.
+    fn show_notices(&mut self, stage: &mut Stage, ui: &egui::Ui) {
+        if self.open.is_shown() || stage.cheat_sheet == Visibility::Shown {
+            return;
         }
+        let name = self.sources[self.current].title();
+        let percent = self.pending.as_ref().map(|pending| pending.loading.percent());
+        let notices = Notices {
+            loading: percent.map(|percent| (name.as_str(), percent)),
+            failure: self.failure.as_deref().map(|failure| (name.as_str(), failure)),
+            moved: self.asks_to_load_again.then(|| stage.moved_objects()),
+            is_empty: self.shown.is_none() && self.pending.is_none(),
+        };
+        if let Some(answer) = notices.show(ui.ctx(), ui.available_rect_before_wrap()) {
+            self.answer(stage, answer);
+            ui.ctx().request_repaint();
+        }
+    }
+
+    fn answer(&mut self, stage: &mut Stage, answer: Answer) {
+        match answer {
+            Answer::CancelLoading => self.cancel_loading(stage),
+            Answer::CloseFailure => self.failure = None,
+            Answer::LoadAgain => self.load(stage, View::Keep),
+            Answer::KeepMoved => self.asks_to_load_again = false,
+            Answer::Open => self.open.toggle(),
+        }
+    }
+
+    /// Closes what lies on top, if Escape closes anything of the viewer's.
+    fn close_panel(&mut self, stage: &mut Stage) -> Taken {
+        if stage.cheat_sheet == Visibility::Shown {
+            return Taken::No;
+        }
+        if self.open.is_shown() {
+            self.open.toggle();
+        } else if self.asks_to_load_again {
+            self.asks_to_load_again = false;
+        } else if self.failure.is_some() {
+            self.failure = None;
+        } else if self.quality.is_shown() {
+            self.quality.toggle(stage);
+        } else {
+            return Taken::No;
+        }
+        Taken::Yes
     }
 
     fn show(&mut self, stage: &mut Stage, model: Model, view: View) -> Result<(), Failure> {
@@ -182,7 +234,7 @@ impl Viewer {
             stage.orbit = self.home(stage, &model)?;
             stage.set_home(stage.orbit);
         }
-        stage.set_title(title(&model.source));
+        stage.set_title(model.source.window_title());
         stage.selection = None;
         self.side.forget();
         self.measuring.forget();
@@ -197,14 +249,16 @@ impl Viewer {
         self.failure = None;
         let scenery = self.request.scenery.add_to(&mut scene);
         stage.scene = scene.into();
-        if self.sources.len() > 1 && !self.show_name {
-            stage.overlay.notify(self.name());
-        }
+        stage.forget_moves();
+        stage.beside.clone_from(&scenery);
         self.follow(stage, &model.files);
         if let Some(file) = model.source.first_file() {
             self.recent.add(file);
         }
-        self.shown = Some(Shown { source: model.source, summary: None, scenery });
+        self.shown = Some(Shown { source: model.source, index: self.current, summary: None, scenery });
+        if self.sources.len() > 1 && !self.show_name {
+            stage.overlay.notify(self.name());
+        }
         Ok(())
     }
 
@@ -229,7 +283,14 @@ impl Viewer {
         if files.is_empty() {
             return;
         }
+        let files = match folders::expanded(&files, false) {
+            Ok(files) => files,
+            Err(reason) => return self.tell_unshown(&Failure::work(reason)),
+        };
         let place = self.current + 1;
+        if let Some(shown) = self.shown.as_mut().filter(|shown| shown.index >= place) {
+            shown.index += files.len();
+        }
         self.sources.splice(place..place, files.into_iter().map(|file| Source::Files(vec![file])));
         self.current = place;
         self.load(stage, View::Fit);
@@ -296,12 +357,13 @@ impl Viewer {
         }
     }
 
-    /// "(2/5) chair.glb"
+    /// "(2/5) chair.glb": of the model that is shown, whatever is being loaded.
     fn name(&self) -> String {
-        let title = self.sources[self.current].title();
+        let index = self.shown.as_ref().map_or(self.current, |shown| shown.index);
+        let title = self.sources[index].title();
         match self.sources.len() {
             1 => title,
-            count => format!("({}/{count}) {title}", self.current + 1),
+            count => format!("({}/{count}) {title}", index + 1),
         }
     }
 
@@ -315,24 +377,6 @@ impl Viewer {
             shown.summary.insert(summary).lines()
         });
         stage.overlay.set(Corner::TopLeft, lines.unwrap_or_default());
-    }
-
-    /// How far a load is, with a way to end it. Returns whether that was wanted.
-    fn show_progress(&self, context: &egui::Context) -> bool {
-        let Some(pending) = &self.pending else { return false };
-        let mut cancelled = false;
-        let area = egui::Area::new(egui::Id::unique("loading")).anchor(egui::Align2::CENTER_CENTER, [0.0; 2]);
-        area.fade_in(false).show(context, |ui| {
-            egui::Frame::popup(ui.style()).show(ui, |ui| {
-                ui.set_width(280.0);
-                ui.label(format!("loading {}", self.sources[self.current].title()));
-                let percent = pending.loading.percent();
-                let bar = egui::ProgressBar::new(percent as f32 / 100.0).text(format!("{percent} %"));
-                ui.add(bar);
-                cancelled = ui.button("Cancel (Ctrl+.)").clicked();
-            });
-        });
-        cancelled
     }
 
     /// Another up axis, and the view that goes with it.
@@ -384,8 +428,11 @@ impl Viewer {
             Command::NextFile => self.step(stage, 1, View::Fit),
             Command::PreviousFileSameView => self.step(stage, -1, View::Keep),
             Command::NextFileSameView => self.step(stage, 1, View::Keep),
-            Command::Reload => self.load(stage, View::Keep),
-            Command::Open => self.open.toggle(),
+            Command::Reload => self.load_again(stage),
+            Command::Open => {
+                stage.cheat_sheet = Visibility::Hidden;
+                self.open.toggle();
+            }
             Command::PlayOrPause => self.play(stage, |playback, stage| {
                 playback.toggle(stage);
                 None
@@ -413,7 +460,10 @@ impl Viewer {
 
 impl Handler for Viewer {
     fn start(&mut self, stage: &mut Stage) {
-        stage.overlay.notify("H shows the keys");
+        self.hint.start(stage);
+        for ignored in &self.request.ignored {
+            stage.overlay.notify(format!("warning: {ignored}"));
+        }
         self.load(stage, View::Fit);
         if let Some(comparing) = &mut self.comparing {
             comparing.load(stage, &self.request);
@@ -427,11 +477,16 @@ impl Handler for Viewer {
     }
 
     fn input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
-        if self.failure.is_some() && is_escape(input) {
-            self.failure = None;
-            return Taken::Yes;
-        }
-        if self.measuring.input(stage, input, hands) == Taken::Yes {
+        self.hint.input(stage, input);
+        let taken = match input {
+            Input::Key { logical: Some(Key::Escape), .. } => self.close_panel(stage),
+            Input::Key { logical: Some(Key::Enter), .. } if self.asks_to_load_again => {
+                self.load(stage, View::Keep);
+                Taken::Yes
+            }
+            _ => Taken::No,
+        };
+        if taken == Taken::Yes || self.measuring.input(stage, input, hands) == Taken::Yes {
             return Taken::Yes;
         }
         self.side.input(stage, input, hands)
@@ -448,12 +503,7 @@ impl Handler for Viewer {
     }
 
     fn dropped(&mut self, stage: &mut Stage, paths: Vec<PathBuf>, _: Modifiers) {
-        let (files, others): (Vec<PathBuf>, Vec<PathBuf>) =
-            paths.into_iter().partition(|path| path.is_file());
-        if let Some(other) = others.first() {
-            stage.overlay.notify(format!("{} is not a file; drop model files", other.display()));
-        }
-        self.add(stage, files);
+        self.add(stage, paths);
         self.write_overlay(stage);
     }
 
@@ -467,19 +517,19 @@ impl Handler for Viewer {
         if self.request.overlay.shows_axes {
             self.axes.show(ui, stage, self.request.overlay.axes);
         }
-        if self.show_progress(ui.ctx()) {
-            self.cancel_loading(stage);
-        }
         #[cfg(feature = "study")]
-        self.quality.show(ui.ctx(), stage, |ui, stage| self.classics.show(ui, stage));
+        self.quality.show(ui, stage, |ui, stage| self.classics.show(ui, stage));
         #[cfg(not(feature = "study"))]
-        self.quality.show(ui.ctx(), stage, |_, _| {});
+        self.quality.show(ui, stage, |_, _| {});
         if let Some(playback) = &mut self.playback {
             playback.show(ui, stage);
         }
-        self.show_failure(ui.ctx());
+        if self.open.is_shown() && stage.cheat_sheet == Visibility::Shown {
+            self.open.toggle();
+        }
+        self.show_notices(stage, ui);
         let waker = stage.waker();
-        let files = self.open.show(ui.ctx(), &self.recent, |open| {
+        let files = self.open.show(ui, &self.recent, |open| {
             open.browse(SystemDialog, move || waker.wake());
         });
         self.add(stage, files);
@@ -507,7 +557,7 @@ impl Handler for Viewer {
             self.tell_failure(stage, &failure);
         }
         if self.watch.as_ref().is_some_and(Watch::take_changed) {
-            self.load(stage, View::Keep);
+            self.load_again(stage);
         }
         let outcome = self.pending.as_ref().and_then(|pending| pending.loading.outcome());
         if let Some(outcome) = outcome {
@@ -518,10 +568,8 @@ impl Handler for Viewer {
     }
 }
 
-/// Whether Escape was pressed.
-fn is_escape(input: &Input) -> bool {
-    matches!(input, Input::Key { logical: Some(Key::Escape), .. })
-}
+#[cfg(test)]
+mod replays;
 
 #[cfg(test)]
 mod tests {

@@ -2,6 +2,9 @@
 //! events of the window system, in their order.
 
 use egui::{Event, MouseWheelSource, MouseWheelUnit, TouchPhase};
+use std::path::PathBuf;
+
+use trigon_camera::Viewport;
 use trigon_math::DVec2;
 
 use super::HeadlessWindow;
@@ -50,6 +53,25 @@ impl HeadlessWindow<'_> {
     /// Releases a button at the pointer's position.
     pub fn release(&mut self, button: PointerButton) {
         self.button(button, Press::Up);
+    }
+
+    /// Drags files over the window.
+    pub fn hover(&mut self, files: &[PathBuf]) {
+        files.iter().for_each(|file| self.event(InputEvent::FileHovered(file.clone())));
+        self.rest();
+    }
+
+    /// Drops files onto the window, all at once.
+    pub fn drop_files(&mut self, files: &[PathBuf]) {
+        files.iter().for_each(|file| self.event(InputEvent::FileDropped(file.clone())));
+        self.rest();
+    }
+
+    /// Gives the window another size in physical pixels, and so many of them for a logical one.
+    pub fn resize(&mut self, size: Viewport, scale: f64) {
+        self.event(InputEvent::Scaled(scale));
+        self.event(InputEvent::Resized { width: size.width, height: size.height });
+        self.rest();
     }
 
     /// Turns the wheel by lines away from the user.

@@ -161,6 +161,20 @@ impl<'a> HeadlessWindow<'a> {
         found
     }
 
+    /// Where the floating parts of the interface lie, in physical pixels, each with its left upper and its right
+    /// lower corner: windows, menus and texts. Those of the same order must not cover each other.
+    #[must_use]
+    pub fn layers(&mut self) -> Vec<(egui::LayerId, [DVec2; 2])> {
+        let context = self.session.interface().context().clone();
+        let points = f64::from(context.pixels_per_point());
+        let corner = |at: egui::Pos2| DVec2::new(f64::from(at.x), f64::from(at.y)) * points;
+        context.memory(|memory| {
+            let shown = memory.areas().visible_layer_ids().into_iter();
+            let shown = shown.filter_map(|layer| Some((layer, memory.area_rect(layer.id)?)));
+            shown.map(|(layer, rect)| (layer, [corner(rect.min), corner(rect.max)])).collect()
+        })
+    }
+
     /// Whether the interface receives presses at the pointer's position.
     #[must_use]
     pub fn is_on_interface(&mut self) -> bool {

@@ -52,6 +52,10 @@ pub(crate) enum InputEvent {
     KeyUp(KeyCode),
     Modifiers(Modifiers),
     FocusLost,
+    /// A file is dragged over the window and not dropped yet.
+    FileHovered(PathBuf),
+    /// What was dragged over the window has left it.
+    HoverEnded,
     FileDropped(PathBuf),
     /// Something as the interface takes it; what is for the camera, too, comes beside it.
     Interface(egui::Event),

@@ -40,6 +40,8 @@ pub enum Key {
     Up,
     /// Cursor down.
     Down,
+    /// The key between the right Alt and Ctrl that opens a menu.
+    Menu,
     /// F1 to F24.
     Function(u8),
     /// What a key of the number pad types: a digit, or one of `.+-*/`. The key at this place of the main
@@ -172,7 +174,7 @@ fn split_modifier(text: &str) -> Option<(Modifiers, &str)> {
 
 /// The key of this name.
 fn key_named(text: &str) -> Option<Key> {
-    const NAMED: [Key; 14] = [
+    const NAMED: [Key; 15] = [
         Key::Enter,
         Key::Escape,
         Key::Tab,
@@ -187,6 +189,7 @@ fn key_named(text: &str) -> Option<Key> {
         Key::Right,
         Key::Up,
         Key::Down,
+        Key::Menu,
     ];
     let text = text.trim();
     let only = |text: &str| {

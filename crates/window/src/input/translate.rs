@@ -27,6 +27,8 @@ pub(crate) fn translate(event: &WindowEvent, scale: f64) -> Option<InputEvent> {
         }
         WindowEvent::ModifiersChanged(modifiers) => InputEvent::Modifiers(modifier_set(modifiers.state())),
         WindowEvent::Focused(false) => InputEvent::FocusLost,
+        WindowEvent::HoveredFile(path) => InputEvent::FileHovered(path.clone()),
+        WindowEvent::HoveredFileCancelled => InputEvent::HoverEnded,
         WindowEvent::DroppedFile(path) => InputEvent::FileDropped(path.clone()),
         WindowEvent::Resized(size) => InputEvent::Resized { width: size.width, height: size.height },
         WindowEvent::ScaleFactorChanged { scale_factor, .. } => InputEvent::Scaled(*scale_factor),
@@ -161,6 +163,7 @@ fn named_key(key: NamedKey) -> Option<Key> {
         NamedKey::ArrowRight => Key::Right,
         NamedKey::ArrowUp => Key::Up,
         NamedKey::ArrowDown => Key::Down,
+        NamedKey::ContextMenu => Key::Menu,
         function => return function_key(function),
     })
 }

@@ -15,24 +15,55 @@ pub(super) const BACKDROP: Color32 = Color32::from_rgba_premultiplied(10, 11, 14
 /// From the edges, in points.
 pub(super) const GAP: f32 = 8.0;
 
-/// Writes all corners of the area that no panel covers.
-pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: Duration) {
+/// Writes all corners of the area that no panel covers; returns the area between the upper and the lower ones.
+pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: Duration) -> egui::Rect {
     let messages = stage.overlay.messages(now);
-    for corner in Corner::ALL {
+    let all = Corner::ALL.map(|corner| {
         let mut lines = stage.overlay.lines(corner).to_vec();
         match corner {
             Corner::TopRight => lines.extend(times(stage)),
-            Corner::BottomRight => lines.extend(stage.progress().map(refining)),
+            Corner::BottomRight => lines.extend(stage.progress().map(progress)),
             Corner::BottomLeft => drop(lines.splice(..0, messages.iter().cloned())),
             _ => {}
         }
-        if !lines.is_empty() {
-            write(context, free, corner, &lines);
+        (corner, lines)
+    });
+    let mut left = free;
+    for (corner, lines) in all.iter().filter(|(_, lines)| !lines.is_empty()) {
+        let is_beside = |other: Corner| other != *corner && is_lower(other) == is_lower(*corner);
+        let is_alone = !all.iter().any(|(other, lines)| is_beside(*other) && !lines.is_empty());
+        let width = (free.width() - 4.0 * GAP) * if is_alone { 1.0 } else { share(*corner) };
+        let written = write(context, (free, width), *corner, lines);
+        if is_lower(*corner) {
+            left.max.y = left.max.y.min(written.min.y);
+        } else {
+            left.min.y = left.min.y.max(written.max.y);
         }
+    }
+    left
+}
+
+fn is_lower(corner: Corner) -> bool {
+    matches!(corner, Corner::BottomLeft | Corner::BottomRight)
+}
+
+/// The most of the width that a corner takes beside others. They leave a gap between them.
+fn share(corner: Corner) -> f32 {
+    match corner {
+        Corner::TopLeft => 0.46,
+        Corner::Top | Corner::TopRight => 0.25,
+        Corner::BottomLeft => 0.66,
+        Corner::BottomRight => 0.32,
     }
 }
 
-fn write(context: &Context, free: egui::Rect, corner: Corner, lines: &[String]) {
+/// Writes one of them, no wider than that. Returns where.
+fn write(
+    context: &Context,
+    (free, width): (egui::Rect, f32),
+    corner: Corner,
+    lines: &[String],
+) -> egui::Rect {
     let (anchor, offset) = match corner {
         Corner::TopLeft => (Align2::LEFT_TOP, vec2(GAP, GAP)),
         Corner::Top => (Align2::CENTER_TOP, vec2(0.0, GAP)),
@@ -42,8 +73,8 @@ fn write(context: &Context, free: egui::Rect, corner: Corner, lines: &[String]) 
     };
     let area = Area::new(Id::unique(("corner", corner as usize))).order(Order::Background);
     let area = area.anchor(anchor, offset).constrain_to(free).interactable(false).fade_in(false);
-    area.show(context, |ui| {
-        ui.set_max_width((free.width() - 4.0 * GAP).max(1.0));
+    let shown = area.show(context, |ui| {
+        ui.set_max_width(width.max(1.0));
         let frame = Frame::new().fill(BACKDROP).inner_margin(6).corner_radius(4);
         frame.show(ui, |ui| {
             ui.with_layout(Layout::top_down(Align::Min), |ui| {
@@ -53,11 +84,20 @@ fn write(context: &Context, free: egui::Rect, corner: Corner, lines: &[String]) 
             });
         });
     });
+    shown.response.rect
 }
 
-/// "refining 3/4"
-fn refining(Progress { step, of }: Progress) -> String {
-    format!("refining {step}/{of}")
+/// "refining 3/4, 2 left, 7 s"
+fn progress(progress: Progress) -> String {
+    match progress {
+        Progress::Drawing { seconds } => format!("drawing, {seconds} s"),
+        Progress::Picture { seconds } => format!("drawing a picture to save, {seconds} s"),
+        Progress::Refining { step, of, seconds } => {
+            let left = (of + 1).saturating_sub(step);
+            let time = if seconds > 0 { format!(", {seconds} s") } else { String::new() };
+            format!("refining {step}/{of}, {left} left{time}")
+        }
+    }
 }
 
 /// What the last frame took, as far as that is to be shown.
@@ -99,6 +139,14 @@ fn frame_time(report: FrameReport) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn progress_says_what_is_left_and_how_long_it_takes() {
+        let refining = |seconds| progress(Progress::Refining { step: 3, of: 4, seconds });
+        assert_eq!(refining(0), "refining 3/4, 2 left", "at first");
+        assert_eq!(refining(7), "refining 3/4, 2 left, 7 s", "when it takes long");
+        assert_eq!(progress(Progress::Drawing { seconds: 2 }), "drawing, 2 s", "the first picture");
+    }
 
     #[test]
     fn frame_time_reads_as_both_units() {

@@ -17,13 +17,14 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &Stage) {
     let difference = stage.quality_report().and_then(|report| report.difference);
     let area = Area::new(Id::unique("legend")).order(Order::Background).interactable(false).fade_in(false);
     area.anchor(Align2::CENTER_BOTTOM, vec2(0.0, -GAP)).constrain_to(free).show(context, |ui| {
+        ui.set_max_width((free.width() - 4.0 * GAP).max(1.0));
         Frame::new().fill(BACKDROP).inner_margin(6).corner_radius(4).show(ui, |ui| match difference {
             None => {
                 ui.label(RichText::new("drawing the reference for comparison").color(INK));
             }
             Some(difference) => {
                 ui.label(RichText::new(figures(&difference)).color(INK));
-                ui.horizontal(swatches);
+                ui.horizontal_wrapped(swatches);
             }
         });
     });

@@ -2,7 +2,9 @@
 //! turns it into pixels. It knows no window system: events and times go in, triangles come out.
 
 mod corners;
+mod drop_target;
 mod legend;
+mod menu;
 mod outline;
 mod sheet;
 
@@ -136,9 +138,11 @@ impl Interface {
             if let (Some(camera), Some(bounds)) = (shown_by, stage.selection_bounds()) {
                 outline::show(ui, camera, moment.viewport, &bounds);
             }
-            corners::show(ui.ctx(), free, stage, moment.now);
-            legend::show(ui.ctx(), free, stage);
-            chosen = sheet::show(ui.ctx(), stage);
+            let left = corners::show(ui.ctx(), free, stage, moment.now);
+            legend::show(ui.ctx(), left, stage);
+            chosen = sheet::show(ui.ctx(), free, stage);
+            chosen = menu::show(ui.ctx(), stage).or(chosen.take());
+            drop_target::show(ui.ctx(), stage);
         });
         self.in_pass.store(false, Ordering::Relaxed);
         self.free = free;

@@ -1,35 +1,55 @@
-//! The list of keys and commands: typing filters it, and clicking a line runs it.
+//! The list of keys and commands: typing filters it, and clicking a line runs it. It has as many columns as fit.
 
-use egui::{Align2, Context, Grid, RichText, ScrollArea, TextEdit, Window, vec2};
+use std::borrow::Cow;
+
+use egui::{Align2, Context, Grid, Rect, RichText, ScrollArea, TextEdit, Window, vec2};
 
 use crate::keymap::{Binding, SheetRow, sheet};
 use crate::stage::{Stage, Visibility};
 
-/// Shows the list if it is visible. Returns the selected command.
-pub(super) fn show(context: &Context, stage: &mut Stage) -> Option<Binding> {
+/// A column is at least so wide, in points; its longest lines are wrapped.
+const COLUMN: f32 = 360.0;
+
+/// And no wider than this.
+const WIDEST: f32 = 440.0;
+
+/// What the window takes beside the columns: its frame, title and search, in points.
+const BESIDE: egui::Vec2 = vec2(48.0, 104.0);
+
+/// Shows the list if it is visible, in the area that no panel covers. Returns the selected command.
+pub(super) fn show(context: &Context, free: Rect, stage: &mut Stage) -> Option<Binding> {
     if stage.cheat_sheet == Visibility::Hidden {
         return None;
     }
     let mut open = true;
     let mut chosen = None;
     let window = Window::new("Keys and commands").open(&mut open).collapsible(false).fade_in(false);
-    let window = window.anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0)).resizable(false);
-    let height = (context.content_rect().height() - 120.0).max(40.0);
-    window.show(context, |ui| {
+    let window = window.anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0));
+    let size = (free.size() - BESIDE).max(vec2(200.0, 40.0));
+    window.resizable(false).constrain_to(free).show(context, |ui| {
+        ui.set_max_width(size.x);
         let search = TextEdit::singleline(&mut stage.command_search).hint_text("search");
         let search = ui.add(search.desired_width(f32::INFINITY));
         context.accesskit_node_builder(search.id, |node| node.set_label("search keys and commands"));
-        ScrollArea::vertical().max_height(height).show(ui, |ui| {
-            let rows = sheet(&stage.keymap);
-            let wanted = stage.command_search.to_lowercase();
-            let rows: Vec<&SheetRow> = rows.iter().filter(|row| row.contains(&wanted)).collect();
-            if rows.is_empty() {
-                ui.label("no key or command has this name");
-            }
-            Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).striped(true).show(ui, |ui| {
-                for row in rows {
-                    chosen = chosen.take().or(line(ui, row));
-                    ui.end_row();
+        let rows: Vec<SheetRow> =
+            sheet(&stage.keymap).into_iter().filter(|row| row.matches(&stage.command_search)).collect();
+        if rows.is_empty() {
+            ui.label("no key and no command of that name");
+        }
+        ScrollArea::vertical().max_height(size.y).show(ui, |ui| {
+            let count = ((size.x / COLUMN) as u16).clamp(1, 3);
+            let width = (size.x / f32::from(count) - 16.0).min(WIDEST);
+            let cell = (width - 16.0) / 2.0;
+            ui.horizontal_top(|ui| {
+                for (number, column) in columns(&rows, count.into()).into_iter().enumerate() {
+                    ui.push_id(number, |ui| {
+                        ui.vertical(|ui| {
+                            ui.set_width(width);
+                            for section in column {
+                                chosen = chosen.take().or(show_section(ui, section, cell));
+                            }
+                        });
+                    });
                 }
             });
         });
@@ -40,6 +60,47 @@ pub(super) fn show(context: &Context, stage: &mut Stage) -> Option<Binding> {
     chosen
 }
 
+/// A heading and its rows, of two cells that are no wider than that.
+fn show_section(ui: &mut egui::Ui, rows: &[SheetRow], cell: f32) -> Option<Binding> {
+    let (section, mut chosen) = (rows.first().map_or(Cow::Borrowed(""), |row| row.section.clone()), None);
+    ui.strong(section.as_ref());
+    Grid::new(section.as_ref()).num_columns(2).spacing([12.0, 2.0]).max_col_width(cell).striped(true).show(
+        ui,
+        |ui| {
+            for row in rows {
+                chosen = chosen.take().or(line(ui, row));
+                ui.end_row();
+            }
+        },
+    );
+    ui.add_space(6.0);
+    chosen
+}
+
+/// The sections in so many columns, in their order, none much longer than the others.
+fn columns(rows: &[SheetRow], count: usize) -> Vec<Vec<&[SheetRow]>> {
+    /// A heading takes as much as so many rows.
+    const HEADING: usize = 2;
+    let sections: Vec<&[SheetRow]> = rows.chunk_by(|one, next| one.section == next.section).collect();
+    let tall = |most: usize| {
+        let mut columns: Vec<Vec<&[SheetRow]>> = vec![Vec::new()];
+        let mut height = 0;
+        for section in &sections {
+            let more = section.len() + HEADING;
+            if height + more > most && height > 0 {
+                columns.push(Vec::new());
+                height = 0;
+            }
+            height += more;
+            columns.last_mut().expect("there is one").push(section);
+        }
+        columns
+    };
+    let all = rows.len() + HEADING * sections.len();
+    // The lowest columns that are few enough.
+    (1..=all.max(1)).map(tall).find(|columns| columns.len() <= count).unwrap_or_default()
+}
+
 /// A row of the list; keys with a single action can be clicked.
 fn line(ui: &mut egui::Ui, row: &SheetRow) -> Option<Binding> {
     ui.label(RichText::new(&row.keys).monospace().strong());
@@ -48,6 +109,26 @@ fn line(ui: &mut egui::Ui, row: &SheetRow) -> Option<Binding> {
         None => {
             ui.label(&row.description);
             None
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::keymap::Keymap;
+
+    #[test]
+    fn columns_hold_every_row_once_and_are_about_as_long() {
+        let rows = sheet(&Keymap::default());
+        for count in 1..=3 {
+            let columns = columns(&rows, count);
+            assert!(columns.len() <= count, "{count} at most");
+            let shown: Vec<&SheetRow> = columns.iter().flatten().copied().flatten().collect();
+            assert_eq!(shown, rows.iter().collect::<Vec<_>>(), "{count} columns: all, in their order");
+            let longest = columns.iter().map(|column| column.iter().map(|rows| rows.len()).sum::<usize>());
+            let longest = longest.max().expect("a column");
+            assert!(longest * count <= rows.len() * 2, "{count} columns: the longest has {longest} rows");
         }
     }
 }

@@ -7,7 +7,7 @@ use trigon_math::DVec3;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Action {
-    /// Shows a named side of the scene.
+    /// Shows a named side of the scene, and all of it.
     View(AxisView),
     /// Moves the eye up about the target, by radians.
     Elevate(f64),
@@ -27,6 +27,14 @@ pub enum Action {
     CycleSamples,
     /// Shows or hides the list of keys.
     ToggleCheatSheet,
+    /// Opens the menu at the pointer.
+    OpenMenu,
+    /// Puts the object that was moved or turned last back.
+    UndoMove,
+    /// Moves or turns it again.
+    RedoMove,
+    /// Fills the screen with the window, or gives it its size back.
+    ToggleFullScreen,
     /// Makes text and widgets larger, by this factor.
     ScaleText(f32),
     /// Gives the keyboard to the first widget of the interface; Escape gives it back.
@@ -39,7 +47,7 @@ pub enum Action {
     SelectPrevious,
     /// Turns the camera's target to the middle of the selected object.
     LookAtSelected,
-    /// Hides the list of keys, or else selects nothing.
+    /// Hides the list of keys, or else selects nothing, or else leaves the full screen.
     Dismiss,
     /// Closes the window.
     Quit,
@@ -100,6 +108,8 @@ pub enum DragAction {
 /// What a click does: a press and a release at one place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ClickAction {
+    /// Opens the menu there.
+    OpenMenu,
     /// Selects the object under the pointer, or nothing.
     Select,
     /// Makes the point under the pointer the camera's target.

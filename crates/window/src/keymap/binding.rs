@@ -6,6 +6,9 @@ use super::action::{Action, ClickAction, DragAction};
 use super::defaults;
 use crate::input::{Chord, Modifiers, PointerButton};
 
+/// The heading of keys that have none of their own.
+const OTHER_SECTION: &str = "More";
+
 /// A key and what it does.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Binding {
@@ -17,6 +20,8 @@ pub struct Binding {
     pub action: Action,
     /// What the cheat sheet says. Neighbours with the same text share a line.
     pub description: Cow<'static, str>,
+    /// The heading of the cheat sheet that it stands under.
+    pub section: Cow<'static, str>,
 }
 
 /// A drag and what it does.
@@ -45,6 +50,20 @@ pub struct ClickBinding {
     pub description: Cow<'static, str>,
 }
 
+/// An entry of the menu.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MenuEntry {
+    /// Does what the binding of a name does.
+    Command {
+        /// The binding's name.
+        name: &'static str,
+        /// What the menu calls it.
+        label: &'static str,
+    },
+    /// A line between others.
+    Line,
+}
+
 /// All bindings of a window. The default ones follow F3D; those for objects
 /// are on Alt, where F3D has none.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,11 +71,17 @@ pub struct Keymap {
     bindings: Vec<Binding>,
     drags: Vec<DragBinding>,
     clicks: Vec<ClickBinding>,
+    menu: Vec<MenuEntry>,
 }
 
 impl Default for Keymap {
     fn default() -> Self {
-        Self { bindings: defaults::bindings(), drags: defaults::drags(), clicks: defaults::clicks() }
+        Self {
+            bindings: defaults::bindings(),
+            drags: defaults::drags(),
+            clicks: defaults::clicks(),
+            menu: defaults::menu(),
+        }
     }
 }
 
@@ -64,7 +89,7 @@ impl Keymap {
     /// No binding at all.
     #[must_use]
     pub fn empty() -> Self {
-        Self { bindings: Vec::new(), drags: Vec::new(), clicks: Vec::new() }
+        Self { bindings: Vec::new(), drags: Vec::new(), clicks: Vec::new(), menu: Vec::new() }
     }
 
     /// Binds a key; whatever was on it is unbound.
@@ -75,9 +100,31 @@ impl Keymap {
         action: Action,
         description: impl Into<Cow<'static, str>>,
     ) {
-        let chord = chord.into();
-        self.unbind(chord);
-        self.bindings.push(Binding { name: name.into(), chord, action, description: description.into() });
+        let (name, chord, description) = (name.into(), chord.into(), description.into());
+        self.add(Binding { name, chord, action, description, section: OTHER_SECTION.into() });
+    }
+
+    /// Binds a key as [`bind`](Self::bind) does, under a heading of its own choice. Headings stand in
+    /// the order in which they first come up.
+    pub fn add(&mut self, binding: Binding) {
+        self.unbind(binding.chord);
+        let section = |other: &Binding| other.section == binding.section;
+        let place = self.bindings.iter().rposition(section).map_or(self.bindings.len(), |last| last + 1);
+        self.bindings.insert(place, binding);
+    }
+
+    /// What the menu offers.
+    pub fn set_menu(&mut self, entries: impl Into<Vec<MenuEntry>>) {
+        self.menu = entries.into();
+    }
+
+    /// The entries of the menu with what they do; those that nothing is bound to are left out.
+    pub fn menu(&self) -> impl Iterator<Item = (&MenuEntry, Option<&Binding>)> {
+        let named = |name: &str| self.bindings.iter().find(|binding| binding.name == name);
+        self.menu.iter().filter_map(move |entry| match entry {
+            MenuEntry::Line => Some((entry, None)),
+            MenuEntry::Command { name, .. } => named(name).map(|binding| (entry, Some(binding))),
+        })
     }
 
     /// Frees a key.

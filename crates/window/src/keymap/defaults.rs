@@ -2,13 +2,14 @@
 //! those of F3D (`interactor_impl.cxx`); what is ours alone is on keys that F3D
 //! leaves free.
 
+use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
 
 use trigon_camera::AxisView;
 use trigon_math::DVec3;
 
 use super::action::{Action, CameraMotion, ClickAction, DragAction, Motion, ObjectMotion};
-use super::binding::{Binding, ClickBinding, DragBinding};
+use super::binding::{Binding, ClickBinding, DragBinding, MenuEntry};
 use crate::input::{Chord, Key, Modifiers, PointerButton};
 
 /// Radians per second: a turn in four seconds.
@@ -26,20 +27,54 @@ const ARROWS: [(Key, f64, f64); 4] =
     [(Key::Left, -1.0, 0.0), (Key::Right, 1.0, 0.0), (Key::Up, 0.0, 1.0), (Key::Down, 0.0, -1.0)];
 
 pub(super) fn bindings() -> Vec<Binding> {
-    let mut all = views();
-    all.extend(display());
-    all.extend(camera());
-    all.extend(objects());
-    all.extend([
+    let ctrl = |c| Chord::new(Modifiers::CTRL, Key::Character(c));
+    let window = vec![
+        bind(Key::Menu, "menu", Action::OpenMenu, "menu"),
+        bind(Chord::new(Modifiers::SHIFT, Key::Function(10)), "menu", Action::OpenMenu, "menu"),
+        bind(Key::Function(11), "full_screen", Action::ToggleFullScreen, "full screen"),
+        bind(ctrl('='), "text.larger", Action::ScaleText(TEXT_STEP), "larger, smaller text"),
+        bind(ctrl('-'), "text.smaller", Action::ScaleText(1.0 / TEXT_STEP), "larger, smaller text"),
+        bind(Key::Function(6), "interface", Action::EnterInterface, "into the interface (Escape: out of it)"),
         bind('h', "cheat_sheet", Action::ToggleCheatSheet, "this list"),
-        bind(Key::Escape, "dismiss", Action::Dismiss, "hide this list, deselect"),
-        bind(Chord::new(Modifiers::CTRL, Key::Character('q')), "quit", Action::Quit, "quit"),
-    ]);
-    all
+        bind(Key::Escape, "dismiss", Action::Dismiss, "close panels, select nothing"),
+        bind(ctrl('q'), "quit", Action::Quit, "quit"),
+    ];
+    let sections = [
+        ("View", views()),
+        ("Display", display()),
+        ("Camera", camera()),
+        ("Objects", objects()),
+        ("Window", window),
+    ];
+    let all = sections.into_iter().flat_map(|(section, bindings)| {
+        bindings.into_iter().map(move |binding| Binding { section: section.into(), ..binding })
+    });
+    all.collect()
+}
+
+/// What is used most, in the order of the menu.
+pub(super) fn menu() -> Vec<MenuEntry> {
+    let command = |name, label| MenuEntry::Command { name, label };
+    vec![
+        command("reset_view", "Reset the view"),
+        command("view.front", "Front view"),
+        command("view.right", "Right view"),
+        command("view.top", "Top view"),
+        command("view.isometric", "Isometric view"),
+        command("orthographic", "Perspective / orthographic"),
+        MenuEntry::Line,
+        command("edges", "Edges"),
+        command("wireframe", "Surface / wireframe / hidden lines"),
+        MenuEntry::Line,
+        command("full_screen", "Full screen"),
+        command("cheat_sheet", "Keys and commands"),
+        command("quit", "Quit"),
+    ]
 }
 
 fn bind(chord: impl Into<Chord>, name: &'static str, action: Action, description: &'static str) -> Binding {
-    Binding { name: name.into(), chord: chord.into(), action, description: description.into() }
+    let (chord, section) = (chord.into(), Cow::Borrowed(""));
+    Binding { name: name.into(), chord, action, description: description.into(), section }
 }
 
 fn views() -> Vec<Binding> {
@@ -66,18 +101,13 @@ fn views() -> Vec<Binding> {
     all
 }
 
-fn display() -> [Binding; 8] {
-    let ctrl = |c| Chord::new(Modifiers::CTRL, Key::Character(c));
+fn display() -> Vec<Binding> {
     let wireframe = Chord::new(Modifiers::SHIFT, Key::Character('e'));
-    [
+    vec![
         bind('e', "edges", Action::ToggleEdges, "edges on surfaces"),
         bind(wireframe, "wireframe", Action::CycleWireframe, "surface / wireframe / hidden lines"),
         bind('a', "samples", Action::CycleSamples, "samples per pixel"),
         bind('z', "frame_time", Action::ToggleFrameTime, "frame time"),
-        bind(ctrl('='), "text.larger", Action::ScaleText(TEXT_STEP), "larger, smaller text"),
-        bind(ctrl('-'), "text.smaller", Action::ScaleText(1.0 / TEXT_STEP), "larger, smaller text"),
-        bind(Key::Function(6), "interface", Action::EnterInterface, "focus the interface (Escape: leave it)"),
-        bind('k', "orbit_style", Action::ToggleOrbitStyle, "turntable / trackball"),
     ]
 }
 
@@ -99,11 +129,14 @@ fn camera() -> Vec<Binding> {
         let roll = Action::Hold(Motion::Camera(CameraMotion::Roll(sign * TURN)));
         all.push(bind(Chord::new(Modifiers::CTRL, key), "roll", roll, "roll"));
     }
+    all.push(bind('k', "orbit_style", Action::ToggleOrbitStyle, "turntable / trackball"));
     all
 }
 
 fn objects() -> Vec<Binding> {
     let shifted = Modifiers::ALT | Modifiers::SHIFT;
+    let ctrl = Chord::new(Modifiers::CTRL, Key::Character('z'));
+    let ctrl_shift = Chord::new(Modifiers::CTRL | Modifiers::SHIFT, Key::Character('z'));
     let mut all = vec![
         bind(Key::Tab, "select.next", Action::SelectNext, "select the next, previous object"),
         bind(
@@ -113,6 +146,14 @@ fn objects() -> Vec<Binding> {
             "select the next, previous object",
         ),
         bind('.', "look_at_selected", Action::LookAtSelected, "look at the selected object"),
+        bind(ctrl, "undo", Action::UndoMove, "undo, redo moving objects"),
+        bind(ctrl_shift, "redo", Action::RedoMove, "undo, redo moving objects"),
+        bind(
+            Chord::new(Modifiers::CTRL, Key::Character('y')),
+            "redo",
+            Action::RedoMove,
+            "undo, redo moving objects",
+        ),
     ];
     let mut object = |modifiers, key, name, description, motion| {
         all.push(bind(Chord::new(modifiers, key), name, Action::Hold(Motion::Object(motion)), description));
@@ -163,6 +204,7 @@ pub(super) fn clicks() -> Vec<ClickBinding> {
     };
     vec![
         click(PointerButton::Left, Modifiers::NONE, ClickAction::Select, "select the object"),
+        click(PointerButton::Right, Modifiers::NONE, ClickAction::OpenMenu, "menu"),
         click(PointerButton::Middle, Modifiers::NONE, ClickAction::LookAt, "look at this point"),
         click(
             PointerButton::Middle,
@@ -196,7 +238,8 @@ mod tests {
         for binding in objects() {
             let key = binding.chord.key;
             let free = binding.chord.modifiers.contains(Modifiers::ALT)
-                || [Key::Tab, Key::Character('.')].contains(&key);
+                || [Key::Tab, Key::Character('.')].contains(&key)
+                || ["undo", "redo"].contains(&binding.name.as_ref());
             assert!(free, "{} may mean something to F3D's users", binding.chord);
         }
     }

@@ -5,7 +5,10 @@ mod action;
 mod binding;
 mod defaults;
 mod sheet;
+mod synonyms;
 
 pub use action::{Action, CameraMotion, ClickAction, DragAction, Motion, ObjectMotion};
-pub use binding::{Binding, ClickBinding, DragBinding, Keymap};
-pub(crate) use sheet::{SheetRow, sheet};
+pub use binding::{Binding, ClickBinding, DragBinding, Keymap, MenuEntry};
+pub use sheet::SheetRow;
+pub(crate) use sheet::sheet;
+pub use synonyms::matches_search;

@@ -1,28 +1,46 @@
 //! The cheat sheet's lines, from the tables themselves: what is not bound is
 //! not listed, and what is bound cannot be forgotten.
 
+use std::borrow::Cow;
+
 use super::action::Action;
 use super::binding::{Binding, Keymap};
+use super::synonyms::matches_search;
 use crate::input::Modifiers;
 
 /// A line of the cheat sheet.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct SheetRow {
-    pub(crate) keys: String,
-    pub(crate) description: String,
+pub struct SheetRow {
+    /// The heading that it stands under.
+    pub section: Cow<'static, str>,
+    /// What is pressed, dragged or turned.
+    pub keys: String,
+    /// What that does.
+    pub description: String,
     /// What it does, if it is one thing, done at once.
-    pub(crate) binding: Option<Binding>,
+    pub binding: Option<Binding>,
 }
 
 impl SheetRow {
-    /// Whether a search for this text, in lower case, finds it.
-    pub(crate) fn contains(&self, text: &str) -> bool {
+    /// Whether a search finds it: by its keys, its words, its name, or words that mean the same.
+    #[must_use]
+    pub fn matches(&self, search: &str) -> bool {
         let name = self.binding.as_ref().map_or("", |binding| binding.name.as_ref());
-        [self.keys.as_str(), self.description.as_str(), name]
-            .iter()
-            .any(|part| part.to_lowercase().contains(text))
+        let text = format!("{} {} {} {name}", self.section, self.keys, self.description);
+        matches_search(&text.to_lowercase(), &search.to_lowercase())
     }
 }
+
+impl Keymap {
+    /// The lines of the cheat sheet: the mouse first, then the keys under their headings.
+    #[must_use]
+    pub fn sheet(&self) -> Vec<SheetRow> {
+        sheet(self)
+    }
+}
+
+/// The heading of what the mouse does.
+const MOUSE: Cow<'static, str> = Cow::Borrowed("Mouse");
 
 /// What the wheel does, which is not in the tables.
 const WHEEL: [(&str, &str); 2] = [("Wheel", "zoom"), ("Ctrl+Wheel", "zoom to the pointer")];
@@ -31,40 +49,47 @@ const WHEEL: [(&str, &str); 2] = [("Wheel", "zoom"), ("Ctrl+Wheel", "zoom to the
 /// same description together.
 pub(crate) fn sheet(keymap: &Keymap) -> Vec<SheetRow> {
     let mut rows: Vec<SheetRow> = Vec::new();
+    let row = |keys, description: &str| SheetRow {
+        section: MOUSE,
+        keys,
+        description: description.into(),
+        binding: None,
+    };
     for drag in keymap.drags() {
         let keys = format!("{}{} drag", drag.modifiers, drag.button);
-        add(&mut rows, keys, &drag.description);
+        add_from(&mut rows, 0, row(keys, &drag.description));
     }
     for (keys, description) in WHEEL {
-        rows.push(SheetRow { keys: keys.into(), description: description.into(), binding: None });
+        rows.push(row(keys.into(), description));
     }
     for click in keymap.clicks() {
         let keys = format!("{}{} click", click.modifiers, click.button);
-        rows.push(SheetRow { keys, description: click.description.to_string(), binding: None });
+        rows.push(row(keys, &click.description));
     }
     let mouse = rows.len();
     let mut rest = keymap.bindings();
     while let Some(first) = rest.first() {
-        let run = rest.iter().take_while(|next| next.description == first.description).count();
-        add_from(&mut rows, mouse, keys_of(&rest[..run]), &first.description);
-        let one = run == 1 && !matches!(first.action, Action::Hold(_));
-        if let Some(row) = rows.last_mut().filter(|row| one && row.description == first.description) {
-            row.binding = Some(first.clone());
-        }
+        let run = rest
+            .iter()
+            .take_while(|next| (&next.description, &next.section) == (&first.description, &first.section))
+            .count();
+        let Binding { section, description, action, .. } = first;
+        let one =
+            rest[..run].iter().all(|other| other.name == first.name) && !matches!(action, Action::Hold(_));
+        let binding = one.then(|| first.clone());
+        let (keys, description) = (keys_of(&rest[..run]), description.to_string());
+        add_from(&mut rows, mouse, SheetRow { section: section.clone(), keys, description, binding });
         rest = &rest[run..];
     }
     rows
 }
 
-fn add(rows: &mut Vec<SheetRow>, keys: String, description: &str) {
-    add_from(rows, 0, keys, description);
-}
-
-/// Adds to the row with this description from `start` on, or a new row.
-fn add_from(rows: &mut Vec<SheetRow>, start: usize, keys: String, description: &str) {
-    match rows[start..].iter_mut().find(|row| row.description == description) {
-        Some(row) => row.keys = format!("{}, {keys}", row.keys),
-        None => rows.push(SheetRow { keys, description: description.into(), binding: None }),
+/// Adds to the row with the same description from `start` on, or a new row.
+fn add_from(rows: &mut Vec<SheetRow>, start: usize, new: SheetRow) {
+    let is_same = |row: &&mut SheetRow| row.description == new.description && row.section == new.section;
+    match rows[start..].iter_mut().find(is_same) {
+        Some(row) => row.keys = format!("{}, {}", row.keys, new.keys),
+        None => rows.push(new),
     }
 }
 

@@ -232,14 +232,18 @@ fn what_cannot_be_drawn_is_not_tried_again_and_again() {
 fn at_rest_all_that_is_wanted_follows_and_then_nothing() {
     let mut pacing = rested(ms(50));
     pacing.want(vec![0, 2, 5]);
-    assert_eq!(pacing.progress(), Some(Progress { step: 2, of: 3 }), "the first one is there");
+    assert_eq!(
+        pacing.progress(ms(0)),
+        Some(Progress::Refining { step: 2, of: 3, seconds: 0 }),
+        "the first one is there"
+    );
     let steps =
         |begun: Vec<(Duration, Quality)>| begun.into_iter().map(|(_, quality)| quality).collect::<Vec<_>>();
     let begun = steps(run(&mut pacing, ms(100), ms(99_000), Frames::None));
     assert_eq!(begun, [Quality::Full(2), Quality::Full(5)], "those that were not wanted before");
-    assert_eq!(pacing.progress(), None, "done");
+    assert_eq!(pacing.progress(ms(0)), None, "done");
     pacing.changed(Change::Moving, ms(100_000));
-    assert_eq!(pacing.progress(), None, "nothing is refined while it moves");
+    assert_eq!(pacing.progress(ms(0)), None, "nothing is refined while it moves");
     let begun = steps(run(&mut pacing, ms(100_000), ms(200_000), Frames::None));
     assert_eq!(begun, [DRAFT, FULL, Quality::Full(2), Quality::Full(5)], "and again from the start");
     pacing.want(vec![0]);
@@ -264,5 +268,39 @@ fn refining_gives_way_and_goes_on_where_it_was() {
         [],
         "what cannot be drawn is not tried again"
     );
-    assert_eq!(pacing.progress(), None, "and not waited for");
+    assert_eq!(pacing.progress(ms(0)), None, "and not waited for");
+}
+
+#[test]
+fn a_picture_that_takes_long_is_told_of_every_second() {
+    let mut pacing = rested(ms(50));
+    pacing.changed(Change::Settled, ms(1000));
+    assert_eq!(begin(&mut pacing, ms(1000), Frames::None), Some(FULL), "expected soon");
+    pacing.lose_patience(ms(1100));
+    // Refining goes on for as long as it takes.
+    pacing.finished(ms(0));
+    pacing.want(vec![0, 1, 2]);
+    assert_eq!(begin(&mut pacing, ms(2000), Frames::None), Some(Quality::Full(1)), "a better one");
+    let refining = |seconds| Some(Progress::Refining { step: 2, of: 3, seconds });
+    assert_eq!(pacing.progress(ms(2500)), refining(0), "not long yet");
+    for second in 1..4 {
+        let due = ms(2000 + 1000 * second);
+        assert_eq!(pacing.next(due - ms(1), Frames::None, None), Wake::At(due), "a second later");
+        assert_eq!(pacing.next(due, Frames::None, None), Wake::Now, "there is something to tell");
+        assert_eq!(pacing.progress(due), refining(second), "what it took so far");
+        assert_eq!(begin(&mut pacing, due, Frames::None), None, "it goes on");
+    }
+    pacing.finished(ms(3000));
+    assert_eq!(
+        pacing.progress(ms(5000)),
+        Some(Progress::Refining { step: 3, of: 3, seconds: 0 }),
+        "the next"
+    );
+    pacing.want(vec![0]);
+    pacing.occupy(Some(ms(5000)));
+    assert_eq!(pacing.progress(ms(5999)), None, "a picture to be saved");
+    assert_eq!(pacing.progress(ms(6000)), Some(Progress::Picture { seconds: 1 }), "takes long");
+    pacing.occupy(None);
+    begin(&mut pacing, ms(6000), Frames::None);
+    assert_eq!(pacing.next(ms(7000), Frames::None, None), Wake::Never, "and then nothing is told");
 }

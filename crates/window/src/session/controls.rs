@@ -14,7 +14,7 @@ use crate::input::{
     Chord, Gesture, Input, InputEvent, InputOwner, KeyCode, KeyPress, Modifiers, PointerButton, Press, STEP,
     Taken,
 };
-use crate::keymap::{Action, Binding, ClickAction, DragAction};
+use crate::keymap::{Action, Binding, ClickAction, DragAction, Motion};
 use crate::motion;
 use crate::pacing::Change;
 
@@ -62,6 +62,7 @@ impl Session<'_> {
     fn focus_lost(&mut self, now: Duration) {
         self.move_held(now);
         self.held.clear();
+        self.stage.end_move();
         self.pointer.cancel();
         self.modifiers = Modifiers::NONE;
         self.taken.clear();
@@ -130,6 +131,7 @@ impl Session<'_> {
         }
         let Some(action) = self.stage.keymap.find_click(button, modifiers) else { return };
         match action {
+            ClickAction::OpenMenu => self.stage.open_menu(Some(at)),
             ClickAction::Select => {
                 self.stage.selection = self.stage.pick(at).map(|(hit, _)| hit.node);
                 commands::announce_selection(&mut self.stage);
@@ -197,6 +199,9 @@ impl Session<'_> {
         match binding.action {
             Action::Hold(motion) => {
                 self.move_held(now);
+                if matches!(motion, Motion::Object(_)) {
+                    self.stage.begin_move();
+                }
                 let steps = self.held.press(key.code, motion, now);
                 (0..steps).for_each(|_| motion::hold(&mut self.stage, motion, STEP.as_secs_f64()));
                 self.pacing.changed(Change::Moving, now);
@@ -230,6 +235,9 @@ impl Session<'_> {
         }
         self.move_held(now);
         self.held.release(code);
+        if !self.held.motions().any(|motion| matches!(motion, Motion::Object(_))) {
+            self.stage.end_move();
+        }
         self.pacing.changed(Change::Moving, now);
     }
 

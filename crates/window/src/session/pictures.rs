@@ -21,7 +21,7 @@ impl Session<'_> {
     /// Takes over what the worker has finished.
     pub(crate) fn collect(&mut self, now: Duration) {
         let Some(finished) = self.worker.collect() else { return };
-        self.pacing.occupy(false);
+        self.pacing.occupy(None);
         match finished.purpose {
             Purpose::Window(quality) => self.window_finished(quality, finished),
             Purpose::Picture => self.picture_finished(finished, now),
@@ -72,7 +72,7 @@ impl Session<'_> {
         self.pacing.allow(self.stage.frame_budget.max(SHORTEST_BUDGET));
         let is_current = self.pictured.as_ref() == Some(&self.stage.subject());
         let report = self.gallery.report().filter(|_| is_current);
-        let progress = self.pacing.progress();
+        let progress = self.pacing.progress(now);
         if (report, progress) != (self.stage.quality_report(), self.stage.progress()) {
             self.stage.set_quality_report(report);
             self.stage.set_progress(progress);
@@ -114,7 +114,7 @@ impl Session<'_> {
             return;
         }
         let settings = self.pictures.remove(0);
-        self.pacing.occupy(true);
+        self.pacing.occupy(Some(now));
         let task = self.drawing(Purpose::Picture, settings);
         self.begin(Purpose::Picture, task);
         self.collect(now);

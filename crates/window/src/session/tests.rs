@@ -1,6 +1,7 @@
 //! A window's life without a window.
 
 mod beside;
+mod first_contact;
 mod offers;
 mod ownership;
 mod picks;
@@ -314,8 +315,14 @@ fn keys_change_the_view_and_the_sheet() {
     assert!(session.canvas().pixels() == plain, "and gone without a trace");
 
     session.event(key_down(3, Key::Character('7')), ms(6000));
-    let mut top = session.stage.orbit;
-    top.set_view(AxisView::Top);
+    let points: Vec<_> = session.stage.scene.visible_points().collect();
+    let fitted = |view| {
+        let mut orbit = session.stage.orbit;
+        orbit.set_view(view);
+        orbit.fit_points(&points, session.stage.viewport().aspect(), trigon_camera::DEFAULT_MARGIN);
+        orbit
+    };
+    let [top, front] = [AxisView::Top, AxisView::Front].map(fitted);
     assert_eq!(session.stage.orbit, top, "7 is the top view");
     let code = KeyPress {
         code: KeyCode(4),
@@ -324,8 +331,7 @@ fn keys_change_the_view_and_the_sheet() {
         repeat: false,
     };
     session.event(InputEvent::KeyDown(code), ms(6100));
-    top.set_view(AxisView::Front);
-    assert_eq!(session.stage.orbit, top, "digits work where the layout hides them behind Shift");
+    assert_eq!(session.stage.orbit, front, "digits work where the layout hides them behind Shift");
     session.event(key_down(5, Key::Enter), ms(6200));
     session.event(InputEvent::CloseRequested, ms(6300));
     assert!(session.is_over(), "the close button closes");

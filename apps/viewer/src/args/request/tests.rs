@@ -136,7 +136,7 @@ fn a_preset_says_what_no_other_flag_says() {
     let rays = quality("--preset=draft -q --ambient-occlusion-rays=5 --anti-aliasing=msaa");
     assert_eq!((rays.occlusion_rays, rays.samples), (5, 4), "rays and samples win");
     assert_eq!(quality("--shadows").shadows, Shadows::Maps { resolution: 2048 }, "without a preset");
-    assert!(refusal("--preset=best").contains("draft, standard, high or reference"), "explained");
+    assert!(refusal("--preset=best").contains("draft, standard, default, high or reference"), "explained");
 }
 
 #[test]

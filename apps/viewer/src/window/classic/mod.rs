@@ -9,7 +9,7 @@ use trigon_camera::Camera;
 use trigon_scene::{Cancel, Frame, RenderSettings, Scene};
 use trigon_study::Field;
 use trigon_study::visibility::Visibility;
-use trigon_window::{Drawer, Stage, egui};
+use trigon_window::{Drawer, Stage, choose, egui};
 
 use projected::Projected;
 
@@ -49,15 +49,14 @@ impl Classics {
             let label = ui.label("drawn by");
             let name = |way: Option<Visibility>| way.map_or("the renderer", Visibility::name);
             let current = self.chosen.as_ref().map(|classic| classic.way);
+            let ways = std::iter::once(None).chain(WAYS.map(Some));
+            let ways: Vec<_> = ways.map(|way| (name(way).to_owned(), way)).collect();
             let list = egui::ComboBox::from_id_salt("drawn by").selected_text(name(current));
-            let list = list.show_ui(ui, |ui| {
-                for way in std::iter::once(None).chain(WAYS.map(Some)) {
-                    if ui.selectable_label(way == current, name(way)).clicked() {
-                        self.choose(way, stage);
-                    }
-                }
-            });
-            list.response.labelled_by(label.id);
+            let (list, chosen) = choose(ui, list, &ways, &current);
+            list.labelled_by(label.id);
+            if let Some(way) = chosen {
+                self.choose(way, stage);
+            }
         });
         if let Some(classic) = &self.chosen {
             ui.set_max_width(420.0);

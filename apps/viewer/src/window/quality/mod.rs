@@ -6,12 +6,15 @@ mod settings;
 
 use std::time::Duration;
 
-use trigon_scene::RenderSettings;
-use trigon_scene::quality::{Preset, Quality};
-use trigon_window::{Comparison, Difference, QualityReport, Refinement, Stage, egui};
+use trigon_window::{Comparison, Difference, QualityReport, Refinement, Stage, choose, egui};
 
 use costs::Costs;
 use settings::Setting;
+
+use crate::ladder::Step;
+
+/// In points: half of a small window stays for the picture.
+const WIDTH: f32 = 392.0;
 
 /// Budgets that can be chosen, in milliseconds: 200 to 2 frames a second.
 const BUDGETS: std::ops::RangeInclusive<f64> = 5.0..=500.0;
@@ -37,6 +40,10 @@ impl QualityPanel {
         };
     }
 
+    pub(in crate::window) fn is_shown(&self) -> bool {
+        self.shown
+    }
+
     fn set_shown(&mut self, shown: bool, stage: &mut Stage) {
         self.shown = shown;
         if stage.comparison != Comparison::Shown {
@@ -49,10 +56,10 @@ impl QualityPanel {
         if self.shown { Comparison::Measured } else { Comparison::Off }
     }
 
-    /// Shows it, if it is to be seen. `beside` adds to it.
+    /// Shows it at the left, if it is to be seen. `beside` adds to it.
     pub(super) fn show(
         &mut self,
-        context: &egui::Context,
+        ui: &mut egui::Ui,
         stage: &mut Stage,
         beside: impl FnOnce(&mut egui::Ui, &mut Stage),
     ) {
@@ -62,36 +69,48 @@ impl QualityPanel {
         if let Some(report) = stage.quality_report() {
             self.costs.measured(&stage.settings, report.settings);
         }
-        let mut shown = true;
-        let window = egui::Window::new("Accuracy").open(&mut shown).collapsible(false).resizable(false);
-        window.default_pos([12.0, 12.0]).fade_in(false).show(context, |ui| {
-            self.presets(ui, stage);
-            ui.separator();
-            egui::Grid::new("accuracy").num_columns(3).spacing([12.0, 4.0]).show(ui, |ui| {
-                for setting in Setting::ALL {
-                    self.row(ui, stage, setting);
-                    ui.end_row();
-                }
+        // An open list is closed first.
+        let is_alone = !egui::Popup::is_any_open(ui.ctx());
+        let mut shown = !(is_alone && ui.input(|input| input.key_pressed(egui::Key::Escape)));
+        let panel = egui::Panel::left("accuracy").resizable(false).exact_size(WIDTH);
+        panel.show(ui, |ui| {
+            ui.horizontal(|ui| {
+                ui.heading("Accuracy");
+                shown &= !ui.button("Close (Escape)").clicked();
             });
-            ui.separator();
-            figures(ui, stage);
-            ui.separator();
-            at_rest(ui, stage);
-            budget(ui, stage);
-            beside(ui, stage);
+            egui::ScrollArea::vertical().show(ui, |ui| {
+                self.contents(ui, stage);
+                beside(ui, stage);
+            });
         });
         if !shown {
             self.set_shown(false, stage);
+            ui.ctx().request_repaint();
         }
     }
 
-    /// Whole choices with a name.
-    fn presets(&mut self, ui: &mut egui::Ui, stage: &mut Stage) {
-        ui.horizontal(|ui| {
-            for preset in Preset::ALL {
-                let chosen = Quality::of(&stage.settings) == preset.quality().within(&stage.settings);
-                if ui.selectable_label(chosen, preset.name()).clicked() {
-                    preset.apply(&mut stage.settings);
+    fn contents(&mut self, ui: &mut egui::Ui, stage: &mut Stage) {
+        self.steps(ui, stage);
+        ui.separator();
+        egui::Grid::new("accuracy").num_columns(3).spacing([8.0, 4.0]).show(ui, |ui| {
+            for setting in Setting::ALL {
+                self.row(ui, stage, setting);
+                ui.end_row();
+            }
+        });
+        ui.separator();
+        figures(ui, stage);
+        ui.separator();
+        at_rest(ui, stage);
+        budget(ui, stage);
+    }
+
+    /// Whole choices with a name, from the quickest on; the current one is lit.
+    fn steps(&mut self, ui: &mut egui::Ui, stage: &mut Stage) {
+        ui.horizontal_wrapped(|ui| {
+            for step in Step::ALL {
+                if ui.selectable_label(step.is_current(&stage.settings), step.name()).clicked() {
+                    step.quality().apply(&mut stage.settings);
                     stage.refinement = Refinement::Settings;
                     self.costs.changed_all();
                 }
@@ -106,16 +125,9 @@ impl QualityPanel {
         let current = choices.iter().find(|(_, choice)| *choice == stage.settings);
         let text = current.map_or("another value", |(name, _)| name.as_str());
         let list = egui::ComboBox::from_id_salt(setting.name()).width(190.0).selected_text(text);
-        let mut chosen: Option<RenderSettings> = None;
-        let list = list.show_ui(ui, |ui| {
-            for (name, choice) in &choices {
-                if ui.selectable_label(*choice == stage.settings, name).clicked() {
-                    chosen = Some(choice.clone());
-                }
-            }
-        });
-        list.response.labelled_by(label.id);
-        if let Some(choice) = chosen.filter(|choice| *choice != stage.settings) {
+        let (list, chosen) = choose(ui, list, &choices, &stage.settings);
+        list.labelled_by(label.id);
+        if let Some(choice) = chosen {
             stage.settings = choice;
             // Whoever changes a setting wants to see what that does.
             stage.refinement = Refinement::Settings;
@@ -187,7 +199,7 @@ mod tests {
             screen_rect: Some(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(900.0, 700.0))),
             ..egui::RawInput::default()
         };
-        let mut output = context.run_ui(input, |ui| panel.show(ui.ctx(), stage, |_, _| {}));
+        let mut output = context.run_ui(input, |ui| panel.show(ui, stage, |_, _| {}));
         output.textures_delta.clear();
         let texts = output.shapes.iter().filter_map(|clipped| match &clipped.shape {
             egui::Shape::Text(text) => Some(text.galley.text().to_owned()),
@@ -205,7 +217,7 @@ mod tests {
         assert_eq!(stage.comparison, Comparison::Measured, "figures are to be read");
         pass(&context, &mut panel, &mut stage);
         let text = pass(&context, &mut panel, &mut stage);
-        let names = Setting::ALL.map(Setting::name).into_iter().chain(Preset::ALL.map(Preset::name));
+        let names = Setting::ALL.map(Setting::name).into_iter().chain(Step::ALL.map(Step::name));
         for name in names.chain(["9", "from the material", "per image\n33\n ms"]) {
             assert!(text.contains(name), "{name} is not in\n{text}");
         }

@@ -9,7 +9,7 @@ use super::{View, Viewer};
 use crate::args::{CommandLine, DECIDED, ExactCamera, Request, Subject, of_settings, plain};
 use crate::failure::Failure;
 use crate::loading;
-use crate::model::Source;
+use crate::source::Source;
 use crate::state::State;
 use crate::window::side::Content;
 

@@ -47,7 +47,7 @@ fn at_rest_the_picture_becomes_the_reference_and_then_nothing_runs() {
         let shown = session.shown.clone().expect("a picture");
         if seen.last() != Some(&shown) {
             seen.push(shown);
-            notes.push(session.stage.progress().map(|progress| (progress.step, progress.of)));
+            notes.push(session.stage.progress());
         }
     }
     // The draft, which is in full size here, is what the settings give.
@@ -56,7 +56,8 @@ fn at_rest_the_picture_becomes_the_reference_and_then_nothing_runs() {
     for (shown, preset) in seen.iter().zip(expected) {
         assert!(**shown == file(&session.stage, preset), "the bytes of a picture file, {preset:?}");
     }
-    assert_eq!(notes[1..], [Some((3, 4)), Some((4, 4)), None], "what is still to come");
+    let refining = |step| Some(Progress::Refining { step, of: 4, seconds: 0 });
+    assert_eq!(notes[1..], [refining(3), refining(4), None], "what is still to come");
     assert_eq!(session.next(now + Duration::from_secs(3600)), Wake::Never, "silence");
 }
 
@@ -118,7 +119,7 @@ fn refining_keeps_nobody_waiting() {
     // The fourth and last step is the reference.
     let (worker, rung) = gate.worker(|purpose| purpose == Purpose::Window(Quality::Full(3)));
     let mut session = session_of(coarse_stage(Refinement::Reference), &mut handler, worker);
-    let last = Some(Progress { step: 4, of: 4 });
+    let last = Some(Progress::Refining { step: 4, of: 4, seconds: 0 });
     let is_at_reference = |session: &Session<'_>| {
         session.worker.is_busy() && session.pacing.is_refining() && session.stage.progress() == last
     };

@@ -1,0 +1,47 @@
+//! The menu at the pointer: the bindings that the keymap names for it.
+
+use egui::{Context, Ui, pos2};
+
+use crate::keymap::{Binding, Keymap, MenuEntry};
+use crate::popup::{PopupEnd, popup_entry, popup_menu};
+use crate::stage::Stage;
+
+/// Shows it if it is open. Returns what was chosen.
+pub(super) fn show(context: &Context, stage: &mut Stage) -> Option<Binding> {
+    let menu = stage.menu.as_mut()?;
+    let points = context.pixels_per_point();
+    let asked = menu.asked.map(|at| pos2(at.x as f32 / points, at.y as f32 / points));
+    let mut at = menu.at.or(asked);
+    // At its own place it is as new as at the pointer, to the click that opened it.
+    let is_new = menu.at.is_none();
+    let end = popup_menu(context, "menu", &mut at, |ui| entries(ui, &stage.keymap));
+    menu.at = at;
+    match end {
+        PopupEnd::Closed if !is_new => {
+            stage.menu = None;
+            // It is gone from the next frame on.
+            context.request_repaint();
+        }
+        PopupEnd::Open | PopupEnd::Closed => {}
+        PopupEnd::Chosen(binding) => {
+            stage.menu = None;
+            context.request_repaint();
+            return Some(binding);
+        }
+    }
+    None
+}
+
+fn entries(ui: &mut Ui, keymap: &Keymap) -> Option<Binding> {
+    let mut chosen = None;
+    for entry in keymap.menu() {
+        let (MenuEntry::Command { label, .. }, Some(binding)) = entry else {
+            ui.separator();
+            continue;
+        };
+        if popup_entry(ui, label, &binding.chord.to_string(), true).clicked() {
+            chosen = Some(binding.clone());
+        }
+    }
+    chosen
+}
