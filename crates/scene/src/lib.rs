@@ -32,6 +32,7 @@ mod animation;
 mod arena;
 mod background;
 mod check;
+mod effect;
 mod effects;
 mod elements;
 mod frame;
@@ -55,9 +56,10 @@ pub use animation::{Animation, Channel, Curve, Interpolation, NodePose, Pose, Pr
 pub use arena::{Arena, Id};
 pub use background::Background;
 pub use check::{Finding, Severity};
+pub use effect::Effect;
 pub use effects::{
-    Absence, AmbientOcclusion, Cause, Decision, Effect, EffectCounts, EffectPlan, EffectSettings,
-    Environment, EnvironmentError, Fog, MetalReflection, Named, Outline, Shadows, Sky, ToneMapping,
+    Absence, AmbientOcclusion, Cause, Decision, EffectCounts, EffectPlan, EffectSettings, Environment,
+    EnvironmentError, Fog, MetalReflection, Named, Outline, Shadows, Sky, ToneMapping,
 };
 pub use elements::ElementSet;
 /// Of [`ElementSet`].
@@ -66,7 +68,8 @@ pub use frame::{Frame, Hit};
 pub use light::{Light, LightKind};
 pub use marks::{Mark, Marks, VertexPoints};
 pub use material::{
-    AlphaMode, Material, MaterialId, MetallicRoughness, NormalMap, Occlusion, Shading, TextureBinding,
+    AlphaMode, ExtensionParameter, Material, MaterialId, MaterialTexture, MetallicRoughness, NormalMap,
+    Occlusion, ParameterField, Shading, TextureBinding,
 };
 pub use node::{Node, NodeId};
 pub use pick::{Nearest, Pick, Picker, Reach, Region};

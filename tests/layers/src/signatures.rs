@@ -1,0 +1,140 @@
+//! Functions with too many parameters, or with parameters that are packed into tuples.
+
+use crate::collect::is_for_tests;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use syn::visit::{self, Visit};
+use syn::{Attribute, FnArg, ImplItemFn, ItemFn, ItemImpl, ItemMod, Signature, TraitItemFn, Type};
+
+/// The most parameters that a function may have, `self` not counted.
+const MOST_PARAMETERS: usize = 6;
+/// The most values that a parameter may be, if it is a tuple.
+const MOST_PACKED: usize = 2;
+
+/// The functions of a crate, tests left out, that have more than six parameters or a tuple of three or more
+/// values as a parameter: as `src/file.rs: name`, sorted. A function that expects the lint
+/// `too_many_arguments`, with its reason, may have more parameters.
+///
+/// # Errors
+/// A file that cannot be read or parsed.
+pub fn long_signatures(crate_folder: &Path) -> io::Result<Vec<String>> {
+    let mut files = Vec::new();
+    list(&crate_folder.join("src"), &mut files)?;
+    let mut found = Vec::new();
+    for path in files {
+        let invalid =
+            |error| io::Error::new(io::ErrorKind::InvalidData, format!("{}: {error}", path.display()));
+        let file = syn::parse_file(&fs::read_to_string(&path)?).map_err(invalid)?;
+        let mut visitor = Signatures { long: Vec::new() };
+        visitor.visit_file(&file);
+        let shown = path.strip_prefix(crate_folder).unwrap_or(&path).display();
+        found.extend(visitor.long.iter().map(|name| format!("{shown}: {name}")));
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// All source files below a folder that are not for tests.
+fn list(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
+    for entry in folder.read_dir()? {
+        let path = entry?.path();
+        if path.file_stem().is_some_and(|stem| stem == "tests") {
+            continue;
+        }
+        if path.is_dir() {
+            list(&path, files)?;
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push(path);
+        }
+    }
+    Ok(())
+}
+
+struct Signatures {
+    long: Vec<String>,
+}
+
+impl Signatures {
+    fn check(&mut self, signature: &Signature, attributes: &[Attribute]) {
+        let types = signature.inputs.iter().filter_map(|input| match input {
+            FnArg::Typed(parameter) => Some(&*parameter.ty),
+            FnArg::Receiver(_) => None,
+        });
+        let types: Vec<&Type> = types.collect();
+        let is_long = types.len() > MOST_PARAMETERS && !attributes.iter().any(expects_many);
+        if is_long || types.iter().any(|ty| packed(ty) > MOST_PACKED) {
+            self.long.push(signature.ident.to_string());
+        }
+    }
+}
+
+/// Whether an attribute is `expect(clippy::too_many_arguments, …)`.
+fn expects_many(attribute: &Attribute) -> bool {
+    let text = |list: &syn::MetaList| list.tokens.to_string().contains("too_many_arguments");
+    attribute.path().is_ident("expect") && attribute.meta.require_list().is_ok_and(text)
+}
+
+/// How many values a parameter of a type is.
+fn packed(ty: &Type) -> usize {
+    match ty {
+        Type::Tuple(tuple) => tuple.elems.len(),
+        Type::Reference(reference) => packed(&reference.elem),
+        Type::Paren(inner) => packed(&inner.elem),
+        _ => 1,
+    }
+}
+
+impl Visit<'_> for Signatures {
+    fn visit_item_mod(&mut self, item: &ItemMod) {
+        if !is_for_tests(&item.attrs) {
+            visit::visit_item_mod(self, item);
+        }
+    }
+
+    fn visit_item_fn(&mut self, item: &ItemFn) {
+        if !is_for_tests(&item.attrs) {
+            self.check(&item.sig, &item.attrs);
+            visit::visit_item_fn(self, item);
+        }
+    }
+
+    fn visit_item_impl(&mut self, item: &ItemImpl) {
+        if !is_for_tests(&item.attrs) {
+            visit::visit_item_impl(self, item);
+        }
+    }
+
+    fn visit_impl_item_fn(&mut self, item: &ImplItemFn) {
+        self.check(&item.sig, &item.attrs);
+        visit::visit_impl_item_fn(self, item);
+    }
+
+    fn visit_trait_item_fn(&mut self, item: &TraitItemFn) {
+        self.check(&item.sig, &item.attrs);
+        visit::visit_trait_item_fn(self, item);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seven_parameters_and_tuples_of_three_are_found() {
+        let code = "
+            fn six(a: u8, b: u8, c: u8, d: u8, e: u8, f: u8) {}
+            fn seven(a: u8, b: u8, c: u8, d: u8, e: u8, f: u8, g: u8) {}
+            #[expect(clippy::too_many_arguments, reason = \"a kernel\")]
+            fn expected(a: u8, b: u8, c: u8, d: u8, e: u8, f: u8, g: u8) {}
+            fn pair((a, b): (u8, u8)) {}
+            fn triple((a, b, c): (u8, u8, u8)) {}
+            fn by_reference(triple: &(u8, u8, u8)) {}
+            #[cfg(test)]
+            mod tests { fn triple((a, b, c): (u8, u8, u8)) {} }
+        ";
+        let mut visitor = Signatures { long: Vec::new() };
+        visitor.visit_file(&syn::parse_file(code).expect("it parses"));
+        assert_eq!(visitor.long, ["seven", "triple", "by_reference"], "and no others");
+    }
+}
