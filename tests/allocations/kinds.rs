@@ -4,7 +4,7 @@ use crate::programs::{Flat, Lanes, Scalar, ScalarFlat, ScalarTextured, Textured,
 use std::ops::Range;
 use trigon_math::Vec4;
 use trigon_raster::{
-    Culling, Draw, LanePipeline, Lines, MipFilter, Outline, Pass, PointShape, Points, Sampler, Surface,
+    BlendMode, Culling, Draw, LanePipeline, Lines, MipFilter, Outline, Pass, PointShape, Points, Sampler,
     Texture, TextureFormat,
 };
 
@@ -52,10 +52,11 @@ fn triangles() -> &'static [[u32; 3]] {
 fn pass(
     pipeline: impl LanePipeline + 'static,
     triangles: &'static [[u32; 3]],
-    surface: Surface,
+    surface: BlendMode,
 ) -> Pass<'static> {
     let mut pass = Pass::new();
-    let draw = Draw { surface, culling: Culling::None, ..Draw::new(forever(pipeline), triangles) };
+    let draw =
+        Draw { blend_mode: surface, culling: Culling::None, ..Draw::new(forever(pipeline), triangles) };
     pass.triangles(draw);
     pass
 }
@@ -65,12 +66,12 @@ fn surfaces(seen: &'static Vertices) -> [Kind; 6] {
     let few: Vec<_> = (0..20).map(|i| [i * 7, i * 90 + 31, i * 140 + 2]).collect();
     let of = |surface| pass(Lanes(seen), triangles(), surface);
     [
-        ("opaque", of(Surface::Opaque)),
-        ("masked", of(Surface::Masked)),
-        ("masked per sample", of(Surface::MaskedPerSample)),
-        ("translucent", of(Surface::Translucent)),
-        ("cut", pass(Lanes(cut), triangles(), Surface::Opaque)),
-        ("few of many vertices", pass(Lanes(seen), forever(few), Surface::Opaque)),
+        ("opaque", of(BlendMode::Opaque)),
+        ("masked", of(BlendMode::Masked)),
+        ("masked per sample", of(BlendMode::MaskedPerSample)),
+        ("translucent", of(BlendMode::Translucent)),
+        ("cut", pass(Lanes(cut), triangles(), BlendMode::Opaque)),
+        ("few of many vertices", pass(Lanes(seen), forever(few), BlendMode::Opaque)),
     ]
 }
 
@@ -81,7 +82,7 @@ fn programs(seen: &'static Vertices) -> [Kind; 5] {
     let sampler = Sampler { mip: MipFilter::Anisotropic(8), ..Sampler::default() };
     let textured = Textured { vertices: seen, texture, sampler };
     let flat = forever(seen.clone().in_front());
-    let opaque = Surface::Opaque;
+    let opaque = BlendMode::Opaque;
     [
         ("flat", pass(Flat(flat), triangles(), opaque)),
         ("flat, one by one", pass(ScalarFlat(flat), triangles(), opaque)),

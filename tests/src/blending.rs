@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_math::Vec4;
 use trigon_raster::{
-    Background, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Surface, TileSize,
+    Background, BlendMode, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, TileSize,
     VertexOutput,
 };
 use trigon_study::oracle::GridPoint;
@@ -60,8 +60,13 @@ fn record(layers: &[Layer], order: impl Iterator<Item = usize>) -> Pass<'_> {
     let mut pass = Pass::new();
     pass.background(Background::Color(BEHIND));
     for layer in order.map(|index| &layers[index]) {
-        let (surface, culling) = (Surface::Translucent, Culling::None);
-        pass.triangles(Draw { surface, culling, object: layer.object, ..Draw::new(layer, &[[0, 1, 2]]) });
+        let (surface, culling) = (BlendMode::Translucent, Culling::None);
+        pass.triangles(Draw {
+            blend_mode: surface,
+            culling,
+            object: layer.object,
+            ..Draw::new(layer, &[[0, 1, 2]])
+        });
     }
     pass
 }
@@ -157,8 +162,8 @@ fn what_an_opaque_wall_hides_is_not_laid() {
         let layer = Layer { corners, depth, color: Vec4::new(0.5, 0.0, 0.0, 0.5), object };
         let mut pass = Pass::new();
         pass.triangles(Draw { object: 5, culling: Culling::None, ..Draw::new(&wall, &[[0, 1, 2]]) });
-        let (surface, culling) = (Surface::Translucent, Culling::None);
-        pass.triangles(Draw { surface, culling, object, ..Draw::new(&layer, &[[0, 1, 2]]) });
+        let (surface, culling) = (BlendMode::Translucent, Culling::None);
+        pass.triangles(Draw { blend_mode: surface, culling, object, ..Draw::new(&layer, &[[0, 1, 2]]) });
         let linear = draw(&pass).linear.expect("asked for");
         let expected = if is_seen { Vec4::new(0.5, 0.0, 0.5, 1.0) } else { wall.color };
         assert!(linear.iter().all(|&color| color == expected), "depth {depth}, object {object}");

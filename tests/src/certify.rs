@@ -7,8 +7,8 @@ use proptest::prelude::*;
 use trigon_math::glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_at_mat4};
 use trigon_math::{Vec2, Vec3, Vec4, elementary};
 use trigon_raster::{
-    Background, Certainty, Certificate, Culling, Draw, ExecuteSettings, Fragment, Lines, Output, Pass,
-    Pictures, Pipeline, PointShape, Points, Surface, Tolerance, VertexOutput,
+    Background, BlendMode, Certainty, Certificate, Culling, Draw, ExecuteSettings, Fragment, Lines, Output,
+    Pass, Pictures, Pipeline, PointShape, Points, Tolerance, VertexOutput,
 };
 
 const SIZE: [u32; 2] = [32, 24];
@@ -59,7 +59,7 @@ enum Kind {
 #[derive(Clone, Debug)]
 struct Scene {
     shapes: Shapes,
-    draws: Vec<(Kind, Surface)>,
+    draws: Vec<(Kind, BlendMode)>,
     /// Whether vertices lie on both sides of the near plane.
     is_cut: bool,
 }
@@ -95,8 +95,8 @@ fn kind() -> impl Strategy<Value = Kind> {
     ]
 }
 
-fn surface() -> impl Strategy<Value = Surface> {
-    prop_oneof![4 => Just(Surface::Opaque), 1 => Just(Surface::Masked), 2 => Just(Surface::Translucent)]
+fn surface() -> impl Strategy<Value = BlendMode> {
+    prop_oneof![4 => Just(BlendMode::Opaque), 1 => Just(BlendMode::Masked), 2 => Just(BlendMode::Translucent)]
 }
 
 fn scene() -> impl Strategy<Value = Scene> {
@@ -147,7 +147,7 @@ fn moved(scene: &Scene, tolerance: Tolerance, noise: &mut Noise) -> Scene {
         }
     }
     // Every layer may add its share, and what shows through it.
-    let is_blended = scene.draws.iter().any(|&(_, surface)| surface == Surface::Translucent);
+    let is_blended = scene.draws.iter().any(|&(_, surface)| surface == BlendMode::Translucent);
     let layers = if is_blended { 8 * scene.draws.len() } else { 0 };
     for color in &mut moved.shapes.colors {
         let most = 0.9 * tolerance.color() / (1 + 2 * layers) as f32;
@@ -168,15 +168,24 @@ fn with_pass<T>(scene: &Scene, act: impl FnOnce(&Pass<'_>) -> T) -> T {
     for (object, &(kind, surface)) in scene.draws.iter().enumerate() {
         let object = object as u32;
         match kind {
-            Kind::Triangles(culling) => {
-                pass.triangles(Draw { object, surface, culling, ..Draw::new(pipeline, &triangles) })
-            }
-            Kind::Lines => {
-                pass.lines(Lines { object, surface, width: 2.3, ..Lines::new(pipeline, &segments) })
-            }
-            Kind::Points(shape) => {
-                pass.points(Points { object, surface, shape, ..Points::new(pipeline, &points, 7.0) })
-            }
+            Kind::Triangles(culling) => pass.triangles(Draw {
+                object,
+                blend_mode: surface,
+                culling,
+                ..Draw::new(pipeline, &triangles)
+            }),
+            Kind::Lines => pass.lines(Lines {
+                object,
+                blend_mode: surface,
+                width: 2.3,
+                ..Lines::new(pipeline, &segments)
+            }),
+            Kind::Points(shape) => pass.points(Points {
+                object,
+                blend_mode: surface,
+                shape,
+                ..Points::new(pipeline, &points, 7.0)
+            }),
         };
     }
     act(&pass)
@@ -291,10 +300,10 @@ fn most_pixels_of_an_ordinary_picture_are_certified() {
         faces: Some(&[0; 2]),
         ..Draw::new(&shapes, &ground)
     });
-    let surface = Surface::Translucent;
+    let surface = BlendMode::Translucent;
     pass.triangles(Draw {
         object: 2,
-        surface,
+        blend_mode: surface,
         culling: Culling::None,
         faces: Some(&[1; 2]),
         ..Draw::new(&shapes, &glass)

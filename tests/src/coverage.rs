@@ -6,7 +6,7 @@ use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::glam::camera::rh::proj::directx::perspective_infinite_reverse;
 use trigon_math::{Mat4, Vec4, elementary};
-use trigon_raster::{Culling, Draw, Output, Pass, Rasterizer, Surface, Target};
+use trigon_raster::{BlendMode, Culling, Draw, Output, Pass, Rasterizer, Target};
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::coverage::{centre, covers};
 
@@ -232,8 +232,12 @@ fn targets_of_extreme_size_are_covered_once() {
         let pipeline = Values::ones(positions);
         let triangles = fan_triangles(7);
         let mut pass = Pass::new();
-        let surface = Surface::Translucent;
-        pass.triangles(Draw { surface, culling: Culling::None, ..Draw::new(&pipeline, &triangles) });
+        let surface = BlendMode::Translucent;
+        pass.triangles(Draw {
+            blend_mode: surface,
+            culling: Culling::None,
+            ..Draw::new(&pipeline, &triangles)
+        });
         let target = Target::new(width, height, &[Output::Linear]).expect("a size in range");
         let mut target = target.with_samples_per_axis(samples).expect("a number in range");
         Rasterizer::default().draw(&pass, &mut target);

@@ -4,14 +4,14 @@
 use crate::coverage_support::{SIDE, Values, clip_position, draw, pixel};
 use crate::effort::cases;
 use proptest::prelude::*;
-use trigon_raster::{Lines, Pass, PointShape, Points, Surface};
+use trigon_raster::{BlendMode, Lines, Pass, PointShape, Points};
 use trigon_study::oracle::GridPoint;
 
 /// How often each pixel is covered by segments of a width in pixels.
 fn count(points: &[GridPoint], segments: &[[u32; 2]], width: f32) -> Vec<u32> {
     let pipeline = Values::on_grid(points);
     let mut pass = Pass::new();
-    pass.lines(Lines { width, surface: Surface::Translucent, ..Lines::new(&pipeline, segments) });
+    pass.lines(Lines { width, blend_mode: BlendMode::Translucent, ..Lines::new(&pipeline, segments) });
     draw(&pass).linear.expect("asked for").iter().map(|color| color.x as u32).collect()
 }
 
@@ -114,8 +114,8 @@ fn points_have_their_size() {
         (PointShape::Square, f32::NAN, 1),
     ] {
         let mut pass = Pass::new();
-        let surface = Surface::Translucent;
-        pass.points(Points { shape, surface, ..Points::new(&pipeline, &[0], size) });
+        let surface = BlendMode::Translucent;
+        pass.points(Points { shape, blend_mode: surface, ..Points::new(&pipeline, &[0], size) });
         let linear = draw(&pass).linear.expect("asked for");
         let covered: f32 = linear.iter().map(|color| color.x).sum();
         assert_eq!(covered, expected as f32, "{shape:?} of {size}");

@@ -5,8 +5,8 @@ use proptest::prelude::*;
 use trigon_math::Vec4;
 use trigon_raster::simd::SimdLevel;
 use trigon_raster::{
-    Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, Rasterizer, Surface, Target,
-    VertexOutput,
+    BlendMode, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, Rasterizer,
+    Target, VertexOutput,
 };
 use trigon_study::oracle::GridPoint;
 
@@ -117,8 +117,8 @@ pub(crate) fn draw(pass: &Pass<'_>) -> Pictures {
 /// How often each pixel is covered by the triangles, of either winding.
 pub(crate) fn count(pipeline: &Values, triangles: &[[u32; 3]]) -> Vec<u32> {
     let mut pass = Pass::new();
-    let surface = Surface::Translucent;
-    pass.triangles(Draw { surface, culling: Culling::None, ..Draw::new(pipeline, triangles) });
+    let surface = BlendMode::Translucent;
+    pass.triangles(Draw { blend_mode: surface, culling: Culling::None, ..Draw::new(pipeline, triangles) });
     let linear = draw(&pass).linear.expect("asked for");
     linear.iter().map(|color| color.x as u32).collect()
 }

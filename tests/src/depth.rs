@@ -6,7 +6,7 @@ use crate::coverage_support::{SIDE, Samples, Values, clip_position, draw, pixel,
 use crate::depth_plane;
 use crate::effort::cases;
 use proptest::prelude::*;
-use trigon_raster::{Culling, DepthTest, Draw, ExecuteSettings, Output, Pass, Pictures, Stats, Surface};
+use trigon_raster::{BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Output, Pass, Pictures, Stats};
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::coverage::{centre, covers};
 use trigon_study::oracle::depth::Plane;
@@ -19,7 +19,7 @@ fn quad(depth: f32) -> Values {
 }
 
 /// Draws the same quad once for each (object, face), in the order given.
-fn coincident(keys: &[(u32, u32)], surface: Surface) -> Pictures {
+fn coincident(keys: &[(u32, u32)], surface: BlendMode) -> Pictures {
     let pipelines: Vec<_> = keys.iter().map(|_| quad(0.25)).collect();
     let faces: Vec<_> = keys.iter().map(|&(_, face)| [face; 2]).collect();
     let mut pass = Pass::new();
@@ -27,7 +27,7 @@ fn coincident(keys: &[(u32, u32)], surface: Surface) -> Pictures {
         let draw = Draw {
             object,
             faces: Some(faces),
-            surface,
+            blend_mode: surface,
             culling: Culling::None,
             ..Draw::new(pipeline, &QUAD)
         };
@@ -53,7 +53,7 @@ proptest! {
         masked in any::<bool>(),
     ) {
         let keys: Vec<_> = keys.into_iter().collect();
-        let surface = if masked { Surface::Masked } else { Surface::Opaque };
+        let surface = if masked { BlendMode::Masked } else { BlendMode::Opaque };
         let pictures = coincident(&keys, surface);
         let least = keys.iter().min().expect("at least one");
         let inside = (20 * SIDE + 20) as usize;
@@ -145,8 +145,8 @@ fn draw_heap(heap: &Values, samples: Samples, depth_test: DepthTest) -> (Picture
     let (opaque, masked) = triangles.split_at(400);
     let mut pass = Pass::new();
     pass.triangles(Draw { culling: Culling::None, object: 1, ..Draw::new(heap, opaque) });
-    let (culling, surface) = (Culling::None, Surface::Masked);
-    pass.triangles(Draw { culling, surface, object: 0, ..Draw::new(heap, masked) });
+    let (culling, surface) = (Culling::None, BlendMode::Masked);
+    pass.triangles(Draw { culling, blend_mode: surface, object: 0, ..Draw::new(heap, masked) });
     let mut target = samples.target([SIDE as u32; 2], &[Output::Linear, Output::Depth, Output::Triangle]);
     let settings = ExecuteSettings { depth_test, ..Default::default() };
     let stats = rasterizer(&settings).draw(&pass, &mut target);
@@ -194,10 +194,10 @@ fn the_backgrounds_own_depth_is_not_seen_in_any_order_of_faces() {
     let corners = [[0, 0], [SIDE * 512, 0], [0, SIDE * 512]];
     let values = Values::ones(corners.map(|point| clip_position(point, -f32::MIN_POSITIVE)));
     for faces in [[0, 1], [1, 0]] {
-        for surface in [Surface::Opaque, Surface::Masked, Surface::Translucent] {
+        for surface in [BlendMode::Opaque, BlendMode::Masked, BlendMode::Translucent] {
             let mut pass = Pass::new();
             let draw = Draw::new(&values, &[[0, 1, 2], [0, 1, 2]]);
-            pass.triangles(Draw { culling: Culling::None, surface, faces: Some(&faces), ..draw });
+            pass.triangles(Draw { culling: Culling::None, blend_mode: surface, faces: Some(&faces), ..draw });
             let mut target = Samples::ONE.target([SIDE as u32; 2], &[Output::Linear]);
             let stats = rasterizer(&ExecuteSettings::default()).draw(&pass, &mut target);
             assert_eq!(stats.set_up, 2, "it is not left out before");

@@ -7,7 +7,7 @@ use crate::effort::cases;
 use crate::hard_cases::slivers::sliver;
 use num_traits::Signed;
 use proptest::prelude::*;
-use trigon_raster::{Culling, Draw, ExecuteSettings, Output, Pass, Surface};
+use trigon_raster::{BlendMode, Culling, Draw, ExecuteSettings, Output, Pass};
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::area::rational;
 use trigon_study::oracle::coverage::sample_points;
@@ -56,14 +56,14 @@ fn ordinary_plane() -> impl Strategy<Value = Plane> {
 }
 
 /// What is seen: the triangle's number, its depth, and where.
-fn seen(planes: &[Plane], surface: Surface, samples: u32) -> Vec<(usize, f32, GridPoint)> {
+fn seen(planes: &[Plane], surface: BlendMode, samples: u32) -> Vec<(usize, f32, GridPoint)> {
     let vertices = planes
         .iter()
         .flat_map(|plane| [0, 1, 2].map(|i| (clip_position(plane.corners[i], plane.depths[i]), 1.0)));
     let pipeline = Values { vertices: vertices.collect() };
     let triangles: Vec<_> = (0..planes.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     let mut pass = Pass::new();
-    pass.triangles(Draw { surface, culling: Culling::None, ..Draw::new(&pipeline, &triangles) });
+    pass.triangles(Draw { blend_mode: surface, culling: Culling::None, ..Draw::new(&pipeline, &triangles) });
     let samples = Samples { per_axis: 1, per_pixel: samples };
     let mut target = samples.target([SIDE as u32; 2], &[Output::Depth, Output::Triangle]);
     rasterizer(&ExecuteSettings::default()).draw(&pass, &mut target);
@@ -83,7 +83,7 @@ proptest! {
     #[test]
     fn depth_is_that_of_the_exact_plane(
         planes in planes(),
-        surface in prop_oneof![Just(Surface::Opaque), Just(Surface::Masked)],
+        surface in prop_oneof![Just(BlendMode::Opaque), Just(BlendMode::Masked)],
         samples in prop_oneof![Just(1_u32), Just(4), Just(16)],
     ) {
         for (number, (id, depth, point)) in seen(&planes, surface, samples).into_iter().enumerate() {
@@ -108,7 +108,7 @@ proptest! {
         samples in prop_oneof![Just(1_u32), Just(8)],
     ) {
         let planes = [plane];
-        for (_, depth, point) in seen(&planes, Surface::Opaque, samples).into_iter().step_by(STEP) {
+        for (_, depth, point) in seen(&planes, BlendMode::Opaque, samples).into_iter().step_by(STEP) {
             let error = (rational(depth) - planes[0].at(point).expect("what is seen has an area")).abs();
             let ulp = f64::from(depth) - f64::from(depth.next_down());
             prop_assert!(error <= rational(ulp), "{depth} of {:?} at {point:?}", planes[0]);

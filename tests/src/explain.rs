@@ -7,8 +7,8 @@ use crate::programs::{Scalar, Vertices};
 use proptest::prelude::*;
 use trigon_math::Vec4;
 use trigon_raster::{
-    Background, Culling, Draw, ExecuteSettings, FragmentExplanation, Lines, Output, Pass, PixelExplanation,
-    PointShape, Points, PrimitiveKind, Surface, Verdict,
+    Background, BlendMode, Culling, Draw, ExecuteSettings, FragmentExplanation, Lines, Output, Pass,
+    PixelExplanation, PointShape, Points, PrimitiveKind, Verdict,
 };
 
 const SIZE: [u32; 2] = [23, 17];
@@ -18,7 +18,7 @@ const SIZE: [u32; 2] = [23, 17];
 #[derive(Debug)]
 struct Scene {
     vertices: Vertices,
-    surfaces: Vec<Surface>,
+    surfaces: Vec<BlendMode>,
 }
 
 fn scene() -> impl Strategy<Value = Scene> {
@@ -27,8 +27,7 @@ fn scene() -> impl Strategy<Value = Scene> {
     let position =
         (-1.5_f32..1.5, -1.5_f32..1.5, depth, w).prop_map(|(x, y, z, w)| Vec4::new(x * w, y * w, z * w, w));
     let color = (0.0_f32..1.0, 0.0_f32..1.0, 0.0_f32..1.0, 0.2_f32..1.0).prop_map(Vec4::from);
-    let surface =
-        prop_oneof![2 => Just(Surface::Opaque), 1 => Just(Surface::Masked), 1 => Just(Surface::Translucent)];
+    let surface = prop_oneof![2 => Just(BlendMode::Opaque), 1 => Just(BlendMode::Masked), 1 => Just(BlendMode::Translucent)];
     let list = proptest::collection::vec((position, color), 3..9);
     (list, proptest::collection::vec(surface, 1..4)).prop_map(|(list, surfaces)| {
         let mut vertices = Vertices::default();
@@ -52,11 +51,12 @@ fn with_pass(scene: &Scene, check: impl FnOnce(&Pass<'_>)) {
     pass.background(Background::Color(Vec4::new(0.1, 0.2, 0.3, 0.5)));
     for (i, &surface) in scene.surfaces.iter().enumerate() {
         let object = 7 - i as u32;
-        let draw = Draw { object, surface, faces: Some(&faces), ..Draw::new(&pipeline, &triangles) };
+        let draw =
+            Draw { object, blend_mode: surface, faces: Some(&faces), ..Draw::new(&pipeline, &triangles) };
         pass.triangles(Draw { culling: Culling::None, ..draw });
-        pass.lines(Lines { object, surface, width: 1.5, ..Lines::new(&pipeline, &segments) });
+        pass.lines(Lines { object, blend_mode: surface, width: 1.5, ..Lines::new(&pipeline, &segments) });
         let shape = if i == 0 { PointShape::Round } else { PointShape::Square };
-        pass.points(Points { object, surface, shape, ..Points::new(&pipeline, &points, 4.0) });
+        pass.points(Points { object, blend_mode: surface, shape, ..Points::new(&pipeline, &points, 4.0) });
     }
     check(&pass);
 }
@@ -103,7 +103,7 @@ fn check_verdict(fragment: &FragmentExplanation) {
         Verdict::LostTie => margin == Some(0),
         Verdict::Layer(_) => margin.is_none_or(|margin| margin >= 0) && fragment.color.is_some(),
         Verdict::LeftToJoint => fragment.kind == PrimitiveKind::Line,
-        Verdict::MaskedAway => fragment.surface == Surface::Masked,
+        Verdict::MaskedAway => fragment.blend_mode == BlendMode::Masked,
         Verdict::BehindFarPlane => fragment.depth.is_some_and(|depth| depth < 0.0),
         Verdict::OutsideEdge(edge) => !fragment.edges[edge].is_inside(),
         Verdict::OutsideDisc => fragment.kind == PrimitiveKind::RoundPoint,

@@ -6,7 +6,7 @@ use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::Vec4;
 use trigon_raster::{
-    Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, Surface, VertexOutput,
+    BlendMode, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, VertexOutput,
 };
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::coverage::{centre, covers, sample_points};
@@ -54,11 +54,11 @@ fn half_plane() -> impl Strategy<Value = HalfPlane> {
         .prop_map(|(corners, a, b, [x, y])| HalfPlane { corners, line: [a, b, -(a * x + b * y)] })
 }
 
-fn draw(shape: &HalfPlane, surface: Surface, samples: u32, settings: &ExecuteSettings) -> Pictures {
+fn draw(shape: &HalfPlane, surface: BlendMode, samples: u32, settings: &ExecuteSettings) -> Pictures {
     let outputs = [Output::Linear, Output::Depth];
     let mut target = Samples { per_axis: 1, per_pixel: samples }.target([SIDE as u32; 2], &outputs);
     let mut pass = Pass::new();
-    pass.triangles(Draw { surface, culling: Culling::None, ..Draw::new(shape, &[[0, 1, 2]]) });
+    pass.triangles(Draw { blend_mode: surface, culling: Culling::None, ..Draw::new(shape, &[[0, 1, 2]]) });
     rasterizer(settings).draw(&pass, &mut target);
     target.into_pictures()
 }
@@ -78,7 +78,7 @@ proptest! {
         shape in half_plane(),
         samples in prop_oneof![Just(1_u32), Just(2), Just(4), Just(8), Just(16)],
     ) {
-        let linear = draw(&shape, Surface::MaskedPerSample, samples, &ExecuteSettings::default()).linear;
+        let linear = draw(&shape, BlendMode::MaskedPerSample, samples, &ExecuteSettings::default()).linear;
         for (index, color) in linear.expect("asked for").iter().enumerate() {
             let points = || sample_points(samples, pixel(index)).filter(|&point| covers(shape.corners, point));
             if points().any(|point| is_close_to_the_line(&shape, point)) {
@@ -93,7 +93,7 @@ proptest! {
     /// it covers.
     #[test]
     fn a_mask_per_pixel_keeps_all_or_none(shape in half_plane(), samples in prop_oneof![Just(2_u32), Just(8)]) {
-        let linear = draw(&shape, Surface::Masked, samples, &ExecuteSettings::default()).linear;
+        let linear = draw(&shape, BlendMode::Masked, samples, &ExecuteSettings::default()).linear;
         for (index, color) in linear.expect("asked for").iter().enumerate() {
             let covered: Vec<_> =
                 sample_points(samples, pixel(index)).filter(|&point| covers(shape.corners, point)).collect();
@@ -111,7 +111,7 @@ proptest! {
     #[test]
     fn masks_per_sample_are_the_same_at_every_level(shape in half_plane()) {
         let picture = |simd| {
-            draw(&shape, Surface::MaskedPerSample, 8, &ExecuteSettings { simd, ..Default::default() })
+            draw(&shape, BlendMode::MaskedPerSample, 8, &ExecuteSettings { simd, ..Default::default() })
         };
         let reference = picture(None);
         for level in levels() {

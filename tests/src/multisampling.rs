@@ -7,7 +7,7 @@ use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::{UVec2, Vec4};
 use trigon_raster::{
-    Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, Surface, VertexOutput,
+    BlendMode, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, VertexOutput,
 };
 use trigon_study::oracle::coverage::{centre, covers, mask, sample_points, standard_positions};
 
@@ -27,8 +27,8 @@ fn draw(pass: &Pass<'_>, per_pixel: u32) -> Pictures {
 /// adds 1 to each sample that it covers.
 pub(crate) fn light(pipeline: &Values, triangles: &[[u32; 3]], samples: u32) -> Vec<f32> {
     let mut pass = Pass::new();
-    let surface = Surface::Translucent;
-    pass.triangles(Draw { surface, culling: Culling::None, ..Draw::new(pipeline, triangles) });
+    let surface = BlendMode::Translucent;
+    pass.triangles(Draw { blend_mode: surface, culling: Culling::None, ..Draw::new(pipeline, triangles) });
     draw(&pass, samples).linear.expect("asked for").iter().map(|color| color.x).collect()
 }
 

@@ -10,8 +10,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use trigon_math::Vec4;
 use trigon_raster::simd::{F32, Simd};
 use trigon_raster::{
-    Culling, Draw, ExecuteSettings, FragmentLanes, LanePipeline, MipFilter, Output, Pass, Pictures, Sampler,
-    Surface, Texture, TextureFormat, VertexLanes,
+    BlendMode, Culling, Draw, ExecuteSettings, FragmentLanes, LanePipeline, MipFilter, Output, Pass,
+    Pictures, Sampler, Texture, TextureFormat, VertexLanes,
 };
 
 fn vertices() -> impl Strategy<Value = Vertices> {
@@ -32,18 +32,18 @@ fn triangles(vertices: &Vertices) -> Vec<[u32; 3]> {
     (0..count).map(|i| [i, (i + 1) % count, (i + 5) % count]).collect()
 }
 
-fn surface() -> impl Strategy<Value = Surface> {
-    prop_oneof![Just(Surface::Opaque), Just(Surface::Masked), Just(Surface::Translucent)]
+fn surface() -> impl Strategy<Value = BlendMode> {
+    prop_oneof![Just(BlendMode::Opaque), Just(BlendMode::Masked), Just(BlendMode::Translucent)]
 }
 
 fn draw<P: LanePipeline>(
     pipeline: &P,
     triangles: &[[u32; 3]],
-    surface: Surface,
+    surface: BlendMode,
     samples: Samples,
 ) -> Pictures {
     let mut pass = Pass::new();
-    pass.triangles(Draw { surface, culling: Culling::None, ..Draw::new(pipeline, triangles) });
+    pass.triangles(Draw { blend_mode: surface, culling: Culling::None, ..Draw::new(pipeline, triangles) });
     let outputs = [Output::Linear, Output::Depth, Output::Triangle];
     let mut target = samples.target([SIDE as u32; 2], &outputs);
     rasterizer(&ExecuteSettings::default()).draw(&pass, &mut target);
@@ -88,8 +88,8 @@ proptest! {
         let texture = Texture::new(20, 12, texels, format).expect("as many texels as it has");
         let sampler = Sampler { mip: MipFilter::Anisotropic(probes), ..Sampler::default() };
         let textured = || Textured { vertices: &vertices, texture: &texture, sampler };
-        let scalar = draw(&ScalarTextured(textured()), &triangles, Surface::Opaque, samples);
-        prop_assert!(draw(&textured(), &triangles, Surface::Opaque, samples) == scalar);
+        let scalar = draw(&ScalarTextured(textured()), &triangles, BlendMode::Opaque, samples);
+        prop_assert!(draw(&textured(), &triangles, BlendMode::Opaque, samples) == scalar);
     }
 
     /// In one tile, and with no triangle cut: as many as triangles that are seen.
@@ -98,7 +98,7 @@ proptest! {
         let vertices = vertices.in_front();
         let triangles = triangles(&vertices);
         let pipeline = Counting { flat: Flat(&vertices), asked: AtomicUsize::new(0) };
-        let pictures = draw(&pipeline, &triangles, Surface::Opaque, Samples::ONE);
+        let pictures = draw(&pipeline, &triangles, BlendMode::Opaque, Samples::ONE);
         let seen: HashSet<u32> = pictures.triangles.into_iter().flatten().filter(|&id| id != u32::MAX).collect();
         prop_assert_eq!(pipeline.asked.into_inner(), seen.len());
     }

@@ -9,8 +9,8 @@ use proptest::prelude::*;
 use std::num::NonZeroUsize;
 use trigon_math::{UVec2, Vec3, Vec4};
 use trigon_raster::{
-    Background, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Lines, Outline, Output, Pass, Pictures,
-    Pipeline, PointShape, Points, Rasterizer, Surface, Target, TileSize, VertexOutput,
+    Background, BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Lines, Outline, Output, Pass,
+    Pictures, Pipeline, PointShape, Points, Rasterizer, Target, TileSize, VertexOutput,
 };
 
 /// Coloured vertices; a fragment shows the colour, by its alpha, with dark
@@ -48,7 +48,7 @@ impl Pipeline for Coloured {
 #[derive(Clone, Debug)]
 struct Soup {
     object: u32,
-    surface: Surface,
+    surface: BlendMode,
     outline: Outline,
     pipeline: Coloured,
     triangles: Vec<[u32; 3]>,
@@ -66,10 +66,10 @@ fn vertex() -> impl Strategy<Value = (Vec4, Vec4)> {
 
 fn soup() -> impl Strategy<Value = Soup> {
     let surface = prop_oneof![
-        Just(Surface::Opaque),
-        Just(Surface::Masked),
-        Just(Surface::MaskedPerSample),
-        Just(Surface::Translucent)
+        Just(BlendMode::Opaque),
+        Just(BlendMode::Masked),
+        Just(BlendMode::MaskedPerSample),
+        Just(BlendMode::Translucent)
     ];
     let outline = prop_oneof![Just(Outline::Sharp), Just(Outline::AntiAliased)];
     let vertices = proptest::collection::vec(vertex(), 3..30);
@@ -103,16 +103,16 @@ fn record<'a>(pass: &mut Pass<'a>, soup: &'a Soup) {
     let (object, surface, outline) = (*object, *surface, soup.outline);
     pass.triangles(Draw {
         object,
-        surface,
+        blend_mode: surface,
         faces: Some(faces),
         culling: Culling::None,
         ..Draw::new(pipeline, &soup.triangles)
     });
     let lines = Lines::new(pipeline, &soup.segments);
-    pass.lines(Lines { object: object + 1, surface, width: 2.5, outline, ..lines });
+    pass.lines(Lines { object: object + 1, blend_mode: surface, width: 2.5, outline, ..lines });
     let shape = if object == 0 { PointShape::Round } else { PointShape::Square };
     let points = Points::new(pipeline, &soup.points, 9.0);
-    pass.points(Points { object: object + 2, surface, shape, outline, ..points });
+    pass.points(Points { object: object + 2, blend_mode: surface, shape, outline, ..points });
 }
 
 fn picture(
@@ -214,7 +214,7 @@ proptest! {
         let count = hostile.len() as u32;
         let hostile = Soup {
             object: 500,
-            surface: Surface::Translucent,
+            surface: BlendMode::Translucent,
             outline: Outline::Sharp,
             pipeline: Coloured { vertices: hostile },
             triangles: (0..count).map(|i| [i, (i + 1) % count, (i + 2) % count]).chain([[0, 1, 4_000_000_000]]).collect(),
@@ -264,8 +264,12 @@ fn layers_blend_in_depth_order_whatever_the_order_of_draws() {
     let draw = |order: &mut dyn Iterator<Item = usize>| {
         let mut pass = Pass::new();
         for i in order {
-            let surface = Surface::Translucent;
-            pass.triangles(Draw { surface, object: i as u32, ..Draw::new(&layers[i], &triangles) });
+            let surface = BlendMode::Translucent;
+            pass.triangles(Draw {
+                blend_mode: surface,
+                object: i as u32,
+                ..Draw::new(&layers[i], &triangles)
+            });
         }
         draw_sized(&pass, [16, 16], &ExecuteSettings::default())
     };
@@ -300,7 +304,11 @@ fn equally_deep_layers_blend_by_their_ids() {
             draws.reverse();
         }
         for (object, layer) in draws {
-            pass.triangles(Draw { surface: Surface::Translucent, object, ..Draw::new(layer, &triangles) });
+            pass.triangles(Draw {
+                blend_mode: BlendMode::Translucent,
+                object,
+                ..Draw::new(layer, &triangles)
+            });
         }
         let linear = draw_sized(&pass, [16, 16], &ExecuteSettings::default()).linear.expect("asked for");
         assert_eq!(linear[8 * 16 + 4], Vec4::new(0.5, 0.25, 0.0, 0.75), "object 1 over object 2");
@@ -318,13 +326,19 @@ fn colours_that_overflow_stay_finite() {
     };
     let layers = [glow(0.1, 0.0), glow(0.2, 0.0), glow(0.3, 1.0), glow(0.4, -1e38), glow(0.5, 1.0)];
     let triangles = [[0, 1, 2], [0, 2, 3]];
-    for (surface, samples) in [(Surface::Opaque, 4), (Surface::Translucent, 1), (Surface::Translucent, 3)] {
+    for (surface, samples) in
+        [(BlendMode::Opaque, 4), (BlendMode::Translucent, 1), (BlendMode::Translucent, 3)]
+    {
         for layers in [&layers[..2], &layers[..3], &layers[..4], &layers[..]] {
             let mut pass = Pass::new();
             for (object, layer) in layers.iter().enumerate() {
                 // Half of the picture, so that samples of a pixel differ.
-                let triangles = if surface == Surface::Opaque { &triangles[..1] } else { &triangles[..] };
-                pass.triangles(Draw { surface, object: object as u32, ..Draw::new(layer, triangles) });
+                let triangles = if surface == BlendMode::Opaque { &triangles[..1] } else { &triangles[..] };
+                pass.triangles(Draw {
+                    blend_mode: surface,
+                    object: object as u32,
+                    ..Draw::new(layer, triangles)
+                });
             }
             let target = Target::new(13, 11, &[Output::Linear, Output::Srgb8]).expect("a size in range");
             let mut target = target.with_samples_per_axis(samples).expect("a number in range");
@@ -375,7 +389,7 @@ fn thousands_of_layers_are_blended_in_parts() {
     let draw = |triangles: &[[u32; 3]], tile_size: TileSize| {
         let mut pass = Pass::new();
         pass.triangles(Draw {
-            surface: Surface::Translucent,
+            blend_mode: BlendMode::Translucent,
             culling: Culling::None,
             ..Draw::new(&pipeline, triangles)
         });

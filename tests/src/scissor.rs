@@ -7,7 +7,7 @@ use crate::programs::{Scalar, Vertices};
 use proptest::prelude::*;
 use trigon_math::{UVec2, Vec3, Vec4};
 use trigon_raster::{
-    Background, Culling, Draw, ExecuteSettings, Lines, Output, Pass, Pictures, Rect, Surface, Target,
+    Background, BlendMode, Culling, Draw, ExecuteSettings, Lines, Output, Pass, Pictures, Rect, Target,
     TileSize,
 };
 
@@ -17,7 +17,7 @@ const SIZE: [u32; 2] = [75, 52];
 #[derive(Debug)]
 struct Scene {
     vertices: Vertices,
-    surfaces: Vec<Surface>,
+    surfaces: Vec<BlendMode>,
     background: Vec4,
 }
 
@@ -25,7 +25,7 @@ fn scene() -> impl Strategy<Value = Scene> {
     let position = (-1.5_f32..1.5, -1.5_f32..1.5, 0.0_f32..1.1, -0.2_f32..3.0)
         .prop_map(|(x, y, z, w)| Vec4::new(x * w, y * w, z * w, w));
     let color = (0.0_f32..1.0, 0.0_f32..1.0, 0.0_f32..1.0, 0.2_f32..1.0).prop_map(Vec4::from);
-    let surface = prop_oneof![Just(Surface::Opaque), Just(Surface::Masked), Just(Surface::Translucent)];
+    let surface = prop_oneof![Just(BlendMode::Opaque), Just(BlendMode::Masked), Just(BlendMode::Translucent)];
     let surfaces = proptest::collection::vec(surface, 0..3);
     (proptest::collection::vec((position, color), 3..20), surfaces, any::<bool>()).prop_map(
         |(list, surfaces, blank)| {
@@ -55,8 +55,13 @@ fn draw(scene: &Scene, gradient: bool, scissor: Option<Rect>, tile_size: TileSiz
     for (object, &surface) in scene.surfaces.iter().enumerate() {
         let object = object as u32;
         let draw = Draw::new(&pipeline, &triangles);
-        pass.triangles(Draw { object, surface, culling: Culling::None, ..draw });
-        pass.lines(Lines { object: object + 10, surface, width: 2.0, ..Lines::new(&pipeline, &segments) });
+        pass.triangles(Draw { object, blend_mode: surface, culling: Culling::None, ..draw });
+        pass.lines(Lines {
+            object: object + 10,
+            blend_mode: surface,
+            width: 2.0,
+            ..Lines::new(&pipeline, &segments)
+        });
     }
     if let Some(rect) = scissor {
         pass.scissor(rect);

@@ -6,7 +6,7 @@ use crate::effort::cases;
 use crate::programs::{Lanes, Vertices};
 use proptest::prelude::*;
 use trigon_math::Vec4;
-use trigon_raster::{Culling, Draw, ExecuteSettings, Output, Pass, Surface, Target, TargetError};
+use trigon_raster::{BlendMode, Culling, Draw, ExecuteSettings, Output, Pass, Target, TargetError};
 
 /// A triangle over most of the view and one that covers half of it.
 fn vertices(colors: [Vec4; 3]) -> Vertices {
@@ -21,10 +21,10 @@ fn vertices(colors: [Vec4; 3]) -> Vertices {
 
 const TRIANGLES: [[u32; 3]; 2] = [[0, 1, 2], [3, 4, 5]];
 
-fn draw(vertices: &Vertices, surface: Surface, target: &mut Target<'_>) {
+fn draw(vertices: &Vertices, surface: BlendMode, target: &mut Target<'_>) {
     let pipeline = Lanes(vertices);
     let mut pass = Pass::new();
-    pass.triangles(Draw { surface, culling: Culling::None, ..Draw::new(&pipeline, &TRIANGLES) });
+    pass.triangles(Draw { blend_mode: surface, culling: Culling::None, ..Draw::new(&pipeline, &TRIANGLES) });
     rasterizer(&ExecuteSettings::default()).draw(&pass, target);
 }
 
@@ -33,8 +33,8 @@ fn color() -> impl Strategy<Value = Vec4> {
     [channel.clone(), channel.clone(), channel, 0.0_f32..1.0].prop_map(Vec4::from_array)
 }
 
-fn surface() -> impl Strategy<Value = Surface> {
-    prop_oneof![Just(Surface::Opaque), Just(Surface::Translucent)]
+fn surface() -> impl Strategy<Value = BlendMode> {
+    prop_oneof![Just(BlendMode::Opaque), Just(BlendMode::Translucent)]
 }
 
 proptest! {
@@ -121,7 +121,7 @@ fn a_target_can_be_a_single_row_or_column() {
         for per_pixel in [1, 4] {
             let samples = Samples { per_axis: 1, per_pixel };
             let mut target = samples.target([width, height], &[Output::Linear, Output::Object]);
-            draw(&vertices, Surface::Opaque, &mut target);
+            draw(&vertices, BlendMode::Opaque, &mut target);
             // The second triangle covers what lies above the other diagonal: half of a row or column.
             let objects = target.objects().expect("asked for");
             let covered = objects.iter().filter(|&&object| object == 0).count();

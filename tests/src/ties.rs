@@ -15,7 +15,7 @@ use std::cmp::Reverse;
 use std::num::NonZeroUsize;
 use trigon_math::Vec4;
 use trigon_raster::{
-    Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, Stats, Surface,
+    BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pictures, Pipeline, Stats,
     Target, TileSize, VertexOutput,
 };
 use trigon_study::oracle::GridPoint;
@@ -54,7 +54,7 @@ impl Triangle {
 struct Heap {
     side: i32,
     copies: Vec<Triangle>,
-    surfaces: Vec<Surface>,
+    surfaces: Vec<BlendMode>,
     /// Whether faces of one more draw, which is beside the picture, descend: then the order of
     /// draws is surely not that of keys.
     descends: bool,
@@ -66,7 +66,7 @@ struct Part {
     triangles: Vec<[u32; 3]>,
     faces: Vec<u32>,
     object: u32,
-    surface: Surface,
+    surface: BlendMode,
 }
 
 impl Pipeline for Part {
@@ -82,7 +82,7 @@ impl Pipeline for Part {
     }
 
     fn fragment(&self, fragment: &Fragment<f32>) -> Vec4 {
-        let alpha = if self.surface == Surface::Translucent { 0.5 } else { 1.0 };
+        let alpha = if self.surface == BlendMode::Translucent { 0.5 } else { 1.0 };
         Vec4::new(fragment.varyings * alpha, 0.0, 0.0, alpha)
     }
 }
@@ -99,7 +99,7 @@ impl Heap {
     }
 
     fn parts(&self) -> Vec<Part> {
-        let part = |(draw, &surface): (usize, &Surface)| {
+        let part = |(draw, &surface): (usize, &BlendMode)| {
             let mut part =
                 Part { vertices: Vec::new(), triangles: Vec::new(), faces: Vec::new(), object: 0, surface };
             for (number, copy) in self.copies.iter().enumerate().filter(|(_, copy)| copy.draw == draw) {
@@ -121,12 +121,18 @@ impl Heap {
         if self.descends {
             let position = clip_position_on(self.side, [-4096, -4096], 0.5);
             let (vertices, triangles) = (vec![(position, 0.0)], vec![[0; 3]; 2]);
-            parts.push(Part { vertices, triangles, faces: vec![1, 0], object: 9, surface: Surface::Opaque });
+            parts.push(Part {
+                vertices,
+                triangles,
+                faces: vec![1, 0],
+                object: 9,
+                surface: BlendMode::Opaque,
+            });
         }
         let mut pass = Pass::new();
         for part in &parts {
             let Part { triangles, faces, object, surface, .. } = part;
-            let draw = Draw { object: *object, surface: *surface, ..Draw::new(part, triangles) };
+            let draw = Draw { object: *object, blend_mode: *surface, ..Draw::new(part, triangles) };
             pass.triangles(Draw { faces: Some(faces), culling: Culling::None, ..draw });
         }
         let side = self.side as u32;
@@ -140,7 +146,7 @@ impl Heap {
     /// What is seen at a sample without what is translucent, and its colour with that.
     fn search(&self, sample: GridPoint) -> (Option<&Triangle>, f32) {
         let covering = self.copies.iter().enumerate().filter(|(_, copy)| covers(copy.corners, sample));
-        let is_layer = |copy: &Triangle| self.surfaces[copy.draw] == Surface::Translucent;
+        let is_layer = |copy: &Triangle| self.surfaces[copy.draw] == BlendMode::Translucent;
         let (mut layers, solid): (Vec<_>, Vec<_>) = covering.partition(|(_, copy)| is_layer(copy));
         let seen = solid.into_iter().min_by_key(|(_, copy)| copy.key());
         layers.retain(|(_, copy)| seen.is_none_or(|(_, seen)| copy.key() < seen.key()));
@@ -183,13 +189,13 @@ fn heap() -> impl Strategy<Value = Heap> {
     const DRAWS: usize = 9;
     let solid = || {
         prop::sample::select(vec![
-            Surface::Opaque,
-            Surface::Opaque,
-            Surface::Masked,
-            Surface::MaskedPerSample,
+            BlendMode::Opaque,
+            BlendMode::Opaque,
+            BlendMode::Masked,
+            BlendMode::MaskedPerSample,
         ])
     };
-    let surface = prop_oneof![4 => solid(), 1 => Just(Surface::Translucent)];
+    let surface = prop_oneof![4 => solid(), 1 => Just(BlendMode::Translucent)];
     let shapes = prop::collection::vec(corners(), 1..5);
     let copy = (any::<prop::sample::Index>(), prop_oneof![Just(1_usize), 0..4_usize], 0..DRAWS);
     let copies = prop::collection::vec(copy, 2..60);
@@ -205,8 +211,8 @@ fn heap() -> impl Strategy<Value = Heap> {
                 Triangle { corners, level: *level, object, face, index: 0, draw: *draw }
             };
             let is_left = |copy: &Triangle| {
-                layers += usize::from(surfaces[copy.draw] == Surface::Translucent);
-                surfaces[copy.draw] != Surface::Translucent || layers <= MOST_LAYERS
+                layers += usize::from(surfaces[copy.draw] == BlendMode::Translucent);
+                surfaces[copy.draw] != BlendMode::Translucent || layers <= MOST_LAYERS
             };
             let copies = copies.iter().zip(faces).map(copy).filter(is_left).collect();
             Heap { side: 64, copies, surfaces, descends }.numbered()
@@ -242,7 +248,7 @@ proptest! {
 
 /// One object's triangles, all in one place, whose faces go round so many draws in an order
 /// that is none: large enough a picture to be shared among threads.
-fn coincident(corners: [GridPoint; 3], surface: Surface) -> Heap {
+fn coincident(corners: [GridPoint; 3], surface: BlendMode) -> Heap {
     const DRAWS: usize = 10;
     let mut random = Random(25);
     let mut faces: Vec<u32> = (0..60).collect();
@@ -268,7 +274,7 @@ const ALL: [GridPoint; 3] = [[-1000, -1000], [300_000, -1000], [-1000, 300_000]]
 fn many_coincident_triangles_show_the_smallest_key() {
     let small = [[30_000, 30_000], [34_000, 30_000], [30_000, 33_000]];
     let tiny = [[30_000, 30_000], [30_700, 30_000], [30_000, 30_700]];
-    for surface in [Surface::Opaque, Surface::Masked, Surface::MaskedPerSample] {
+    for surface in [BlendMode::Opaque, BlendMode::Masked, BlendMode::MaskedPerSample] {
         for (corners, samples) in [(ALL, 1), (ALL, 4), (small, 1), (small, 8), (tiny, 1), (tiny, 4)] {
             let heap = coincident(corners, surface);
             let first = heap.draw(samples, &ExecuteSettings::default());
@@ -288,7 +294,7 @@ fn a_face_of_two_draws_is_decided_alike_whatever_else_is_drawn() {
     let triangle = |level, face, index, draw| Triangle { corners: ALL, level, object: 7, face, index, draw };
     let copies = vec![triangle(0, 0, 0, 0), triangle(1, 1, 1, 0), triangle(1, 1, 0, 1), triangle(0, 2, 1, 1)];
     for descends in [false, true] {
-        let surfaces = vec![Surface::Opaque; 2];
+        let surfaces = vec![BlendMode::Opaque; 2];
         let heap = Heap { side: 64, copies: copies.clone(), surfaces, descends };
         for settings in settings() {
             heap.check(&heap.draw(1, &settings).0, 1, 1, &settings);
@@ -300,7 +306,7 @@ fn a_face_of_two_draws_is_decided_alike_whatever_else_is_drawn() {
 /// itself, whatever the settings.
 #[test]
 fn tiles_with_many_ties_are_drawn_in_the_order_of_keys() {
-    let heap = coincident(ALL, Surface::Opaque);
+    let heap = coincident(ALL, BlendMode::Opaque);
     for samples in [1, 4, 8] {
         for settings in settings() {
             let (_, stats) = heap.draw(samples, &settings);
@@ -312,7 +318,7 @@ fn tiles_with_many_ties_are_drawn_in_the_order_of_keys() {
 /// In the order of their keys, at different depths or side by side they need no second time.
 #[test]
 fn tiles_with_few_ties_are_drawn_once() {
-    let coincident = coincident(ALL, Surface::Opaque);
+    let coincident = coincident(ALL, BlendMode::Opaque);
     let mut in_order = coincident.clone();
     for (copy, face) in in_order.copies.iter_mut().zip(0..) {
         (copy.face, copy.draw) = (face, 0);

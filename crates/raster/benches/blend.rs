@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use trigon_math::Vec4;
 use trigon_raster::simd::{Each, F32, Simd};
 use trigon_raster::{
-    Culling, Draw, ExecuteSettings, FragmentLanes, LanePipeline, Output, Pass, Rasterizer, Surface, Target,
+    BlendMode, Culling, Draw, ExecuteSettings, FragmentLanes, LanePipeline, Output, Pass, Rasterizer, Target,
     VertexLanes,
 };
 
@@ -86,8 +86,8 @@ fn layers(criterion: &mut Criterion) {
         ("200 layers of small quads", quads(500_000, 0.02, 1.0)),
     ] {
         let mut pass = Pass::new();
-        let (surface, culling) = (Surface::Translucent, Culling::None);
-        pass.triangles(Draw { surface, culling, ..Draw::new(&sheets, &triangles) });
+        let (blend_mode, culling) = (BlendMode::Translucent, Culling::None);
+        pass.triangles(Draw { blend_mode, culling, ..Draw::new(&sheets, &triangles) });
         criterion.bench_function(name, |bencher| bencher.iter(|| rasterizer.draw(&pass, &mut target)));
     }
 }

@@ -16,6 +16,7 @@ impl Cancel {
     }
 
     /// Whether [`cancel`](Self::cancel) was called.
+    #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

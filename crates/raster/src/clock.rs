@@ -1,4 +1,4 @@
-//! How long stages take, if that is asked for.
+//! Measures how long stages take, if that is requested.
 
 use std::time::{Duration, Instant};
 

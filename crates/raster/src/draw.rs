@@ -3,10 +3,10 @@
 use crate::{EdgeFlags, Marks};
 use fixedbitset::FixedBitSet;
 
-/// Which triangles are dropped by the side that they show.
+/// Which triangles are culled by their facing.
 ///
-/// The front is the side from which the corners wind counter-clockwise. A
-/// triangle without area on the screen is always dropped.
+/// A triangle is front-facing if its corners wind counter-clockwise on the screen.
+/// Triangles without area on the screen are always culled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Culling {
     /// Both sides are drawn.
@@ -18,30 +18,30 @@ pub enum Culling {
     Front,
 }
 
-/// How a draw meets what lies behind it.
+/// How a draw's fragments are combined with what lies behind them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Surface {
-    /// Hides what is behind; the pipeline's alpha goes to the output as it is.
+pub enum BlendMode {
+    /// Hides what is behind. The pipeline's alpha is written to the output unchanged.
     #[default]
     Opaque,
-    /// Hides what is behind, wherever [`Pipeline::mask`](crate::Pipeline::mask)
-    /// says that there is something. It is asked once for each triangle and
-    /// pixel: at the centre if the triangle covers it, else at the
-    /// lowest-numbered sample that it covers.
+    /// Hides what is behind wherever [`Pipeline::mask`](crate::Pipeline::mask)
+    /// returns true. The mask is evaluated once per triangle and pixel: at the
+    /// centre if the triangle covers it, otherwise at the lowest-numbered sample
+    /// that it covers.
     Masked,
-    /// As [`Masked`](Self::Masked), with the mask asked at every sample instead
-    /// of once for each pixel: with several samples
-    /// ([`Target::with_samples`](crate::Target::with_samples)) the outline that
-    /// the mask draws is as smooth as a triangle's, for as many questions as
-    /// there are samples. The colour is still found once for each pixel.
+    /// Like [`Masked`](Self::Masked), but the mask is evaluated at every sample.
+    /// With several samples
+    /// ([`Target::with_samples`](crate::Target::with_samples)) the mask's outline
+    /// is then as smooth as a triangle's, at the cost of one evaluation per
+    /// sample. The colour is still computed once per pixel.
     MaskedPerSample,
-    /// Opaque to the eye alone: hides what is behind in the colours, and writes no depth and no
-    /// ids, which stay those of the opaque and masked surfaces below. For marks that are shown
-    /// on a surface and must not be in the way of picking it.
+    /// Opaque in the colours only. Depth and ids are not written: they stay those of the
+    /// opaque and masked draws below. For marks on a surface that must not get in the way of
+    /// picking it.
     Overlay,
-    /// Laid over what is behind, by alpha. Fragments of all translucent draws
-    /// are ordered per sample, whatever order they were recorded in. They write
-    /// no depth and no ids.
+    /// Blended over what is behind by alpha. Fragments of all translucent draws are
+    /// sorted by depth at each sample, whatever order they were recorded in. They
+    /// write no depth and no ids.
     Translucent,
 }
 
@@ -51,23 +51,23 @@ pub struct Draw<'a, P> {
     pub pipeline: &'a P,
     /// Indices into the pipeline's vertices.
     pub triangles: &'a [[u32; 3]],
-    /// For each triangle the face that it belongs to, for ids and for the
-    /// order of equal depths. Without it (or beyond its end) a triangle is a
-    /// face of its own, numbered by its index.
+    /// For each triangle the id of its face, which is written to the output and
+    /// decides between equal depths. Without it (or beyond its end) each triangle
+    /// is its own face, numbered by its index.
     pub faces: Option<&'a [u32]>,
     /// For each triangle which of its edges are edges of the face. Without it
     /// (or beyond its end) all are; but a pass that paints edges
     /// ([`Pass::edges`](crate::Pass::edges)) paints only those of draws that list them.
     pub edge_flags: Option<&'a [EdgeFlags]>,
-    /// Edges and faces in colours of their own, as [`Pass::marks`](crate::Pass::marks) tells
-    /// them. Edges have to be painted at all for that.
+    /// Edges and faces with their own colours, which [`Pass::marks`](crate::Pass::marks)
+    /// defines. Marked edges show only if the pass paints edges.
     pub marks: Option<Marks<'a>>,
     /// The object id; `u32::MAX` means background and should not be used.
     pub object: u32,
-    /// Which sides are dropped.
+    /// Which facing is culled.
     pub culling: Culling,
     /// Opaque, masked, overlay or translucent.
-    pub surface: Surface,
+    pub blend_mode: BlendMode,
 }
 
 impl<'a, P> Draw<'a, P> {
@@ -81,43 +81,43 @@ impl<'a, P> Draw<'a, P> {
             marks: None,
             object: 0,
             culling: Culling::default(),
-            surface: Surface::default(),
+            blend_mode: BlendMode::default(),
         }
     }
 }
 
-/// How the outline of a line or a point meets the pixels that it crosses.
+/// Whether a line or a point is anti-aliased.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Outline {
     /// Each sample is covered or not.
     #[default]
     Sharp,
-    /// Each sample is covered by the share of a pixel around it, and the
-    /// pipeline's colour times that share is laid over what is behind, as by
-    /// [`Surface::Translucent`] whatever the draw's surface: no depth and no ids
-    /// are written, and no mask is asked.
+    /// Each sample gets a coverage between 0 and 1, computed for a pixel-sized square
+    /// around it, and the pipeline's colour times the coverage is blended over what is
+    /// behind, as with [`BlendMode::Translucent`], whatever the draw's own mode. No depth
+    /// and no ids are written, and no mask is evaluated.
     ///
-    /// A line is all that lies within half its width of the segment, so its ends
-    /// are round, and covers at a distance of d pixels from the segment
-    /// `min(width, 1, width/2 + 1/2 - d)`, at least 0: exact for a line along an axis,
-    /// and the same total in any direction but for the sampling. Widths below
-    /// one pixel fade, down to nothing at 0. Of segments that share a vertex the
-    /// one that covers most of a sample paints it, so that a polyline is one
-    /// shape, its joints round.
+    /// A line is everything within half its width of the segment, so its ends are
+    /// round. At a distance of d pixels from the segment its coverage is
+    /// `min(width, 1, width/2 + 1/2 - d)`, at least 0. That is exact for a line
+    /// along an axis, and has the same total in any direction except for sampling.
+    /// Lines narrower than a pixel fade, and vanish at width 0. Where segments that
+    /// share a vertex overlap, the one with the greatest coverage paints the sample,
+    /// so a polyline is one shape with round joints.
     ///
-    /// A round point covers as a line without length, times its size below one
-    /// pixel; a square one by its exact area.
+    /// A round point is covered like a line without length; below one pixel the
+    /// coverage is also multiplied by its size. A square point has its exact area.
     ///
-    /// With supersampling a pixel is one of the finer grid.
+    /// With supersampling, a pixel here is one of the finer grid.
     AntiAliased,
 }
 
 impl Outline {
-    /// The surface of a draw that has one.
-    pub(crate) fn surface(self, surface: Surface) -> Surface {
+    /// The blend mode of a draw with this outline.
+    pub(crate) fn blend_mode(self, blend_mode: BlendMode) -> BlendMode {
         match self {
-            Self::Sharp => surface,
-            Self::AntiAliased => Surface::Translucent,
+            Self::Sharp => blend_mode,
+            Self::AntiAliased => BlendMode::Translucent,
         }
     }
 }
@@ -126,21 +126,21 @@ impl Outline {
 ///
 /// A segment is x-major if it is at least as wide as high on the screen, else
 /// y-major. It covers the parallelogram that its width spans across the minor
-/// direction, prolonged at both ends by half the width: exact, and the same
-/// from either end. (Anti-aliased lines are told of at
-/// [`Outline::AntiAliased`].) Without supersampling, a width of 1 pixel or less draws
+/// direction, extended at both ends by half the width. That is exact, and
+/// independent of the segment's direction. ([`Outline::AntiAliased`] describes
+/// anti-aliased lines.) Without supersampling, a width of 1 pixel or less draws
 /// exactly one pixel per step of the major direction, both ends included.
 /// Where segments that share a vertex overlap, only one of them paints a
-/// sample: the nearer one, or for translucent lines the later one; so a
-/// polyline draws each joint once. Varyings run along the segment, and depth is
+/// sample: the nearer one, or for translucent lines the later one. A polyline
+/// therefore draws each joint once. Varyings vary along the segment, and depth is
 /// constant across it.
 pub struct Lines<'a, P> {
     /// Vertices and colours.
     pub pipeline: &'a P,
     /// Pairs of indices into the pipeline's vertices.
     pub segments: &'a [[u32; 2]],
-    /// For each segment its id, given out as the face id. Without it (or beyond
-    /// its end) the segment's index.
+    /// For each segment its id, which is written as the face id. Without it (or
+    /// beyond its end) the segment's index.
     pub ids: Option<&'a [u32]>,
     /// The object id.
     pub object: u32,
@@ -149,14 +149,14 @@ pub struct Lines<'a, P> {
     pub width: f32,
     /// Sharp or anti-aliased.
     pub outline: Outline,
-    /// A share of the distance by which the line is drawn nearer to the eye
-    /// than it is, so that it shows on the surface that it lies in; 0 for a
-    /// line that is tested as it is. The depth is multiplied by one plus this
-    /// and held to 1: with a perspective, 0.001 moves the line by a thousandth
-    /// of its distance. Clamped to `0..=1`.
-    pub toward_eye: f32,
+    /// How much nearer to the eye the line is drawn, as a fraction of its distance,
+    /// so that it is visible on a surface that it lies in. 0 tests the line at its
+    /// own depth. The depth is multiplied by one plus this and clamped to 1: with
+    /// a perspective, 0.001 moves the line by a thousandth of its distance. Clamped
+    /// to `0..=1`.
+    pub depth_bias: f32,
     /// Opaque, masked, overlay or translucent.
-    pub surface: Surface,
+    pub blend_mode: BlendMode,
 }
 
 impl<'a, P> Lines<'a, P> {
@@ -169,8 +169,8 @@ impl<'a, P> Lines<'a, P> {
             object: 0,
             width: 1.0,
             outline: Outline::default(),
-            toward_eye: 0.0,
-            surface: Surface::default(),
+            depth_bias: 0.0,
+            blend_mode: BlendMode::default(),
         }
     }
 }
@@ -185,7 +185,7 @@ pub enum PointShape {
     Square,
 }
 
-/// Points of a [`Points`] draw that have a size of their own.
+/// The points of a [`Points`] draw that have another size than the rest.
 #[derive(Clone, Copy, Debug)]
 pub struct MarkedPoints<'a> {
     /// Their indices among the draw's [`points`](Points::points); those beyond the set's length
@@ -195,35 +195,35 @@ pub struct MarkedPoints<'a> {
     pub size: f32,
 }
 
-/// Points of a size in pixels.
+/// Points with a size in pixels.
 ///
-/// A point that lies behind the near plane, or further than its size outside
-/// the guard band, draws nothing. Its depth is the same all over it.
+/// A point nearer than the near plane, or outside the guard band by more than its
+/// size, draws nothing. Depth is constant over a point.
 pub struct Points<'a, P> {
     /// Vertices and colours.
     pub pipeline: &'a P,
     /// Indices into the pipeline's vertices.
     pub points: &'a [u32],
-    /// For each point its id, given out as the face id. Without it (or beyond
-    /// its end) the point's index.
+    /// For each point its id, which is written as the face id. Without it (or
+    /// beyond its end) the point's index.
     pub ids: Option<&'a [u32]>,
     /// The object id.
     pub object: u32,
     /// Diameter or edge in output pixels; below 1 counts as 1 unless it is
     /// anti-aliased, above 4096 as 4096.
     pub size: f32,
-    /// Those points that have another size, such as the selected ones. (For another colour
-    /// the pipeline can ask the same set: it is told the point's index, see
+    /// Points with another size, such as selected ones. (For another colour, the pipeline
+    /// can look up the same set by the point's index,
     /// [`Fragment::triangle`](crate::Fragment::triangle).)
     pub marked: Option<MarkedPoints<'a>>,
     /// Sharp or anti-aliased.
     pub outline: Outline,
     /// Round or square.
     pub shape: PointShape,
-    /// As [`Lines::toward_eye`].
-    pub toward_eye: f32,
+    /// See [`Lines::depth_bias`].
+    pub depth_bias: f32,
     /// Opaque, masked, overlay or translucent.
-    pub surface: Surface,
+    pub blend_mode: BlendMode,
 }
 
 impl<'a, P> Points<'a, P> {
@@ -238,8 +238,8 @@ impl<'a, P> Points<'a, P> {
             marked: None,
             outline: Outline::default(),
             shape: PointShape::default(),
-            toward_eye: 0.0,
-            surface: Surface::default(),
+            depth_bias: 0.0,
+            blend_mode: BlendMode::default(),
         }
     }
 }

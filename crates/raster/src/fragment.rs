@@ -1,11 +1,11 @@
-//! What a pipeline knows when it shades one sample.
+//! The input of a pipeline that shades one fragment at a time.
 
 use trigon_math::{UVec2, Vec2};
 
-/// One visible sample of one triangle or line, to be shaded.
+/// One visible fragment of a triangle, line or point.
 ///
-/// Everything here is a function of the triangle and the sample alone: no
-/// neighbour, tile or thread takes part.
+/// Everything here depends on the primitive and the sample alone, never on
+/// neighbours, tiles or threads.
 #[derive(Clone, Copy, Debug)]
 pub struct Fragment<V> {
     /// The interpolated varyings, perspective-correct, within the range of the
@@ -15,7 +15,7 @@ pub struct Fragment<V> {
     /// (one pixel when [`samples_per_axis`](crate::Target::samples_per_axis) is
     /// 1, half a pixel when it is 2): what a texture look-up needs.
     pub ddx: V,
-    /// The same downwards.
+    /// The derivative downwards.
     pub ddy: V,
     /// The pixel, from the top left.
     pub pixel: UVec2,
@@ -35,8 +35,8 @@ pub struct Fragment<V> {
     pub front_facing: bool,
     /// Distances in pixels, >= 0, to the lines through the triangle's edges:
     /// `[i]` to the edge from corner `i` to corner `i + 1 (mod 3)`, as the
-    /// draw's index triple numbers them. Cut by no clip plane. Infinite for
-    /// lines and points.
+    /// draw's index triple numbers them. Clipping does not change them. Infinite
+    /// for lines and points.
     pub edge_distances: [f32; 3],
     /// Which of the three edges are edges of the face, from
     /// [`Draw::edge_flags`](crate::Draw::edge_flags).
@@ -48,7 +48,7 @@ impl<V> Fragment<V> {
     /// of the face; infinite if none is.
     ///
     /// Painting a fragment dark where this is below half a line width draws a
-    /// wireframe that can never fight with its own surface.
+    /// wireframe that cannot z-fight with its own surface.
     #[inline]
     pub fn nearest_edge(&self) -> f32 {
         let mut nearest = f32::INFINITY;
@@ -84,23 +84,26 @@ const RADIUS_RATIOS: [f32; 32] = {
 };
 
 impl EdgeFlags {
-    /// No edge is a real one.
+    /// No edge is an edge of the face.
     pub const NONE: Self = Self(0);
     /// All three are.
     pub const ALL: Self = Self(0b111);
 
     /// Flags from one truth value for each edge.
+    #[must_use]
     pub const fn new(edges: [bool; 3]) -> Self {
         Self(edges[0] as u8 | (edges[1] as u8) << 1 | (edges[2] as u8) << 2)
     }
 
-    /// The same flags of a triangle whose face has this many times the inner radius that
-    /// the triangle shows by itself: twice its area over the length of those of its sides
-    /// that are flagged, or of all where none is (it lies in the middle of its face then). For [`FaceEdges`](crate::FaceEdges), which makes lines narrower on
-    /// small faces; slivers of the triangulation of a large polygon are told from such by
-    /// this. A radius is twice an area over a perimeter.
+    /// The same flags with the size of the face relative to this triangle: how many times the
+    /// triangle's own inner radius the face's inner radius is.
     ///
-    /// Rounded down to half a power of two, from 1 to 2^15.5; 1 unless it is given.
+    /// An inner radius is twice an area over a perimeter; for the triangle, the perimeter counts
+    /// its flagged sides only, or all if none is flagged. [`FaceEdges`](crate::FaceEdges) makes
+    /// lines narrower on small faces, and the ratio tells slivers of a large polygon from faces
+    /// that are really small.
+    ///
+    /// Rounded down to half a power of two, from 1 to 2^15.5; 1 by default.
     #[must_use]
     pub fn with_radius_ratio(self, ratio: f32) -> Self {
         let above = RADIUS_RATIOS.partition_point(|&step| step <= ratio);
@@ -122,6 +125,7 @@ impl EdgeFlags {
 
     /// Whether edge `edge` (0, 1 or 2) is flagged.
     #[inline]
+    #[must_use]
     pub const fn contains(self, edge: usize) -> bool {
         edge < 3 && self.0 >> edge & 1 != 0
     }

@@ -1,7 +1,7 @@
 //! What was recorded, without the pipeline: indices and ids.
 
 use crate::simd::{Each, LANES};
-use crate::{Culling, EdgeFlags, MarkedPoints, Marks, Outline, PointShape, Surface};
+use crate::{BlendMode, Culling, EdgeFlags, MarkedPoints, Marks, Outline, PointShape};
 
 /// The primitives of one draw.
 pub(crate) enum Shape<'a> {
@@ -15,14 +15,14 @@ pub(crate) enum Shape<'a> {
         segments: &'a [[u32; 2]],
         width: f32,
         outline: Outline,
-        toward_eye: f32,
+        depth_bias: f32,
     },
     Points {
         points: &'a [u32],
         sizes: PointSizes<'a>,
         shape: PointShape,
         outline: Outline,
-        toward_eye: f32,
+        depth_bias: f32,
     },
 }
 
@@ -51,7 +51,7 @@ pub(crate) struct Geometry<'a> {
     /// For each primitive its face id; the index where there is none.
     pub(crate) faces: Option<&'a [u32]>,
     pub(crate) object: u32,
-    pub(crate) surface: Surface,
+    pub(crate) blend_mode: BlendMode,
 }
 
 impl Geometry<'_> {

@@ -1,14 +1,13 @@
-//! Triangles, lines and points to pixels on the CPU: exact, and the same bytes
-//! everywhere.
+//! A CPU rasterizer for triangles, lines and points. Coverage is exact, and the
+//! output has the same bytes on every machine.
 //!
-//! This crate knows vertices, triangles and pixels. It never knows scenes,
-//! materials, lights, files or windows; it never prints; and it never lets the
-//! number of threads, the size of a tile or the order of draws change a byte of
-//! the picture.
+//! The crate knows vertices, triangles and pixels. It never knows scenes,
+//! materials, lights, files or windows, and it never prints. The number of
+//! threads, the size of a tile and the order of draws never change a byte.
 //!
-//! A [`Pipeline`] says where vertices lie and what colour a sample gets; a
-//! [`Pass`] records draws, each with a pipeline of its own, and executes them
-//! into a [`Target`].
+//! A [`Pipeline`] computes vertex positions and fragment colours. A [`Pass`]
+//! records draws, each with its own pipeline. A [`Rasterizer`] draws a pass into a
+//! [`Target`].
 //!
 //! ```
 //! use trigon_math::Vec4;
@@ -53,38 +52,38 @@
 //! # Ok::<(), TargetError>(())
 //! ```
 //!
-//! # What holds
+//! # Guarantees
 //! - Vertices are snapped to 1/256 of a sample, to the nearest, ties to even.
-//!   Which samples a triangle covers is then decided in integers, without error;
-//!   a sample on an edge belongs to the triangle on one side of it: that for
-//!   which the edge is a left edge, or a horizontal one at the top.
-//! - Depth is reversed (1 near, 0 far). It is a convex combination of the
-//!   vertices' depths, so no sample lies nearer or further than the triangle.
-//!   The nearer sample is seen; of equally near ones the smaller (object, face).
+//!   Coverage is then decided in integers, without error. A sample exactly on an
+//!   edge belongs to one of the two triangles beside it: the one for which the
+//!   edge is a left edge or a horizontal top edge.
+//! - Depth is reversed (1 near, 0 far). It stays within the range of the
+//!   vertices' depths. The nearest fragment is visible; of equally near ones the
+//!   one with the smaller (object, face).
 //! - Varyings are perspective-correct, within the range of the vertices' values,
 //!   and exactly constant where those are equal. Their derivatives are analytic.
-//! - Any vertex is safe, whatever its bits; no output holds a NaN.
-//! - Triangles are cut only at w > 0, at the near plane and far outside the
-//!   view; neighbours are cut at the same bits, so no seam opens.
+//! - Any vertex is safe, whatever its bits. No output contains a NaN.
+//! - Triangles are clipped only at a small positive w, at the near plane and far
+//!   outside the view. Neighbours are clipped at identical points, so no gap opens.
 //!
-//! # The way of a frame
+//! # The stages of a frame
 //! `vertex` → `clip` → `setup` (with `line` and `point`) → `bin`, then for each
 //! tile `tile` (coverage, depth, visibility) → `shade` → `blend` → `resolve`.
 //! Each stage is a folder of that name.
 //!
 //! # Wireframes
-//! A line along the edge of a surface has, off its exact middle, another depth
-//! than the surface, and would fight with it. So edges of visible faces are best
-//! painted by the pass itself: [`Pass::edges`] lays them over what is visible, and
-//! [`Draw::edge_flags`] tells edges from diagonals. For hidden lines shade the
-//! surface in the colour of the background; for see-through wireframes draw
-//! [`Lines`] alone. Lines over a surface of their own can be drawn a little
-//! nearer with [`Lines::toward_eye`]. A pipeline that wants to do more with edges
-//! asks for the distance to the next one: [`Fragment::nearest_edge`].
+//! A line drawn along the edge of a surface differs in depth from the surface
+//! everywhere but on its exact middle, so the two flicker (z-fighting). Edges of
+//! visible faces are therefore best painted by the pass itself: [`Pass::edges`]
+//! paints them over what is visible, and [`Draw::edge_flags`] distinguishes edges
+//! from diagonals. For hidden-line images, shade the surface in the background's
+//! colour. For see-through wireframes, draw [`Lines`] alone. Lines that lie on a
+//! surface can be drawn slightly nearer with [`Lines::depth_bias`]. A pipeline can
+//! read the distance to the nearest edge with [`Fragment::nearest_edge`].
 //!
 //! # User interfaces
-//! [`paint2d`] is a path of its own, without depth and in gamma space: it paints
-//! triangles in the order given, as user interface toolkits want it.
+//! [`paint2d`] is a separate painter without depth, in gamma space. It paints
+//! triangles in submission order, as user interface toolkits need.
 
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "tests may"))]
 
@@ -124,7 +123,7 @@ mod viewport;
 
 pub use cancel::Cancel;
 pub use certify::{Certainty, Certificate, Tolerance};
-pub use draw::{Culling, Draw, Lines, MarkedPoints, Outline, PointShape, Points, Surface};
+pub use draw::{BlendMode, Culling, Draw, Lines, MarkedPoints, Outline, PointShape, Points};
 pub use explain::{
     EdgeExplanation, FragmentExplanation, PixelExplanation, PrimitiveKind, SampleExplanation, Verdict,
 };
@@ -133,14 +132,10 @@ pub use frame::{DrawChange, Redraw};
 pub use ink::{FaceEdges, MarkColors, Marks};
 pub use paint2d::Rect;
 pub use pass::{Background, Pass};
-#[doc(hidden)]
-pub use pipeline::ScalarPipeline;
 pub use pipeline::{LanePipeline, Pipeline, VertexOutput};
 pub use rasterizer::Rasterizer;
 pub use settings::{DepthTest, ExecuteSettings, TileSize};
 pub use shade::FragmentLanes;
-#[doc(hidden)]
-pub use shade::RawFragment;
 pub use stats::{StageTimes, Stats};
 pub use target::{MAX_SAMPLES_PER_AXIS, MAX_TARGET_SIZE, Output, Pictures, Target, TargetError};
 pub use texture::{

@@ -1,4 +1,4 @@
-//! A recorded pass: what is to be drawn, and then the frame in one go.
+//! A recorded pass: the draws of one frame.
 
 use crate::geometry::{Geometry, PointSizes, Shape};
 use crate::paint2d::Rect;
@@ -6,7 +6,7 @@ use crate::shade::AnyPipeline;
 use crate::{Draw, FaceEdges, LanePipeline, Lines, MarkColors, Points, Target};
 use trigon_math::{UVec2, Vec4};
 
-/// What a pass is drawn on.
+/// The background that a pass is drawn over.
 #[derive(Clone, Copy)]
 pub enum Background<'a> {
     /// One colour, linear light, premultiplied.
@@ -45,6 +45,7 @@ impl Default for Pass<'_> {
 
 impl<'a> Pass<'a> {
     /// An empty pass on transparent black.
+    #[must_use]
     pub fn new() -> Self {
         Self {
             background: Background::Color(Vec4::ZERO),
@@ -61,39 +62,40 @@ impl<'a> Pass<'a> {
         self
     }
 
-    /// Draws only the pixels of a rectangle of the target, the background's
-    /// included; all others keep what the target holds. Inside, every byte is
-    /// that of the whole picture.
+    /// Restricts drawing, the background included, to a rectangle of the target. All
+    /// other pixels keep what the target holds. Inside, every byte is the same as
+    /// without a scissor.
     ///
-    /// Empty rectangles draw nothing; what lies beyond the target is left out.
-    /// Tiles that the rectangle does not meet cost nothing.
+    /// An empty rectangle draws nothing, and parts outside the target are ignored.
+    /// Tiles outside the rectangle cost nothing.
     pub fn scissor(&mut self, rect: Rect) -> &mut Self {
         self.scissor = Some(rect);
         self
     }
 
-    /// Paints the edges of faces: those of draws with
-    /// [`edge_flags`](crate::Draw::edge_flags), over the colours of their pipelines and over
-    /// all that is seen beside them, the background included. They are visible where their
-    /// faces are; translucent faces paint what lies on them and nothing beside.
+    /// Paints the edges of faces of all draws with
+    /// [`edge_flags`](crate::Draw::edge_flags), over their own colours and over whatever is
+    /// visible next to them, the background included. Edges are visible where their faces are.
+    /// Translucent faces show only the part of an edge that lies on the face itself.
     ///
-    /// It costs no vertices and no lines: [`FaceEdges`] says what is painted. With several
-    /// samples ([`Target::with_samples`](crate::Target::with_samples)) the part beyond a
-    /// face is found once for each pixel, at its centre, for the farthest that it sees, and
-    /// laid over all that it sees. Of faces beside the picture nothing is seen in it.
+    /// This needs no vertices and no lines. [`FaceEdges`] defines what is painted. With several
+    /// samples ([`Target::with_samples`](crate::Target::with_samples)) the part of an edge
+    /// beyond its face is computed once per pixel, at the centre, against the farthest visible
+    /// triangle, and painted over all samples. Faces outside the image contribute nothing.
     pub fn edges(&mut self, edges: FaceEdges) -> &mut Self {
         self.edges = Some(edges);
         self
     }
 
-    /// Gives the marks of draws ([`Draw::marks`](crate::Draw::marks)) their colours: those of
-    /// faces are mixed into what their pipelines give, those of edges take the place of the
-    /// colour and opacity of [`edges`](Self::edges), which has to give them a width.
+    /// Sets the colours of marks ([`Draw::marks`](crate::Draw::marks)). Face colours are mixed
+    /// into what the pipeline returns. Edge colours replace the colour and opacity of
+    /// [`edges`](Self::edges), which must set a width.
     ///
-    /// Edges that meet in a pixel: the one that covers most of it gives the colour, of equal
-    /// ones that with the greater mark. Where a face is too small for single edges, it is the
-    /// greatest mark of its triangle's. Which of two marks covers more is not doubted by
-    /// [`Rasterizer::certify`](crate::Rasterizer::certify).
+    /// Where several edges meet in a pixel, the one with the greatest coverage gives the colour,
+    /// and of equal ones the one with the greater mark. Where a face is too small for single
+    /// edges, its triangle's greatest mark gives the colour.
+    /// [`Rasterizer::certify`](crate::Rasterizer::certify) does not consider which of two marks
+    /// covers more.
     pub fn marks(&mut self, marks: MarkColors) -> &mut Self {
         self.marks = Some(marks);
         self
@@ -101,27 +103,27 @@ impl<'a> Pass<'a> {
 
     /// Records triangles.
     pub fn triangles<P: LanePipeline>(&mut self, draw: Draw<'a, P>) -> &mut Self {
-        let Draw { pipeline, triangles, faces, edge_flags, marks, object, culling, surface } = draw;
+        let Draw { pipeline, triangles, faces, edge_flags, marks, object, culling, blend_mode } = draw;
         let shape = Shape::Triangles { triangles, edge_flags, marks, culling };
-        self.record(pipeline, Geometry { shape, faces, object, surface })
+        self.record(pipeline, Geometry { shape, faces, object, blend_mode })
     }
 
     /// Records lines.
     pub fn lines<P: LanePipeline>(&mut self, lines: Lines<'a, P>) -> &mut Self {
-        let Lines { pipeline, segments, ids, object, width, outline, toward_eye, surface } = lines;
-        let shape = Shape::Lines { segments, width, outline, toward_eye };
-        let surface = outline.surface(surface);
-        self.record(pipeline, Geometry { shape, faces: ids, object, surface })
+        let Lines { pipeline, segments, ids, object, width, outline, depth_bias, blend_mode } = lines;
+        let shape = Shape::Lines { segments, width, outline, depth_bias };
+        let blend_mode = outline.blend_mode(blend_mode);
+        self.record(pipeline, Geometry { shape, faces: ids, object, blend_mode })
     }
 
     /// Records points.
     pub fn points<P: LanePipeline>(&mut self, points: Points<'a, P>) -> &mut Self {
-        let Points { pipeline, points, ids, object, size, marked, shape, outline, toward_eye, surface } =
+        let Points { pipeline, points, ids, object, size, marked, shape, outline, depth_bias, blend_mode } =
             points;
         let sizes = PointSizes { size, marked };
-        let shape = Shape::Points { points, sizes, shape, outline, toward_eye };
-        let surface = outline.surface(surface);
-        self.record(pipeline, Geometry { shape, faces: ids, object, surface })
+        let shape = Shape::Points { points, sizes, shape, outline, depth_bias };
+        let blend_mode = outline.blend_mode(blend_mode);
+        self.record(pipeline, Geometry { shape, faces: ids, object, blend_mode })
     }
 
     fn record<P: LanePipeline>(&mut self, pipeline: &'a P, geometry: Geometry<'a>) -> &mut Self {

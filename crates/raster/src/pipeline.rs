@@ -12,15 +12,15 @@ pub struct VertexOutput<V> {
     /// Clip space: x and y within `-w..=w` are on the screen, y up; z within
     /// `0..=w`, z = w at the near plane, 0 at the far plane (reversed).
     ///
-    /// Nothing is required of the values: a triangle with a coordinate that is
-    /// not finite or beyond ±2^100 is dropped, all others are drawn.
+    /// Any values are allowed: a triangle with a coordinate that is not finite or
+    /// beyond ±2^100 is dropped, all others are drawn.
     pub position: Vec4,
     /// What is interpolated for the fragments.
     pub varyings: V,
 }
 
-/// A draw's own program, one vertex and one fragment at a time: the convenient
-/// form. [`LanePipeline`] is the fast one.
+/// The program of a draw, written for one vertex and one fragment at a time. This is
+/// the convenient form; [`LanePipeline`] is the fast one.
 ///
 /// The trait is called statically inside loops over many vertices or
 /// fragments; only those loops are reached through a virtual call.
@@ -28,8 +28,8 @@ pub trait Pipeline: Sync {
     /// What is interpolated from the vertices to the fragments.
     type Varyings: Varyings;
 
-    /// Whether [`fragment`](Self::fragment) is asked only once for each visible primitive; see
-    /// [`LanePipeline::FLAT`]. Of the fragment only the ids have a meaning then.
+    /// Whether [`fragment`](Self::fragment) is called only once per visible primitive; see
+    /// [`LanePipeline::FLAT`]. Only the ids of the fragment are meaningful then.
     const FLAT: bool = false;
 
     /// How many vertices there are; indices beyond are dropped with their
@@ -42,19 +42,19 @@ pub trait Pipeline: Sync {
     /// a triangle is cut, so it must be a function of the index alone.
     fn vertex(&self, index: usize) -> VertexOutput<Self::Varyings>;
 
-    /// The colour of a visible pixel: linear light, premultiplied by its
-    /// alpha. A component that is not finite counts as 0; what overflows when
-    /// finite colours are blended or averaged is held to the largest number.
+    /// The colour of a visible pixel: linear light, premultiplied by its alpha. A
+    /// component that is not finite counts as 0. If finite colours overflow when they
+    /// are blended or averaged, the result is clamped to the largest number.
     fn fragment(&self, fragment: &Fragment<Self::Varyings>) -> Vec4;
 
-    /// Whether the fragment exists at all. Asked only for
-    /// [`Surface::Masked`](crate::Surface::Masked), before depth is written.
+    /// Whether the fragment exists at all. Called only for
+    /// [`BlendMode::Masked`](crate::BlendMode::Masked), before depth is written.
     fn mask(&self, _fragment: &Fragment<Self::Varyings>) -> bool {
         true
     }
 }
 
-/// A [`Pipeline`] without its type: its calls are dear enough to be virtual.
+/// A [`Pipeline`] without its type. Each call does enough work to hide the virtual dispatch.
 #[doc(hidden)]
 pub trait ScalarPipeline: Sync {
     /// A vertex's position; its varyings go to the row.
@@ -81,8 +81,8 @@ impl<P: Pipeline> ScalarPipeline for P {
     }
 }
 
-/// A draw's own program in vectors of eight lanes, the same at every
-/// [`SimdLevel`](crate::simd::SimdLevel). Every [`Pipeline`] is one.
+/// The program of a draw, written with vectors of eight lanes at every
+/// [`SimdLevel`](crate::simd::SimdLevel). Every [`Pipeline`] is a `LanePipeline`.
 ///
 /// Write each method `#[inline(always)]`, and everything that it calls on
 /// vectors, too: a call that is not inlined loses the level's instructions.
@@ -94,11 +94,11 @@ pub trait LanePipeline: Sync {
     /// [`varyings`](Self::varyings).
     const VARYINGS: usize;
 
-    /// Whether [`fragments`](Self::fragments) is asked only once for each visible
-    /// triangle or part of a cut one (in each tile): flat colours.
+    /// Whether [`fragments`](Self::fragments) is evaluated only once per tile for each
+    /// visible triangle or part of a clipped one: flat colours.
     const FLAT: bool = false;
 
-    /// Whether [`masks`](Self::masks) says anything.
+    /// Whether [`masks`](Self::masks) is implemented.
     const MASKED: bool = false;
 
     /// How many f32 this draw interpolates: [`VARYINGS`](Self::VARYINGS), unless the
@@ -123,8 +123,8 @@ pub trait LanePipeline: Sync {
     /// of the fragments have a meaning: each lane is the colour of its triangle.
     fn fragments<S: Simd>(&self, simd: S, fragments: &FragmentLanes<'_, S>) -> [F32<S>; 4];
 
-    /// Whether the fragments exist at all; see [`Pipeline::mask`]. Asked only
-    /// if [`MASKED`](Self::MASKED).
+    /// Whether the fragments exist at all; see [`Pipeline::mask`]. Called only if
+    /// [`MASKED`](Self::MASKED).
     #[inline(always)]
     fn masks<S: Simd>(&self, simd: S, _fragments: &FragmentLanes<'_, S>) -> Mask<S> {
         Mask::splat(simd, true)

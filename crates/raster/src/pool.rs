@@ -24,7 +24,7 @@ impl Workers {
         let count = threads.unwrap_or_else(available).get().min(MOST);
         let build = |others: usize| ThreadPoolBuilder::new().num_threads(others).build().ok();
         let others = if count > 1 { build(count - 1) } else { None };
-        // No threads to be had is no reason to draw nothing.
+        // If threads cannot be started, the frame is drawn with fewer.
         let count = others.as_ref().map_or(1, |pool| pool.current_num_threads() + 1);
         Self { others, count }
     }

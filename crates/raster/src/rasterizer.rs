@@ -1,19 +1,24 @@
-//! The object that draws passes and keeps what can be used again.
+//! The rasterizer: draws passes, and keeps threads and memory between them.
 
 use crate::frame::{Arena, DrawChange, FrameOptions, FrameView, Redraw, draw, prepare, redraw};
 use crate::pool::Workers;
 use crate::simd::{SimdLevel, SimdLevelError, Token};
 use crate::{Cancel, ExecuteSettings, Pass, Stats, Target};
 
-/// Draws passes: threads and memory that are kept from frame to frame.
+/// Draws passes, and keeps its threads and memory from frame to frame.
 ///
-/// A frame that is no larger than the last ones allocates nothing, but for what
-/// several threads take to be told of their work.
+/// A frame no larger than earlier ones allocates nothing, except what it takes to
+/// hand work to several threads.
 pub struct Rasterizer {
+    execution: Execution,
+    arena: Arena,
+}
+
+/// How and by which threads passes are drawn.
+struct Execution {
     settings: ExecuteSettings,
     token: Token,
     workers: Workers,
-    arena: Arena,
     cancel: Option<Cancel>,
 }
 
@@ -26,33 +31,30 @@ impl Rasterizer {
     pub fn new(settings: ExecuteSettings) -> Result<Self, SimdLevelError> {
         let level = settings.simd.unwrap_or_else(SimdLevel::best);
         let token = level.token().ok_or(SimdLevelError::Unsupported(level))?;
-        Ok(Self {
-            settings,
-            token,
-            workers: Workers::new(settings.threads),
-            arena: Arena::default(),
-            cancel: None,
-        })
+        let execution = Execution { settings, token, workers: Workers::new(settings.threads), cancel: None };
+        Ok(Self { execution, arena: Arena::default() })
     }
 
     /// How it draws.
+    #[must_use]
     pub fn settings(&self) -> &ExecuteSettings {
-        &self.settings
+        &self.execution.settings
     }
 
-    /// Ends drawings that are under way when the token is cancelled, and those that
-    /// follow; `None` to let them be. What the target of such a drawing holds is of
-    /// no use: ask the token when [`draw`](Self::draw) has returned.
+    /// Sets a token that cancels the current and all later drawings; `None` removes it.
+    /// After a cancelled drawing the target's content is unusable, so check the token
+    /// when [`draw`](Self::draw) has returned.
     pub fn set_cancel(&mut self, cancel: Option<Cancel>) {
-        self.cancel = cancel;
+        self.execution.cancel = cancel;
     }
 
     /// Everything up to the tiles of what [`draw`](Self::draw) would do.
     pub(crate) fn prepare<'f>(&'f mut self, pass: &'f Pass<'_>, target: &Target<'_>) -> FrameView<'f> {
-        let tile_size = self.settings.tile_size.pixels(target.samples());
+        let Execution { settings, token, workers, .. } = &self.execution;
+        let tile_size = settings.tile_size.pixels(target.samples());
         let options = FrameOptions {
-            token: self.token,
-            workers: &self.workers,
+            token: *token,
+            workers,
             tile_size,
             hierarchical: true,
             timed: false,
@@ -68,22 +70,23 @@ impl Rasterizer {
     /// The result is a function of the pass and the target's size, samples and
     /// outputs alone: the settings change no byte.
     pub fn draw(&mut self, pass: &Pass<'_>, target: &mut Target<'_>) -> Stats {
-        let Self { settings, token, workers, cancel, arena } = self;
-        draw(arena, pass, target, frame_options((settings, *token, workers), cancel.as_ref(), pass, target))
+        let options = self.execution.options(pass, target);
+        draw(&mut self.arena, pass, target, options)
     }
 
-    /// As [`draw`](Self::draw), for passes that are drawn again and again with few vertices
-    /// moved: it runs these vertices alone, and draws the tiles alone that their triangles
-    /// lie in, or lay in.
+    /// Like [`draw`](Self::draw), for passes that are drawn repeatedly with few changes: it
+    /// runs only the changed vertices, and draws only the tiles that their triangles lie in or
+    /// lay in before.
     ///
-    /// `changes` tell, draw by draw in the order of recording, how the pass differs from the
-    /// one of the last call. Everything else has to be the same: the background, how edges are
-    /// painted and the colours of marks, the numbers of draws, vertices and triangles, and
-    /// whatever else pipelines answer by. And the target has to hold the pictures that the last
-    /// call has left in its target. Where that is not so the picture is a mixture of both
-    /// passes; nothing worse happens. With `None` all is drawn. So it is in a target of another size or with other outputs, with a
-    /// [`scissor`](Pass::scissor), after a call of any other function, and after a drawing
-    /// that was cancelled.
+    /// `changes` lists, draw by draw in the order of recording, how the pass differs from that of
+    /// the last call. Everything else must be the same: the background, the painting of edges,
+    /// the colours of marks, the numbers of draws, vertices and triangles, and whatever else the
+    /// pipelines' results depend on. The target must hold what the last call left in its target.
+    /// If any of this is violated, the image is a mixture of both passes; nothing worse happens.
+    ///
+    /// With `None` the whole pass is drawn. So it is with a target of another size or with other
+    /// outputs, with a [`scissor`](Pass::scissor), after a call of any other function, and after
+    /// a cancelled drawing.
     ///
     /// ```
     /// # use trigon_raster::{*, math::Vec4};
@@ -122,37 +125,34 @@ impl Rasterizer {
         target: &mut Target<'_>,
         changes: Option<&[DrawChange<'_>]>,
     ) -> Redraw {
-        let Self { settings, token, workers, cancel, arena } = self;
-        let options = frame_options((settings, *token, workers), cancel.as_ref(), pass, target);
-        redraw(arena, pass, (target, changes), options)
+        let options = self.execution.options(pass, target);
+        redraw(&mut self.arena, pass, (target, changes), options)
     }
 
-    /// Works through items of any kind on the threads that draw, each item taken by the
-    /// thread that is free first: what is to be done beside a frame needs no threads of
-    /// its own. Returns when all is done.
+    /// Processes items of any kind on the rasterizer's threads; each item goes to the first
+    /// free thread. Work beside a frame therefore needs no threads of its own. Returns when all
+    /// items are done.
     pub fn share<I>(&self, items: I, work: impl Fn(I::Item) + Sync)
     where
         I: Iterator + Send,
     {
-        self.workers.share(items, work);
+        self.execution.workers.share(items, work);
     }
 }
 
-/// How a pass is drawn.
-fn frame_options<'w>(
-    (settings, token, workers): (&ExecuteSettings, Token, &'w Workers),
-    cancel: Option<&'w Cancel>,
-    pass: &Pass<'_>,
-    target: &Target<'_>,
-) -> FrameOptions<'w> {
-    FrameOptions {
-        token,
-        workers: if pass.is_worth_sharing(target) { workers } else { &Workers::ALONE },
-        tile_size: settings.tile_size.pixels(target.samples()),
-        hierarchical: settings.depth_test == crate::DepthTest::Hierarchical,
-        timed: settings.timed,
-        finds_colors: false,
-        cancel,
+impl Execution {
+    /// How a pass is drawn.
+    fn options(&self, pass: &Pass<'_>, target: &Target<'_>) -> FrameOptions<'_> {
+        let Self { settings, token, workers, cancel } = self;
+        FrameOptions {
+            token: *token,
+            workers: if pass.is_worth_sharing(target) { workers } else { &Workers::ALONE },
+            tile_size: settings.tile_size.pixels(target.samples()),
+            hierarchical: settings.depth_test == crate::DepthTest::Hierarchical,
+            timed: settings.timed,
+            finds_colors: false,
+            cancel: cancel.as_ref(),
+        }
     }
 }
 

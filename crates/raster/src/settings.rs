@@ -1,4 +1,4 @@
-//! How a pass is executed. Nothing in here can change a byte of the result.
+//! How a pass is executed. No setting changes a byte of the result.
 
 use crate::simd::SimdLevel;
 use std::num::NonZeroUsize;
@@ -14,7 +14,7 @@ pub struct ExecuteSettings {
     pub simd: Option<SimdLevel>,
     /// The size of the squares that the frame is cut into.
     pub tile_size: TileSize,
-    /// Whether hidden blocks are told from bounds of their depths.
+    /// Whether hidden blocks are rejected by bounds of their depths.
     pub depth_test: DepthTest,
     /// Whether [`Stats::times`](crate::Stats::times) are measured, a few calls of a
     /// clock for each tile, and [`Stats::samples_seen`](crate::Stats::samples_seen)
@@ -25,8 +25,7 @@ pub struct ExecuteSettings {
 /// When depth is tested.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DepthTest {
-    /// Bounds over blocks and tiles first, so that what is hidden is left out as
-    /// a whole.
+    /// Bounds of blocks and tiles first, so that hidden ones are skipped as a whole.
     #[default]
     Hierarchical,
     /// At every sample: for comparison.

@@ -1,4 +1,4 @@
-//! What a frame took, in counts and in time.
+//! Counts and times of a frame.
 
 use crate::tile::Counts;
 use std::ops::AddAssign;
@@ -31,13 +31,13 @@ pub struct Stats {
     pub binned: u64,
     /// Tiles that had any entry.
     pub tiles: u64,
-    /// Triangles that a tile hid as a whole, tile by tile.
+    /// Triangles that a tile hid as a whole, counted once per tile.
     pub tiles_rejected: u64,
-    /// Tiles that one triangle filled as a whole.
+    /// Tiles that one triangle filled completely.
     pub tiles_filled: u64,
-    /// Tiles whose opaque triangles were drawn once more, in the order of (object, face),
-    /// because at too many samples several of them are equally deep. The counts of blocks
-    /// and groups are of the second time.
+    /// Tiles whose opaque triangles were drawn a second time, in the order of (object, face),
+    /// because several of them have equal depth at too many samples. The counts of blocks and
+    /// groups are those of the second time.
     pub tiles_reordered: u64,
     /// Blocks of 8 by 8 pixels that a triangle does not cover, or that hid it as
     /// a whole.
@@ -48,15 +48,15 @@ pub struct Stats {
     /// accepted blocks; a triangle of a few pixels, which is tested pixel by pixel,
     /// counts as one.
     pub groups_tested: u64,
-    /// Samples that see a triangle when all opaque and masked ones have competed.
-    /// Zero unless [`ExecuteSettings::timed`](crate::ExecuteSettings::timed) asks
-    /// for it.
+    /// Samples that show an opaque or masked triangle. Zero unless
+    /// [`ExecuteSettings::timed`](crate::ExecuteSettings::timed) is set.
     pub samples_seen: u64,
     /// Fragments that were shaded.
     pub pixels_shaded: u64,
-    /// Fragments whose mask was asked.
+    /// Fragments whose mask was evaluated.
     pub samples_masked: u64,
-    /// How long the stages took, if asked for.
+    /// How long the stages took, if
+    /// [`ExecuteSettings::timed`](crate::ExecuteSettings::timed) is set.
     pub times: StageTimes,
 }
 
@@ -85,7 +85,7 @@ impl AddAssign for Stats {
 }
 
 impl Stats {
-    /// Adds what a tile's visibility took.
+    /// Adds the counts of a tile's visibility.
     pub(crate) fn add_counts(&mut self, counts: &Counts) {
         self.tiles_rejected += counts.tiles_rejected;
         self.tiles_filled += counts.tiles_filled;
@@ -96,9 +96,9 @@ impl Stats {
     }
 }
 
-/// How long the stages of a frame took: of vertices and set-up the time that
-/// passed, of those in tiles the sum over all threads. Zero unless
-/// [`ExecuteSettings::timed`](crate::ExecuteSettings::timed) asks for it.
+/// How long the stages of a frame took: elapsed time for vertices and set-up, the
+/// sum over all threads for the stages inside tiles. Zero unless
+/// [`ExecuteSettings::timed`](crate::ExecuteSettings::timed) is set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StageTimes {
     /// Running vertices.
@@ -109,7 +109,7 @@ pub struct StageTimes {
     pub visibility: Duration,
     /// Shading what is visible.
     pub shading: Duration,
-    /// Shading and laying over what is translucent.
+    /// Shading and blending what is translucent.
     pub blending: Duration,
     /// Averaging samples, encoding, and writing to the target.
     pub resolve: Duration,

@@ -12,7 +12,7 @@ use trigon_math::Vec3;
 use trigon_mesh::{Attributes, MeshBuilder};
 use trigon_raster::simd::{Each, F32, Simd, SimdLevel, prelude::*};
 use trigon_raster::{
-    Culling, Draw, ExecuteSettings, FragmentLanes, LanePipeline, Output, Pass, Rasterizer, Surface, Target,
+    BlendMode, Culling, Draw, ExecuteSettings, FragmentLanes, LanePipeline, Output, Pass, Rasterizer, Target,
     VertexLanes,
 };
 use trigon_scene::camera::{Camera, Projection};
@@ -109,11 +109,11 @@ enum Kind {
 }
 
 impl Kind {
-    fn surface(self) -> Surface {
+    fn surface(self) -> BlendMode {
         match self {
-            Self::Opaque => Surface::Opaque,
-            Self::Masked => Surface::Masked,
-            Self::Translucent => Surface::Translucent,
+            Self::Opaque => BlendMode::Opaque,
+            Self::Masked => BlendMode::Masked,
+            Self::Translucent => BlendMode::Translucent,
         }
     }
 }
@@ -250,7 +250,7 @@ impl Case {
             pass.triangles(Draw {
                 object: part.object,
                 faces: Some(&part.faces),
-                surface: self.kind.surface(),
+                blend_mode: self.kind.surface(),
                 culling: Culling::None,
                 ..Draw::new(part, &part.triangles)
             });

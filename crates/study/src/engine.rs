@@ -5,8 +5,8 @@ use std::num::NonZeroUsize;
 use trigon_math::{DVec2, Vec2, Vec4};
 use trigon_raster::simd::{F32, Simd, prelude::*};
 use trigon_raster::{
-    Culling, Draw, ExecuteSettings, Fragment, FragmentLanes, LanePipeline, Lines, Outline, Output, Pass,
-    Pipeline, Rasterizer, Surface, Target, VertexLanes, VertexOutput,
+    BlendMode, Culling, Draw, ExecuteSettings, Fragment, FragmentLanes, LanePipeline, Lines, Outline, Output,
+    Pass, Pipeline, Rasterizer, Target, VertexLanes, VertexOutput,
 };
 
 /// The engine's rasterizer, kept from picture to picture.
@@ -31,7 +31,7 @@ impl Engine {
     /// Draws triangles, each with three corners of its own, into a target.
     pub(crate) fn draw(&mut self, shape: &Corners, target: &mut Target<'_>) {
         let mut pass = Pass::new();
-        pass.triangles(shape.draw(Surface::Opaque));
+        pass.triangles(shape.draw(BlendMode::Opaque));
         self.rasterizer.draw(&pass, target);
     }
 
@@ -40,7 +40,7 @@ impl Engine {
         let mut target = target(size, &[Output::Linear]);
         let mut pass = Pass::new();
         // No alpha: layers add up.
-        pass.triangles(shape.draw(Surface::Translucent));
+        pass.triangles(shape.draw(BlendMode::Translucent));
         self.rasterizer.draw(&pass, &mut target);
         field(size, target.linear()).map(|color| color.x as u32)
     }
@@ -109,8 +109,8 @@ impl Corners {
         Self::new(corners.map(|corner| clip_position(corner.as_dvec2(), 0.5, size)).collect())
     }
 
-    fn draw(&self, surface: Surface) -> Draw<'_, Self> {
-        Draw { surface, culling: Culling::None, ..Draw::new(self, &self.triangles) }
+    fn draw(&self, surface: BlendMode) -> Draw<'_, Self> {
+        Draw { blend_mode: surface, culling: Culling::None, ..Draw::new(self, &self.triangles) }
     }
 }
 

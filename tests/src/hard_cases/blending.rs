@@ -5,7 +5,7 @@ use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::Vec4;
 use trigon_raster::{
-    Background, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Surface, TileSize,
+    Background, BlendMode, Culling, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, TileSize,
     VertexOutput,
 };
 
@@ -52,8 +52,13 @@ fn blended(layers: &[Layer], order: impl Iterator<Item = usize>, tile_size: Tile
     let mut pass = Pass::new();
     pass.background(Background::Color(BEHIND));
     for index in order {
-        let (surface, culling, object) = (Surface::Translucent, Culling::None, index as u32);
-        pass.triangles(Draw { surface, culling, object, ..Draw::new(&layers[index], &[[0, 1, 2]]) });
+        let (surface, culling, object) = (BlendMode::Translucent, Culling::None, index as u32);
+        pass.triangles(Draw {
+            blend_mode: surface,
+            culling,
+            object,
+            ..Draw::new(&layers[index], &[[0, 1, 2]])
+        });
     }
     let mut target = Samples::ONE.target(SIZE, &[Output::Linear]);
     rasterizer(&ExecuteSettings { tile_size, ..Default::default() }).draw(&pass, &mut target);

@@ -8,7 +8,7 @@ use crate::coverage_support::{
 use crate::effort::cases;
 use proptest::prelude::*;
 use trigon_math::Vec4;
-use trigon_raster::{Culling, Draw, ExecuteSettings, Pass, Surface};
+use trigon_raster::{BlendMode, Culling, Draw, ExecuteSettings, Pass};
 use trigon_study::oracle::GridPoint;
 use trigon_study::oracle::coverage::{centre, covers};
 
@@ -103,8 +103,8 @@ proptest! {
         let pipeline = Values::ones(points.into_iter().map(|point| clip_position_on(side, point, 0.5)));
         let triangles = grid_triangles(CELLS as u32, &mut random);
         let mut pass = Pass::new();
-        let surface = Surface::Translucent;
-        pass.triangles(Draw { surface, culling: Culling::None, ..Draw::new(&pipeline, &triangles) });
+        let surface = BlendMode::Translucent;
+        pass.triangles(Draw { blend_mode: surface, culling: Culling::None, ..Draw::new(&pipeline, &triangles) });
         let linear = draw_sized(&pass, [side; 2], &ExecuteSettings::default()).linear.expect("asked for");
         let wrong = linear.iter().position(|color| color.x != 1.0);
         prop_assert!(wrong.is_none(), "sample {wrong:?} of {side}² is not covered once");
@@ -124,7 +124,7 @@ proptest! {
         bad in any::<prop::sample::Index>(),
         axis in 0..4_usize,
         value in prop::sample::select(&NOWHERE[..]),
-        surface in prop::sample::select(&[Surface::Opaque, Surface::Masked, Surface::Translucent][..]),
+        surface in prop::sample::select(&[BlendMode::Opaque, BlendMode::Masked, BlendMode::Translucent][..]),
     ) {
         let depth = |index: usize| 0.1 + index as f32 / 100.0;
         let positions = points.iter().enumerate().map(|(index, &point)| clip_position(point, depth(index)));
@@ -133,7 +133,7 @@ proptest! {
         let bad = bad.index(triangles.len());
         let picture = |pipeline: &Values, triangles: &[[u32; 3]]| {
             let mut pass = Pass::new();
-            pass.triangles(Draw { surface, culling: Culling::None, ..Draw::new(pipeline, triangles) });
+            pass.triangles(Draw { blend_mode: surface, culling: Culling::None, ..Draw::new(pipeline, triangles) });
             draw(&pass)
         };
         let mut without = triangles.clone();

@@ -5,8 +5,8 @@ use crate::coverage_support::Samples;
 use crate::programs::{Flat, Lanes, Scalar, Textured, Vertices};
 use trigon_math::{UVec2, Vec4};
 use trigon_raster::{
-    Background, Culling, Draw, Filter, LanePipeline, Lines, MipFilter, Outline, Output, Pass, Pictures,
-    PointShape, Points, Rasterizer, Sampler, Surface, Texture, TextureFormat,
+    Background, BlendMode, Culling, Draw, Filter, LanePipeline, Lines, MipFilter, Outline, Output, Pass,
+    Pictures, PointShape, Points, Rasterizer, Sampler, Texture, TextureFormat,
 };
 
 const SIZE: [u32; 2] = [96, 64];
@@ -48,7 +48,7 @@ pub(super) struct Picture {
     shape: Shape,
     layout: Layout,
     program: Program,
-    surface: Surface,
+    surface: BlendMode,
     samples: Samples,
     outputs: &'static [Output],
 }
@@ -58,12 +58,12 @@ const USUAL: Picture = Picture {
     shape: Shape::Triangles,
     layout: Layout::Ring,
     program: Program::Lanes,
-    surface: Surface::Opaque,
+    surface: BlendMode::Opaque,
     samples: Samples::ONE,
     outputs: EVERYTHING,
 };
 
-const SURFACES: [Surface; 3] = [Surface::Opaque, Surface::Masked, Surface::Translucent];
+const SURFACES: [BlendMode; 3] = [BlendMode::Opaque, BlendMode::Masked, BlendMode::Translucent];
 
 fn multisampled(per_pixel: u32) -> Samples {
     Samples { per_axis: 1, per_pixel }
@@ -79,7 +79,7 @@ fn samples() -> Vec<Picture> {
     let patterns = [1, 2, 4, 8, 16].map(multisampled).into_iter().chain(supersampled);
     let pictures = patterns.flat_map(|samples| SURFACES.map(|surface| Picture { surface, samples, ..USUAL }));
     let per_sample = [4, 8].map(|samples| Picture {
-        surface: Surface::MaskedPerSample,
+        surface: BlendMode::MaskedPerSample,
         samples: multisampled(samples),
         ..USUAL
     });
@@ -203,15 +203,32 @@ impl Picture {
         match self.shape {
             Shape::Triangles => {
                 let culling = Culling::None;
-                pass.triangles(Draw { object: 7, surface, culling, ..Draw::new(pipeline, triangles) })
+                pass.triangles(Draw {
+                    object: 7,
+                    blend_mode: surface,
+                    culling,
+                    ..Draw::new(pipeline, triangles)
+                })
             }
             Shape::Lines(outline) => {
                 let (object, width) = (8, 2.5);
-                pass.lines(Lines { object, surface, width, outline, ..Lines::new(pipeline, &segments) })
+                pass.lines(Lines {
+                    object,
+                    blend_mode: surface,
+                    width,
+                    outline,
+                    ..Lines::new(pipeline, &segments)
+                })
             }
             Shape::Points(shape, outline) => {
                 let object = 9;
-                pass.points(Points { object, surface, shape, outline, ..Points::new(pipeline, &points, 7.0) })
+                pass.points(Points {
+                    object,
+                    blend_mode: surface,
+                    shape,
+                    outline,
+                    ..Points::new(pipeline, &points, 7.0)
+                })
             }
         };
         let mut target = self.samples.target(SIZE, self.outputs);
@@ -222,7 +239,7 @@ impl Picture {
     /// Whether a good part of it is not background.
     pub(super) fn is_worth_drawing(&self, rasterizer: &mut Rasterizer) -> bool {
         // What is laid over others leaves no ids.
-        let surface = if self.surface == Surface::Translucent { Surface::Opaque } else { self.surface };
+        let surface = if self.surface == BlendMode::Translucent { BlendMode::Opaque } else { self.surface };
         let shape = match self.shape {
             Shape::Triangles => Shape::Triangles,
             Shape::Lines(_) => Shape::Lines(Outline::Sharp),

@@ -1,13 +1,13 @@
 //! A run of the frame's primitives, set up and sorted into tiles.
 
 use super::earlier::primitives_of;
-use super::place::{Entry, Listed, Place};
+use super::triangle_ref::{Entry, Listed, TriangleRef};
 use super::{EarlierEntries, Grid, TileRange};
 use crate::line::Stroke;
 use crate::setup::{Corners, CutWeights, DetailIndex, Quad, QuadDetail, SetupTriangle};
 use crate::simd::{Each, LANES, Mask, Simd, U32, append, prelude::*};
 use crate::tile::Edge;
-use crate::{Stats, Surface};
+use crate::{BlendMode, Stats};
 use std::ops::Range;
 
 /// A triangle, line or point over many tiles, so that it is not listed in each.
@@ -25,7 +25,7 @@ const LARGE: usize = 64;
 pub(crate) struct Chunk {
     /// Ordinals of its primitives in the frame.
     pub(crate) ordinals: Range<u32>,
-    pub(crate) surface: Surface,
+    pub(crate) blend_mode: BlendMode,
     /// Triangles that are not just primitives.
     pub(crate) extras: Vec<SetupTriangle>,
     /// Weights of the corners at the vertices of those.
@@ -48,14 +48,14 @@ pub(crate) struct Chunk {
 
 impl Chunk {
     /// The chunk of a triangle among those of a frame, which are in the order of their ordinals.
-    pub(crate) fn of(chunks: &[Self], place: Place) -> &Self {
+    pub(crate) fn of(chunks: &[Self], place: TriangleRef) -> &Self {
         &chunks[chunks.partition_point(|chunk| chunk.ordinals.end <= place.ordinal)]
     }
 
     /// Empties the chunk for another frame and keeps its memory.
-    pub(crate) fn reset(&mut self, ordinals: Range<u32>, surface: Surface) {
+    pub(crate) fn reset(&mut self, ordinals: Range<u32>, blend_mode: BlendMode) {
         self.ordinals = ordinals;
-        self.surface = surface;
+        self.blend_mode = blend_mode;
         self.extras.clear();
         self.weights.clear();
         self.quads.clear();
@@ -139,12 +139,12 @@ impl Chunk {
 
     /// The line or point that a triangle is half of.
     #[inline(always)]
-    pub(crate) fn quad(&self, place: Place) -> Option<&Quad> {
+    pub(crate) fn quad(&self, place: TriangleRef) -> Option<&Quad> {
         place.quad().map(|(index, _)| &self.quads[index])
     }
 
     /// The triangle of a place that is not a whole primitive; `None` if it is.
-    pub(crate) fn made(&self, place: Place) -> Option<SetupTriangle> {
+    pub(crate) fn made(&self, place: TriangleRef) -> Option<SetupTriangle> {
         match place.quad() {
             Some((index, half)) => Some(self.quads[index].half(half)),
             None => place.extra().map(|extra| self.extras[extra]),
@@ -152,13 +152,13 @@ impl Chunk {
     }
 
     /// The stroke of the anti-aliased line or point that a triangle is half of.
-    pub(crate) fn stroke_of(&self, place: Place) -> Option<&Stroke> {
+    pub(crate) fn stroke_of(&self, place: TriangleRef) -> Option<&Stroke> {
         self.detail(self.quad(place)?)?.stroke.as_ref()
     }
 
     /// The weights of the primitive's corners at the vertices of a triangle, unless those
     /// are its corners.
-    pub(crate) fn weights_of(&self, place: Place) -> Option<CutWeights> {
+    pub(crate) fn weights_of(&self, place: TriangleRef) -> Option<CutWeights> {
         if let Some((index, half)) = place.quad() {
             let quad = &self.quads[index];
             let ends = self.detail(quad).map_or(QuadDetail::WHOLE, |detail| detail.weights);
@@ -212,11 +212,11 @@ impl Chunk {
 
     /// Appends the triangles of a tile to `places`, in the order of the
     /// primitives.
-    pub(crate) fn collect(&self, grid: &Grid, tile: u32, places: &mut Vec<Place>) {
+    pub(crate) fn collect(&self, grid: &Grid, tile: u32, places: &mut Vec<TriangleRef>) {
         let listed = self.listed(tile);
         if self.large.is_empty() {
             if self.extras.is_empty() && self.quads.is_empty() {
-                places.extend(listed.iter().map(|&entry| Place::whole(self.ordinals.start, entry)));
+                places.extend(listed.iter().map(|&entry| TriangleRef::whole(self.ordinals.start, entry)));
             } else {
                 listed.iter().for_each(|&entry| self.append(entry, places));
             }
@@ -239,20 +239,20 @@ impl Chunk {
 
     /// Appends the triangles of an entry.
     #[inline(always)]
-    fn append(&self, entry: Entry, places: &mut Vec<Place>) {
+    fn append(&self, entry: Entry, places: &mut Vec<TriangleRef>) {
         places.push(self.triangle(entry));
         if let Listed::Quad(index) = entry.listed() {
-            places.push(Place::half(self.quads[index].ordinal, index, 1));
+            places.push(TriangleRef::half(self.quads[index].ordinal, index, 1));
         }
     }
 
     /// The only triangle of an entry, or the first of two.
     #[inline(always)]
-    fn triangle(&self, entry: Entry) -> Place {
+    fn triangle(&self, entry: Entry) -> TriangleRef {
         match entry.listed() {
-            Listed::Primitive(_) => Place::whole(self.ordinals.start, entry),
-            Listed::Extra(extra) => Place { ordinal: self.extras[extra].ordinal, extra: extra as u32 },
-            Listed::Quad(index) => Place::half(self.quads[index].ordinal, index, 0),
+            Listed::Primitive(_) => TriangleRef::whole(self.ordinals.start, entry),
+            Listed::Extra(extra) => TriangleRef { ordinal: self.extras[extra].ordinal, extra: extra as u32 },
+            Listed::Quad(index) => TriangleRef::half(self.quads[index].ordinal, index, 0),
         }
     }
 
@@ -307,7 +307,7 @@ impl Chunk {
     }
 
     /// All triangles that any tile lists, in the order of the primitives.
-    pub(crate) fn all(&self) -> Vec<Place> {
+    pub(crate) fn all(&self) -> Vec<TriangleRef> {
         let mut entries: Vec<_> =
             self.large.iter().map(|large| large.entry).chain(self.entries.clone()).collect();
         entries.sort_unstable_by_key(|&entry| (self.primitive(entry), entry.0));

@@ -1,6 +1,6 @@
 //! What a chunk's tiles listed before some of its primitives were moved.
 
-use super::place::Entry;
+use super::triangle_ref::Entry;
 use std::mem::swap;
 use std::ops::Range;
 

@@ -6,9 +6,9 @@
 mod chunk;
 mod earlier;
 mod grid;
-mod place;
+mod triangle_ref;
 
 pub(crate) use chunk::Chunk;
 pub(crate) use earlier::EarlierEntries;
 pub(crate) use grid::{Grid, TileRange};
-pub(crate) use place::{Entry, Place};
+pub(crate) use triangle_ref::{Entry, TriangleRef};

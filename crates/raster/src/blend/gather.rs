@@ -6,14 +6,14 @@ use super::runs::{Layer, Order};
 use super::{Layers, Round};
 use crate::line::Stroke;
 use crate::simd::{LANES, Simd, at_level, prelude::*};
-use crate::tile::{Blocks, Candidate, Covering, SampleGroup, TileView, single};
+use crate::tile::{Blocks, Candidate, SampleGroup, TileTriangle, TileView, single};
 use std::ops::Range;
 
 /// A triangle of a tile.
 struct Shape {
-    covering: Covering,
+    covering: TileTriangle,
     place: u32,
-    /// What it covers, if that is no matter of yes or no.
+    /// Its fractional coverage, if it is anti-aliased.
     stroke: Option<Stroke>,
 }
 
@@ -25,7 +25,7 @@ pub(super) struct Beside {
 
 impl Shape {
     fn new(tile: TileView<'_>, place: usize) -> Option<Self> {
-        let at = tile.places[place];
+        let at = tile.triangles[place];
         let covering = single(tile.frame, tile.area, at)?;
         let stroke = at.part().and_then(|_| tile.frame.chunk_of(at).stroke_of(at).copied());
         Some(Self { covering, place: place as u32, stroke })
@@ -44,10 +44,10 @@ impl Shape {
 
 impl Layers {
     /// Keeps the farthest layers that are left in the blocks of a round.
-    pub(super) fn gather(&mut self, tile: TileView<'_>, round: &Round, places: Range<usize>) {
-        let first = places.start;
+    pub(super) fn gather(&mut self, tile: TileView<'_>, round: &Round, triangles: Range<usize>) {
+        let first = triangles.start;
         let mut beside = std::mem::take(&mut self.beside);
-        for place in places {
+        for place in triangles {
             if self.blocks[place - first].intersection(round.blocks).is_empty() {
                 continue;
             }
@@ -131,7 +131,7 @@ impl Beside {
     }
 }
 
-/// The lanes of which something holds.
+/// The lanes for which `holds` is true.
 #[inline(always)]
 fn where_of(holds: impl Fn(usize) -> bool) -> u64 {
     (0..LANES).fold(0, |lanes, lane| lanes | u64::from(holds(lane)) << lane)

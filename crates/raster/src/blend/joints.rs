@@ -1,7 +1,7 @@
 //! Where translucent segments meet: of those that share a vertex only one
 //! paints a sample, so that a polyline draws each joint once.
 
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::geometry::Shape;
 use crate::pass::Recorded;
@@ -19,12 +19,12 @@ pub(super) struct Joints(Vec<Joint>);
 
 impl Joints {
     /// Lists the segments among a tile's triangles.
-    pub(super) fn collect(&mut self, tile: &TileView<'_>, places: Range<usize>) {
+    pub(super) fn collect(&mut self, tile: &TileView<'_>, triangles: Range<usize>) {
         self.0.clear();
         let is_lines = |draw: &Recorded<'_>| matches!(draw.geometry.shape, Shape::Lines { .. });
         if tile.frame.pass.iter().any(is_lines) {
-            let ends = |place| Some(Segment::of(tile.frame, tile.places[place])?.ends(place));
-            self.0.extend(places.filter_map(ends).flatten());
+            let ends = |place| Some(Segment::of(tile.frame, tile.triangles[place])?.ends(place));
+            self.0.extend(triangles.filter_map(ends).flatten());
             self.0.sort_unstable();
         }
     }
@@ -36,9 +36,9 @@ impl Joints {
         tile: TileView<'j>,
         place: usize,
     ) -> impl Iterator<Item = (usize, bool)> + 'j {
-        let segment = if self.0.is_empty() { None } else { Segment::of(tile.frame, tile.places[place]) };
+        let segment = if self.0.is_empty() { None } else { Segment::of(tile.frame, tile.triangles[place]) };
         let ends = segment.map(|segment| segment.ends(place));
-        let extent = move |place: usize| extents(&tile.frame.triangle(tile.places[place]));
+        let extent = move |place: usize| extents(&tile.frame.triangle(tile.triangles[place]));
         let own = ends.map(|_| extent(place));
         ends.into_iter().flatten().flat_map(move |[draw, vertex, primitive, _]| {
             let start = self.0.partition_point(|joint| *joint < [draw, vertex, 0, 0]);
@@ -59,7 +59,7 @@ struct Segment {
 }
 
 impl Segment {
-    fn of(frame: &FrameView<'_>, place: Place) -> Option<Self> {
+    fn of(frame: &FrameView<'_>, place: TriangleRef) -> Option<Self> {
         place.part()?;
         let plan = &frame.plan.draws[frame.draw_of(place)];
         let geometry = &frame.pass[plan.draw].geometry;
@@ -85,7 +85,11 @@ pub(super) fn prevails((other, is_later): (f32, bool), own: f32) -> bool {
 
 /// Whether a triangle leaves a sample to another one. Of both the share that they
 /// cover is given.
-pub(crate) fn leaves(frame: &FrameView<'_>, (own, coverage): (Place, f32), other: (Place, f32)) -> bool {
+pub(crate) fn leaves(
+    frame: &FrameView<'_>,
+    (own, coverage): (TriangleRef, f32),
+    other: (TriangleRef, f32),
+) -> bool {
     let segments = Segment::of(frame, own).zip(Segment::of(frame, other.0));
     segments.is_some_and(|(a, b)| {
         let joined = a.draw == b.draw && a.vertices.iter().any(|vertex| b.vertices.contains(vertex));

@@ -2,7 +2,7 @@
 //! by triangle: what shading works off.
 
 use super::runs::Layer;
-use crate::shade::{Job, Work};
+use crate::shade::{Job, ShadePoint};
 
 /// Fragments that are to be shaded.
 #[derive(Default)]
@@ -14,17 +14,17 @@ pub(super) struct Fragments {
     /// For each triangle how many fragments it has; then where its next one goes.
     counts: Vec<u32>,
     pub(super) jobs: Vec<Job>,
-    pub(super) work: Vec<Work>,
+    pub(super) points: Vec<ShadePoint>,
 }
 
 impl Fragments {
-    /// Empties the list, for so many triangles.
-    pub(super) fn reset(&mut self, places: usize) {
+    /// Empties the list for a tile with this many triangles.
+    pub(super) fn reset(&mut self, triangle_count: usize) {
         self.listed.clear();
         self.counts.clear();
-        self.counts.resize(places, 0);
-        if self.latest.len() < places {
-            self.latest.resize(places, 0);
+        self.counts.resize(triangle_count, 0);
+        if self.latest.len() < triangle_count {
+            self.latest.resize(triangle_count, 0);
         }
     }
 
@@ -61,16 +61,16 @@ impl Fragments {
         let mut start = 0;
         for (place, count) in self.counts.iter_mut().enumerate().filter(|(_, count)| **count > 0) {
             let end = start + *count as usize;
-            self.jobs.push(Job { place: place as u32, work: start..end });
+            self.jobs.push(Job { place: place as u32, points: start..end });
             *count = start as u32;
             start = end;
         }
-        if self.work.len() < start {
-            self.work.resize(start, Work::default());
+        if self.points.len() < start {
+            self.points.resize(start, ShadePoint::default());
         }
         for (color, &(place, pixel)) in self.listed.iter().enumerate() {
             let next = &mut self.counts[place as usize];
-            self.work[*next as usize] = Work::anywhere(pixel as usize, partly, color);
+            self.points[*next as usize] = ShadePoint::anywhere(pixel as usize, partly, color);
             *next += 1;
         }
     }

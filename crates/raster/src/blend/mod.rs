@@ -1,5 +1,5 @@
-//! Translucent fragments, laid over what is there from back to front at each
-//! sample, in the order of (depth, object, face).
+//! Translucent fragments, blended from back to front at each sample in the order of
+//! (depth, object, face).
 //!
 //! The order is total, so it depends neither on the order of draws nor on
 //! threads. Each sample keeps the farthest layers that it has room for; they are
@@ -29,7 +29,7 @@ pub(crate) use joints::leaves;
 
 use crate::frame::FrameView;
 use crate::resolve::saturated;
-use crate::shade::{Shading, shade_jobs};
+use crate::shade::{JobList, Shading, shade_jobs};
 use crate::simd::LANES;
 use crate::tile::{Blocks, TileArea, TileState, TileView};
 use gather::Beside;
@@ -96,13 +96,12 @@ pub(crate) fn blend_translucent(
     area: &TileArea,
     state: &TileState,
     (layers, shading): (&mut Layers, &mut Shading),
-    places: Range<usize>,
+    triangles: Range<usize>,
 ) -> u64 {
-    let TileState { buffer, places: all, ties, .. } = state;
+    let buffer = &state.buffer;
     let mut samples = std::mem::take(&mut layers.samples);
     samples::expand(frame, area, buffer, (shading, &mut samples));
-    let tile = TileView { frame, area, buffer, places: all, ties };
-    let shaded = layers.blend(tile, places, shading, &mut samples);
+    let shaded = layers.blend(state.view(frame, area), triangles, shading, &mut samples);
     samples::collapse(frame, buffer, (shading, &samples));
     layers.samples = samples;
     shaded
@@ -113,13 +112,13 @@ impl Layers {
     fn blend(
         &mut self,
         tile: TileView<'_>,
-        places: Range<usize>,
+        triangles: Range<usize>,
         shading: &mut Shading,
         colors: &mut [Vec4],
     ) -> u64 {
-        self.joints.collect(&tile, places.clone());
+        self.joints.collect(&tile, triangles.clone());
         self.blocks.clear();
-        self.blocks.resize(places.len(), Blocks::ALL);
+        self.blocks.resize(triangles.len(), Blocks::ALL);
         let samples = tile.buffer.samples;
         let (mut left, mut depth, mut again) = (Blocks::of(tile.area), USUAL_DEPTH, false);
         let mut shaded = 0;
@@ -129,7 +128,7 @@ impl Layers {
             while !left.is_empty() {
                 let round = Round::new(left.take(at_once), samples, again);
                 self.runs.reset(round.blocks.len() * BLOCK * samples, ROOM);
-                self.gather(tile, &round, places.clone());
+                self.gather(tile, &round, triangles.clone());
                 self.list(tile, &round);
                 self.shade(tile, shading);
                 shaded += self.fragments.len() as u64;
@@ -147,7 +146,7 @@ impl Layers {
         let Self { runs, fragments, .. } = self;
         let samples = tile.buffer.samples;
         let order = DepthOrder(tile);
-        fragments.reset(tile.places.len());
+        fragments.reset(tile.triangles.len());
         for block in round.blocks.iter() {
             for pixel in block * BLOCK..(block + 1) * BLOCK {
                 // With one sample no fragment is named twice.
@@ -166,7 +165,7 @@ impl Layers {
         if colors.len() < fragments.len() {
             colors.resize(fragments.len(), [0.0; 4]);
         }
-        let jobs = (tile.places, fragments.jobs.as_slice(), fragments.work.as_slice());
+        let jobs = JobList { triangles: tile.triangles, jobs: &fragments.jobs, points: &fragments.points };
         shade_jobs(tile.frame, tile.area, shading, jobs, colors);
     }
 

@@ -24,8 +24,8 @@ impl DepthOrder<'_> {
     /// primitive, which may meet in a sample after snapping, go by their number.
     #[inline]
     fn compare_keys(&self, a: &Layer, b: &Layer) -> Ordering {
-        let TileView { frame, places, ties, .. } = self.0;
-        let part = |layer: &Layer| places[layer.place as usize].part();
-        ties.compare(frame, places, [b.place, a.place]).then_with(|| part(b).cmp(&part(a)))
+        let TileView { frame, triangles, ties, .. } = self.0;
+        let part = |layer: &Layer| triangles[layer.place as usize].part();
+        ties.compare(frame, triangles, [b.place, a.place]).then_with(|| part(b).cmp(&part(a)))
     }
 }

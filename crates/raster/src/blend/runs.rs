@@ -1,8 +1,13 @@
-//! The farthest layers that are left at each sample, in memory of a fixed size.
+//! The farthest remaining layers of each sample, in memory of a fixed size.
 //!
-//! What a sample has no room for waits for another round, and that one takes what
-//! lies in front of the last layer of this. So layers are laid from back to front
-//! however many fit at a time, and the picture does not depend on it.
+//! A sample that has more layers than fit keeps the farthest ones. They are blended, and the next
+//! round collects layers in front of the last of them. Layers are therefore blended from back to
+//! front however many fit at a time, and the result does not depend on that number.
+//!
+//! When a sample's room is full, its layers are sorted and the nearer half is dropped. From then
+//! on the first half is the sorted set of the farthest, any layer in front of its last is dropped
+//! at once, and the other half of the room collects candidates until it is full again. So each
+//! layer takes a constant amount of work on average.
 
 use std::cmp::Ordering;
 

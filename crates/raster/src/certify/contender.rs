@@ -1,7 +1,7 @@
 //! Primitives as far as their place is known.
 
 use super::outline::Outline;
-use crate::Surface;
+use crate::BlendMode;
 use crate::vertex::ScreenVertex;
 
 /// A corner of a primitive's outline on the screen.
@@ -21,7 +21,7 @@ pub(super) struct Contender {
     pub(super) count: u32,
     /// How far the corners may be off on each axis, in units of the grid.
     pub(super) drift: i32,
-    pub(super) surface: Surface,
+    pub(super) blend_mode: BlendMode,
     /// Whether it is drawn at all, as far as can be told; else it can hide
     /// something but is never certain itself.
     pub(super) is_sure: bool,

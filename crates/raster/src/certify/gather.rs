@@ -10,7 +10,7 @@ use crate::geometry::Shape;
 use crate::line::half_size;
 use crate::ulps;
 use crate::vertex::{DrawVertices, ScreenVertex, nearer};
-use crate::{Culling, Outline, PointShape, Surface};
+use crate::{BlendMode, Culling, Outline, PointShape};
 use trigon_math::{ClipVolume, Fixed, FixedPoint, clip_segment};
 
 /// Everything that may be seen.
@@ -22,7 +22,7 @@ pub(super) fn contenders(frame: &FrameView<'_>, tolerance: Tolerance) -> Contend
             frame,
             volume: &volume,
             vertices: frame.vertices(number),
-            surface: frame.pass[plan.draw].geometry.surface,
+            blend_mode: frame.pass[plan.draw].geometry.blend_mode,
             drift: drift(tolerance.position() * f64::from(frame.supersampling)),
             depth_ulps: tolerance.depth_ulps(),
             contenders: &mut contenders,
@@ -42,7 +42,7 @@ struct Gather<'f> {
     frame: &'f FrameView<'f>,
     volume: &'f ClipVolume,
     vertices: DrawVertices<'f>,
-    surface: Surface,
+    blend_mode: BlendMode,
     drift: i32,
     depth_ulps: u32,
     contenders: &'f mut Contenders,
@@ -55,16 +55,16 @@ impl Gather<'_> {
             Shape::Triangles { triangles, culling, .. } => {
                 triangles.iter().for_each(|&indices| self.triangle(indices, culling));
             }
-            Shape::Lines { segments, width, outline, toward_eye } => {
+            Shape::Lines { segments, width, outline, depth_bias } => {
                 let half_width = half_size((width, outline), supersampling);
-                segments.iter().for_each(|&indices| self.segment(indices, half_width, toward_eye));
+                segments.iter().for_each(|&indices| self.segment(indices, half_width, depth_bias));
             }
-            Shape::Points { points, sizes, shape, outline, toward_eye } => {
+            Shape::Points { points, sizes, shape, outline, depth_bias } => {
                 let half_of = sizes.each(|size| half_size((size, outline), supersampling).round() as i32);
                 // What covers a share of a sample is never certain.
                 let form = (outline == Outline::Sharp).then_some(shape);
                 for (number, &index) in (0..).zip(points) {
-                    self.point(index, (half_of(number), form), toward_eye);
+                    self.point(index, (half_of(number), form), depth_bias);
                 }
             }
         }
@@ -108,7 +108,7 @@ impl Gather<'_> {
     }
 
     /// A line lies around its segment: where exactly is not looked at.
-    fn segment(&mut self, indices: [u32; 2], half_width: f64, toward_eye: f32) {
+    fn segment(&mut self, indices: [u32; 2], half_width: f64, depth_bias: f32) {
         let outcodes = indices.map(|index| self.vertices.outcode(index));
         if outcodes.iter().any(|outcode| outcode.is_invalid()) {
             return;
@@ -122,14 +122,14 @@ impl Gather<'_> {
             Some(indices.map(|index| Some(*self.vertices.get(index))))
         };
         if let Some([Some(a), Some(b)]) = ends {
-            let corners = [a, b].map(|end| self.corner(end, toward_eye));
+            let corners = [a, b].map(|end| self.corner(end, depth_bias));
             let drift = self.drift.saturating_add(reach_of_line(half_width));
             let line = Contender { drift, ..self.contender(false, false) };
             self.contenders.push(&corners, line);
         }
     }
 
-    fn point(&mut self, index: u32, (half, form): (i32, Option<PointShape>), toward_eye: f32) {
+    fn point(&mut self, index: u32, (half, form): (i32, Option<PointShape>), depth_bias: f32) {
         let outcode = self.vertices.outcode(index);
         if outcode.is_invalid() || outcode.cuts() {
             return;
@@ -139,7 +139,7 @@ impl Gather<'_> {
         let [column, row] = centre.raw();
         let corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(|[x, y]| {
             let moved = |raw: i32, by: i32| Fixed::from_raw(raw + by * half);
-            self.corner(centre.at(FixedPoint::new(moved(column, x), moved(row, y))), toward_eye)
+            self.corner(centre.at(FixedPoint::new(moved(column, x), moved(row, y))), depth_bias)
         });
         self.push(&corners, whole && form.is_some(), form == Some(PointShape::Round));
     }
@@ -152,12 +152,12 @@ impl Gather<'_> {
     fn contender(&self, is_sure: bool, is_disc: bool) -> Contender {
         // What a plane may come to cut has corners elsewhere, on the same outline.
         let drift = if is_sure { self.drift } else { self.drift + 1 };
-        Contender { first: 0, count: 0, drift, surface: self.surface, is_sure, is_disc }
+        Contender { first: 0, count: 0, drift, blend_mode: self.blend_mode, is_sure, is_disc }
     }
 
-    fn corner(&self, vertex: ScreenVertex, toward_eye: f32) -> Corner {
+    fn corner(&self, vertex: ScreenVertex, depth_bias: f32) -> Corner {
         let steps = i64::from(self.depth_ulps);
-        let at = |steps: i64| nearer(ulps::stepped(vertex.depth(), steps), toward_eye);
+        let at = |steps: i64| nearer(ulps::stepped(vertex.depth(), steps), depth_bias);
         Corner { vertex: vertex.with_depth(at(0)), low: at(-steps), high: at(steps) }
     }
 

@@ -77,14 +77,14 @@ use codes::Codes;
 use tile::TileCertainty;
 
 impl Rasterizer {
-    /// Proves which pixels of what [`draw`](Self::draw) makes of the pass in this
-    /// target stay as they are when everything is off by no more than
-    /// `tolerance`. Bytes are looked at in those encodings that the target keeps;
-    /// its content does not matter. Pixels outside of the pass's scissor are
-    /// certified: they are not drawn.
+    /// Proves which pixels of the image that [`draw`](Self::draw) would make of the
+    /// pass in this target do not change if everything is off by no more than
+    /// `tolerance`. Bytes are checked in the encodings that the target keeps; its
+    /// content does not matter. Pixels outside the pass's scissor are not drawn and
+    /// count as certified.
     ///
-    /// It draws the picture once more for its colours, then looks at each
-    /// primitive again, on the calling thread.
+    /// Draws the image once more for its colours, then visits each primitive again
+    /// on the calling thread.
     ///
     /// # Errors
     /// [`TargetError::Memory`] if there is not enough for a picture of colours.

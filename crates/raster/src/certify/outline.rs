@@ -2,7 +2,7 @@
 //! proofs are in the module above.
 
 use super::contender::{Contender, Corner, extent};
-use crate::Surface;
+use crate::BlendMode;
 use crate::setup::SetupTriangle;
 use crate::tile::DepthPlane;
 
@@ -16,7 +16,7 @@ pub(super) enum Cover {
 
 /// A primitive at any sample.
 pub(super) struct Outline {
-    pub(super) surface: Surface,
+    pub(super) blend_mode: BlendMode,
     /// The rectangle outside of which it certainly misses, by axis.
     pub(super) extent: [[i32; 2]; 2],
     drift: i64,
@@ -43,7 +43,7 @@ impl Outline {
         let greatest = corners.iter().map(|corner| corner.high).fold(f32::NEG_INFINITY, f32::max);
         let extent = extent(corners, contender.drift);
         let mut outline = Self {
-            surface: contender.surface,
+            blend_mode: contender.blend_mode,
             extent,
             drift,
             sign,

@@ -2,7 +2,7 @@
 //! each sample, then everything that may be seen in front of it.
 
 use super::outline::{Cover, Outline};
-use crate::Surface;
+use crate::BlendMode;
 use crate::frame::FrameView;
 use crate::tile::{BEHIND_ALL, TileArea};
 
@@ -42,7 +42,7 @@ impl TileCertainty {
             },
         };
         for (number, outline) in outlines.iter().enumerate() {
-            if outline.surface == Surface::Opaque {
+            if outline.blend_mode == BlendMode::Opaque {
                 builder.occlude(number, outline);
             }
         }
@@ -140,7 +140,7 @@ impl Builder<'_> {
                 }
                 let (depths, ground) = (outline.depths(place), builder.nearest[sample].depths);
                 let is_hidden = depths[1] < ground[0] || depths[1] <= BEHIND_ALL;
-                let is_layer = outline.surface == Surface::Translucent && cover == Cover::Covers;
+                let is_layer = outline.blend_mode == BlendMode::Translucent && cover == Cover::Covers;
                 if is_layer && depths[0] > ground[1] {
                     builder.layers.push(Layer { sample, depths });
                     builder.certainty.drawn[pixel] = true;

@@ -1,9 +1,9 @@
 //! Asks a triangle's pipeline about one pixel.
 
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::ink::OuterInk;
-use crate::shade::{Job, Shading, Work, mask_jobs, shade_jobs_with};
+use crate::shade::{Job, JobList, ShadePoint, Shading, mask_jobs, shade_jobs_with};
 use crate::tile::TileArea;
 use trigon_math::Vec4;
 
@@ -16,29 +16,34 @@ pub(super) struct PixelInTile {
 
 impl PixelInTile {
     /// The pixel alone, as fragments of one triangle are shaded.
-    fn alone(&self, frame: &FrameView<'_>) -> (Job, Work) {
-        let work = Work::anywhere(TileArea::index_of(self.at), frame.is_multisampled(), 0);
-        (Job { place: 0, work: 0..1 }, work)
+    fn alone(&self, frame: &FrameView<'_>) -> (Job, ShadePoint) {
+        let point = ShadePoint::anywhere(TileArea::index_of(self.at), frame.is_multisampled(), 0);
+        (Job { place: 0, points: 0..1 }, point)
     }
 }
 
 /// Whether a masked triangle exists at a pixel that it covers, or at one of the
 /// pixel's samples.
-pub(super) fn mask(frame: &FrameView<'_>, pixel: PixelInTile, sample: Option<usize>, place: Place) -> bool {
-    let (job, work) = pixel.alone(frame);
-    let at = |sample| Work::at_sample(TileArea::index_of(pixel.at), sample, 0);
-    let work = sample.map_or(work, at);
+pub(super) fn mask(
+    frame: &FrameView<'_>,
+    pixel: PixelInTile,
+    sample: Option<usize>,
+    place: TriangleRef,
+) -> bool {
+    let (job, point) = pixel.alone(frame);
+    let at = |sample| ShadePoint::at_sample(TileArea::index_of(pixel.at), sample, 0);
+    let point = sample.map_or(point, at);
     let mut kept = [0];
-    let list: (&[_], &[_], &[_]) = (&[place], &[job], &[work]);
+    let list = JobList { triangles: &[place], jobs: &[job], points: &[point] };
     mask_jobs(frame, &pixel.area, &mut Shading::new(), list, &mut kept);
     kept != [0]
 }
 
 /// The colour of a triangle at a pixel that it covers, with edges that others paint there.
-pub(super) fn color(frame: &FrameView<'_>, pixel: PixelInTile, place: Place, outer: &OuterInk) -> Vec4 {
-    let (job, work) = pixel.alone(frame);
+pub(super) fn color(frame: &FrameView<'_>, pixel: PixelInTile, place: TriangleRef, outer: &OuterInk) -> Vec4 {
+    let (job, point) = pixel.alone(frame);
     let mut colors = [[0.0; 4]];
-    let list: (&[_], &[_], &[_]) = (&[place], &[job], &[work]);
+    let list = JobList { triangles: &[place], jobs: &[job], points: &[point] };
     shade_jobs_with(frame, &pixel.area, &mut Shading::new(), list, (&mut colors, outer.covered()));
     Vec4::from_array(colors[0])
 }

@@ -1,6 +1,6 @@
-//! What one triangle has to do with one sample.
+//! How one triangle relates to one sample.
 
-use crate::Surface;
+use crate::BlendMode;
 use trigon_math::Vec4;
 
 /// What a triangle was made from.
@@ -16,10 +16,10 @@ pub enum PrimitiveKind {
     RoundPoint,
 }
 
-/// What became of a triangle at a sample.
+/// The outcome for a triangle at a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It is seen.
+    /// It is visible.
     Won,
     /// The winner lies nearer.
     Hidden,
@@ -27,10 +27,10 @@ pub enum Verdict {
     LostTie,
     /// It lies behind the far plane.
     BehindFarPlane,
-    /// Its mask says that there is nothing.
+    /// Its mask is false there.
     MaskedAway,
-    /// It is laid over what is seen, as the layer of this number: 0 is the one
-    /// furthest away.
+    /// It is blended over what is visible, as the layer with this number: 0 is the
+    /// farthest.
     Layer(usize),
     /// It is a translucent line, and leaves the sample to a later segment that
     /// meets it in a vertex.
@@ -80,7 +80,7 @@ pub struct FragmentExplanation {
     /// What it was made from.
     pub kind: PrimitiveKind,
     /// Opaque, masked or translucent.
-    pub surface: Surface,
+    pub blend_mode: BlendMode,
     /// Whether a plane has cut the primitive; this is then a part of it.
     pub is_cut: bool,
     /// Whether its corners wind counter-clockwise on the screen.
@@ -102,6 +102,6 @@ pub struct FragmentExplanation {
     pub margin: Option<i64>,
     /// Its colour, if it is seen or is a layer: linear light, premultiplied.
     pub color: Option<Vec4>,
-    /// What became of it.
+    /// The outcome.
     pub verdict: Verdict,
 }

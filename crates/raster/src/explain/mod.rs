@@ -1,10 +1,10 @@
 //! Explained pixels: every triangle that touched one, its exact edge values, its
-//! depth, and who won by how much.
+//! depth, and which one is visible by what margin.
 //!
-//! Nothing is computed twice in different ways: vertices, set-up, edge functions,
-//! coverage, depth, masks, colours and the order of layers come from the stages
-//! that draw. Only the competition itself is repeated, sample by sample, so that
-//! it can be told.
+//! Nothing is computed in a second way: vertices, set-up, edge functions, coverage,
+//! depth, masks, colours and the order of layers come from the stages that draw.
+//! Only the comparison of depths is repeated, sample by sample, so that its outcome
+//! can be reported.
 
 mod ask;
 mod display;
@@ -43,16 +43,16 @@ impl PixelExplanation {
 }
 
 impl Rasterizer {
-    /// Explains the pixel in column `x` and row `y` of what [`draw`](Self::draw)
-    /// makes of the pass in this target, of which only the size and the samples
-    /// matter. `None` outside of the target.
+    /// Explains the pixel in column `x` and row `y` of the image that
+    /// [`draw`](Self::draw) would make of the pass in this target. Only the target's
+    /// size and samples matter. `None` outside the target.
     ///
-    /// It tells of every triangle that covers a sample of the pixel, and of those
-    /// that miss one which lies within their bounding box, unless they were
-    /// dropped before: for their facing, for having no area, or because they hold
-    /// no sample of the picture. It is not held to the pass's scissor.
+    /// The explanation lists every triangle that covers a sample of the pixel, and
+    /// those that miss a sample within their bounding box. Triangles that were
+    /// culled earlier are not listed: by their facing, for having no area, or for
+    /// covering no sample of the image. The pass's scissor is ignored.
     ///
-    /// As dear as a frame up to its tiles, and then a look at each triangle.
+    /// Costs as much as all stages before the tiles, and one visit of each triangle.
     ///
     /// ```
     /// # use trigon_raster::{*, math::Vec4};

@@ -2,15 +2,15 @@
 
 use super::ask::{self, PixelInTile};
 use super::{EdgeExplanation, FragmentExplanation, PrimitiveKind, SampleExplanation, Verdict};
-use crate::Surface;
-use crate::bin::Place;
+use crate::BlendMode;
+use crate::bin::TriangleRef;
 use crate::blend::leaves;
 use crate::frame::{FrameView, outer_ink};
 use crate::ink::OuterInk;
 use crate::line::{Form, Stroke};
 use crate::resolve::saturated;
 use crate::setup::{Corners, Kind, SetupTriangle};
-use crate::tile::{BEHIND_ALL, Covering, Edge};
+use crate::tile::{BEHIND_ALL, Edge, TileTriangle};
 use crate::ulps;
 use std::cmp::Ordering;
 use trigon_math::Vec4;
@@ -18,12 +18,12 @@ use trigon_math::Vec4;
 /// A frame and all of its triangles.
 pub(super) struct Trial<'f> {
     frame: &'f FrameView<'f>,
-    triangles: Vec<(Place, SetupTriangle)>,
+    triangles: Vec<(TriangleRef, SetupTriangle)>,
 }
 
 /// A triangle at a sample, still with its name.
 struct Entrant {
-    place: Place,
+    place: TriangleRef,
     /// The share that it covers, if it covers the sample.
     coverage: f32,
     fragment: FragmentExplanation,
@@ -79,7 +79,7 @@ impl<'f> Trial<'f> {
         pixel: PixelInTile,
         number: usize,
         point: [i32; 2],
-        (place, triangle): &(Place, SetupTriangle),
+        (place, triangle): &(TriangleRef, SetupTriangle),
     ) -> Option<Entrant> {
         let within = |axis: usize| {
             let [low, high] = triangle.extent(axis);
@@ -89,18 +89,18 @@ impl<'f> Trial<'f> {
             return None;
         }
         let mut fragment = self.describe(*place, triangle, point);
-        let covering = Covering::new(triangle, &self.frame.grid, &pixel.area);
+        let covering = TileTriangle::new(triangle, &self.frame.grid, &pixel.area);
         let at = pixel.at.map(|v| v as i32);
         let stroke = self.frame.chunk_of(*place).stroke_of(*place);
         let coverage = stroke.map_or(1.0, |stroke| stroke.coverage_at(point) as f32);
-        let covers = |covering: &Covering| coverage > 0.0 && covering.covers(at, number, point);
+        let covers = |covering: &TileTriangle| coverage > 0.0 && covering.covers(at, number, point);
         if let Some(covering) = covering.filter(covers) {
             fragment.is_covered = true;
             fragment.depth = Some(covering.depth.at(point));
-            let is_there = match fragment.surface {
-                Surface::Opaque | Surface::Overlay | Surface::Translucent => true,
-                Surface::Masked => ask::mask(self.frame, pixel, None, *place),
-                Surface::MaskedPerSample => ask::mask(self.frame, pixel, Some(number), *place),
+            let is_there = match fragment.blend_mode {
+                BlendMode::Opaque | BlendMode::Overlay | BlendMode::Translucent => true,
+                BlendMode::Masked => ask::mask(self.frame, pixel, None, *place),
+                BlendMode::MaskedPerSample => ask::mask(self.frame, pixel, Some(number), *place),
             };
             fragment.verdict = if is_there { Verdict::Hidden } else { Verdict::MaskedAway };
         }
@@ -108,7 +108,7 @@ impl<'f> Trial<'f> {
     }
 
     /// A triangle that misses the sample, until it is known to cover it.
-    fn describe(&self, place: Place, triangle: &SetupTriangle, point: [i32; 2]) -> FragmentExplanation {
+    fn describe(&self, place: TriangleRef, triangle: &SetupTriangle, point: [i32; 2]) -> FragmentExplanation {
         let frame = self.frame;
         let plan = &frame.plan.draws[frame.draw_of(place)];
         let geometry = &frame.pass[plan.draw].geometry;
@@ -123,7 +123,7 @@ impl<'f> Trial<'f> {
             face: geometry.face(primitive),
             primitive,
             kind: self.kind_of(place, triangle),
-            surface: geometry.surface,
+            blend_mode: geometry.blend_mode,
             is_cut: self.is_cut(place, triangle),
             front_facing: triangle.front_facing,
             vertices: order.map(|i| triangle.vertices[i].raw()),
@@ -136,7 +136,7 @@ impl<'f> Trial<'f> {
         }
     }
 
-    fn kind_of(&self, place: Place, triangle: &SetupTriangle) -> PrimitiveKind {
+    fn kind_of(&self, place: TriangleRef, triangle: &SetupTriangle) -> PrimitiveKind {
         match triangle.kind {
             Kind::Triangle => PrimitiveKind::Triangle,
             Kind::Line => PrimitiveKind::Line,
@@ -151,7 +151,7 @@ impl<'f> Trial<'f> {
     }
 
     /// Whether vertices of the triangle are not its primitive's own.
-    fn is_cut(&self, place: Place, triangle: &SetupTriangle) -> bool {
+    fn is_cut(&self, place: TriangleRef, triangle: &SetupTriangle) -> bool {
         match triangle.corners {
             Corners::Whole(_) => false,
             Corners::Cut { .. } | Corners::Ends(_) => {
@@ -175,7 +175,7 @@ impl<'f> Trial<'f> {
             }
         }
         let hides = |entrant: &Entrant| {
-            entrant.is(Verdict::Hidden) && entrant.fragment.surface != Surface::Translucent
+            entrant.is(Verdict::Hidden) && entrant.fragment.blend_mode != BlendMode::Translucent
         };
         let best = |except: Option<usize>| {
             let rivals = (0..entrants.len()).filter(|&i| Some(i) != except && hides(&entrants[i]));
@@ -201,7 +201,7 @@ impl<'f> Trial<'f> {
         let winner = winner.map(|winner| &entrants[winner]);
         match winner {
             Some(winner) if std::ptr::eq(winner, entrant) => Verdict::Won,
-            _ if entrant.fragment.surface == Surface::Translucent
+            _ if entrant.fragment.blend_mode == BlendMode::Translucent
                 && winner.is_none_or(|winner| self.beats(entrant, winner)) =>
             {
                 Verdict::Layer(0)

@@ -13,13 +13,13 @@ use crate::geometry::Shape;
 use crate::paint2d::Rect;
 use crate::pass::{Pass, Recorded};
 use crate::vertex::UsedVertices;
-use crate::{Stats, Surface};
+use crate::{BlendMode, Stats};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What of a draw differs from the one in the same place of the last pass.
+/// How a draw differs from the one in the same place of the last pass.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DrawChange<'a> {
-    /// Vertices for which the pipeline may answer otherwise, in any order.
+    /// Vertices for which the pipeline may return other values, in any order.
     pub vertices: &'a [u32],
     /// Triangles that may have other corners or [`edge_flags`](crate::Draw::edge_flags), and
     /// points that may have another [size](crate::Points::marked); increasing. None of lines:
@@ -59,7 +59,7 @@ struct DrawSignature {
     vertices: usize,
     varyings: usize,
     object: u32,
-    surface: Surface,
+    blend_mode: BlendMode,
 }
 
 impl Signature {
@@ -70,7 +70,7 @@ impl Signature {
             vertices: recorded.pipeline.vertex_count(),
             varyings: recorded.pipeline.varyings(),
             object: recorded.geometry.object,
-            surface: recorded.geometry.surface,
+            blend_mode: recorded.geometry.blend_mode,
         };
         Self {
             wants,

@@ -1,6 +1,6 @@
 //! One draw of a frame, with its triangles as tiles list them.
 
-use crate::bin::{Chunk, Place};
+use crate::bin::{Chunk, TriangleRef};
 use crate::geometry::Geometry;
 use crate::setup::SetupTriangle;
 use crate::simd::Each;
@@ -20,13 +20,13 @@ pub(crate) struct DrawView<'f> {
 impl<'f> DrawView<'f> {
     /// The primitive of the draw that a triangle belongs to.
     #[inline(always)]
-    pub(crate) fn primitive(&self, place: Place) -> u32 {
+    pub(crate) fn primitive(&self, place: TriangleRef) -> u32 {
         place.ordinal - self.first
     }
 
     /// A triangle, ready.
     #[inline]
-    pub(crate) fn triangle(&self, place: Place) -> SetupTriangle {
+    pub(crate) fn triangle(&self, place: TriangleRef) -> SetupTriangle {
         if !place.is_whole()
             && let Some(triangle) = self.chunk_of(place).made(place)
         {
@@ -37,7 +37,7 @@ impl<'f> DrawView<'f> {
 
     /// The vertices of a primitive.
     #[inline(always)]
-    pub(crate) fn corners(&self, place: Place) -> [&'f ScreenVertex; 3] {
+    pub(crate) fn corners(&self, place: TriangleRef) -> [&'f ScreenVertex; 3] {
         self.geometry.corners(self.primitive(place)).each(
             #[inline(always)]
             |index| self.vertices.get(index),
@@ -45,7 +45,7 @@ impl<'f> DrawView<'f> {
     }
 
     /// The chunk that a triangle belongs to.
-    pub(crate) fn chunk_of(&self, place: Place) -> &'f Chunk {
+    pub(crate) fn chunk_of(&self, place: TriangleRef) -> &'f Chunk {
         Chunk::of(self.chunks, place)
     }
 }

@@ -8,7 +8,7 @@ pub(crate) struct RequestedOutputs {
     pub(crate) color: bool,
     pub(crate) depth: bool,
     pub(crate) ids: bool,
-    /// The encoding, if bytes of one kind are all of the colour that is asked for
-    /// and there is no supersampling.
+    /// The encoding, if bytes of one kind are the only output of colour and there is no
+    /// supersampling.
     pub(crate) bytes: Option<Encoding>,
 }

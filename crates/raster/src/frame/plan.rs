@@ -1,19 +1,19 @@
 //! In which order a frame's draws are set up, and where their vertices go.
 
-use crate::Surface;
+use crate::BlendMode;
 use crate::bin::Chunk;
 use crate::pass::Recorded;
 use crate::vertex::{Slots, UsedVertices};
 use std::ops::Range;
 
-/// The fewest primitives of a chunk: enough to be worth a worker's while.
+/// The fewest primitives of a chunk: enough to be worth handing to a worker.
 const LEAST: u32 = 8192;
 
 /// The most primitives of a chunk: few enough to stay in a worker's cache.
 const MOST: u32 = 65_536;
 
-/// Chunks for each worker, so that none waits long for another. Every tile asks all
-/// chunks what they hold: the fewer, the better.
+/// Chunks for each worker, so that none waits long for another. Every tile visits all
+/// chunks, so there should not be more.
 const SHARES: u32 = 16;
 
 /// One draw of the pass in the frame.
@@ -51,8 +51,8 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// Plans a frame for so many workers, and cuts it into chunks: the first so many, in
-    /// the order of their ordinals.
+    /// Plans a frame for a number of workers and cuts it into chunks. Returns how many of
+    /// `chunks` are used, from the first on, in the order of their ordinals.
     pub(crate) fn make(
         &mut self,
         recorded: &[Recorded<'_>],
@@ -70,7 +70,7 @@ impl Plan {
         // Equal keys stay in the order of the pass.
         self.draws.sort_unstable_by_key(|plan| {
             let geometry = &recorded[plan.draw].geometry;
-            (geometry.surface, geometry.object, plan.draw)
+            (geometry.blend_mode, geometry.object, plan.draw)
         });
         let mut ordinal = 0;
         for plan in &mut self.draws {
@@ -96,7 +96,7 @@ impl Plan {
             .draws
             .iter()
             .map(|plan| &recorded[plan.draw].geometry)
-            .filter(|g| g.surface == Surface::Opaque);
+            .filter(|g| g.blend_mode == BlendMode::Opaque);
         let mut before: Option<((u32, u32), usize)> = None;
         for geometry in opaque.filter(|geometry| geometry.len() > 0) {
             let Some([first, last]) = geometry.ascending_faces() else {
@@ -112,23 +112,23 @@ impl Plan {
         true
     }
 
-    /// Cuts it into chunks of so many primitives.
+    /// Cuts it into chunks of at most `size` primitives.
     fn cut(&self, recorded: &[Recorded<'_>], chunks: &mut Vec<Chunk>, size: u32) -> usize {
         let mut count = 0;
-        let mut add = |ordinals: Range<u32>, surface: Surface| {
+        let mut add = |ordinals: Range<u32>, blend_mode: BlendMode| {
             if count == chunks.len() {
                 chunks.push(Chunk::default());
             }
-            chunks[count].reset(ordinals, surface);
+            chunks[count].reset(ordinals, blend_mode);
             count += 1;
         };
-        let surface = |plan: &DrawPlan| recorded[plan.draw].geometry.surface;
-        for draws in self.draws.chunk_by(|a, b| surface(a) == surface(b)) {
+        let blend_mode = |plan: &DrawPlan| recorded[plan.draw].geometry.blend_mode;
+        for draws in self.draws.chunk_by(|a, b| blend_mode(a) == blend_mode(b)) {
             let end = draws[draws.len() - 1].ordinals.end;
             let mut start = draws[0].ordinals.start;
             while start < end {
                 let next = end.min(start.saturating_add(size));
-                add(start..next, surface(&draws[0]));
+                add(start..next, blend_mode(&draws[0]));
                 start = next;
             }
         }

@@ -13,8 +13,8 @@ use crate::pass::Pass;
 use crate::{StageTimes, Target};
 use std::sync::{Mutex, PoisonError};
 
-/// Draws a pass of which the target holds an earlier frame, and those tiles alone that may
-/// differ, if the changes tell how it differs from the last pass that was drawn so.
+/// Draws a pass into a target that holds an earlier frame. If `changes` lists how the pass differs
+/// from the last one, only the tiles that may differ are drawn.
 pub(crate) fn redraw(
     arena: &mut Arena,
     pass: &Pass<'_>,

@@ -55,7 +55,7 @@ impl SetUp<'_> {
     /// them. `earlier` is room to be used again.
     pub(super) fn moved(&self, chunk: &mut Chunk, moved: &[bool], earlier: &mut EarlierEntries) {
         if !chunk.set_aside(earlier) {
-            chunk.reset(chunk.ordinals.clone(), chunk.surface);
+            chunk.reset(chunk.ordinals.clone(), chunk.blend_mode);
             return self.chunk(chunk);
         }
         for (draw, range) in self.plan.parts(chunk.ordinals.clone()) {
@@ -104,14 +104,14 @@ fn set_up_part(mut setup: Setup<'_>, shape: &Shape<'_>, axis: u32, token: Token,
             let triangles = &triangles[range.start as usize..range.end as usize];
             at_level!(token, simd => set_up_triangles(simd, &mut setup, range.start, triangles));
         }
-        Shape::Lines { segments, width, outline, toward_eye } => {
-            let style = LineStyle::new((width, outline), toward_eye, axis, multisampled);
+        Shape::Lines { segments, width, outline, depth_bias } => {
+            let style = LineStyle::new((width, outline), depth_bias, axis, multisampled);
             for index in range {
                 setup.segment(index, segments[index as usize], style);
             }
         }
-        Shape::Points { points, sizes, shape, outline, toward_eye } => {
-            let style_of = sizes.each(|size| PointStyle::new((size, outline), shape, toward_eye, axis));
+        Shape::Points { points, sizes, shape, outline, depth_bias } => {
+            let style_of = sizes.each(|size| PointStyle::new((size, outline), shape, depth_bias, axis));
             for index in range {
                 setup.point(index, points[index as usize], style_of(index));
             }

@@ -1,5 +1,5 @@
-//! The stages of a frame: plan, vertices, set-up with binning, tiles. Each is
-//! worked off by all workers together.
+//! The stages of a frame: plan, vertices, set-up with binning, tiles. All workers
+//! share each stage.
 
 use super::change::Signature;
 use super::layout::Layout;
@@ -190,7 +190,8 @@ fn draw_tiles(
         None => tiles.get(number).map(|[column, row]| row * view.grid.columns + column),
     };
     let next = AtomicU32::new(0);
-    // Neighbours, which are written together; towards the end fewer, so that nobody waits long.
+    // A worker takes several neighbouring tiles, which are written together; towards the end
+    // fewer, so that no worker waits long for another.
     let shares = 4 * options.workers.count();
     let end = |start: u32| {
         let left = count.saturating_sub(start as usize);

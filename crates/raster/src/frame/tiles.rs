@@ -38,7 +38,7 @@ pub(super) fn draw_tile(frame: &FrameView<'_>, scratch: &mut Scratch, bands: &Ba
     let area = frame.area(index);
     let Scratch { state, shading, strip, stats, .. } = scratch;
     let surfaces = state.list(frame, index);
-    if state.places.is_empty() {
+    if state.triangles.is_empty() {
         return strip.push_empty(frame, &area, bands);
     }
     stats.tiles += 1;
@@ -68,7 +68,7 @@ fn draw_colors(
     let Scratch { state, shading, layers, strip, stats } = scratch;
     let is_blended = !surfaces.translucent.is_empty();
     let encoding = if is_blended { None } else { frame.wants.bytes };
-    stats.pixels_shaded += shade_tile(frame, &area, (&state.buffer, &state.places), shading, encoding);
+    stats.pixels_shaded += shade_tile(frame, &area, (&state.buffer, &state.triangles), shading, encoding);
     stats.times.shading += clock.lap();
     let colors = match encoding {
         Some(encoding) => TileColors::Encoded(encoding),
@@ -76,15 +76,15 @@ fn draw_colors(
         None => TileColors::Shaded,
     };
     if is_blended {
-        let places = surfaces.translucent;
-        stats.pixels_shaded += blend_translucent(frame, &area, state, (layers, shading), places);
+        let triangles = surfaces.translucent;
+        stats.pixels_shaded += blend_translucent(frame, &area, state, (layers, shading), triangles);
         stats.times.blending += clock.lap();
     }
     resolve(frame, &area, colors, (shading, strip), bands);
     stats.times.resolve += clock.lap();
 }
 
-/// What edges cover beyond their faces in a tile that is looked at by itself.
+/// What edges cover beyond their faces in a single tile.
 pub(crate) fn outer_ink(frame: &FrameView<'_>, index: u32) -> OuterInk {
     let Scratch { mut state, mut shading, mut stats, .. } = Scratch::new();
     if frame.paints_lines() {
@@ -93,7 +93,7 @@ pub(crate) fn outer_ink(frame: &FrameView<'_>, index: u32) -> OuterInk {
         state.begin(frame, index);
         resolve_visibility(frame, &area, &mut state, &surfaces, (&mut shading, &mut stats));
         cover_overlay(frame, &area, &mut state, &surfaces, &mut stats);
-        list_visible(frame, &area, (&state.buffer, &state.places), &mut shading);
+        list_visible(frame, &area, (&state.buffer, &state.triangles), &mut shading);
     }
     shading.outer
 }

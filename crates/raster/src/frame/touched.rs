@@ -27,7 +27,7 @@ pub(super) struct Touched {
     moved: Vec<u64>,
 }
 
-/// What was found of a chunk's primitives, one after the other.
+/// What was found out about each primitive of a chunk.
 #[derive(Default)]
 pub(super) struct Found {
     /// Those that look different.
@@ -40,7 +40,7 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// Begins with none of so many.
+    /// Starts with `count` primitives, none of them found.
     fn reset(&mut self, count: usize) {
         (self.any, self.any_moved) = (false, false);
         for flags in [&mut self.differ, &mut self.moved] {
@@ -287,7 +287,7 @@ struct Piece<'a> {
 }
 
 impl Piece<'_> {
-    /// Runs every eight vertices of which one has changed.
+    /// Runs all groups of eight vertices of which at least one has changed.
     fn run(self, token: Token, viewport: Viewport) {
         let pipeline = self.recorded.pipeline;
         let stride = pipeline.stride();

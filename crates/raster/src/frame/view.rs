@@ -2,7 +2,7 @@
 
 use super::{DrawView, Plan, RequestedOutputs};
 use crate::StageTimes;
-use crate::bin::{Chunk, Grid, Place, TileRange};
+use crate::bin::{Chunk, Grid, TileRange, TriangleRef};
 use crate::ink::Ink;
 use crate::paint2d::Rect;
 use crate::pass::{Background, Recorded};
@@ -109,7 +109,7 @@ impl<'f> FrameView<'f> {
 
     /// The index among the plans of the draw that a triangle belongs to.
     #[inline(always)]
-    pub(crate) fn draw_of(&self, place: Place) -> usize {
+    pub(crate) fn draw_of(&self, place: TriangleRef) -> usize {
         self.plan.draw_of(place.ordinal)
     }
 
@@ -140,25 +140,25 @@ impl<'f> FrameView<'f> {
 
     /// A triangle of a tile, ready.
     #[inline]
-    pub(crate) fn triangle(&self, place: Place) -> SetupTriangle {
+    pub(crate) fn triangle(&self, place: TriangleRef) -> SetupTriangle {
         self.draw_view(self.draw_of(place)).triangle(place)
     }
 
     /// The vertices of a primitive.
     #[inline(always)]
-    pub(crate) fn corners(&self, place: Place) -> [&'f ScreenVertex; 3] {
+    pub(crate) fn corners(&self, place: TriangleRef) -> [&'f ScreenVertex; 3] {
         self.draw_view(self.draw_of(place)).corners(place)
     }
 
     /// The chunk that a triangle belongs to.
-    pub(crate) fn chunk_of(&self, place: Place) -> &'f Chunk {
+    pub(crate) fn chunk_of(&self, place: TriangleRef) -> &'f Chunk {
         Chunk::of(self.chunks, place)
     }
 
     /// What decides first between triangles at equal depth, from the index among the plans
     /// of the triangle's draw: the smaller one is seen.
     #[inline]
-    pub(crate) fn object_and_face(&self, draw: usize, place: Place) -> u64 {
+    pub(crate) fn object_and_face(&self, draw: usize, place: TriangleRef) -> u64 {
         let plan = &self.plan.draws[draw];
         let geometry = &self.pass[plan.draw].geometry;
         let face = geometry.face(place.ordinal - plan.ordinals.start);
@@ -168,8 +168,8 @@ impl<'f> FrameView<'f> {
     /// The order of two triangles at equal depth: the smaller (object, face) is
     /// seen. Within a face, and only there, the smaller index, then the earlier
     /// draw.
-    pub(crate) fn compare(&self, a: Place, b: Place) -> Ordering {
-        let key = |place: Place| {
+    pub(crate) fn compare(&self, a: TriangleRef, b: TriangleRef) -> Ordering {
+        let key = |place: TriangleRef| {
             let draw = self.draw_of(place);
             let plan = &self.plan.draws[draw];
             (self.object_and_face(draw, place), place.ordinal - plan.ordinals.start, plan.draw)
@@ -178,7 +178,7 @@ impl<'f> FrameView<'f> {
     }
 
     /// Whether `a` is seen before `b` at equal depth.
-    pub(crate) fn precedes(&self, a: Place, b: Place) -> bool {
+    pub(crate) fn precedes(&self, a: TriangleRef, b: TriangleRef) -> bool {
         self.compare(a, b).is_lt()
     }
 }

@@ -4,12 +4,12 @@
 use std::cmp::Ordering;
 use trigon_math::Vec4;
 
-/// The marks of a draw's edges and faces: what they look like is told by
-/// [`Pass::marks`](crate::Pass::marks).
+/// The marks of a draw's edges and faces; [`Pass::marks`](crate::Pass::marks) sets their
+/// colours.
 ///
-/// A mark is a number from 1 to 15; 0 stands for none, and so does a greater number, and
-/// whatever lies beyond the end of a list. They are looked up for what is seen, so another
-/// list is all that it takes to mark other elements.
+/// A mark is a number from 1 to 15. 0, greater numbers and places beyond the end of a list mean
+/// no mark. Marks are looked up for visible elements only, so marking other elements takes
+/// nothing but another list.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Marks<'a> {
     /// For each triangle the numbers of the edges that its sides are: side `i` runs from
@@ -21,8 +21,8 @@ pub struct Marks<'a> {
     pub faces: &'a [u8],
 }
 
-/// What marks look like, by their numbers. Of two marked edges that cover equally much of a
-/// pixel the one with the greater mark gives it its colour.
+/// The colours of marks, by their numbers. Of two marked edges with equal coverage of a pixel,
+/// the one with the greater mark gives the colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MarkColors {
     /// Linear RGB and opacity of edges: these take the place of

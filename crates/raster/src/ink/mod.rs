@@ -12,20 +12,20 @@
 //! Both cover what an anti-aliased line does ([`crate::line`]): at a distance of d from a
 //! line of width w, `min(w, 1, w/2 + 1/2 - d)` of a pixel. A pixel shows the larger one.
 
-mod lined;
+mod edged_face;
+mod line_width;
 mod marks;
 mod outer;
-mod rows;
-mod rule;
 #[cfg(test)]
 mod tests;
 mod visible_faces;
+mod visible_rows;
 
-pub(crate) use lined::parts;
+pub(crate) use edged_face::parts;
+pub(crate) use line_width::{FaceLine, LineColumns};
 pub(crate) use marks::Overlap;
 pub use marks::{MarkColors, Marks};
 pub(crate) use outer::OuterInk;
-pub(crate) use rule::{FaceLine, LineColumns};
 pub(crate) use visible_faces::{Footprint, VisibleFaces};
 
 use crate::simd::{Each, F32, LANES, Simd, U32, prelude::*};
@@ -34,8 +34,8 @@ use trigon_math::{Vec3, Vec4};
 /// How a pass paints the edges of faces: see [`Pass::edges`](crate::Pass::edges).
 ///
 /// # Widths
-/// A line has the width that is asked for where faces have room for it, and takes no more
-/// than a share of a small face, so that a dense mesh keeps the colour of its surface.
+/// A line has the requested width where faces have room for it, and takes no more than a
+/// fraction of a small face, so that a dense mesh keeps the colour of its surface.
 /// With r the inner radius of a face in pixels of the target, twice its area over its
 /// perimeter as they are on the screen, the half of a line that lies on the face is no
 /// wider than

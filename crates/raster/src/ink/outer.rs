@@ -15,11 +15,11 @@
 //! greatest of the depths around each; only those look at their neighbours one by one. All
 //! of it depends on what is visible around a pixel, and not on tiles.
 
-use super::lined::LinedFace;
-use super::rows::{Rows, beside_large, in_front};
+use super::edged_face::EdgedFace;
 use super::visible_faces::{LARGE, VisibleFaces};
+use super::visible_rows::{VisibleRows, beside_large, in_front};
 use super::{Ink, Overlap};
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::simd::{LANES, Simd, at_level};
 use crate::tile::{MAX_SIDE, NOBODY, PIXELS, TileArea, VisibilityBuffer};
@@ -38,7 +38,7 @@ pub(crate) struct OuterInk {
     /// The triangles that the tile sees.
     faces: VisibleFaces,
     /// `None` until edges are painted.
-    rows: Option<Box<Rows>>,
+    rows: Option<Box<VisibleRows>>,
     /// The lanes of each group that the tile draws itself.
     own: Vec<u8>,
     own_part: [Range<usize>; 2],
@@ -48,16 +48,16 @@ pub(crate) struct OuterInk {
 
 /// Faces that are kept for the next pixels, with the places of their triangles.
 #[derive(Default)]
-struct Ready(Vec<(u32, LinedFace)>);
+struct Ready(Vec<(u32, EdgedFace)>);
 
 impl OuterInk {
-    /// Forgets the last tile; this one has so many triangles.
-    pub(crate) fn begin(&mut self, places: usize) {
+    /// Starts a tile with this many triangles.
+    pub(crate) fn begin(&mut self, triangle_count: usize) {
         self.covered.resize(PIXELS, Overlap::default());
         for pixel in self.touched.drain(..) {
             self.covered[pixel as usize] = Overlap::default();
         }
-        self.faces.begin(places);
+        self.faces.begin(triangle_count);
     }
 
     /// Where the triangles that the tile sees are noted.
@@ -100,21 +100,21 @@ impl OuterInk {
         if self.is_empty() { Overlap::default() } else { self.covered[pixel] }
     }
 
-    /// Finds what lines cover beyond their triangles, all of which have been noted.
+    /// Finds what lines cover beyond their triangles. All visible triangles must have been noted.
     pub(crate) fn find(
         &mut self,
         frame: &FrameView<'_>,
         (ink, area): (&Ink, &TileArea),
         buffer: &VisibilityBuffer,
-        places: &[Place],
+        triangles: &[TriangleRef],
     ) {
         if !self.faces.has_lines {
             return;
         }
         self.own_lanes(frame, area);
         let reach = ink.reach() as usize;
-        let mut rows = self.rows.take().unwrap_or_else(Rows::new);
-        self.spread(area, (buffer, places.len()), &mut rows);
+        let mut rows = self.rows.take().unwrap_or_else(VisibleRows::new);
+        self.spread(area, (buffer, triangles.len()), &mut rows);
         let found = at_level!(frame.token, simd => self.candidates(simd, area, &rows, reach));
         self.ready.iter_mut().for_each(Ready::clear);
         for y in self.own_part[1].clone() {
@@ -122,7 +122,7 @@ impl OuterInk {
             while rest != 0 {
                 let x = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
-                self.cover(frame, area, (places, &rows), ([x, y], reach));
+                self.cover(frame, area, (triangles, &rows), ([x, y], reach));
             }
         }
         self.rows = Some(rows);
@@ -130,7 +130,13 @@ impl OuterInk {
 
     /// The pixels that lines of others may cover: a bit for each column of each row.
     #[inline(always)]
-    fn candidates<S: Simd>(&self, simd: S, area: &TileArea, visible: &Rows, reach: usize) -> [u64; MAX_SIDE] {
+    fn candidates<S: Simd>(
+        &self,
+        simd: S,
+        area: &TileArea,
+        visible: &VisibleRows,
+        reach: usize,
+    ) -> [u64; MAX_SIDE] {
         let [columns, rows] = self.own_part.clone();
         let own = (u64::MAX >> (MAX_SIDE - columns.len())) << columns.start;
         let mut found = [0; MAX_SIDE];
@@ -146,7 +152,12 @@ impl OuterInk {
     }
 
     /// Lays what pixels see out in rows.
-    fn spread(&self, area: &TileArea, (buffer, places): (&VisibilityBuffer, usize), rows: &mut Rows) {
+    fn spread(
+        &self,
+        area: &TileArea,
+        (buffer, triangle_count): (&VisibilityBuffer, usize),
+        rows: &mut VisibleRows,
+    ) {
         if area.padded() != [MAX_SIDE; 2] {
             rows.least.fill([f32::NEG_INFINITY; MAX_SIDE]);
             rows.large.fill([0.0; MAX_SIDE]);
@@ -157,16 +168,16 @@ impl OuterInk {
             let first = TileArea::index_of([x, y]);
             for lane in 0..4 {
                 let [near, far] = ends(buffer, first + lane);
-                let footprint = self.faces.footprints[(near as usize).min(places)];
+                let footprint = self.faces.footprints[(near as usize).min(triangle_count)];
                 rows.least[y][x + lane] = footprint.least;
                 rows.nearest[y][x + lane] = near;
                 rows.farthest[y][x + lane] = far;
                 rows.greatest[y][x + lane] = match near == far {
                     true => footprint.greatest,
-                    false => self.faces.footprints[(far as usize).min(places)].greatest,
+                    false => self.faces.footprints[(far as usize).min(triangle_count)].greatest,
                 };
                 if self.faces.has_large {
-                    let is_large = self.faces.lines[(near as usize).min(places)].radius >= LARGE;
+                    let is_large = self.faces.lines[(near as usize).min(triangle_count)].radius >= LARGE;
                     rows.large[y][x + lane] = f32::from(u8::from(is_large));
                 }
             }
@@ -178,12 +189,12 @@ impl OuterInk {
         &mut self,
         frame: &FrameView<'_>,
         area: &TileArea,
-        (places, rows): (&[Place], &Rows),
+        (triangles, rows): (&[TriangleRef], &VisibleRows),
         ([x, y], reach): ([usize; 2], usize),
     ) {
         let own = rows.farthest[y][x];
         let point = area.point([x as i32, y as i32], [128, 128]);
-        let mut most = self.cover_by_own(frame, places, own, point);
+        let mut most = self.cover_by_own(frame, triangles, own, point);
         let mut last = own;
         let columns = x.saturating_sub(reach)..(x + reach + 1).min(area.size[0]);
         for row in y.saturating_sub(reach)..(y + reach + 1).min(area.size[1]) {
@@ -194,7 +205,7 @@ impl OuterInk {
                     continue;
                 }
                 last = other;
-                let covered = self.cover_by(frame, places, [other, own], point);
+                let covered = self.cover_by(frame, triangles, [other, own], point);
                 most = most.or(covered);
             }
         }
@@ -210,7 +221,7 @@ impl OuterInk {
     fn cover_by_own(
         &mut self,
         frame: &FrameView<'_>,
-        places: &[Place],
+        triangles: &[TriangleRef],
         own: u32,
         point: [i32; 2],
     ) -> Overlap {
@@ -218,7 +229,7 @@ impl OuterInk {
             return Overlap::default();
         }
         let line = self.faces.lines[own as usize];
-        let ground = self.ready[1].face(frame, places, own);
+        let ground = self.ready[1].face(frame, triangles, own);
         if !ground.has_parts() {
             return Overlap::default();
         }
@@ -229,11 +240,11 @@ impl OuterInk {
     fn cover_by(
         &mut self,
         frame: &FrameView<'_>,
-        places: &[Place],
+        triangles: &[TriangleRef],
         [other, own]: [u32; 2],
         point: [i32; 2],
     ) -> Overlap {
-        let index = |place: u32| (place as usize).min(places.len());
+        let index = |place: u32| (place as usize).min(triangles.len());
         let [ours, theirs] = [own, other].map(|place| self.faces.lines[index(place)]);
         let least = self.faces.footprints[index(other)].least;
         let is_before = least > self.faces.footprints[index(own)].greatest;
@@ -242,8 +253,8 @@ impl OuterInk {
             return Overlap::default();
         }
         let [others, grounds] = &mut self.ready;
-        let lined = others.face(frame, places, other);
-        let ground = (own != NOBODY).then(|| grounds.face(frame, places, own));
+        let lined = others.face(frame, triangles, other);
+        let ground = (own != NOBODY).then(|| grounds.face(frame, triangles, own));
         let are_joined = ground.is_some_and(|ground| ground.shares_a_vertex(lined));
         let line = if are_joined { theirs.narrower(ours) } else { theirs };
         lined.nearest(point).fold(Overlap::default(), |most, edge| {
@@ -263,15 +274,15 @@ impl OuterInk {
 impl Ready {
     /// Forgets all, and keeps their memory.
     fn clear(&mut self) {
-        self.0.resize_with(READY, || (NOBODY, LinedFace::default()));
+        self.0.resize_with(READY, || (NOBODY, EdgedFace::default()));
         self.0.iter_mut().for_each(|(place, _)| *place = NOBODY);
     }
 
     /// The face of a triangle of the tile.
-    fn face(&mut self, frame: &FrameView<'_>, places: &[Place], place: u32) -> &LinedFace {
+    fn face(&mut self, frame: &FrameView<'_>, triangles: &[TriangleRef], place: u32) -> &EdgedFace {
         let (of, face) = &mut self.0[place as usize % READY];
         if *of != place {
-            face.set(frame, places[place as usize]);
+            face.set(frame, triangles[place as usize]);
             *of = place;
         }
         face

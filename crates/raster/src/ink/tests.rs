@@ -4,8 +4,8 @@ mod marks;
 
 use crate::simd::SimdLevel;
 use crate::{
-    Background, Certainty, Culling, Draw, EdgeFlags, ExecuteSettings, FaceEdges, Fragment, Output, Pass,
-    Pipeline, Rasterizer, Rect, Surface, Target, TileSize, Tolerance, VertexOutput,
+    Background, BlendMode, Certainty, Culling, Draw, EdgeFlags, ExecuteSettings, FaceEdges, Fragment, Output,
+    Pass, Pipeline, Rasterizer, Rect, Target, TileSize, Tolerance, VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
@@ -21,7 +21,7 @@ struct Faces {
     triangles: Vec<[u32; 3]>,
     flags: Vec<EdgeFlags>,
     color: Vec4,
-    surface: Surface,
+    blend_mode: BlendMode,
 }
 
 impl Pipeline for Faces {
@@ -47,7 +47,7 @@ impl Faces {
         let count = corners.len() as u32 / 3;
         let triangles = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
         let flags = vec![EdgeFlags::ALL; count as usize];
-        Self { corners, triangles, flags, color: Vec4::ONE, surface: Surface::Opaque }
+        Self { corners, triangles, flags, color: Vec4::ONE, blend_mode: BlendMode::Opaque }
     }
 
     /// Rectangles of two triangles each: left, top, right, bottom and depth.
@@ -82,7 +82,7 @@ fn pass<'a>(faces: &'a [&'a Faces], width: f32) -> Pass<'a> {
             edge_flags: Some(&faces.flags),
             object,
             culling: Culling::None,
-            surface: faces.surface,
+            blend_mode: faces.blend_mode,
             ..Draw::new(*faces, &faces.triangles)
         });
     }
@@ -173,7 +173,7 @@ fn edges_behind_a_face_stay_behind_it() {
 fn translucent_faces_paint_nothing_beside_themselves() {
     let glass = Faces {
         color: Vec4::splat(0.5),
-        surface: Surface::Translucent,
+        blend_mode: BlendMode::Translucent,
         ..Faces::rectangles(&[[10.0, 10.0, 38.0, 38.0, 0.5]])
     };
     let found = darkness(&[&glass], 4.0, TileSize::Automatic);
@@ -254,7 +254,7 @@ proptest! {
     fn edges_are_the_same_bytes_for_all_tiles_threads_and_levels(
         opaque in faces(), glass in faces(), grid in grid(), width in width(), with_glass in any::<bool>(),
     ) {
-        let glass = Faces { color: Vec4::splat(0.5), surface: Surface::Translucent, ..glass };
+        let glass = Faces { color: Vec4::splat(0.5), blend_mode: BlendMode::Translucent, ..glass };
         let list: &[&Faces] = if with_glass { &[&opaque, &glass] } else { &[&opaque] };
         let expected = picture(list, width, grid, ExecuteSettings::default());
         let tiles = [TileSize::Pixels8, TileSize::Pixels16, TileSize::Pixels32, TileSize::Pixels64];

@@ -1,4 +1,4 @@
-//! What the search for outer halves of lines has to know of the triangles that a tile sees.
+//! The visible triangles of a tile, as the search for outer halves of lines needs them.
 
 use super::FaceLine;
 
@@ -18,7 +18,8 @@ impl Footprint {
     pub(super) const NOBODY: Self = Self { least: f32::NEG_INFINITY, greatest: f32::NEG_INFINITY };
 }
 
-/// The visible triangles of a tile, by their numbers among the tile's, and one more for nobody.
+/// The visible triangles of a tile, by their numbers among the tile's, and one more entry for the
+/// background.
 #[derive(Default)]
 pub(crate) struct VisibleFaces {
     pub(super) footprints: Vec<Footprint>,
@@ -30,16 +31,16 @@ pub(crate) struct VisibleFaces {
 }
 
 impl VisibleFaces {
-    /// Forgets the last tile; this one has so many triangles.
-    pub(super) fn begin(&mut self, places: usize) {
+    /// Starts a tile with this many triangles.
+    pub(super) fn begin(&mut self, triangle_count: usize) {
         (self.has_lines, self.has_large) = (false, false);
-        // Triangles that are not seen keep what they had: nobody looks at it.
-        if self.footprints.len() < places + 1 {
-            self.footprints.resize(places + 1, Footprint::NOBODY);
-            self.lines.resize(places + 1, FaceLine::UNLINED);
+        // Triangles that are not visible keep old values, which are not read.
+        if self.footprints.len() < triangle_count + 1 {
+            self.footprints.resize(triangle_count + 1, Footprint::NOBODY);
+            self.lines.resize(triangle_count + 1, FaceLine::UNLINED);
         }
-        self.footprints[places] = Footprint::NOBODY;
-        self.lines[places] = FaceLine::UNLINED;
+        self.footprints[triangle_count] = Footprint::NOBODY;
+        self.lines[triangle_count] = FaceLine::UNLINED;
     }
 
     /// Takes a visible triangle of the tile.

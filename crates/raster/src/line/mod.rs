@@ -62,13 +62,13 @@ pub(crate) struct LineStyle {
     half_width: f64,
     /// Whether each step of the major direction gets exactly one pixel.
     single: bool,
-    toward_eye: f32,
+    depth_bias: f32,
 }
 
 impl LineStyle {
     pub(crate) fn new(
         (width, outline): (f32, Outline),
-        toward_eye: f32,
+        depth_bias: f32,
         supersampling: u32,
         multisampled: bool,
     ) -> Self {
@@ -76,7 +76,7 @@ impl LineStyle {
         let smooth = (outline == Outline::AntiAliased).then_some(smooth);
         let half_width = half_size((width, outline), supersampling);
         let single = drawable_size(width) == 1.0 && supersampling == 1 && !multisampled;
-        Self { smooth, half_width, single, toward_eye }
+        Self { smooth, half_width, single, depth_bias }
     }
 }
 
@@ -134,7 +134,7 @@ impl Setup<'_> {
         let detail = if is_plain { None } else { self.chunk.keep(QuadDetail { weights, stroke }) };
         self.push_quad(Quad {
             corners,
-            depths: ends.map(|(end, _)| nearer(end.depth(), style.toward_eye)),
+            depths: ends.map(|(end, _)| nearer(end.depth(), style.depth_bias)),
             inverse_w: ends.map(|(end, _)| end.inverse_w()),
             ordinal: self.first + primitive,
             detail,

@@ -57,6 +57,7 @@ impl<'a> Canvas<'a> {
     }
 
     /// All pixels' places.
+    #[must_use]
     pub fn bounds(&self) -> Rect {
         Rect::new([0, 0], self.size)
     }

@@ -53,6 +53,7 @@ impl Image {
     }
 
     /// All texels, row-major from the top left.
+    #[must_use]
     pub fn texels(&self) -> &[[u8; 4]] {
         &self.texels
     }

@@ -39,6 +39,7 @@ impl Default for Painter {
 
 impl Painter {
     /// With the best instructions that the processor has.
+    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }

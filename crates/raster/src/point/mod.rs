@@ -15,14 +15,14 @@ pub(crate) struct PointStyle {
     kind: Kind,
     /// The size in pixels of the grid, if it is anti-aliased.
     smooth: Option<f64>,
-    toward_eye: f32,
+    depth_bias: f32,
 }
 
 impl PointStyle {
     pub(crate) fn new(
         (size, outline): (f32, Outline),
         shape: PointShape,
-        toward_eye: f32,
+        depth_bias: f32,
         supersampling: u32,
     ) -> Self {
         let smooth = f64::from(smooth_size(size)) * f64::from(supersampling);
@@ -32,7 +32,7 @@ impl PointStyle {
             PointShape::Round => Kind::RoundPoint,
             PointShape::Square => Kind::SquarePoint,
         };
-        Self { half: half.round() as i32, kind, smooth, toward_eye }
+        Self { half: half.round() as i32, kind, smooth, depth_bias }
     }
 }
 
@@ -61,7 +61,7 @@ impl Setup<'_> {
         });
         self.push_quad(Quad {
             corners: [[corner(-1, -1), corner(1, -1)], [corner(-1, 1), corner(1, 1)]],
-            depths: [nearer(centre.depth(), style.toward_eye); 2],
+            depths: [nearer(centre.depth(), style.depth_bias); 2],
             inverse_w: [centre.inverse_w(); 2],
             ordinal: self.first + primitive,
             detail,

@@ -1,4 +1,4 @@
-//! What is seen where nothing is drawn.
+//! The background, where nothing is drawn.
 
 use super::background_row::finite;
 use crate::frame::FrameView;
@@ -169,7 +169,7 @@ fn lay_rows(codes: &mut [u32], lanes: u32, rows: [u32; 2]) {
     }
 }
 
-/// Puts the background's colour into all pixels of which the first sample sees it.
+/// Writes the background's colour to all pixels whose first sample shows it.
 /// (Edge pixels get their colour afterwards.)
 pub(super) fn lay_colors(frame: &FrameView<'_>, area: &TileArea, shading: &mut Shading) {
     let Shading { empty_groups, colors, outer, .. } = shading;

@@ -60,7 +60,7 @@ fn for_each_group<S: Simd>(
     }
 }
 
-/// The mean of the colours that a lane's names stand for, as [`mean`] has it.
+/// The mean of the colours that a lane's names refer to, computed as in [`mean`].
 #[inline(always)]
 fn mean_of<S: Simd>(simd: S, (names, lane): (&[[u32; LANES]], usize), colors: &[[f32; 4]]) -> [f32; 4] {
     let color = inlined(

@@ -83,7 +83,7 @@ fn store_colors(frame: &FrameView<'_>, area: &TileArea, colors: &[[f32; 4]], ban
     });
 }
 
-/// Writes depth and ids, if they are asked for, each from one sample of the pixel, row by row.
+/// Writes depth and ids, if they are requested, each from one sample of the pixel, row by row.
 pub(crate) fn store_visibility(frame: &FrameView<'_>, area: &TileArea, state: &TileState, bands: &Bands<'_>) {
     if !(frame.wants.depth || frame.wants.ids) {
         return;
@@ -161,7 +161,7 @@ impl FrameView<'_> {
         match winner {
             NOBODY => [u32::MAX; 3],
             winner => {
-                let place = state.places[winner as usize];
+                let place = state.triangles[winner as usize];
                 let plan = &self.plan.draws[self.draw_of(place)];
                 let geometry = &self.pass[plan.draw].geometry;
                 let primitive = place.ordinal - plan.ordinals.start;

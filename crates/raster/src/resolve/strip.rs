@@ -1,5 +1,5 @@
-//! Tiles side by side go to the target as one, finished ones and such that nothing is in: a
-//! processor writes long rows of memory sooner than short ones, as it fetches ahead.
+//! Neighbouring tiles are written to the target together, both finished and empty ones: a
+//! processor writes long rows of memory faster than short ones, because it prefetches.
 
 use super::fill_background;
 use crate::frame::FrameView;

@@ -1,4 +1,4 @@
-//! Eight triangles side by side: a vertex of each in a column.
+//! Eight triangles side by side, one in each lane: a [`Column`] holds one vertex of each.
 
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, prelude::*, transposed};
 use crate::vertex::ScreenVertex;
@@ -45,7 +45,8 @@ impl<S: Simd> Column<S> {
         self.inverse_w.bitcast()
     }
 
-    /// Two vertices in the order of (y, x), and where they were exchanged.
+    /// Two vertices of each lane in the order of (y, x), and the lanes in which they were
+    /// exchanged.
     #[inline(always)]
     fn ordered(a: Self, b: Self) -> (Self, Self, Mask<S>) {
         let swap = b.y.simd_lt(a.y) | (b.y.simd_eq(a.y) & b.x.simd_lt(a.x));
@@ -64,7 +65,11 @@ impl<S: Simd> Column<S> {
     }
 }
 
-/// The vertices in the order of (y, x), and where that is an odd permutation.
+/// The three vertices of each lane in the order of (y, x), and the lanes in which that is an odd
+/// permutation: there the winding is reversed.
+///
+/// A sorting network of three comparisons. All lanes take the same steps, and every exchange is
+/// a selection, so lanes may differ in their order without a branch.
 #[inline(always)]
 pub(crate) fn sorted_columns<S: Simd>([a, b, c]: [Column<S>; 3]) -> ([Column<S>; 3], Mask<S>) {
     let (a, b, first) = Column::ordered(a, b);

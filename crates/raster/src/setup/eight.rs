@@ -1,5 +1,7 @@
-//! Culling and binning of whole triangles, eight at a time. Triangles that
-//! need cutting or more than 32 bits are left to the single way.
+//! Culling and binning of whole triangles, eight at a time with one in each lane.
+//!
+//! Triangles that need cutting, or whose edge functions need more than 32 bits, are handled one
+//! by one instead ([`Setup::triangle`]).
 
 use super::{SMALL, Setup};
 use crate::Culling;
@@ -8,18 +10,19 @@ use crate::simd::{Each, I32, LANES, Mask, Simd, lane_numbers, lanes_of, prelude:
 use crate::vertex::ScreenVertex;
 
 /// What eight triangles look like on the screen.
-struct Eight<S: Simd> {
+struct ScreenTriangles<S: Simd> {
     /// x and y of the corners.
     corners: [[I32<S>; 2]; 3],
     /// Least and greatest coordinates, by axis.
     extent: [[I32<S>; 2]; 2],
     /// Twice the signed area, where small.
     area: I32<S>,
-    /// Not special and small.
+    /// The lanes whose triangles can be handled here: all vertices have a place on the grid, and
+    /// both sides are small.
     plain: Mask<S>,
 }
 
-impl<S: Simd> Eight<S> {
+impl<S: Simd> ScreenTriangles<S> {
     #[inline(always)]
     fn new(simd: S, vertices: [[&ScreenVertex; LANES]; 3]) -> Self {
         let [a, b, c] = vertices.each(
@@ -34,6 +37,7 @@ impl<S: Simd> Eight<S> {
                 )
             },
         );
+        // A vertex without a place has a coordinate that no vertex on the grid has.
         let nowhere = I32::splat(simd, ScreenVertex::NOWHERE);
         let special = a[0].simd_eq(nowhere) | b[0].simd_eq(nowhere) | c[0].simd_eq(nowhere);
         let extent = [0, 1].each(
@@ -48,15 +52,18 @@ impl<S: Simd> Eight<S> {
             #[inline(always)]
             |[low, high]| (high - low).simd_lt(small),
         );
+        // Twice the signed area, positive if clockwise on the screen. It may overflow in lanes
+        // that are not small, where it is not used.
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         let corners = [[a[0], a[1]], [b[0], b[1]], [c[0], c[1]]];
         Self { corners, extent, area, plain: !special & x & y }
     }
 }
 
-impl<S: Simd> Eight<S> {
-    /// Which of the triangles cover none of the centres of the two by two pixels
-    /// that begin at `first`.
+impl<S: Simd> ScreenTriangles<S> {
+    /// The lanes whose triangles cover none of the centres of the 2×2 pixels that begin at
+    /// `first`. Many triangles of a fine mesh lie between all centres; they are culled here, before
+    /// any tile lists them.
     #[inline(always)]
     fn miss(&self, simd: S, first: [I32<S>; 2]) -> Mask<S> {
         let zero = I32::splat(simd, 0);
@@ -65,7 +72,8 @@ impl<S: Simd> Eight<S> {
             #[inline(always)]
             |pixel| (pixel << 8) + 128,
         );
-        // The sign bit is set where a centre lies outside of an edge.
+        // One value for each of the four centres. Its sign bit is set once the centre lies
+        // outside any edge, because the values of all edges are combined by OR.
         let mut outside = [zero; 4];
         let [a, b, c] = self.corners;
         for [from, to] in [[a, b], [b, c], [c, a]] {
@@ -74,6 +82,8 @@ impl<S: Simd> Eight<S> {
                 #[inline(always)]
                 |step| clockwise.select(step, -step),
             );
+            // The top-left rule: for edges that do not own the points on them, the value is one
+            // less, so that the sign alone decides.
             let inclusive = right.simd_gt(zero) | (right.simd_eq(zero) & down.simd_gt(zero));
             let value = right * (point[0] - from[0]) + down * (point[1] - from[1]);
             let value = value - inclusive.select(zero, I32::splat(simd, 1));
@@ -102,7 +112,7 @@ impl Setup<'_> {
                 )
             },
         );
-        let eight = Eight::new(simd, vertices);
+        let eight = ScreenTriangles::new(simd, vertices);
         let lanes = (1_u64 << triangles.len()) - 1;
         let plain = eight.plain.to_bitmask() & lanes;
         let (drawn, pixels) = self.seen(simd, &eight, plain);
@@ -115,7 +125,7 @@ impl Setup<'_> {
             #[inline(always)]
             |range| range.each(<[i32; LANES]>::from),
         );
-        // One after another: tiles list their triangles in the order of the primitives.
+        // One after the other, because tiles list their triangles in the order of primitives.
         let mut rest = drawn | (lanes & !plain);
         while rest != 0 {
             let lane = rest.trailing_zeros() as usize % LANES;
@@ -133,7 +143,7 @@ impl Setup<'_> {
     /// Those of the `plain` lanes that may be seen, and the first and last columns and
     /// rows that they may have samples in.
     #[inline(always)]
-    fn seen<S: Simd>(&self, simd: S, eight: &Eight<S>, plain: u64) -> (u64, [[I32<S>; 2]; 2]) {
+    fn seen<S: Simd>(&self, simd: S, eight: &ScreenTriangles<S>, plain: u64) -> (u64, [[I32<S>; 2]; 2]) {
         let zero = I32::splat(simd, 0);
         let faces = match self.culling {
             Culling::None => !eight.area.simd_eq(zero),
@@ -146,6 +156,8 @@ impl Setup<'_> {
         let pixels = [(0, grid.viewport.width), (1, grid.viewport.height)].each(
             #[inline(always)]
             |(axis, side)| {
+                // The first and last pixel whose samples can lie between the extremes. A pixel's
+                // samples lie at offsets from `least` to `greatest`, in 1/256 pixel.
                 let [low, high] = eight.extent[axis];
                 let begin = (low + (255 - greatest)) >> 8;
                 let end = (high - least) >> 8;
@@ -164,7 +176,8 @@ impl Setup<'_> {
         (seen.to_bitmask() & plain, pixels)
     }
 
-    /// Bins small triangles that lie in one tile each, if all that are drawn do.
+    /// Bins the drawn triangles if each of them lies in a single tile, which small ones mostly do.
+    /// Returns false, and does nothing, if any does not.
     #[inline(always)]
     fn push_together<S: Simd>(&mut self, simd: S, first: u32, drawn: u64, pixels: [[I32<S>; 2]; 2]) -> bool {
         let grid = self.grid;

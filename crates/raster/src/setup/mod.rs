@@ -1,5 +1,10 @@
-//! Primitives of the pass become triangles that are ready for the tiles: cut
-//! where needed, snapped, culled.
+//! Set-up: primitives become triangles that are ready for the tiles. They are cut where needed,
+//! snapped to the sub-pixel grid, and culled.
+//!
+//! Most triangles need no cutting and are culled and binned eight at a time (`eight`). The
+//! others go through [`Setup::triangle`] one by one. Vertices of a triangle are sorted by (y, x)
+//! before anything is computed from them, so that no result depends on the order in which
+//! corners are listed (`triangle`, and `columns` for eight at a time).
 
 mod columns;
 mod ears;

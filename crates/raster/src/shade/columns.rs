@@ -1,10 +1,14 @@
-//! The columns of eight pixels' triangles, from their records.
+//! The records of eight pixels' triangles, transposed into columns: lane `i` of every column
+//! belongs to the triangle that pixel `i` shows.
+//!
+//! Neighbouring pixels mostly show one to four triangles. Then the columns are made by selecting
+//! between broadcast numbers of these few records instead of gathering eight.
 
 use super::ShadeContext;
 use super::layout::{CutColumns, RecordShape, cold, hot, lined};
 use super::placed::Placed;
 use super::records::Records;
-use super::task::Vector;
+use super::task::FragmentBatch;
 use crate::MAX_VARYINGS;
 use crate::simd::{Each, I32, LANES, Mask, Row, Simd, U32, inlined, prelude::*, transpose};
 
@@ -19,10 +23,11 @@ enum Seen<S: Simd> {
 }
 
 impl<S: Simd> Seen<S> {
-    /// How many there are, nobody can foresee: the sooner it is known, the better. So the
-    /// first and the last of the others are looked for at once.
+    /// Finds how many different triangles the eight lanes show. The processor cannot predict the
+    /// count, so it should be known early: the first and the last of the lanes that differ from
+    /// lane 0 are compared at the same time, not one after the other.
     #[inline(always)]
-    fn find(simd: S, vector: &Vector<'_, S>) -> Self {
+    fn find(simd: S, vector: &FragmentBatch<'_, S>) -> Self {
         let lanes = vector.names;
         let names: [u32; LANES] = lanes.into();
         let of = inlined(
@@ -61,7 +66,7 @@ impl<S: Simd> Seen<S> {
 /// Rows for the longest record, in whole records' rows.
 const ROWS: usize = (hot::COUNT + 3 * MAX_VARYINGS + lined::COUNT + 1).next_multiple_of(LANES);
 
-/// Where a row begins, a line of the cache does, or a half: none lies in two.
+/// Aligned so that no row crosses the end of a cache line.
 #[repr(align(64))]
 struct AlignedRows([Row; ROWS]);
 
@@ -153,7 +158,7 @@ impl Columns {
         simd: S,
         context: &ShadeContext<'_>,
         records: &Records,
-        vector: &Vector<'_, S>,
+        vector: &FragmentBatch<'_, S>,
     ) {
         let (before, rows) = (self.uniform.take(), records.selected());
         let of = inlined(
@@ -188,7 +193,8 @@ impl Columns {
         steps.simd_eq(I32::splat(simd, 0)).any_true()
     }
 
-    /// The first record, and the others in the lanes of their masks.
+    /// Columns from the first record in all lanes, replaced by each other record in the lanes of
+    /// its mask.
     #[inline(always)]
     fn mix<S: Simd, const COUNT: usize, const OTHERS: usize>(
         &mut self,
@@ -212,7 +218,7 @@ impl Columns {
         }
     }
 
-    /// Apart, so that it takes no registers where it is not needed.
+    /// In a function of its own, so that it takes no registers where it is not needed.
     #[inline(always)]
     fn gather_apart<S: Simd>(&mut self, simd: S, records: &Records, slots: [u32; LANES]) {
         simd.vectorize(
@@ -256,7 +262,7 @@ impl Special {
     fn load_cuts(&mut self, context: &ShadeContext<'_>) {
         self.is_cut = false;
         for lane in 0..LANES {
-            let place = context.places[self.cold[cold::PLACE][lane] as usize];
+            let place = context.triangles[self.cold[cold::PLACE][lane] as usize];
             let cut = place.part().and_then(|_| context.draw.chunk_of(place).weights_of(place));
             self.is_cut |= cut.is_some();
             let weights = cut.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);

@@ -1,7 +1,7 @@
-//! What shading has to know: the draw, the tile, and which pixels.
+//! The context of shading: the draw, the tile, and the pixels.
 
-use crate::Surface;
-use crate::bin::Place;
+use crate::BlendMode;
+use crate::bin::TriangleRef;
 use crate::frame::DrawView;
 use crate::geometry::{Geometry, Shape};
 use crate::ink::{Ink, Marks, Overlap};
@@ -11,7 +11,7 @@ use crate::tile::TileArea;
 use crate::vertex::Slots;
 use std::ops::Range;
 
-/// What a shader has to know of one draw in one tile.
+/// What shading needs of one draw in one tile.
 #[derive(Clone, Copy)]
 pub(crate) struct ShadeContext<'f> {
     pub(crate) draw: DrawView<'f>,
@@ -30,7 +30,7 @@ pub(crate) struct ShadeContext<'f> {
     pub(crate) supersampling: u32,
     pub(crate) area: TileArea,
     /// The tile's triangles.
-    pub(crate) places: &'f [Place],
+    pub(crate) triangles: &'f [TriangleRef],
     /// What edges of other faces cover, by the number of the pixel, if anything.
     pub(crate) outer: Option<&'f [Overlap]>,
 }
@@ -64,10 +64,10 @@ impl<'f> ShadeContext<'f> {
     /// Whether the draw is of lines or points that have one colour each and no mask, which
     /// might ask for more.
     pub(crate) fn has_flat_marks(&self) -> bool {
-        let Geometry { shape, surface, .. } = self.geometry();
+        let Geometry { shape, blend_mode, .. } = self.geometry();
         self.is_flat
             && !matches!(shape, Shape::Triangles { .. })
-            && matches!(surface, Surface::Opaque | Surface::Overlay | Surface::Translucent)
+            && matches!(blend_mode, BlendMode::Opaque | BlendMode::Overlay | BlendMode::Translucent)
     }
 }
 
@@ -90,7 +90,7 @@ impl<'f> DrawVaryings<'f> {
 /// A pixel to be shaded: where in the tile, at which of its points, and where
 /// the result goes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Work {
+pub(crate) struct ShadePoint {
     /// Index of the pixel in the tile; bit 12 is set if the triangle may not
     /// cover the pixel's centre; from bit 13 on one more than the number of a sample:
     /// the one that it is to be, or with bit 12 one that the triangle covers.
@@ -98,7 +98,7 @@ pub(crate) struct Work {
     pub(crate) output: u32,
 }
 
-impl Work {
+impl ShadePoint {
     const PARTLY: u32 = 12;
     const SAMPLE: u32 = 13;
 
@@ -167,10 +167,10 @@ pub(crate) struct Spots<S: Simd> {
     pub(crate) samples: I32<S>,
 }
 
-/// The pixels of one triangle in a list of [`Work`].
+/// The pixels of one triangle in a list of [`ShadePoint`].
 #[derive(Clone, Debug)]
 pub(crate) struct Job {
     /// Index of the triangle among the tile's.
     pub(crate) place: u32,
-    pub(crate) work: Range<usize>,
+    pub(crate) points: Range<usize>,
 }

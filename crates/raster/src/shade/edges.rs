@@ -1,6 +1,6 @@
 //! Pixels whose samples see different triangles.
 
-use super::Work;
+use super::ShadePoint;
 use super::fragments::FragmentList;
 use crate::simd::{LANES, Mask, Simd, U32, lane_numbers, prelude::*};
 use crate::tile::{NOBODY, PIXELS};
@@ -106,10 +106,10 @@ impl Edges {
             for (row, names) in rows[..sample].iter().zip(&names[..sample]) {
                 name = winners.simd_eq(U32::simd_from(simd, *row)).select(U32::simd_from(simd, *names), name);
             }
-            // How many have no name yet, nobody can foresee: all at once.
+            // All lanes without a name at once: how many there are is hard to predict.
             let others = name.simd_eq(unnamed) & listed;
             let places = (lane_numbers(simd) + (PARTS + self.parts) as i32).bitcast::<U32<S>>();
-            parts.push_some(others, [winners, Work::covering_lanes(pixels, sample)], places);
+            parts.push_some(others, [winners, ShadePoint::covering_lanes(pixels, sample)], places);
             self.parts += others.to_bitmask().count_ones() as usize;
             names[sample] = places.expand_merge(others, name).into();
         }

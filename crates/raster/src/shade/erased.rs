@@ -25,8 +25,7 @@ pub(crate) trait AnyPipeline: VertexProgram {
         output: &mut ShadeOutput<'_>,
     );
 
-    /// Asks whether the fragments of a list exist: 1 or 0 for each, at its output's
-    /// place.
+    /// Evaluates the masks of a list of fragments: 1 or 0 for each, at its output's place.
     fn mask(
         &self,
         token: Token,

@@ -1,34 +1,34 @@
-//! What a pipeline knows when it shades eight pixels.
+//! The input of a pipeline that shades eight fragments at a time.
 
 use super::ShadeContext;
+use super::barycentrics::Barycentrics;
 use super::columns::Columns;
 use super::layout::{cold, flag};
 use super::records::{Records, Tag};
-use super::task::Vector;
-use super::weights::Weights;
+use super::task::FragmentBatch;
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, lesser, prelude::*};
 use crate::{Fragment, MAX_VARYINGS, Varyings};
 use trigon_math::{UVec2, Vec2};
 
-/// Up to eight visible pixels, to be shaded together.
+/// Up to eight visible fragments, one in each lane.
 ///
-/// Every lane is a function of its own triangle and pixel alone. Lanes that are
-/// not [active](Self::active) hold something, and what they give is ignored.
+/// Every lane depends on its own triangle and pixel alone. Lanes that are not
+/// [active](Self::active) hold arbitrary values, and their results are ignored.
 pub struct FragmentLanes<'a, S: Simd> {
     pub(crate) simd: S,
     /// The varyings at each of the three corners: equally many.
     pub(super) varyings: [&'a [Row]; 3],
     pub(super) columns: &'a Columns,
-    pub(crate) place: Weights<S>,
+    pub(crate) barycentrics: Barycentrics<S>,
     /// In 1/256 internal pixel from the tile's corner.
     pub(crate) point: [I32<S>; 2],
-    pub(super) vector: &'a Vector<'a, S>,
+    pub(super) vector: &'a FragmentBatch<'a, S>,
     pub(super) records: &'a Records,
     pub(crate) context: &'a ShadeContext<'a>,
 }
 
 impl<S: Simd> FragmentLanes<'_, S> {
-    /// The lanes that are asked for: bit `i` for lane `i`, at least one.
+    /// The lanes whose results are used: bit `i` for lane `i`, at least one.
     #[inline(always)]
     pub fn active(&self) -> u64 {
         self.vector.active
@@ -39,7 +39,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
     #[inline(always)]
     pub fn varying(&self, index: usize) -> F32<S> {
         let [a, b, c] = self.corners(index);
-        let [u, v, w] = self.place.weights;
+        let [u, v, w] = self.barycentrics.weights;
         let value = a * u + b * v + c * w;
         let (low, high) = (lesser(lesser(a, b), c), greater(greater(a, b), c));
         lesser(greater(value, low), high)
@@ -67,7 +67,7 @@ impl<S: Simd> FragmentLanes<'_, S> {
         )
     }
 
-    /// The varyings from `first` on, as many as the array asks for.
+    /// The varyings from `first` on, as many as the array holds.
     #[inline(always)]
     pub fn varyings<const N: usize>(&self, first: usize) -> [F32<S>; N] {
         let mut values = [F32::splat(self.simd, 0.0); N];
@@ -84,20 +84,20 @@ impl<S: Simd> FragmentLanes<'_, S> {
     pub fn gradient(&self, index: usize) -> [F32<S>; 2] {
         let [a, b, c] = self.corners(index);
         let [to_b, to_c] = [b - a, c - a];
-        let [v, w] = self.place.slopes;
+        let [v, w] = self.barycentrics.slopes;
         [to_b * v[0] + to_c * w[0], to_b * v[1] + to_c * w[1]]
     }
 
     /// 1/w, interpolated; > 0.
     #[inline(always)]
     pub fn inverse_w(&self) -> F32<S> {
-        self.place.inverse_w(self.simd, &self.cold())
+        self.barycentrics.inverse_w(self.simd, &self.cold())
     }
 
     /// Reversed depth: 1 at the near plane, 0 at the far plane or infinity.
     #[inline(always)]
     pub fn depth(&self) -> F32<S> {
-        self.place.depth(self.simd, &self.cold())
+        self.barycentrics.depth(self.simd, &self.cold())
     }
 
     /// Where the fragments lie in pixels of the target, x to the right, y down;
@@ -144,11 +144,11 @@ impl<S: Simd> FragmentLanes<'_, S> {
         }
         let [x, y]: [[f32; LANES]; 2] = self.position().each(Into::into);
         let cold = self.cold();
-        let depth: [f32; LANES] = self.place.depth(self.simd, &cold).into();
-        let inverse_w: [f32; LANES] = self.place.inverse_w(self.simd, &cold).into();
+        let depth: [f32; LANES] = self.barycentrics.depth(self.simd, &cold).into();
+        let inverse_w: [f32; LANES] = self.barycentrics.inverse_w(self.simd, &cold).into();
         let geometry = self.context.geometry();
         let supersampling = self.context.supersampling as f32;
-        let distances: [[f32; LANES]; 3] = self.place.distances.each(Into::into);
+        let distances: [[f32; LANES]; 3] = self.barycentrics.distances.each(Into::into);
         let tags = self.tags();
         for lane in (0..LANES).filter(|lane| self.active() >> lane & 1 != 0) {
             let Tag { primitive, flags } = tags[lane];

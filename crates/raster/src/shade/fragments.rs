@@ -1,7 +1,7 @@
 //! Fragments by themselves, in columns: eight are a load each of their triangles, their
 //! places and where their results go.
 
-use super::Work;
+use super::ShadePoint;
 use crate::simd::{Mask, Simd, U32, append, prelude::*};
 use std::ops::Range;
 
@@ -20,7 +20,7 @@ pub(crate) struct FragmentList {
 pub(crate) struct FragmentSlice<'l> {
     /// The records of their triangles.
     pub(crate) slots: &'l [u32],
-    /// See [`Work::spot`].
+    /// See [`ShadePoint::spot`].
     pub(crate) spots: &'l [u32],
     /// Where the results go.
     pub(crate) outputs: &'l [u32],
@@ -34,10 +34,10 @@ impl FragmentList {
     }
 
     #[inline(always)]
-    pub(super) fn push(&mut self, slot: u32, work: Work) {
+    pub(super) fn push(&mut self, slot: u32, point: ShadePoint) {
         self.slots.push(slot);
-        self.spots.push(work.spot());
-        self.outputs.push(work.output);
+        self.spots.push(point.spot());
+        self.outputs.push(point.output);
     }
 
     /// Appends some of eight fragments; their results go to the first of `outputs`, one
@@ -87,7 +87,7 @@ impl<'l> FragmentSlice<'l> {
         self.slots.len()
     }
 
-    /// Those in a range that there are.
+    /// The part of a range that exists.
     #[inline(always)]
     pub(super) fn part(self, range: Range<usize>) -> Self {
         let range = range.start..range.end.min(self.len());

@@ -2,17 +2,16 @@
 
 use super::ShadeContext;
 use super::context::DrawVaryings;
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::tile::TileArea;
 
 impl<'f> FrameView<'f> {
-    /// What shading has to know of one of the frame's draws in a tile with these triangles. No
-    /// edges of other faces are laid over it.
+    /// The context for shading one of the frame's draws in a tile, without edges of other faces.
     pub(super) fn shade_context<'c>(
         &'c self,
         area: &TileArea,
-        places: &'c [Place],
+        triangles: &'c [TriangleRef],
         draw: usize,
     ) -> ShadeContext<'c> {
         let (plan, pipeline) = (&self.plan.draws[draw], self.pipeline(draw));
@@ -28,7 +27,7 @@ impl<'f> FrameView<'f> {
             pattern: self.grid.pattern,
             supersampling: self.supersampling,
             area: *area,
-            places,
+            triangles,
             outer: None,
         }
     }

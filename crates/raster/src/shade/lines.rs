@@ -5,12 +5,12 @@ use super::layout::{RecordShape, lined};
 use super::perspective::perspective;
 use super::sorted::Sorted;
 use crate::EdgeFlags;
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::ink::{FaceLine, Footprint, Ink, LineColumns, VisibleFaces};
 use crate::setup::Corners;
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, greater, inlined, lesser, prelude::*};
 
-/// The radius in pixels of faces that are so large that nobody asks how large.
+/// The radius in pixels of faces whose exact size does not matter.
 const HUGE: f32 = 1e9;
 
 /// The least radius and the shortest perimeter in pixels: nothing is divided by 0.
@@ -32,7 +32,7 @@ impl Lines {
         simd: S,
         (context, ink): (&ShadeContext<'_>, &Ink),
         sorted: &Sorted<S>,
-        (places, primitives): ([Place; LANES], [u32; LANES]),
+        (triangles, primitives): ([TriangleRef; LANES], [u32; LANES]),
     ) -> Self {
         let geometry = context.geometry();
         let shows_edges = geometry.shows_edges();
@@ -43,7 +43,7 @@ impl Lines {
         let is_edge = edges_of(simd, sorted, flags);
         let lengths = lengths_of(sorted);
         let mut radius = radius_of(simd, sorted, (lengths, is_edge), flags);
-        let is_cut = places.each(|place| corners_of(context, place).is_some());
+        let is_cut = triangles.each(|place| corners_of(context, place).is_some());
         if is_cut.contains(&true) {
             let cut = Mask::from_bitmask(simd, bits(is_cut));
             radius = cut.select(F32::splat(simd, HUGE), radius);
@@ -59,7 +59,7 @@ impl Lines {
             shows_edges,
         };
         for lane in (0..LANES).filter(|&lane| is_cut[lane]) {
-            lines.cut(simd, context, sorted, (places[lane], flags[lane], lane));
+            lines.cut(context, sorted, triangles[lane], flags[lane], lane);
         }
         lines
     }
@@ -84,15 +84,16 @@ impl Lines {
     #[cold]
     fn cut<S: Simd>(
         &mut self,
-        simd: S,
         context: &ShadeContext<'_>,
         sorted: &Sorted<S>,
-        (place, flags, lane): (Place, EdgeFlags, usize),
+        triangle: TriangleRef,
+        flags: EdgeFlags,
+        lane: usize,
     ) {
-        let Some((weights, order)) = corners_of(context, place) else { return };
-        let weights = context.draw.chunk_of(place).weights[weights as usize];
+        let Some((weights, order)) = corners_of(context, triangle) else { return };
+        let weights = context.draw.chunk_of(triangle).weights[weights as usize];
         let [x, y]: [[Row; 3]; 2] = [sorted.x, sorted.y].map(|axis| axis.map(Into::into));
-        let q = perspective(simd, sorted.inverse_w).0.map(<[f32; LANES]>::from);
+        let q = perspective(sorted.inverse_w[0].token(), sorted.inverse_w).0.map(<[f32; LANES]>::from);
         let way = |from: usize, to: usize| {
             [f64::from(y[to][lane] - y[from][lane]), f64::from(x[from][lane] - x[to][lane])]
         };
@@ -109,7 +110,7 @@ impl Lines {
         }
     }
 
-    /// Puts the columns into the records of so many triangles.
+    /// Writes the columns to the records of the first `count` triangles.
     #[inline(always)]
     pub(super) fn store(&self, (rows, shape): (&mut [Row], RecordShape), count: usize) {
         let Some(first) = shape.lines else { return };
@@ -121,7 +122,7 @@ impl Lines {
         }
     }
 
-    /// Tells what the search for outer halves has to know of the triangles that are seen.
+    /// Notes what the search for outer halves of lines needs of the visible triangles.
     #[inline(always)]
     pub(super) fn note<S: Simd>(&self, simd: S, sorted: &Sorted<S>, seen: &[u32], outer: &mut VisibleFaces) {
         let [a, b, c] = sorted.depth;
@@ -220,7 +221,7 @@ fn inverses<S: Simd>(simd: S, sorted: &Sorted<S>, lengths: [F32<S>; 3]) -> [F32<
 
 /// The index of the weights of a triangle that was cut, and the corners of their columns.
 #[inline(always)]
-fn corners_of(context: &ShadeContext<'_>, place: Place) -> Option<(u32, [u8; 3])> {
+fn corners_of(context: &ShadeContext<'_>, place: TriangleRef) -> Option<(u32, [u8; 3])> {
     match context.draw.chunk_of(place).made(place)?.corners {
         Corners::Cut { weights, order } => Some((weights, order)),
         Corners::Whole(_) | Corners::Ends(_) => None,

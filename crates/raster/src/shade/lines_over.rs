@@ -5,12 +5,12 @@ use super::columns::Columns;
 use super::layout::lined;
 use super::records::Records;
 use super::triangle_lanes::TriangleLanes;
-use super::{ShadeContext, Work};
+use super::{ShadeContext, ShadePoint};
 use crate::ink::{Ink, Overlap};
 use crate::simd::{Each, F32, I32, LANES, Row, Simd, U32, greater, lesser, prelude::*};
 
-/// What it takes. Nothing that shading computes: what it finds stays in registers, and what
-/// is asked for here is found once more.
+/// The inputs. Nothing that shading has computed is among them: its results stay in registers, and
+/// what is needed here is computed again.
 pub(super) struct LinesOver<'a> {
     pub(super) ink: &'a Ink,
     pub(super) context: &'a ShadeContext<'a>,
@@ -29,7 +29,7 @@ impl LinesOver<'_> {
     #[inline(always)]
     pub(super) fn lay<S: Simd>(&self, simd: S, spots: U32<S>, color: [F32<S>; 4]) -> [F32<S>; 4] {
         if self.ink.has_marks() {
-            // Apart, so that it takes no registers of edges without marks.
+            // In a function of its own, so that it takes no registers of edges without marks.
             return simd.vectorize(
                 #[inline(always)]
                 || self.lay_marked(simd, spots, color),
@@ -125,7 +125,7 @@ fn beside<S: Simd>(simd: S, spots: U32<S>, outer: &[Overlap]) -> F32<S> {
     let spots: [u32; LANES] = spots.into();
     let shares = spots.each(
         #[inline(always)]
-        |spot| outer[Work::pixel_of(spot)].share,
+        |spot| outer[ShadePoint::pixel_of(spot)].share,
     );
     F32::simd_from(simd, shares)
 }
@@ -136,7 +136,7 @@ fn beside_marked<S: Simd>(simd: S, spots: U32<S>, outer: &[Overlap]) -> Overlaps
     let lanes: [u32; LANES] = spots.into();
     let marks = lanes.each(
         #[inline(always)]
-        |spot| u32::from(outer[Work::pixel_of(spot)].mark),
+        |spot| u32::from(outer[ShadePoint::pixel_of(spot)].mark),
     );
     Overlaps { shares: beside(simd, spots, outer), marks: U32::simd_from(simd, marks) }
 }

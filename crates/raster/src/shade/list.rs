@@ -1,8 +1,8 @@
 //! Fragments by the triangle: those that wait for their mask, or to be blended.
 
 use super::task::Task;
-use super::{Job, ShadeContext, ShadeOutput, Shading, Work};
-use crate::bin::Place;
+use super::{Job, ShadeContext, ShadeOutput, ShadePoint, Shading};
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::ink::Overlap;
 use crate::tile::TileArea;
@@ -10,16 +10,26 @@ use crate::tile::TileArea;
 /// So many triangles at most are ready at a time, to bound memory.
 const READY: usize = 1024;
 
+/// Triangles of a tile to be shaded, each at some of its pixels.
+#[derive(Clone, Copy)]
+pub(crate) struct JobList<'l> {
+    /// The tile's triangles.
+    pub(crate) triangles: &'l [TriangleRef],
+    pub(crate) jobs: &'l [Job],
+    /// The pixels that the jobs refer to.
+    pub(crate) points: &'l [ShadePoint],
+}
+
 /// Shades jobs in the order of their draws.
 pub(crate) fn shade_jobs(
     frame: &FrameView<'_>,
     area: &TileArea,
     shading: &mut Shading,
-    (places, jobs, work): (&[Place], &[Job], &[Work]),
+    list: JobList<'_>,
     colors: &mut [[f32; 4]],
 ) {
-    // Over translucent faces no edges of others are laid.
-    shade_jobs_with(frame, area, shading, (places, jobs, work), (colors, None));
+    // Edges of other faces are not painted over translucent ones.
+    shade_jobs_with(frame, area, shading, list, (colors, None));
 }
 
 /// [`shade_jobs`], with what edges of other faces cover.
@@ -27,10 +37,10 @@ pub(crate) fn shade_jobs_with(
     frame: &FrameView<'_>,
     area: &TileArea,
     shading: &mut Shading,
-    (places, jobs, work): (&[Place], &[Job], &[Work]),
+    list: JobList<'_>,
     (colors, outer): (&mut [[f32; 4]], Option<&[Overlap]>),
 ) {
-    for_each_part(frame, area, shading, (places, jobs, work), |draw, context, shading| {
+    for_each_part(frame, area, shading, list, |draw, context, shading| {
         let context = &ShadeContext { outer, ..*context };
         let Shading { records, columns, fragments, .. } = shading;
         let task = Task::of_fragments(records, 0, fragments.all());
@@ -39,15 +49,15 @@ pub(crate) fn shade_jobs_with(
     });
 }
 
-/// Asks the masks of jobs: 1 or 0 at each output's place.
+/// Evaluates the masks of jobs: 1 or 0 at each output's place.
 pub(crate) fn mask_jobs(
     frame: &FrameView<'_>,
     area: &TileArea,
     shading: &mut Shading,
-    (places, jobs, work): (&[Place], &[Job], &[Work]),
+    list: JobList<'_>,
     kept: &mut [u8],
 ) {
-    for_each_part(frame, area, shading, (places, jobs, work), |draw, context, shading| {
+    for_each_part(frame, area, shading, list, |draw, context, shading| {
         let Shading { records, columns, fragments, .. } = shading;
         let task = Task::of_fragments(records, 0, fragments.all());
         frame.pipeline(draw).mask(frame.token, context, (&task, columns), kept);
@@ -60,24 +70,25 @@ fn for_each_part(
     frame: &FrameView<'_>,
     area: &TileArea,
     shading: &mut Shading,
-    (places, jobs, work): (&[Place], &[Job], &[Work]),
+    list: JobList<'_>,
     mut visit: impl FnMut(usize, &ShadeContext<'_>, &mut Shading),
 ) {
+    let JobList { triangles, jobs, points } = list;
     let mut rest = jobs;
     while let Some(first) = rest.first() {
-        let draw = frame.draw_of(places[first.place as usize]);
+        let draw = frame.draw_of(triangles[first.place as usize]);
         let end = frame.plan.draws[draw].ordinals.end;
-        let same = rest.partition_point(|job| places[job.place as usize].ordinal < end);
+        let same = rest.partition_point(|job| triangles[job.place as usize].ordinal < end);
         let (part, after) = rest.split_at(same.min(READY));
         shading.seen.clear();
         shading.seen.extend(part.iter().map(|job| job.place));
         shading.fragments.clear();
         for (slot, job) in part.iter().enumerate() {
-            for &work in &work[job.work.clone()] {
-                shading.fragments.push(slot as u32, work);
+            for &point in &points[job.points.clone()] {
+                shading.fragments.push(slot as u32, point);
             }
         }
-        let context = frame.shade_context(area, places, draw);
+        let context = frame.shade_context(area, triangles, draw);
         shading.records.fill(frame.token, &context, &shading.seen);
         visit(draw, &context, shading);
         rest = after;

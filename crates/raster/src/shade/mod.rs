@@ -1,5 +1,6 @@
 //! The fragment stage: what is seen at each pixel gets its colour.
 
+mod barycentrics;
 mod columns;
 mod context;
 mod edges;
@@ -25,15 +26,15 @@ mod surface;
 mod task;
 mod triangle_lanes;
 mod visible;
-mod weights;
 
 use context::Spots;
-pub(crate) use context::{Job, ShadeContext, Work};
+pub(crate) use context::{Job, ShadeContext, ShadePoint};
 pub(crate) use edges::{BEHIND, EdgeGroup};
 pub(crate) use encode::Encoding;
 pub(crate) use erased::AnyPipeline;
-pub use fragment_lanes::{FragmentLanes, RawFragment};
-pub(crate) use list::{mask_jobs, shade_jobs, shade_jobs_with};
+pub use fragment_lanes::FragmentLanes;
+pub(crate) use fragment_lanes::RawFragment;
+pub(crate) use list::{JobList, mask_jobs, shade_jobs, shade_jobs_with};
 use output::ShadeOutput;
 use records::Records;
 pub(crate) use shading::{EmptyGroup, Shading};

@@ -8,14 +8,15 @@ use crate::simd::{Each, F32, LANES, Simd, colors_of, prelude::*};
 
 /// The colours of a tile's pixels or fragments.
 ///
-/// The variant stands in a byte of its own: hidden in the values of a field it takes six
-/// instructions to find, for each vector.
+/// `repr(u8)` gives the variant its own byte. Encoded in unused values of a field, it would take six
+/// instructions to read, for each vector.
 #[repr(u8)]
 pub(crate) enum ShadeOutput<'a> {
     Codes(Codes<'a>),
     Colors(Colors<'a>),
-    /// With edges and marks laid over the colours first. A kind of its own: so the loops of
-    /// pipelines ask once where colours go, and need not ask whether there are edges.
+    /// With edges and marks painted over the colours first. A variant of its own, so that the
+    /// loops of pipelines branch once on where colours go, and not also on whether there are
+    /// edges.
     Inked(Inked<'a>),
 }
 
@@ -65,7 +66,7 @@ impl<'a> ShadeOutput<'a> {
             Self::Inked(inked) => {
                 let over = LinesOver { ink: inked.ink, context, records, columns };
                 let (spots, to) = (vector.spots, vector.destination);
-                // Apart, so that it is compiled once and takes no registers of a frame
+                // In a function of its own, so that it is compiled once and takes no registers of a frame
                 // without edges; and nothing is lent to it that others would have to keep
                 // in memory for that.
                 simd.vectorize(

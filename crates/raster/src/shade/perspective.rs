@@ -7,6 +7,9 @@ use crate::simd::{Each, F32, Simd, U32, greater, prelude::*};
 const RATIO_MAX: f32 = (1_u64 << 60) as f32;
 
 /// The vertices' 1/w over a power of two near the largest, and that power of two.
+///
+/// Weights are quotients in which a common factor cancels. Scaling by a power of two rounds
+/// nothing, and keeps products and sums of shares away from overflow and underflow.
 #[inline(always)]
 pub(super) fn perspective<S: Simd>(simd: S, inverse_w: [F32<S>; 3]) -> ([F32<S>; 3], F32<S>) {
     let scale = power_of_two(simd, greater(greater(inverse_w[0], inverse_w[1]), inverse_w[2]));

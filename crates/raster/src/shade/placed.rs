@@ -2,8 +2,8 @@
 
 use crate::simd::{I32, Row, Simd, prelude::*};
 
-/// Eight points, and what takes longest to find there: found for the next eight pixels
-/// before these are shaded, so that nobody waits for it.
+/// Eight points with the results that take longest to compute. They are computed for the next
+/// eight pixels before the current eight are shaded, so that shading does not wait for them.
 #[derive(Clone, Default)]
 #[repr(align(64))]
 pub(super) struct Placed {

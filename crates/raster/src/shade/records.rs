@@ -1,15 +1,19 @@
-//! Visible triangles made ready for shading: a record of numbers for each, from
-//! which vectors of pixels take their columns.
+//! Visible triangles prepared for shading: one record of numbers for each.
+//!
+//! Records are made eight triangles at a time, one triangle in each lane, and then transposed, so
+//! that a record is contiguous. Shading loads the records of the eight triangles that its eight
+//! pixels show, and transposes them back into columns ([`Columns`](super::columns::Columns)): one
+//! pixel in each lane, whichever triangles they belong to.
 
 use super::ShadeContext;
 use super::layout::{RecordShape, cold, hot};
 use super::lines::Lines;
 use super::sorted::Sorted;
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::ink::{Marks, VisibleFaces};
 use crate::simd::{Each, LANES, Row, Simd, Token, at_level, lanes_of, transpose};
 
-/// What few pipelines ask of a triangle.
+/// What few pipelines read of a triangle.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Tag {
     /// The index of the triangle, segment or point in its draw.
@@ -26,7 +30,7 @@ pub(crate) struct Records {
     tags: Vec<Tag>,
     /// The triangles among the tile's.
     seen: Vec<u32>,
-    /// Those of the draw that is asked for.
+    /// The layout of the selected draw's records.
     shape: RecordShape,
     /// How many rows and records there are.
     used: [usize; 2],
@@ -46,8 +50,8 @@ impl Records {
         self.seen.clear();
     }
 
-    /// Makes records of some more triangles, all of the context's draw, and tells `outer`
-    /// what it has to know of them. They are those that are asked for from now on.
+    /// Appends records of triangles of the context's draw and selects them. `outer` is told about
+    /// the lines on them, if there is one.
     pub(super) fn append(
         &mut self,
         token: Token,
@@ -81,13 +85,13 @@ impl Records {
         shape
     }
 
-    /// Turns to the records of another draw.
+    /// Selects the records of another draw.
     pub(super) fn select(&mut self, shape: RecordShape) {
         self.shape = shape;
     }
 
-    /// The records of flat lines and points: of such only the ids have a meaning, so all else
-    /// stays empty, with steps of no triangle that is wide or cut.
+    /// Records of flat lines and points. Only their ids are read, so all else stays zero, except
+    /// the steps, because steps of zero mark a triangle that is wide or cut.
     fn fill_flat(&mut self, context: &ShadeContext<'_>, seen: &[u32], shape: RecordShape) {
         let [row, record] = shape.first;
         let rows = &mut self.rows[row..self.used[0]];
@@ -97,7 +101,7 @@ impl Records {
         for ((record, tag), &number) in rows.chunks_exact_mut(shape.size).zip(tags).zip(seen) {
             record[0][hot::STEPS] = 1;
             record[0][hot::STEPS + 1] = 1;
-            *tag = Tag { primitive: context.places[number as usize].ordinal - first, flags: 0 };
+            *tag = Tag { primitive: context.triangles[number as usize].ordinal - first, flags: 0 };
         }
     }
 
@@ -137,7 +141,7 @@ impl Records {
         context: &ShadeContext<'_>,
         slots: [u32; LANES],
     ) -> [Row; cold::COUNT] {
-        // Apart, so that it is compiled once.
+        // In a function of its own, so that it is compiled once.
         simd.vectorize(
             #[inline(always)]
             || {
@@ -147,7 +151,7 @@ impl Records {
                 );
                 let mut columns = [[0; LANES]; cold::COUNT];
                 if self.shape.size == self.shape.loaded {
-                    let sorted = Sorted::made(simd, context, places(context, seen));
+                    let sorted = Sorted::made(simd, context, triangle_refs(context, seen));
                     let [_, first, second] = sorted.heads(simd, context.area.origin);
                     columns[..LANES].copy_from_slice(&first);
                     columns[LANES..].copy_from_slice(&second);
@@ -185,14 +189,14 @@ impl<'r> SelectedRows<'r> {
 
 /// Eight of the tile's triangles.
 #[inline(always)]
-fn places(context: &ShadeContext<'_>, seen: [u32; LANES]) -> [Place; LANES] {
+fn triangle_refs(context: &ShadeContext<'_>, seen: [u32; LANES]) -> [TriangleRef; LANES] {
     seen.each(
         #[inline(always)]
-        |number| context.places[number as usize],
+        |number| context.triangles[number as usize],
     )
 }
 
-/// Records of up to eight triangles.
+/// Makes the records of up to eight triangles. Unused lanes repeat the first.
 #[inline(always)]
 fn eight<S: Simd>(
     simd: S,
@@ -205,19 +209,19 @@ fn eight<S: Simd>(
         #[inline(always)]
         |lane| *seen.get(lane).unwrap_or(&seen[0]),
     );
-    let places = places(context, numbers);
+    let triangles = triangle_refs(context, numbers);
     let first = context.draw.first;
-    let primitives = places.each(
+    let primitives = triangles.each(
         #[inline(always)]
         |place| place.ordinal - first,
     );
     let indices = context.geometry().corners_of(primitives);
-    let sorted = if places.iter().all(|place| place.is_whole()) {
+    let sorted = if triangles.iter().all(|place| place.is_whole()) {
         Sorted::whole(simd, context, indices)
     } else {
         simd.vectorize(
             #[inline(always)]
-            || Sorted::made(simd, context, places),
+            || Sorted::made(simd, context, triangles),
         )
     };
     let columns = sorted.heads(simd, context.area.origin);
@@ -236,11 +240,11 @@ fn eight<S: Simd>(
     if let Some(ink) = context.frame_ink
         && (shape.lines.is_some() || outer.is_some())
     {
-        // Apart, so that it takes no registers where it is not needed.
+        // In a function of its own, so that it takes no registers where it is not needed.
         simd.vectorize(
             #[inline(always)]
             || {
-                let lines = Lines::new(simd, (context, ink), &sorted, (places, primitives));
+                let lines = Lines::new(simd, (context, ink), &sorted, (triangles, primitives));
                 lines.store((rows, shape), seen.len());
                 if let Some(outer) = outer {
                     lines.note(simd, &sorted, seen, outer);
@@ -248,8 +252,8 @@ fn eight<S: Simd>(
             },
         );
     }
-    if let (Some(marks), Some(column)) = (context.marks(), shape.marks) {
-        store_marks(context, marks, (&mut *rows, shape.size, column), (&primitives, &sorted.corners));
+    if let Some(marks) = context.marks() {
+        store_marks(context, marks, (&mut *rows, shape), (&primitives, &sorted.corners));
     }
     let corners = lanes_of(
         #[inline(always)]
@@ -261,7 +265,7 @@ fn eight<S: Simd>(
         },
     );
     let records = rows.chunks_exact_mut(shape.size).zip(&corners[..seen.len()]);
-    // The commonest by themselves, so that they are copied without a loop.
+    // The most common counts are constants, so that the copy needs no loop.
     match shape.varyings {
         0 => {}
         1 => copy_varyings::<1>(context, records),
@@ -279,10 +283,11 @@ fn eight<S: Simd>(
 fn store_marks(
     context: &ShadeContext<'_>,
     marks: &Marks<'_>,
-    (rows, size, column): (&mut [Row], usize, usize),
+    (rows, shape): (&mut [Row], RecordShape),
     (primitives, corners): (&[u32; LANES], &[Row; 3]),
 ) {
-    for (lane, (record, &primitive)) in rows.chunks_exact_mut(size).zip(primitives).enumerate() {
+    let Some(column) = shape.marks else { return };
+    for (lane, (record, &primitive)) in rows.chunks_exact_mut(shape.size).zip(primitives).enumerate() {
         let sides = marks.of_sides(primitive);
         // Opposite corner k lies the side from k + 1 to k + 2.
         let [a, b, c] = corners.map(|corner| sides[(corner[lane] as usize + 1) % 3]);

@@ -3,9 +3,9 @@
 
 use super::columns::Columns;
 use super::output::finite;
-use super::task::{Task, Vector};
+use super::task::{FragmentBatch, Task};
 use super::triangle_lanes::TriangleLanes;
-use super::{FragmentLanes, Records, ShadeContext, ShadeOutput, Spots, Work};
+use super::{FragmentLanes, Records, ShadeContext, ShadeOutput, ShadePoint, Spots};
 use crate::LanePipeline;
 use crate::simd::{Each, I32, Simd, U32, prelude::*};
 
@@ -56,7 +56,7 @@ pub(super) fn for_each_vector<S: Simd>(
     simd: S,
     context: &ShadeContext<'_>,
     (task, columns): (&Task<'_>, &mut [Columns; 2]),
-    mut visit: impl FnMut(&FragmentLanes<'_, S>, &Vector<'_, S>),
+    mut visit: impl FnMut(&FragmentLanes<'_, S>, &FragmentBatch<'_, S>),
 ) {
     let [mut next, mut now] = columns.each_mut();
     next.reset();
@@ -64,7 +64,7 @@ pub(super) fn for_each_vector<S: Simd>(
     let count = task.vectors();
     for number in 0..count + 1 {
         if number < count {
-            // Apart, so that it is compiled once for all pipelines.
+            // In a function of its own, so that it is compiled once for all pipelines.
             simd.vectorize(
                 #[inline(always)]
                 || prepare(simd, context, (task, &mut *next), number),
@@ -98,13 +98,13 @@ fn fragments<'v, S: Simd>(
     simd: S,
     context: &'v ShadeContext<'v>,
     (records, columns): (&'v Records, &'v Columns),
-    vector: &'v Vector<'_, S>,
+    vector: &'v FragmentBatch<'_, S>,
 ) -> FragmentLanes<'v, S> {
     FragmentLanes {
         simd,
         varyings: columns.varyings(records.shape().varyings),
         columns,
-        place: TriangleLanes::load(simd, columns).at(simd, &columns.placed),
+        barycentrics: TriangleLanes::load(simd, columns).at(simd, &columns.placed),
         point: columns.placed.point(simd),
         vector,
         records,
@@ -112,20 +112,20 @@ fn fragments<'v, S: Simd>(
     }
 }
 
-/// Where up to eight pixels are shaded, in 1/256 pixel from the tile's corner: at
-/// the sample that is asked for; else at their centre, or if their triangle does
-/// not cover it at the lowest-numbered sample that it covers.
+/// Where up to eight pixels are shaded, in 1/256 pixel from the tile's corner: at a
+/// given sample, or else at their centre, or at the lowest-numbered sample that their
+/// triangle covers if it does not cover the centre.
 #[inline(always)]
 fn points<S: Simd>(simd: S, context: &ShadeContext<'_>, columns: &Columns, spots: U32<S>) -> [I32<S>; 2] {
-    let (corners, elsewhere) = Work::corners(spots);
+    let (corners, elsewhere) = ShadePoint::corners(spots);
     let Some(spots) = elsewhere else {
         return corners.each(
             #[inline(always)]
             |column| column + 128,
         );
     };
-    // Apart, and nothing lent to it that others would have to keep in memory for that:
-    // it takes no registers where pixels have one sample.
+    // In a function of its own that borrows nothing from this one: values that are borrowed would
+    // have to live in memory, also where pixels have one sample.
     let [x, y] = simd.vectorize(
         #[inline(always)]
         move || sample_points(simd, context, &TriangleLanes::load(simd, columns), (corners, &spots)),

@@ -22,7 +22,7 @@ pub(super) struct Run {
     pub(super) records: Option<RecordShape>,
 }
 
-/// A group with pixels whose first samples see nobody.
+/// A group with pixels whose first samples show the background.
 #[derive(Clone, Copy)]
 pub(crate) struct EmptyGroup {
     pub(crate) number: u32,
@@ -65,11 +65,11 @@ pub(crate) struct Shading {
 }
 
 impl Shading {
-    /// Forgets the last tile. This one has so many triangles and samples.
-    pub(super) fn clear(&mut self, places: usize, samples: usize) {
+    /// Starts a tile with this many triangles, and samples per pixel.
+    pub(super) fn clear(&mut self, triangle_count: usize, samples: usize) {
         self.slots.clear();
         // One more, for nobody.
-        self.slots.resize(places + 1, 0);
+        self.slots.resize(triangle_count + 1, 0);
         self.groups.clear();
         self.fragments.clear();
         self.parts.clear();

@@ -1,4 +1,8 @@
-//! Edge functions of small triangles, from products of 16 bits.
+//! Edge functions of small triangles, from products of 16-bit numbers.
+//!
+//! A lane of 32 bits holds two numbers of 16, x in the low half and y in the high one. An edge
+//! function through the first vertex is the dot product of the steps (right, down) with the way
+//! from that vertex, which is one instruction for eight lanes.
 
 use crate::simd::{Each, I32, Simd, U32, prelude::*};
 use fearless_simd::i16x16;
@@ -22,9 +26,11 @@ impl<S: Simd> Small<S> {
             #[inline(always)]
             |steps| pairs(steps).pairwise_dot_product(way),
         );
-        // (down, -right)
+        // The area is the edge function opposite vertex 1 at vertex 1, and the way from vertex 0
+        // to vertex 1 is perpendicular to the steps of the other edge: (down, -right).
         let across = (second.bitcast::<U32<S>>() >> 16).bitcast::<I32<S>>() | (-second << 16);
         let area = pairs(first).pairwise_dot_product(pairs(across)).abs();
+        // The three edge functions add up to twice the area everywhere.
         ([area - b - c, b, c], area)
     }
 }

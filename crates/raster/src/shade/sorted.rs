@@ -3,7 +3,7 @@
 use super::ShadeContext;
 use super::layout::flag;
 use super::perspective::perspective;
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::setup::{Column, Corners, Kind, SMALL, SetupTriangle, small_lanes, sorted_columns};
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, inlined, lanes_of, prelude::*};
 
@@ -23,7 +23,7 @@ pub(super) struct Sorted<S: Simd> {
 }
 
 impl<S: Simd> Sorted<S> {
-    /// Triangles that are primitives as they are.
+    /// Triangles that are whole primitives.
     #[inline(always)]
     pub(super) fn whole(simd: S, context: &ShadeContext<'_>, indices: [[u32; 3]; LANES]) -> Self {
         let vertices = context.draw.vertices;
@@ -79,10 +79,10 @@ impl<S: Simd> Sorted<S> {
         }
     }
 
-    /// Triangles of which some were made by cutting, or from lines and points.
+    /// Triangles of which some were cut, or belong to lines and points.
     #[inline(always)]
-    pub(super) fn made(simd: S, context: &ShadeContext<'_>, places: [Place; LANES]) -> Self {
-        let triangles = places.each(
+    pub(super) fn made(simd: S, context: &ShadeContext<'_>, refs: [TriangleRef; LANES]) -> Self {
+        let triangles = refs.each(
             #[inline(always)]
             |place| context.draw.triangle(place),
         );

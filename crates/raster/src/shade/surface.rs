@@ -5,8 +5,8 @@ use super::output::Codes;
 use super::shading::{Run, Shading};
 use super::task::Task;
 use super::visible::{divide, list};
-use super::{Encoding, ShadeContext, ShadeOutput, Work};
-use crate::bin::Place;
+use super::{Encoding, ShadeContext, ShadeOutput, ShadePoint};
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::simd::{LANES, at_level};
 use crate::tile::{TileArea, VisibilityBuffer};
@@ -17,15 +17,16 @@ use crate::tile::{TileArea, VisibilityBuffer};
 pub(crate) fn shade_tile(
     frame: &FrameView<'_>,
     area: &TileArea,
-    (buffer, places): (&VisibilityBuffer, &[Place]),
+    (buffer, triangles): (&VisibilityBuffer, &[TriangleRef]),
     shading: &mut Shading,
     encoding: Option<Encoding>,
 ) -> u64 {
-    let count = list_visible(frame, area, (buffer, places), shading);
+    let count = list_visible(frame, area, (buffer, triangles), shading);
     let runs = std::mem::take(&mut shading.runs);
     let outer = std::mem::take(&mut shading.outer);
     for run in &runs {
-        let context = ShadeContext { outer: outer.covered(), ..frame.shade_context(area, places, run.draw) };
+        let context =
+            ShadeContext { outer: outer.covered(), ..frame.shade_context(area, triangles, run.draw) };
         match run.records {
             Some(shape) => shading.records.select(shape),
             None => shading.records.fill(frame.token, &context, &shading.seen[run.slots.clone()]),
@@ -47,24 +48,24 @@ pub(crate) fn shade_tile(
 pub(crate) fn list_visible(
     frame: &FrameView<'_>,
     area: &TileArea,
-    (buffer, places): (&VisibilityBuffer, &[Place]),
+    (buffer, triangles): (&VisibilityBuffer, &[TriangleRef]),
     shading: &mut Shading,
 ) -> usize {
     let mut outer = std::mem::take(&mut shading.outer);
     let ink = frame.ink.as_ref().filter(|ink| ink.has_lines());
     let own = ink.map(|_| outer.own_lanes(frame, area));
-    let count = at_level!(frame.token, simd => list(simd, buffer, (places.len(), own), shading));
-    divide(frame, buffer, places, shading);
+    let count = at_level!(frame.token, simd => list(simd, buffer, (triangles.len(), own), shading));
+    divide(frame, buffer, triangles, shading);
     if let Some(ink) = ink {
-        outer.begin(places.len());
+        outer.begin(triangles.len());
         let Shading { runs, records, seen, .. } = shading;
         records.clear();
         for run in runs {
-            let context = frame.shade_context(area, places, run.draw);
+            let context = frame.shade_context(area, triangles, run.draw);
             let seen = &seen[run.slots.clone()];
             run.records = Some(records.append(frame.token, &context, seen, Some(outer.faces_mut())));
         }
-        outer.find(frame, (ink, area), buffer, places);
+        outer.find(frame, (ink, area), buffer, triangles);
     } else if !outer.is_empty() {
         outer.begin(0);
     }
@@ -131,7 +132,7 @@ fn shade_flat(
             }
             continue;
         }
-        // What others get than those asked for is written over later.
+        // Lanes that are not active get any colour, which is overwritten later.
         let slot = |lane: usize| {
             let is_asked = group.lanes >> lane & 1 != 0;
             (if is_asked { slots[seen[lane] as usize] } else { group.slot } - base) as usize
@@ -160,7 +161,7 @@ fn shade_flat(
     }
 }
 
-/// The colours of so many flat triangles.
+/// The colours of the flat triangles of a draw, `count` of them.
 fn shade_triangles(
     frame: &FrameView<'_>,
     context: &ShadeContext<'_>,
@@ -171,7 +172,7 @@ fn shade_triangles(
     let Shading { records, columns, flat, flat_codes, flat_colors, .. } = shading;
     flat.clear();
     for slot in 0..count {
-        flat.push(slot as u32, Work::anywhere(0, false, slot));
+        flat.push(slot as u32, ShadePoint::anywhere(0, false, slot));
     }
     let whole = count.next_multiple_of(LANES);
     if flat_colors.len() < whole {

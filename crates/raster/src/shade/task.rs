@@ -2,10 +2,10 @@
 //! fragments of a list.
 
 use super::fragments::FragmentSlice;
-use super::{Records, Work};
+use super::{Records, ShadePoint};
 use crate::simd::{Each, LANES, Mask, Simd, U32, lane_numbers, lanes_of, prelude::*};
 
-/// A group of pixels of which some see one draw.
+/// A group of pixels, some of which show triangles of one draw.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Group {
     /// The record of one of its triangles.
@@ -23,7 +23,7 @@ pub(crate) struct Task<'t> {
     /// The number of the first record.
     pub(crate) base: u32,
     pub(crate) groups: &'t [Group],
-    /// What the pixels of groups see: from group to group so many.
+    /// The triangles that the pixels of groups show, and the distance from group to group.
     pub(crate) winners: (&'t [u32], usize),
     /// The records of the tile's triangles.
     pub(crate) slots: &'t [u32],
@@ -33,22 +33,21 @@ pub(crate) struct Task<'t> {
 /// Where the colours of a vector go.
 #[derive(Clone, Copy)]
 pub(crate) enum Destination<'t> {
-    /// To eight places from this one on, and whether some are edge pixels, which are
-    /// needed in linear light. What others get than those asked for will be written
-    /// over.
+    /// To eight places from this one on, and whether some are edge pixels, which are needed in
+    /// linear light. Lanes that are not active write as well; their places are overwritten later.
     Group(usize, bool),
-    /// To the places listed, one for each lane that is asked for.
+    /// To the places listed, one for each active lane.
     Listed(&'t [u32]),
 }
 
-/// Eight pixels to be shaded together.
-pub(super) struct Vector<'t, S: Simd> {
-    /// What the lanes see, by names that stand for records. Lanes to spare repeat one
-    /// that is asked for.
+/// Eight pixels or fragments to be shaded together, one in each lane.
+pub(super) struct FragmentBatch<'t, S: Simd> {
+    /// The names of the records of the triangles that the lanes show. Unused lanes repeat an
+    /// active one, so that every lane is safe to compute.
     pub(super) names: U32<S>,
     named: Names<'t>,
     pub(super) spots: U32<S>,
-    /// The lanes that are asked for.
+    /// The lanes whose results are used.
     pub(super) active: u64,
     pub(super) destination: Destination<'t>,
 }
@@ -63,8 +62,8 @@ enum Names<'t> {
     Winners(&'t [u32], u32),
 }
 
-impl<'t, S: Simd> Vector<'t, S> {
-    /// The number of the record that a name stands for.
+impl<'t, S: Simd> FragmentBatch<'t, S> {
+    /// The number of the record that a name refers to.
     #[inline(always)]
     pub(super) fn slot(&self, name: u32) -> u32 {
         match self.named {
@@ -106,7 +105,7 @@ impl<'t> Task<'t> {
 
     /// One of the vectors.
     #[inline(always)]
-    pub(super) fn vector<S: Simd>(&self, simd: S, number: usize) -> Vector<'t, S> {
+    pub(super) fn vector<S: Simd>(&self, simd: S, number: usize) -> FragmentBatch<'t, S> {
         match self.groups.get(number) {
             Some(group) => self.group(simd, group),
             None => self.listed(simd, (number - self.groups.len()) * LANES),
@@ -114,7 +113,7 @@ impl<'t> Task<'t> {
     }
 
     #[inline(always)]
-    fn group<S: Simd>(&self, simd: S, group: &Group) -> Vector<'t, S> {
+    fn group<S: Simd>(&self, simd: S, group: &Group) -> FragmentBatch<'t, S> {
         let (winners, step) = self.winners;
         let winners =
             winners[group.number as usize * step..].first_chunk().expect("a group has eight pixels");
@@ -125,9 +124,9 @@ impl<'t> Task<'t> {
         let mut spots = (lane_numbers(simd) + pixel as i32).bitcast();
         if group.edges != 0 {
             spots = Mask::from_bitmask(simd, u64::from(group.edges))
-                .select(Work::covering_lanes(spots, 0), spots);
+                .select(ShadePoint::covering_lanes(spots, 0), spots);
         }
-        Vector {
+        FragmentBatch {
             names,
             named: Names::Winners(self.slots, self.base),
             spots,
@@ -137,9 +136,9 @@ impl<'t> Task<'t> {
     }
 
     #[inline(always)]
-    fn listed<S: Simd>(&self, simd: S, first: usize) -> Vector<'t, S> {
+    fn listed<S: Simd>(&self, simd: S, first: usize) -> FragmentBatch<'t, S> {
         let FragmentSlice { slots, spots, outputs } = self.fragments.part(first..first + LANES);
-        Vector {
+        FragmentBatch {
             names: U32::simd_from(simd, eight(slots)) - self.base,
             named: Names::Slots,
             spots: U32::simd_from(simd, eight(spots)),
@@ -149,7 +148,7 @@ impl<'t> Task<'t> {
     }
 }
 
-/// Up to eight numbers in all lanes; those to spare repeat the first.
+/// Up to eight numbers as lanes; unused lanes repeat the first.
 #[inline(always)]
 fn eight(numbers: &[u32]) -> [u32; LANES] {
     match numbers.first_chunk() {

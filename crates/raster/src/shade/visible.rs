@@ -1,10 +1,10 @@
-//! Which triangles of a tile are seen, and at which pixels.
+//! Which triangles of a tile are visible, and at which pixels.
 
-use super::Work;
+use super::ShadePoint;
 use super::fragments::FragmentList;
 use super::shading::{EmptyGroup, Run, Shading};
 use super::task::Group;
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::simd::{LANES, Mask, Simd, U32, prelude::*};
 use crate::tile::{NOBODY, VisibilityBuffer};
@@ -19,14 +19,14 @@ const FULL: u32 = 4;
 pub(super) fn list<S: Simd>(
     simd: S,
     buffer: &VisibilityBuffer,
-    (places, own): (usize, Option<&[u8]>),
+    (triangle_count, own): (usize, Option<&[u8]>),
     shading: &mut Shading,
 ) -> usize {
     match (buffer.samples, own) {
-        (1, None) => list_samples::<S, 1, true>(simd, buffer, (places, &[]), shading),
-        (1, Some(own)) => list_samples::<S, 1, false>(simd, buffer, (places, own), shading),
-        (_, None) => list_samples::<S, 0, true>(simd, buffer, (places, &[]), shading),
-        (_, Some(own)) => list_samples::<S, 0, false>(simd, buffer, (places, own), shading),
+        (1, None) => list_samples::<S, 1, true>(simd, buffer, (triangle_count, &[]), shading),
+        (1, Some(own)) => list_samples::<S, 1, false>(simd, buffer, (triangle_count, own), shading),
+        (_, None) => list_samples::<S, 0, true>(simd, buffer, (triangle_count, &[]), shading),
+        (_, Some(own)) => list_samples::<S, 0, false>(simd, buffer, (triangle_count, own), shading),
     }
 }
 
@@ -36,11 +36,11 @@ pub(super) fn list<S: Simd>(
 fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
     simd: S,
     buffer: &VisibilityBuffer,
-    (places, own): (usize, &[u8]),
+    (triangle_count, own): (usize, &[u8]),
     shading: &mut Shading,
 ) -> usize {
     let samples = if SAMPLES > 0 { SAMPLES } else { buffer.samples };
-    shading.clear(places, samples);
+    shading.clear(triangle_count, samples);
     let (mut pixels, mut last) = (0, U32::splat(simd, NOBODY));
     let rows = buffer.winners().as_chunks::<LANES>().0;
     let Shading { slots, groups, fragments, parts, empty_groups, edges, .. } = &mut *shading;
@@ -51,8 +51,8 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
         let lanes = U32::simd_from(simd, *first);
         // As before: often within large triangles.
         if !lanes.simd_eq(last).all_true() {
-            // All of them: which ones are new, nobody can foresee.
-            for winner in <[u32; LANES]>::from(lanes.min(places as u32)) {
+            // All eight are marked: a branch on which are new would be mispredicted often.
+            for winner in <[u32; LANES]>::from(lanes.min(triangle_count as u32)) {
                 marks[winner as usize] = 1;
             }
         }
@@ -65,7 +65,7 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
         let own = if WHOLE { 0xff } else { u64::from(own[group]) };
         let partly = !agree.to_bitmask() & own;
         if !WHOLE && own != 0xff && samples > 1 {
-            mark_all(marks, others, places);
+            mark_all(marks, others, triangle_count);
         }
         let empty = lanes.simd_eq(U32::splat(simd, NOBODY)).to_bitmask() & own;
         if empty != 0 {
@@ -84,7 +84,7 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
             push_lanes([fragments, parts], (group, first), [seen & !partly, seen & partly]);
         }
     }
-    number(places, shading);
+    number(triangle_count, shading);
     let needed = shading.edges.places();
     if shading.colors.len() < needed {
         shading.colors.resize(needed, [0.0; 4]);
@@ -93,24 +93,25 @@ fn list_samples<S: Simd, const SAMPLES: usize, const WHOLE: bool>(
 }
 
 /// Marks what further samples see, of a group that is not shaded as a whole.
-fn mark_all(marks: &mut [u32], rows: &[[u32; LANES]], places: usize) {
+fn mark_all(marks: &mut [u32], rows: &[[u32; LANES]], triangle_count: usize) {
     for winner in rows.as_flattened() {
-        marks[(*winner as usize).min(places)] = 1;
+        marks[(*winner as usize).min(triangle_count)] = 1;
     }
 }
 
 /// Numbers the triangles that are marked in their order, and gives what was listed the
 /// numbers instead of the winners.
 #[inline(always)]
-fn number(places: usize, shading: &mut Shading) {
+fn number(triangle_count: usize, shading: &mut Shading) {
     let Shading { slots, seen, groups, fragments, parts, .. } = shading;
     for &winner in parts.slots() {
         slots[winner as usize] = 1;
     }
-    slots.truncate(places);
-    seen.resize(places, 0);
+    slots.truncate(triangle_count);
+    seen.resize(triangle_count, 0);
     let mut count = 0;
-    // Without branches that nobody can foresee: what is not seen is written over.
+    // Without a branch on what is visible, which would be mispredicted often: the place of a
+    // triangle that is not visible is overwritten by the next one.
     for (place, slot) in slots.iter_mut().enumerate() {
         seen[count] = place as u32;
         count += std::mem::replace(slot, count as u32) as usize;
@@ -134,9 +135,12 @@ fn push_lanes(lists: [&mut FragmentList; 2], (group, seen): (usize, &[u32; LANES
             let lane = lanes.trailing_zeros() as usize % LANES;
             lanes &= lanes - 1;
             let pixel = group * LANES + lane;
-            let work =
-                if partly { Work::covering(pixel, 0, pixel) } else { Work::anywhere(pixel, false, pixel) };
-            list.push(seen[lane], work);
+            let point = if partly {
+                ShadePoint::covering(pixel, 0, pixel)
+            } else {
+                ShadePoint::anywhere(pixel, false, pixel)
+            };
+            list.push(seen[lane], point);
         }
     }
 }
@@ -145,16 +149,17 @@ fn push_lanes(lists: [&mut FragmentList; 2], (group, seen): (usize, &[u32; LANES
 pub(super) fn divide(
     frame: &FrameView<'_>,
     buffer: &VisibilityBuffer,
-    places: &[Place],
+    triangles: &[TriangleRef],
     shading: &mut Shading,
 ) {
     let Shading { seen, runs, .. } = shading;
     runs.clear();
     let mut start = 0;
     while let Some(&first) = seen.get(start) {
-        let draw = frame.draw_of(places[first as usize]);
+        let draw = frame.draw_of(triangles[first as usize]);
         let ordinals = frame.plan.draws[draw].ordinals.end;
-        let end = start + seen[start..].partition_point(|&place| places[place as usize].ordinal < ordinals);
+        let end =
+            start + seen[start..].partition_point(|&place| triangles[place as usize].ordinal < ordinals);
         runs.push(Run { draw, slots: start..end, groups: 0..0, fragments: 0..0, parts: 0..0, records: None });
         start = end;
     }

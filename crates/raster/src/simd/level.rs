@@ -44,12 +44,14 @@ impl SimdLevel {
     pub const ALL: [Self; 5] = [Self::Scalar, Self::Sse2, Self::Avx2, Self::Avx512, Self::Neon];
 
     /// The best that this processor has.
+    #[must_use]
     pub fn best() -> Self {
         let supported = |level: &&Self| level.token().is_some();
         Self::ALL.iter().rfind(supported).copied().unwrap_or(Self::Scalar)
     }
 
     /// Whether this processor has it.
+    #[must_use]
     pub fn is_supported(self) -> bool {
         self.token().is_some()
     }

@@ -30,9 +30,9 @@ pub enum Output {
     Linear,
     /// Reversed depth as f32: 1 at the near plane, 0 for the background.
     Depth,
-    /// The id of the object that is seen, `u32::MAX` for the background.
+    /// The id of the visible object, `u32::MAX` for the background.
     Object,
-    /// The id of the face that is seen, `u32::MAX` for the background.
+    /// The id of the visible face, `u32::MAX` for the background.
     Face,
     /// The index of the triangle, segment or point in its draw, `u32::MAX` for
     /// the background.
@@ -80,7 +80,7 @@ pub enum TargetError {
     },
 }
 
-/// The pictures that a pass draws into; made once and used for many frames.
+/// The images that a pass draws into; created once and used for many frames.
 ///
 /// All are row-major from the top left, `width * height` entries. With several
 /// samples per pixel, colour is their mean in linear light; depth and ids are
@@ -233,27 +233,32 @@ impl<'a> Target<'a> {
     }
 
     /// Width in pixels.
+    #[must_use]
     pub fn width(&self) -> u32 {
         self.width
     }
 
     /// Height in pixels.
+    #[must_use]
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// By how much supersampling makes the grid finer.
+    /// How many samples supersampling takes along each axis of a pixel.
+    #[must_use]
     pub fn samples_per_axis(&self) -> u32 {
         self.samples_per_axis
     }
 
-    /// How many samples multisampling has in a pixel.
+    /// How many samples multisampling takes in each pixel.
+    #[must_use]
     pub fn samples(&self) -> u32 {
         self.pattern.count() as u32
     }
 
     /// Where in each pixel depth and ids are taken: x to the right and y down from
     /// its upper left corner, in pixels. With one sample that is the centre.
+    #[must_use]
     pub fn visibility_sample(&self) -> [f64; 2] {
         let axis = self.samples_per_axis;
         let offset = self.pattern.offsets()[0];
@@ -265,41 +270,49 @@ impl<'a> Target<'a> {
     }
 
     /// The picture of [`Output::Unorm8`], if asked for.
+    #[must_use]
     pub fn unorm8(&self) -> Option<&[[u8; 4]]> {
         self.unorm8.pixels()
     }
 
     /// The picture of [`Output::Srgb8`], if asked for.
+    #[must_use]
     pub fn srgb8(&self) -> Option<&[[u8; 4]]> {
         self.srgb8.pixels()
     }
 
     /// The picture of [`Output::Linear`], if asked for.
+    #[must_use]
     pub fn linear(&self) -> Option<&[Vec4]> {
         self.linear.pixels()
     }
 
     /// The picture of [`Output::Depth`], if asked for.
+    #[must_use]
     pub fn depth(&self) -> Option<&[f32]> {
         self.depth.pixels()
     }
 
     /// The picture of [`Output::Object`], if asked for.
+    #[must_use]
     pub fn objects(&self) -> Option<&[u32]> {
         self.objects.pixels()
     }
 
     /// The picture of [`Output::Face`], if asked for.
+    #[must_use]
     pub fn faces(&self) -> Option<&[u32]> {
         self.faces.pixels()
     }
 
     /// The picture of [`Output::Triangle`], if asked for.
+    #[must_use]
     pub fn triangles(&self) -> Option<&[u32]> {
         self.triangles.pixels()
     }
 
     /// Gives the pictures away.
+    #[must_use]
     pub fn into_pictures(self) -> Pictures {
         Pictures {
             srgb8: self.srgb8.into_owned(),

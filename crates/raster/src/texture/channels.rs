@@ -24,7 +24,7 @@ pub(super) struct Data;
 impl Texels for Data {
     #[inline(always)]
     fn channel<S: Simd>(texels: U32<S>, channel: u32) -> F32<S> {
-        // The sign has no place for a fourth.
+        // The highest byte would make the integer negative, so alpha is shifted down instead.
         float(if channel == ALPHA { texels >> 24 } else { texels & (0xff << (8 * channel)) })
     }
 }

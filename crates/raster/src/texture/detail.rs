@@ -1,5 +1,10 @@
-//! How much of a texture one sample covers: the mip level, and with anisotropy
-//! the probes along the longer side, for one sample and for lanes.
+//! The footprint of a sample on a texture: which mip level it needs and, with anisotropic
+//! filtering, how many probes along its longer side. Each is written twice, for one sample and
+//! for eight lanes, with the same operations in the same order.
+//!
+//! The gradients of the texture coordinates span a parallelogram in texels. Its longer side
+//! decides the level: at level `log2(side)` a texel is as large as the side. Squares of sides are
+//! compared, and the logarithm takes half of the exponent, so that the level needs no root.
 
 use super::{Sampler, Texture};
 use crate::simd::prelude::*;
@@ -10,7 +15,7 @@ use trigon_math::Vec2;
 /// the last level of any texture.
 const COARSEST: f32 = (1_u64 << 60) as f32;
 
-/// What a sample covers.
+/// What one sample covers of a texture.
 pub(super) struct Footprint {
     /// The square of the side that one look-up covers, in texels of the base level:
     /// below 1 where a texel is larger than a sample step; finite.
@@ -37,7 +42,7 @@ impl Footprint {
         let size = Vec2::new(texture.width() as f32, texture.height() as f32);
         let (x, y) = (ddx * size, ddy * size);
         let (x, y) = (x.x * x.x + x.y * x.y, y.x * y.x + y.y * y.y);
-        // Also when it is not a number.
+        // True for NaN as well.
         if !(x + y).is_finite() {
             return Self { square: COARSEST, probes: 1.0, axis: Vec2::ZERO };
         }
@@ -46,9 +51,10 @@ impl Footprint {
             return Self { square: longer, probes: 1.0, axis };
         }
         let ratio = (longer / shorter).sqrt();
-        // A point has no ratio: then the comparison fails.
+        // If both sides are zero the ratio is NaN, and the comparison is false.
         let ratio = if ratio > 1.0 { ratio } else { 1.0 };
         let ratio = if ratio < most_probes { ratio } else { most_probes };
+        // Rounded up.
         let whole = ratio as i32 as f32;
         let probes = if whole < ratio { whole + 1.0 } else { whole };
         Self { square: longer / (probes * probes), probes, axis }
@@ -89,6 +95,7 @@ impl<S: Simd> FootprintLanes<S> {
         );
         let (x, y) = (squared_lanes(size, ddx), squared_lanes(size, ddy));
         let finite = (x + y).simd_lt(f32::INFINITY);
+        // The lanes in which the longer side is the one downwards.
         let steep = y.simd_gt(x);
         let longer = steep.select(y, x);
         let coarsest = F32::splat(simd, COARSEST);
@@ -111,7 +118,7 @@ impl<S: Simd> FootprintLanes<S> {
     }
 }
 
-/// The square of a side in texels.
+/// The square of the length of a gradient in texels of the base level.
 #[inline(always)]
 fn squared_lanes<S: Simd>([width, height]: [F32<S>; 2], [u, v]: [F32<S>; 2]) -> F32<S> {
     let (u, v) = (u * width, v * height);

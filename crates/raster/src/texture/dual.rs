@@ -8,10 +8,10 @@ use trigon_math::Vec2;
 
 /// A value and its two derivatives, per sample step to the right and down.
 ///
-/// A look-up wants the gradients of its coordinates. Those of a varying are
-/// given; what is computed from varyings has them when it is computed with this
-/// type, by the rules of calculus: no neighbouring sample is needed, and no seam
-/// shows where a triangle ends. (Dual numbers with two infinitesimal parts:
+/// A texture look-up needs the gradients of its coordinates. Those of a varying are
+/// given. Coordinates that are computed from varyings get their gradients when the
+/// computation uses this type, by the rules of calculus: no neighbouring sample is
+/// needed, and no seam shows at the end of a triangle. (Dual numbers with two infinitesimal parts:
 /// Clifford, *Preliminary Sketch of Biquaternions*, 1873; as "automatic
 /// differentiation, forward mode": Griewank and Walther, *Evaluating
 /// Derivatives*, 2008, chapter 3.)

@@ -95,7 +95,9 @@ impl<S: Simd> Probes<'_, S> {
         )
     }
 
-    /// The mean of the values at all probes of each lane's footprint.
+    /// The mean of the values at all probes of each lane's footprint. Lanes have different numbers
+    /// of probes: the loop runs as often as the largest needs, and lanes that are done keep their
+    /// sum.
     #[inline(always)]
     fn mean<T: Texels>(&self, footprint: &FootprintLanes<S>) -> Channels<S> {
         let zero = F32::splat(self.simd, 0.0);
@@ -135,9 +137,11 @@ impl<'a, S: Simd> Lookup<'a, S> {
     fn new(of: &Probes<'a, S>, uv: [F32<S>; 2], square: F32<S>) -> Self {
         let Probes { simd, texture, sampler, .. } = *of;
         let (zero, nought) = (F32::splat(simd, 0.0), I32::splat(simd, 0));
+        // Lanes in which a texel is smaller than a sample step.
         let minified = square.simd_gt(1.0);
         let (whole, rest) = log2_of_root_lanes(square);
         let last = I32::splat(simd, texture.strips.last_level as i32);
+        // Where the level was held to the range, it is exact and has no share of the next one.
         let level = whole.min(last).max(nought);
         let rest = (whole.simd_eq(level) & level.simd_lt(last)).select(rest, zero);
         let (finer, share) = match sampler.mip {
@@ -218,8 +222,9 @@ struct Levels<S: Simd> {
 impl<S: Simd> Levels<S> {
     #[inline(always)]
     fn new(each: I32<S>) -> Self {
-        // Counted up to, not read: a processor that foresees how far goes on before the
-        // levels are known, and most of a look-up waits for nothing else as long.
+        // The level is found by counting up to it instead of reading it from a lane. A processor
+        // that predicts the end of this loop goes on before the levels are known; most of a
+        // look-up depends on nothing that takes as long.
         let mut level = 0;
         while each.simd_gt(level).any_true() {
             level += 1;

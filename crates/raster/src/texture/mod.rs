@@ -86,21 +86,25 @@ impl Texture {
     }
 
     /// Width of the base level in texels.
+    #[must_use]
     pub fn width(&self) -> u32 {
         self.strips.width
     }
 
     /// Height of the base level in texels.
+    #[must_use]
     pub fn height(&self) -> u32 {
         self.strips.height
     }
 
     /// How many mip levels there are, the base included.
+    #[must_use]
     pub fn level_count(&self) -> usize {
         self.strips.last_level as usize + 1
     }
 
     /// What the bytes mean.
+    #[must_use]
     pub fn format(&self) -> TextureFormat {
         self.format
     }

@@ -19,6 +19,7 @@ impl Texture {
     /// Any coordinate is safe: one that is not finite counts as 0, a gradient
     /// that is not finite selects the last level.
     #[inline]
+    #[must_use]
     pub fn sample(&self, uv: Vec2, ddx: Vec2, ddy: Vec2, sampler: &Sampler) -> Vec4 {
         sample(self, uv, ddx, ddy, sampler)
     }

@@ -7,7 +7,7 @@
 //! first is: no look-up meets an edge, and neighbours in the picture share cache
 //! lines in both directions. The border costs an eighth of memory and a row.
 //!
-//! What follows the last column or row is the first, as [`Wrap::Repeat`] wants it.
+//! What follows the last column or row is the first, as [`Wrap::Repeat`] needs.
 //! The other modes never see that: they hold the position to the centres of the
 //! outermost texels, where the weight of what follows is 0.
 //!

@@ -45,7 +45,7 @@ impl Blocks {
         Self(self.0 & !other.0)
     }
 
-    /// Takes up to so many blocks out.
+    /// Removes up to `count` blocks and returns them.
     pub(crate) fn take(&mut self, count: usize) -> Self {
         let mut rest = *self;
         for _ in 0..count {

@@ -68,7 +68,8 @@ impl VisibilityBuffer {
         self.fill_with(BEHIND_ALL, NOBODY);
     }
 
-    /// Gives all samples one depth and winner, at no cost.
+    /// Gives all samples one depth and winner. Only a note is made; the arrays are filled when they
+    /// are needed.
     pub(crate) fn fill_with(&mut self, depth: f32, winner: u32) {
         self.fill = Some((depth, winner));
         (self.farthest, self.stale) = (depth, false);
@@ -79,7 +80,7 @@ impl VisibilityBuffer {
         self.fill.map(|(depth, _)| depth)
     }
 
-    /// Makes the arrays hold what they stand for; beside the tile's blocks nobody wins.
+    /// Writes a pending fill to the arrays. Samples beside the tile's blocks get no winner.
     #[inline(always)]
     pub(crate) fn settle(&mut self) {
         // Asked for each triangle.
@@ -101,14 +102,14 @@ impl VisibilityBuffer {
         self.blocks.fill(BlockBounds { farthest: depth, nearest: depth, writes: 0 });
     }
 
-    /// Notes that samples anywhere were written, and lie nobody knows how near.
+    /// Notes that any sample may have been written, at any depth.
     pub(super) fn forget_nearest(&mut self) {
         for bounds in &mut self.blocks {
             (bounds.nearest, bounds.writes) = (f32::INFINITY, 1);
         }
     }
 
-    /// Lets nobody win outside of the picture.
+    /// Removes the winners of samples outside the image.
     pub(crate) fn blank_outside(&mut self, area: &TileArea) {
         if area.size == area.padded() {
             return;

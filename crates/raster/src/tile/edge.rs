@@ -73,10 +73,12 @@ impl Edge {
         self.origin + i64::from(self.right) * i64::from(x) + i64::from(self.down) * i64::from(y)
     }
 
-    /// -1 if points exactly on the edge are outside, 0 if they belong to the
-    /// triangle: those on a left edge, and those on a top edge (horizontal, the
-    /// triangle below it). So of two triangles on both sides of an edge exactly
-    /// one has it.
+    /// What is added to the value so that "not negative" means inside, by the top-left rule: 0 if
+    /// points exactly on the edge belong to the triangle, else -1.
+    ///
+    /// They belong to it on a left edge (the value grows to the right) and on a top edge
+    /// (horizontal, the triangle below). The triangle on the other side of the same edge has
+    /// both steps negated, so exactly one of the two owns the edge.
     #[inline]
     pub(crate) fn bias(&self) -> i64 {
         let inclusive = self.right > 0 || (self.right == 0 && self.down > 0);

@@ -1,14 +1,14 @@
-//! Eight small triangles of a tile made ready at once.
+//! EightTriangles small triangles of a tile made ready at once.
 
-use super::{Covering, DepthPlane, TileArea};
+use super::{DepthPlane, TileArea, TileTriangle};
 use crate::samples::{MAX_SAMPLES, SamplePattern};
 use crate::setup::{Column, small_lanes, sorted_columns};
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lesser, prelude::*, widened};
 use crate::vertex::ScreenVertex;
 use fearless_simd::f64x4;
 
-/// What [`Covering`] needs of eight small triangles.
-pub(super) struct Eight {
+/// What [`TileTriangle`] needs of eight small triangles.
+pub(super) struct EightTriangles {
     /// Edge functions at the tile's corner, with the bias of the top-left rule.
     pub(super) corner: [[i32; LANES]; 3],
     /// The same at the first sample of the first pixel, over 256.
@@ -33,14 +33,15 @@ pub(super) struct Eight {
     pub(super) micro: bool,
 }
 
-/// Triangles that reach over fewer pixels than this each way are not worth asking
-/// whether blocks lie outside of them.
+/// Triangles of at most this many pixels each way go through the kernel `tiny`: testing whole
+/// blocks against their edges costs more than it saves.
 const TINY: i32 = 24;
 
-/// Triangles that reach over no more pixels than this each way.
+/// Triangles of at most this many pixels each way go through the kernel `micro`, if all of the
+/// eight are that small.
 pub(super) const MICRO: i32 = 4;
 
-impl Eight {
+impl EightTriangles {
     #[inline(always)]
     pub(super) fn new<S: Simd>(
         simd: S,
@@ -53,8 +54,11 @@ impl Eight {
             #[inline(always)]
             |(vertices, corner)| Column::new(simd, vertices, corner),
         );
+        // Each lane's vertices in the order of (y, x), so that the results do not depend on the
+        // order in which the draw lists them.
         let ([a, b, c], _) = sorted_columns(columns);
         let zero = I32::splat(simd, 0);
+        // Twice the signed areas: edges are turned so that all triangles are positive inside.
         let area_of = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
         let clockwise = area_of.simd_gt(zero);
         let origin = area.origin.each(
@@ -80,6 +84,8 @@ impl Eight {
             first: edges.each(
                 #[inline(always)]
                 |[corner, right, down]| {
+                    // Dividing by 256 rounds down, which keeps the sign at every sample: the values
+                    // at samples of one offset differ by multiples of 256.
                     let [x, y] = pattern.offsets()[0];
                     ((corner + right * x + down * y) >> 8).into()
                 },
@@ -125,7 +131,7 @@ impl Eight {
 
     /// The triangle of one lane; `None` if it has no sample in the tile.
     #[inline(always)]
-    pub(super) fn covering(&self, lane: usize, offsets: &[[i32; 2]]) -> Option<Covering> {
+    pub(super) fn covering(&self, lane: usize, offsets: &[[i32; 2]]) -> Option<TileTriangle> {
         if self.live >> lane & 1 == 0 {
             return None;
         }
@@ -150,7 +156,7 @@ impl Eight {
                 range[1][k] = range[1][k].max(start[k]);
             }
         }
-        Some(Covering {
+        Some(TileTriangle {
             starts,
             range,
             right,
@@ -169,7 +175,8 @@ impl Eight {
     }
 }
 
-/// An edge function at the tile's corner, its bias included, and its steps.
+/// An edge function at the tile's corner, with the bias of the top-left rule, and its steps for
+/// 1/256 pixel to the right and downwards.
 #[inline(always)]
 fn edge<S: Simd>(
     simd: S,
@@ -185,6 +192,8 @@ fn edge<S: Simd>(
     let (right, down) = (turned(from.y - to.y), turned(to.x - from.x));
     let value =
         right * (I32::splat(simd, origin[0]) - from.x) + down * (I32::splat(simd, origin[1]) - from.y);
+    // Samples exactly on a left or top edge belong to the triangle. For all other edges the value
+    // is made one less, so that "not negative" means inside for every edge.
     let zero = I32::splat(simd, 0);
     let inclusive = right.simd_gt(zero) | (right.simd_eq(zero) & down.simd_gt(zero));
     [value - inclusive.select(zero, I32::splat(simd, 1)), right, down]
@@ -295,13 +304,13 @@ mod tests {
             });
             for token in SimdLevel::ALL.into_iter().filter_map(SimdLevel::token) {
                 let columns = [0, 1, 2].map(|corner| std::array::from_fn(|lane| &vertices[lane][corner]));
-                let eight = at_level!(token, simd => Eight::new(simd, &area, pattern, (columns, 8)));
+                let eight = at_level!(token, simd => EightTriangles::new(simd, &area, pattern, (columns, 8)));
                 for (lane, &vertices) in vertices.iter().enumerate() {
                     let triangle = SetupTriangle::whole(vertices, 0);
                     if eight.small >> lane & 1 == 0 || triangle.doubled_area() == 0 {
                         continue;
                     }
-                    let Some(single) = Covering::new(&triangle, &grid, &area) else {
+                    let Some(single) = TileTriangle::new(&triangle, &grid, &area) else {
                         continue;
                     };
                     let ours = eight.covering(lane, pattern.offsets()).expect("it is live");
@@ -313,7 +322,7 @@ mod tests {
                     for y in single.rows[0]..=single.rows[1] {
                         for x in single.columns[0]..=single.columns[1] {
                             for sample in 0..pattern.count() {
-                                let covers = |covering: &Covering| covering.covers([x, y], sample, [0, 0]);
+                                let covers = |covering: &TileTriangle| covering.covers([x, y], sample, [0, 0]);
                                 prop_assert_eq!(covers(&ours), covers(&single), "{} {} {}", x, y, sample);
                             }
                         }

@@ -1,7 +1,7 @@
 //! A tile's triangles in the order of their keys.
 
 use super::buffer::{NOBODY, VisibilityBuffer};
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 
 /// A triangle of a tile: its object, its face, its number among the tile's.
@@ -35,11 +35,11 @@ pub(crate) struct KeyOrder {
 impl KeyOrder {
     /// Sorts triangles as [`FrameView::compare`] has them. Parts of one primitive stay as
     /// they are.
-    pub(super) fn sort(&mut self, frame: &FrameView<'_>, places: &[Place]) {
+    pub(super) fn sort(&mut self, frame: &FrameView<'_>, triangles: &[TriangleRef]) {
         self.sorted.clear();
         // Neighbours mostly belong to the same draw.
         let mut draw = 0;
-        self.sorted.extend(places.iter().zip(0..).map(|(&place, number)| {
+        self.sorted.extend(triangles.iter().zip(0..).map(|(&place, number)| {
             if !frame.plan.draws[draw].ordinals.contains(&place.ordinal) {
                 draw = frame.draw_of(place);
             }
@@ -48,7 +48,7 @@ impl KeyOrder {
         self.sorted.sort_unstable();
         let same_face = |a: &Keyed, b: &Keyed| a.object_and_face() == b.object_and_face();
         for face in self.sorted.chunk_by_mut(same_face).filter(|face| face.len() > 1) {
-            let place = |keyed: &Keyed| places[keyed.number()];
+            let place = |keyed: &Keyed| triangles[keyed.number()];
             let [first, last] = [&face[0], &face[face.len() - 1]].map(|keyed| frame.draw_of(place(keyed)));
             // Those of one draw are in order already.
             if first != last {
@@ -58,15 +58,16 @@ impl KeyOrder {
     }
 
     /// The same triangles in this order.
-    pub(super) fn of(&self, places: &[Place]) -> impl Iterator<Item = Place> {
-        self.sorted.iter().map(|keyed| places[keyed.number()])
+    pub(super) fn of(&self, triangles: &[TriangleRef]) -> impl Iterator<Item = TriangleRef> {
+        self.sorted.iter().map(|keyed| triangles[keyed.number()])
     }
 
     /// For each triangle how many primitives come before it.
-    pub(super) fn ranks(&self, places: &[Place], ranks: &mut Vec<u32>) {
+    pub(super) fn ranks(&self, triangles: &[TriangleRef], ranks: &mut Vec<u32>) {
         ranks.clear();
-        ranks.resize(places.len(), 0);
-        let same_primitive = |a: &Keyed, b: &Keyed| places[a.number()].ordinal == places[b.number()].ordinal;
+        ranks.resize(triangles.len(), 0);
+        let same_primitive =
+            |a: &Keyed, b: &Keyed| triangles[a.number()].ordinal == triangles[b.number()].ordinal;
         for (rank, parts) in (0..).zip(self.sorted.chunk_by(same_primitive)) {
             for part in parts {
                 ranks[part.number()] = rank;

@@ -1,21 +1,18 @@
-//! Masked triangles: first all samples that could be seen, then the mask, then
-//! depth.
+//! Masked triangles: first all samples where the triangle would be visible are collected, then the
+//! mask is evaluated, then depth is tested again.
 
 use super::blocks::Blocks;
-use super::buffer::{NOBODY, VisibilityBuffer};
-use super::seen::{Candidate, TileView};
+use super::buffer::NOBODY;
+use super::depth_query::{Candidate, TileView};
 use super::single::single;
-use super::ties::Ties;
 use super::{TileArea, TileState};
-use crate::bin::Place;
 use crate::frame::FrameView;
-use crate::shade::{Job, Shading, Work, mask_jobs};
+use crate::shade::{Job, JobList, ShadePoint, Shading, mask_jobs};
 use crate::simd::{LANES, Simd, at_level, prelude::*};
-use crate::{Stats, Surface};
+use crate::{BlendMode, Stats};
 use std::ops::Range;
 
-/// Masked fragments are asked for in portions of about this many, to bound
-/// memory.
+/// Masks are evaluated for portions of about this many fragments, to bound memory.
 const PORTION: usize = 4096;
 
 /// A masked fragment at a sample, which waits for the answer of its mask.
@@ -29,16 +26,16 @@ struct Waiting {
     answer: u32,
 }
 
-/// Masked fragments of one draw, and what their mask is asked.
+/// Masked fragments of one draw that wait for their masks.
 #[derive(Default)]
 pub(crate) struct Questions {
     waiting: Vec<Waiting>,
     jobs: Vec<Job>,
-    work: Vec<Work>,
+    points: Vec<ShadePoint>,
     answers: Vec<u8>,
 }
 
-/// Lets the masked triangles among the tile's `places` compete.
+/// Draws the masked triangles of a tile: a range of those that are listed.
 pub(super) fn cover_masked(
     frame: &FrameView<'_>,
     area: &TileArea,
@@ -46,31 +43,32 @@ pub(super) fn cover_masked(
     range: Range<usize>,
     (shading, stats): (&mut Shading, &mut Stats),
 ) {
-    let TileState { buffer, places, ties, questions, .. } = state;
-    let draw = |place: usize| frame.draw_of(places[place]);
+    let mut questions = std::mem::take(&mut state.questions);
     for place in range.clone() {
+        let draw = |place: usize| frame.draw_of(state.triangles[place]);
         let turns = place > range.start && draw(place) != draw(place - 1);
         if turns || questions.waiting.len() > PORTION {
-            stats.samples_masked += questions.settle(frame, area, (places, ties, buffer), shading);
+            stats.samples_masked += questions.settle(frame, area, state, shading);
         }
-        let view = TileView { frame, area, buffer, places, ties };
+        let view = state.view(frame, area);
         at_level!(frame.token, simd => questions.collect(simd, view, place));
     }
-    stats.samples_masked += questions.settle(frame, area, (places, ties, buffer), shading);
+    stats.samples_masked += questions.settle(frame, area, state, shading);
+    state.questions = questions;
 }
 
 impl Questions {
     /// Asks about a triangle wherever nothing hides it.
     #[inline(always)]
     fn collect<S: Simd>(&mut self, simd: S, view: TileView<'_>, place: usize) {
-        let Some(covering) = single(view.frame, view.area, view.places[place]) else {
+        let Some(covering) = single(view.frame, view.area, view.triangles[place]) else {
             return;
         };
-        let draw = &view.frame.plan.draws[view.frame.draw_of(view.places[place])];
-        let per_sample = view.frame.pass[draw.draw].geometry.surface == Surface::MaskedPerSample;
+        let draw = &view.frame.plan.draws[view.frame.draw_of(view.triangles[place])];
+        let per_sample = view.frame.pass[draw.draw].geometry.blend_mode == BlendMode::MaskedPerSample;
         let multisampled = view.frame.is_multisampled();
-        let Self { waiting, jobs, work, .. } = self;
-        let start = work.len();
+        let Self { waiting, jobs, points, .. } = self;
+        let start = points.len();
         let candidate = Candidate { covering: &covering, place: place as u32 };
         let (mut group, mut answers) = (usize::MAX, [NOBODY; LANES]);
         view.for_each_seen(
@@ -86,10 +84,10 @@ impl Questions {
                 for lane in (0..LANES).filter(|lane| seen >> lane & 1 != 0) {
                     let pixel = samples.pixel(lane);
                     if per_sample || answers[lane] == NOBODY {
-                        answers[lane] = work.len() as u32;
-                        work.push(match per_sample {
-                            true => Work::at_sample(pixel, samples.sample, work.len()),
-                            false => Work::anywhere(pixel, multisampled, work.len()),
+                        answers[lane] = points.len() as u32;
+                        points.push(match per_sample {
+                            true => ShadePoint::at_sample(pixel, samples.sample, points.len()),
+                            false => ShadePoint::anywhere(pixel, multisampled, points.len()),
                         });
                     }
                     let index = view.buffer.index(pixel, samples.sample) as u32;
@@ -98,8 +96,8 @@ impl Questions {
                 }
             },
         );
-        if work.len() > start {
-            jobs.push(Job { place: place as u32, work: start..work.len() });
+        if points.len() > start {
+            jobs.push(Job { place: place as u32, points: start..points.len() });
         }
     }
 
@@ -109,24 +107,23 @@ impl Questions {
         &mut self,
         frame: &FrameView<'_>,
         area: &TileArea,
-        (places, ties, buffer): (&[Place], &Ties, &mut VisibilityBuffer),
+        state: &mut TileState,
         shading: &mut Shading,
     ) -> u64 {
-        let Self { waiting, jobs, work, answers } = self;
-        let asked = work.len();
+        let Self { waiting, jobs, points, answers } = self;
+        let asked = points.len();
         answers.clear();
         answers.resize(asked, 0);
-        mask_jobs(frame, area, shading, (places, jobs, work), answers);
+        mask_jobs(frame, area, shading, JobList { triangles: &state.triangles, jobs, points }, answers);
         for fragment in waiting.drain(..).filter(|fragment| answers[fragment.answer as usize] != 0) {
             let (index, depth) = (fragment.index as usize, fragment.depth);
-            let view = TileView { frame, area, buffer, places, ties };
-            if view.is_seen(index, depth, fragment.place) {
-                buffer.depth[index] = depth;
-                buffer.winner[index] = fragment.place;
+            if state.view(frame, area).is_seen(index, depth, fragment.place) {
+                state.buffer.depth[index] = depth;
+                state.buffer.winner[index] = fragment.place;
             }
         }
         jobs.clear();
-        work.clear();
+        points.clear();
         asked as u64
     }
 }

@@ -1,19 +1,26 @@
-//! Triangles of a pixel or a few, eight at a time with one in each lane: most of
-//! what a fine mesh is made of.
+//! The micro kernel: eight triangles of at most 4×4 pixels at a time, one triangle in each
+//! lane. Most triangles of a fine mesh are drawn here.
+//!
+//! The kernel has two passes. The first visits pixel 0, 1, 2, … of all eight bounding boxes
+//! in step, tests the edges of all eight triangles at once, and appends the covered pixels to
+//! a list. The second walks that list and tests depth pixel by pixel: the lanes' pixels lie
+//! anywhere in the tile, and two triangles may cover the same one, so lanes cannot be written
+//! together.
 
 use super::area::{BLOCKS, GROUPS};
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::counts::Counts;
-use super::cover::Cover;
-use super::eight::{Eight, MICRO};
+use super::eight::{EightTriangles, MICRO};
+use super::rasterizer::TileRasterizer;
 use crate::simd::{
     Each, F32, I32, LANES, Mask, Simd, U32, greater, lane_numbers, lesser, prelude::*, widened,
 };
 use fearless_simd::f64x4;
 
-/// Depths of the lanes' triangles along a row of pixels.
+/// Depths of the lanes' triangles along a row of pixels: lane `i` belongs to triangle `i`.
 struct Depths<S: Simd> {
-    /// In two halves: the planes at the row, and their steps.
+    /// The planes at the row and their steps to the right. They are f64, of which a vector
+    /// holds four, so lanes 0 to 3 come first and lanes 4 to 7 second.
     row: [f64x4<S>; 2],
     right: [f64x4<S>; 2],
     low: F32<S>,
@@ -37,8 +44,11 @@ impl Covered {
         Self { count: 0, places: [0; PIXELS + LANES], depths: [0.0; PIXELS + LANES] }
     }
 
-    /// Lists one pixel of each of some triangles. How many there are, nobody can foresee:
-    /// they are gone through later, once for all pixels.
+    /// Appends one pixel of each triangle whose lane is set.
+    ///
+    /// `compress` moves the set lanes to the front. All eight are stored, and the count grows
+    /// by those that were set, so the next call overwrites the rest: no branch depends on how
+    /// many triangles cover their pixel, which a processor could not predict.
     #[inline(always)]
     fn push<S: Simd>(&mut self, simd: S, lanes: Mask<S>, (depth, index): (F32<S>, I32<S>)) {
         let places = ((index << 3) + lane_numbers(simd)).bitcast::<U32<S>>();
@@ -49,13 +59,13 @@ impl Covered {
     }
 }
 
-impl Cover<'_> {
+impl TileRasterizer<'_> {
     /// Triangles with one sample to a pixel; the first of them has number `first`.
     #[inline(always)]
     pub(super) fn micro<S: Simd>(
         &self,
         simd: S,
-        (eight, pixels): (&Eight, &mut Covered),
+        (eight, pixels): (&EightTriangles, &mut Covered),
         first: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
@@ -67,16 +77,19 @@ impl Cover<'_> {
         buffer.settle();
         counts.groups += u64::from(live.to_bitmask().count_ones());
         let column = |values: &[i32; LANES]| I32::simd_from(simd, *values);
+        // The bounding boxes, in pixels of the tile.
         let [left, right] = eight.pixels[0].each_ref().each(column);
         let [top, bottom] = eight.pixels[1].each_ref().each(column);
         let (steps_right, steps_down) =
             (eight.right.each_ref().each(column), eight.down.each_ref().each(column));
+        // The edge functions of each triangle at the top left pixel of its own box.
         let mut edges = [0, 1, 2].each(
             #[inline(always)]
             |k| column(&eight.first[k]) + steps_right[k] * left + steps_down[k] * top,
         );
         for down in 0..MICRO {
             let y = top + down;
+            // Boxes have different heights: lanes whose box has ended take no part.
             let in_row = live & y.simd_le(bottom);
             if !in_row.any_true() {
                 break;
@@ -89,6 +102,8 @@ impl Cover<'_> {
                 if !here.any_true() {
                     break;
                 }
+                // A pixel is inside if no edge function is negative. The sign bit of the
+                // combined value is set if that of any of the three is.
                 let [a, b, c] = values;
                 let covered = here & (a | b | c).simd_ge(I32::splat(simd, 0));
                 let depth = self.depths_at(simd, eight, &depths, x);
@@ -109,7 +124,7 @@ impl Cover<'_> {
     fn not_hidden<S: Simd>(
         &self,
         simd: S,
-        eight: &Eight,
+        eight: &EightTriangles,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) -> Mask<S> {
@@ -127,7 +142,7 @@ impl Cover<'_> {
     /// The planes of depth at a row of each lane: the formula of
     /// [`DepthPlane`](super::DepthPlane).
     #[inline(always)]
-    fn depths<S: Simd>(&self, simd: S, eight: &Eight, y: I32<S>) -> Depths<S> {
+    fn depths<S: Simd>(&self, simd: S, eight: &EightTriangles, y: I32<S>) -> Depths<S> {
         let dy = self.steps(simd, (y, 1), &eight.anchor);
         let value = widened(F32::simd_from(simd, eight.value));
         let slopes = eight.slopes.each_ref().each(
@@ -144,7 +159,7 @@ impl Cover<'_> {
     }
 
     #[inline(always)]
-    fn depths_at<S: Simd>(&self, simd: S, eight: &Eight, depths: &Depths<S>, x: I32<S>) -> F32<S> {
+    fn depths_at<S: Simd>(&self, simd: S, eight: &EightTriangles, depths: &Depths<S>, x: I32<S>) -> F32<S> {
         let dx = self.steps(simd, (x, 0), &eight.anchor);
         let [low, high] = [0, 1].each(
             #[inline(always)]
@@ -153,8 +168,9 @@ impl Cover<'_> {
         lesser(greater(simd.narrow_f64x4(low, high), depths.low), depths.high)
     }
 
-    /// How far pixels' samples lie from the triangles' first vertices on an axis, in
-    /// 1/256 pixel. Small whole numbers: exact in f32, too.
+    /// The distance of a pixel's sample from the first vertex of the lane's triangle, along
+    /// one axis in 1/256 pixel. These are whole numbers far below 2^24, so the conversion to
+    /// f32 on the way to f64 is exact.
     #[inline(always)]
     fn steps<S: Simd>(
         &self,
@@ -166,13 +182,21 @@ impl Cover<'_> {
         widened((place - I32::simd_from(simd, anchor[axis])).to_float())
     }
 
-    /// Lets the triangles compete for the pixels that they cover.
+    /// Tests the depths of the covered pixels and stores those that are visible.
     ///
-    /// Apart, so that what finds those takes no registers.
+    /// A function of its own, so that the first pass has all registers to itself.
     #[inline(never)]
-    fn scatter(&self, eight: &Eight, first: u32, pixels: &mut Covered, buffer: &mut VisibilityBuffer) {
+    fn scatter(
+        &self,
+        eight: &EightTriangles,
+        first: u32,
+        pixels: &mut Covered,
+        buffer: &mut VisibilityBuffer,
+    ) {
         let count = std::mem::take(&mut pixels.count);
         for (&place, &depth) in pixels.places[..count].iter().zip(&pixels.depths) {
+            // The list packs a pixel's number and its lane into one value. With one sample per
+            // pixel the pixel's number is also its index in the buffer.
             let (at, lane) = (place as usize / LANES, place as usize % LANES);
             let (there, place) = (buffer.depth[at], first + lane as u32);
             if depth > there || (depth == there && self.wins_tie(place, buffer.winner[at])) {
@@ -183,8 +207,11 @@ impl Cover<'_> {
         }
     }
 
-    /// Whether a triangle is seen before another of equal depth, in whatever order
-    /// they come.
+    /// Whether a triangle wins against another of equal depth.
+    ///
+    /// The list goes pixel by pixel of the boxes, not triangle by triangle, so of two triangles
+    /// in the same eight the later one may come first. That is why numbers are compared even
+    /// when triangles are drawn in the order of their keys.
     #[cold]
     fn wins_tie(&self, place: u32, winner: u32) -> bool {
         if self.in_order {
@@ -199,6 +226,7 @@ impl Cover<'_> {
 /// [`TileArea::index_of`](super::TileArea::index_of).
 #[inline(always)]
 fn index_of<S: Simd>(x: I32<S>, y: I32<S>) -> I32<S> {
+    // Blocks of 8×8 pixels row by row; in each block eight groups of 4×2, two to a row.
     let block = (y >> 3) * BLOCKS as i32 + (x >> 3);
     let group = (y & 6) + ((x >> 2) & 1);
     (((block << 3) + group) << 3) + ((y & 1) << 2) + (x & 3)

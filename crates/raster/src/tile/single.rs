@@ -1,12 +1,12 @@
-//! A triangle by itself, as one tile sees it.
+//! One triangle prepared for one tile.
 
-use super::{Covering, TileArea};
-use crate::bin::Place;
+use super::{TileArea, TileTriangle};
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::setup::SetupTriangle;
 
 /// One triangle of the tile.
-pub(crate) fn single(frame: &FrameView<'_>, area: &TileArea, place: Place) -> Option<Covering> {
+pub(crate) fn single(frame: &FrameView<'_>, area: &TileArea, place: TriangleRef) -> Option<TileTriangle> {
     covering_apart(frame, area, &frame.triangle(place))
 }
 
@@ -16,6 +16,6 @@ pub(super) fn covering_apart(
     frame: &FrameView<'_>,
     area: &TileArea,
     triangle: &SetupTriangle,
-) -> Option<Covering> {
-    Covering::new(triangle, &frame.grid, area)
+) -> Option<TileTriangle> {
+    TileTriangle::new(triangle, &frame.grid, area)
 }

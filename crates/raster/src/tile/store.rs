@@ -22,7 +22,7 @@ pub(super) fn store_where<S: Simd>(
     store_places_where(simd, mask, (U32::splat(simd, place), depth), buffer, at);
 }
 
-/// Writes some lanes, each with a place of its own.
+/// Writes some lanes, each with its own triangle.
 #[inline(always)]
 pub(super) fn store_places_where<S: Simd>(
     simd: S,
@@ -39,7 +39,7 @@ pub(super) fn store_places_where<S: Simd>(
     *winners = blended(bits, U32::simd_from(simd, *winners), places).into();
 }
 
-/// Makes a place the winner in some lanes.
+/// Makes a triangle the winner in some lanes.
 #[inline(always)]
 pub(super) fn name_where<S: Simd>(simd: S, mask: Mask<S>, place: u32, winners: &mut [u32; LANES]) {
     let bits = mask.select(U32::splat(simd, u32::MAX), U32::splat(simd, 0));

@@ -1,7 +1,7 @@
 //! The triangles of a tile, listed by kind of surface.
 
-use crate::Surface;
-use crate::bin::Place;
+use crate::BlendMode;
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use std::ops::Range;
 
@@ -14,19 +14,19 @@ pub(crate) struct Surfaces {
 }
 
 impl Surfaces {
-    /// Lists the triangles of a tile in `places`.
-    pub(crate) fn list(frame: &FrameView<'_>, tile: u32, places: &mut Vec<Place>) -> Self {
-        places.clear();
+    /// Lists the triangles of a tile in `triangles`.
+    pub(crate) fn list(frame: &FrameView<'_>, tile: u32, triangles: &mut Vec<TriangleRef>) -> Self {
+        triangles.clear();
         let mut ends = [0; 4];
         for chunk in frame.chunks.iter().filter(|chunk| !chunk.is_empty()) {
-            chunk.collect(&frame.grid, tile, places);
-            let first = match chunk.surface {
-                Surface::Opaque => 0,
-                Surface::Masked | Surface::MaskedPerSample => 1,
-                Surface::Overlay => 2,
-                Surface::Translucent => 3,
+            chunk.collect(&frame.grid, tile, triangles);
+            let first = match chunk.blend_mode {
+                BlendMode::Opaque => 0,
+                BlendMode::Masked | BlendMode::MaskedPerSample => 1,
+                BlendMode::Overlay => 2,
+                BlendMode::Translucent => 3,
             };
-            ends[first..].fill(places.len());
+            ends[first..].fill(triangles.len());
         }
         let [opaque, masked, overlay, translucent] = ends;
         Surfaces {

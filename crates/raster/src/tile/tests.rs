@@ -11,8 +11,8 @@ use crate::setup::SetupTriangle;
 use crate::simd::SimdLevel;
 use crate::vertex::ScreenVertex;
 use crate::{
-    Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Rasterizer, Stats, Surface,
-    Target, TileSize, VertexOutput,
+    BlendMode, Culling, DepthTest, Draw, ExecuteSettings, Fragment, Output, Pass, Pipeline, Rasterizer,
+    Stats, Target, TileSize, VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
@@ -36,7 +36,7 @@ struct Flat {
 #[derive(Clone, Debug)]
 struct Heap {
     object: u32,
-    surface: Surface,
+    blend_mode: BlendMode,
     culling: Culling,
     triangles: Vec<Flat>,
     faces: Vec<u32>,
@@ -91,7 +91,7 @@ impl Known {
         });
         let triangle = SetupTriangle::whole(vertices, 0);
         let light = heap.light + index as u32;
-        let is_masked = matches!(heap.surface, Surface::Masked | Surface::MaskedPerSample);
+        let is_masked = matches!(heap.blend_mode, BlendMode::Masked | BlendMode::MaskedPerSample);
         let faces = match heap.culling {
             Culling::None => true,
             Culling::Back => triangle.front_facing,
@@ -104,7 +104,7 @@ impl Known {
             depth: DepthPlane::of(&triangle),
             key: (heap.object, heap.faces.get(index).map_or(index as u32, |&face| face), index, draw),
             light: light as f32,
-            is_layer: heap.surface == Surface::Translucent,
+            is_layer: heap.blend_mode == BlendMode::Translucent,
         })
     }
 
@@ -165,12 +165,12 @@ fn flats() -> impl Strategy<Value = Vec<Flat>> {
 /// Two draws of opaque triangles, one of masked ones, one of layers: in the order of their
 /// keys or in none.
 fn heaps() -> impl Strategy<Value = Vec<Heap>> {
-    let masked = prop_oneof![Just(Surface::Masked), Just(Surface::MaskedPerSample)];
+    let masked = prop_oneof![Just(BlendMode::Masked), Just(BlendMode::MaskedPerSample)];
     let faces = prop::option::of(prop::collection::vec(0..4_u32, 64));
     let culling = prop::sample::select(vec![Culling::None, Culling::None, Culling::Back, Culling::Front]);
     let draws = ([flats(), flats(), flats(), flats()], prop::array::uniform4(culling));
     (draws, masked, faces).prop_map(|((flats, culling), masked, faces)| {
-        let surfaces = [Surface::Opaque, Surface::Opaque, masked, Surface::Translucent];
+        let surfaces = [BlendMode::Opaque, BlendMode::Opaque, masked, BlendMode::Translucent];
         let objects = if faces.is_some() { [1, 0, 1, 1] } else { [0, 1, 2, 1] };
         let mut light = 1;
         let heap = |(draw, triangles): (usize, Vec<Flat>)| {
@@ -178,8 +178,8 @@ fn heaps() -> impl Strategy<Value = Vec<Heap>> {
             light += triangles.len() as u32;
             let faces =
                 faces.iter().map(|faces| faces[..triangles.len()].to_vec()).next().unwrap_or_default();
-            let (object, surface, culling) = (objects[draw], surfaces[draw], culling[draw]);
-            Heap { object, surface, culling, faces, triangles, light: first }
+            let (object, blend_mode, culling) = (objects[draw], surfaces[draw], culling[draw]);
+            Heap { object, blend_mode, culling, faces, triangles, light: first }
         };
         flats.into_iter().enumerate().map(heap).collect()
     })
@@ -209,7 +209,8 @@ fn draw(heaps: &[Heap], settings: ExecuteSettings, samples: u32) -> (Target<'sta
     let mut pass = Pass::new();
     for (heap, indices) in heaps.iter().zip(&indices) {
         let faces = (!heap.faces.is_empty()).then_some(&heap.faces[..]);
-        let draw = Draw { object: heap.object, surface: heap.surface, faces, ..Draw::new(heap, indices) };
+        let draw =
+            Draw { object: heap.object, blend_mode: heap.blend_mode, faces, ..Draw::new(heap, indices) };
         pass.triangles(Draw { culling: heap.culling, ..draw });
     }
     let [width, height] = SIZE.map(|side| side as u32);
@@ -258,8 +259,8 @@ proptest! {
 
 fn heap(object: u32, light: u32, triangles: &[[[i32; 2]; 3]]) -> Heap {
     let triangles = triangles.iter().map(|&points| Flat { points, depths: [0.875; 3] }).collect();
-    let (surface, culling) = (Surface::Opaque, Culling::None);
-    Heap { object, surface, culling, triangles, faces: Vec::new(), light }
+    let (blend_mode, culling) = (BlendMode::Opaque, Culling::None);
+    Heap { object, blend_mode, culling, triangles, faces: Vec::new(), light }
 }
 
 fn timed() -> ExecuteSettings {

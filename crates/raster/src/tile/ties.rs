@@ -1,14 +1,13 @@
 //! Which of a tile's triangles is seen where several are equally deep.
 //!
-//! In most tiles there are few such samples, and the keys of two triangles are compared at
-//! each of them. Where there are many, that would take far longer than all else in the tile.
-//! So every tile has a budget for it, of about what it takes to sort its triangles by their
-//! keys. Once that is spent, the opaque triangles are drawn again in the order of their keys,
+//! Most tiles have few such samples, and the keys of two triangles are compared at each of
+//! them. With many, that would take far longer than everything else in the tile. So every tile
+//! has a budget for it: about what it takes to sort its triangles by their keys. Once that is spent, the opaque triangles are drawn again in the order of their keys,
 //! in which a later one never wins at equal depth (`visibility`); masked and translucent ones
 //! are compared by their ranks in that order.
 
 use super::key_order::KeyOrder;
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use std::cmp::Ordering;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -18,8 +17,8 @@ use std::sync::{Mutex, OnceLock};
 /// itself, a few nanoseconds.
 pub(super) const COMPARISON: u32 = 8;
 
-/// The budget of a tile: so many units for each of its triangles, and so many for the tile.
-/// Sorting takes about twice as many for each triangle, and what was drawn before is lost.
+/// The budget of a tile: a number of units for each of its triangles, plus a constant. Sorting
+/// takes about twice as many for each triangle, and what was drawn before is lost.
 const UNITS_PER_TRIANGLE: usize = 4;
 const BASE_UNITS: usize = 256;
 
@@ -39,9 +38,9 @@ pub(crate) struct Ties {
 }
 
 impl Ties {
-    /// Begins a tile of so many triangles.
-    pub(super) fn reset(&mut self, places: usize) {
-        let budget = places.saturating_mul(UNITS_PER_TRIANGLE).saturating_add(BASE_UNITS);
+    /// Starts a tile.
+    pub(super) fn reset(&mut self, triangle_count: usize) {
+        let budget = triangle_count.saturating_mul(UNITS_PER_TRIANGLE).saturating_add(BASE_UNITS);
         *self.left.get_mut() = u32::try_from(budget).unwrap_or(u32::MAX);
         if let Some(ranks) = self.ranks.take() {
             self.spare.get_mut().expect(NOT_POISONED).1 = ranks;
@@ -62,30 +61,35 @@ impl Ties {
         self.left.load(Relaxed) == 0
     }
 
-    /// The order of two of the tile's `places` at equal depth, as
+    /// The order of two of the tile's `triangles` at equal depth, as
     /// [`FrameView::compare`] has it.
     #[inline]
-    pub(crate) fn compare(&self, frame: &FrameView<'_>, places: &[Place], [a, b]: [u32; 2]) -> Ordering {
+    pub(crate) fn compare(
+        &self,
+        frame: &FrameView<'_>,
+        triangles: &[TriangleRef],
+        [a, b]: [u32; 2],
+    ) -> Ordering {
         match self.ranks.get() {
             Some(ranks) => ranks[a as usize].cmp(&ranks[b as usize]),
-            None => self.compare_keys(frame, places, [a, b]),
+            None => self.compare_keys(frame, triangles, [a, b]),
         }
     }
 
     #[cold]
-    fn compare_keys(&self, frame: &FrameView<'_>, places: &[Place], [a, b]: [u32; 2]) -> Ordering {
+    fn compare_keys(&self, frame: &FrameView<'_>, triangles: &[TriangleRef], [a, b]: [u32; 2]) -> Ordering {
         if self.spend(COMPARISON) {
-            return frame.compare(places[a as usize], places[b as usize]);
+            return frame.compare(triangles[a as usize], triangles[b as usize]);
         }
-        let ranks = self.ranks.get_or_init(|| self.find_ranks(frame, places));
+        let ranks = self.ranks.get_or_init(|| self.find_ranks(frame, triangles));
         ranks[a as usize].cmp(&ranks[b as usize])
     }
 
-    fn find_ranks(&self, frame: &FrameView<'_>, places: &[Place]) -> Vec<u32> {
+    fn find_ranks(&self, frame: &FrameView<'_>, triangles: &[TriangleRef]) -> Vec<u32> {
         let mut spare = self.spare.lock().expect(NOT_POISONED);
         let (order, ranks) = &mut *spare;
-        order.sort(frame, places);
-        order.ranks(places, ranks);
+        order.sort(frame, triangles);
+        order.ranks(triangles, ranks);
         std::mem::take(ranks)
     }
 }

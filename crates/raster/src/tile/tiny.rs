@@ -1,25 +1,31 @@
-//! Triangles of a few pixels to a few blocks: most triangles of most frames.
+//! The tiny kernel: one triangle of at most 24×24 pixels at a time. Most triangles of most
+//! frames are drawn here.
 //!
-//! Rows of groups are gone through from end to end, with nothing to be decided on
-//! the way: what a branch would save here, it loses by being hard to foresee.
+//! A vector holds a group of 4×2 pixels: lanes 0 to 3 are the upper row, lanes 4 to 7 the lower
+//! one. The kernel visits every group of the triangle's bounding box, row by row, without a
+//! branch on whether the group is covered. Such a branch would save the work of empty groups,
+//! but which groups of a small box are empty is hard to predict.
+//!
+//! Lanes that are not covered get the depth minus infinity. Then one comparison with the
+//! stored depth decides coverage and visibility together.
 
 use super::area::{BLOCKS, TileArea};
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::counts::Counts;
-use super::cover::Cover;
-use super::eight::Eight;
-use super::several;
-use super::starts::Starts;
+use super::edge_origins::EdgeOrigins;
+use super::eight::EightTriangles;
+use super::multisample;
+use super::rasterizer::TileRasterizer;
 use super::store::name_where;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, inlined, lane_numbers, lesser, prelude::*};
 use fearless_simd::f64x4;
 
-/// A block is asked for its farthest depth again after so many triangles: until
-/// it is covered anew, the answer stays the same.
+/// The farthest depth of a block is computed again after this many triangles were written to
+/// it: a few small triangles seldom cover enough of a block to change it.
 const WRITES: u32 = 4;
 
-/// What finding the samples of a triangle one by one takes before the first of them, in units
-/// of [`Ties`](super::Ties).
+/// The fixed cost of testing a triangle's samples one by one, in units of
+/// [`Ties`](super::Ties).
 const COVERING: u32 = 16;
 
 /// A triangle on its way through a tile.
@@ -28,16 +34,24 @@ pub(super) struct Tiny<S: Simd> {
     /// First and last columns and rows of groups.
     pub(super) columns: [usize; 2],
     pub(super) rows: [usize; 2],
-    /// Edge functions' steps within a group, to the next group, and to the next row
-    /// of groups.
+    /// What each lane adds to the edge functions at the group's first pixel; the step to the
+    /// next group (four pixels); the step to the next row of groups (two pixels).
     pub(super) lanes: [I32<S>; 3],
     pub(super) right: [I32<S>; 3],
     pub(super) down: [I32<S>; 3],
-    /// The plane of depth, and what it is held to.
+    /// The plane of depth at the first vertex, its slopes to the right and downwards for 1/256
+    /// pixel, and the range of the vertices' depths, which no depth may leave.
     pub(super) value: f64x4<S>,
     pub(super) slopes: [f64x4<S>; 2],
     pub(super) low: F32<S>,
     pub(super) high: F32<S>,
+}
+
+/// One of eight triangles that were prepared together.
+pub(super) struct PreparedTriangle<'e> {
+    pub(super) eight: &'e EightTriangles,
+    pub(super) origins: &'e mut EdgeOrigins,
+    pub(super) lane: usize,
 }
 
 /// Where the one sample of a triangle's pixels begins.
@@ -50,9 +64,9 @@ struct Start<S: Simd> {
 
 impl<S: Simd> Start<S> {
     #[inline(always)]
-    fn new(simd: S, tiny: &Tiny<S>, (starts, lane): (&Starts, usize), offset: [i32; 2]) -> Self {
-        let [dx, dy] = starts.way(simd, lane, offset);
-        let edges = starts.edges(simd, 0, lane);
+    fn new(simd: S, tiny: &Tiny<S>, (origins, lane): (&EdgeOrigins, usize), offset: [i32; 2]) -> Self {
+        let [dx, dy] = origins.way(simd, lane, offset);
+        let edges = origins.edges(simd, 0, lane);
         Self {
             edges: [0, 1, 2].each(
                 #[inline(always)]
@@ -63,21 +77,21 @@ impl<S: Simd> Start<S> {
     }
 }
 
-impl Cover<'_> {
+impl TileRasterizer<'_> {
     /// The triangle of one lane.
     #[inline(always)]
     pub(super) fn tiny<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        (eight, starts, lane): (&Eight, &mut Starts, usize),
+        of: PreparedTriangle<'_>,
         place: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) {
-        // Apart, so that what larger triangles need takes no registers.
+        // In a function of its own, so that what larger triangles need takes no registers.
         simd.vectorize(
             #[inline(always)]
-            || self.tiny_apart::<S, MULTI>(simd, (eight, starts, lane % LANES), place, buffer, counts),
+            || self.tiny_apart::<S, MULTI>(simd, of, place, buffer, counts),
         );
     }
 
@@ -85,25 +99,27 @@ impl Cover<'_> {
     fn tiny_apart<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        (eight, starts, lane): (&Eight, &mut Starts, usize),
+        of: PreparedTriangle<'_>,
         place: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) {
+        let PreparedTriangle { eight, origins, lane } = of;
+        let lane = lane % LANES;
         buffer.settle();
         if self.hierarchical && self.hides_tiny(simd, (eight, lane), buffer) {
             counts.tiles_rejected += 1;
             return;
         }
-        let tiny = eight.tiny(simd, (starts, lane), place);
+        let tiny = eight.tiny(simd, (origins, lane), place);
         counts.groups += tiny.groups();
         let ties = if MULTI {
             match self.in_order {
-                true => several::rows::<S, false>(simd, &tiny, (starts, lane), buffer),
-                false => several::rows::<S, true>(simd, &tiny, (starts, lane), buffer),
+                true => multisample::rows::<S, false>(simd, &tiny, (origins, lane), buffer),
+                false => multisample::rows::<S, true>(simd, &tiny, (origins, lane), buffer),
             }
         } else {
-            let start = Start::new(simd, &tiny, (starts, lane), self.offsets[0]);
+            let start = Start::new(simd, &tiny, (origins, lane), self.offsets[0]);
             // As many columns as most have without a loop, where ties need not be known.
             match (self.in_order, tiny.columns[1] - tiny.columns[0]) {
                 (true, 0) => rows::<S, 1, false>(simd, &tiny, &start, buffer),
@@ -121,7 +137,7 @@ impl Cover<'_> {
     /// Gives a triangle those of its samples that others hold at the same depth
     /// with a larger key.
     #[cold]
-    fn win_ties(&self, (eight, lane): (&Eight, usize), place: u32, buffer: &mut VisibilityBuffer) {
+    fn win_ties(&self, (eight, lane): (&EightTriangles, usize), place: u32, buffer: &mut VisibilityBuffer) {
         let Some(covering) = eight.covering(lane, self.offsets) else { return };
         let [columns, rows] = [covering.columns, covering.rows];
         let pixels = (columns[1] + 1 - columns[0]) * (rows[1] + 1 - rows[0]);
@@ -145,17 +161,18 @@ impl Cover<'_> {
         }
     }
 
-    /// Whether all blocks that the triangle reaches over hide it. Of those of others
-    /// the bounds are widened, as if it were seen in each.
+    /// Whether all blocks that the triangle's box touches hide it. The bounds of all others are
+    /// widened as if the triangle were visible there, so that they need no second visit.
     #[inline(always)]
     fn hides_tiny<S: Simd>(
         &self,
         simd: S,
-        (eight, lane): (&Eight, usize),
+        (eight, lane): (&EightTriangles, usize),
         buffer: &mut VisibilityBuffer,
     ) -> bool {
         let high = eight.high[lane];
-        // The least of what hides it.
+        // A farthest depth from here on hides the triangle: in the order of keys an equal depth
+        // is enough, otherwise the block must be strictly nearer.
         let limit = if self.in_order { high } else { high.next_up() };
         let [[left, width], [top, height]] = eight.pixels.each_ref().each(
             #[inline(always)]
@@ -163,11 +180,12 @@ impl Cover<'_> {
         );
         let (mut hidden, mut column) = (true, 0);
         let mut block = (top * BLOCKS as i32 + left) as usize;
-        // One loop, whose end is foreseen wrongly once, instead of one in the other.
+        // One loop over all blocks instead of two nested ones: its end is mispredicted once.
         for _ in 0..width * height {
             block %= BLOCKS * BLOCKS;
             let bounds = buffer.blocks[block];
-            // What lies before all of a block cannot be hidden by it.
+            // A triangle in front of everything in the block cannot be hidden by it, so a fresh
+            // bound would not help.
             let farthest = if (bounds.writes >= WRITES) & (high < bounds.nearest) {
                 buffer.farthest_in(simd, block)
             } else {
@@ -186,10 +204,11 @@ impl Cover<'_> {
     }
 }
 
-/// Lets the only sample of the pixels in all rows compete: of `WIDTH` columns of groups
-/// if that is not 0. Tells where something lies at the same depth, if `TIES` asks for it.
+/// Tests and stores the samples of all groups in the triangle's box, where pixels have one
+/// sample. `WIDTH` is the number of columns of groups if that is known when compiling, else 0.
+/// Returns the lanes in which any group holds the same depth already, if `TIES` is set.
 ///
-/// Nothing is called from here: no register has to be given up.
+/// Everything is inlined: a call would spill registers.
 #[inline(always)]
 fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
     simd: S,
@@ -206,15 +225,19 @@ fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
     let [right, down] = tiny.slopes;
     let mut ties = Mask::splat(simd, false);
     for row in tiny.rows[0]..tiny.rows[1] + 1 {
+        // The plane at the start of the two rows of pixels in this row of groups, in f64: the
+        // first four lanes are the upper row, the others the lower one, 256 units below.
         let plane = (tiny.value + down * dy).combine(tiny.value + down * (dy + 256.0));
         let [mut a, mut b, mut c] = edges;
         let mut dx = first;
         for column in 0..width {
+            // The way to the right is the same in both rows, so it is computed once.
             let across = right * dx;
             let (upper, lower) = (plane + across.combine(across)).split();
             let depth = simd.narrow_f64x4(upper, lower);
             let depth = lesser(greater(depth, tiny.low), tiny.high);
-            // What is not covered lies behind everything.
+            // Inside if no edge function is negative: the sign bit of the combined value is set
+            // if any of the three is negative. Uncovered lanes lie behind everything.
             let covered = (a | b | c).simd_ge(I32::splat(simd, 0));
             let depth = covered.select(depth, F32::splat(simd, f32::NEG_INFINITY));
             let at = TileArea::group_of([tiny.columns[0] + column, row]);
@@ -222,13 +245,16 @@ fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
             if TIES {
                 ties |= depth.simd_eq(there);
             }
+            // The nearer depth stays, and wherever that is the new one the winner is replaced.
             depths[at] = greater(depth, there).into();
             name_where(simd, depth.simd_gt(there), tiny.place, &mut winners[at]);
+            // Four pixels to the right.
             a += tiny.right[0];
             b += tiny.right[1];
             c += tiny.right[2];
             dx += 1024.0;
         }
+        // Two pixels down.
         for (edge, step) in edges.iter_mut().zip(tiny.down) {
             *edge += step;
         }
@@ -237,9 +263,9 @@ fn rows<S: Simd, const WIDTH: usize, const TIES: bool>(
     ties
 }
 
-impl Eight {
+impl EightTriangles {
     #[inline(always)]
-    fn tiny<S: Simd>(&self, simd: S, (starts, lane): (&Starts, usize), place: u32) -> Tiny<S> {
+    fn tiny<S: Simd>(&self, simd: S, (origins, lane): (&EdgeOrigins, usize), place: u32) -> Tiny<S> {
         let (x, y) = (lane_numbers(simd) & 3, lane_numbers(simd) >> 2);
         let [right, down] = [&self.right, &self.down].each(
             #[inline(always)]
@@ -273,7 +299,7 @@ impl Eight {
                 #[inline(always)]
                 |step| step << 1,
             ),
-            value: f64x4::splat(simd, starts.value[lane]),
+            value: f64x4::splat(simd, origins.value[lane]),
             slopes: self.slopes.each_ref().each(
                 #[inline(always)]
                 |column| f64x4::splat(simd, column[lane]),

@@ -1,16 +1,18 @@
-//! Who is seen at each sample of a tile: opaque triangles, then masked ones, then what is shown
-//! over them.
+//! Which triangle is visible at each sample of a tile: opaque triangles first, then masked ones, then
+//! overlays. The coverage kernel of each opaque triangle is chosen here: see [`cover_triangles`]
+//! and [`cover_one`].
 
-use super::cover::Cover;
-use super::eight::Eight;
+use super::edge_origins::EdgeOrigins;
+use super::eight::EightTriangles;
 use super::micro::Covered;
 use super::quad::QuadEdges;
+use super::rasterizer::TileRasterizer;
 use super::single::covering_apart;
-use super::starts::Starts;
 use super::ties::COMPARISON;
+use super::tiny::PreparedTriangle;
 use super::{Counts, NOBODY, Surfaces, TileArea, TileState, VisibilityBuffer, masked};
 use crate::Stats;
-use crate::bin::Place;
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::shade::Shading;
 use crate::simd::{Each, LANES, Simd, at_level, lanes_of};
@@ -38,10 +40,10 @@ pub(crate) fn resolve_visibility(
     stats.add_counts(&counts);
 }
 
-/// Lets what is shown over surfaces compete with them.
+/// Draws overlays over what opaque and masked triangles have left.
 ///
-/// The buffer may not begin again as for [`cover_opaque`]: it holds what masks have let
-/// through. So ties are decided one by one, however many there are.
+/// The tile cannot be started again as in [`cover_opaque`], because the buffer holds masked
+/// triangles. So ties are decided one by one, however many there are.
 pub(crate) fn cover_overlay(
     frame: &FrameView<'_>,
     area: &TileArea,
@@ -52,12 +54,13 @@ pub(crate) fn cover_overlay(
     if surfaces.overlay.is_empty() {
         return;
     }
-    let TileState { places, buffer, ties, .. } = state;
+    let TileState { triangles, buffer, ties, .. } = state;
     if !surfaces.masked.is_empty() {
         buffer.forget_nearest();
     }
-    let precedes = |ours: u32, theirs: u32| frame.precedes(places[ours as usize], places[theirs as usize]);
-    let cover = Cover {
+    let precedes =
+        |ours: u32, theirs: u32| frame.precedes(triangles[ours as usize], triangles[theirs as usize]);
+    let rasterizer = TileRasterizer {
         area: *area,
         offsets: frame.grid.pattern.offsets(),
         in_order: false,
@@ -69,16 +72,16 @@ pub(crate) fn cover_overlay(
     };
     let mut counts = Counts::default();
     let end = surfaces.overlay.end;
-    cover_all(frame, &cover, (&places[..end], surfaces.overlay.start), (buffer, &mut counts));
+    cover_all(frame, &rasterizer, (&triangles[..end], surfaces.overlay.start), (buffer, &mut counts));
     buffer.settle();
     buffer.blank_outside(area);
     stats.add_counts(&counts);
 }
 
-/// Lets the first so many of the tile's triangles compete.
+/// Draws the opaque triangles, which are the first of the tile's.
 fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, opaque: usize) -> Counts {
-    let TileState { places, buffer, ties, key_order, reordered, .. } = state;
-    let places = &places[..opaque];
+    let TileState { triangles, buffer, ties, key_order, reordered, .. } = state;
+    let triangles = &triangles[..opaque];
     // Ties of one triangle are mostly with the same other one.
     let last = Cell::new(([NOBODY; 2], false));
     let precedes = |ours: u32, theirs: u32| {
@@ -87,11 +90,11 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, o
             return wins;
         }
         ties.spend(COMPARISON);
-        let wins = frame.precedes(places[ours as usize], places[theirs as usize]);
+        let wins = frame.precedes(triangles[ours as usize], triangles[theirs as usize]);
         last.set(([ours, theirs], wins));
         wins
     };
-    let cover = Cover {
+    let rasterizer = TileRasterizer {
         area: *area,
         offsets: frame.grid.pattern.offsets(),
         in_order: frame.plan.ordinals_are_keys,
@@ -102,76 +105,85 @@ fn cover_opaque(frame: &FrameView<'_>, area: &TileArea, state: &mut TileState, o
         precedes: &precedes,
     };
     let mut counts = Counts::default();
-    if cover_all(frame, &cover, (places, 0), (buffer, &mut counts)) {
+    if cover_all(frame, &rasterizer, (triangles, 0), (buffer, &mut counts)) {
         return counts;
     }
-    key_order.sort(frame, places);
+    key_order.sort(frame, triangles);
     reordered.clear();
-    reordered.extend(key_order.of(places));
-    buffer.clear(area, cover.offsets.len());
+    reordered.extend(key_order.of(triangles));
+    buffer.clear(area, rasterizer.offsets.len());
     counts = Counts { tiles_reordered: 1, ..Counts::default() };
-    let cover = Cover { in_order: true, by_draws: false, ..cover };
-    cover_all(frame, &cover, (reordered, 0), (buffer, &mut counts));
+    let rasterizer = TileRasterizer { in_order: true, by_draws: false, ..rasterizer };
+    cover_all(frame, &rasterizer, (reordered, 0), (buffer, &mut counts));
     buffer.settle();
     key_order.name_winners(buffer);
     counts
 }
 
-/// Lets triangles, from the one of this number on, compete one after the other; false if ties became too many.
+/// Draws triangles from number `first` on. Returns false if there are too many ties.
 fn cover_all(
     frame: &FrameView<'_>,
-    cover: &Cover<'_>,
-    (places, first): (&[Place], usize),
+    rasterizer: &TileRasterizer<'_>,
+    (triangles, first): (&[TriangleRef], usize),
     (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
 ) -> bool {
     at_level!(frame.token, simd => match frame.grid.pattern.count() {
-        1 => cover_places::<_, false>(simd, frame, cover, (places, first), (buffer, counts)),
-        _ => cover_places::<_, true>(simd, frame, cover, (places, first), (buffer, counts)),
+        1 => cover_triangles::<_, false>(simd, frame, rasterizer, (triangles, first), (buffer, counts)),
+        _ => cover_triangles::<_, true>(simd, frame, rasterizer, (triangles, first), (buffer, counts)),
     })
 }
 
 #[inline(always)]
-fn cover_places<S: Simd, const MULTI: bool>(
+fn cover_triangles<S: Simd, const MULTI: bool>(
     simd: S,
     frame: &FrameView<'_>,
-    cover: &Cover<'_>,
-    (places, first): (&[Place], usize),
+    rasterizer: &TileRasterizer<'_>,
+    (triangles, first): (&[TriangleRef], usize),
     (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
 ) -> bool {
     // A copy of its own, which may stay in registers.
-    let cover = &{ *cover };
-    let mut starts = Starts::new(cover.offsets);
+    let rasterizer = &{ *rasterizer };
+    let mut origins = EdgeOrigins::new(rasterizer.offsets);
     let mut covered = Covered::new();
     let mut edges = QuadEdges::new(frame.grid.pattern);
     let mut start = first;
-    while start < places.len() {
-        let together = side_by_side(frame, cover, &places[start..]);
-        let eight = (together > 0).then(|| eight(simd, frame, cover, &places[start..start + together]));
+    while start < triangles.len() {
+        let together = side_by_side(frame, rasterizer, &triangles[start..]);
+        let eight =
+            (together > 0).then(|| eight(simd, frame, rasterizer, &triangles[start..start + together]));
         let mut end = start + together.max(1);
         if eight.is_none()
             && cover_quad::<S, MULTI>(
                 simd,
                 frame,
-                cover,
+                rasterizer,
                 &mut edges,
-                (places[start], start),
+                (triangles[start], start),
                 (buffer, counts),
             )
         {
             // Both of its triangles.
             end += 1;
         } else if !MULTI && let Some(eight) = eight.as_ref().filter(|eight| eight.micro) {
-            cover.micro(simd, (eight, &mut covered), start as u32, buffer, counts);
+            rasterizer.micro(simd, (eight, &mut covered), start as u32, buffer, counts);
         } else {
             if let Some(eight) = &eight {
-                starts.find::<S, MULTI>(simd, cover, eight);
+                origins.find::<S, MULTI>(simd, rasterizer, eight);
             }
-            for (lane, &place) in places[start..end].iter().enumerate() {
-                let ready = eight.as_ref().map(|eight| (eight, &mut starts, lane));
-                cover_one::<S, MULTI>(simd, frame, cover, ready, (place, start + lane), (buffer, counts));
+            for (lane, &place) in triangles[start..end].iter().enumerate() {
+                let ready =
+                    eight.as_ref().map(|eight| PreparedTriangle { eight, origins: &mut origins, lane });
+                cover_one::<S, MULTI>(
+                    simd,
+                    frame,
+                    rasterizer,
+                    ready,
+                    (place, start + lane),
+                    (buffer, counts),
+                );
             }
         }
-        if !cover.in_order && cover.may_give_up && cover.ties.are_many() {
+        if !rasterizer.in_order && rasterizer.may_give_up && rasterizer.ties.are_many() {
             return false;
         }
         start = end;
@@ -179,99 +191,119 @@ fn cover_places<S: Simd, const MULTI: bool>(
     true
 }
 
-/// A line or a point of which this is the first triangle; false if it is not, or has to go the
-/// way of triangles.
+/// Draws a line or a point if this is its first triangle. Returns false if it is not, or if the line
+/// or point has to be drawn as two triangles.
 #[inline(always)]
 fn cover_quad<S: Simd, const MULTI: bool>(
     simd: S,
     frame: &FrameView<'_>,
-    cover: &Cover<'_>,
+    rasterizer: &TileRasterizer<'_>,
     edges: &mut QuadEdges,
-    (place, number): (Place, usize),
+    (place, number): (TriangleRef, usize),
     (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
 ) -> bool {
     let first = place.is_first_half().then(|| frame.chunk_of(place));
     let Some(quad) = first.and_then(|chunk| chunk.quad(place)) else { return false };
-    cover.quad::<S, MULTI>(simd, (quad, edges), number as u32, buffer, counts)
+    rasterizer.quad::<S, MULTI>(simd, (quad, edges), number as u32, buffer, counts)
 }
 
-/// One triangle, perhaps a lane of eight that are ready.
+/// Draws one triangle, possibly one of eight that are prepared. Small ones are tiny or general by
+/// [`EightTriangles::is_tiny`]; all others go through the general kernel.
 #[inline(always)]
 fn cover_one<S: Simd, const MULTI: bool>(
     simd: S,
     frame: &FrameView<'_>,
-    cover: &Cover<'_>,
-    ready: Option<(&Eight, &mut Starts, usize)>,
-    (place, number): (Place, usize),
+    rasterizer: &TileRasterizer<'_>,
+    ready: Option<PreparedTriangle<'_>>,
+    (place, number): (TriangleRef, usize),
     (buffer, counts): (&mut VisibilityBuffer, &mut Counts),
 ) {
-    let covering = match ready.filter(|(eight, _, lane)| eight.small >> lane & 1 != 0) {
+    let covering = match ready.filter(|ready| ready.eight.small >> ready.lane & 1 != 0) {
         None => {
             let triangle = frame.triangle(place);
-            if cover.tile_hides(buffer, triangle.nearest()) {
+            if rasterizer.tile_hides(buffer, triangle.nearest()) {
                 counts.tiles_rejected += 1;
                 return;
             }
-            covering_apart(frame, &cover.area, &triangle)
+            covering_apart(frame, &rasterizer.area, &triangle)
         }
-        Some((eight, starts, lane)) => {
+        Some(PreparedTriangle { eight, origins, lane }) => {
             if eight.is_tiny(lane) {
-                cover.tiny::<S, MULTI>(simd, (eight, starts, lane), number as u32, buffer, counts);
+                rasterizer.tiny::<S, MULTI>(
+                    simd,
+                    PreparedTriangle { eight, origins, lane },
+                    number as u32,
+                    buffer,
+                    counts,
+                );
                 return;
             }
-            if cover.tile_hides(buffer, eight.high[lane]) {
+            if rasterizer.tile_hides(buffer, eight.high[lane]) {
                 counts.tiles_rejected += 1;
                 return;
             }
-            eight.covering(lane, cover.offsets)
+            eight.covering(lane, rasterizer.offsets)
         }
     };
     if let Some(covering) = covering {
-        cover.triangle::<S, MULTI>(simd, &covering, number as u32, buffer, counts);
+        rasterizer.triangle::<S, MULTI>(simd, &covering, number as u32, buffer, counts);
     }
 }
 
-/// How many of the first of some triangles, up to eight, are whole primitives of one draw;
-/// of any, if triangles are not in the order of draws.
+/// How many of the next triangles, up to eight, can be prepared together: whole primitives, of one
+/// draw if triangles are in the order of draws.
 #[inline(always)]
-fn side_by_side(frame: &FrameView<'_>, cover: &Cover<'_>, places: &[Place]) -> usize {
-    let first = places[0];
+fn side_by_side(frame: &FrameView<'_>, rasterizer: &TileRasterizer<'_>, triangles: &[TriangleRef]) -> usize {
+    let first = triangles[0];
     if !first.is_whole() {
         return 0;
     }
-    let end = if cover.by_draws { frame.plan.draws[frame.draw_of(first)].ordinals.end } else { u32::MAX };
-    let belongs = |place: &Place| place.is_whole() && place.ordinal < end;
-    places.iter().take(LANES).take_while(|place| belongs(place)).count()
+    let end =
+        if rasterizer.by_draws { frame.plan.draws[frame.draw_of(first)].ordinals.end } else { u32::MAX };
+    let belongs = |place: &TriangleRef| place.is_whole() && place.ordinal < end;
+    triangles.iter().take(LANES).take_while(|place| belongs(place)).count()
 }
 
-/// Up to eight whole primitives; lanes to spare repeat the first.
+/// Prepares up to eight whole primitives; unused lanes repeat the first.
 #[inline(always)]
-fn eight<S: Simd>(simd: S, frame: &FrameView<'_>, cover: &Cover<'_>, places: &[Place]) -> Eight {
-    // Apart, so that each is compiled once.
-    let (area, pattern) = (&cover.area, frame.grid.pattern);
-    if cover.by_draws {
+fn eight<S: Simd>(
+    simd: S,
+    frame: &FrameView<'_>,
+    rasterizer: &TileRasterizer<'_>,
+    triangles: &[TriangleRef],
+) -> EightTriangles {
+    // In a function of its own, so that each is compiled once.
+    let (area, pattern) = (&rasterizer.area, frame.grid.pattern);
+    if rasterizer.by_draws {
         simd.vectorize(
             #[inline(always)]
-            || Eight::new(simd, area, pattern, (corners_of_one(frame, places), places.len())),
+            || EightTriangles::new(simd, area, pattern, (corners_of_one(frame, triangles), triangles.len())),
         )
     } else {
         simd.vectorize(
             #[inline(always)]
-            || Eight::new(simd, area, pattern, (corners_of_several(frame, places), places.len())),
+            || {
+                EightTriangles::new(
+                    simd,
+                    area,
+                    pattern,
+                    (corners_of_several(frame, triangles), triangles.len()),
+                )
+            },
         )
     }
 }
 
 /// The vertices of up to eight whole primitives of one draw.
 #[inline(always)]
-fn corners_of_one<'f>(frame: &FrameView<'f>, places: &[Place]) -> [[&'f ScreenVertex; LANES]; 3] {
-    let draw = frame.draw_of(places[0]);
+fn corners_of_one<'f>(frame: &FrameView<'f>, triangles: &[TriangleRef]) -> [[&'f ScreenVertex; LANES]; 3] {
+    let draw = frame.draw_of(triangles[0]);
     let plan = &frame.plan.draws[draw];
     let (vertices, geometry) = (frame.vertices(draw), &frame.pass[plan.draw].geometry);
     let corners: [[u32; 3]; LANES] = lanes_of(
         #[inline(always)]
         |lane| {
-            let place = places.get(lane).unwrap_or(&places[0]);
+            let place = triangles.get(lane).unwrap_or(&triangles[0]);
             geometry.corners(place.ordinal - plan.ordinals.start)
         },
     );
@@ -290,7 +322,10 @@ fn corners_of_one<'f>(frame: &FrameView<'f>, places: &[Place]) -> [[&'f ScreenVe
 ///
 /// Not inlined: few tiles need it.
 #[inline(never)]
-fn corners_of_several<'f>(frame: &FrameView<'f>, places: &[Place]) -> [[&'f ScreenVertex; LANES]; 3] {
-    let corners = lanes_of(|lane| frame.corners(*places.get(lane).unwrap_or(&places[0])));
+fn corners_of_several<'f>(
+    frame: &FrameView<'f>,
+    triangles: &[TriangleRef],
+) -> [[&'f ScreenVertex; LANES]; 3] {
+    let corners = lanes_of(|lane| frame.corners(*triangles.get(lane).unwrap_or(&triangles[0])));
     [0, 1, 2].each(|corner| corners.each(|corners| corners[corner]))
 }

@@ -21,12 +21,14 @@ impl<'a> VertexLanes<'a> {
 
     /// Index of the vertex in the first lane.
     #[inline(always)]
+    #[must_use]
     pub fn first(&self) -> usize {
         self.first
     }
 
     /// How many lanes there are, 1 to 8.
     #[inline(always)]
+    #[must_use]
     pub fn count(&self) -> usize {
         self.count
     }

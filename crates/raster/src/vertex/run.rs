@@ -113,7 +113,11 @@ fn position<S: Simd, P: LanePipeline>(simd: S, pipeline: &P, vertex: usize, vary
     Vec4::new(x[0], y[0], z[0], w[0])
 }
 
-/// Snaps up to eight vertices.
+/// Snaps up to eight vertices to the sub-pixel grid, one in each lane.
+///
+/// Each vertex becomes a [`ScreenVertex`] of four numbers: x and y in 1/256 pixel, depth and
+/// 1/w. A vertex that must be cut or dropped has no place on the grid and keeps its outcode
+/// instead.
 #[inline(always)]
 fn place<S: Simd>(
     simd: S,
@@ -125,6 +129,8 @@ fn place<S: Simd>(
     let [x, y, z, w] = position;
     let whole = is_whole(simd, position, guard).to_bitmask();
     let one = F32::splat(simd, 1.0);
+    // Held to the range from DEPTH_LEAST to 1, with the same comparisons as for single vertices.
+    // Adding 0 turns -0 into 0. Lanes without a place may hold NaN here; it is not used.
     let depth = z / w;
     let depth = depth.simd_gt(one).select(one, depth + F32::splat(simd, 0.0));
     let least = F32::splat(simd, DEPTH_LEAST);
@@ -146,8 +152,8 @@ fn place<S: Simd>(
     }
 }
 
-/// Which vertices need no cutting: those whose outcode would neither cut nor be
-/// invalid.
+/// The lanes whose vertices need no cutting: those whose outcode would neither cut nor be
+/// invalid. Comparisons with NaN are false, so a coordinate that is not a number is never whole.
 #[inline(always)]
 fn is_whole<S: Simd>(simd: S, [x, y, z, w]: [F32<S>; 4], guard: [Band; 2]) -> Mask<S> {
     let [guard_x, guard_y] = guard.each(
@@ -165,12 +171,15 @@ fn is_whole<S: Simd>(simd: S, [x, y, z, w]: [F32<S>; 4], guard: [Band; 2]) -> Ma
         & w.simd_le(most)
 }
 
-/// The grid points of eight vertices, in f64 so that the only rounding that
-/// matters is the one to the grid. Lanes that are not whole get anything.
+/// The grid points of eight vertices, in f64 so that the only rounding that matters is the one
+/// to the grid. Two triangles that share a vertex get the same grid point, and all decisions
+/// about coverage follow from grid points, so no gap can open between them. Lanes that are not
+/// whole get arbitrary numbers.
 #[inline(always)]
 fn snap(viewport: Viewport, x: [f32; LANES], y: [f32; LANES], w: [f32; LANES]) -> [[i32; LANES]; 2] {
-    // Adding it rounds to whole numbers, ties to even, and leaves them in the
-    // low bits: for all numbers below 2^31, and the guard band ends at 2^24.
+    // Adding this rounds to a whole number, ties to even: in the sum the last bit of the
+    // mantissa is worth 1. The number is then in the low bits, also if it is negative. That
+    // works up to 2^31, and the guard band ends at 2^24.
     const ROUND: f64 = 1.5 * (1_u64 << 52) as f64;
     let mut snapped = [[0; LANES]; 2];
     for lane in 0..LANES {

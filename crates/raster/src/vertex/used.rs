@@ -15,10 +15,10 @@ impl UsedVertices {
     /// The vertices that `indices` name, of those below `count`; a list of them is
     /// appended to that of the frame.
     ///
-    /// A range costs nothing to look up, but holds vertices that nobody asked
-    /// for; it is taken if those are not many more than the indices.
+    /// A range costs nothing to look up, but may hold vertices that no index names;
+    /// it is used if it is not much longer than the indices.
     pub(crate) fn new(indices: &[u32], count: usize, listed: &mut Vec<u32>) -> Self {
-        // A vertex is about as dear as a few look-ups in a list.
+        // Running a vertex costs about as much as a few look-ups in a list.
         const WORTH_LISTING: usize = 4;
         if count <= indices.len() {
             return Self::Range(0..count);

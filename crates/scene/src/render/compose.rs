@@ -33,7 +33,7 @@ const POINT_TO_LINE: f32 = 3.0;
 /// The fraction of their distance by which vertex points are drawn nearer, so that faces that slope
 /// towards the eye around a vertex do not cut its point. Points hidden by more than that stay
 /// hidden.
-const VERTEX_TOWARD_EYE: f32 = 1.0 / 256.0;
+const VERTEX_DEPTH_BIAS: f32 = 1.0 / 256.0;
 
 /// Everything that all draws of a picture share.
 pub(super) struct Composer<'s> {
@@ -287,7 +287,7 @@ impl<'s> Composer<'s> {
             marks: self.marks_of(object, &run.triangles),
             object: object.index,
             culling: if material.double_sided { Culling::None } else { object.place.cull_back },
-            surface: surface_of(material.alpha_mode),
+            blend_mode: blend_mode_of(material.alpha_mode),
         })
     }
 
@@ -314,7 +314,7 @@ impl<'s> Composer<'s> {
             marks: self.marks_of(object, &(0..geometry.triangles.len())),
             object: object.index,
             culling: Culling::None,
-            surface: trigon_raster::Surface::Opaque,
+            blend_mode: trigon_raster::BlendMode::Opaque,
         })
     }
 
@@ -351,8 +351,8 @@ impl<'s> Composer<'s> {
             object: object.index,
             size: self.settings.line_width * POINT_TO_LINE,
             marked: None,
-            surface: trigon_raster::Surface::Opaque,
-            toward_eye: 0.0,
+            blend_mode: trigon_raster::BlendMode::Opaque,
+            depth_bias: 0.0,
         };
         (!points.is_empty()).then(|| Box::new(dots()) as Box<dyn Record>)
     }
@@ -385,17 +385,17 @@ impl<'s> Composer<'s> {
             object: object.index,
             size: shown.size,
             marked: Some((marked, shown.marked_size)),
-            surface: trigon_raster::Surface::Overlay,
-            toward_eye: VERTEX_TOWARD_EYE,
+            blend_mode: trigon_raster::BlendMode::Overlay,
+            depth_bias: VERTEX_DEPTH_BIAS,
         }))
     }
 }
 
 /// How the rasterizer treats an alpha mode.
-fn surface_of(mode: AlphaMode) -> trigon_raster::Surface {
+fn blend_mode_of(mode: AlphaMode) -> trigon_raster::BlendMode {
     match mode {
-        AlphaMode::Opaque => trigon_raster::Surface::Opaque,
-        AlphaMode::Mask { .. } => trigon_raster::Surface::Masked,
-        AlphaMode::Blend => trigon_raster::Surface::Translucent,
+        AlphaMode::Opaque => trigon_raster::BlendMode::Opaque,
+        AlphaMode::Mask { .. } => trigon_raster::BlendMode::Masked,
+        AlphaMode::Blend => trigon_raster::BlendMode::Translucent,
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use fixedbitset::FixedBitSet;
 use trigon_raster::{
-    Culling, Draw, EdgeFlags, LanePipeline, Lines, MarkedPoints, Marks, Pass, Points, Surface,
+    BlendMode, Culling, Draw, EdgeFlags, LanePipeline, Lines, MarkedPoints, Marks, Pass, Points,
 };
 
 use super::geometry::Geometry;
@@ -60,7 +60,7 @@ pub(super) struct Triangles<'s, P> {
     pub(super) marks: Option<ObjectMarks<'s>>,
     pub(super) object: u32,
     pub(super) culling: Culling,
-    pub(super) surface: Surface,
+    pub(super) blend_mode: BlendMode,
 }
 
 /// The marks of an object's edges and faces, for some of its triangles.
@@ -88,7 +88,7 @@ impl<P: LanePipeline> Record for Triangles<'_, P> {
             }),
             object: self.object,
             culling: self.culling,
-            surface: self.surface,
+            blend_mode: self.blend_mode,
             ..Draw::new(&self.pipeline, &self.geometry.triangles[self.range.clone()])
         });
     }
@@ -131,9 +131,9 @@ pub(super) struct Dots<'s> {
     pub(super) size: f32,
     /// Those of another size.
     pub(super) marked: Option<(FixedBitSet, f32)>,
-    pub(super) surface: Surface,
-    /// See [`Points::toward_eye`].
-    pub(super) toward_eye: f32,
+    pub(super) blend_mode: BlendMode,
+    /// See [`Points::depth_bias`].
+    pub(super) depth_bias: f32,
 }
 
 impl Record for Dots<'_> {
@@ -143,8 +143,8 @@ impl Record for Dots<'_> {
             ids: Some(&self.no_face),
             object: self.object,
             marked,
-            surface: self.surface,
-            toward_eye: self.toward_eye,
+            blend_mode: self.blend_mode,
+            depth_bias: self.depth_bias,
             ..Points::new(&self.pipeline, &self.points, self.size)
         });
     }

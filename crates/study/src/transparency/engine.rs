@@ -6,7 +6,9 @@ use crate::field::Field;
 use crate::visibility::{Scene, clip_corners};
 use trigon_math::Vec4;
 use trigon_raster::simd::{Each, F32, Simd, prelude::*};
-use trigon_raster::{Culling, Draw, FragmentLanes, LanePipeline, Output, Pass, Surface, Target, VertexLanes};
+use trigon_raster::{
+    BlendMode, Culling, Draw, FragmentLanes, LanePipeline, Output, Pass, Target, VertexLanes,
+};
 
 /// Faces with corners of their own.
 struct Faces {
@@ -63,9 +65,9 @@ impl Drawer {
 impl Way for Drawer {
     fn draw(&mut self, _: &Scene) {
         let mut pass = Pass::new();
-        let surface = Surface::Translucent;
+        let surface = BlendMode::Translucent;
         let draw = Draw::new(&self.faces, &self.triangles);
-        pass.triangles(Draw { surface, culling: Culling::None, ..draw });
+        pass.triangles(Draw { blend_mode: surface, culling: Culling::None, ..draw });
         self.engine.rasterizer.draw(&pass, &mut self.target);
     }
 

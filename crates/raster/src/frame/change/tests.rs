@@ -3,9 +3,9 @@
 
 use crate::simd::SimdLevel;
 use crate::{
-    Background, Cancel, Culling, Draw, DrawChange, EdgeFlags, ExecuteSettings, FaceEdges, Fragment, Lines,
-    MarkColors, MarkedPoints, Marks, Outline, Output, Pass, Pipeline, Points, Rasterizer, Stats, Surface,
-    Target, TileSize, VertexOutput,
+    Background, BlendMode, Cancel, Culling, Draw, DrawChange, EdgeFlags, ExecuteSettings, FaceEdges,
+    Fragment, Lines, MarkColors, MarkedPoints, Marks, Outline, Output, Pass, Pipeline, Points, Rasterizer,
+    Stats, Target, TileSize, VertexOutput,
 };
 use fixedbitset::FixedBitSet;
 use proptest::prelude::*;
@@ -25,7 +25,7 @@ struct Model {
     face_marks: Vec<u8>,
     /// Its points that are larger.
     large: FixedBitSet,
-    surface: Surface,
+    blend_mode: BlendMode,
 }
 
 impl Pipeline for Model {
@@ -54,7 +54,7 @@ const QUADS: u32 = 9;
 
 impl Model {
     /// A wavy sheet in front of the camera, `shift` deep.
-    fn sheet(surface: Surface, shift: f32) -> Self {
+    fn sheet(blend_mode: BlendMode, shift: f32) -> Self {
         let side = QUADS + 1;
         let vertex = |index: u32| {
             let [x, y] = [index % side, index / side].map(|v| v as f32 / QUADS as f32);
@@ -81,7 +81,7 @@ impl Model {
             triangles,
             faces: (0..2 * QUADS * QUADS).map(|triangle| triangle / 2).collect(),
             flags: (0..QUADS * QUADS).flat_map(|_| flags).collect(),
-            surface,
+            blend_mode,
         }
     }
 
@@ -92,7 +92,7 @@ impl Model {
             marks: Some(Marks { sides: &self.sides, edges: &self.edge_marks, faces: &self.face_marks }),
             object,
             culling: Culling::None,
-            surface: self.surface,
+            blend_mode: self.blend_mode,
             ..Draw::new(self, &self.triangles)
         });
     }
@@ -276,12 +276,12 @@ impl View {
         let lines = Lines::new(&models[0], segments);
         pass.lines(Lines { object: 9, width: 3.0, ..lines });
         let points: &[u32] = if self.has_lines { &[0, 12, 34, 60] } else { &[] };
-        let (outline, surface) = match self.background {
-            0 => (Outline::AntiAliased, Surface::Opaque),
-            _ => (Outline::Sharp, Surface::Overlay),
+        let (outline, blend_mode) = match self.background {
+            0 => (Outline::AntiAliased, BlendMode::Opaque),
+            _ => (Outline::Sharp, BlendMode::Overlay),
         };
         let marked = Some(MarkedPoints { set: &models[0].large, size: 7.0 });
-        let points = Points { outline, surface, marked, ..Points::new(&models[0], points, 4.0) };
+        let points = Points { outline, blend_mode, marked, ..Points::new(&models[0], points, 4.0) };
         pass.points(Points { object: 10, ..points });
         if let Some(width) = self.edges {
             pass.edges(FaceEdges { width, color: Vec3::X, opacity: 0.7 });
@@ -311,11 +311,11 @@ fn up_to_tiles(stats: &Stats) -> [u64; 8] {
     [primitives, vertices, invalid, outside, clipped, culled, set_up, binned]
 }
 
-fn models(surfaces: [Surface; 2]) -> Vec<Model> {
+fn models(surfaces: [BlendMode; 2]) -> Vec<Model> {
     let [front, back] =
-        [(surfaces[0], 0.0), (surfaces[1], 0.5)].map(|(surface, shift)| Model::sheet(surface, shift));
+        [(surfaces[0], 0.0), (surfaces[1], 0.5)].map(|(blend_mode, shift)| Model::sheet(blend_mode, shift));
     // No part of it is ever changed.
-    let still = Model::sheet(Surface::Opaque, 0.2);
+    let still = Model::sheet(BlendMode::Opaque, 0.2);
     vec![front, back, Model { triangles: still.triangles[..7].to_vec(), ..still }]
 }
 
@@ -351,13 +351,13 @@ fn check(view: &View, mut models: Vec<Model>, deltas: &[Delta]) -> Result<(), Te
     Ok(())
 }
 
-fn surface() -> impl Strategy<Value = Surface> {
+fn blend_mode() -> impl Strategy<Value = BlendMode> {
     prop::sample::select(vec![
-        Surface::Opaque,
-        Surface::Masked,
-        Surface::MaskedPerSample,
-        Surface::Overlay,
-        Surface::Translucent,
+        BlendMode::Opaque,
+        BlendMode::Masked,
+        BlendMode::MaskedPerSample,
+        BlendMode::Overlay,
+        BlendMode::Translucent,
     ])
 }
 
@@ -367,7 +367,7 @@ proptest! {
     #[test]
     fn a_picture_that_follows_is_a_fresh_one(
         view in view(),
-        surfaces in [surface(), surface()],
+        surfaces in [blend_mode(), blend_mode()],
         deltas in prop::collection::vec(delta(), 1..4),
     ) {
         check(&view, models(surfaces), &deltas)?;
@@ -407,7 +407,7 @@ fn share(view: &View, parts: &[crate::Rect]) -> f64 {
 
 #[test]
 fn only_tiles_around_what_moved_are_drawn() {
-    let (view, mut models) = (plain(&[Output::Srgb8]), models([Surface::Opaque; 2]));
+    let (view, mut models) = (plain(&[Output::Srgb8]), models([BlendMode::Opaque; 2]));
     let mut rasterizer = Rasterizer::default();
     let mut target = view.target();
     let first = rasterizer.redraw(&view.pass(&models), &mut target, None);
@@ -429,7 +429,7 @@ fn only_tiles_around_what_moved_are_drawn() {
 #[test]
 fn only_tiles_around_other_marks_are_drawn() {
     let view = View { has_marks: true, ..plain(&[Output::Srgb8]) };
-    let mut models = models([Surface::Opaque; 2]);
+    let mut models = models([BlendMode::Opaque; 2]);
     let mut rasterizer = Rasterizer::default();
     let mut target = view.target();
     rasterizer.redraw(&view.pass(&models), &mut target, None);
@@ -451,8 +451,8 @@ fn only_tiles_around_other_marks_are_drawn() {
 #[test]
 fn draws_without_triangles_broke_the_redraws_look_up_of_draws() {
     let view = plain(&[Output::Srgb8]);
-    let mut after = Model::sheet(Surface::Opaque, 0.0);
-    let (before, behind) = (after.clone(), Model::sheet(Surface::Opaque, 0.5));
+    let mut after = Model::sheet(BlendMode::Opaque, 0.0);
+    let (before, behind) = (after.clone(), Model::sheet(BlendMode::Opaque, 0.5));
     let Told { vertices, .. } = one_vertex().apply(&mut after);
     // The changed sheet lies before the third one, which stays as it is.
     for [empty, changed] in [[0, 1], [0, 2], [1, 0], [1, 2], [2, 0], [2, 1]] {
@@ -482,7 +482,7 @@ fn draws_without_triangles_broke_the_redraws_look_up_of_draws() {
 /// Whatever else the rasterizer has done in between: it tells nothing of the changes.
 #[test]
 fn after_anything_else_everything_is_drawn() {
-    let (view, models) = (plain(&[Output::Srgb8]), models([Surface::Opaque; 2]));
+    let (view, models) = (plain(&[Output::Srgb8]), models([BlendMode::Opaque; 2]));
     let unchanged = [DrawChange::default(); 6];
     let spoil: [fn(&mut Rasterizer, &View, &[Model]); 4] = [
         |rasterizer, view, models| {

@@ -19,7 +19,7 @@ impl Marked {
             edge_flags: Some(&self.faces.flags),
             marks: Some(Marks { sides: &self.sides, edges: &self.of_edges, faces: &self.of_faces }),
             culling: Culling::None,
-            surface: self.faces.surface,
+            blend_mode: self.faces.blend_mode,
             ..Draw::new(&self.faces, &self.faces.triangles)
         });
     }
@@ -129,8 +129,8 @@ proptest! {
     fn marks_are_the_same_bytes_for_all_tiles_threads_and_levels(
         marked in marked(), grid in grid(), width in width(), is_glass in any::<bool>(),
     ) {
-        let glass = Faces { color: Vec4::splat(0.5), surface: Surface::Translucent, ..marked.faces };
-        let faces = if is_glass { glass } else { Faces { color: Vec4::ONE, surface: Surface::Opaque, ..glass } };
+        let glass = Faces { color: Vec4::splat(0.5), blend_mode: BlendMode::Translucent, ..marked.faces };
+        let faces = if is_glass { glass } else { Faces { color: Vec4::ONE, blend_mode: BlendMode::Opaque, ..glass } };
         let marked = Marked { faces, ..marked };
         let draw = |settings| marked.picture((width, 0.5), colors(), (grid, settings));
         let expected = draw(ExecuteSettings::default());

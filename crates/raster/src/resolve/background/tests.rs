@@ -2,8 +2,8 @@
 
 use crate::simd::SimdLevel;
 use crate::{
-    Background, Draw, EdgeFlags, ExecuteSettings, FaceEdges, Fragment, Output, Pass, Pipeline, Rasterizer,
-    Rect, Surface, Target, VertexOutput,
+    Background, BlendMode, Draw, EdgeFlags, ExecuteSettings, FaceEdges, Fragment, Output, Pass, Pipeline,
+    Rasterizer, Rect, Target, VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
@@ -44,7 +44,7 @@ struct Case {
     samples: [u32; 2],
     outputs: Vec<Output>,
     corners: [[f32; 2]; 3],
-    surface: Surface,
+    blend_mode: BlendMode,
     edges: Option<f32>,
     scissor: Option<[i32; 4]>,
     settings: ExecuteSettings,
@@ -59,7 +59,7 @@ fn case() -> impl Strategy<Value = Case> {
         prop::sample::subsequence(vec![Srgb8, Unorm8, Linear, Depth], 1..5),
     ];
     let corners = prop::array::uniform3(prop::array::uniform2(-1.5_f32..1.5));
-    let surface = prop::sample::select(vec![Surface::Opaque, Surface::Translucent]);
+    let blend_mode = prop::sample::select(vec![BlendMode::Opaque, BlendMode::Translucent]);
     let levels: Vec<_> = SimdLevel::ALL.into_iter().filter(|level| level.is_supported()).collect();
     let settings = (1..4_usize, prop::sample::select(levels)).prop_map(|(threads, level)| ExecuteSettings {
         threads: NonZeroUsize::new(threads),
@@ -68,13 +68,13 @@ fn case() -> impl Strategy<Value = Case> {
     });
     let edges = prop::option::of(0.5_f32..5.0);
     let scissor = prop::option::of(prop::array::uniform4(-9..120));
-    ([1_u32..200, 1_u32..150], samples, outputs, corners, surface, edges, scissor, settings).prop_map(
-        |(size, samples, outputs, corners, surface, edges, scissor, settings)| Case {
+    ([1_u32..200, 1_u32..150], samples, outputs, corners, blend_mode, edges, scissor, settings).prop_map(
+        |(size, samples, outputs, corners, blend_mode, edges, scissor, settings)| Case {
             size,
             samples,
             outputs,
             corners,
-            surface,
+            blend_mode,
             edges,
             scissor,
             settings,
@@ -84,13 +84,13 @@ fn case() -> impl Strategy<Value = Case> {
 
 impl Case {
     fn draw(&self, background: Background<'_>) -> Target<'static> {
-        let alpha = if self.surface == Surface::Translucent { 0.5 } else { 1.0 };
+        let alpha = if self.blend_mode == BlendMode::Translucent { 0.5 } else { 1.0 };
         let triangle = Triangle { corners: self.corners, alpha };
         let mut pass = Pass::new();
         pass.background(background);
         pass.triangles(Draw {
             edge_flags: Some(&[EdgeFlags::ALL]),
-            surface: self.surface,
+            blend_mode: self.blend_mode,
             culling: crate::Culling::None,
             ..Draw::new(&triangle, &[[0, 1, 2]])
         });

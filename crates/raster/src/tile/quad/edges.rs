@@ -12,7 +12,7 @@ pub(super) const DIAGONAL: usize = 4;
 pub(super) const EDGES: usize = 5;
 
 /// How a line or a point lies in a tile.
-pub(super) enum Place {
+pub(super) enum QuadPosition {
     /// It has no sample in it.
     Beside,
     Within,
@@ -21,7 +21,7 @@ pub(super) enum Place {
 }
 
 /// The edge functions of a line or a point in a tile, over 256 and rounded down as those of
-/// [`Covering`](crate::tile::Covering): of the outline, and of the diagonal. As rows of eight, of which
+/// [`TileTriangle`](crate::tile::TileTriangle): of the outline, and of the diagonal. As rows of eight, of which
 /// five are used.
 pub(in crate::tile) struct QuadEdges {
     pub(super) pattern: SamplePattern,
@@ -43,14 +43,14 @@ impl QuadEdges {
     /// Finds them for one tile that a line or a point reaches into: of one whose sides are
     /// [`SMALL`] all at once, as then everything fits 32 bits, also a tile away.
     #[inline(always)]
-    pub(super) fn find<S: Simd>(&mut self, simd: S, quad: &Quad, area: &TileArea) -> Place {
+    pub(super) fn find<S: Simd>(&mut self, simd: S, quad: &Quad, area: &TileArea) -> QuadPosition {
         let is_small = [0, 1].into_iter().all(|axis| {
             let [low, high] = quad.extent(axis);
             high - low < SMALL
         });
         if is_small {
             self.find_small(simd, quad, area);
-            return Place::Within;
+            return QuadPosition::Within;
         }
         self.find_large(quad, area)
     }
@@ -86,7 +86,7 @@ impl QuadEdges {
     }
 
     #[inline(never)]
-    fn find_large(&mut self, quad: &Quad, area: &TileArea) -> Place {
+    fn find_large(&mut self, quad: &Quad, area: &TileArea) -> QuadPosition {
         let [least, greatest] = self.pattern.reach();
         let first = area.origin.map(|v| v * 256 + least);
         let span = area.padded().map(|side| (side as i64 - 1) * 256 + i64::from(greatest - least));
@@ -97,12 +97,12 @@ impl QuadEdges {
             let fall = steps[0].min(0) * span[0] + steps[1].min(0) * span[1];
             let is_outside = value + rise < 0;
             if is_outside && k != DIAGONAL {
-                return Place::Beside;
+                return QuadPosition::Beside;
             }
             if is_outside || value + fall >= 0 {
                 self.set(k, [0; 2], |_| if is_outside { -1 } else { 0 });
             } else if (rise - fall) >> 8 >= i64::from(i32::MAX) {
-                return Place::TooLong;
+                return QuadPosition::TooLong;
             } else {
                 // The edge crosses the tile, so no value in it is further from 0 than the span.
                 let at = |[x, y]: [i32; 2]| {
@@ -112,7 +112,7 @@ impl QuadEdges {
                 self.set(k, [edge.right, edge.down], at);
             }
         }
-        Place::Within
+        QuadPosition::Within
     }
 
     #[inline(always)]

@@ -1,5 +1,5 @@
-//! Opaque lines and points: both triangles at once, in those groups only that the outline
-//! crosses.
+//! The quad kernel: opaque lines and points, both triangles at once, only in groups that the
+//! outline crosses. A lane is one pixel of a group of 4×2.
 //!
 //! A line's outline has two ends along an axis and two sides that climb by no more than a
 //! pixel in each pixel of the other, the major axis (see [`line`](crate::line)). So the groups
@@ -17,16 +17,17 @@ pub(super) use edges::QuadEdges;
 use super::area::GROUPS;
 use super::buffer::VisibilityBuffer;
 use super::counts::Counts;
-use super::cover::Cover;
+use super::rasterizer::TileRasterizer;
 use super::store::store_places_where;
 use super::{DepthPlane, TileArea};
 use crate::samples::SamplePattern;
 use crate::setup::{Kind, Quad};
 use crate::simd::{Each, F32, I32, LANES, Mask, Row, Simd, U32, inlined, lane_numbers, prelude::*};
-use edges::{DIAGONAL, EDGES, Place};
+use edges::{DIAGONAL, EDGES, QuadPosition};
 use strip::{SHIFT, Strip};
 
-/// From this width on, in 1/256 pixel, it pays to ask whole blocks, as for triangles.
+/// From this width on, in 1/256 pixel, testing whole blocks first pays, so the two triangles are
+/// drawn as such.
 const WIDE: i32 = 32 * 256;
 
 /// The round outline of a point, from the tile's corner.
@@ -70,9 +71,8 @@ struct Walk<'q, S: Simd> {
     place: u32,
 }
 
-impl Cover<'_> {
-    /// Lets a line or a point compete for the samples that it covers; false if it has to go the
-    /// way of triangles.
+impl TileRasterizer<'_> {
+    /// Draws a line or a point. Returns false if it has to be drawn as two triangles.
     #[inline(always)]
     pub(super) fn quad<S: Simd, const MULTI: bool>(
         &self,
@@ -82,7 +82,7 @@ impl Cover<'_> {
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
     ) -> bool {
-        // Apart, so that it takes no registers where there are only triangles.
+        // In a function of its own, so that it takes no registers from the kernels of triangles.
         simd.vectorize(
             #[inline(always)]
             || self.quad_apart::<S, MULTI>(simd, (quad, edges), place, buffer, counts),
@@ -110,9 +110,9 @@ impl Cover<'_> {
         }
         let Some(pixels) = pixels_in(quad, edges.pattern, &self.area) else { return true };
         match edges.find(simd, quad, &self.area) {
-            Place::Beside => return true,
-            Place::TooLong => return false,
-            Place::Within => {}
+            QuadPosition::Beside => return true,
+            QuadPosition::TooLong => return false,
+            QuadPosition::Within => {}
         }
         buffer.settle();
         let planes = (quad.depths[0] != quad.depths[1]).then(
@@ -133,7 +133,7 @@ impl Cover<'_> {
         true
     }
 
-    /// Lets the samples of a group, by its column and row, compete.
+    /// Tests and stores the samples of a group, given by its column and row.
     #[inline(always)]
     fn group<S: Simd, const MULTI: bool>(
         &self,

@@ -1,7 +1,7 @@
 //! Few and large triangles, where a heap seldom has them.
 
 use super::{Flat, Heap, SIZE, check, heap, timed};
-use crate::{Output, Pass, Points, Rasterizer, Surface, Target};
+use crate::{BlendMode, Output, Pass, Points, Rasterizer, Target};
 
 /// Walls of one draw.
 fn walls(triangles: &[Flat]) -> Heap {
@@ -38,9 +38,9 @@ fn edges_between_the_samples_of_a_tiles_first_pixels() {
 fn equally_deep_masked_walls_are_seen_by_their_keys() {
     let all = [[-100_000, -100_000], [200_000, -100_000], [-100_000, 200_000]];
     let wall = Flat { points: all, depths: [0.5; 3] };
-    for surface in [Surface::Masked, Surface::MaskedPerSample] {
+    for blend_mode in [BlendMode::Masked, BlendMode::MaskedPerSample] {
         for faces in [vec![1, 0], vec![0, 1]] {
-            check(&[Heap { surface, faces, ..walls(&[wall; 2]) }], timed(), 4);
+            check(&[Heap { blend_mode, faces, ..walls(&[wall; 2]) }], timed(), 4);
         }
     }
 }

@@ -9,8 +9,8 @@ use crate::tile::{BEHIND_ALL, DepthPlane};
 use crate::vertex::{ScreenVertex, nearer};
 use crate::viewport::Viewport;
 use crate::{
-    ExecuteSettings, FixedBitSet, Fragment, Lines, MarkedPoints, Outline, Output, Pass, Pictures, Pipeline,
-    PointShape, Points, Surface, Target, VertexOutput,
+    BlendMode, ExecuteSettings, FixedBitSet, Fragment, Lines, MarkedPoints, Outline, Output, Pass, Pictures,
+    Pipeline, PointShape, Points, Target, VertexOutput,
 };
 use proptest::prelude::*;
 use std::num::NonZeroUsize;
@@ -28,7 +28,7 @@ enum Mark {
 struct Marks {
     mark: Mark,
     object: u32,
-    toward_eye: f32,
+    depth_bias: f32,
     ids: Option<Vec<u32>>,
     positions: Vec<Vec4>,
     /// For each vertex.
@@ -72,13 +72,13 @@ struct Sampling {
     per_axis: u32,
 }
 
-fn draw(draws: &[Marks], surface: Surface, settings: ExecuteSettings, sampling: Sampling) -> Pictures {
-    let draws: Vec<_> = draws.iter().map(|draw| (draw, surface)).collect();
+fn draw(draws: &[Marks], blend_mode: BlendMode, settings: ExecuteSettings, sampling: Sampling) -> Pictures {
+    let draws: Vec<_> = draws.iter().map(|draw| (draw, blend_mode)).collect();
     draw_on(&draws, settings, sampling)
 }
 
 /// Each with a surface of its own.
-fn draw_on(draws: &[(&Marks, Surface)], settings: ExecuteSettings, sampling: Sampling) -> Pictures {
+fn draw_on(draws: &[(&Marks, BlendMode)], settings: ExecuteSettings, sampling: Sampling) -> Pictures {
     let segments: Vec<Vec<[u32; 2]>> = draws
         .iter()
         .map(|(draw, _)| (0..draw.positions.len() as u32 / 2).map(|i| [2 * i, 2 * i + 1]).collect())
@@ -86,15 +86,16 @@ fn draw_on(draws: &[(&Marks, Surface)], settings: ExecuteSettings, sampling: Sam
     let points: Vec<Vec<u32>> =
         draws.iter().map(|(draw, _)| (0..draw.positions.len() as u32).collect()).collect();
     let mut pass = Pass::new();
-    for ((&(draw, surface), segments), points) in draws.iter().zip(&segments).zip(&points) {
-        let (ids, object, toward_eye) = (draw.ids.as_deref(), draw.object, draw.toward_eye);
+    for ((&(draw, blend_mode), segments), points) in draws.iter().zip(&segments).zip(&points) {
+        let (ids, object, depth_bias) = (draw.ids.as_deref(), draw.object, draw.depth_bias);
         match draw.mark {
             Mark::Line(width) => {
-                let lines = Lines { ids, object, toward_eye, surface, ..Lines::new(draw, segments) };
+                let lines = Lines { ids, object, depth_bias, blend_mode, ..Lines::new(draw, segments) };
                 pass.lines(Lines { width, ..lines });
             }
             Mark::Point(size, shape) => {
-                let points = Points { ids, object, toward_eye, surface, ..Points::new(draw, points, size) };
+                let points =
+                    Points { ids, object, depth_bias, blend_mode, ..Points::new(draw, points, size) };
                 pass.points(Points { shape, ..points });
             }
         }
@@ -159,7 +160,7 @@ fn known(marks: &Marks, draw: u32, sampling: Sampling) -> Vec<Known> {
         if outcodes.iter().any(|outcode| outcode.is_invalid()) {
             continue;
         }
-        let near = |vertex: ScreenVertex| vertex.with_depth(nearer(vertex.depth(), marks.toward_eye));
+        let near = |vertex: ScreenVertex| vertex.with_depth(nearer(vertex.depth(), marks.depth_bias));
         let grid = |[x, y]: [f64; 2]| {
             let fixed = |raw: f64| Fixed::from_f64(raw / 256.0);
             Some(FixedPoint::new(fixed(x)?, fixed(y)?))
@@ -243,7 +244,7 @@ fn check(draws: &[Marks], settings: ExecuteSettings, sampling: Sampling) {
             marks
         })
         .collect();
-    let pictures = draw(&draws, Surface::Opaque, settings, sampling);
+    let pictures = draw(&draws, BlendMode::Opaque, settings, sampling);
     let known: Vec<_> =
         draws.iter().zip(0..).flat_map(|(marks, draw)| known(marks, draw, sampling)).collect();
     let search = |point: [i32; 2]| {
@@ -302,12 +303,12 @@ fn marks() -> impl Strategy<Value = Marks> {
     let size = || prop_oneof![2 => Just(1.0_f32), 2 => 1.0_f32..6.0, 1 => 0.2_f32..100.0];
     let shape = prop_oneof![Just(PointShape::Round), Just(PointShape::Square)];
     let mark = prop_oneof![3 => size().prop_map(Mark::Line), 1 => (size(), shape).prop_map(|(s, f)| Mark::Point(s, f))];
-    let toward_eye = prop_oneof![Just(0.0), Just(0.001), Just(0.5)];
+    let depth_bias = prop_oneof![Just(0.0), Just(0.001), Just(0.5)];
     let ids = prop::option::of(prop::collection::vec(0..4_u32, 0..8));
     let vertices = prop::collection::vec((position(), 0.0_f32..1.0), 2..14);
-    (mark, 0..3_u32, toward_eye, ids, vertices).prop_map(|(mark, object, toward_eye, ids, vertices)| {
+    (mark, 0..3_u32, depth_bias, ids, vertices).prop_map(|(mark, object, depth_bias, ids, vertices)| {
         let (positions, lights) = vertices[..vertices.len() / 2 * 2].iter().copied().unzip();
-        Marks { mark, object, toward_eye, ids, positions, lights }
+        Marks { mark, object, depth_bias, ids, positions, lights }
     })
 }
 
@@ -344,10 +345,10 @@ proptest! {
     ) {
         let settings = ExecuteSettings { threads: NonZeroUsize::new(threads), ..settings };
         let [opaque, masked] =
-            [Surface::Opaque, Surface::MaskedPerSample].map(|surface| draw(&draws, surface, settings, sampling));
+            [BlendMode::Opaque, BlendMode::MaskedPerSample].map(|blend_mode| draw(&draws, blend_mode, settings, sampling));
         // A pixel is shaded once in each triangle either way.
         prop_assert!(opaque == masked, "{:?}", settings);
-        let reference = draw(&draws, Surface::Opaque, ExecuteSettings::default(), sampling);
+        let reference = draw(&draws, BlendMode::Opaque, ExecuteSettings::default(), sampling);
         prop_assert!(opaque == reference, "{:?}", settings);
     }
 }
@@ -361,17 +362,17 @@ proptest! {
         settings in settings(),
         threads in 1..4_usize,
         sampling in sampling(3),
-        below in prop::sample::select(vec![Surface::Opaque, Surface::Masked, Surface::MaskedPerSample]),
+        below in prop::sample::select(vec![BlendMode::Opaque, BlendMode::Masked, BlendMode::MaskedPerSample]),
     ) {
         let settings = ExecuteSettings { threads: NonZeroUsize::new(threads), ..settings };
         // Keys that do not depend on the order of draws.
         (0..).zip(&mut draws).for_each(|(object, draw)| draw.object = object);
-        let on = |over: Surface| {
-            let surface = move |draw: &Marks| if draw.object % 2 == 1 { over } else { below };
-            draws.iter().map(|draw| (draw, surface(draw))).collect::<Vec<_>>()
+        let on = |over: BlendMode| {
+            let blend_mode = move |draw: &Marks| if draw.object % 2 == 1 { over } else { below };
+            draws.iter().map(|draw| (draw, blend_mode(draw))).collect::<Vec<_>>()
         };
         let [overlay, opaque] =
-            [Surface::Overlay, Surface::MaskedPerSample].map(|over| draw_on(&on(over), settings, sampling));
+            [BlendMode::Overlay, BlendMode::MaskedPerSample].map(|over| draw_on(&on(over), settings, sampling));
         prop_assert!(overlay.linear == opaque.linear, "{:?}", settings);
         let bare: Vec<_> = on(below).into_iter().step_by(2).collect();
         let bare = draw_on(&bare, settings, sampling);
@@ -390,7 +391,7 @@ fn marked_points_have_a_size_of_their_own() {
         (0..40).map(|i| Vec4::new(0.05 * i as f32 - 1.0, 0.04 * (i % 7) as f32 - 0.1, 0.5, 1.0)).collect();
     let lights = (0..40).map(|i| i as f32).collect();
     let mark = Mark::Point(3.0, PointShape::Round);
-    let marks = Marks { mark, object: 0, toward_eye: 0.0, ids: None, positions, lights };
+    let marks = Marks { mark, object: 0, depth_bias: 0.0, ids: None, positions, lights };
     // Shorter than the draw: points beyond it are not marked.
     let set: FixedBitSet = (0..30).filter(|i| i % 3 == 0).collect();
     let all: Vec<u32> = (0..40).collect();

@@ -1,7 +1,7 @@
 //! The quick ways through a tile: that they are taken, which no picture tells.
 
 use super::{ALL, Heap, SIZE, draw, heap, timed};
-use crate::{DepthTest, ExecuteSettings, Stats, Surface, TileSize};
+use crate::{BlendMode, DepthTest, ExecuteSettings, Stats, TileSize};
 
 /// In the picture: of 48 and of 12 blocks.
 const TILES: u64 = 2;
@@ -101,7 +101,7 @@ fn blocks_beside_a_needle_are_left_out() {
 
 #[test]
 fn masks_are_asked_once_a_pixel_and_not_beside_the_picture() {
-    let masked = |heap: Heap| Heap { surface: Surface::Masked, ..heap };
+    let masked = |heap: Heap| Heap { blend_mode: BlendMode::Masked, ..heap };
     let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| f64::from(x + y + 1)));
     for sum in [40.5, 60.5, 100.5, 200.0] {
         let (_, stats) = draw(&[masked(corner(sum, 0.5))], timed(), 1);

@@ -45,7 +45,7 @@ pub(super) fn draw(
             }
             Shape::Masked(surface) => pass.triangles(Draw {
                 culling: Culling::None,
-                surface: trigon_raster::Surface::Masked,
+                blend_mode: trigon_raster::BlendMode::Masked,
                 ..Draw::new(surface, triangles)
             }),
         };

@@ -9,7 +9,7 @@ use std::ops::Range;
 const MOST_REACH: usize = 16;
 
 /// The visible triangles around each pixel of a tile, row by row.
-pub(super) struct Rows {
+pub(super) struct VisibleRows {
     pub(super) least: [[f32; MAX_SIDE]; MAX_SIDE],
     pub(super) greatest: [[f32; MAX_SIDE]; MAX_SIDE],
     /// 1 for large triangles.
@@ -23,7 +23,7 @@ pub(super) struct Rows {
 /// One row with room for a reach at both ends.
 type Wide<T> = [T; MAX_SIDE + 2 * MOST_REACH];
 
-impl Rows {
+impl VisibleRows {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
             least: [[f32::NEG_INFINITY; MAX_SIDE]; MAX_SIDE],
@@ -40,7 +40,7 @@ impl Rows {
 #[inline(always)]
 pub(super) fn in_front<S: Simd>(
     simd: S,
-    rows: &Rows,
+    rows: &VisibleRows,
     (y, around): (usize, Range<usize>),
     reach: usize,
 ) -> u64 {
@@ -68,7 +68,7 @@ pub(super) fn in_front<S: Simd>(
 #[inline(always)]
 pub(super) fn beside_large<S: Simd>(
     simd: S,
-    rows: &Rows,
+    rows: &VisibleRows,
     (y, around): (usize, Range<usize>),
     reach: usize,
 ) -> u64 {

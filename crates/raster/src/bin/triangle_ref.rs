@@ -52,13 +52,13 @@ impl Entry {
 /// A triangle of a frame: a primitive that is drawn as it is, one that its
 /// chunk keeps, or half of a line or a point.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct TriangleRef {
     /// The primitive's ordinal in the frame.
     pub(crate) ordinal: u32,
     pub(super) extra: u32,
 }
 
-impl Place {
+impl TriangleRef {
     const WHOLE: u32 = u32::MAX;
     const QUAD: u32 = 1 << 31;
 

@@ -1,8 +1,8 @@
 //! A triangle and the edges of its face: how far they are from a point, and what lies in
 //! front of what.
 
-use super::rule::EdgePoint;
-use crate::bin::Place;
+use super::line_width::EdgePoint;
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::geometry::Geometry;
 use crate::setup::{Corners, SetupTriangle};
@@ -25,9 +25,9 @@ struct Segment {
 }
 
 /// A visible triangle and the edges of the face that it belongs to: slivers beside it may
-/// cover no sample, and nobody else would paint their edges.
+/// cover no sample, and their edges would not be painted otherwise.
 #[derive(Default)]
-pub(super) struct LinedFace {
+pub(super) struct EdgedFace {
     /// Places and bits of depths.
     vertices: Vec<[i32; 3]>,
     segments: Vec<Segment>,
@@ -64,9 +64,9 @@ impl Segment {
     }
 }
 
-impl LinedFace {
+impl EdgedFace {
     /// Becomes that of a triangle.
-    pub(super) fn set(&mut self, frame: &FrameView<'_>, place: Place) {
+    pub(super) fn set(&mut self, frame: &FrameView<'_>, place: TriangleRef) {
         let triangle = frame.triangle(place);
         (self.edges, self.plane) = (Edge::of(&triangle), DepthPlane::of(&triangle));
         self.vertices.clear();
@@ -172,7 +172,7 @@ pub(crate) fn parts(geometry: &Geometry<'_>, primitive: u32) -> impl Iterator<It
 /// The corner of the primitive that is opposite its side on which two vertices lie.
 fn opposite_corner(
     frame: &FrameView<'_>,
-    place: Place,
+    place: TriangleRef,
     triangle: &SetupTriangle,
     [from, to]: [usize; 2],
 ) -> Option<usize> {

@@ -1,4 +1,4 @@
-//! A triangle as one tile sees it: which samples it covers, and how deep.
+//! A triangle prepared for one tile: which samples it covers, and at which depths.
 
 use super::{DepthPlane, Edge, TileArea, lane_point};
 use crate::bin::Grid;
@@ -8,11 +8,11 @@ use crate::simd::{I32, LANES, Mask, Simd, lanes_of, prelude::*};
 
 /// What coverage needs of a triangle in one tile.
 ///
-/// Edge function over 256, rounded down, has the sign of the edge function at
-/// all samples with the same offset in their pixels; where an edge crosses the
-/// tile its values fit 32 bits. An edge that all of the tile lies inside of is
-/// dropped.
-pub(crate) struct Covering {
+/// Edge functions are divided by 256 and rounded down. That keeps the sign at all samples
+/// with the same offset in their pixels, because their values differ by multiples of 256.
+/// Where an edge crosses the tile, its values in the tile then fit 32 bits. An edge with the
+/// whole tile on its inner side is dropped: its values and steps stay zero, which is inside.
+pub(crate) struct TileTriangle {
     /// For each sample of a pixel the edge functions at the tile's first pixel.
     pub(crate) starts: [[i32; 3]; MAX_SAMPLES],
     /// The least and the greatest of those of all samples.
@@ -73,7 +73,7 @@ impl Disc {
     }
 }
 
-impl Covering {
+impl TileTriangle {
     /// `None` if the triangle covers no sample of the tile.
     pub(crate) fn new(triangle: &SetupTriangle, grid: &Grid, area: &TileArea) -> Option<Self> {
         let range = |axis: usize| {
@@ -189,7 +189,7 @@ mod tests {
             edges.iter().all(|edge| edge.at([x, y]) + edge.bias() >= 0)
                 && (triangle.kind != Kind::RoundPoint || within)
         };
-        let covering = Covering::new(triangle, &grid, area);
+        let covering = TileTriangle::new(triangle, &grid, area);
         let [columns, rows] = area.padded().map(|side| side as i32);
         for block in (0..rows / 8).flat_map(|y| (0..columns / 8).map(move |x| [x * 8, y * 8])) {
             let sides = covering.as_ref().map(|covering| covering.block_sides(block));

@@ -1,44 +1,53 @@
-//! Where eight small triangles begin in a tile: the ways of their edge functions and
-//! planes of depth through the pixels start there.
+//! The edge functions and depth planes of eight small triangles, evaluated once where each
+//! triangle's first group of pixels begins. The kernels step from there from group to group.
+//!
+//! Arrays hold one number for each of the eight triangles. The kernels copy one triangle's
+//! number to all lanes.
 
-use super::cover::Cover;
-use super::eight::Eight;
-use super::several::Several;
+use super::eight::EightTriangles;
+use super::multisample::MultisampleOrigins;
+use super::rasterizer::TileRasterizer;
 use crate::samples::MAX_SAMPLES;
 use crate::simd::{Each, F32, I32, LANES, Simd, inlined, prelude::*, widened};
 use fearless_simd::f64x4;
 
-/// Whole numbers, so that stepping along from there rounds nothing.
-pub(super) struct Starts {
-    /// The edge functions at each sample of the first pixel of the first group, over
-    /// 256; of several samples less the greatest.
+/// All of these are whole numbers, so stepping along from there rounds nothing.
+pub(super) struct EdgeOrigins {
+    /// The edge functions at each sample of the first group's first pixel, divided by 256. With
+    /// several samples, less the greatest of all samples.
     pub(super) edges: [[[i32; LANES]; 3]; MAX_SAMPLES],
-    /// The greatest at any of several samples.
+    /// The greatest edge functions of any sample, where there are several.
     pub(super) greatest: [[i32; LANES]; 3],
     /// From the triangles' first vertices to the corner of that pixel, in 1/256 pixel.
     pub(super) way: [[f64; LANES]; 2],
     /// Depths of the first vertices.
     pub(super) value: [f64; LANES],
-    /// For one of the triangles, where pixels have several samples.
-    pub(super) several: Several,
+    /// Room for one of the triangles, where pixels have several samples.
+    pub(super) multisample: MultisampleOrigins,
 }
 
-impl Starts {
+impl EdgeOrigins {
     pub(super) fn new(offsets: &[[i32; 2]]) -> Self {
         Self {
             edges: [[[0; LANES]; 3]; MAX_SAMPLES],
             greatest: [[0; LANES]; 3],
             way: [[0.0; LANES]; 2],
             value: [0.0; LANES],
-            several: Several::new(offsets),
+            multisample: MultisampleOrigins::new(offsets),
         }
     }
 
     /// Finds them for eight triangles.
     #[inline(always)]
-    pub(super) fn find<S: Simd, const MULTI: bool>(&mut self, simd: S, cover: &Cover<'_>, eight: &Eight) {
+    pub(super) fn find<S: Simd, const MULTI: bool>(
+        &mut self,
+        simd: S,
+        rasterizer: &TileRasterizer<'_>,
+        eight: &EightTriangles,
+    ) {
         let column = |values: &[i32; LANES]| I32::simd_from(simd, *values);
-        // Groups are 4 by 2 pixels.
+        // The first pixel of the first group: groups are 4×2 pixels, so the lowest bits of the
+        // column and the row are cleared.
         let pixel = [column(&eight.pixels[0][0]) & !3, column(&eight.pixels[1][0]) & !1];
         for k in 0..3 {
             let (right, down) = (column(&eight.right[k]), column(&eight.down[k]));
@@ -52,20 +61,20 @@ impl Starts {
                 #[inline(always)]
                 |[x, y]: [i32; 2]| (corner + right * x + down * y) >> 8,
             );
-            let greatest = cover.offsets.iter().fold(
-                at(cover.offsets[0]),
+            let greatest = rasterizer.offsets.iter().fold(
+                at(rasterizer.offsets[0]),
                 #[inline(always)]
                 |greatest, offset| greatest.max(at(*offset)),
             );
             self.greatest[k] = (along + greatest).into();
-            for (edges, offset) in self.edges.iter_mut().zip(cover.offsets) {
+            for (edges, offset) in self.edges.iter_mut().zip(rasterizer.offsets) {
                 edges[k] = (at(*offset) - greatest).into();
             }
         }
-        let axes = pixel.into_iter().zip(cover.area.origin).zip(&eight.anchor);
+        let axes = pixel.into_iter().zip(rasterizer.area.origin).zip(&eight.anchor);
         for (way, ((pixel, origin), anchor)) in self.way.iter_mut().zip(axes) {
             let corner = (pixel + origin) << 8;
-            // Small enough to be exact in f32, too.
+            // A small triangle's box lies near the tile, so these are below 2^24 and exact in f32.
             store((corner - column(anchor)).to_float::<F32<S>>(), way);
         }
         store(F32::simd_from(simd, eight.value), &mut self.value);

@@ -1,26 +1,36 @@
-//! Triangles of a few pixels to a few blocks where pixels have several samples: group by
-//! group all samples, so that a group's place is looked up once.
+//! The tiny kernel for pixels with several samples.
+//!
+//! A vector holds one sample of each pixel in a group of 4×2. Sample `s` of all eight pixels
+//! lies at the same offset from its pixel, so its edge functions differ from those of sample 0 by
+//! one constant. All samples of a group are processed before the next group, so that the group's
+//! address is computed once.
+//!
+//! The edge functions are kept as the greatest value of any sample plus a difference (zero or
+//! negative) for each sample. If even the greatest values are outside, no sample of the group is
+//! covered and the group is skipped. That branch pays here, unlike in the kernel for one sample,
+//! because it saves up to sixteen samples.
 
 use super::area::TileArea;
 use super::buffer::VisibilityBuffer;
-use super::starts::Starts;
+use super::edge_origins::EdgeOrigins;
 use super::store::name_where;
 use super::tiny::Tiny;
 use crate::samples::MAX_SAMPLES;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, greater, lesser, prelude::*};
 use fearless_simd::{f64x4, f64x8};
 
-/// What the samples of a triangle's pixels begin with, in all lanes.
-pub(super) struct Several {
-    /// The edge functions at the first pixel of the first group, less the greatest.
+/// Where the samples of one triangle's pixels start, copied to all lanes.
+pub(super) struct MultisampleOrigins {
+    /// For each sample the edge functions less the greatest of all samples.
     edges: [[[i32; LANES]; 3]; MAX_SAMPLES],
-    /// The plane of depth in the upper and the lower row of a row of groups, at its start.
+    /// For each sample the plane of depth at the start of a row of groups: four lanes for the
+    /// upper row of pixels, four for the lower.
     planes: [[f64; LANES]; MAX_SAMPLES],
-    /// From the pixel's corner, in 1/256 pixel.
+    /// The samples' offsets from the pixel's corner in 1/256 pixel, each axis in four lanes.
     offsets: [[[f64; 4]; 2]; MAX_SAMPLES],
 }
 
-impl Several {
+impl MultisampleOrigins {
     pub(super) fn new(offsets: &[[i32; 2]]) -> Self {
         let mut splat = [[[0.0; 4]; 2]; MAX_SAMPLES];
         for (splat, offset) in splat.iter_mut().zip(offsets) {
@@ -30,18 +40,27 @@ impl Several {
     }
 }
 
-/// Lets all samples of the pixels in all rows compete. Tells where something lies at the
-/// same depth, if `TIES` asks for it.
+/// Where a row of groups starts.
+struct RowStart<S: Simd> {
+    row: usize,
+    /// The greatest edge functions of any sample at the first group.
+    edges: [I32<S>; 3],
+    /// From the triangle's first vertex to the right, in 1/256 pixel.
+    dx: f64x4<S>,
+}
+
+/// Tests and stores all samples of all groups in the triangle's box. Returns the lanes in which
+/// any group holds the same depth already, if `TIES` is set.
 #[inline(always)]
 pub(super) fn rows<S: Simd, const TIES: bool>(
     simd: S,
     tiny: &Tiny<S>,
-    (starts, lane): (&mut Starts, usize),
+    (starts, lane): (&mut EdgeOrigins, usize),
     buffer: &mut VisibilityBuffer,
 ) -> Mask<S> {
     let samples = buffer.samples;
-    let Starts { edges, greatest, several, .. } = &mut *starts;
-    for (edges, starts) in several.edges.iter_mut().zip(&edges[..samples]) {
+    let EdgeOrigins { edges, greatest, multisample, .. } = &mut *starts;
+    for (edges, starts) in multisample.edges.iter_mut().zip(&edges[..samples]) {
         for (edge, start) in edges.iter_mut().zip(starts) {
             *edge = I32::splat(simd, start[lane]).into();
         }
@@ -54,17 +73,18 @@ pub(super) fn rows<S: Simd, const TIES: bool>(
     let dx = dx + f64x4::simd_from(simd, [0.0, 256.0, 512.0, 768.0]);
     let mut ties = Mask::splat(simd, false);
     for row in tiny.rows[0]..tiny.rows[1] + 1 {
-        let Several { planes, offsets, .. } = &mut starts.several;
+        let MultisampleOrigins { planes, offsets, .. } = &mut starts.multisample;
         for (planes, offset) in planes.iter_mut().zip(&offsets[..samples]) {
             let dy = dy + f64x4::simd_from(simd, offset[1]);
             let [upper, lower] = [dy, dy + 256.0].each(
                 #[inline(always)]
                 |dy| tiny.value + tiny.slopes[1] * dy,
             );
-            // As one, as it is loaded as one soon.
+            // Stored as one vector, because it is soon loaded as one: loading what two smaller
+            // stores have written stalls.
             *planes = upper.combine(lower).into();
         }
-        ties |= columns::<S, TIES>(simd, tiny, (row, edges, dx), &starts.several, buffer);
+        ties |= columns::<S, TIES>(simd, tiny, RowStart { row, edges, dx }, &starts.multisample, buffer);
         for (edge, step) in edges.iter_mut().zip(tiny.down) {
             *edge += step;
         }
@@ -78,10 +98,11 @@ pub(super) fn rows<S: Simd, const TIES: bool>(
 fn columns<S: Simd, const TIES: bool>(
     simd: S,
     tiny: &Tiny<S>,
-    (row, mut edges, mut dx): (usize, [I32<S>; 3], f64x4<S>),
-    several: &Several,
+    start: RowStart<S>,
+    multisample: &MultisampleOrigins,
     buffer: &mut VisibilityBuffer,
 ) -> Mask<S> {
+    let RowStart { row, mut edges, mut dx } = start;
     let samples = buffer.samples;
     let mut ties = Mask::splat(simd, false);
     for column in tiny.columns[0]..tiny.columns[1] + 1 {
@@ -90,7 +111,7 @@ fn columns<S: Simd, const TIES: bool>(
             *edge += step;
         }
         dx += 1024.0;
-        // Where not even the greatest are inside of all edges, no sample is.
+        // If not even the greatest values are inside all edges, no sample is.
         if !inside(simd, here).any_true() {
             continue;
         }
@@ -98,7 +119,7 @@ fn columns<S: Simd, const TIES: bool>(
         let depths = &mut buffer.depth.as_chunks_mut::<LANES>().0[group..group + samples];
         let winners = &mut buffer.winner.as_chunks_mut::<LANES>().0[group..group + samples];
         let there = depths.iter_mut().zip(winners);
-        let starts = several.edges.iter().zip(&several.planes).zip(&several.offsets);
+        let starts = multisample.edges.iter().zip(&multisample.planes).zip(&multisample.offsets);
         for ((there, winners), ((starts, planes), offset)) in there.zip(starts) {
             let across = tiny.slopes[0] * (at + f64x4::simd_from(simd, offset[0]));
             let (upper, lower) = (f64x8::simd_from(simd, *planes) + across.combine(across)).split();
@@ -110,7 +131,7 @@ fn columns<S: Simd, const TIES: bool>(
                     |k| here[k] + I32::simd_from(simd, starts[k]),
                 ),
             );
-            // What is not covered lies behind everything.
+            // Uncovered lanes lie behind everything, so the comparison below rejects them.
             let depth = covered.select(depth, F32::splat(simd, f32::NEG_INFINITY));
             let before = F32::simd_from(simd, *there);
             if TIES {

@@ -1,27 +1,32 @@
-//! Opaque triangles: which samples they cover, and whether they are seen there.
+//! The general kernel: one triangle of any size in one tile.
+//!
+//! The triangle's bounding box is walked in blocks of 8×8 pixels. A block is skipped if it lies
+//! outside an edge or if its farthest depth hides the triangle. If it lies inside all edges, only
+//! depths are tested. Otherwise its groups of 4×2 pixels are tested, one pixel in each lane: lanes
+//! 0 to 3 are the upper row, lanes 4 to 7 the lower one.
 
 use super::area::{BLOCKS, TileArea};
 use super::buffer::{NOBODY, VisibilityBuffer};
 use super::counts::Counts;
-use super::covering::Covering;
 use super::store::{store, store_where};
 use super::ties::Ties;
+use super::triangle::TileTriangle;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
 
-/// What all triangles of a tile have in common.
+/// What all triangles of a tile have in common, for all coverage kernels.
 #[derive(Clone, Copy)]
-pub(crate) struct Cover<'f> {
+pub(crate) struct TileRasterizer<'f> {
     pub(crate) area: TileArea,
     pub(crate) offsets: &'f [[i32; 2]],
     /// Whether a later triangle never wins at equal depth; else `precedes`
     /// decides, as long as `ties` are not too many.
     pub(crate) in_order: bool,
-    /// Whether those of a draw come one after the other.
+    /// Whether the triangles of a draw come one after the other.
     pub(crate) by_draws: bool,
     pub(crate) ties: &'f Ties,
-    /// Whether all begins again in another order where ties are too many.
+    /// Whether the tile is drawn again in the order of keys if there are too many ties.
     pub(crate) may_give_up: bool,
-    /// Whether bounds of depths are asked before samples are.
+    /// Whether bounds of depths are tested before samples.
     pub(crate) hierarchical: bool,
     /// Whether the first place is seen before the second at equal depth.
     pub(crate) precedes: &'f dyn Fn(u32, u32) -> bool,
@@ -29,27 +34,30 @@ pub(crate) struct Cover<'f> {
 
 /// A triangle on its way through a tile.
 struct Walk<'c, S: Simd> {
-    covering: &'c Covering,
-    /// Edge functions' steps within a group.
+    covering: &'c TileTriangle,
+    /// What each lane adds to the edge functions at the group's first pixel.
     lanes: [I32<S>; 3],
     place: u32,
 }
 
 impl<S: Simd> Walk<'_, S> {
-    /// The edge functions at the pixels of a group, but for what the samples add.
-    /// Partial sums may wrap around; the sum fits.
+    /// The edge functions at the pixels of a group, without what a sample's offset adds.
+    ///
+    /// The products may wrap around. The sum does not: where an edge crosses the tile, its values
+    /// in the tile fit 32 bits, and additions that wrap give the right sum if that fits.
     #[inline(always)]
     fn edges_at(&self, [x, y]: [i32; 2]) -> [I32<S>; 3] {
-        let Covering { right, down, .. } = self.covering;
+        let TileTriangle { right, down, .. } = self.covering;
         [0, 1, 2].each(
             #[inline(always)]
             |k| self.lanes[k] + right[k].wrapping_mul(x).wrapping_add(down[k].wrapping_mul(y)),
         )
     }
 
-    /// Which pixels lie inside of all edges, with what a sample adds.
+    /// The pixels that lie inside all edges at a sample with these `starts`.
     #[inline(always)]
     fn inside(&self, simd: S, edges: [I32<S>; 3], starts: [i32; 3]) -> Mask<S> {
+        // The sign bit of the combined value is set if any of the three is negative.
         let [a, b, c] = [edges[0] + starts[0], edges[1] + starts[1], edges[2] + starts[2]];
         (a | b | c).simd_ge(I32::splat(simd, 0))
     }
@@ -57,12 +65,12 @@ impl<S: Simd> Walk<'_, S> {
     /// Whether a sample of any of the pixels may be covered.
     #[inline(always)]
     fn may_cover(&self, simd: S, edges: [I32<S>; 3]) -> bool {
-        let Covering { range: [_, greatest], special, .. } = self.covering;
+        let TileTriangle { range: [_, greatest], special, .. } = self.covering;
         special.is_some() || self.inside(simd, edges, *greatest).any_true()
     }
 }
 
-impl Cover<'_> {
+impl TileRasterizer<'_> {
     /// Whether something at `depth` cannot be seen before something at
     /// `farthest`.
     #[inline(always)]
@@ -76,13 +84,12 @@ impl Cover<'_> {
         self.hierarchical && self.hides(buffer.farthest_of_all(&self.area), depth)
     }
 
-    /// Lets a triangle that the tile does not hide as a whole compete for the samples
-    /// that it covers.
+    /// Draws a triangle that the tile does not hide as a whole.
     #[inline(always)]
     pub(crate) fn triangle<S: Simd, const MULTI: bool>(
         &self,
         simd: S,
-        covering: &Covering,
+        covering: &TileTriangle,
         place: u32,
         buffer: &mut VisibilityBuffer,
         counts: &mut Counts,
@@ -100,6 +107,7 @@ impl Cover<'_> {
         );
         let walk = Walk { covering, lanes, place };
         let [columns, rows] = [covering.columns, covering.rows];
+        // For a box smaller than a block it costs more to test blocks against edges than it saves.
         let small = columns[1] - columns[0] < 8 && rows[1] - rows[0] < 8;
         for block_y in rows[0] >> 3..(rows[1] >> 3) + 1 {
             for block_x in columns[0] >> 3..(columns[1] >> 3) + 1 {
@@ -132,9 +140,10 @@ impl Cover<'_> {
         }
     }
 
-    /// Whether a triangle of one depth lies before all of the tile.
+    /// Whether a triangle of one depth covers the whole tile and lies in front of all of it. Then
+    /// nothing has to be written: the buffer notes that all samples hold it.
     #[inline(always)]
-    fn fills_tile(&self, covering: &Covering, buffer: &VisibilityBuffer) -> bool {
+    fn fills_tile(&self, covering: &TileTriangle, buffer: &VisibilityBuffer) -> bool {
         let constant = covering.depth.low == covering.depth.high;
         let nearer = buffer.nearest().is_some_and(|nearest| covering.depth.low > nearest);
         self.hierarchical
@@ -152,7 +161,7 @@ impl Cover<'_> {
     fn block_hides<S: Simd>(
         &self,
         simd: S,
-        covering: &Covering,
+        covering: &TileTriangle,
         buffer: &mut VisibilityBuffer,
         block: usize,
         corner: [i32; 2],
@@ -161,6 +170,7 @@ impl Cover<'_> {
         if self.hides(farthest, covering.depth.high) {
             return true;
         }
+        // No depth of the triangle is farther than the block: its depths here cannot decide.
         if farthest <= covering.depth.low {
             return false;
         }
@@ -170,7 +180,7 @@ impl Cover<'_> {
 
     /// Bounds of the triangle's depths in a block.
     #[inline(always)]
-    fn depths_in_block(&self, covering: &Covering, corner: [i32; 2]) -> [f32; 2] {
+    fn depths_in_block(&self, covering: &TileTriangle, corner: [i32; 2]) -> [f32; 2] {
         let low = [0, 1].each(
             #[inline(always)]
             |axis| (self.area.origin[axis] + corner[axis]) * 256,
@@ -195,6 +205,8 @@ impl Cover<'_> {
         corner: [i32; 2],
     ) {
         let [least, greatest] = self.depths_in_block(walk.covering, corner);
+        // If the triangle's farthest depth in the block is in front of the block's nearest, no
+        // depth has to be compared.
         let overwrites = self.hierarchical && least > buffer.blocks[block].nearest;
         for group in 0..8 {
             let first = [corner[0] + (group & 1) * 4, corner[1] + (group >> 1) * 2];
@@ -282,8 +294,8 @@ impl Cover<'_> {
         self.area.point(pixel, self.offsets[sample])
     }
 
-    /// Writes the covered lanes that are nearer than what is there; whether
-    /// there were any.
+    /// Stores the covered lanes that are nearer than what is there. Returns whether there
+    /// were any.
     #[inline(always)]
     fn compete<S: Simd>(
         &self,
@@ -323,8 +335,8 @@ impl Cover<'_> {
         seen
     }
 
-    /// Counts so much work for ties; whether they are to be decided. They are not where the tile
-    /// has too many and is drawn again.
+    /// Counts work spent on ties. Returns whether they are to be decided: not if the tile has too
+    /// many and is drawn again.
     #[inline(always)]
     pub(super) fn may_decide(&self, units: u32) -> bool {
         self.ties.spend(units) || !self.may_give_up

@@ -1,4 +1,4 @@
-//! Perspective-correct weights of triangles' corners at eight points, and their
+//! Perspective-correct barycentric coordinates at eight points, one in each lane, and their
 //! derivatives.
 //!
 //! With `E_i` the edge functions (exact, not negative within the triangle) and
@@ -15,7 +15,7 @@ use super::triangle_lanes::TriangleLanes;
 use crate::simd::{Each, F32, I32, Row, Simd, greater, inlined, lesser, prelude::*};
 
 /// Where eight points lie in their triangles.
-pub(crate) struct Weights<S: Simd> {
+pub(crate) struct Barycentrics<S: Simd> {
     /// Perspective-correct weights of the corners.
     pub(crate) weights: [F32<S>; 3],
     /// Derivatives of the weights of corners 1 and 2, to the right and
@@ -31,11 +31,13 @@ pub(crate) struct Weights<S: Simd> {
 }
 
 impl<S: Simd> TriangleLanes<'_, S> {
-    /// What is worth finding ahead at points in 1/256 pixel from the tile's corner.
+    /// The weights at points in 1/256 pixel from the tile's corner, computed ahead of shading
+    /// because the division takes longest.
     #[inline(always)]
     pub(super) fn place(&self, simd: S, point: [I32<S>; 2]) -> Placed {
         let (edges, _) = self.edges(simd, point);
         let shares = self.shares(edges);
+        // One division for all three weights.
         let inverse = F32::splat(simd, 1.0) / (shares[0] + shares[1] + shares[2]);
         let row = inlined(
             #[inline(always)]
@@ -52,7 +54,7 @@ impl<S: Simd> TriangleLanes<'_, S> {
 
     /// The weights at points, and all else that may be asked of them.
     #[inline(always)]
-    pub(super) fn at(&self, simd: S, placed: &Placed) -> Weights<S> {
+    pub(super) fn at(&self, simd: S, placed: &Placed) -> Barycentrics<S> {
         let point = placed.point(simd);
         let value = inlined(
             #[inline(always)]
@@ -62,17 +64,19 @@ impl<S: Simd> TriangleLanes<'_, S> {
         let (weights, inverse) = ([value(a), value(b), value(c)], value(&placed.inverse));
         let (edges, area) = self.edges(simd, point);
         let shares = self.shares(edges);
+        // The shares are linear on the screen, so their steps are the same everywhere in the
+        // triangle: those of the edge functions, each times its vertex's 1/w.
         let [share_x, share_y] = [self.right, self.down].each(
             #[inline(always)]
             |step| self.share_steps(step),
         );
-        // A power of two, which rounds nothing wherever it is multiplied in.
+        // From 1/256 pixel to pixels. Multiplying by a power of two rounds nothing.
         let pixel = F32::splat(simd, 256.0);
         let [right, down] = [share_x, share_y].each(
             #[inline(always)]
             |steps| slopes(steps, weights, inverse * pixel),
         );
-        Weights {
+        Barycentrics {
             weights,
             slopes: [[right[0], down[0]], [right[1], down[1]]],
             edges,
@@ -80,6 +84,8 @@ impl<S: Simd> TriangleLanes<'_, S> {
             total: shares[0] + shares[1] + shares[2],
             distances: [0, 1, 2].each(
                 #[inline(always)]
+                // A share is zero on the edge opposite its corner and linear, so the share over the
+                // length of its gradient is the distance from that edge.
                 |k| {
                     let (dx, dy) = (share_x[k] * pixel, share_y[k] * pixel);
                     shares[k] / (dx * dx + dy * dy).sqrt()
@@ -89,8 +95,9 @@ impl<S: Simd> TriangleLanes<'_, S> {
     }
 }
 
-impl<S: Simd> Weights<S> {
-    /// The depth, within the range of the vertices'.
+impl<S: Simd> Barycentrics<S> {
+    /// The depth, within the range of the vertices' depths. Depth is linear on the screen, so it
+    /// is weighted by the plain edge functions.
     #[inline(always)]
     pub(super) fn depth(&self, simd: S, cold: &[Row; cold::COUNT]) -> F32<S> {
         let [a, b, c]: [F32<S>; 3] = [0, 1, 2].each(
@@ -109,7 +116,9 @@ impl<S: Simd> Weights<S> {
     }
 }
 
-/// Derivatives of the weights of corners 1 and 2, by the quotient rule.
+/// Derivatives of the weights of corners 1 and 2 along one axis, by the quotient rule: with
+/// `L` a share, `T` the sum of all and `w = L / T`, `w' = (L' - w T') / T`. Corner 0 needs none, as
+/// the three weights add up to 1.
 #[inline(always)]
 fn slopes<S: Simd>(steps: [F32<S>; 3], weights: [F32<S>; 3], inverse: F32<S>) -> [F32<S>; 2] {
     let all = steps[0] + steps[1] + steps[2];

@@ -1,10 +1,11 @@
-//! Where a triangle is seen in front of what a tile holds: the walk of masked
-//! and translucent triangles, eight samples at a time.
+//! Depth queries: where a masked or translucent triangle lies in front of what a tile holds, eight
+//! samples at a time. A lane is one pixel of a group of 4×2. Nothing is stored: the caller gets the
+//! visible lanes and their depths.
 
 use super::blocks::Blocks;
 use super::buffer::{NOBODY, VisibilityBuffer};
-use super::{Covering, Ties, TileArea};
-use crate::bin::Place;
+use super::{Ties, TileArea, TileTriangle};
+use crate::bin::TriangleRef;
 use crate::frame::FrameView;
 use crate::simd::{Each, F32, I32, LANES, Mask, Simd, lane_numbers, prelude::*};
 
@@ -15,14 +16,14 @@ pub(crate) struct TileView<'t> {
     pub(crate) area: &'t TileArea,
     pub(crate) buffer: &'t VisibilityBuffer,
     /// The tile's triangles.
-    pub(crate) places: &'t [Place],
+    pub(crate) triangles: &'t [TriangleRef],
     pub(crate) ties: &'t Ties,
 }
 
 /// A triangle with its index among the tile's.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidate<'c> {
-    pub(crate) covering: &'c Covering,
+    pub(crate) covering: &'c TileTriangle,
     pub(crate) place: u32,
 }
 
@@ -104,11 +105,11 @@ impl TileView<'_> {
     }
 
     fn wins_tie(&self, place: u32, winner: u32) -> bool {
-        winner != NOBODY && self.ties.compare(self.frame, self.places, [place, winner]).is_lt()
+        winner != NOBODY && self.ties.compare(self.frame, self.triangles, [place, winner]).is_lt()
     }
 
     #[inline(always)]
-    fn hides_block(&self, block: usize, covering: &Covering) -> bool {
+    fn hides_block(&self, block: usize, covering: &TileTriangle) -> bool {
         self.frame.hierarchical && self.buffer.blocks[block].farthest > covering.depth.high
     }
 
@@ -128,7 +129,7 @@ impl TileView<'_> {
 
     /// The lanes of a group that a triangle covers, in the picture.
     #[inline(always)]
-    fn covered<S: Simd>(&self, simd: S, covering: &Covering, group: SampleGroup) -> Mask<S> {
+    fn covered<S: Simd>(&self, simd: S, covering: &TileTriangle, group: SampleGroup) -> Mask<S> {
         let covered = match &covering.special {
             None => {
                 let (columns, rows) = columns_and_rows(simd);
@@ -190,7 +191,7 @@ fn columns_and_rows<S: Simd>(simd: S) -> (I32<S>, I32<S>) {
 
 /// Rows and columns of the groups of a block that a triangle may touch.
 #[inline(always)]
-fn groups(covering: &Covering, [left, top]: [i32; 2]) -> impl Iterator<Item = (i32, i32)> {
+fn groups(covering: &TileTriangle, [left, top]: [i32; 2]) -> impl Iterator<Item = (i32, i32)> {
     let clip = |[first, last]: [i32; 2], start: i32, shift: i32| {
         ((first.max(start) - start) >> shift)..=((last.min(start + 7) - start) >> shift)
     };
