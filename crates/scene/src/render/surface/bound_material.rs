@@ -1,4 +1,4 @@
-//! From a material to its look on a mesh: which values are interpolated, which
+//! From a material to its parameters on a mesh: which values are interpolated, which
 //! textures are read, where light is found. What the material does not have, and
 //! what the mesh cannot show, is left out.
 
@@ -33,10 +33,12 @@ pub(crate) struct BoundMaterial<'a> {
 impl<'a> BoundMaterial<'a> {
     pub(crate) fn new(material: &Material, columns: &Columns, context: &MaterialContext<'a>) -> Self {
         let mut fitting = Fitting { context, columns, layout: Layout::default() };
+        let optics = Optics::of(material);
+        // The law of reflection that the settings choose, for comparison.
         let material = Material { shading: context.reflection.of(material), ..material.clone() };
         let illumination = illumination(&material.shading, context.shading);
         let in_pixels = illumination == Illumination::InPixels;
-        let optics = Optics::of(&material).filter(|_| in_pixels && context.lighting.bounces > 0);
+        let optics = optics.filter(|_| in_pixels && context.lighting.bounces > 0);
         let is_drawn = |texture: MaterialTexture| match texture.row().drawn_if {
             DrawnIf::Always => true,
             DrawnIf::LightInPixels => in_pixels,
@@ -73,7 +75,7 @@ impl<'a> BoundMaterial<'a> {
     }
 }
 
-/// A look while it is put together.
+/// A material while it is bound.
 struct Fitting<'o, 'a> {
     context: &'o MaterialContext<'a>,
     columns: &'o Columns,
