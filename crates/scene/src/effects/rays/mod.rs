@@ -126,7 +126,7 @@ impl RayScene {
             }
             cast += 1;
             let ray = Ray { origin: origins[lane], direction };
-            if self.triangles.bvh.meets_any(&ray, 0.0..reach[lane]) { 0.0 } else { 1.0 }
+            if self.triangles.bvh.occluded(&ray, 0.0..reach[lane]) { 0.0 } else { 1.0 }
         });
         self.cast[0].fetch_add(cast, Ordering::Relaxed);
         F32::simd_from(simd, lit)
