@@ -17,16 +17,8 @@ pub(crate) fn draw(
     colors: [Vec3; 3],
     settings: &RenderSettings,
 ) -> Result<(), Failure> {
-    let side = (frame.width.min(frame.height) / SHARE).max(1);
-    let settings = RenderSettings {
-        background: Background::Transparent,
-        lighting: Lighting::Studio,
-        threads: settings.threads,
-        simd: settings.simd,
-        ..RenderSettings::new(side, side)
-    };
-    let arrows =
-        render(&arrows(colors), &looking_at_arrows(camera.orientation), &settings).map_err(Failure::work)?;
+    let side = side(frame.width, frame.height);
+    let arrows = arrows(side, camera.orientation, colors, settings)?;
     let top = frame.height - side;
     for y in 0..side {
         for x in 0..side {
@@ -40,6 +32,28 @@ pub(crate) fn draw(
     Ok(())
 }
 
+/// The width and height of the arrows over a picture of a size, all in pixels.
+pub(crate) fn side(width: u32, height: u32) -> u32 {
+    (width.min(height) / SHARE).max(1)
+}
+
+/// Arrows of these colours (linear RGB) on nothing, as a camera of this orientation sees them.
+pub(crate) fn arrows(
+    side: u32,
+    orientation: DQuat,
+    colors: [Vec3; 3],
+    settings: &RenderSettings,
+) -> Result<Frame, Failure> {
+    let settings = RenderSettings {
+        background: Background::Transparent,
+        lighting: Lighting::Studio,
+        threads: settings.threads,
+        simd: settings.simd,
+        ..RenderSettings::new(side, side)
+    };
+    render(&scene(colors), &looking_at_arrows(orientation), &settings).map_err(Failure::work)
+}
+
 /// Turned as the picture's camera, and at rest in the middle of the arrows.
 fn looking_at_arrows(orientation: DQuat) -> Camera {
     /// Arrows have a length of 1.
@@ -48,7 +62,7 @@ fn looking_at_arrows(orientation: DQuat) -> Camera {
     Camera { position: orientation * DVec3::Z * 4.0, orientation, projection }
 }
 
-fn arrows(colors: [Vec3; 3]) -> Scene {
+fn scene(colors: [Vec3; 3]) -> Scene {
     let mut scene = Scene::new();
     // Cylinders and cones stand along +Y.
     let turns = [

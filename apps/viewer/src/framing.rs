@@ -9,6 +9,7 @@ use trigon_camera::{AxisView, Camera, Extent, Orbit, Projection};
 use trigon_math::{Bounds3, DQuat, DVec3};
 use trigon_scene::{OVERVIEW_DIRECTION, Scene};
 
+use crate::args::ExactCamera;
 use crate::failure::Failure;
 
 /// The camera flags.
@@ -78,6 +79,8 @@ pub(crate) enum Eye {
     Position(DVec3),
     /// Where the file's own camera of this number stands.
     SceneCamera(usize),
+    /// This camera, whatever else is said.
+    Exact(ExactCamera),
 }
 
 /// A camera, and what it looks at.
@@ -91,13 +94,18 @@ pub(crate) struct Shot {
 impl Framing {
     /// The camera for a scene.
     pub(crate) fn shot(&self, scene: &Scene, aspect: f64) -> Result<Shot, Failure> {
+        if let Eye::Exact(ExactCamera { camera, distance }) = self.eye {
+            return Ok(Shot { camera, distance });
+        }
         let points: Vec<_> = scene.visible_points().collect();
         let bounds = Bounds3::from_points(points.iter().copied().filter(|point| point.is_finite()));
         let center = self.focal_point.unwrap_or_else(|| Extent::new(&bounds).center());
         let shot = match self.eye {
             Eye::Position(position) => self.standing(position, center)?,
             Eye::SceneCamera(index) => self.borrowed(scene, index, center)?,
-            Eye::Default | Eye::Direction(_) | Eye::Side(_) => self.fitted(points, center, aspect)?,
+            Eye::Default | Eye::Direction(_) | Eye::Side(_) | Eye::Exact(_) => {
+                self.fitted(points, center, aspect)?
+            }
         };
         let shot = self.scripted(shot);
         Ok(Shot { camera: shot.camera.with_clip_planes(&bounds), ..shot })
@@ -242,7 +250,9 @@ impl Framing {
             Eye::Direction(direction) => {
                 return trigon_camera::orientation_looking(direction, self.view_up());
             }
-            Eye::Default | Eye::Position(_) | Eye::SceneCamera(_) => orbit.look_along(upright(self.up)),
+            Eye::Default | Eye::Position(_) | Eye::SceneCamera(_) | Eye::Exact(_) => {
+                orbit.look_along(upright(self.up));
+            }
         }
         match self.view_up {
             Some(up) => trigon_camera::orientation_looking(orbit.orientation() * DVec3::NEG_Z, up),

@@ -47,6 +47,7 @@ pub(crate) fn load(
         None => None,
     };
     let mut model = Model::new(scene, source.clone(), request)?;
+    model.hide(&request.hidden)?;
     (model.scene_names, model.files, model.odd) = (scene_names, read, odd);
     Ok((model, warnings))
 }

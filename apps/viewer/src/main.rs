@@ -7,6 +7,7 @@
 mod args;
 mod axes;
 mod check;
+mod compare;
 mod explain;
 mod failure;
 mod folders;
@@ -19,11 +20,13 @@ mod model;
 mod moment;
 mod outlet;
 mod picture;
+mod pixel;
 mod replay;
 mod report;
 mod scenery;
 mod scripted;
 mod series;
+mod state;
 mod study;
 #[cfg(feature = "window")]
 mod window;
@@ -60,9 +63,11 @@ fn main() -> ExitCode {
         Mode::Picture { output, capture } => {
             picture::run(&request, output.as_ref(), capture.as_deref(), reporter)
         }
+        Mode::Compare { other, output } => compare::run(&request, other, output, reporter),
         Mode::Replay { capture, output } => replay::run(capture, output.as_ref(), &request, reporter),
         Mode::Window => look_at(&request, reporter),
         Mode::Explain(explanation) => explain::run(&request, *explanation, reporter),
+        Mode::ExplainPixel(at) => pixel::run(&request, *at, reporter),
         Mode::Check => check::run(&request, reporter),
         Mode::Inspect => lists::inspect(&request, reporter),
         Mode::ListReaders => lists::readers(reporter),

@@ -8,7 +8,7 @@ use serde_json::json;
 use trigon_camera::Camera;
 use trigon_math::{Bounds3, DVec3};
 use trigon_mesh::Mesh;
-use trigon_scene::Scene;
+use trigon_scene::{NodeId, Scene};
 
 use crate::args::{Grouping, Request};
 use crate::failure::Failure;
@@ -200,6 +200,45 @@ impl Model {
         scenes.chain(animations).collect()
     }
 
+    /// Hides nodes by their numbers in the tree, or by their names.
+    pub(crate) fn hide(&mut self, nodes: &[String]) -> Result<(), Failure> {
+        let tree: Vec<NodeId> = self.scene.tree().into_iter().map(|(id, _)| id).collect();
+        for wanted in nodes {
+            let is_named = |id: &NodeId| self.scene.node(*id).is_some_and(|node| node.name == *wanted);
+            let numbered = wanted.parse().ok().and_then(|number: usize| tree.get(number).copied());
+            let named = tree.iter().copied().filter(is_named);
+            let found: Vec<NodeId> = numbered.into_iter().chain(named).collect();
+            if found.is_empty() {
+                return Err(Failure::work(format!(
+                    "--hide-nodes={wanted}: there is no such node; --scene-hierarchy shows the {} that there are, numbered from 0",
+                    tree.len()
+                )));
+            }
+            for id in found {
+                if let Some(node) = self.scene.node_mut(id) {
+                    node.visible = false;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The names of its nodes, children moved to the right; the first ones if there are many.
+    pub(crate) fn tree(&self) -> Vec<String> {
+        /// As many as most pictures have room for.
+        const MOST: usize = 40;
+        let nodes = self.scene.tree();
+        let line = |&(id, depth): &(NodeId, usize)| {
+            let name = self.scene.node(id).map_or("", |node| node.name.as_str());
+            format!("{:1$}{2}", "", 2 * depth, if name.is_empty() { "(no name)" } else { name })
+        };
+        let mut lines: Vec<String> = nodes.iter().take(MOST).map(line).collect();
+        if nodes.len() > MOST {
+            lines.push(format!("and {} more", nodes.len() - MOST));
+        }
+        lines
+    }
+
     /// What is in it, for other programs.
     pub(crate) fn facts(&self) -> serde_json::Value {
         let Summary { vertices, edges, faces, nodes, materials, textures, size } = self.summary();
@@ -209,7 +248,8 @@ impl Model {
         json!({
             "file": self.source.first_file(), "vertices": vertices, "edges": edges, "faces": faces,
             "nodes": nodes, "materials": materials, "textures": textures,
-            "size": [size.x, size.y, size.z], "scenes": self.scene_names,
+            "size": [size.x, size.y, size.z], "center": self.bounds.center().map(|center| center.to_array()),
+            "scenes": self.scene_names,
             "animations": animations.collect::<Vec<_>>(),
         })
     }

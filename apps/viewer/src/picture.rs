@@ -196,39 +196,30 @@ fn draw_series(model: &mut Model, request: &Request, outlet: &mut Outlet<'_>) ->
 }
 
 /// What is drawn and written over a picture.
-fn finished(mut frame: Frame, model: &Model, camera: &Camera, request: &Request) -> Result<Frame, Failure> {
-    if let Some(depths) = frame.depth.as_deref().filter(|_| request.display_depth) {
-        frame.color = grey_depths(depths);
-    }
+pub(crate) fn finished(
+    mut frame: Frame,
+    model: &Model,
+    camera: &Camera,
+    request: &Request,
+) -> Result<Frame, Failure> {
     let overlay = &request.overlay;
-    if let Some(colors) = overlay.axes {
-        axes::draw(&mut frame, camera, colors, &request.settings)?;
+    if overlay.shows_axes {
+        axes::draw(&mut frame, camera, overlay.axes, &request.settings)?;
     }
     let environment = request.environment.as_ref().and_then(|file| file.file_name());
     let environment =
         environment.filter(|_| overlay.environment_name).map(|name| name.to_string_lossy().into_owned());
+    let mut left = if overlay.metadata { model.summary().lines() } else { Vec::new() };
+    if overlay.tree {
+        left.extend(model.tree());
+    }
     let text = Lettering {
         top: overlay.name.then(|| model.source.title()).into_iter().collect(),
-        left: if overlay.metadata { model.summary().lines() } else { Vec::new() },
+        left,
         below: environment.into_iter().collect(),
     };
     text.write(&mut frame, overlay.text_scale)?;
     Ok(frame)
-}
-
-/// Near is dark; nothing is white. Greys are in proportion to the distance.
-fn grey_depths(depths: &[f32]) -> Vec<u8> {
-    /// The farthest, so that it is told from the background.
-    const FAR: f32 = 235.0;
-    let finite = || depths.iter().copied().filter(|depth| depth.is_finite());
-    let nearest = finite().fold(f32::INFINITY, |least, depth| if depth < least { depth } else { least });
-    let farthest = finite().fold(0.0, |most: f32, depth| if depth > most { depth } else { most });
-    let range = if farthest > nearest { farthest - nearest } else { 1.0 };
-    let grey = |&depth: &f32| {
-        let grey = if depth.is_finite() { ((depth - nearest) / range * FAR) as u8 } else { 255 };
-        [grey, grey, grey, 255]
-    };
-    depths.iter().flat_map(grey).collect()
 }
 
 /// A picture, and the settings that it was drawn with.

@@ -11,7 +11,8 @@ use crate::failure::Failure;
 /// What is shown beside the model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Scenery {
-    pub(crate) grid: Option<Grid>,
+    pub(crate) grid: Grid,
+    pub(crate) shows_grid: bool,
     /// The length of lines along normals, as a part of the model's diagonal.
     pub(crate) normals: Option<f64>,
     pub(crate) bones: bool,
@@ -19,7 +20,7 @@ pub(crate) struct Scenery {
 }
 
 /// A grid of lines in the plane across the up axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Grid {
     /// Side of a square; `None` for a power of ten that suits the model.
     pub(crate) unit: Option<f64>,
@@ -51,6 +52,9 @@ const SMOOTH_SPRITES: usize = 20_000;
 const MOST_LINES: f64 = 1000.0;
 
 impl Scenery {
+    /// The name of the grid's node.
+    pub(crate) const GRID: &str = "grid";
+
     /// Replaces the model's faces, where that is wanted. To be done before a camera is fitted.
     pub(crate) fn replace(&self, scene: &mut Scene) -> Result<(), Failure> {
         let Some(sprites) = self.sprites else { return Ok(()) };
@@ -88,10 +92,15 @@ impl Scenery {
             let mesh = bone_lines(scene, center);
             added.push(add_lines(scene, "bones", mesh, center, Vec3::new(0.9, 0.5, 0.0)));
         }
-        if let Some(grid) = &self.grid {
-            added.push(grid.add_to(scene, &bounds));
+        if self.shows_grid {
+            added.push(self.grid.add_to(scene, &bounds));
         }
         added
+    }
+
+    /// Adds the grid of a model to a scene; returns its node.
+    pub(crate) fn add_grid(&self, scene: &mut Scene, model: &Scene) -> NodeId {
+        self.grid.add_to(scene, &Bounds3::from_points(model.visible_points()))
     }
 }
 
@@ -114,7 +123,7 @@ impl Grid {
             (from * parts, to * parts)
         });
         let mesh = grid_lines([x, y].map(|(from, to)| (from, to.min(from + MOST_LINES))), step, &turned);
-        add_lines(scene, "grid", mesh, origin, self.color)
+        add_lines(scene, Scenery::GRID, mesh, origin, self.color)
     }
 }
 
@@ -257,7 +266,7 @@ mod tests {
             (Grid { up: DVec3::Z, ..grid() }, (DVec3::new(97.0, 17.0, -1.5), DVec3::new(103.0, 23.0, -1.5))),
         ] {
             let mut scene = scene();
-            let scenery = Scenery { grid: Some(grid), ..Scenery::default() };
+            let scenery = Scenery { grid, shows_grid: true, ..Scenery::default() };
             let added = scenery.add_to(&mut scene);
             let bounds = bounds_of(&scene, added[0]);
             // Positions are f32, of numbers up to 120.
@@ -270,7 +279,8 @@ mod tests {
     fn a_huge_unit_or_a_tiny_one_makes_no_endless_grid() {
         for unit in [1e-9, 1e9] {
             let mut scene = scene();
-            let scenery = Scenery { grid: Some(Grid { unit: Some(unit), ..grid() }), ..Scenery::default() };
+            let grid = Grid { unit: Some(unit), ..grid() };
+            let scenery = Scenery { grid, shows_grid: true, ..Scenery::default() };
             scenery.add_to(&mut scene);
             let lines = scene.meshes().iter().last().expect("the grid").1.mesh().edge_count();
             assert!(lines <= 2 * (MOST_LINES as usize + 1), "{unit}: {lines} lines");

@@ -87,7 +87,7 @@ pub use picture::{Picture, load_image};
 pub use png::{Pixels, encode_png, write_png};
 pub use sequence::{Sequence, write_apng, write_gif};
 pub use warning::Warning;
-pub use write::WriteError;
+pub use write::{WriteError, write_atomically};
 
 /// Runs the examples of the READMEs as tests: this crate's and the project's.
 #[cfg(doctest)]

@@ -62,8 +62,12 @@ pub enum WriteError {
     Stream(#[from] io::Error),
 }
 
-/// Runs `write` on a new file, which is renamed to `path` on success.
-pub(crate) fn write_atomically(
+/// Runs `write` on a new file that takes the name `path` when all went well: `path` is the old file or the whole new
+/// one, also when the program or the machine stops meanwhile.
+///
+/// # Errors
+/// When the folder is missing, not writable or full, or `write` fails. The old file stays then.
+pub fn write_atomically(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), WriteError> {

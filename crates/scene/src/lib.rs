@@ -32,6 +32,7 @@ mod animation;
 mod arena;
 mod background;
 mod check;
+mod display;
 mod effect;
 mod effects;
 mod elements;
@@ -56,6 +57,7 @@ pub use animation::{Animation, Channel, Curve, Interpolation, NodePose, Pose, Pr
 pub use arena::{Arena, Id};
 pub use background::Background;
 pub use check::{Finding, Severity};
+pub use display::Display;
 pub use effect::Effect;
 pub use effects::{
     Absence, AmbientOcclusion, Cause, Decision, EffectCounts, EffectPlan, EffectSettings, Environment,
@@ -72,7 +74,7 @@ pub use material::{
     Occlusion, ParameterField, Shading, TextureBinding,
 };
 pub use node::{Node, NodeId};
-pub use pick::{Nearest, Pick, Picker, Reach, Region};
+pub use pick::{Nearest, Pick, Picker, Reach, Region, Snap, SnapElement};
 pub use render::{RenderError, Renderer, RendererBuilder, render};
 pub use scene::{MeshAsset, MeshId, Scene, SceneError, SceneParts, SkinPose};
 pub use settings::{Lighting, MAX_SIZE, Outputs, Reflection, RenderSettings, ShadingModel, Style};
@@ -82,7 +84,8 @@ pub use texture_asset::{TextureAsset, TextureId};
 pub use transform::Transform;
 pub use trigon_raster::simd::{SimdLevel, SimdLevelError};
 pub use trigon_raster::{
-    Cancel, Filter, MipFilter, Sampler, Stats, Texture, TextureError, TextureFormat, Wrap,
+    Cancel, EdgeExplanation, Filter, FragmentExplanation, MipFilter, PixelExplanation, PrimitiveKind,
+    SampleExplanation, Sampler, StageTimes, Stats, Texture, TextureError, TextureFormat, Verdict, Wrap,
 };
 pub use views::OVERVIEW_DIRECTION;
 /// Re-exports of the crates below, so that a user of scenes needs no others.

@@ -7,6 +7,7 @@ use trigon_raster::simd::SimdLevel;
 use trigon_math::{DVec3, Vec3};
 
 use crate::background::Background;
+use crate::display::Display;
 use crate::effects::EffectSettings;
 use crate::marks::{Marks, VertexPoints};
 
@@ -181,6 +182,8 @@ pub struct RenderSettings {
     pub background: Background,
     /// Faces, edges or both.
     pub style: Style,
+    /// What faces show.
+    pub display: Display,
     /// Width of edges and of loose lines, in pixels. The edges of faces on surfaces are at most 16
     /// pixels wide (fewer with supersampling), and narrower on small faces:
     /// [`trigon_raster::FaceEdges`] defines how much.
@@ -225,6 +228,7 @@ impl RenderSettings {
             samples: 1,
             background: Background::default(),
             style: Style::default(),
+            display: Display::default(),
             line_width: 1.0,
             edge_color: Vec3::splat(0.02),
             edge_opacity: 1.0,
@@ -260,6 +264,11 @@ impl RenderSettings {
         } else {
             0.0
         }
+    }
+
+    /// Which lights, whatever is displayed.
+    pub(crate) fn lighting(&self) -> Lighting {
+        if self.display == Display::Matcap { Lighting::Studio } else { self.lighting }
     }
 
     /// Width over height.

@@ -21,6 +21,11 @@ pub trait Drawer: Send + Sync {
         settings: &RenderSettings,
         cancel: &Cancel,
     ) -> Result<Frame, String>;
+
+    /// Whether it draws drafts, too, while something moves. Usually the renderer does, as it is quick.
+    fn draws_drafts(&self) -> bool {
+        false
+    }
 }
 
 /// The drawer that made an image. Kept alive, so that no other can be mistaken for it.

@@ -79,7 +79,7 @@ pub use keymap::{
 pub use overlay::{Corner, Overlay};
 pub use panes::{Area, Pane};
 pub use refinement::{Comparison, Difference, QualityReport, Refinement};
-pub use shared_scene::SharedScene;
+pub use shared_scene::{Revision, SharedScene};
 pub use stage::{FrameReport, Stage, Visibility};
 pub use waker::Waker;
 

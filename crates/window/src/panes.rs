@@ -138,6 +138,11 @@ impl Views {
         Projector::new(camera, area.size).at_distance(at - area.origin(), distance)
     }
 
+    /// Whether there is one view in all of the window.
+    pub(crate) fn is_one(&self) -> bool {
+        self.parts.is_empty()
+    }
+
     /// Draws all views, each by `draw`, and assembles them.
     pub(crate) fn draw<E>(
         &self,

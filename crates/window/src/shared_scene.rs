@@ -39,7 +39,7 @@ struct Replica {
 
 /// Distinguishes two states of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Revision(u64);
+pub struct Revision(u64);
 
 /// What makes a replica equal to its scene.
 #[derive(Debug)]
@@ -104,7 +104,9 @@ impl SharedScene {
         values.collect()
     }
 
-    pub(crate) fn revision(&self) -> Revision {
+    /// Tells this state from every other one: whoever derives something from the scene knows by it when to do so again.
+    #[must_use]
+    pub fn revision(&self) -> Revision {
         self.revision
     }
 }

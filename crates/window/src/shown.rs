@@ -9,7 +9,7 @@ use std::sync::{Arc, Weak};
 use trigon_camera::Viewport;
 use trigon_math::{DVec2, DVec3};
 use trigon_mesh::Mesh;
-use trigon_scene::{Frame, Hit, NodeId, Outputs, Scene};
+use trigon_scene::{Frame, Hit, NodeId, Outputs, Picker, Scene, Snap};
 
 use crate::canvas::source_pixel;
 use crate::panes::Views;
@@ -61,6 +61,19 @@ impl Shown {
         let distance = *self.frame.depth.as_ref()?.get(pixel)?;
         let point = self.views.at_distance(at, window, distance.into())?;
         Some((Hit { node: *node, face }, point))
+    }
+}
+
+impl Shown {
+    /// What a pointer at a point of a window of this size snaps to, within a radius in the window's pixels. `None` while
+    /// the picture is a draft, whose pixels are too large, and with four views.
+    pub(crate) fn snap(&self, at: DVec2, radius: f64, window: Viewport, scene: &Scene) -> Option<Snap> {
+        let size = Viewport { width: self.frame.width, height: self.frame.height };
+        let is_whole = size == window && self.views.is_one();
+        let is_inside = at.cmpge(DVec2::ZERO).all() && at.cmplt(window.size()).all();
+        (is_whole && is_inside)
+            .then(|| Picker::new(scene, &self.views.main, &self.frame).snap(at, radius))
+            .flatten()
     }
 }
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 use trigon_camera::{Camera, DEFAULT_MARGIN, Orbit, Viewport};
 use trigon_math::{Bounds3, DVec2, DVec3};
 use trigon_scene::quality::Preset;
-use trigon_scene::{Hit, NodeId, RenderSettings, Shadows};
+use trigon_scene::{Hit, NodeId, RenderSettings, Shadows, Snap, StageTimes};
 
 use crate::drawer::{Drawer, DrawnBy};
 use crate::input::InputOwner;
@@ -33,6 +33,8 @@ pub struct FrameReport {
     pub render: Duration,
     /// Conversion, interface, and handing it to the window system.
     pub present: Duration,
+    /// The stages of `render`, while [`Stage::stage_times`] are shown. Those in tiles are sums over all threads.
+    pub stages: StageTimes,
 }
 
 /// Whether something is visible.
@@ -103,6 +105,8 @@ pub struct Stage {
     pub cheat_sheet: Visibility,
     /// Whether the frame time is shown.
     pub frame_time: Visibility,
+    /// Whether the time of each of its stages is shown.
+    pub stage_times: Visibility,
     /// The size of text and widgets, in addition to the display's own scale: 0.5 to 4.
     pub text_scale: f32,
     /// The search text of the key list.
@@ -148,6 +152,7 @@ impl Stage {
             selection: None,
             cheat_sheet: Visibility::Hidden,
             frame_time: Visibility::Hidden,
+            stage_times: Visibility::Hidden,
             text_scale: 1.0,
             command_search: String::new(),
             title: title.into(),
@@ -271,6 +276,13 @@ impl Stage {
         self.shown.as_ref()?.pick(at, self.viewport, &self.scene)
     }
 
+    /// What a pointer at this point snaps to, within a radius, both in physical pixels: a vertex, an edge or a face of
+    /// the picture in the window. `None` on the background, and while that picture is a draft.
+    #[must_use]
+    pub fn snap(&self, at: DVec2, radius: f64) -> Option<Snap> {
+        self.shown.as_ref()?.snap(at, radius, self.viewport, &self.scene)
+    }
+
     /// The box around the selected object in the world.
     #[must_use]
     pub fn selection_bounds(&self) -> Option<Bounds3> {
@@ -378,6 +390,13 @@ impl Stage {
         self.fitted(settings, shrink)
     }
 
+    /// What draws the window's picture again: [`Stage::settings`] for the window's size, with line widths in
+    /// physical pixels.
+    #[must_use]
+    pub fn picture_settings(&self) -> RenderSettings {
+        RenderSettings { outputs: self.settings.outputs, ..self.fitted(self.settings.clone(), 1.0) }
+    }
+
     /// For the window's size, reduced by a factor in each direction.
     fn fitted(&self, mut settings: RenderSettings, shrink: f64) -> RenderSettings {
         settings.outputs = shown::OUTPUTS;
@@ -394,9 +413,10 @@ impl Stage {
 
     /// Everything that the window's image depends on.
     pub(crate) fn subject(&self) -> Subject {
-        let Self { orbit, viewport, scale, four_views, .. } = *self;
+        let Self { orbit, viewport, scale, four_views, stage_times, .. } = *self;
         let (settings, drawer) = (self.settings.clone(), DrawnBy(self.drawer.clone()));
-        Subject { scene: self.scene.revision(), orbit, four_views, settings, drawer, viewport, scale }
+        let scene = self.scene.revision();
+        Subject { scene, orbit, four_views, settings, drawer, viewport, scale, stage_times }
     }
 }
 
@@ -410,4 +430,6 @@ pub(crate) struct Subject {
     drawer: DrawnBy,
     viewport: Viewport,
     scale: f64,
+    /// Whoever wants to see times waits for a picture that has them.
+    stage_times: Visibility,
 }

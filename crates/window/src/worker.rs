@@ -6,13 +6,14 @@ use std::thread;
 use std::time::Duration;
 
 use trigon_camera::Camera;
-use trigon_scene::{Cancel, Frame, Outputs, RenderError, RenderSettings, Renderer, Scene};
+use trigon_scene::{Cancel, Frame, Outputs, RenderError, RenderSettings, Renderer, Scene, StageTimes};
 
 use crate::drawer::Drawer;
 use crate::pacing::Quality;
 use crate::panes::Views;
 use crate::refinement::{Compared, compare};
 use crate::shared_scene::{Revision, SceneUpdate};
+use crate::stage::Visibility;
 
 /// The purpose of an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +29,8 @@ pub(crate) struct Job {
     pub(crate) purpose: Purpose,
     /// The cameras to draw from.
     pub(crate) views: Views,
+    /// Whether somebody looks at the time of each stage.
+    pub(crate) stage_times: Visibility,
     pub(crate) task: Task,
 }
 
@@ -65,6 +68,8 @@ pub(crate) struct Finished {
     pub(crate) purpose: Purpose,
     pub(crate) views: Views,
     pub(crate) took: Duration,
+    /// Of the last view, if they were asked for.
+    pub(crate) stages: StageTimes,
     pub(crate) product: Result<Product, Unfinished>,
 }
 
@@ -177,7 +182,8 @@ impl Worker {
     fn forget_others(&mut self, purpose: Purpose) {
         let Some(second) = self.second.as_mut().filter(|_| !purpose.is_refinement()) else { return };
         if second.held.take().is_some() {
-            let forget = Job { purpose, views: Camera::default().into(), task: Task::Forget };
+            let stage_times = Visibility::Hidden;
+            let forget = Job { purpose, views: Camera::default().into(), stage_times, task: Task::Forget };
             second.hands.begin((0, forget, Cancel::default()));
         }
     }
@@ -198,6 +204,7 @@ impl Worker {
                 purpose,
                 views,
                 took: Duration::ZERO,
+                stages: StageTimes::default(),
                 product: Err(Unfinished::Cancelled),
             });
         }
@@ -286,8 +293,12 @@ impl Drawing {
         Self { renderer: Renderer::builder().build(), scene: Scene::new(), clock: Box::new(clock) }
     }
 
-    fn run(&mut self, Job { purpose, views, task }: Job, cancel: &Cancel) -> Finished {
+    fn run(&mut self, Job { purpose, views, stage_times, task }: Job, cancel: &Cancel) -> Finished {
         let begun = (self.clock)();
+        match stage_times {
+            Visibility::Shown => self.renderer.time_stages(),
+            Visibility::Hidden => self.renderer.stop_timing(),
+        }
         let product = match task {
             Task::Draw { scene, settings, drawer } => {
                 // Also for a cancelled image: the next update relies on it.
@@ -310,7 +321,8 @@ impl Drawing {
                 Err(Unfinished::Cancelled)
             }
         };
-        Finished { purpose, views, took: (self.clock)().saturating_sub(begun), product }
+        let (took, stages) = ((self.clock)().saturating_sub(begun), self.renderer.stats().times);
+        Finished { purpose, views, took, stages, product }
     }
 }
 

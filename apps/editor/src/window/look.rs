@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use trigon_edit::scene::{NodeId, Reach, Style};
 use trigon_edit::{DisplayMarks, X_RAY};
 use trigon_window::Stage;
-use trigon_window::scene::{Lighting, Reflection};
+use trigon_window::scene::{Display, Lighting, Reflection};
 
 use super::editor::Editor;
 use super::surfaces::Surfaces;
@@ -62,6 +62,7 @@ fn set_look(editor: &Editor, stage: &mut Stage) {
         _ if editor.view.x_ray => Style::SurfaceWithEdges,
         _ => Style::Surface,
     };
+    settings.display = if display == DisplayMode::Matcap { Display::Matcap } else { Display::Shaded };
     settings.lighting = if display == DisplayMode::Rendered { Lighting::Automatic } else { Lighting::Studio };
     settings.reflection =
         if display == DisplayMode::Solid { Reflection::Lambert } else { Reflection::Material };

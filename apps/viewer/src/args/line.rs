@@ -11,6 +11,7 @@ use clap::{ArgMatches, CommandFactory, FromArgMatches};
 use super::config::{Config, Setting};
 use super::raw::RawArgs;
 use super::{names, words};
+use crate::state::State;
 
 /// All words that flags are read from.
 #[derive(Clone, Debug, Default)]
@@ -32,6 +33,15 @@ impl CommandLine {
         let typed = words::prepared(&command, typed).map_err(conflict)?;
         let line = Self { typed, ..Self::default() };
         let raw = line.raw(None)?;
+        let line = match &raw.statefile {
+            None => line,
+            Some(file) => {
+                let state = State::read(file).map_err(conflict)?;
+                let mut typed = state.words(!(raw.files.is_empty() && raw.input.is_empty()));
+                typed.extend(line.typed);
+                Self { typed, ..Self::default() }
+            }
+        };
         if raw.command.is_some() || raw.no_config == Some(true) {
             return Ok(line);
         }
@@ -84,6 +94,57 @@ impl CommandLine {
         let id = identifier(flag)?;
         let values = matches.get_raw(&id)?;
         Some(values.map(OsStr::to_string_lossy).collect::<Vec<_>>().join(","))
+    }
+
+    /// The flags that were typed or come from configuration files, one word each, without files, without flags of the
+    /// window alone, and without these. Flags that do not change what is shown are left out, too.
+    ///
+    /// # Errors
+    /// When the words make no sense.
+    pub(crate) fn flags_but(
+        &self,
+        decided: &[&str],
+        file: Option<&Path>,
+    ) -> Result<Vec<String>, clap::Error> {
+        /// They are about the program, not about the picture.
+        const ASIDE: [&str; 20] = [
+            "config",
+            "no-config",
+            "define",
+            "reset",
+            "unset",
+            "command-script",
+            "statefile",
+            "compare",
+            "reference",
+            "interaction-record",
+            "interaction-play",
+            "interaction-style",
+            "dpi-aware",
+            "fps",
+            "notifications",
+            "refine",
+            "watch",
+            "verbose",
+            "screenshot-filename",
+            "statefile-filename",
+        ];
+        let (matches, command) = (self.matches(file)?, RawArgs::command());
+        let mut words = Vec::new();
+        for argument in command.get_arguments() {
+            let Some(flag) = argument.get_long() else { continue };
+            let id = argument.get_id().as_str();
+            let is_typed = matches.value_source(id) == Some(ValueSource::CommandLine);
+            let takes_values = argument.get_action().takes_values();
+            if !is_typed || !takes_values || decided.contains(&flag) || ASIDE.contains(&flag) {
+                continue;
+            }
+            for values in matches.get_raw_occurrences(id).into_iter().flatten() {
+                let values: Vec<_> = values.map(OsStr::to_string_lossy).collect();
+                words.push(format!("--{flag}={}", values.join(",")));
+            }
+        }
+        Ok(words)
     }
 
     /// A flag with the value that follows one in the list of those that it takes, around the

@@ -3,8 +3,11 @@
 
 mod animation;
 mod beside;
+mod camera;
 mod config;
 mod effects;
+#[cfg(feature = "window")]
+mod flags;
 mod gpu;
 mod help;
 mod line;
@@ -23,7 +26,10 @@ mod words;
 #[cfg(feature = "window")]
 pub(crate) use animation::AnimationProgress;
 pub(crate) use beside::{Beside, Format};
+pub(crate) use camera::ExactCamera;
 pub(crate) use effects::Explanation;
+#[cfg(feature = "window")]
+pub(crate) use flags::{DECIDED, of_settings};
 pub(crate) use help::short as short_help;
 pub(crate) use line::CommandLine;
 pub(crate) use output::{Destination, Subject, Template};

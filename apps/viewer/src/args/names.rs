@@ -6,7 +6,7 @@ use clap::CommandFactory;
 use super::raw::RawArgs;
 
 /// An option of F3D's library, and the flag that sets it.
-const LIBRARY: [(&str, &str); 81] = [
+const LIBRARY: [(&str, &str); 82] = [
     ("interactor.invert_zoom", "invert-zoom"),
     ("interactor.style", "interaction-style"),
     ("model.checkerboard.enable", "checkerboard"),
@@ -83,6 +83,7 @@ const LIBRARY: [(&str, &str); 81] = [
     ("ui.hdri_filename", "hdri-filename"),
     ("ui.loader_progress", "loading-progress"),
     ("ui.metadata", "metadata"),
+    ("ui.scene_hierarchy", "scene-hierarchy"),
     ("ui.notifications.enable", "notifications"),
     ("ui.scale", "font-scale"),
     ("ui.x_color", "x-color"),
@@ -91,7 +92,7 @@ const LIBRARY: [(&str, &str); 81] = [
 ];
 
 /// F3D's flags that do nothing here that they could do, by their long and short names.
-const REFUSED: [(&str, &str, &str); 25] = [
+const REFUSED: [(&str, &str, &str); 22] = [
     (
         "axes-grid",
         "",
@@ -114,19 +115,17 @@ const REFUSED: [(&str, &str, &str); 25] = [
     ("font-file", "", "text has a font of its own"),
     ("grid-reflection", "", "the grid is lines, which reflect nothing"),
     ("invert-zoom", "", "the wheel zooms in when it turns away from you, in every window"),
-    ("load-statefile", "", NO_STATE),
     ("position", "", "the window manager places the window"),
     ("save-statefile", "", NO_STATE),
     ("scalar-coloring", "s", NO_ARRAYS),
-    ("scene-hierarchy", "", "there is no tree of the scene; --no-render --json lists what is in a file"),
-    ("statefile-filename", "", NO_STATE),
     ("texture-matcap", "", "there are no matcaps; --reflection and --hdri-file change how surfaces are lit"),
 ];
 
 const NO_ARRAYS: &str =
     "values of a simulation are not coloured; colours that a file gives its vertices are shown without it";
 
-const NO_STATE: &str = "there are no state files; --capture=FILE.trigon keeps scene, camera and settings, and --replay draws them again";
+const NO_STATE: &str =
+    "state files are saved in the window, with Ctrl+S; --statefile=FILE shows what one holds";
 
 /// The flag for an option, by F3D's name for it in its library or on the command line.
 ///

@@ -11,10 +11,11 @@ use regex::Regex;
 use trigon_camera::Viewport;
 use trigon_io::{Format, SceneChoice};
 use trigon_math::{DVec3, Vec3};
-use trigon_scene::SimdLevel;
+use trigon_scene::{Display, SimdLevel};
 
 use super::animation::AnimationArgs;
 use super::beside::Beside;
+use super::camera::ExactCamera;
 use super::effects::EffectArgs;
 use super::gpu::GpuOnly;
 use super::material::MaterialArgs;
@@ -146,6 +147,13 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "FILE.png", conflicts_with_all = ["replay", "turntable"], help_heading = "Files")]
     pub(crate) reference: Option<PathBuf>,
 
+    /// Show this model beside the other one, with one camera for both: side by side, in turn (B), or where they differ (Shift+B)
+    ///
+    /// With --output both are written beside each other, and beside a map of their differences; the exit code is 3 if
+    /// any pixel differs. docs/viewer.md has the two lines that make it a tool for git difftool.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["replay", "capture", "reference", "turntable", "outputs"], help_heading = "Files")]
+    pub(crate) compare: Option<PathBuf>,
+
     /// How much is too much: 0 only for the same look, 0.04 for what is hardly seen
     #[arg(long, value_name = "ERROR", default_value = "0.04", value_parser = values::share, allow_negative_numbers = true, help_heading = "Files")]
     pub(crate) reference_threshold: f64,
@@ -153,6 +161,13 @@ pub(crate) struct RawArgs {
     /// Say what is wrong with the files instead of drawing them: exit code 1 if anything is
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, conflicts_with_all = ["output", "capture", "replay"], help_heading = "Files")]
     pub(crate) check: Option<bool>,
+
+    /// Say why this pixel looks as it does: all triangles that touch it, and which of them is seen; columns and rows count from 0
+    ///
+    /// For each sample of the pixel: the triangles whose bounding box holds it, the exact values of their edge
+    /// functions (in 1/65536 square pixels, twice the area), their depths, and which of them is seen and why.
+    #[arg(long, value_name = "X,Y", value_parser = values::pixel, conflicts_with_all = ["output", "capture", "replay", "check", "explain"], help_heading = "Files")]
+    pub(crate) explain_pixel: Option<[u32; 2]>,
 
     /// The name of the window's screenshots; as for --output
     #[arg(long, value_name = "FILE", value_parser = super::output::picture_name, default_value = "{model}_{n}.png", help_heading = "Window")]
@@ -214,6 +229,22 @@ pub(crate) struct RawArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Camera", conflicts_with_all = ["view", "camera_direction", "camera_position", "camera_focal_point", "camera_view_up"])]
     pub(crate) camera_index: Option<i64>,
 
+    /// Exactly this camera, as the window copies it (Ctrl+C) and keeps it in state files; overrides all others
+    #[arg(long, value_name = "CAMERA", allow_hyphen_values = true, help_heading = "Camera")]
+    pub(crate) camera_exact: Option<ExactCamera>,
+
+    /// Hide these nodes: numbers in the order of --scene-hierarchy, from 0, or names
+    #[arg(long, value_name = "NODE,...", value_delimiter = ',', help_heading = "Scenery")]
+    pub(crate) hide_nodes: Vec<String>,
+
+    /// Show what the window kept in this file (Ctrl+S): its files, camera and settings; flags that are typed win
+    #[arg(long, alias = "load-statefile", value_name = "FILE.json", help_heading = "Files")]
+    pub(crate) statefile: Option<PathBuf>,
+
+    /// Where the window keeps its state with Ctrl+S, and loads it from with Ctrl+L; as for --output
+    #[arg(long, value_name = "FILE.json", default_value = "{model}.state.json", value_parser = Template::parse, help_heading = "Window")]
+    pub(crate) statefile_filename: Template,
+
     /// Draw the edges of the model's polygons on it
     #[arg(long, short, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, help_heading = "Look", conflicts_with = "style")]
     pub(crate) edges: Option<bool>,
@@ -238,8 +269,15 @@ pub(crate) struct RawArgs {
     #[arg(long, short = 'p', num_args = 0..=1, require_equals = true, default_missing_value = "ddp", value_name = "METHOD", hide = true, help_heading = "Look")]
     pub(crate) blending: Option<Blending>,
 
-    /// Show how far everything is, in grey: near is dark
-    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, conflicts_with = "replay", help_heading = "Look")]
+    /// What faces show: shaded, matcap, base-color, normal, geometric-normal, uv, metallic, roughness, occlusion, emission, alpha or depth
+    ///
+    /// matcap is one clay for all. Normals are along the world's axes, with -1 to 1 as 0 to 1; all values but colours
+    /// are shown as they are stored: the byte of a pixel is 255 times the value.
+    #[arg(long, value_name = "MODE", default_value = "shaded", value_parser = values::display, help_heading = "Look")]
+    pub(crate) display: Display,
+
+    /// Show how far everything is, in grey: near is dark; the same as --display=depth
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL", value_parser = values::switch, conflicts_with_all = ["replay", "display"], help_heading = "Look")]
     pub(crate) display_depth: Option<bool>,
 
     /// Make every light this many times as bright

@@ -12,7 +12,7 @@ use regex::Regex;
 use trigon_camera::AxisView;
 use trigon_io::{Format, SceneChoice};
 use trigon_math::Vec3;
-use trigon_scene::{Background, RenderSettings, Style};
+use trigon_scene::{Background, Display, RenderSettings, Style};
 
 use self::checks::{check_frames, check_output, check_outputs, check_stdin};
 use super::animation::{AnimationArgs, AnimationProgress};
@@ -61,8 +61,9 @@ pub(crate) struct Request {
     pub(crate) overlay: Overlay,
     /// What the picture is compared with.
     pub(crate) reference: Option<Reference>,
-    /// Whether far and near are drawn as grey.
-    pub(crate) display_depth: bool,
+    /// The model that the window shows beside the first.
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
+    pub(crate) compared: Option<PathBuf>,
     /// Commands to be done one after the other.
     pub(crate) script: Option<PathBuf>,
     /// Whether facts are written as JSON.
@@ -73,6 +74,11 @@ pub(crate) struct Request {
     pub(crate) shows_progress: bool,
     /// The name of screenshots.
     pub(crate) screenshot: Template,
+    /// The name of state files.
+    #[cfg_attr(not(feature = "window"), expect(dead_code, reason = "there is no window"))]
+    pub(crate) state_file: Template,
+    /// Nodes that are hidden, by number or name.
+    pub(crate) hidden: Vec<String>,
     /// What all of this was read from.
     pub(crate) line: CommandLine,
     /// Where the camera stands.
@@ -119,7 +125,10 @@ pub(crate) struct Frames {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Overlay {
     /// Colours of arrows for X, Y and Z: linear RGB.
-    pub(crate) axes: Option<[Vec3; 3]>,
+    pub(crate) axes: [Vec3; 3],
+    pub(crate) shows_axes: bool,
+    /// The nodes of the scene as a tree.
+    pub(crate) tree: bool,
     pub(crate) name: bool,
     pub(crate) metadata: bool,
     pub(crate) environment_name: bool,
@@ -158,6 +167,15 @@ pub(crate) enum Mode {
     Inspect,
     /// Say which effects the models call for.
     Explain(Explanation),
+    /// Draw two models, and where they differ.
+    Compare {
+        /// The second one.
+        other: PathBuf,
+        /// Where the picture goes.
+        output: Destination,
+    },
+    /// Explain this pixel of their pictures.
+    ExplainPixel([u32; 2]),
     /// Say what is wrong with the models.
     Check,
     /// Say what draws.
@@ -243,12 +261,14 @@ impl Request {
             scenery: scenery(&raw),
             overlay: overlay(&raw.scenery),
             reference: reference(&raw),
-            display_depth: raw.display_depth == Some(true),
+            compared: raw.compare.clone(),
             script: raw.command_script.clone(),
             json: raw.json == Some(true),
             skip_empty: raw.remove_empty_file_groups == Some(true),
             shows_progress: raw.loading_progress == Some(true),
             screenshot: raw.screenshot_filename.clone(),
+            state_file: raw.statefile_filename.clone(),
+            hidden: raw.hide_nodes.clone(),
             settings: settings(&raw)?,
             outputs: raw.outputs.clone(),
             window: raw.window.clone(),
@@ -281,12 +301,16 @@ fn grouping(raw: &RawArgs) -> Grouping {
 
 fn mode(raw: &RawArgs) -> Mode {
     let (output, capture) = (raw.output.clone(), raw.capture.clone());
+    if let (Some(other), Some(output)) = (&raw.compare, &output) {
+        return Mode::Compare { other: other.clone(), output: output.clone() };
+    }
     match (&raw.replay, raw.effects.explain) {
         _ if raw.list_readers => Mode::ListReaders,
         _ if raw.list_bindings => Mode::ListBindings,
         _ if raw.list_rendering_backends => Mode::ListBackends,
         _ if raw.check == Some(true) => Mode::Check,
         _ if raw.no_render == Some(true) => Mode::Inspect,
+        _ if let Some(pixel) = raw.explain_pixel => Mode::ExplainPixel(pixel),
         (_, Some(explanation)) => Mode::Explain(explanation),
         (Some(replay), None) => Mode::Replay { capture: replay.clone(), output },
         (None, None) if output.is_some() || capture.is_some() || raw.reference.is_some() => {
@@ -338,7 +362,8 @@ fn scenery(raw: &RawArgs) -> Scenery {
         absolute: material.point_sprites_absolute_size == Some(true),
     };
     Scenery {
-        grid: (flags.grid == Some(true)).then_some(grid),
+        grid,
+        shows_grid: flags.grid == Some(true),
         normals: (flags.normal_glyphs == Some(true)).then(|| NORMALS * f64::from(flags.normal_glyphs_scale)),
         bones: flags.armature == Some(true),
         sprites: matches!(material.point_sprites, Some(PointSprites::Sphere)).then_some(sprites),
@@ -347,9 +372,11 @@ fn scenery(raw: &RawArgs) -> Scenery {
 
 fn overlay(flags: &SceneryArgs) -> Overlay {
     Overlay {
-        axes: (flags.axis == Some(true)).then_some([flags.x_color, flags.y_color, flags.z_color]),
+        axes: [flags.x_color, flags.y_color, flags.z_color],
+        shows_axes: flags.axis == Some(true),
         name: flags.filename == Some(true),
         metadata: flags.metadata == Some(true),
+        tree: flags.scene_hierarchy == Some(true),
         environment_name: flags.hdri_filename == Some(true),
         text_scale: flags.font_scale,
     }
@@ -367,6 +394,7 @@ fn framing(raw: &RawArgs) -> Result<Framing, String> {
         );
     }
     let scene_camera = raw.camera_index.and_then(|index| usize::try_from(index).ok());
+    let exact = raw.camera_exact.map(Eye::Exact);
     let eye = match (raw.camera_position, raw.camera_direction, raw.view, scene_camera) {
         (Some(position), ..) => Eye::Position(position),
         (None, Some(direction), ..) => Eye::Direction(direction),
@@ -375,7 +403,7 @@ fn framing(raw: &RawArgs) -> Result<Framing, String> {
         (None, None, None, None) => Eye::Default,
     };
     Ok(Framing {
-        eye,
+        eye: exact.unwrap_or(eye),
         up: raw.up,
         view_up: raw.camera_view_up,
         focal_point: raw.camera_focal_point,
@@ -446,6 +474,7 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
         (Some(DrawStyle::HiddenLine), _) => Style::HiddenLine,
         (Some(DrawStyle::Surface), _) | (None, _) => Style::Surface,
     };
+    settings.display = if raw.display_depth == Some(true) { Display::Depth } else { raw.display };
     settings.line_width = line_width(raw, settings.style)?;
     settings.light_intensity = raw.light_intensity;
     raw.effects.apply(&mut settings);
@@ -453,7 +482,6 @@ fn settings(raw: &RawArgs) -> Result<RenderSettings, String> {
         insisted(raw)?.change(preset.quality()).apply(&mut settings);
     }
     raw.outputs.iter().for_each(|beside| beside.output.ask_for(&mut settings.outputs));
-    settings.outputs.depth |= raw.display_depth == Some(true);
     // OpenEXR is for light: bytes would hold it to the display's range.
     settings.outputs.radiance |=
         matches!(&raw.output, Some(Destination::File(template)) if template.is_exr());

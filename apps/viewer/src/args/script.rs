@@ -213,7 +213,7 @@ const REFUSED: [(&str, &str); 11] = [
     ("save_statefile_to_clipboard", NO_STATE),
 ];
 
-const NO_STATE: &str = "there are no state files; --capture keeps a scene with its view";
+const NO_STATE: &str = "state files are for the window (Ctrl+S, Ctrl+L) and for --statefile";
 
 fn unknown(action: &str) -> String {
     if let Some((_, why)) = REFUSED.iter().find(|(name, _)| *name == action) {
@@ -309,7 +309,7 @@ mod tests {
             ("roll_camera far", 1, "no number"),
             ("toggle render.nothing", 1, "no option"),
             ("increase up", 1, "light-intensity"),
-            ("save_statefile a", 1, "--capture"),
+            ("save_statefile a", 1, "--statefile"),
             ("set up 'x", 1, "not closed"),
         ] {
             let (at, why) = steps(text).expect_err("a mistake");

@@ -9,7 +9,7 @@ use trigon_camera::Viewport;
 use trigon_io::{Format, SceneChoice};
 use trigon_math::glam::{Affine2, Vec2};
 use trigon_math::{DVec3, Vec3, color, elementary};
-use trigon_scene::{MAX_SIZE, SimdLevel};
+use trigon_scene::{Display, MAX_SIZE, SimdLevel};
 
 /// A switch: `--edges`, `--edges=false` and their spellings.
 pub(crate) fn switch(text: &str) -> Result<bool, String> {
@@ -18,6 +18,14 @@ pub(crate) fn switch(text: &str) -> Result<bool, String> {
         "false" | "off" | "no" | "0" => Ok(false),
         _ => Err("write true or false (also on, off, yes, no, 1, 0)".to_owned()),
     }
+}
+
+/// What faces show, by its name.
+pub(crate) fn display(text: &str) -> Result<Display, String> {
+    Display::ALL.into_iter().find(|display| display.name() == text).ok_or_else(|| {
+        let names: Vec<&str> = Display::ALL.into_iter().map(Display::name).collect();
+        format!("write one of {}", names.join(", "))
+    })
 }
 
 /// A model format by the ending of its files.
@@ -34,6 +42,17 @@ pub(crate) fn size(text: &str) -> Result<Viewport, String> {
         .split_once([',', 'x', 'X', '×'])
         .ok_or("write width and height with a comma between them, such as 1000,600")?;
     Ok(Viewport { width: side("width", width)?, height: side("height", height)? })
+}
+
+/// A pixel by its column and row.
+pub(crate) fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let numbers = text.split_once(',').map(|(x, y)| [x, y].map(|number| number.trim().parse::<u32>()));
+    match numbers {
+        Some([Ok(x), Ok(y)]) => Ok([x, y]),
+        _ => {
+            Err("write column and row, counted from 0, with a comma between them, such as 320,200".to_owned())
+        }
+    }
 }
 
 fn side(what: &str, text: &str) -> Result<u32, String> {

@@ -2,6 +2,7 @@
 
 use std::str::FromStr;
 
+use super::overlay_commands::OverlayCommand;
 use trigon_window::{Action, Chord, Key, Keymap, Modifiers};
 
 /// What the viewer's own keys do.
@@ -107,6 +108,10 @@ pub(super) fn keymap() -> Keymap {
     let mut keymap = Keymap::default();
     keymap.unbind(Key::Down);
     for command in Command::ALL {
+        let (name, chord, description) = command.binding();
+        keymap.bind(chord, name, Action::Command, description);
+    }
+    for command in OverlayCommand::ALL {
         let (name, chord, description) = command.binding();
         keymap.bind(chord, name, Action::Command, description);
     }

@@ -1,14 +1,21 @@
 //! Window mode: the models of the command line in a window, one at a time.
 
+mod axes;
 mod background;
 #[cfg(feature = "study")]
 mod classic;
 mod commands;
+mod comparing;
+mod measuring;
 mod open;
+mod overlay_commands;
 mod playback;
 mod quality;
 mod recent;
 mod screenshot;
+#[cfg(test)]
+mod sessions;
+mod side;
 mod viewer;
 mod watch;
 
@@ -17,9 +24,10 @@ use std::path::Path;
 
 use trigon_camera::Viewport;
 use trigon_scene::ShadingModel;
-use trigon_window::{Application, DragBinding, Interaction, Refinement, Visibility, WindowError};
+use trigon_window::{Application, DragBinding, Interaction, Refinement, Stage, Visibility, WindowError};
 
 use crate::args::Request;
+use crate::compare;
 use crate::failure::Failure;
 use crate::model::Source;
 use crate::report::Reporter;
@@ -39,17 +47,13 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
             return failure.exit_code();
         }
     };
+    if let Some(Err(failure)) = request.compared.as_ref().map(|_| compare::only_source(request)) {
+        reporter.error(&failure);
+        return failure.exit_code();
+    }
     let sources = Source::all(request);
     let mut application = Application::new(title(&sources[0]));
-    let (width, height) = (request.settings.width, request.settings.height);
-    application.stage.set_size(Viewport { width, height });
-    application.stage.settings = request.settings.clone();
-    application.stage.refinement = refinement(request);
-    application.stage.keymap = commands::keymap();
-    application.stage.text_scale = request.overlay.text_scale;
-    if request.shows_frame_time {
-        application.stage.frame_time = Visibility::Shown;
-    }
+    set_stage(&mut application.stage, request);
     if let Err(failure) = interactions(&mut application, request, reporter) {
         reporter.error(&failure);
         return failure.exit_code();
@@ -65,6 +69,19 @@ pub(crate) fn run(request: &Request, reporter: Reporter) -> u8 {
             reporter.error(format_args!("{error}; write a picture instead with --output picture.png"));
             1
         }
+    }
+}
+
+/// As the window begins.
+fn set_stage(stage: &mut Stage, request: &Request) {
+    let (width, height) = (request.settings.width, request.settings.height);
+    stage.set_size(Viewport { width, height });
+    stage.settings = request.settings.clone();
+    stage.refinement = refinement(request);
+    stage.keymap = commands::keymap();
+    stage.text_scale = request.overlay.text_scale;
+    if request.shows_frame_time {
+        stage.frame_time = Visibility::Shown;
     }
 }
 

@@ -38,6 +38,8 @@ pub(super) struct Playback {
     seconds: f64,
     duration: f64,
     progress: AnimationProgress,
+    /// Whether the model is in the pose of this time, and not as the file has it.
+    is_posed: bool,
     /// The nodes as they are without animation.
     at_rest: Scene,
 }
@@ -67,6 +69,7 @@ impl Playback {
             speed: request.sequence.speed,
             seconds: moment.map_or(0.0, |moment| moment.seconds),
             duration: 0.0,
+            is_posed: moment.is_some(),
             progress: request.sequence.progress.unwrap_or(AnimationProgress::Advanced),
             at_rest: scene.clone(),
         };
@@ -82,6 +85,16 @@ impl Playback {
             Playing::Named => self.named.clone(),
             Playing::None => Vec::new(),
         }
+    }
+
+    /// The flags that show the pose of this moment.
+    pub(super) fn flags(&self) -> Vec<String> {
+        let clips = self.clips();
+        if clips.is_empty() || !self.is_posed {
+            return Vec::new();
+        }
+        let clips: Vec<String> = clips.iter().map(usize::to_string).collect();
+        vec![format!("--animation-indices={}", clips.join(",")), format!("--animation-time={}", self.seconds)]
     }
 
     pub(super) fn is_playing(&self) -> bool {
@@ -151,7 +164,8 @@ impl Playback {
         self.pose(stage);
     }
 
-    fn pose(&self, stage: &mut Stage) {
+    fn pose(&mut self, stage: &mut Stage) {
+        self.is_posed = true;
         moment::pose(&mut stage.scene, &self.clips(), self.seconds);
     }
 
@@ -168,14 +182,16 @@ impl Playback {
     }
 
     /// Shows the bar, if it is to be seen.
-    pub(super) fn show(&mut self, context: &egui::Context, stage: &mut Stage) {
+    pub(super) fn show(&mut self, ui: &egui::Ui, stage: &mut Stage) {
         if self.progress == AnimationProgress::None {
             return;
         }
+        let free = ui.available_rect_before_wrap();
         let area = egui::Area::new(egui::Id::unique("animation"));
         let area = area.anchor(egui::Align2::CENTER_BOTTOM, [0.0, -12.0]).fade_in(false);
-        area.show(context, |ui| {
+        area.constrain_to(free).show(ui.ctx(), |ui| {
             egui::Frame::popup(ui.style()).show(ui, |ui| {
+                ui.spacing_mut().slider_width = (free.width() * 0.3).clamp(60.0, 400.0);
                 ui.horizontal(|ui| self.controls(ui, stage));
             });
         });
@@ -185,7 +201,6 @@ impl Playback {
         if ui.button(if self.is_playing { "Pause" } else { "Play" }).clicked() {
             self.toggle(stage);
         }
-        ui.spacing_mut().slider_width = (ui.ctx().content_rect().width() * 0.3).clamp(60.0, 400.0);
         let is_advanced = self.progress == AnimationProgress::Advanced;
         let slider = egui::Slider::new(&mut self.seconds, 0.0..=self.duration.max(1e-3));
         let slider = slider.show_value(is_advanced).fixed_decimals(2).suffix(" s");

@@ -1,26 +1,35 @@
 //! The viewer's part of the window: the current model, loading, and the viewer's own keys.
 
+mod overlays;
+mod state;
+
 use std::path::PathBuf;
 
 use trigon_camera::{Orbit, OrbitStyle};
 use trigon_io::Warning;
 use trigon_math::DVec3;
-use trigon_scene::{Background, Frame, NodeId, Scene};
+use trigon_scene::{Background, Frame, NodeId, RenderSettings, Scene};
 use trigon_window::{Animation, Corner, Handler, Hands, Input, Key, Modifiers, Stage, Taken, Tick, egui};
 
+use super::axes::AxesOverlay;
 use super::background::{Loading, Outcome};
 #[cfg(feature = "study")]
 use super::classic::Classics;
 use super::commands::Command;
+use super::comparing::Comparing;
+use super::measuring::Measuring;
 use super::open::{OpenWindow, SystemDialog};
+use super::overlay_commands::OverlayCommand;
 use super::playback::Playback;
 use super::quality::QualityPanel;
 use super::recent::Recent;
+use super::side::SidePanel;
 use super::watch::Watch;
 use super::{screenshot, title};
 use crate::args::{InteractionStyle, Request};
 use crate::failure::Failure;
 use crate::model::{Model, Source, Summary};
+use crate::picture;
 use crate::report::Reporter;
 
 /// What happens to the view when another model comes.
@@ -71,6 +80,11 @@ pub(super) struct Viewer {
     show_metadata: bool,
     open: OpenWindow,
     quality: QualityPanel,
+    side: SidePanel,
+    measuring: Measuring,
+    /// If there is another model beside the one that is shown.
+    comparing: Option<Comparing>,
+    axes: AxesOverlay,
     #[cfg(feature = "study")]
     classics: Classics,
     recent: Recent,
@@ -86,6 +100,8 @@ impl Viewer {
     /// A viewer of these sources; there is at least one.
     pub(super) fn new(request: Request, sources: Vec<Source>, reporter: Reporter) -> Self {
         let (show_name, show_metadata) = (request.overlay.name, request.overlay.metadata);
+        let side = if request.overlay.tree { SidePanel::with_tree() } else { SidePanel::default() };
+        let comparing = request.compared.clone().map(Comparing::new);
         Self {
             request,
             reporter,
@@ -97,6 +113,10 @@ impl Viewer {
             show_metadata,
             open: OpenWindow::default(),
             quality: QualityPanel::default(),
+            side,
+            measuring: Measuring::default(),
+            comparing,
+            axes: AxesOverlay::default(),
             #[cfg(feature = "study")]
             classics: Classics::default(),
             recent: Recent::load(),
@@ -164,6 +184,8 @@ impl Viewer {
         }
         stage.set_title(title(&model.source));
         stage.selection = None;
+        self.side.forget();
+        self.measuring.forget();
         let mut scene = model.scene;
         self.playback = Playback::new(&scene, &self.request);
         if self.playback.as_ref().is_some_and(Playback::is_playing) {
@@ -341,10 +363,17 @@ impl Viewer {
     }
 
     fn take_screenshot(stage: &mut Stage, background: Background) {
-        let mut settings = stage.settings.clone();
-        (settings.width, settings.height) = (stage.viewport().width, stage.viewport().height);
-        settings.background = background;
-        stage.request_picture(settings);
+        let settings = stage.picture_settings();
+        stage.request_picture(RenderSettings { background, ..settings });
+    }
+
+    /// Draws and writes over a screenshot what lies over the window's picture, as `--output` does.
+    fn with_overlay(&self, stage: &Stage, frame: Frame) -> Result<Frame, Failure> {
+        let Some(shown) = &self.shown else { return Ok(frame) };
+        let mut request = self.request.clone();
+        (request.overlay.name, request.overlay.metadata) = (self.show_name, self.show_metadata);
+        request.overlay.tree = false;
+        picture::finished(frame, &shown.model(stage), &stage.camera(), &request)
     }
 
     fn run(&mut self, stage: &mut Stage, command: Command) {
@@ -386,6 +415,9 @@ impl Handler for Viewer {
     fn start(&mut self, stage: &mut Stage) {
         stage.overlay.notify("H shows the keys");
         self.load(stage, View::Fit);
+        if let Some(comparing) = &mut self.comparing {
+            comparing.load(stage, &self.request);
+        }
         self.write_overlay(stage);
     }
 
@@ -394,15 +426,21 @@ impl Handler for Viewer {
         if plays { Animation::Running } else { Animation::Resting }
     }
 
-    fn input(&mut self, _: &mut Stage, input: &Input, _: Hands) -> Taken {
+    fn input(&mut self, stage: &mut Stage, input: &Input, hands: Hands) -> Taken {
         if self.failure.is_some() && is_escape(input) {
             self.failure = None;
             return Taken::Yes;
         }
-        Taken::No
+        if self.measuring.input(stage, input, hands) == Taken::Yes {
+            return Taken::Yes;
+        }
+        self.side.input(stage, input, hands)
     }
 
     fn command(&mut self, stage: &mut Stage, name: &str) {
+        if let Ok(command) = name.parse::<OverlayCommand>() {
+            self.run_overlay(stage, command);
+        }
         if let Ok(command) = name.parse() {
             self.run(stage, command);
             self.write_overlay(stage);
@@ -420,6 +458,15 @@ impl Handler for Viewer {
     }
 
     fn interface(&mut self, stage: &mut Stage, ui: &mut egui::Ui) {
+        let beside = self.shown.as_ref().map_or(&[][..], |shown| &shown.scenery);
+        self.side.show(ui, stage, beside);
+        self.measuring.show(ui, stage);
+        if let Some(comparing) = &self.comparing {
+            comparing.show(ui, &self.sources[self.current].title());
+        }
+        if self.request.overlay.shows_axes {
+            self.axes.show(ui, stage, self.request.overlay.axes);
+        }
         if self.show_progress(ui.ctx()) {
             self.cancel_loading(stage);
         }
@@ -428,7 +475,7 @@ impl Handler for Viewer {
         #[cfg(not(feature = "study"))]
         self.quality.show(ui.ctx(), stage, |_, _| {});
         if let Some(playback) = &mut self.playback {
-            playback.show(ui.ctx(), stage);
+            playback.show(ui, stage);
         }
         self.show_failure(ui.ctx());
         let waker = stage.waker();
@@ -440,7 +487,10 @@ impl Handler for Viewer {
 
     fn picture(&mut self, stage: &mut Stage, frame: Frame) {
         let model = self.shown.as_ref().and_then(|shown| shown.source.first_file());
-        match screenshot::save(&frame, &self.request.screenshot, model) {
+        let saved = self
+            .with_overlay(stage, frame)
+            .and_then(|frame| screenshot::save(&frame, &self.request.screenshot, model));
+        match saved {
             Ok(path) => {
                 let path = std::path::absolute(&path).unwrap_or(path);
                 self.reporter.info(format_args!("wrote {}", path.display()));
@@ -453,6 +503,9 @@ impl Handler for Viewer {
     fn woken(&mut self, stage: &mut Stage) {
         let picked = self.open.picked();
         self.add(stage, picked);
+        if let Some(Err(failure)) = self.comparing.as_mut().map(|comparing| comparing.woken(stage)) {
+            self.tell_failure(stage, &failure);
+        }
         if self.watch.as_ref().is_some_and(Watch::take_changed) {
             self.load(stage, View::Keep);
         }

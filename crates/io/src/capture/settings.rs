@@ -3,8 +3,8 @@
 use trigon_camera::{Camera, CameraError, PixelCenters, Projection, Viewport};
 use trigon_math::{DQuat, DVec2, DVec3};
 use trigon_scene::{
-    AmbientOcclusion, Background, EffectSettings, Environment, Fog, Lighting, MetalReflection, Outline,
-    Outputs, Reflection, RenderSettings, ShadingModel, Shadows, Sky, Style, ToneMapping,
+    AmbientOcclusion, Background, Display, EffectSettings, Environment, Fog, Lighting, MetalReflection,
+    Outline, Outputs, Reflection, RenderSettings, ShadingModel, Shadows, Sky, Style, ToneMapping,
 };
 
 use super::stored::{Stored, choice, record};
@@ -30,6 +30,20 @@ record!(Outline { nodes, color, width });
 
 choice!(Background { 0 => Color(color), 1 => Gradient { top, bottom }, 2 => Transparent, 3 => Environment });
 choice!(Style { 0 => Surface, 1 => SurfaceWithEdges, 2 => Wireframe, 3 => HiddenLine });
+choice!(Display {
+    0 => Shaded,
+    1 => Matcap,
+    2 => BaseColor,
+    3 => Normal,
+    4 => GeometricNormal,
+    5 => TextureCoordinates,
+    6 => Metallic,
+    7 => Roughness,
+    8 => Occlusion,
+    9 => Emission,
+    10 => Alpha,
+    11 => Depth,
+});
 choice!(Lighting { 0 => Automatic, 1 => Scene, 2 => Studio });
 choice!(ShadingModel { 0 => Flat, 1 => Gouraud, 2 => Phong });
 choice!(Reflection { 0 => Material, 1 => Lambert, 2 => BlinnPhong, 3 => MetallicRoughness });
@@ -65,7 +79,8 @@ impl Stored for RenderSettings {
         background.write(to);
         style.write(to);
         line_width.write(to);
-        let Self { edge_color, edge_opacity, lighting, light_intensity, .. } = self;
+        let Self { display, edge_color, edge_opacity, lighting, light_intensity, .. } = self;
+        display.write(to);
         edge_color.write(to);
         edge_opacity.write(to);
         let Self { x_ray, marks, vertices, .. } = self;
@@ -90,6 +105,7 @@ impl Stored for RenderSettings {
             background: Stored::read(from)?,
             style: Stored::read(from)?,
             line_width: Stored::read(from)?,
+            display: Stored::read(from)?,
             edge_color: Stored::read(from)?,
             edge_opacity: Stored::read(from)?,
             x_ray: Stored::read(from)?,

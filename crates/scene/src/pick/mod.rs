@@ -22,9 +22,11 @@ mod picker;
 mod region;
 mod screen;
 mod search;
+mod snap;
 #[cfg(test)]
 mod tests;
 
 pub use nearest::Nearest;
 pub use picker::{Pick, Picker, Reach};
 pub use region::Region;
+pub use snap::{Snap, SnapElement};

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use fixedbitset::FixedBitSet;
 use trigon_camera::Camera;
-use trigon_math::Vec3;
+use trigon_math::{Mat3, Vec3};
 use trigon_raster::{Culling, EdgeFlags};
 
 use super::backdrop::Backdrop;
@@ -18,6 +18,7 @@ use super::record::{Dots, MarkNumbers, ObjectMarks, Record, Segments, Triangles}
 use super::shapes::{Shape, Shapes};
 use super::surface::{BoundMaterial, MaterialContext, Surface};
 use super::wire::{HiddenLine, Wire, WireMarks};
+use crate::display::Display;
 use crate::effect::Effect;
 use crate::effects::{Counts, LightingEnvironment};
 use crate::marks;
@@ -44,6 +45,8 @@ pub(super) struct Composer<'s> {
     eye: &'s Eye,
     backdrop: &'s Backdrop,
     rays: Rays,
+    /// From camera space.
+    to_world: Mat3,
     default_material: Material,
     purpose: Purpose,
 }
@@ -89,6 +92,7 @@ impl<'s> Composer<'s> {
             eye,
             backdrop,
             rays,
+            to_world: Mat3::from_quat(camera.orientation.as_quat()),
             default_material,
             purpose: Purpose::Colors,
         }
@@ -204,9 +208,16 @@ impl<'s> Composer<'s> {
         id.and_then(|&id| self.scene.materials.get(id)).unwrap_or(&self.default_material)
     }
 
+    /// The material that faces of a slot are displayed in.
+    fn displayed(&self, object: &Object<'s>, slot: u32) -> Cow<'_, Material> {
+        let material = self.material(object, slot);
+        self.settings.display.replaced(material).map_or(Cow::Borrowed(material), Cow::Owned)
+    }
+
     fn context(&self) -> MaterialContext<'_> {
-        let RenderSettings { shading, reflection, .. } = *self.settings;
-        MaterialContext { scene: self.scene, lighting: self.lighting, rays: self.rays, shading, reflection }
+        let RenderSettings { shading, reflection, display, .. } = *self.settings;
+        let Self { scene, lighting, rays, to_world, .. } = *self;
+        MaterialContext { scene, lighting, rays, shading, reflection, display, to_world }
     }
 
     /// The triangles of one slot with their material.
@@ -214,7 +225,7 @@ impl<'s> Composer<'s> {
     where
         's: 'c,
     {
-        let material = self.material(object, run.slot);
+        let material = &*self.displayed(object, run.slot);
         let geometry = match &material.normal_map {
             Some(map) => object.geometry.with_tangents(object.asset.mesh(), map.binding.uv_set),
             None => object.geometry,
@@ -253,7 +264,8 @@ impl<'s> Composer<'s> {
             bare.alpha_mode = AlphaMode::Mask { cutoff: f32::MIN_POSITIVE };
         }
         let geometry = object.geometry;
-        let mut bound = BoundMaterial::new(&bare, &geometry.columns, &self.context());
+        let context = MaterialContext { display: Display::Shaded, ..self.context() };
+        let mut bound = BoundMaterial::new(&bare, &geometry.columns, &context);
         let draw = Run { slot: run.slot, triangles: run.triangles.clone() };
         Some(if bare.alpha_mode == AlphaMode::Opaque {
             bound.strip();

@@ -3,16 +3,20 @@
 
 use trigon_camera::Camera;
 use trigon_math::UVec2;
-use trigon_raster::{Background, Cancel, ExecuteSettings, Pass, Rasterizer, Stats, Target, TargetError};
+use trigon_raster::{
+    Background, Cancel, ExecuteSettings, Pass, PixelExplanation, Rasterizer, Stats, Target, TargetError,
+};
 
 use super::RenderError;
 use super::backdrop::Backdrop;
 use super::compose::Composer;
+use super::depth_image::paint_depth;
 use super::kept::Kept;
 use super::last_picture::{LastPicture, Step};
 use super::placement::DepthToDistance;
 use super::record::Record;
 use super::stage::Stage;
+use crate::display::Display;
 use crate::effect::Effect;
 use crate::effects::{Counts, EffectCounts, EffectPlan, LightingEnvironment};
 use crate::frame::Frame;
@@ -29,9 +33,33 @@ pub(super) struct Engine {
     plan: Option<EffectPlan>,
     counts: Counts,
     stats: Stats,
+    /// Whether stages measure their time.
+    pub(super) is_timed: bool,
 }
 
 impl Engine {
+    /// Explains a pixel of the picture that [`draw`](Self::draw) would make; `None` outside of it.
+    pub(super) fn explain(
+        &mut self,
+        (scene, camera, settings): (&Scene, &Camera, &RenderSettings),
+        [x, y]: [u32; 2],
+    ) -> Result<Option<PixelExplanation>, RenderError> {
+        let target = blank(settings)?;
+        let mut rasterizer = self.rasterizer(settings)?;
+        rasterizer.set_cancel(None);
+        let stage = Stage::new(scene, camera, settings);
+        let plan = EffectPlan::of_stage(&stage);
+        let lighting = self.kept.lighting(&stage, &plan, &mut rasterizer)?;
+        let explained =
+            record(&stage, (camera, &lighting, settings), &mut Counts::default(), |pass, _, _| {
+                rasterizer.explain_pixel(pass, &target, x, y)
+            });
+        // The next picture does not follow from what the rasterizer holds now.
+        self.last = LastPicture::default();
+        self.rasterizer = Some(rasterizer);
+        Ok(explained)
+    }
+
     /// Draws into an existing frame; after an error its contents are unspecified.
     pub(super) fn draw(
         &mut self,
@@ -39,6 +67,9 @@ impl Engine {
         cancel: Option<&Cancel>,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
+        if settings.display == Display::Depth && settings.outputs.color {
+            return self.draw_depth((scene, camera, settings), cancel, frame);
+        }
         // Checks the size before memory is allocated for it.
         let sample = blank(settings)?.visibility_sample();
         frame.make_room(settings)?;
@@ -75,6 +106,21 @@ impl Engine {
         counts.of(Effect::Poses).bytes = stage.shapes.posed_bytes() as u64;
         (self.counts, self.plan) = (counts, Some(plan));
         self.rasterizer = Some(rasterizer);
+        Ok(())
+    }
+
+    /// Draws depths as colours.
+    fn draw_depth(
+        &mut self,
+        (scene, camera, settings): (&Scene, &Camera, &RenderSettings),
+        cancel: Option<&Cancel>,
+        frame: &mut Frame,
+    ) -> Result<(), RenderError> {
+        let mut uncolored = settings.clone();
+        (uncolored.outputs.color, uncolored.outputs.depth) = (false, true);
+        self.draw((scene, camera, &uncolored), cancel, frame)?;
+        paint_depth(frame);
+        frame.depth.take_if(|_| !settings.outputs.depth);
         Ok(())
     }
 
@@ -166,7 +212,8 @@ impl Engine {
 
     /// The last frame's rasterizer if its settings fit, or a new one.
     fn rasterizer(&mut self, settings: &RenderSettings) -> Result<Rasterizer, RenderError> {
-        let how = ExecuteSettings { threads: settings.threads, simd: settings.simd, ..Default::default() };
+        let RenderSettings { threads, simd, .. } = *settings;
+        let how = ExecuteSettings { threads, simd, timed: self.is_timed, ..Default::default() };
         let kept = self.rasterizer.take().filter(|rasterizer| *rasterizer.settings() == how);
         Ok(match kept {
             Some(rasterizer) => rasterizer,

@@ -40,7 +40,7 @@ impl Kept {
             lights: stage.lights.clone(),
             surroundings: stage.surroundings().filter(|_| on(Effect::Environment)),
             metal_sky: on(Effect::MetalSky).then(|| stage.metal_sky()),
-            mist: effects.fog.as_ref().and_then(Mist::new),
+            mist: effects.fog.as_ref().filter(|_| on(Effect::Fog)).and_then(Mist::new),
             shadow_rays: on(Effect::ShadowRays),
             ambient_rays: effects
                 .ambient_occlusion

@@ -7,6 +7,7 @@ mod backdrop;
 mod builder;
 mod columns;
 mod compose;
+mod depth_image;
 mod engine;
 mod geometry;
 mod kept;

@@ -1,7 +1,7 @@
 //! The public renderer.
 
 use trigon_camera::Camera;
-use trigon_raster::{Cancel, Stats};
+use trigon_raster::{Cancel, PixelExplanation, Stats};
 
 use super::RenderError;
 use super::builder::RendererBuilder;
@@ -130,6 +130,48 @@ impl Renderer {
         Ok(())
     }
 
+    /// Explains the pixel in column `x` and row `y` of the picture that [`render`](Self::render) draws: all
+    /// triangles that touch it, sample by sample, with exact edge values and depths, which of them is seen,
+    /// and why. Object ids are indices of nodes. `None` outside the picture.
+    ///
+    /// It costs about as much as all stages before the tiles, and then a test of each triangle.
+    ///
+    /// ```
+    /// use trigon_scene::mesh::primitives;
+    /// use trigon_scene::{Material, Renderer, Scene};
+    ///
+    /// let mut scene = Scene::new();
+    /// let cube = scene.add_object("cube", primitives::cube(1.0), Material::default());
+    /// let mut renderer = Renderer::builder().size(40, 30).build();
+    /// let camera = scene.overview(renderer.settings().aspect());
+    /// let pixel = renderer.explain_pixel(&scene, &camera, 20, 15)?.expect("inside the picture");
+    /// let winner = pixel.reported().winner().expect("the cube is in the middle");
+    /// assert_eq!(scene.nodes().id_at(winner.object as usize), Some(cube));
+    /// # Ok::<(), trigon_scene::RenderError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`render`](Self::render).
+    pub fn explain_pixel(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        x: u32,
+        y: u32,
+    ) -> Result<Option<PixelExplanation>, RenderError> {
+        self.engine.explain((scene, camera, &self.settings), [x, y])
+    }
+
+    /// From now on [`Stats::times`] holds what each stage took. That itself takes a little time.
+    pub fn time_stages(&mut self) {
+        self.engine.is_timed = true;
+    }
+
+    /// From now on stages measure no time.
+    pub fn stop_timing(&mut self) {
+        self.engine.is_timed = false;
+    }
+
     /// The plan of the last frame; `None` before the first.
     pub fn plan(&self) -> Option<&EffectPlan> {
         self.engine.plan()
@@ -185,6 +227,39 @@ mod tests {
                 assert!(drawing.join().expect("no panic") == expected, "the same bytes");
             }
         });
+    }
+
+    /// What the explanation says wins is what the picture's ids show.
+    #[test]
+    fn explanations_tell_what_the_picture_shows() {
+        let scene = showcase();
+        let outputs = Outputs { ids: true, ..Outputs::default() };
+        let mut renderer = Renderer::builder().size(36, 24).samples_per_axis(2).outputs(outputs).build();
+        let camera = scene.overview(renderer.settings().aspect());
+        let frame = renderer.render(&scene, &camera).expect("drawn");
+        let ids = frame.object_ids.clone().expect("asked for");
+        for [x, y] in [[18, 12], [3, 20], [30, 16], [0, 0]] {
+            let explained = renderer.explain_pixel(&scene, &camera, x, y).expect("drawn").expect("inside");
+            let winner = explained.reported().winner().map_or(u32::MAX, |winner| winner.object);
+            assert_eq!(winner, ids[(y * 36 + x) as usize], "pixel {x}, {y}");
+        }
+        assert_eq!(renderer.explain_pixel(&scene, &camera, 36, 0), Ok(None), "outside");
+        assert!(renderer.render(&scene, &camera).expect("drawn") == frame, "no trace is left");
+    }
+
+    #[test]
+    fn stages_are_timed_when_that_is_asked_for() {
+        let scene = showcase();
+        let mut renderer = Renderer::builder().size(64, 64).build();
+        let camera = scene.overview(1.0);
+        let frame = renderer.render(&scene, &camera).expect("drawn");
+        assert_eq!(renderer.stats().times, trigon_raster::StageTimes::default(), "usually not");
+        renderer.time_stages();
+        assert!(renderer.render(&scene, &camera).expect("drawn") == frame, "the same bytes");
+        assert!(!renderer.stats().times.shading.is_zero(), "measured");
+        renderer.stop_timing();
+        renderer.render(&scene, &camera).expect("drawn");
+        assert!(renderer.stats().times.shading.is_zero(), "not any more");
     }
 
     #[test]

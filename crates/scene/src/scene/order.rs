@@ -16,6 +16,20 @@ impl Scene {
         listed.chain(all.filter(move |&id| is_root(id) && !is_listed.contains(id.index())))
     }
 
+    /// All nodes with the number of nodes that each hangs on, directly and indirectly: each one before its
+    /// children, siblings in their order.
+    pub fn tree(&self) -> Vec<(NodeId, usize)> {
+        let mut waiting: Vec<(NodeId, usize)> = self.roots().map(|id| (id, 0)).collect();
+        waiting.reverse();
+        let mut tree = Vec::with_capacity(self.nodes.len());
+        while let Some((id, depth)) = waiting.pop() {
+            tree.push((id, depth));
+            let children = self.nodes.get(id).map_or(&[][..], |node| node.children());
+            waiting.extend(children.iter().rev().map(|&child| (child, depth + 1)));
+        }
+        tree
+    }
+
     /// Lists these before all other roots, in this order. Those that are no roots now are listed at
     /// their places once they are.
     pub fn order_roots(&mut self, mut roots: Vec<NodeId>) {
@@ -84,5 +98,7 @@ mod tests {
         let [a, b, c] = [(); 3].map(|()| scene.add_child(parent, Node::default()).expect("it is there"));
         scene.reorder(a, 1).expect("it is there");
         assert_eq!(scene.node(parent).expect("there").children(), [b, a, c], "one down");
+        scene.set_parent(c, Some(b)).expect("no loop");
+        assert_eq!(scene.tree(), [(parent, 0), (b, 1), (c, 2), (a, 1)], "each before its children");
     }
 }

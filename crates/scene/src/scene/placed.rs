@@ -48,6 +48,17 @@ impl Scene {
         Some(PlacedMesh { asset, posed: Some(posed), world: bend.joints.map_or(world, |pose| pose.world) })
     }
 
+    /// The vertices in the world, in their poses, of what is visible at a node and below it, without those that
+    /// no face, edge or point uses: what a camera is fitted to that is to show this node.
+    pub fn visible_points_below(&self, id: NodeId) -> impl Iterator<Item = DVec3> {
+        let transforms = self.visible_transforms();
+        let is_below = move |node: &NodeId| *node == id || self.ancestors(*node).any(|above| above == id);
+        let nodes = self.nodes.iter().map(|(node, _)| node).filter(is_below);
+        nodes
+            .filter_map(move |node| self.placed_mesh(node, transforms[node.index()]?))
+            .flat_map(PlacedMesh::into_used_points)
+    }
+
     /// All meshes that are visible.
     pub(crate) fn placed_meshes(&self) -> impl Iterator<Item = PlacedMesh<'_>> {
         let transforms = self.visible_transforms();

@@ -21,9 +21,7 @@ pub(super) fn show(context: &Context, free: egui::Rect, stage: &mut Stage, now: 
     for corner in Corner::ALL {
         let mut lines = stage.overlay.lines(corner).to_vec();
         match corner {
-            Corner::TopRight if stage.frame_time == Visibility::Shown => {
-                lines.push(frame_time(stage.report()));
-            }
+            Corner::TopRight => lines.extend(times(stage)),
             Corner::BottomRight => lines.extend(stage.progress().map(refining)),
             Corner::BottomLeft => drop(lines.splice(..0, messages.iter().cloned())),
             _ => {}
@@ -62,6 +60,33 @@ fn refining(Progress { step, of }: Progress) -> String {
     format!("refining {step}/{of}")
 }
 
+/// What the last frame took, as far as that is to be shown.
+fn times(stage: &Stage) -> Vec<String> {
+    let is_shown = |visibility| visibility == Visibility::Shown;
+    let mut lines = Vec::new();
+    if is_shown(stage.frame_time) || is_shown(stage.stage_times) {
+        lines.push(frame_time(stage.report()));
+    }
+    if is_shown(stage.stage_times) {
+        lines.extend(stage_times(stage.report()));
+    }
+    lines
+}
+
+/// A line for each stage; of those in tiles the sum over all threads.
+fn stage_times(FrameReport { stages, present, .. }: FrameReport) -> [String; 7] {
+    [
+        ("vertices", stages.vertices),
+        ("set-up", stages.set_up),
+        ("visibility", stages.visibility),
+        ("shading", stages.shading),
+        ("blending", stages.blending),
+        ("resolve", stages.resolve),
+        ("interface", present),
+    ]
+    .map(|(stage, time)| format!("{stage:10} {:8.2} ms", time.as_secs_f64() * 1e3))
+}
+
 /// "12.3 ms, 81 fps": the time of an image, and the corresponding rate.
 fn frame_time(report: FrameReport) -> String {
     let seconds = (report.render + report.present).as_secs_f64();
@@ -78,7 +103,8 @@ mod tests {
     #[test]
     fn frame_time_reads_as_both_units() {
         let render = Duration::from_micros(10_000);
-        let text = frame_time(FrameReport { render, present: Duration::from_micros(2_500) });
+        let report = FrameReport { render, present: Duration::from_micros(2_500), ..FrameReport::default() };
+        let text = frame_time(report);
         assert_eq!(text, "12.5 ms, 80 fps", "the whole frame counts");
         assert_eq!(frame_time(FrameReport::default()), "- ms", "before the first frame");
     }

@@ -31,7 +31,7 @@ impl Session<'_> {
     }
 
     fn window_finished(&mut self, quality: Quality, finished: Finished) {
-        let Finished { views, took, product, .. } = finished;
+        let Finished { views, took, stages, product, .. } = finished;
         match product {
             Ok(Product::Picture(frame)) => {
                 self.pacing.finished(took);
@@ -39,7 +39,7 @@ impl Session<'_> {
                 self.gallery.add(quality, Shown { frame: Arc::new(frame), views, nodes }, took);
                 self.pictured.clone_from(&self.subject);
                 if matches!(quality, Quality::Draft { .. } | Quality::Full(0)) {
-                    self.stage.set_report(FrameReport { render: took, ..self.stage.report() });
+                    self.stage.set_report(FrameReport { render: took, stages, ..self.stage.report() });
                 }
             }
             Ok(Product::Comparison(compared)) => {
@@ -138,7 +138,11 @@ impl Session<'_> {
         let purpose = Purpose::Window(quality);
         let step = match quality {
             Quality::Draft { shrink } => {
-                return Some(self.drawing(purpose, self.stage.draft_settings(shrink)));
+                let mut task = self.drawing(purpose, self.stage.draft_settings(shrink));
+                if let Task::Draw { drawer, .. } = &mut task {
+                    *drawer = self.stage.drawer.clone().filter(|drawer| drawer.draws_drafts());
+                }
+                return Some(task);
             }
             Quality::Full(step) => step,
         };
@@ -167,7 +171,7 @@ impl Session<'_> {
             Purpose::Window(_) => Views::new(&self.stage.panes(), self.stage.viewport(), &steady(&bounds)),
             Purpose::Picture => self.stage.orbit.camera(&bounds).into(),
         };
-        self.worker.begin(Job { purpose, views, task });
+        self.worker.begin(Job { purpose, views, stage_times: self.stage.stage_times, task });
     }
 }
 

@@ -21,7 +21,7 @@ fn job_of(scene: Scene, settings: RenderSettings) -> Job {
     let camera = scene.overview(1.0);
     let scene = SceneUpdate::Whole(Box::new(scene));
     let task = Task::Draw { scene, settings: Box::new(settings), drawer: None };
-    Job { purpose: Purpose::Picture, views: camera.into(), task }
+    Job { purpose: Purpose::Picture, views: camera.into(), stage_times: Visibility::Hidden, task }
 }
 
 /// A square picture of a cube.
@@ -198,7 +198,7 @@ fn a_mesh_is_changed_while_a_picture_of_it_is_under_way() {
         let update = scene.update(worker.held(purpose));
         let (drawer, settings) = (Some(Arc::clone(&waiting)), Box::new(settings.clone()));
         let task = Task::Draw { scene: update, settings, drawer };
-        worker.begin(Job { purpose, views: camera.into(), task });
+        worker.begin(Job { purpose, views: camera.into(), stage_times: Visibility::Hidden, task });
         has_begun.recv().expect("it is being drawn");
     };
     let pull = |scene: &mut SharedScene, to: f32| {
@@ -228,7 +228,7 @@ fn nobody_holds_a_scene_that_another_one_replaced() {
         let update = scene.update(worker.held(purpose));
         let settings = Box::new(RenderSettings::new(8, 8));
         let task = Task::Draw { scene: update, settings, drawer: None };
-        worker.begin(Job { purpose, views: Camera::default().into(), task });
+        worker.begin(Job { purpose, views: Camera::default().into(), stage_times: Visibility::Hidden, task });
     };
     let (mut worker, rung) = Gate::default().worker(|_| false);
     let mut scene = SharedScene::default();

@@ -17,6 +17,7 @@ use trigon_math::Vec3;
 
 use super::{MetalReflection, Mist, Shadows};
 use crate::background::Background;
+use crate::display::Display;
 use crate::effect::Effect;
 use crate::render::Stage;
 use crate::scene::Scene;
@@ -76,6 +77,7 @@ impl fmt::Display for EffectPlan {
 fn decide(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Decision {
     let outcome = match effect {
         _ if !stage.settings.outputs.of_light() && !shapes(effect) => Err(Absence::NoColor),
+        _ if let Some(absence) = not_displayed(effect, stage.settings) => Err(absence),
         Effect::Lamps => lamps(stage, survey),
         Effect::AmbientLight => ambient_light(stage, survey),
         Effect::Environment => environment(stage, survey),
@@ -109,6 +111,19 @@ fn decide(effect: Effect, stage: &Stage<'_>, survey: &Survey) -> Decision {
         Ok(cause) => Decision::On(cause),
         Err(absence) => Decision::Off(absence),
     }
+}
+
+/// Why an effect is off where surfaces are displayed otherwise than in light.
+fn not_displayed(effect: Effect, settings: &RenderSettings) -> Option<Absence> {
+    let is_background = effect == Effect::Environment && settings.background == Background::Environment;
+    let is_kept = is_background || effect == Effect::Outline || shapes(effect);
+    let is_clay = matches!(effect, Effect::Lamps | Effect::AmbientLight | Effect::Highlights);
+    let is_shown = match settings.display {
+        Display::Shaded => true,
+        Display::Matcap => is_kept || is_clay,
+        _ => is_kept,
+    };
+    (!is_shown).then_some(Absence::Display)
 }
 
 /// Whether an effect concerns the position of surfaces, and not their appearance.

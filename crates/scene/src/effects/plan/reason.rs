@@ -64,6 +64,8 @@ pub enum Absence {
     NoFaces,
     /// Colour is not an output.
     NoColor,
+    /// Faces show something else than their materials in light.
+    Display,
 }
 
 /// Some objects, one of them by name.
@@ -145,6 +147,7 @@ impl fmt::Display for Absence {
             Self::ShadingModel => f.write_str("the shading model leaves it out"),
             Self::NoFaces => f.write_str("no faces are drawn"),
             Self::NoColor => f.write_str("no colours are asked for"),
+            Self::Display => f.write_str("the display mode leaves it out"),
         }
     }
 }

@@ -1,9 +1,11 @@
 //! Draws a shadow map: depth only.
 
+use trigon_math::Mat3;
 use trigon_raster::{Culling, Draw, Pass, Rasterizer, Target, TargetError};
 
 use super::ShadowMap;
 use super::fit::View;
+use crate::display::Display;
 use crate::effects::LightingEnvironment;
 use crate::effects::casters::{Caster, Casters};
 use crate::material::{AlphaMode, Material, Shading};
@@ -73,6 +75,8 @@ fn shape<'a>(
         rays: Rays::Parallel,
         shading: ShadingModel::Flat,
         reflection: Reflection::Material,
+        display: Display::Shaded,
+        to_world: Mat3::IDENTITY,
     };
     let place = eye.place(&caster.shadow.place, &caster.geometry.bounds());
     if masked {

@@ -41,7 +41,7 @@ impl Lights {
         eye: &Eye,
         settings: &RenderSettings,
     ) -> Self {
-        let lighting = settings.lighting;
+        let lighting = settings.lighting();
         let lights = Self::of_scene(scene, transforms, eye, lighting);
         match lighting {
             Lighting::Studio => Self::studio(),

@@ -2,10 +2,12 @@
 //! textures are read, where light is found. What the material does not have, and
 //! what the mesh cannot show, is left out.
 
-use trigon_math::Vec3;
+use trigon_math::glam::Affine2;
+use trigon_math::{Mat3, Vec3};
 
 use super::reflection::f0;
 use super::{Coverage, Illumination, Layout, LightSlots, Map, Maps, MaterialParams, MicrofacetModel, Model};
+use crate::display::Display;
 use crate::effects::{LightingEnvironment, Optics};
 use crate::material::{AlphaMode, DrawnIf, Material, MaterialTexture, Shading, TextureBinding};
 use crate::render::columns::Columns;
@@ -21,6 +23,9 @@ pub(crate) struct MaterialContext<'a> {
     pub(crate) rays: Rays,
     pub(crate) shading: ShadingModel,
     pub(crate) reflection: Reflection,
+    pub(crate) display: Display,
+    /// From camera space.
+    pub(crate) to_world: Mat3,
 }
 
 /// A material made ready for a mesh.
@@ -34,15 +39,15 @@ impl<'a> BoundMaterial<'a> {
     pub(crate) fn new(material: &Material, columns: &Columns, context: &MaterialContext<'a>) -> Self {
         let mut fitting = Fitting { context, columns, layout: Layout::default() };
         let optics = Optics::of(material);
-        // The law of reflection that the settings choose, for comparison.
-        let material = Material { shading: context.reflection.of(material), ..material.clone() };
-        let illumination = illumination(&material.shading, context.shading);
+        let (shading, illumination) = shown(material, context);
+        let material = Material { shading, ..material.clone() };
         let in_pixels = illumination == Illumination::InPixels;
+        let shows = |display| in_pixels || illumination == Illumination::Value(display);
         let optics = optics.filter(|_| in_pixels && context.lighting.bounces > 0);
         let is_drawn = |texture: MaterialTexture| match texture.row().drawn_if {
             DrawnIf::Always => true,
-            DrawnIf::LightInPixels => in_pixels,
-            DrawnIf::TangentsInPixels => in_pixels && columns.tangents.is_some(),
+            DrawnIf::LightInPixels => in_pixels || shown_as(texture).iter().any(|&display| shows(display)),
+            DrawnIf::TangentsInPixels => shows(Display::Normal) && columns.tangents.is_some(),
             DrawnIf::Refracting => matches!(optics, Some(Optics::Glass { .. })),
         };
         let maps = Maps::new(|texture| {
@@ -123,7 +128,37 @@ impl<'a> Fitting<'_, 'a> {
                     layout.tangent = Some(layout.add(4));
                 }
             }
+            Illumination::Value(Display::Normal) => {
+                layout.normal = Some(layout.add(3));
+                layout.tangent = params.maps.get(MaterialTexture::Normal).map(|_| layout.add(4));
+            }
+            Illumination::Value(Display::TextureCoordinates) if !columns.uv_sets.is_empty() => {
+                layout.shown_uv = Some(layout.add_coordinates(0, Affine2::IDENTITY));
+            }
+            Illumination::Value(_) => {}
         }
+    }
+}
+
+/// What faces can show in place of light that takes a texture.
+fn shown_as(texture: MaterialTexture) -> &'static [Display] {
+    match texture {
+        MaterialTexture::MetallicRoughness => &[Display::Metallic, Display::Roughness],
+        MaterialTexture::Occlusion => &[Display::Occlusion],
+        _ => &[],
+    }
+}
+
+/// A material's law of reflection, and where light is found. Surfaces that show how metallic and how rough they
+/// are have a law that knows both.
+fn shown(material: &Material, context: &MaterialContext<'_>) -> (Shading, Illumination) {
+    let shading = context.reflection.of(material);
+    match context.display {
+        Display::Shaded | Display::Matcap => (shading, illumination(&shading, context.shading)),
+        Display::Metallic | Display::Roughness => {
+            (Reflection::MetallicRoughness.of(material), Illumination::Value(context.display))
+        }
+        display => (shading, Illumination::Value(display)),
     }
 }
 

@@ -14,7 +14,10 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
         let base = splat(simd, self.params.material.base_color.truncate());
         let lit = match self.illumination {
             Illumination::OnFacets => self.lit_facets(simd, fragments, base),
-            Illumination::None | Illumination::AtVertices | Illumination::InPixels => base,
+            Illumination::None
+            | Illumination::AtVertices
+            | Illumination::InPixels
+            | Illumination::Value(_) => base,
         };
         let [r, g, b] = sum(lit, splat(simd, self.params.material.emissive));
         match self.params.coverage {
@@ -44,7 +47,7 @@ impl<const FLAT: bool> Surface<'_, FLAT> {
 
     /// The middles of triangles and the sides of theirs that are seen.
     #[inline(always)]
-    fn facets<S: Simd>(&self, simd: S, primitives: [u32; LANES]) -> LitPoints<S> {
+    pub(super) fn facets<S: Simd>(&self, simd: S, primitives: [u32; LANES]) -> LitPoints<S> {
         let [a, b, c] = [0, 1, 2].each(
             #[inline(always)]
             |corner| self.place.camera(simd, self.corners(simd, primitives, corner)),

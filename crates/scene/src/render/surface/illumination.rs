@@ -1,4 +1,6 @@
-//! Where light is found.
+//! Where light is found, or what is shown in its place.
+
+use crate::display::Display;
 
 /// Where light is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,4 +15,6 @@ pub(crate) enum Illumination {
     InPixels,
     /// Once for each triangle, in its middle.
     OnFacets,
+    /// Nowhere: surfaces show one of their values.
+    Value(Display),
 }

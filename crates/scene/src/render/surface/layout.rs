@@ -18,6 +18,8 @@ pub(crate) struct Layout {
     pub(crate) color: Option<usize>,
     /// Texture coordinates: two for each.
     pub(crate) coordinates: Vec<Coordinates>,
+    /// Where those lie that the surface shows as colours: two.
+    pub(crate) shown_uv: Option<usize>,
     /// Light at the vertices.
     pub(crate) light: Option<LightSlots>,
 }

@@ -15,6 +15,7 @@ mod points;
 mod reflection;
 mod tally;
 mod traced;
+mod value;
 mod values;
 
 pub(crate) use bound_material::{BoundMaterial, MaterialContext};
@@ -23,7 +24,7 @@ pub(crate) use layout::{Layout, LightSlots};
 pub(crate) use material_params::{Coverage, Map, Maps, MaterialParams, MicrofacetModel, Model};
 pub(crate) use values::{Values, three};
 
-use trigon_math::Vec3;
+use trigon_math::{Mat3, Vec3};
 use trigon_raster::simd::{F32, Mask, Simd, prelude::*};
 use trigon_raster::{FragmentLanes, LanePipeline, VertexLanes};
 
@@ -46,6 +47,8 @@ pub(crate) struct Surface<'a, const FLAT: bool> {
     /// Whether rays of view meet in the camera, or run parallel.
     pub(crate) rays: Rays,
     pub(crate) lighting: &'a LightingEnvironment,
+    /// From camera space.
+    pub(crate) to_world: Mat3,
 }
 
 impl<const FLAT: bool> LanePipeline for Surface<'_, FLAT> {
@@ -94,8 +97,8 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
         context: &MaterialContext<'a>,
     ) -> Self {
         let BoundMaterial { params, layout, illumination } = bound;
-        let MaterialContext { rays, lighting, .. } = *context;
-        Self { columns, triangles, place, layout, params, illumination, rays, lighting }
+        let MaterialContext { rays, lighting, to_world, .. } = *context;
+        Self { columns, triangles, place, layout, params, illumination, rays, lighting, to_world }
     }
 
     #[inline(always)]
@@ -136,6 +139,10 @@ impl<'a, const FLAT: bool> Surface<'a, FLAT> {
             Illumination::AtVertices => self.interpolated(fragments, [r, g, b]),
             Illumination::InPixels => self.lit(simd, fragments, [r, g, b]),
             Illumination::OnFacets => self.lit_facets(simd, fragments, [r, g, b]),
+            Illumination::Value(display) => {
+                let value = self.value(simd, fragments, display, [r, g, b, alpha]);
+                return self.finished(simd, value, alpha);
+            }
         };
         let mut shaded = self.with_emission(simd, fragments, shaded);
         if let (Some(mist), Some(at)) = (&self.lighting.mist, self.layout.position) {

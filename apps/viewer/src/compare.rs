@@ -1,0 +1,136 @@
+//! `--compare`: two models seen by one camera: side by side, and where they differ.
+
+use std::path::{Path, PathBuf};
+
+use trigon_camera::Camera;
+use trigon_io::{Picture, PictureDifference, compare_pictures};
+use trigon_scene::{Frame, RenderSettings, Renderer, Scene};
+
+use crate::args::{Destination, Request, Subject};
+use crate::failure::Failure;
+use crate::lists::json_line;
+use crate::loading;
+use crate::model::Source;
+use crate::outlet::Outlet;
+use crate::report::Reporter;
+
+/// Writes both models beside each other and beside a map of their differences; returns the exit code, 3 if there are
+/// any.
+pub(crate) fn run(request: &Request, other: &Path, output: &Destination, reporter: Reporter) -> u8 {
+    let mut outlet = Outlet::new(Some(output), reporter);
+    match compared(request, other, &mut outlet, reporter) {
+        Ok(()) => 0,
+        Err(failure) => {
+            reporter.error(&failure);
+            failure.exit_code()
+        }
+    }
+}
+
+/// The one model that another one is compared with.
+pub(crate) fn only_source(request: &Request) -> Result<Source, Failure> {
+    let mut sources = Source::all(request);
+    if sources.len() > 1 {
+        return Err(Failure::Usage(
+            "--compare compares one model with another; name one file beside it".to_owned(),
+        ));
+    }
+    Ok(sources.remove(0))
+}
+
+fn compared(
+    request: &Request,
+    other: &Path,
+    outlet: &mut Outlet<'_>,
+    reporter: Reporter,
+) -> Result<(), Failure> {
+    outlet.refuse_terminal()?;
+    let source = only_source(request)?;
+    let mut model = loading::load_aloud(&source, request, reporter)?;
+    let mut changed = loading::load_aloud(&Source::Files(vec![other.to_owned()]), request, reporter)?;
+    let camera = camera_for(&model.shot(&request.framing, request.settings.aspect())?.camera, &changed.scene);
+    for scene in [&mut model.scene, &mut changed.scene] {
+        request.scenery.add_to(scene);
+    }
+    let [one, two] = draw_both([&model.scene, &changed.scene], &camera, &request.settings)?;
+    let difference = difference(&one, &two);
+    let heat = frame_of(&difference.picture);
+    let subject = Subject { model: source.picture_subject(), frame: 0 };
+    outlet.put(subject, &beside(&[&one, &two, &heat]))?;
+    if request.json {
+        json_line(&facts(&source, other, &difference, &outlet.written), reporter);
+    }
+    if difference.different_pixels == 0 {
+        reporter.info(format_args!("{}: no pixel differs from {}", source.title(), other.display()));
+        return Ok(());
+    }
+    Err(Failure::Mismatch(format!("{} and {}: {}", source.title(), other.display(), said(&difference))))
+}
+
+fn facts(
+    source: &Source,
+    other: &Path,
+    difference: &PictureDifference,
+    written: &[PathBuf],
+) -> serde_json::Value {
+    serde_json::json!({
+        "file": source.first_file(), "other": other, "error": difference.error,
+        "different_pixels": difference.different_pixels, "largest": difference.largest, "written": written,
+    })
+}
+
+/// "the error is 0.012; 531 pixels differ, by up to 200 of 255"
+pub(crate) fn said(difference: &PictureDifference) -> String {
+    format!(
+        "the error is {:.6}; {} pixels differ, by up to {} of 255",
+        difference.error, difference.different_pixels, difference.largest
+    )
+}
+
+/// A camera that is fitted to one model, with planes that cut nothing of another one.
+pub(crate) fn camera_for(camera: &Camera, other: &Scene) -> Camera {
+    let (fitted, wider) = (camera.projection, camera.with_clip_planes(&other.bounds()).projection);
+    let near = fitted.near().min(wider.near());
+    let far = fitted.far().zip(wider.far()).map(|(one, other)| one.max(other));
+    let projection = fitted.with_planes(near, far).unwrap_or(fitted);
+    camera.with_projection(projection)
+}
+
+/// How far apart two pictures of one size are.
+pub(crate) fn difference(one: &Frame, other: &Frame) -> PictureDifference {
+    let [one, other] = [one, other].map(picture_of);
+    compare_pictures(&one, &other).expect("both were drawn with the same settings")
+}
+
+fn picture_of(frame: &Frame) -> Picture {
+    Picture { width: frame.width, height: frame.height, rgba: frame.color.clone() }
+}
+
+pub(crate) fn frame_of(picture: &Picture) -> Frame {
+    Frame { width: picture.width, height: picture.height, color: picture.rgba.clone(), ..Frame::default() }
+}
+
+/// Frames of one height beside each other.
+pub(crate) fn beside(frames: &[&Frame]) -> Frame {
+    let width = frames.iter().map(|frame| frame.width).sum();
+    let height = frames.first().map_or(0, |frame| frame.height);
+    let mut color = Vec::with_capacity(4 * width as usize * height as usize);
+    for y in 0..height as usize {
+        for frame in frames {
+            let row = 4 * frame.width as usize;
+            color.extend_from_slice(&frame.color[y * row..(y + 1) * row]);
+        }
+    }
+    Frame { width, height, color, ..Frame::default() }
+}
+
+/// Draws two scenes as one camera sees them.
+pub(crate) fn draw_both(
+    scenes: [&Scene; 2],
+    camera: &Camera,
+    settings: &RenderSettings,
+) -> Result<[Frame; 2], Failure> {
+    let mut renderer = Renderer::new(settings.clone());
+    let [one, other] = scenes.map(|scene| renderer.render(scene, camera).map_err(Failure::work));
+    Ok([one?, other?])
+}

@@ -1,0 +1,154 @@
+//! Another model beside the one that is shown, seen by the same camera: side by side, in turn, or where they differ.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use trigon_camera::Camera;
+use trigon_scene::{Cancel, Frame, RenderSettings, Renderer, Scene};
+use trigon_window::{Drawer, Stage, egui};
+
+use super::background::Loading;
+use crate::args::Request;
+use crate::compare;
+use crate::failure::Failure;
+use crate::model::Source;
+
+/// The room of the file's name, in points.
+const BELOW_NAME: f32 = 42.0;
+
+/// What of both is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pair {
+    Beside,
+    First,
+    Second,
+    Heat,
+}
+
+/// The other model.
+pub(super) struct Comparing {
+    source: Source,
+    loading: Option<Loading>,
+    other: Option<Arc<Scene>>,
+    pair: Pair,
+    drawer: Option<Arc<PairDrawer>>,
+}
+
+impl Comparing {
+    pub(super) fn new(other: PathBuf) -> Self {
+        let source = Source::Files(vec![other]);
+        Self { source, loading: None, other: None, pair: Pair::Beside, drawer: None }
+    }
+
+    /// Begins to load the other model.
+    pub(super) fn load(&mut self, stage: &Stage, request: &Request) {
+        self.loading = Some(Loading::start(self.source.clone(), request.clone(), stage.waker()));
+    }
+
+    /// Takes over the other model once it is loaded.
+    pub(super) fn woken(&mut self, stage: &mut Stage) -> Result<(), Failure> {
+        let Some(outcome) = self.loading.as_ref().and_then(Loading::outcome) else { return Ok(()) };
+        self.loading = None;
+        let (model, _) = outcome?;
+        self.other = Some(Arc::new(model.scene));
+        self.show_pair(stage, Pair::Beside);
+        Ok(())
+    }
+
+    /// One model, and then the other in its place.
+    pub(super) fn blink(&mut self, stage: &mut Stage) {
+        let pair = if self.pair == Pair::First { Pair::Second } else { Pair::First };
+        self.show_pair(stage, pair);
+    }
+
+    /// Where they differ, or both side by side again.
+    pub(super) fn toggle_heat(&mut self, stage: &mut Stage) {
+        let pair = if self.pair == Pair::Heat { Pair::Beside } else { Pair::Heat };
+        self.show_pair(stage, pair);
+    }
+
+    fn show_pair(&mut self, stage: &mut Stage, pair: Pair) {
+        let Some(other) = &self.other else { return };
+        self.pair = pair;
+        let renderers = Mutex::new([(); 2].map(|()| Renderer::builder().build()));
+        let drawer = PairDrawer { other: Arc::clone(other), pair, renderers, said: Mutex::default() };
+        self.drawer = Some(Arc::new(drawer));
+        stage.drawer = self.drawer.clone().map(|drawer| drawer as Arc<dyn Drawer>);
+    }
+
+    /// Says what is shown.
+    pub(super) fn show(&self, ui: &egui::Ui, first: &str) {
+        let other = self.source.title();
+        let text = match self.pair {
+            _ if self.other.is_none() => format!("loading {other}"),
+            Pair::Beside => format!("{first} | {other}    B: in turn, Shift+B: where they differ"),
+            Pair::First => format!("{first}    B: {other}"),
+            Pair::Second => format!("{other}    B: {first}"),
+            Pair::Heat => self.drawer.as_ref().map(|drawer| drawer.said()).unwrap_or_default(),
+        };
+        let area = egui::Area::new(egui::Id::unique("comparing")).order(egui::Order::Background);
+        let area =
+            area.anchor(egui::Align2::CENTER_TOP, [0.0, BELOW_NAME]).interactable(false).fade_in(false);
+        area.constrain_to(ui.available_rect_before_wrap()).show(ui.ctx(), |ui| {
+            let text = egui::Label::new(text).extend();
+            egui::Frame::popup(ui.style()).show(ui, |ui| ui.add(text));
+        });
+    }
+}
+
+/// Draws both models.
+struct PairDrawer {
+    other: Arc<Scene>,
+    pair: Pair,
+    renderers: Mutex<[Renderer; 2]>,
+    /// How far the last two pictures were apart.
+    said: Mutex<String>,
+}
+
+impl PairDrawer {
+    fn said(&self) -> String {
+        self.said.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
+
+impl Drawer for PairDrawer {
+    fn draw(
+        &self,
+        scene: &Scene,
+        camera: &Camera,
+        settings: &RenderSettings,
+        cancel: &Cancel,
+    ) -> Result<Frame, String> {
+        let mut renderers = self.renderers.lock().unwrap_or_else(PoisonError::into_inner);
+        let [first, second] = &mut *renderers;
+        let camera = compare::camera_for(camera, &self.other);
+        let draw = |renderer: &mut Renderer, scene: &Scene, settings: RenderSettings| {
+            *renderer.settings_mut() = settings;
+            renderer.render_cancellable(scene, &camera, cancel).map_err(|error| error.to_string())
+        };
+        match self.pair {
+            Pair::First => draw(first, scene, settings.clone()),
+            Pair::Second => draw(second, &self.other, settings.clone()),
+            Pair::Beside => {
+                // One column for each at least.
+                let left = (settings.width / 2).max(1);
+                let right = (settings.width - left).max(1);
+                let sized = |width| RenderSettings { width, ..settings.clone() };
+                let one = draw(first, scene, sized(left))?;
+                let other = draw(second, &self.other, sized(right))?;
+                Ok(compare::beside(&[&one, &other]))
+            }
+            Pair::Heat => {
+                let one = draw(first, scene, settings.clone())?;
+                let other = draw(second, &self.other, settings.clone())?;
+                let difference = compare::difference(&one, &other);
+                *self.said.lock().unwrap_or_else(PoisonError::into_inner) = compare::said(&difference);
+                Ok(compare::frame_of(&difference.picture))
+            }
+        }
+    }
+
+    fn draws_drafts(&self) -> bool {
+        true
+    }
+}

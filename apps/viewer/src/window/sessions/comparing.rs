@@ -1,0 +1,59 @@
+//! Two models in one window.
+
+use trigon_camera::Viewport;
+use trigon_window::{Chord, HeadlessWindow, Key, Modifiers};
+
+use super::{key, says, shift, with_window};
+
+const SIZE: Viewport = Viewport { width: 600, height: 240 };
+
+const TRIANGLE: &str = "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n";
+const SQUARE: &str = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4\n";
+
+/// Pixels of a part of the window's columns, without what is written above.
+fn columns(window: &HeadlessWindow<'_>, columns: std::ops::Range<usize>) -> Vec<[u8; 4]> {
+    let pixels = window.pixels();
+    (90..240).flat_map(|y| pixels[y * 600 + columns.start..y * 600 + columns.end].to_vec()).collect()
+}
+
+#[test]
+fn two_models_are_seen_side_by_side_in_turn_and_where_they_differ() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [one, other] = [("one.obj", TRIANGLE), ("two.obj", SQUARE)].map(|(name, text)| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("written");
+        path
+    });
+    let flags = format!("{} --compare={} --view=front", one.display(), other.display());
+    with_window(&flags, SIZE, |window| {
+        while says(window, "loading two.obj") {
+            window.wait();
+        }
+        assert!(says(window, "one.obj | two.obj"), "what is where");
+        assert!(columns(window, 0..300) != columns(window, 300..600), "two pictures");
+        key(window, 'b');
+        let first = columns(window, 0..600);
+        key(window, 'b');
+        let second = columns(window, 0..600);
+        assert!(first != second, "the other one");
+        key(window, 'b');
+        assert!(columns(window, 0..600) == first, "and the first again");
+        shift(window, 'b');
+        assert!(says(window, "pixels differ"), "how much");
+        let heat = columns(window, 0..600);
+        assert!(heat[0][..3] == [0; 3], "black where they are the same");
+        assert!(heat.iter().any(|pixel| pixel[0] > 100), "and light where they differ");
+        shift(window, 'b');
+        let beside = columns(window, 0..300);
+        window.key(Chord::new(Modifiers::SHIFT, Key::Left));
+        assert!(columns(window, 0..300) != beside, "both turn");
+    });
+}
+
+#[test]
+fn without_another_model_the_keys_say_what_to_do() {
+    with_window("", SIZE, |window| {
+        key(window, 'b');
+        assert!(says(window, "--compare"), "the flag");
+    });
+}

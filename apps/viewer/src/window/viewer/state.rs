@@ -1,0 +1,148 @@
+//! The window's view as a command line: copied, kept in files, and read from them.
+
+use std::path::{Path, PathBuf};
+
+use trigon_scene::RenderSettings;
+use trigon_window::Stage;
+
+use super::{View, Viewer};
+use crate::args::{CommandLine, DECIDED, ExactCamera, Request, Subject, of_settings, plain};
+use crate::failure::Failure;
+use crate::loading;
+use crate::model::Source;
+use crate::state::State;
+use crate::window::side::Content;
+
+/// A command line that draws the window's picture.
+pub(in crate::window) struct Copied {
+    pub(in crate::window) state: State,
+    /// Whether it sets everything as it is. Some combinations of samples have no flag.
+    pub(in crate::window) is_exact: bool,
+}
+
+impl Viewer {
+    /// What the window shows now. Objects that were moved by hand are where the file has them.
+    pub(in crate::window) fn copied(&self, stage: &Stage) -> Result<Copied, Failure> {
+        let source = &self.sources[self.current];
+        let mistake = |error: clap::Error| Failure::Usage(plain(&error));
+        let mut flags = self.request.line.flags_but(&DECIDED, source.first_file()).map_err(mistake)?;
+        // Those of configuration files are among them.
+        flags.push("--no-config=true".to_owned());
+        let settings = stage.picture_settings();
+        flags.extend(of_settings(&settings));
+        let exact = ExactCamera { camera: stage.camera(), distance: stage.orbit.distance() };
+        flags.push(format!("--camera-exact={exact}"));
+        flags.extend(self.overlay_flags());
+        flags.extend(self.playback.iter().flat_map(|playback| playback.flags()));
+        flags.extend(self.hidden_flag(stage));
+        let files = match source {
+            Source::BuiltIn => Vec::new(),
+            Source::Files(files) => files.clone(),
+        };
+        let state = State { files, flags };
+        let line = CommandLine::new(state.words(false)).map_err(mistake)?;
+        let request = Request::from_line(&line, source.first_file()).map_err(mistake)?;
+        let is_exact = is_alike(request.settings, settings);
+        Ok(Copied { state, is_exact })
+    }
+
+    fn overlay_flags(&self) -> impl Iterator<Item = String> {
+        let overlay = &self.request.overlay;
+        [
+            (overlay.shows_axes, "axis"),
+            (self.request.scenery.shows_grid, "grid"),
+            (self.show_name, "filename"),
+            (self.show_metadata, "metadata"),
+        ]
+        .into_iter()
+        .filter(|(is_shown, _)| *is_shown)
+        .map(|(_, flag)| format!("--{flag}=true"))
+    }
+
+    /// The nodes that are hidden, by their numbers in the tree.
+    fn hidden_flag(&self, stage: &Stage) -> Option<String> {
+        let shown = self.shown.as_ref()?;
+        let model = shown.model(stage);
+        let is_hidden = |&(_, (id, _)): &(usize, (trigon_scene::NodeId, usize))| {
+            model.scene.node(id).is_some_and(|node| !node.visible)
+        };
+        let hidden: Vec<String> = model
+            .scene
+            .tree()
+            .into_iter()
+            .enumerate()
+            .filter(is_hidden)
+            .map(|(number, _)| number.to_string())
+            .collect();
+        (!hidden.is_empty()).then(|| format!("--hide-nodes={}", hidden.join(",")))
+    }
+
+    /// Copies it to the clipboard, and shows it.
+    pub(super) fn copy_command(&mut self, stage: &mut Stage) {
+        match self.copied(stage) {
+            Ok(Copied { mut state, is_exact }) => {
+                state.flags.push("--output=view.png".to_owned());
+                self.side.show_command(state.command(), is_exact);
+                self.side.open(Content::Command);
+            }
+            Err(failure) => self.tell_failure(stage, &failure),
+        }
+    }
+
+    /// The file of the state.
+    fn state_path(&self) -> PathBuf {
+        let model = self.sources[self.current].first_file();
+        self.request.state_file.unused(Subject { model, frame: 0 })
+    }
+
+    pub(super) fn save_state(&mut self, stage: &mut Stage) {
+        let path = self.state_path();
+        let written = self.copied(stage).and_then(|Copied { mut state, .. }| {
+            // It may be loaded in another folder.
+            state
+                .files
+                .iter_mut()
+                .for_each(|file| *file = std::path::absolute(&*file).unwrap_or(file.clone()));
+            state.write(&path).map_err(Failure::work)
+        });
+        match written {
+            Ok(()) => self.notify(stage, format!("saved {}", path.display())),
+            Err(failure) => self.tell_failure(stage, &failure),
+        }
+    }
+
+    pub(super) fn load_state(&mut self, stage: &mut Stage) {
+        let path = self.state_path();
+        match self.take_state(stage, &path) {
+            Ok(()) => self.notify(stage, format!("loaded {}", path.display())),
+            Err(failure) => self.tell_failure(stage, &failure),
+        }
+    }
+
+    fn take_state(&mut self, stage: &mut Stage, path: &Path) -> Result<(), Failure> {
+        let mistake = |error: clap::Error| Failure::Usage(format!("{}: {}", path.display(), plain(&error)));
+        let state = State::read(path).map_err(Failure::work)?;
+        let line = CommandLine::new(state.words(false)).map_err(mistake)?;
+        let mut request =
+            Request::from_line(&line, state.files.first().map(PathBuf::as_path)).map_err(mistake)?;
+        loading::light(&mut request, self.reporter)?;
+        // How the window works is not part of the state.
+        request.window = self.request.window.clone();
+        request.state_file = self.request.state_file.clone();
+        request.screenshot = self.request.screenshot.clone();
+        stage.settings = request.settings.clone();
+        (self.show_name, self.show_metadata) = (request.overlay.name, request.overlay.metadata);
+        (self.sources, self.current) = (Source::all(&request), 0);
+        self.request = request;
+        self.load(stage, View::Fit);
+        Ok(())
+    }
+}
+
+/// Whether they draw the same. Environments are those of the same flags.
+fn is_alike(mut one: RenderSettings, other: RenderSettings) -> bool {
+    let RenderSettings { threads, simd, outputs, .. } = other;
+    (one.threads, one.simd, one.outputs) = (threads, simd, outputs);
+    one.effects.environment.clone_from(&other.effects.environment);
+    one == other
+}
