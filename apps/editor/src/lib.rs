@@ -10,6 +10,7 @@ mod export;
 mod overlay;
 #[cfg(feature = "window")]
 mod panel;
+mod report;
 #[cfg(feature = "window")]
 mod request;
 mod run;
@@ -25,6 +26,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use arguments::Arguments;
+use report::report;
 
 #[cfg(feature = "window")]
 pub use window::measured_editor;
@@ -60,12 +62,6 @@ fn edit(arguments: &Arguments) -> Result<(), String> {
 #[cfg(not(feature = "window"))]
 fn edit(_: &Arguments) -> Result<(), String> {
     Err("this trigon-editor was built without its window; run a script with --run script.json --output FILE, or build it with the feature `window`".into())
-}
-
-/// A line on standard error.
-#[expect(clippy::print_stderr, reason = "programs report here")]
-fn report(kind: &str, message: &str) {
-    eprintln!("{kind}: {message}");
 }
 
 /// A text on standard output. A reader that went away wants no more.

@@ -237,6 +237,22 @@ impl Mesh {
         Ok(())
     }
 
+    /// Whether vertices, edges and faces are the same: not their places, nor any other values.
+    pub(crate) fn has_same_elements(&self, other: &Self) -> bool {
+        self.positions.len() == other.positions.len()
+            && self.face_starts == other.face_starts
+            && self.corner_vertices == other.corner_vertices
+            && self.loose_edges == other.loose_edges
+            && self.loose_points == other.loose_points
+    }
+
+    /// Adds vertices without values, and edges between vertices that no face has.
+    pub(crate) fn add_wires(&mut self, positions: impl Iterator<Item = Vec3>, edges: Vec<[u32; 2]>) {
+        self.positions.extend(positions);
+        self.loose_edges.extend(edges);
+        self.edges = OnceLock::new();
+    }
+
     /// For changes that preserve lengths.
     pub(crate) fn attributes_mut(&mut self) -> &mut Attributes {
         &mut self.attributes

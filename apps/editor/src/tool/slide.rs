@@ -3,18 +3,16 @@
 use trigon_edit::mesh::edit::{EditMesh, VertexId};
 use trigon_edit::mesh::math::{DAffine3, DVec2, DVec3};
 use trigon_edit::scene::MeshId;
-use trigon_edit::{Command, Document, ElementKind, SlideEdges, SlideVertices, TransformSpace};
+use trigon_edit::{Document, ElementKind, SlideEdges};
 
 use super::selected::placed;
-use super::snap::rounded;
-use super::transform::TransformTool;
 use super::view::ToolView;
 
 /// What the pointer's way is compared with.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Slide {
     /// Whether whole loops of edges slide, rather than vertices each along an edge.
-    edges: bool,
+    pub(super) edges: bool,
     /// In the picture, from the nearest vertex: to the end on the side of positive factors, and on the
     /// other one.
     ways: [DVec2; 2],
@@ -37,7 +35,7 @@ impl Slide {
     }
 
     /// The factor that a way of the pointer means and, of vertices, the direction in the world.
-    fn follow(&self, way: DVec2) -> (f64, DVec3) {
+    pub(super) fn follow(&self, way: DVec2) -> (f64, DVec3) {
         if self.edges {
             let [left, right] = self.ways.map(|end| part(way, end));
             return (if left >= right { left.min(1.0) } else { -right.min(1.0) }, DVec3::ZERO);
@@ -101,24 +99,6 @@ fn directions(
     let start = placed(mesh, vertex, to_world);
     let ends = mesh.vertex_edges(vertex).map(|edge| placed(mesh, mesh.other_vertex(edge, vertex), to_world));
     ends.filter_map(|end| Some((end - start, view.screen(end)? - view.screen(start)?))).collect()
-}
-
-impl TransformTool {
-    /// The command that slides what is selected.
-    pub(super) fn slide_along(&mut self) -> Result<Command, String> {
-        let Some(slide) = &self.slide else { return Err("nothing is selected that could slide".into()) };
-        let (dragged, direction) = slide.follow(self.modal.pointer.way());
-        let step = self.settings.snap.factor_step(self.modal.is_precise());
-        let dragged = if self.snaps() { rounded(dragged, step) } else { dragged };
-        let typed = self.modal.numeric.value_or(0.0).map_err(|error| error.to_string())?;
-        let factor = typed.unwrap_or(dragged);
-        self.text = format!("Slide {factor:.4}");
-        Ok(if slide.edges {
-            SlideEdges { factor }.into()
-        } else {
-            SlideVertices { factor, direction: direction.to_array(), space: TransformSpace::World }.into()
-        })
-    }
 }
 
 #[cfg(test)]

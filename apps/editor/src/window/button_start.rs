@@ -3,11 +3,9 @@
 //! as when started by its key.
 
 use trigon_window::scene::math::DVec2;
-use trigon_window::{Hands, Input, Modifiers, PointerButton, Stage};
+use trigon_window::{Hands, Input, Modifiers, PointerButton};
 
-use super::editor::Editor;
-use super::panes::point;
-use super::pick::Click;
+use super::click::Click;
 
 /// Where a tool is between the button that started it and the movement that counts.
 #[derive(Debug, Clone, Copy)]
@@ -37,8 +35,8 @@ pub(super) enum Passed {
 
 impl ButtonStart {
     /// Of a tool that starts where the pointer is.
-    pub(super) fn of(editor: &Editor, stage: &Stage, hands: Hands) -> Self {
-        if is_in_view(editor, stage, hands) { Self::Over } else { Self::Waits }
+    pub(super) fn of(is_in_view: bool) -> Self {
+        if is_in_view { Self::Over } else { Self::Waits }
     }
 
     /// What the status line says beside the tool's own.
@@ -46,29 +44,23 @@ impl ButtonStart {
         if matches!(self, Self::Waits) { "Press in the view and drag, or type a number. " } else { "" }
     }
 
-    /// What an input means, and what comes next.
-    pub(super) fn pass(&mut self, editor: &Editor, stage: &Stage, input: &Input, hands: Hands) -> Passed {
+    /// What an input means, and what comes next. `scale` is physical pixels for each logical one.
+    pub(super) fn pass(&mut self, is_in_view: bool, scale: f64, input: &Input, hands: Hands) -> Passed {
         match (*self, input) {
             (Self::Waits, Input::PointerMoved) => Passed::No,
             (Self::Waits, Input::Pressed(PointerButton::Left))
                 if !hands.modifiers.contains(Modifiers::ALT) =>
             {
-                let press = Click::new(hands).filter(|_| is_in_view(editor, stage, hands));
+                let press = Click::new(hands).filter(|_| is_in_view);
                 let Some(press) = press else { return Passed::Cancels };
                 *self = Self::Pressed(press);
                 Passed::Begins(press.at)
             }
             (Self::Pressed(press), Input::Released(PointerButton::Left)) => {
                 *self = Self::Over;
-                if press.is_drag(hands, stage.scale()) { Passed::Confirms } else { Passed::No }
+                if press.is_drag(hands, scale) { Passed::Confirms } else { Passed::No }
             }
             _ => Passed::On,
         }
     }
-}
-
-/// Whether the pointer is on the picture, beside all panels.
-fn is_in_view(editor: &Editor, stage: &Stage, hands: Hands) -> bool {
-    let Some((free, at)) = editor.free.zip(hands.pointer) else { return true };
-    free.contains(point(stage, at))
 }

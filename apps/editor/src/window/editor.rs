@@ -11,21 +11,21 @@ use trigon_window::Stage;
 use trigon_window::egui::Rect;
 use trigon_window::scene::math::DVec2;
 
+use super::actions;
+use super::click::Click;
 use super::dialog::{FileWindow, Purpose};
-use super::gizmo::Place;
 use super::interface::{Panels, Popup, Rename, Search};
 use super::keys::Keys;
 use super::loading::Loading;
 use super::look::Look;
 use super::open_file::{Next, OpenFile, Question};
-use super::pick::{self, Click};
+use super::place::Place;
 use super::pointing::Pointing;
 use super::recent::Recent;
 use super::recovery::Recovery;
 use super::running::Running;
 use super::saving::{SaveOrder, Saving};
 use super::settings::{self, Layout, ToolSettings, ViewState};
-use super::{actions, look, navigation, placing};
 use crate::request::{Request, ToolKind, UiRequest};
 
 /// What the status line says until the next action.
@@ -139,7 +139,7 @@ impl Editor {
             Request::Compare(comparison) => stage.comparison = comparison,
             Request::Refine(refinement) => stage.refinement = refinement,
             Request::StartTool(tool) => self.start_tool(stage, tool),
-            Request::View(request) => navigation::apply(self, stage, request),
+            Request::View(request) => self.navigate(stage, request),
             Request::File(request) => self.file_request(stage, request),
             Request::Ui(request) => self.ui_request(stage, request),
         }
@@ -156,7 +156,7 @@ impl Editor {
         {
             self.message = Message::Refusal(error);
         }
-        look::onto_stage(self, stage);
+        self.show_document(stage);
         stage.set_title(self.title());
     }
 
@@ -268,13 +268,6 @@ impl Editor {
         }
     }
 
-    fn select_linked(&mut self, stage: &Stage) {
-        match self.pointer.and_then(|at| pick::linked(self, stage, at)) {
-            Some(command) => self.run(command),
-            None => self.message = Message::Refusal("Linked: point at a mesh that is edited".into()),
-        }
-    }
-
     fn select_kind(&mut self, kind: ElementKind) {
         self.run(SetElementKind { kind }.into());
     }
@@ -286,7 +279,7 @@ impl Editor {
             None => {
                 let before = self.entries();
                 let request = match action.request() {
-                    Request::Run(command) => Request::Run(placing::at_cursor(command, self.tools.cursor)),
+                    Request::Run(command) => Request::Run(self.at_cursor(command)),
                     request => request,
                 };
                 self.perform(stage, request);

@@ -3,33 +3,23 @@
 use trigon_window::egui::{Pos2, Rect, vec2};
 use trigon_window::{Hands, Pane, Stage};
 
+use super::click::Click;
 use super::editor::Editor;
 use super::panes::{overlay_view, tool_view};
-use super::pick::Click;
 use crate::overlay::{Gizmo, GizmoKind, Handle, axis_view_at};
 use crate::request::{Request, ToolKind, ViewRequest};
-use crate::tool::{Axis, Frames, Freedom, Selected};
+use crate::tool::{Axis, Frames, Freedom};
 
 /// From the corner of the view to the middle of the axes, in points.
 const AXES: f32 = 56.0;
 /// In a smaller view there are none, in points.
 const LEAST_VIEW: f32 = 240.0;
 
-/// Where the selected things are, of which revision of the document.
-#[derive(Debug, Default)]
-pub(crate) struct Place {
-    known: Option<(u64, Option<Selected>)>,
-}
-
 impl Editor {
     /// The gizmo in a view, while something is selected that it could move.
     pub(crate) fn gizmo(&mut self, stage: &Stage, pane: &Pane) -> Option<Gizmo> {
         let kind = self.tools.gizmo.filter(|_| self.tool.is_none() && self.view.overlays)?;
-        let revision = self.document.revision();
-        if self.place.known.as_ref().is_none_or(|(known, _)| *known != revision) {
-            self.place.known = Some((revision, Selected::of(&self.document)));
-        }
-        let selected = self.place.known.as_ref()?.1.as_ref()?;
+        let selected = self.place.of(&self.document)?;
         let center = self.tools.pivot.point(selected, self.tools.cursor);
         let view = tool_view(stage, pane);
         let axes = Frames::new(self.tools.orientation, selected.local, selected.normal, &view).chosen;

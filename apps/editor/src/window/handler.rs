@@ -7,11 +7,12 @@ use trigon_window::scene::math::DVec2;
 use trigon_window::{Chord, Handler, Hands, Input, Key, Modifiers, PointerButton, Stage, Taken, egui};
 
 use super::actions::CONTEXT_MENU;
+use super::click::Click;
 use super::editor::Editor;
 use super::loading::Loading;
 use super::open_file::{Answer, Next};
 use super::panes::pane_of;
-use super::pick::{self, Click};
+use super::pick;
 use super::running::Running;
 use super::saving::Saving;
 use super::{files, interface};

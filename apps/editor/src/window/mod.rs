@@ -1,13 +1,15 @@
 //! The editor's window: its state, and everything around the 3D view.
 //!
 //! Keys, menus, panels and tools make [`Request`](crate::request::Request)s; [`Editor`] executes
-//! them on the document; [`look`] brings the document onto the stage.
+//! them on the document; [`onto_stage`] brings the document onto the stage.
 
 mod actions;
 mod button_start;
+mod click;
 mod dialog;
 mod editor;
 mod files;
+mod four_views;
 mod gizmo;
 mod handler;
 mod interface;
@@ -16,9 +18,11 @@ mod loading;
 mod look;
 mod modal;
 mod navigation;
+mod onto_stage;
 mod open_file;
 mod panes;
 mod pick;
+mod place;
 mod placing;
 mod pointing;
 mod recent;

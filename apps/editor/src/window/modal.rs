@@ -6,9 +6,9 @@ use trigon_edit::{SelectAction, Shear};
 use trigon_window::{Hands, Input, InputOwner, Key, Modifiers, Pane, PointerButton, Stage, Taken};
 
 use super::button_start::{ButtonStart, Passed};
+use super::click::Click;
 use super::editor::{Editor, Message};
 use super::panes::{in_pane, pane_of, tool_view};
-use super::pick::Click;
 use super::running::{Running, What, gesture_kind, transform_kind};
 use crate::request::{Request, ToolKind};
 use crate::tool::{
@@ -28,7 +28,8 @@ impl Editor {
         match self.started((stage, &pane), kind, in_pane(hands, &pane)) {
             Some(what) => {
                 let waits = matches!(what, What::Tool(_));
-                let start = if waits { ButtonStart::of(self, stage, hands) } else { ButtonStart::Over };
+                let start =
+                    if waits { ButtonStart::of(self.is_in_view(stage, hands)) } else { ButtonStart::Over };
                 self.follow(stage, Running { start, ..Running::new(kind, what, &pane) });
             }
             None => self.message = Message::Refusal(format!("{kind:?}: select something first")),
@@ -121,20 +122,21 @@ impl Editor {
             running.pointer_jumped(to);
         }
         let confirm = Input::Pressed(PointerButton::Left);
-        let input = match running.start.pass(self, stage, input, in_window) {
-            Passed::On => input,
-            Passed::Confirms => &confirm,
-            Passed::Cancels => &Input::Pressed(PointerButton::Right),
-            passed => {
-                if let Passed::Begins(at) = passed {
-                    let pane = stage.pane_at(at);
-                    running.side = pane.side;
-                    running.pointer_jumped(at - pane.area.origin());
+        let input =
+            match running.start.pass(self.is_in_view(stage, in_window), stage.scale(), input, in_window) {
+                Passed::On => input,
+                Passed::Confirms => &confirm,
+                Passed::Cancels => &Input::Pressed(PointerButton::Right),
+                passed => {
+                    if let Passed::Begins(at) = passed {
+                        let pane = stage.pane_at(at);
+                        running.side = pane.side;
+                        running.pointer_jumped(at - pane.area.origin());
+                    }
+                    self.tool = Some(running);
+                    return Taken::Yes;
                 }
-                self.tool = Some(running);
-                return Taken::Yes;
-            }
-        };
+            };
         let view = tool_view(stage, &pane);
         let before = self.entries();
         let state = match &mut running.what {

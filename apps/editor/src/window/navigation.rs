@@ -9,29 +9,32 @@ use trigon_window::{Area, Stage};
 use super::editor::{Editor, Message};
 use crate::request::{DisplayMode, ViewRequest};
 
-/// Does what is asked for.
-pub(crate) fn apply(editor: &mut Editor, stage: &mut Stage, request: ViewRequest) {
-    match request {
-        ViewRequest::Axis(view) => stage.orbit.set_view(view),
-        ViewRequest::Opposite => stage.orbit.orbit(std::f64::consts::PI, 0.0),
-        ViewRequest::ToggleOrthographic => stage.orbit.toggle_orthographic(),
-        ViewRequest::Orbit(right, up) => stage.orbit.orbit(right.to_radians(), up.to_radians()),
-        ViewRequest::Roll(angle) => stage.orbit.roll(angle.to_radians()),
-        ViewRequest::Zoom(factor) => stage.orbit.zoom(factor),
-        ViewRequest::Pan(right, up) => {
-            let height = stage.orbit.height_at_target();
-            stage.orbit.pan(right * height, up * height);
+impl Editor {
+    /// Does what is asked for.
+    pub(super) fn navigate(&mut self, stage: &mut Stage, request: ViewRequest) {
+        let editor = self;
+        match request {
+            ViewRequest::Axis(view) => stage.orbit.set_view(view),
+            ViewRequest::Opposite => stage.orbit.orbit(std::f64::consts::PI, 0.0),
+            ViewRequest::ToggleOrthographic => stage.orbit.toggle_orthographic(),
+            ViewRequest::Orbit(right, up) => stage.orbit.orbit(right.to_radians(), up.to_radians()),
+            ViewRequest::Roll(angle) => stage.orbit.roll(angle.to_radians()),
+            ViewRequest::Zoom(factor) => stage.orbit.zoom(factor),
+            ViewRequest::Pan(right, up) => {
+                let height = stage.orbit.height_at_target();
+                stage.orbit.pan(right * height, up * height);
+            }
+            ViewRequest::FrameSelected => frame_selected(editor, stage),
+            ViewRequest::FrameAll => frame_all(editor, stage),
+            ViewRequest::ToggleLocal => toggle_local(editor, stage),
+            ViewRequest::Camera => look_through_camera(editor, stage),
+            ViewRequest::CameraToView => camera_to_view(editor, stage),
+            ViewRequest::Display(mode) => editor.view.display = mode,
+            ViewRequest::ToggleWireframe => toggle_wireframe(editor),
+            ViewRequest::ToggleFourViews => editor.toggle_four_views(stage),
+            ViewRequest::ToggleXRay => editor.view.x_ray = !editor.view.x_ray,
+            ViewRequest::ToggleOverlays => editor.view.overlays = !editor.view.overlays,
         }
-        ViewRequest::FrameSelected => frame_selected(editor, stage),
-        ViewRequest::FrameAll => frame_all(editor, stage),
-        ViewRequest::ToggleLocal => toggle_local(editor, stage),
-        ViewRequest::Camera => look_through_camera(editor, stage),
-        ViewRequest::CameraToView => camera_to_view(editor, stage),
-        ViewRequest::Display(mode) => editor.view.display = mode,
-        ViewRequest::ToggleWireframe => toggle_wireframe(editor),
-        ViewRequest::ToggleFourViews => editor.toggle_four_views(stage),
-        ViewRequest::ToggleXRay => editor.view.x_ray = !editor.view.x_ray,
-        ViewRequest::ToggleOverlays => editor.view.overlays = !editor.view.overlays,
     }
 }
 

@@ -3,12 +3,11 @@
 //! The window has one scene and one camera; `trigon_window::Pane` says where its views are. A tool stays in
 //! the view in which it was started, and uses that view's own pixels.
 
-use trigon_window::egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, Visuals, pos2, vec2};
-use trigon_window::scene::camera::{AxisView, Viewport};
+use trigon_window::egui::{Align2, FontId, Painter, Pos2, Stroke, Visuals, pos2, vec2};
+use trigon_window::scene::camera::AxisView;
 use trigon_window::scene::math::DVec2;
-use trigon_window::{Area, Hands, Pane, Stage};
+use trigon_window::{Hands, Pane, Stage};
 
-use super::editor::Editor;
 use crate::overlay::OverlayView;
 use crate::tool::ToolView;
 
@@ -44,34 +43,8 @@ pub(crate) fn point(stage: &Stage, at: DVec2) -> Pos2 {
 }
 
 /// Physical pixels to a point of the interface.
-fn points(stage: &Stage) -> f64 {
+pub(super) fn points(stage: &Stage) -> f64 {
     stage.scale() * f64::from(stage.text_scale.clamp(0.5, 4.0))
-}
-
-impl Editor {
-    /// Shows four views, or one again.
-    pub(crate) fn toggle_four_views(&mut self, stage: &mut Stage) {
-        stage.four_views = match stage.four_views {
-            Some(_) => None,
-            None => Some(area(stage, self.free)),
-        };
-    }
-
-    /// Four views fill what no panel covers.
-    pub(crate) fn fit_four_views(&self, stage: &mut Stage) {
-        if stage.four_views.is_some() {
-            stage.four_views = Some(area(stage, self.free));
-        }
-    }
-}
-
-fn area(stage: &Stage, free: Option<Rect>) -> Area {
-    let Some(free) = free else { return Area { min: [0, 0], size: stage.viewport() } };
-    let pixels = |points_of: f32| (f64::from(points_of.max(0.0)) * points(stage)).round() as u32;
-    let (min, max) = (free.min, free.max);
-    let [left, top] = [pixels(min.x), pixels(min.y)];
-    let (width, height) = (pixels(max.x).saturating_sub(left), pixels(max.y).saturating_sub(top));
-    Area { min: [left, top], size: Viewport { width, height } }
 }
 
 /// Names a view among four, and draws its border.

@@ -3,33 +3,12 @@
 use trigon_edit::scene::NodeId;
 use trigon_edit::{Command, ObjectName, PICK_RADIUS, Picks, Select, SelectAction};
 use trigon_window::scene::math::DVec2;
-use trigon_window::{Hands, Modifiers, Pane, Stage};
+use trigon_window::{Modifiers, Pane, Stage};
 
-use super::editor::Editor;
+use super::editor::{Editor, Message};
 use super::panes::overlay_view;
 use crate::overlay::{camera_at, light_at};
 use crate::request::Request;
-
-/// A press that moves further than this many logical pixels is no click.
-const SLOP: f64 = 4.0;
-
-/// The left button is down.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Click {
-    pub(crate) at: DVec2,
-    pub(crate) modifiers: Modifiers,
-}
-
-impl Click {
-    pub(crate) fn new(hands: Hands) -> Option<Self> {
-        hands.pointer.map(|at| Self { at, modifiers: hands.modifiers })
-    }
-
-    /// Whether the pointer has moved too far for a click.
-    pub(crate) fn is_drag(&self, hands: Hands, scale: f64) -> bool {
-        hands.pointer.is_some_and(|to| to.distance(self.at) > SLOP * scale)
-    }
-}
 
 /// Selects what is at a place of the window.
 pub(crate) fn click(editor: &mut Editor, stage: &mut Stage, at: DVec2, modifiers: Modifiers) {
@@ -74,8 +53,18 @@ fn overlay_at(editor: &Editor, stage: &Stage, at: DVec2) -> Option<NodeId> {
     light_at(&editor.document, &view, place).or_else(|| camera_at(&editor.document, &view, place))
 }
 
+impl Editor {
+    /// Adds what hangs together with what is under the pointer.
+    pub(super) fn select_linked(&mut self, stage: &Stage) {
+        match self.pointer.and_then(|at| linked(self, stage, at)) {
+            Some(command) => self.run(command),
+            None => self.message = Message::Refusal("Linked: point at a mesh that is edited".into()),
+        }
+    }
+}
+
 /// Adds what hangs together with what is at a place; nothing where no edited mesh is.
-pub(crate) fn linked(editor: &mut Editor, stage: &Stage, at: DVec2) -> Option<Command> {
+fn linked(editor: &mut Editor, stage: &Stage, at: DVec2) -> Option<Command> {
     let pane = stage.pane_at(at);
     let at = at - pane.area.origin();
     ask(editor, (stage, &pane), |picks, radius| picks.linked(at, radius, SelectAction::Add))

@@ -5,20 +5,20 @@ use trigon_window::scene::math::DVec3;
 
 use super::editor::{Editor, Message};
 
-/// A command of the menu Add that puts its object beside the 3D cursor as its own place is beside the origin.
-pub(crate) fn at_cursor(mut command: Command, cursor: DVec3) -> Command {
-    let place = match &mut command {
-        Command::AddObject(add) => &mut add.position,
-        Command::AddLight(add) => &mut add.position,
-        Command::AddEmpty(add) => &mut add.position,
-        Command::AddCamera(add) => &mut add.position,
-        _ => return command,
-    };
-    *place = (DVec3::from(*place) + cursor).to_array();
-    command
-}
-
 impl Editor {
+    /// A command of the menu Add that puts its object beside the 3D cursor as its own place is beside the origin.
+    pub(super) fn at_cursor(&self, mut command: Command) -> Command {
+        let place = match &mut command {
+            Command::AddObject(add) => &mut add.position,
+            Command::AddLight(add) => &mut add.position,
+            Command::AddEmpty(add) => &mut add.position,
+            Command::AddCamera(add) => &mut add.position,
+            _ => return command,
+        };
+        *place = (DVec3::from(*place) + self.tools.cursor).to_array();
+        command
+    }
+
     /// Hangs the selected objects on the active one.
     pub(crate) fn set_parent(&mut self, keeps_place: bool) {
         let selection = self.document.selection();

@@ -6,7 +6,7 @@ use trigon_edit::scene::camera::AxisView;
 use trigon_window::{Hands, Input, Modifiers, Pane, PointerButton};
 
 use super::button_start::ButtonStart;
-use super::pick::Click;
+use super::click::Click;
 use crate::request::ToolKind;
 use crate::tool::{Gesture, GestureKind, LoopCutTool, Tool, ToolMarks, TransformKind};
 

@@ -4,6 +4,8 @@
 //! A command is one variant of [`Command`] and one file with its parameters and its implementation.
 //! Its description in scripts and documentation is generated from the comments of its parameters.
 
+mod action;
+mod apply_transform;
 mod bevel;
 mod camera;
 mod clear_transform;
@@ -40,6 +42,7 @@ mod set_light;
 mod set_transform;
 mod shape;
 mod space;
+mod subdivision;
 mod surface;
 mod texture;
 mod texture_slot;
@@ -50,9 +53,8 @@ mod visibility;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::document::Change;
-use crate::error::EditError;
-
+pub(crate) use action::Action;
+pub use apply_transform::ApplyTransform;
 pub use bevel::Bevel;
 pub use camera::AddCamera;
 pub use clear_transform::ClearTransform;
@@ -91,6 +93,7 @@ pub use set_light::SetLight;
 pub use set_transform::SetTransform;
 pub use shape::Shape;
 pub use space::TransformSpace;
+pub use subdivision::{ApplySubdivision, SetSubdivision};
 pub use surface::{Bridge, CatmullClark, ConnectVertices, Fill, Triangulate, TrisToQuads};
 pub use texture::{AssignTexture, TextureSource};
 pub use texture_slot::TextureSlot;
@@ -99,12 +102,6 @@ pub use transform::{
 };
 pub use uvs::{ProjectUvs, ProjectUvsOnBox};
 pub use visibility::{HideOthers, RevealObjects};
-
-/// The implementation of a command.
-pub(crate) trait Action {
-    /// Runs the command. On an error the caller undoes all changes made so far.
-    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError>;
-}
 
 /// Lists all commands: variant, type, display name.
 macro_rules! commands {
@@ -230,6 +227,10 @@ commands! {
     JoinObjects("Join", false),
     /// Subdivides meshes into smooth surfaces.
     CatmullClark("Catmull-Clark", false),
+    /// Shows meshes as subdivision surfaces while their cage is edited.
+    SetSubdivision("Subdivision Surface", false),
+    /// Replaces meshes with their subdivision surfaces.
+    ApplySubdivision("Apply Subdivision", false),
     /// Cuts faces into triangles.
     Triangulate("Triangulate", false),
     /// Joins triangles into quads.
@@ -312,6 +313,8 @@ commands! {
     SetTransform("Set Transform", false),
     /// Clears placements.
     ClearTransform("Clear Transform", false),
+    /// Applies the placement of objects to their vertices.
+    ApplyTransform("Apply Transform", false),
     /// Changes a light.
     SetLight("Set Light", false),
     /// Gives an object a new material.

@@ -36,7 +36,7 @@ impl TransformSpace {
         let into_mesh = |id| {
             let to_world = match self {
                 Self::Local => return Ok((id, DAffine3::IDENTITY)),
-                Self::World => change.document().mesh_transform(id),
+                Self::World => change.state().mesh_transform(id),
             };
             Ok((id, inverse(to_world, command)?))
         };

@@ -3,9 +3,10 @@
 
 use trigon_mesh::edit::{EdgeId, EditMesh, ElementMap, ElementNumbers, FaceId, VertexId};
 use trigon_mesh::math::DVec2;
+use trigon_scene::camera::Projector;
 use trigon_scene::{MeshId, NodeId};
 
-use super::pick::Picks;
+use crate::document::Document;
 use crate::selection::ElementKind;
 
 /// An edited element, with an object that shows it.
@@ -19,12 +20,16 @@ pub(super) struct Target {
 
 /// Pixels from a point to a vertex, to an edge's line, or to a face's centre; infinite if it is not
 /// on the screen.
-pub(super) fn distance(picks: &Picks<'_>, kind: ElementKind, target: &Target, point: DVec2) -> f64 {
-    let Some(mesh) = picks.document.mesh(target.mesh) else { return f64::INFINITY };
-    let world = picks.document.nodes().world_transform(target.node);
-    let at = |vertex: VertexId| {
-        picks.projector.to_screen(world.transform_point3(mesh.position(vertex).as_dvec3()))
-    };
+pub(super) fn distance(
+    document: &Document,
+    projector: &Projector,
+    kind: ElementKind,
+    target: &Target,
+    point: DVec2,
+) -> f64 {
+    let Some(mesh) = document.mesh(target.mesh) else { return f64::INFINITY };
+    let world = document.nodes().world_transform(target.node);
+    let at = |vertex: VertexId| projector.to_screen(world.transform_point3(mesh.position(vertex).as_dvec3()));
     let found = match kind {
         ElementKind::Vertex => at(VertexId::new(target.element)).map(|at| at.distance(point)),
         ElementKind::Edge => {
@@ -33,7 +38,7 @@ pub(super) fn distance(picks: &Picks<'_>, kind: ElementKind, target: &Target, po
         }
         ElementKind::Face => {
             let center = world.transform_point3(mesh.face_center(FaceId::new(target.element)));
-            picks.projector.to_screen(center).map(|center| center.distance(point))
+            projector.to_screen(center).map(|center| center.distance(point))
         }
     };
     found.unwrap_or(f64::INFINITY)

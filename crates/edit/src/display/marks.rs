@@ -7,10 +7,10 @@
 use std::sync::Arc;
 
 use fixedbitset::FixedBitSet;
-use trigon_mesh::edit::{EdgeId, ElementNumbers, FaceId, VertexId};
+use trigon_mesh::edit::{EdgeId, ElementMap, ElementNumbers, FaceId, VertexId};
 use trigon_mesh::math::{Vec3, color};
 use trigon_scene::{
-    ElementSet, Mark, Marks, MeshId, NodeId, Outline, Reach, RenderSettings, Scene, Style, VertexPoints,
+    ElementSet, Mark, Marks, MeshId, NodeId, Outline, Reach, RenderSettings, Style, VertexPoints,
 };
 
 use crate::document::Document;
@@ -28,6 +28,7 @@ const ACTIVE_FACE: [u8; 3] = [0xff, 0xc8, 0x50];
 const SHARP: [u8; 3] = [0x00, 0xff, 0xff];
 const SEAM: [u8; 3] = [0xdb, 0x25, 0x12];
 const CREASE: [u8; 3] = [0xcc, 0x00, 0x99];
+const CAGE: [u8; 3] = [0; 3];
 const OBJECT: [u8; 3] = [0xff, 0xa0, 0x28];
 
 /// The opacity of the colour of a selected face, so that its own colour shows.
@@ -113,6 +114,8 @@ struct Sets {
     sharp: ElementSet,
     seams: ElementSet,
     creases: ElementSet,
+    /// Edges over a subdivision surface; without a mark they would have the colour of the material.
+    cage: ElementSet,
 }
 
 /// The indices of the kinds in [`Sets`].
@@ -127,7 +130,7 @@ fn edit_marks(document: &Document) -> Marks {
         let Some(mesh) = content.mesh else { continue };
         match document.selection().of(mesh) {
             Some(selected) => sets.add(document, node, mesh, selected),
-            None => sets.hide_elements(scene, node, mesh),
+            None => sets.hide_elements(document, node, mesh),
         }
     }
     sets.into_marks()
@@ -136,17 +139,27 @@ fn edit_marks(document: &Document) -> Marks {
 impl Sets {
     /// The elements of an edited object.
     fn add(&mut self, document: &Document, node: NodeId, id: MeshId, selected: &MeshSelection) {
-        let (Some(mesh), Some(numbers)) = (document.mesh(id), document.shown_numbers(id)) else { return };
+        let (Some(mesh), Some(map)) = (document.mesh(id), document.shown_elements(id)) else { return };
+        let Some(numbers) = document.shown_numbers(id) else { return };
         let kind = document.selection().kind();
         let vertices = selected.vertices(mesh, kind);
         let edges = selected.edges(mesh, kind);
         let faces = selected.faces(mesh, kind);
         self.selected[VERTICES].add(node, bits(vertices.iter().filter_map(|&id| numbers.vertex(id))));
         self.selected[EDGES].add(node, bits(edges.iter().filter_map(|&id| numbers.edge(id))));
-        self.selected[FACES].add(node, bits(faces.iter().filter_map(|&id| numbers.face(id))));
+        let parts = |face: FaceId| parts(map, numbers, face);
+        self.selected[FACES].add(node, bits(faces.iter().copied().flat_map(parts)));
+        self.show_cage(document, node, id, map);
         if let Some(active) = selected.order().last().copied() {
-            let (place, number) = active_number(numbers, kind, active);
-            self.active[place].add(node, bits(number.into_iter()));
+            match kind {
+                ElementKind::Vertex => {
+                    self.active[VERTICES].add(node, bits(numbers.vertex(VertexId::new(active)).into_iter()));
+                }
+                ElementKind::Edge => {
+                    self.active[EDGES].add(node, bits(numbers.edge(EdgeId::new(active)).into_iter()));
+                }
+                ElementKind::Face => self.active[FACES].add(node, bits(parts(FaceId::new(active)))),
+            }
         }
         let Some(marked) = document.marked(id) else { return };
         let numbered = |edges: &[EdgeId]| bits(edges.iter().filter_map(|&id| numbers.edge(id)));
@@ -155,16 +168,25 @@ impl Sets {
         self.creases.add(node, numbered(&marked.creases));
     }
 
-    /// Only edited objects show their edges and vertices.
-    fn hide_elements(&mut self, scene: &Scene, node: NodeId, id: MeshId) {
-        let Some(asset) = scene.meshes().get(id) else { return };
-        let all = |count: usize| {
-            let mut all = FixedBitSet::with_capacity(count);
-            all.insert_range(..);
-            all
-        };
-        self.plain_edges.add(node, all(asset.mesh().edge_count()));
-        self.plain_vertices.add(node, all(asset.mesh().vertex_count()));
+    /// Of a surface with its cage, only the edges and vertices of the cage are seen.
+    fn show_cage(&mut self, document: &Document, node: NodeId, id: MeshId, map: &ElementMap) {
+        if let Some(surface) = document.shown_surface(id) {
+            let is_surface =
+                |vertex: &&VertexId| document.mesh(id).is_some_and(|mesh| !mesh.has_vertex(**vertex));
+            let mut cage = all(surface.edge_count());
+            cage.set_range(..surface.face_edge_count(), false);
+            self.cage.add(node, cage);
+            self.plain_edges.add(node, all(surface.face_edge_count()));
+            self.plain_vertices.add(node, all(map.vertices.iter().take_while(is_surface).count()));
+        }
+    }
+
+    /// Only what is edited shows its edges and vertices.
+    fn hide_elements(&mut self, document: &Document, node: NodeId, id: MeshId) {
+        let of_scene = || Some(document.nodes().meshes().get(id)?.mesh());
+        let Some(mesh) = document.shown_surface(id).or_else(of_scene) else { return };
+        self.plain_edges.add(node, all(mesh.edge_count()));
+        self.plain_vertices.add(node, all(mesh.vertex_count()));
     }
 
     /// In order of priority.
@@ -185,6 +207,7 @@ impl Sets {
             mark(self.sharp, SHARP, 1.0),
             mark(self.seams, SEAM, 1.0),
             mark(self.creases, CREASE, 1.0),
+            mark(self.cage, CAGE, 1.0),
         ];
         let faces =
             [mark(active_faces, ACTIVE_FACE, ACTIVE_FACE_OPACITY), mark(faces, SELECTED_FACE, FACE_OPACITY)];
@@ -201,12 +224,18 @@ impl Sets {
     }
 }
 
-fn active_number(numbers: &ElementNumbers, kind: ElementKind, active: u32) -> (usize, Option<u32>) {
-    match kind {
-        ElementKind::Vertex => (VERTICES, numbers.vertex(VertexId::new(active))),
-        ElementKind::Edge => (EDGES, numbers.edge(EdgeId::new(active))),
-        ElementKind::Face => (FACES, numbers.face(FaceId::new(active))),
-    }
+/// The numbers of a face in the shown mesh: that of a surface has several parts of it, one after the other.
+fn parts(map: &ElementMap, numbers: &ElementNumbers, face: FaceId) -> impl Iterator<Item = u32> {
+    let first = numbers.face(face).map_or(map.faces.len(), |first| first as usize);
+    let count = map.faces[first..].iter().take_while(|part| **part == face).count();
+    (first..first + count).map(|number| number as u32)
+}
+
+/// So many bits that are set.
+fn all(count: usize) -> FixedBitSet {
+    let mut all = FixedBitSet::with_capacity(count);
+    all.insert_range(..);
+    all
 }
 
 fn bits(numbers: impl Iterator<Item = u32>) -> FixedBitSet {

@@ -233,7 +233,7 @@ impl<'p> Picks<'p> {
         let found = self.elements(kind, &Region::Circle { center: point, radius });
         let targets = found.iter().filter_map(|(node, number)| self.target(kind, node, number));
         targets
-            .map(|target| (distance(self, kind, &target, point), target))
+            .map(|target| (distance(self.document, &self.projector, kind, &target, point), target))
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .map(|(_, target)| target)
     }

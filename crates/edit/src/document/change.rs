@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use trigon_mesh::edit::{Difference, EdgeId, EditMesh, FaceId, Refusal, VertexId};
 use trigon_scene::{MeshId, NodeId, Scene, SceneError, SceneParts};
 
-use super::Document;
+use super::state::State;
 use crate::error::EditError;
 use crate::selection::{Elements, MeshSelection, Selection};
 
 /// A running command: all changes go through it, so that they can be undone.
 pub(crate) struct Change<'d> {
-    pub(super) document: &'d mut Document,
+    pub(super) state: &'d mut State,
     pub(super) meshes: Vec<(MeshId, Difference)>,
     pub(super) parts: Option<Box<SceneParts>>,
 }
@@ -27,47 +27,47 @@ pub(crate) enum AfterEdit {
 }
 
 impl Change<'_> {
-    pub(crate) fn document(&self) -> &Document {
-        self.document
+    pub(crate) fn state(&self) -> &State {
+        self.state
     }
 
     pub(crate) fn scene(&self) -> &Scene {
-        &self.document.file.scene
+        &self.state.file.scene
     }
 
     /// The scene, for changing nodes and materials. Meshes may be added, but not replaced: use
     /// [`Self::edit`].
     pub(crate) fn scene_mut(&mut self) -> &mut Scene {
         if self.parts.is_none() {
-            self.parts = Some(Box::new(self.document.file.scene.parts()));
+            self.parts = Some(Box::new(self.state.file.scene.parts()));
         }
-        self.document.shown.note_parts();
-        &mut self.document.file.scene
+        self.state.shown.note_parts();
+        &mut self.state.file.scene
     }
 
     pub(crate) fn selection(&self) -> &Selection {
-        &self.document.selection
+        &self.state.selection
     }
 
     pub(crate) fn selection_mut(&mut self) -> &mut Selection {
-        &mut self.document.selection
+        &mut self.state.selection
     }
 
     /// The selection, for changing it, and the meshes, for reading.
     pub(crate) fn selection_and_meshes(&mut self) -> (&mut Selection, &BTreeMap<MeshId, EditMesh>) {
-        (&mut self.document.selection, &self.document.file.edited)
+        (&mut self.state.selection, &self.state.file.edited)
     }
 
     /// A mesh with its adjacency, built from the scene's at the first call.
     pub(crate) fn mesh(&mut self, id: MeshId) -> Option<&EditMesh> {
-        if !self.document.file.edited.contains_key(&id) {
-            let asset = self.document.file.scene.meshes().get(id)?;
+        if !self.state.file.edited.contains_key(&id) {
+            let asset = self.state.file.scene.meshes().get(id)?;
             let (mesh, left_out) = EditMesh::from_mesh(asset.mesh());
-            self.document.untold.extend(left_out.warnings(&asset.name));
-            self.document.file.edited.insert(id, mesh);
+            self.state.untold.extend(left_out.warnings(&asset.name));
+            self.state.file.edited.insert(id, mesh);
         }
-        self.document.shown.note_edited(id);
-        self.document.file.edited.get(&id)
+        self.state.shown.note_edited(id);
+        self.state.file.edited.get(&id)
     }
 
     /// Changes a mesh. On an error that mesh is unchanged.
@@ -77,15 +77,15 @@ impl Change<'_> {
         change: impl FnOnce(&mut EditMesh) -> Result<T, EditError>,
     ) -> Result<T, EditError> {
         self.mesh(id);
-        let Some(mesh) = self.document.file.edited.get_mut(&id) else {
+        let Some(mesh) = self.state.file.edited.get_mut(&id) else {
             return Err(SceneError::NoSuchMesh(id).into());
         };
         let (result, difference) = mesh.transaction(change)?;
         if !difference.is_empty() {
-            self.document.shown.note_difference(id, mesh, &difference);
+            self.state.shown.note_difference(id, mesh, &difference);
             self.meshes.push((id, difference));
-            if let Some(mesh) = self.document.file.edited.get(&id) {
-                self.document.selection.keep_selectable(id, mesh);
+            if let Some(mesh) = self.state.file.edited.get(&id) {
+                self.state.selection.keep_selectable(id, mesh);
             }
         }
         Ok(result)
@@ -93,14 +93,14 @@ impl Change<'_> {
 
     /// A copy of a mesh as it is now, for another object.
     pub(crate) fn copy_mesh(&mut self, id: MeshId) -> Option<MeshId> {
-        let asset = self.document.file.scene.meshes().get(id)?;
+        let asset = self.state.file.scene.meshes().get(id)?;
         let (name, mesh) = (asset.name.clone(), asset.mesh().clone());
-        let edited = self.document.file.edited.get(&id).cloned();
-        // Meshes are only ever added, so this needs no undo record: an undone copy stays unused.
-        let copy = self.document.file.scene.add_mesh(name, mesh);
+        let edited = self.state.file.edited.get(&id).cloned();
+        // Meshes are only ever added, so this needs no record: an undone copy stays unused.
+        let copy = self.state.file.scene.add_mesh(name, mesh);
         if let Some(edited) = edited {
-            self.document.file.edited.insert(copy, edited);
-            self.document.shown.note_mesh(copy);
+            self.state.file.edited.insert(copy, edited);
+            self.state.shown.note_mesh(copy);
         }
         Some(copy)
     }
@@ -110,9 +110,9 @@ impl Change<'_> {
         let owner = self.scene().nodes().iter().find(|(_, node)| node.mesh == Some(of));
         let mut node = owner.map(|(_, node)| node.clone()).unwrap_or_default();
         let (mesh, _) = part.to_mesh();
-        let mesh = self.document.file.scene.add_mesh(node.name.clone(), mesh);
-        self.document.file.edited.insert(mesh, part);
-        self.document.shown.note_mesh(mesh);
+        let mesh = self.state.file.scene.add_mesh(node.name.clone(), mesh);
+        self.state.file.edited.insert(mesh, part);
+        self.state.shown.note_mesh(mesh);
         node.mesh = Some(mesh);
         let scene = self.scene_mut();
         match node.parent() {
@@ -125,7 +125,7 @@ impl Change<'_> {
     pub(crate) fn meshes_of(&self, objects: impl IntoIterator<Item = NodeId>) -> Vec<MeshId> {
         let mut meshes = Vec::new();
         for object in objects {
-            let mesh = self.document.file.scene.node(object).and_then(|node| node.mesh);
+            let mesh = self.state.file.scene.node(object).and_then(|node| node.mesh);
             meshes.extend(mesh.filter(|mesh| !meshes.contains(mesh)));
         }
         meshes

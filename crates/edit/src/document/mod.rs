@@ -3,7 +3,9 @@
 mod change;
 mod preview;
 mod scene;
+mod scene_change;
 mod shown;
+mod state;
 mod visible;
 
 use std::path::Path;
@@ -15,7 +17,7 @@ use trigon_io::{
 };
 use trigon_mesh::edit::EditMesh;
 use trigon_mesh::math::DAffine3;
-use trigon_scene::{MeshId, NodeId, Scene};
+use trigon_scene::{MeshId, Scene};
 
 use crate::command::{Command, ImportFile, Outcome};
 use crate::error::EditError;
@@ -24,8 +26,9 @@ use crate::recovery::Event;
 use crate::selection::Selection;
 
 pub(crate) use change::{AfterEdit, Change};
-pub use scene::SceneChange;
-use shown::Shown;
+pub use scene_change::SceneChange;
+use state::State;
+pub(crate) use visible::shown_levels;
 
 /// A scene that commands edit.
 ///
@@ -49,14 +52,8 @@ use shown::Shown;
 /// ```
 #[derive(Debug, Default)]
 pub struct Document {
-    /// The scene, its edited meshes, and what is kept of the file.
-    file: NativeDocument,
-    selection: Selection,
+    state: State,
     history: History,
-    /// How the scene follows the edited meshes.
-    shown: Shown,
-    /// What was lost when meshes were made editable and has not been reported yet.
-    untold: Vec<String>,
     /// The events since they were last requested; `None` until the first request.
     events: Option<Vec<Event>>,
     /// The preview that is neither confirmed nor cancelled yet; its other state is the one before
@@ -95,7 +92,7 @@ impl Document {
     }
 
     fn from_file(file: NativeDocument) -> Self {
-        Self { file, revision: next_revision(), ..Self::default() }
+        Self { state: State { file, ..State::default() }, revision: next_revision(), ..Self::default() }
     }
 
     /// The document as a native file, not written yet: [`save`](crate::save) writes it once the
@@ -104,14 +101,14 @@ impl Document {
     /// # Errors
     /// When the file would have 4 GiB or more.
     pub fn encode(&self) -> Result<NativeFile<'_>, WriteError> {
-        self.file.encode()
+        self.state.file.encode()
     }
 
     /// The document as it is now, for encoding on another thread while editing continues. Takes the time to
     /// copy the meshes that are or were edited.
     #[must_use]
     pub fn snapshot(&self) -> NativeDocument {
-        self.file.clone()
+        self.state.file.clone()
     }
 
     /// Adds the contents of a loaded file, as [`ImportFile`](crate::ImportFile) does with its path, without
@@ -138,36 +135,32 @@ impl Document {
         format: Format,
         options: &ExportOptions<'_>,
     ) -> Result<Export, WriteError> {
-        self.file.export(name, format, options)
+        self.state.file.export(name, format, options)
     }
 
     /// The nodes and materials as they are now, and meshes as of the last call of [`Self::scene`].
     #[must_use]
     pub fn nodes(&self) -> &Scene {
-        &self.file.scene
+        &self.state.file.scene
     }
 
     /// A mesh with its adjacency, if it is or was edited.
     #[must_use]
     pub fn mesh(&self, id: MeshId) -> Option<&EditMesh> {
-        self.file.edited.get(&id)
+        self.state.mesh(id)
     }
 
     /// The map from a mesh into the world in which it is edited: that of the first selected object that shows
     /// it, or of the first one at all; the identity if none does.
     #[must_use]
     pub fn mesh_transform(&self, id: MeshId) -> DAffine3 {
-        let scene = &self.file.scene;
-        let shows = |object: &NodeId| scene.node(*object).is_some_and(|node| node.mesh == Some(id));
-        let selected = self.selection.objects.iter().copied().find(shows);
-        let object = selected.or_else(|| scene.nodes().iter().map(|(object, _)| object).find(shows));
-        object.map_or(DAffine3::IDENTITY, |object| scene.world_transform(object))
+        self.state.mesh_transform(id)
     }
 
     /// The selection.
     #[must_use]
     pub fn selection(&self) -> &Selection {
-        &self.selection
+        &self.state.selection
     }
 
     /// A number that changes with every edit and undo, and with every document that is opened: data
@@ -212,14 +205,14 @@ impl Document {
         work: impl FnOnce(&Command, &mut Change<'_>) -> Result<Outcome, EditError>,
     ) -> Result<(Entry, Outcome), EditError> {
         self.revision = next_revision();
-        let selection = self.selection.clone();
-        let mut change = Change { document: self, meshes: Vec::new(), parts: None };
+        let selection = self.state.selection.clone();
+        let mut change = Change { state: &mut self.state, meshes: Vec::new(), parts: None };
         let result = work(&command, &mut change);
         let Change { meshes, parts, .. } = change;
         let mut entry = Entry { command, meshes, parts, selection, bytes: 0 };
         match result {
             Ok(mut outcome) => {
-                outcome.warnings.append(&mut self.untold);
+                outcome.warnings.append(&mut self.state.untold);
                 Ok((entry, outcome))
             }
             Err(refusal) => {
@@ -287,12 +280,12 @@ impl Document {
         if self.history.done().is_empty() {
             return Err(EditError::Nothing("adjust"));
         }
-        let (selection, undone) = (self.selection.clone(), self.history.undone().len());
+        let (selection, undone) = (self.state.selection.clone(), self.history.undone().len());
         self.undo()?;
         self.run(command).inspect_err(|_| {
             debug_assert_eq!(self.history.undone().len(), undone + 1, "a refusal adds no entry");
             if self.redo().is_ok() {
-                self.selection = selection;
+                self.state.selection = selection;
             }
         })
     }
@@ -321,17 +314,17 @@ impl Document {
         // A command may change a mesh several times: undo goes backwards through them, redo
         // forwards.
         for (id, difference) in entry.meshes.iter_mut().rev() {
-            if let Some(mesh) = self.file.edited.get_mut(id) {
+            if let Some(mesh) = self.state.file.edited.get_mut(id) {
                 difference.apply(mesh);
-                self.shown.note_difference(*id, mesh, difference);
+                self.state.shown.note_difference(*id, mesh, difference);
             }
         }
         entry.meshes.reverse();
         if let Some(parts) = &mut entry.parts {
-            self.file.scene.swap_parts(parts);
-            self.shown.note_parts();
+            self.state.file.scene.swap_parts(parts);
+            self.state.shown.note_parts();
         }
-        std::mem::swap(&mut self.selection, &mut entry.selection);
+        std::mem::swap(&mut self.state.selection, &mut entry.selection);
     }
 }
 

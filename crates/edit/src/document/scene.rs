@@ -1,51 +1,21 @@
-//! The document's scene for drawing, and the changes that keep a copy of it equal.
+//! The document's scene for drawing.
 
+use trigon_mesh::Mesh;
 use trigon_mesh::edit::{ElementMap, ElementNumbers};
-use trigon_mesh::{Mesh, MeshChange};
 use trigon_scene::{MeshId, Scene};
 
 use super::Document;
+use super::scene_change::SceneChange;
 use super::shown::{Outdated, Untold};
+use super::state::State;
 use crate::display::MarkedElements;
-
-/// A change that keeps a copy of a document's scene equal to it.
-#[derive(Debug, Clone, PartialEq)]
-pub enum SceneChange {
-    /// Replace the copy with a clone.
-    Whole,
-    /// Take over a mesh: [`Scene::adopt_mesh`].
-    Mesh(MeshId),
-    /// Show another mesh than the scene's: the visible part of an edited one.
-    /// [`Scene::replace_mesh`].
-    Visible(MeshId, Box<Mesh>),
-    /// Take over everything except meshes: [`Scene::swap_parts`].
-    Parts,
-    /// Give a mesh other values: [`Scene::change_mesh`].
-    Values(MeshId, MeshChange),
-}
-
-impl SceneChange {
-    /// Applies the change to a copy. For a scene that reports changes to others, such as a
-    /// window's, call the methods that the variants name.
-    pub fn apply(self, from: &Scene, copy: &mut Scene) {
-        match self {
-            Self::Whole => *copy = from.clone(),
-            Self::Mesh(id) => {
-                copy.adopt_mesh(from, id).expect("meshes are told of in the order of their ids");
-            }
-            Self::Visible(id, mesh) => copy.replace_mesh(id, *mesh).expect("it was told of before"),
-            Self::Parts => copy.swap_parts(&mut from.parts()),
-            Self::Values(id, change) => copy.change_mesh(id, &change).expect("the original was changed so"),
-        }
-    }
-}
 
 impl Document {
     /// The scene as it is now, for drawing. Its meshes follow the edits since the last call: in
     /// time proportional to these if only vertices moved or corner values changed, and otherwise to
     /// the whole mesh. Hidden elements are part of it.
     pub fn scene(&mut self) -> &Scene {
-        let Self { file, shown, selection, .. } = self;
+        let State { file, shown, selection, .. } = &mut self.state;
         shown.update(&mut file.scene, &file.edited, selection);
         &file.scene
     }
@@ -69,10 +39,10 @@ impl Document {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn take_scene_changes(&mut self) -> Vec<SceneChange> {
-        let is_first = self.shown.untold.is_none();
-        self.shown.untold.get_or_insert_default();
+        let is_first = self.state.shown.untold.is_none();
+        self.state.shown.untold.get_or_insert_default();
         self.scene();
-        let Self { file, shown, .. } = self;
+        let State { file, shown, .. } = &mut self.state;
         let untold = shown.untold.as_mut().expect("it was just made");
         if is_first {
             // The whole scene includes all other changes.
@@ -83,10 +53,7 @@ impl Document {
         let mut changes: Vec<_> = is_first.then_some(SceneChange::Whole).into_iter().collect();
         changes.extend(untold.take(&file.scene, &shown.visible));
         for (id, visible) in &mut shown.visible {
-            let edited = file.edited.get(id);
-            changes.extend(
-                edited.and_then(|edited| visible.take(edited)).map(|change| SceneChange::Values(*id, change)),
-            );
+            changes.extend(file.edited.get(id).and_then(|edited| visible.take(*id, edited)));
         }
         changes
     }
@@ -96,8 +63,8 @@ impl Document {
     /// was never edited, whose numbers are all the same.
     #[must_use]
     pub fn shown_elements(&self, id: MeshId) -> Option<&ElementMap> {
-        let visible = self.shown.visible.get(&id).map(|visible| &visible.map);
-        visible.or_else(|| self.shown.meshes.get(&id).map(|shown| &shown.map))
+        let visible = self.state.shown.visible.get(&id).map(|visible| &visible.map);
+        visible.or_else(|| self.state.shown.meshes.get(&id).map(|shown| &shown.map))
     }
 
     /// The numbers of an edited mesh's elements there; `None` for a mesh that was never edited, or
@@ -105,25 +72,30 @@ impl Document {
     /// proportional to the mesh.
     #[must_use]
     pub fn shown_numbers(&self, id: MeshId) -> Option<&ElementNumbers> {
-        if matches!(self.shown.outdated.get(&id), Some(Outdated::Whole)) {
+        if matches!(self.state.shown.outdated.get(&id), Some(Outdated::Whole)) {
             return None;
         }
-        if let Some(visible) = self.shown.visible.get(&id) {
+        if let Some(visible) = self.state.shown.visible.get(&id) {
             return (!visible.is_outdated).then_some(&visible.numbers);
         }
-        let mesh = self.file.scene.meshes().get(id)?.mesh();
-        let shown = self.shown.meshes.get(&id)?;
-        Some(shown.numbers(self.file.edited.get(&id)?, mesh))
+        let mesh = self.state.file.scene.meshes().get(id)?.mesh();
+        let shown = self.state.shown.meshes.get(&id)?;
+        Some(shown.numbers(self.state.file.edited.get(&id)?, mesh))
+    }
+
+    /// The subdivision surface that a copy shows of a mesh; `None` where it shows the mesh itself.
+    pub(crate) fn shown_surface(&self, id: MeshId) -> Option<&Mesh> {
+        self.state.shown.visible.get(&id)?.surface.as_ref()
     }
 
     /// A number that changes with every change of nodes, elements or their marks, as of the last
     /// [`Self::scene`].
     pub(crate) fn marks_revision(&self) -> u64 {
-        self.shown.marks_revision
+        self.state.shown.marks_revision
     }
 
     /// The marks of a mesh; `None` if it is not edited.
     pub(crate) fn marked(&self, id: MeshId) -> Option<&MarkedElements> {
-        Some(self.shown.marked(id, self.file.edited.get(&id)?))
+        Some(self.state.shown.marked(id, self.state.file.edited.get(&id)?))
     }
 }

@@ -11,8 +11,8 @@ use trigon_mesh::edit::{ChangedValues, Difference, EditMesh, ElementMap, Element
 use trigon_mesh::{ChangedElements, Mesh};
 use trigon_scene::{MeshId, Scene};
 
-use super::scene::SceneChange;
-use super::visible::{VisibleMesh, refresh};
+use super::scene_change::SceneChange;
+use super::visible::{Sight, VisibleMesh};
 use crate::display::MarkedElements;
 use crate::selection::Selection;
 
@@ -52,7 +52,7 @@ pub(super) struct Shown {
     pub(super) outdated: BTreeMap<MeshId, Outdated>,
     /// `None` until the first request.
     pub(super) untold: Option<Untold>,
-    /// For edited meshes with hidden elements: what a copy shows.
+    /// What a copy shows instead of the scene's mesh.
     pub(super) visible: BTreeMap<MeshId, VisibleMesh>,
     /// Counts changes that affect marks, other than the selection.
     pub(super) marks_revision: u64,
@@ -66,6 +66,9 @@ impl Shown {
             if let Some(shown) = self.meshes.get_mut(&id) {
                 shown.marked = OnceLock::new();
             }
+            self.note_visible(id);
+        }
+        if difference.changes_subdivision() {
             self.note_visible(id);
         }
         let values = mesh.changed_values(difference).filter(|_| self.meshes.contains_key(&id));
@@ -122,7 +125,7 @@ impl Shown {
                 self.make_anew(scene, id, edited);
             }
         }
-        refresh(self, meshes, selection);
+        self.refresh(meshes, selection);
     }
 
     fn make_anew(&mut self, scene: &mut Scene, id: MeshId, edited: &EditMesh) {
@@ -136,6 +139,42 @@ impl Shown {
                 untold.meshes.insert(id);
             }
         }
+    }
+
+    /// Brings what a copy shows up to date, if there is a copy.
+    fn refresh(&mut self, edited: &BTreeMap<MeshId, EditMesh>, selection: &Selection) {
+        let Some(mut untold) = self.untold.take() else { return };
+        let candidates: BTreeSet<MeshId> = edited
+            .iter()
+            .filter(|(id, mesh)| mesh.subdivision() > 0 || selection.of(**id).is_some())
+            .map(|(id, _)| *id)
+            .chain(self.visible.keys().copied())
+            .collect();
+        for id in candidates {
+            let sight = edited.get(&id).map_or(Sight::Whole, |mesh| {
+                let is_edited = selection.of(id).is_some();
+                Sight::of(mesh, is_edited, is_edited && self.marked(id, mesh).has_hidden)
+            });
+            let known = self.visible.get(&id);
+            let is_current = match known {
+                None => sight == Sight::Whole,
+                Some(visible) => visible.sight == sight && !visible.is_outdated,
+            };
+            if is_current {
+                continue;
+            }
+            self.marks_revision += 1;
+            if sight == Sight::Whole {
+                self.visible.remove(&id);
+                untold.visible.remove(&id);
+                untold.meshes.insert(id);
+            } else {
+                let (visible, mesh) = VisibleMesh::new(sight, &edited[&id]);
+                self.visible.insert(id, visible);
+                untold.visible.insert(id, mesh);
+            }
+        }
+        self.untold = Some(untold);
     }
 
     pub(super) fn marked(&self, id: MeshId, edited: &EditMesh) -> &MarkedElements {

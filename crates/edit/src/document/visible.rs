@@ -1,60 +1,99 @@
-//! What a view shows of edited meshes with hidden elements.
+//! What a view shows instead of a mesh of the document's scene: the mesh without its hidden elements, or its
+//! subdivision surface.
 //!
-//! The document's scene always has all elements, so that exports are complete; a displayed copy
-//! gets a mesh without the hidden ones.
+//! The document's scene always has the mesh with all elements, so that saved files are complete; a displayed copy
+//! gets another mesh.
 
-use std::collections::BTreeMap;
-
-use trigon_mesh::MeshChange;
 use trigon_mesh::edit::{ChangedValues, EditMesh, ElementMap, ElementNumbers};
+use trigon_mesh::{Mesh, MeshChange};
 use trigon_scene::MeshId;
 
-use super::shown::Shown;
-use crate::selection::Selection;
+use super::scene_change::SceneChange;
 
 /// What a copy of the scene shows of a mesh.
 #[derive(Debug)]
 pub(super) struct VisibleMesh {
+    pub(super) sight: Sight,
     pub(super) map: ElementMap,
     pub(super) numbers: ElementNumbers,
+    /// The surface that the copy has; changes are found by comparing with it.
+    pub(super) surface: Option<Mesh>,
     /// Changes that the copy has not received.
     pub(super) values: ChangedValues,
     /// Whether the visible elements have changed since.
     pub(super) is_outdated: bool,
 }
 
-impl VisibleMesh {
-    /// The change that the copy has not received.
-    pub(super) fn take(&mut self, edited: &EditMesh) -> Option<MeshChange> {
-        let values = std::mem::take(&mut self.values);
-        (!values.is_empty()).then(|| edited.mesh_change(&values, &self.numbers))
+/// How a mesh is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sight {
+    /// As the scene has it.
+    Whole,
+    /// Without what is hidden.
+    Part,
+    /// As its surface after so many levels.
+    Surface(u32),
+    /// The same with the mesh over it as its cage, without what is hidden.
+    Cage(u32),
+}
+
+/// In how many levels a view shows a mesh: as many as it has, but so that a change of it is seen soon.
+pub(crate) fn shown_levels(mesh: &EditMesh) -> u32 {
+    /// They are made anew in less than a tenth of a second.
+    const MOST_FACES: u64 = 1 << 17;
+    let is_small = |levels: &u32| mesh.subdivided_face_count(*levels) <= MOST_FACES;
+    let most = if mesh.face_count() == 0 { 0 } else { mesh.subdivision() };
+    (1..=most).rev().find(is_small).unwrap_or(0)
+}
+
+impl Sight {
+    pub(super) fn of(mesh: &EditMesh, is_edited: bool, has_hidden: bool) -> Self {
+        match (shown_levels(mesh), is_edited) {
+            (0, true) if has_hidden => Self::Part,
+            (0, _) => Self::Whole,
+            (levels, true) => Self::Cage(levels),
+            (levels, false) => Self::Surface(levels),
+        }
+    }
+
+    /// What a copy shows of a mesh.
+    pub(super) fn mesh(self, edited: &EditMesh) -> (Mesh, ElementMap) {
+        let surface = match self {
+            Self::Whole => return edited.to_mesh(),
+            Self::Part => return edited.to_visible_mesh(),
+            Self::Surface(levels) => {
+                edited.to_subdivided_mesh(levels).map(|mesh| (mesh, ElementMap::default()))
+            }
+            Self::Cage(levels) => edited.to_mesh_with_cage(levels),
+        };
+        surface.expect("a view shows few levels of large meshes")
     }
 }
 
-/// Brings what a copy shows up to date, if there is a copy.
-pub(super) fn refresh(shown: &mut Shown, edited: &BTreeMap<MeshId, EditMesh>, selection: &Selection) {
-    let Some(mut untold) = shown.untold.take() else { return };
-    let is_partly = |id: MeshId| {
-        let mesh = edited.get(&id).filter(|_| selection.of(id).is_some());
-        mesh.is_some_and(|mesh| shown.marked(id, mesh).has_hidden)
-    };
-    let whole: Vec<MeshId> = shown.visible.keys().copied().filter(|&id| !is_partly(id)).collect();
-    let is_new = |id: &MeshId| shown.visible.get(id).is_none_or(|visible| visible.is_outdated);
-    let partly = selection.meshes().map(|(id, _)| id).filter(|&id| is_partly(id));
-    let made: Vec<MeshId> = partly.filter(is_new).collect();
-    for id in whole {
-        shown.visible.remove(&id);
-        untold.visible.remove(&id);
-        untold.meshes.insert(id);
-        shown.marks_revision += 1;
-    }
-    for id in made {
-        let (mesh, map) = edited[&id].to_visible_mesh();
-        let numbers = ElementNumbers::new(&edited[&id], &mesh, &map);
+impl VisibleMesh {
+    pub(super) fn new(sight: Sight, edited: &EditMesh) -> (Self, Mesh) {
+        let (mesh, map) = sight.mesh(edited);
+        let numbers = ElementNumbers::new(edited, &mesh, &map);
+        let surface = matches!(sight, Sight::Surface(_) | Sight::Cage(_)).then(|| mesh.clone());
         let values = ChangedValues::default();
-        shown.visible.insert(id, VisibleMesh { map, numbers, values, is_outdated: false });
-        untold.visible.insert(id, mesh);
-        shown.marks_revision += 1;
+        (Self { sight, map, numbers, surface, values, is_outdated: false }, mesh)
     }
-    shown.untold = Some(untold);
+
+    /// The change of a mesh that the copy has not received.
+    pub(super) fn take(&mut self, id: MeshId, edited: &EditMesh) -> Option<SceneChange> {
+        let values = std::mem::take(&mut self.values);
+        if values.is_empty() {
+            return None;
+        }
+        let Some(surface) = &mut self.surface else {
+            return Some(SceneChange::Values(id, edited.mesh_change(&values, &self.numbers)));
+        };
+        let (mesh, _) = self.sight.mesh(edited);
+        let change = MeshChange::between(surface, &mesh);
+        *surface = mesh;
+        Some(match change {
+            Some(change) => SceneChange::Values(id, change),
+            None => SceneChange::Visible(id, Box::new(surface.clone())),
+        })
+    }
 }

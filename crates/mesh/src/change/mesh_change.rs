@@ -71,6 +71,44 @@ pub enum ChangeError {
 }
 
 impl MeshChange {
+    /// What leads from a mesh to another one with the same vertices, edges, faces and materials; `None` where that is not
+    /// possible. In time proportional to the meshes.
+    ///
+    /// ```
+    /// use trigon_mesh::{MeshChange, primitives};
+    ///
+    /// let (mut small, large) = (primitives::cube(1.0), primitives::cube(2.0));
+    /// let change = MeshChange::between(&small, &large).expect("both are cubes");
+    /// small.change(&change)?;
+    /// assert_eq!(small, large);
+    /// assert_eq!(MeshChange::between(&small, &primitives::cone(1.0, 1.0, 6)), None);
+    /// # Ok::<(), trigon_mesh::ChangeError>(())
+    /// ```
+    pub fn between(old: &Mesh, new: &Mesh) -> Option<Self> {
+        let (was, is) = (old.attributes(), new.attributes());
+        let is_same_kind = old.has_same_elements(new)
+            && was.uv_sets.len() == is.uv_sets.len()
+            && was.face_materials == is.face_materials
+            && was.face_smooth == is.face_smooth
+            && was.corner_tangents == is.corner_tangents
+            && was.skin == is.skin
+            && was.morph_targets == is.morph_targets;
+        if !is_same_kind {
+            return None;
+        }
+        let sets = was.uv_sets.iter().zip(&is.uv_sets);
+        Some(Self {
+            positions: differing(old.positions(), new.positions(), |v| v.to_array().map(f32::to_bits)),
+            corner_normals: differing_optional(&was.corner_normals, &is.corner_normals, |v| {
+                v.to_array().map(f32::to_bits)
+            })?,
+            uv_sets: sets.map(|(was, is)| differing(was, is, |v| v.to_array().map(f32::to_bits))).collect(),
+            corner_colors: differing_optional(&was.corner_colors, &is.corner_colors, |v| {
+                v.to_array().map(f32::to_bits)
+            })?,
+        })
+    }
+
     /// Whether no element is named.
     pub fn is_empty(&self) -> bool {
         let Self { positions, corner_normals, uv_sets, corner_colors } = self;
@@ -126,6 +164,28 @@ impl Mesh {
         }
         assign(attributes.corner_colors.as_deref_mut().unwrap_or_default(), &change.corner_colors);
         Ok(())
+    }
+}
+
+/// The new values that have other bits than the old ones, with their indices.
+fn differing<T: Copy, B: PartialEq>(old: &[T], new: &[T], bits: impl Fn(T) -> B) -> Vec<(u32, T)> {
+    let pairs = (0u32..).zip(old.iter().zip(new));
+    pairs
+        .filter(|(_, (old, new))| bits(**old) != bits(**new))
+        .map(|(index, (_, new))| (index, *new))
+        .collect()
+}
+
+/// The same of values that a mesh may not have; `None` where one of the two meshes has them alone.
+fn differing_optional<T: Copy, B: PartialEq>(
+    old: &Option<Vec<T>>,
+    new: &Option<Vec<T>>,
+    bits: impl Fn(T) -> B,
+) -> Option<Vec<(u32, T)>> {
+    match (old, new) {
+        (Some(old), Some(new)) => Some(differing(old, new, bits)),
+        (None, None) => Some(Vec::new()),
+        _ => None,
     }
 }
 

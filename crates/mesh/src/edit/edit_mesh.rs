@@ -49,6 +49,8 @@ pub struct EditMesh {
     pub(super) vertex_layers: Vec<Layer>,
     pub(super) corner_layers: Vec<Layer>,
     pub(super) slots: AllSlots,
+    /// In how many Catmull-Clark levels it is shown.
+    pub(super) subdivision: u32,
     /// Whether a transaction is active.
     pub(super) is_recording: bool,
 }
@@ -80,6 +82,7 @@ impl EditMesh {
             vertex_layers: Vec::new(),
             corner_layers: Vec::new(),
             slots: AllSlots::default(),
+            subdivision: 0,
             is_recording: false,
         }
     }

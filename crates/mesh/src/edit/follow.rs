@@ -70,7 +70,8 @@ impl ElementNumbers {
 fn inverse(capacity: usize, ids: impl Iterator<Item = u32>) -> Vec<u32> {
     let mut numbers = vec![NONE; capacity];
     for (number, id) in (0u32..).zip(ids) {
-        if let Some(place) = numbers.get_mut(id as usize) {
+        // Of several parts of a face the first counts.
+        if let Some(place) = numbers.get_mut(id as usize).filter(|place| **place == NONE) {
             *place = number;
         }
     }

@@ -27,6 +27,8 @@ pub struct Marks {
     pub hidden_faces: Vec<u32>,
     /// Corners whose normal in the mesh was not given: sharp edges make it, and it follows them.
     pub sharp_corners: Vec<u32>,
+    /// In how many Catmull-Clark levels the mesh is shown, at most [`EditMesh::MOST_SUBDIVISION`].
+    pub subdivision: u32,
 }
 
 /// The marks of one edge.
@@ -68,6 +70,9 @@ pub enum MarksError {
     /// There is no such corner.
     #[error("corner {0} has a normal made by sharp edges and does not exist")]
     NoSuchCorner(u32),
+    /// There are too many levels.
+    #[error("the mesh is shown in {0} levels of subdivision, and 5 are the most")]
+    Subdivision(u32),
 }
 
 impl EditMesh {
@@ -88,6 +93,7 @@ impl EditMesh {
             hidden_vertices: hidden_vertices.map(|(index, _)| index).collect(),
             hidden_faces: hidden_faces.map(|(index, _)| index).collect(),
             sharp_corners: self.sharp_corners(map),
+            subdivision: self.subdivision,
         }
     }
 
@@ -185,6 +191,9 @@ impl EditMesh {
             editable.set_face_hidden(face, true);
         }
         editable.clear_sharp_corners(&marks.sharp_corners)?;
+        editable
+            .set_subdivision(marks.subdivision)
+            .map_err(|_| MarksError::Subdivision(marks.subdivision))?;
         Ok((editable, left_out))
     }
 
@@ -277,6 +286,7 @@ mod tests {
         assert_eq!(refused(edge([0, u32::MAX])), MarksError::NoSuchEdge([0, u32::MAX]), "no such vertex");
         refused(Marks { hidden_vertices: vec![8], ..Marks::default() });
         refused(Marks { hidden_faces: vec![6], ..Marks::default() });
+        refused(Marks { subdivision: 6, ..Marks::default() });
         refused(Marks { first_positions: vec![Vec3::ZERO; 7], ..Marks::default() });
     }
 }

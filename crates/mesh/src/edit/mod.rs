@@ -28,6 +28,7 @@ mod rings;
 mod sharp_normals;
 mod skin;
 mod slots;
+mod subdivision;
 #[cfg(test)]
 mod tests;
 mod to_mesh;

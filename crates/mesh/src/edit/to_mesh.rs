@@ -73,7 +73,7 @@ impl EditMesh {
     }
 
     /// The mesh of some elements; their corners are added to the map.
-    fn mesh_of(&self, mut map: ElementMap) -> (Mesh, ElementMap) {
+    pub(super) fn mesh_of(&self, mut map: ElementMap) -> (Mesh, ElementMap) {
         let mut numbers = vec![0u32; self.vertex_capacity()];
         for (number, vertex) in (0u32..).zip(&map.vertices) {
             numbers[vertex.0 as usize] = number;

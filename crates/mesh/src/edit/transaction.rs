@@ -25,6 +25,8 @@ pub struct Difference {
     pub(super) vertex_layers: LayersDifference,
     pub(super) corner_layers: LayersDifference,
     pub(super) slots: AllSlots,
+    /// In how many levels the other state is shown, if that differs.
+    subdivision: Option<u32>,
 }
 
 /// Of the layers of one kind of element. A change may add layers after the others.
@@ -92,6 +94,7 @@ impl EditMesh {
 /// A transaction that runs.
 struct Recording {
     slots: AllSlots,
+    subdivision: u32,
     vertex_layers: usize,
     corner_layers: usize,
 }
@@ -108,7 +111,7 @@ impl Recording {
         mesh.vertex_layers.iter_mut().for_each(Layer::begin);
         mesh.corner_layers.iter_mut().for_each(Layer::begin);
         let (vertex_layers, corner_layers) = (mesh.vertex_layers.len(), mesh.corner_layers.len());
-        Self { slots: mesh.slots, vertex_layers, corner_layers }
+        Self { slots: mesh.slots, subdivision: mesh.subdivision, vertex_layers, corner_layers }
     }
 
     fn finish(self, mesh: &mut EditMesh) -> Difference {
@@ -127,6 +130,7 @@ impl Recording {
             vertex_layers: layers(&mut mesh.vertex_layers, self.vertex_layers),
             corner_layers: layers(&mut mesh.corner_layers, self.corner_layers),
             slots: self.slots,
+            subdivision: (self.subdivision != mesh.subdivision).then_some(self.subdivision),
         }
     }
 }
@@ -144,6 +148,7 @@ impl Difference {
             vertex_layers: none(),
             corner_layers: none(),
             slots,
+            subdivision: None,
         }
     }
 
@@ -171,6 +176,9 @@ impl Difference {
         self.vertex_layers.apply(&mut mesh.vertex_layers);
         self.corner_layers.apply(&mut mesh.corner_layers);
         std::mem::swap(&mut mesh.slots, &mut self.slots);
+        if let Some(levels) = &mut self.subdivision {
+            std::mem::swap(&mut mesh.subdivision, levels);
+        }
     }
 
     /// Whether both states are the same.
@@ -182,7 +190,13 @@ impl Difference {
             && self.edges.is_none()
             && self.corners.is_none()
             && self.faces.is_none()
+            && self.subdivision.is_none()
             && [&self.vertex_layers, &self.corner_layers].iter().all(|layers| layers.is_empty())
+    }
+
+    /// Whether the two states are shown in different numbers of Catmull-Clark levels.
+    pub fn changes_subdivision(&self) -> bool {
+        self.subdivision.is_some()
     }
 
     /// The memory that it takes, in bytes.

@@ -3,6 +3,8 @@
 
 mod deform;
 mod input;
+mod kind;
+mod slide;
 
 use trigon_edit::mesh::math::{DVec2, DVec3};
 use trigon_edit::{Document, Proportional};
@@ -20,37 +22,7 @@ use super::targets::SnapTargets;
 use super::view::ToolView;
 use super::{Tool, ToolMarks, ToolState};
 
-/// What a transform does to the selection.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum TransformKind {
-    Translate,
-    Rotate,
-    /// Turns about both axes of the picture.
-    Trackball,
-    Scale,
-    ShrinkFatten,
-    /// Away from the middle.
-    PushPull,
-    ToSphere,
-    /// Along edges; a tool that starts so needs [`TransformTool::sliding`].
-    Slide,
-}
-
-impl TransformKind {
-    /// In the status line before anything has moved.
-    fn name(self) -> &'static str {
-        match self {
-            Self::Translate => "Move",
-            Self::Rotate => "Rotate",
-            Self::Trackball => "Trackball",
-            Self::Scale => "Scale",
-            Self::ShrinkFatten => "Shrink/Fatten",
-            Self::PushPull => "Push/Pull",
-            Self::ToSphere => "To Sphere",
-            Self::Slide => "Slide",
-        }
-    }
-}
+pub(crate) use kind::TransformKind;
 
 /// What the editor's bars say about transforms.
 #[derive(Debug, Clone, PartialEq, Default)]

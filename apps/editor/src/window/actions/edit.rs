@@ -19,6 +19,13 @@ actions! {
     "Edit/Transform" "tool.shrink_fatten" "Shrink/Fatten" "Alt+S" Elements Tool(ToolKind::ShrinkFatten) => "Moves what is selected along its normals.";
     "Edit/Transform" "tool.push_pull" "Push/Pull" "" Elements Tool(ToolKind::PushPull) => "Moves what is selected to or from its middle.";
 
+    "Edit/Subdivision Surface" "subdivision.0" "Off" "Ctrl+0" Meshes Run(r#"{"op":"set_subdivision","levels":0}"#) => "Shows meshes as they are.";
+    "Edit/Subdivision Surface" "subdivision.1" "1 Level" "Ctrl+1" Meshes Run(r#"{"op":"set_subdivision","levels":1}"#) => "Shows meshes as smooth surfaces of 1 level, with their cage over them.";
+    "Edit/Subdivision Surface" "subdivision.2" "2 Levels" "Ctrl+2" Meshes Run(r#"{"op":"set_subdivision","levels":2}"#) => "Shows meshes as smooth surfaces of 2 levels, with their cage over them.";
+    "Edit/Subdivision Surface" "subdivision.3" "3 Levels" "Ctrl+3" Meshes Run(r#"{"op":"set_subdivision","levels":3}"#) => "Shows meshes as smooth surfaces of 3 levels, with their cage over them.";
+    "Edit/Subdivision Surface" "subdivision.4" "4 Levels" "Ctrl+4" Meshes Run(r#"{"op":"set_subdivision","levels":4}"#) => "Shows meshes as smooth surfaces of 4 levels, with their cage over them.";
+    "Edit/Subdivision Surface" "subdivision.5" "5 Levels" "Ctrl+5" Meshes Run(r#"{"op":"set_subdivision","levels":5}"#) => "Shows meshes as smooth surfaces of 5 levels, with their cage over them.";
+    "Edit/Subdivision Surface" "subdivision.apply" "Apply" "" Meshes Run(r#"{"op":"apply_subdivision"}"#) => "Makes meshes the smooth surfaces that they are shown as.";
     "Edit" "edit.duplicate" "Duplicate Objects" "Shift+D" Objects Run(r#"{"op":"duplicate_objects"}"#) => "Copies objects with their meshes, and moves the copies.";
     "Edit" "edit.duplicate_linked" "Duplicate Linked" "Alt+D" Objects Run(r#"{"op":"duplicate_objects","linked":true}"#) => "Copies objects that go on sharing their meshes.";
     "Edit" "edit.join" "Join Objects" "Ctrl+J" TwoObjects Run(r#"{"op":"join_objects"}"#) => "Puts the selected objects into the active one.";
@@ -31,6 +38,12 @@ actions! {
     "Edit/Clear" "clear.location" "Clear Location" "Alt+G" Objects Run(r#"{"op":"clear_transform","location":true}"#) => "Moves objects back to the origin.";
     "Edit/Clear" "clear.rotation" "Clear Rotation" "Alt+R" Objects Run(r#"{"op":"clear_transform","rotation":true}"#) => "Turns objects back.";
     "Edit/Clear" "clear.scale" "Clear Scale" "Alt+S" Objects Run(r#"{"op":"clear_transform","scale":true}"#) => "Gives objects their own size again.";
+    "Edit/Apply" "apply.menu" "Apply Menu" "Ctrl+A" Objects Ui(UiRequest::Popup("Edit/Apply")) => "Chooses which part of a placement becomes places of vertices.";
+    "Edit/Apply" "apply.location" "Location" "" Objects Run(r#"{"op":"apply_transform","location":true}"#) => "Moves the origins of objects to the world's; nothing is seen to move.";
+    "Edit/Apply" "apply.rotation" "Rotation" "" Objects Run(r#"{"op":"apply_transform","rotation":true}"#) => "Turns the axes of objects to those of the world; nothing is seen to move.";
+    "Edit/Apply" "apply.scale" "Scale" "" Objects Run(r#"{"op":"apply_transform","scale":true}"#) => "Makes the sizes of objects 1; nothing is seen to move.";
+    "Edit/Apply" "apply.rotation_and_scale" "Rotation & Scale" "" Objects Run(r#"{"op":"apply_transform","rotation":true,"scale":true}"#) => "Takes turn and size of objects back; nothing is seen to move.";
+    "Edit/Apply" "apply.all" "All Transforms" "" Objects Run(r#"{"op":"apply_transform","location":true,"rotation":true,"scale":true}"#) => "Takes the whole placement of objects back; nothing is seen to move.";
     "Edit" "edit.hide" "Hide Objects" "H" Objects Run(r#"{"op":"show_objects","visible":false}"#) => "Hides the selected objects.";
     "Edit" "edit.hide_others" "Hide Other Objects" "Shift+H" Objects Run(r#"{"op":"hide_others"}"#) => "Hides all objects but the selected ones.";
     "Edit" "edit.reveal" "Show Hidden Objects" "Alt+H" ObjectMode Run(r#"{"op":"reveal_objects"}"#) => "Shows all hidden objects, and selects them.";

@@ -55,6 +55,8 @@ pub(crate) enum Needs {
     Objects,
     TwoObjects,
     EditMode,
+    /// Edit mode, or a mesh among what is selected.
+    Meshes,
     /// Edit mode, and something selected.
     Elements,
     /// Something selected, in either mode.
@@ -245,6 +247,7 @@ impl Needs {
             Self::TwoObjects => selection.objects.len() > 1,
             Self::Elements => elements(),
             Self::Selected if selection.is_editing() => elements(),
+            Self::Meshes => selection.is_editing() || selects_mesh(document),
             Self::Selected => !selection.objects.is_empty(),
             Self::SomethingDone => !history.done().is_empty(),
             Self::SomethingUndone => !history.undone().is_empty(),
@@ -260,6 +263,7 @@ impl Needs {
             Self::Selected if is_editing => {
                 "needs something selected: click a vertex, an edge or a face first"
             }
+            Self::Meshes => "needs an object with a mesh: click one first",
             Self::Objects | Self::Selected => "needs an object: click one first",
             Self::SomethingDone => "there is nothing to undo",
             Self::SomethingUndone => "there is nothing to do again",
@@ -267,6 +271,11 @@ impl Needs {
             Self::Nothing | Self::ObjectMode | Self::EditMode => "",
         }
     }
+}
+
+fn selects_mesh(document: &Document) -> bool {
+    let has_mesh = |id| document.nodes().node(id).is_some_and(|node| node.mesh.is_some());
+    document.selection().objects.iter().any(|&id| has_mesh(id))
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use trigon_edit::ElementKind;
 use trigon_window::Stage;
 use trigon_window::egui::{self, Button, Ui};
 
-use super::label;
+use super::widgets::label;
 use crate::request::{
     DisplayMode, GizmoKind, Orientation, Pivot, Request, SnapSource, SnapTarget, UiRequest, ViewRequest,
 };

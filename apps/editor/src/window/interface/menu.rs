@@ -3,29 +3,16 @@
 use trigon_window::Stage;
 use trigon_window::egui::containers::menu::menu_style;
 use trigon_window::egui::{
-    Align, Area, Button, Context, Frame, Id, Key, Layout, MenuBar, Order, Pos2, Response, RichText, Ui,
+    Align, Area, Button, Context, Frame, Id, Key, Layout, MenuBar, Order, Response, RichText, Ui,
 };
 
-use super::{focus_first, label};
+use super::state::Popup;
+use super::widgets::{focus_first, label};
 use crate::window::actions::{self, Action, CONTEXT_MENU, MENUS};
 use crate::window::editor::Editor;
 
 /// In points.
 const POPUP_WIDTH: f32 = 220.0;
-
-/// A menu that a key opened.
-#[derive(Debug)]
-pub(crate) struct Popup {
-    menu: &'static str,
-    /// Where; at the pointer, once it is shown.
-    at: Option<Pos2>,
-}
-
-impl Popup {
-    pub(crate) fn new(menu: &'static str) -> Self {
-        Self { menu, at: None }
-    }
-}
 
 /// The bar of menus.
 pub(super) fn bar(ui: &mut Ui, editor: &mut Editor, stage: &mut Stage) {

@@ -7,19 +7,18 @@ mod overlays;
 mod questions;
 mod search;
 mod side;
+mod state;
 mod status;
 mod view;
+mod widgets;
 
 use trigon_window::Stage;
-use trigon_window::egui::{self, Panel, Ui};
+use trigon_window::egui::{Panel, Ui};
 
 use super::editor::Editor;
 use crate::request::Request;
 
-pub(crate) use menu::Popup;
-pub(crate) use overlays::Rename;
-pub(crate) use search::Search;
-pub(crate) use side::Panels;
+pub(crate) use state::{Panels, Popup, Rename, Search};
 
 /// Shows all of it; returns what is to be done.
 pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<Request> {
@@ -49,16 +48,4 @@ pub(crate) fn show(editor: &mut Editor, stage: &mut Stage, ui: &mut Ui) -> Vec<R
     questions::saving(ui.ctx(), editor);
     questions::show(ui.ctx(), editor, stage);
     requests
-}
-
-/// Gives the keyboard to a widget if no other has it.
-fn focus_first(widget: &egui::Response) {
-    if widget.ctx.memory(|memory| memory.focused().is_none()) {
-        widget.request_focus();
-    }
-}
-
-/// A label for those who use a screen reader, and for tests.
-fn label(response: &egui::Response, text: &str) {
-    response.ctx.accesskit_node_builder(response.id, |node| node.set_label(text));
 }

@@ -1,9 +1,9 @@
 //! The list of keys, and the rename field.
 
-use trigon_edit::{Document, ObjectName, RenameObject};
+use trigon_edit::RenameObject;
 use trigon_window::egui::{self, Align2, Context, Grid, Key, RichText, ScrollArea, TextEdit};
 
-use super::label;
+use super::widgets::label;
 use crate::panel::select_all_at_first;
 use crate::request::Request;
 use crate::window::actions::{self, MENUS};
@@ -50,22 +50,6 @@ pub(super) fn help(context: &Context, editor: &mut Editor) {
         });
     });
     editor.layout.help = is_open;
-}
-
-/// The name that is being typed.
-#[derive(Debug)]
-pub(crate) struct Rename {
-    object: ObjectName,
-    name: String,
-}
-
-impl Rename {
-    /// Of the active object.
-    pub(crate) fn of_active(document: &Document) -> Option<Self> {
-        let id = document.selection().active?;
-        let name = document.nodes().node(id)?.name.clone();
-        Some(Self { object: ObjectName::of(id), name })
-    }
 }
 
 /// The field, while it is open.

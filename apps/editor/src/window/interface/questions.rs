@@ -3,7 +3,7 @@
 use trigon_window::Stage;
 use trigon_window::egui::{Context, Id, Key, Modal, Ui};
 
-use super::focus_first;
+use super::widgets::focus_first;
 use crate::window::editor::{Editor, Message};
 use crate::window::open_file::{Answer, Question};
 

@@ -3,35 +3,9 @@
 use trigon_window::Stage;
 use trigon_window::egui::{self, Align2, Button, Context, Key, RichText, ScrollArea, TextEdit, Ui};
 
-use super::label;
-use crate::window::actions::{self, Action};
+use super::widgets::label;
+use crate::window::actions::Action;
 use crate::window::editor::Editor;
-
-/// What is searched for.
-#[derive(Debug, Default)]
-pub(crate) struct Search {
-    text: String,
-    /// Which of those found Enter chooses.
-    index: usize,
-}
-
-impl Search {
-    /// Actions in whose name, menu or help all words occur; those whose name begins so come first.
-    fn found(&self) -> Vec<&'static Action> {
-        let text = self.text.to_lowercase();
-        let matches = |action: &&Action| {
-            let all = format!("{} {} {}", action.label, action.menu, action.help).to_lowercase();
-            text.split_whitespace().all(|word| all.contains(word))
-        };
-        let mut found: Vec<_> = actions::all().filter(matches).collect();
-        let rank = |action: &&Action| {
-            let name = action.label.to_lowercase();
-            (!name.starts_with(text.trim()), !name.contains(text.trim()))
-        };
-        found.sort_by_key(rank);
-        found
-    }
-}
 
 /// Shows it, and does what was chosen.
 pub(super) fn show(context: &Context, editor: &mut Editor, stage: &mut Stage) {
@@ -92,22 +66,4 @@ fn row(ui: &mut Ui, editor: &Editor, action: &'static Action, is_current: bool) 
     }
     let shown = shown.on_hover_text(action.help).on_disabled_hover_text(refusal.unwrap_or_default());
     shown.clicked().then_some(action)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn words_find_actions_and_names_come_first() {
-        let names = |text: &str| -> Vec<&str> {
-            let search = Search { text: text.into(), index: 0 };
-            search.found().into_iter().map(|action| action.label).collect()
-        };
-        assert_eq!(names("undo").first(), Some(&"Undo"), "a whole name");
-        assert_eq!(names("loop c").first(), Some(&"Loop Cut"), "its beginning");
-        assert!(names("seam mark").contains(&"Mark Seam"), "words in any order");
-        assert!(names("no such thing").is_empty(), "nothing");
-        assert_eq!(names("").len(), actions::all().count(), "everything");
-    }
 }

@@ -4,9 +4,8 @@
 use trigon_window::Stage;
 use trigon_window::egui::{self, Align2, Context, Id, Panel, Rect, ScrollArea, Ui};
 
-use crate::panel::{
-    self, AddState, DevelopmentState, DrawnView, InformationState, OutlinerState, PropertiesState,
-};
+use super::state::Tab;
+use crate::panel::{self, DrawnView};
 use crate::request::Request;
 use crate::window::actions;
 use crate::window::editor::Editor;
@@ -15,27 +14,6 @@ use crate::window::editor::Editor;
 const WIDTH: f32 = 280.0;
 const LEAST_WIDTH: f32 = 200.0;
 const ADJUST_WIDTH: f32 = 260.0;
-
-/// The tabs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum Tab {
-    Information,
-    Add,
-    #[default]
-    Properties,
-    Development,
-}
-
-/// What panels remember.
-#[derive(Default)]
-pub(crate) struct Panels {
-    tab: Tab,
-    outliner: OutlinerState,
-    information: InformationState,
-    add: AddState,
-    properties: PropertiesState,
-    development: DevelopmentState,
-}
 
 /// The outliner above, the tabs below.
 pub(super) fn show(ui: &mut Ui, editor: &mut Editor, stage: &Stage, requests: &mut Vec<Request>) {

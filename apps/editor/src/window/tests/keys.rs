@@ -64,6 +64,44 @@ impl Worked {
 }
 
 #[test]
+fn ctrl_and_a_digit_show_a_smooth_surface_below_its_cage() {
+    let mut worked = Worked::new();
+    let shown = |worked: &Worked| {
+        let mesh = worked.stage.scene.nodes().get(worked.object("Cube")).and_then(|node| node.mesh);
+        worked.stage.scene.meshes().get(mesh.expect("it has one")).expect("it is there").mesh().face_count()
+    };
+    worked.chords("Ctrl+2");
+    assert_eq!(shown(&worked), 96, "in object mode");
+    worked.chords("Tab 3 A");
+    assert_eq!((worked.count(), worked.cube()), (6, [8, 12, 6]), "the cage is edited");
+    worked.chords("Ctrl+3");
+    assert_eq!(shown(&worked), 384, "in edit mode");
+    worked.chords("Ctrl+Z");
+    assert_eq!(shown(&worked), 96, "undone");
+    worked.chords("Ctrl+0");
+    assert_eq!(shown(&worked), 6, "off");
+    worked.chords("Ctrl+1");
+    worked.choose("subdivision.apply");
+    assert_eq!((shown(&worked), worked.cube()[2]), (24, 24), "the surface is the mesh now");
+}
+
+#[test]
+fn ctrl_a_applies_the_placement_of_an_object() {
+    let mut worked = Worked::new();
+    let command = serde_json::json!({ "op": "scale", "factors": [2.0, 1.0, 1.0] });
+    worked.editor.run(serde_json::from_value(command).expect("a command"));
+    worked.chords("Ctrl+A");
+    assert!(worked.editor.popup.is_some(), "a menu opens");
+    worked.choose("apply.all");
+    let (id, document) = (worked.object("Cube"), &worked.editor.document);
+    let node = document.nodes().nodes().get(id).expect("it is there");
+    assert_eq!(node.transform, trigon_edit::scene::Transform::IDENTITY, "nothing is left of it");
+    let mesh = document.mesh(node.mesh.expect("it has one")).expect("it was edited");
+    let width = mesh.vertices().map(|vertex| mesh.position(vertex).x).fold(0.0, f32::max);
+    assert_eq!(width, 2.0, "the mesh is as wide as it was shown");
+}
+
+#[test]
 fn objects_are_hung_on_the_active_one_and_taken_off() {
     let mut worked = Worked::new();
     worked.choose("add.empty");

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 use trigon_mesh::primitives;
-use trigon_scene::Material;
+use trigon_scene::{Material, Scene};
 
 use super::*;
 use crate::Command;
@@ -140,4 +140,24 @@ fn marks_are_made_when_something_changed_and_not_before() {
     }
     document.undo().expect("the last one");
     assert!(marks.update(&mut document), "undone");
+}
+
+#[test]
+fn a_face_of_a_cage_is_marked_by_all_its_parts_and_its_surface_has_no_edges() {
+    let mut document = document();
+    document.take_scene_changes();
+    run(&mut document, json!({ "op": "set_subdivision", "levels": 2 }));
+    run(&mut document, json!({ "op": "select", "elements": [1, 15] }));
+    let settings = settings(&mut document);
+    // 14 faces of 4 corners became 16 faces each; face 0 is gone.
+    let parts: Vec<u32> = (0..16).chain(13 * 16..14 * 16).collect();
+    assert_eq!(of_color(&settings.marks.faces, SELECTED_FACE), parts);
+    let plain = &settings.marks.edges[0];
+    let hidden = plain.elements.iter().filter(|(node, _)| node.index() == 0).count();
+    assert_eq!(plain.opacity, 0.0, "not seen");
+    let id = document.selection().meshes().next().expect("the grid").0;
+    let surface = document.shown_surface(id).expect("it has one");
+    assert_eq!(hidden, surface.face_edge_count(), "all edges of the surface");
+    let cage = document.mesh(id).expect("it is edited").edge_count();
+    assert_eq!(surface.edge_count() - hidden, cage, "those of the cage are seen");
 }

@@ -342,3 +342,64 @@ fn objects_are_selected_by_points_and_regions() {
     view.select(Reach::Visible, |picks| picks.click(point, 2.0, SelectAction::Replace));
     assert_eq!(view.document.selection().objects.iter().copied().collect::<Vec<_>>(), [hit.node]);
 }
+
+/// A cube with a surface of two levels, as a window shows it: through a copy of the scene.
+fn smooth_cube(kind: &str) -> (Document, Scene) {
+    let mut scene = Scene::new();
+    scene.add_object("cube", primitives::cube(2.0), Material::default());
+    let (mut document, mut copy) = (Document::new(scene), Scene::new());
+    run(&mut document, json!({ "op": "edit_objects", "objects": ["cube"] }));
+    run(&mut document, json!({ "op": "set_element_kind", "kind": kind }));
+    run(&mut document, json!({ "op": "set_subdivision", "levels": 2 }));
+    for change in document.take_scene_changes() {
+        change.apply(document.nodes(), &mut copy);
+    }
+    (document, copy)
+}
+
+/// What a click near the picture of a point selects.
+fn clicked(kind: &str, at: DVec3) -> Vec<u32> {
+    let (mut document, copy) = smooth_cube(kind);
+    let outputs = Outputs { ids: true, ..Outputs::NONE };
+    let settings =
+        RenderSettings { outputs, samples_per_axis: 1, ..RenderSettings::new(SIZE.width, SIZE.height) };
+    let camera = copy.overview(settings.aspect());
+    let frame = render(&copy, &camera, &settings).expect("a small picture");
+    let picker = Picker::new(&copy, &camera, &frame);
+    let projector = Projector::new(&camera, SIZE);
+    let point = projector.to_screen(at).expect("it is in the picture") + DVec2::splat(0.25);
+    let command =
+        Picks::new(&document, &picker, projector, Reach::Visible).click(point, 5.0, SelectAction::Replace);
+    run_picked(&mut document, command);
+    let (_, selection) = document.selection().meshes().next().expect("one is edited");
+    selection.indices().collect()
+}
+
+fn run_picked(document: &mut Document, command: Option<Command>) {
+    document.run(command.expect("something is there")).unwrap_or_else(|error| panic!("{error}"));
+}
+
+#[test]
+fn clicks_on_a_subdivision_surface_lead_to_its_cage() {
+    let (document, copy) = smooth_cube("vertex");
+    let (id, _) = document.selection().meshes().next().expect("one is edited");
+    let mesh = document.mesh(id).expect("it is edited");
+    assert_eq!(
+        copy.meshes().get(id).expect("the copy has it").mesh().face_count(),
+        96,
+        "the surface is shown"
+    );
+    let corner = Vec3::ONE;
+    let vertex = mesh.vertices().find(|vertex| mesh.position(*vertex) == corner).expect("a cube has it");
+    assert_eq!(clicked("vertex", corner.as_dvec3()), [vertex.index()], "the cage's, beside the surface");
+    let top = mesh.faces().find(|face| mesh.face_center(*face).y > 0.5).expect("a cube has one");
+    // On the surface, which lies below the cage.
+    assert_eq!(clicked("face", DVec3::new(0.1, 0.65, 0.2)), [top.index()], "by a part of it");
+    let edge = mesh.edges().find(|edge| {
+        mesh.edge_vertices(*edge)
+            .into_iter()
+            .all(|end| mesh.position(end).y == 1.0 && mesh.position(end).x == 1.0)
+    });
+    let edge = edge.expect("a cube has it").index();
+    assert_eq!(clicked("edge", DVec3::new(1.0, 1.0, 0.3)), [edge], "the cage's, beside the surface");
+}

@@ -7,6 +7,7 @@ use trigon_mesh::math::{Vec2, Vec4};
 use trigon_mesh::{Attributes, primitives};
 use trigon_scene::{Material, Scene};
 
+use super::super::visible::Sight;
 use super::*;
 use crate::{Command, Document};
 
@@ -62,6 +63,9 @@ fn step() -> impl Strategy<Value = Value> {
         2 => (-90.0f64..90.0).prop_map(|angle| json!({ "op": "rotate", "angle": angle })),
         3 => plain.prop_map(|op| json!({ "op": op })),
         1 => kind.prop_map(|kind| json!({ "op": "set_element_kind", "kind": kind })),
+        1 => (0u32..3).prop_map(|levels| json!({ "op": "set_subdivision", "levels": levels })),
+        1 => Just(json!({ "op": "leave_edit_mode" })),
+        1 => Just(json!({ "op": "edit_objects", "objects": [0, 1] })),
         1 => Just(json!({ "op": "add_object", "object": { "shape": "cube", "edge": 1.0 } })),
         4 => (0u32..2, prop::collection::vec(0u32..20, 1..6)).prop_map(|(object, elements)| {
             json!({ "op": "select", "objects": [object], "elements": elements })
@@ -80,7 +84,9 @@ fn check(document: &mut Document, copy: &Scene) -> Result<(), TestCaseError> {
         };
         prop_assert!(*asset.mesh() == edited.to_mesh().0, "the scene has all that is hidden");
         let is_edited = document.selection().of(id).is_some();
-        let (anew, map) = if is_edited { edited.to_visible_mesh() } else { edited.to_mesh() };
+        let has_hidden = is_edited && document.marked(id).is_some_and(|marked| marked.has_hidden);
+        let sight = Sight::of(edited, is_edited, has_hidden);
+        let (anew, map) = sight.mesh(edited);
         prop_assert_eq!(shown.positions(), anew.positions());
         prop_assert_eq!(shown.attributes(), anew.attributes());
         prop_assert_eq!(shown.shading_normals(), anew.shading_normals());

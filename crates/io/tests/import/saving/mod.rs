@@ -7,7 +7,7 @@ mod written;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use trigon_io::{
-    ExportOptions, LoadOptions, Loaded, NativeDocument, UpAxis, Warning, encode_glb, load_from_slice,
+    ExportOptions, Format, LoadOptions, Loaded, NativeDocument, UpAxis, Warning, encode_glb, load_from_slice,
 };
 use trigon_math::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3, Vec4};
 use trigon_mesh::edit::{EdgeId, EditMesh, FaceId, VertexId};
@@ -160,6 +160,25 @@ fn an_edited_mesh_comes_back_to_the_bit() {
         assert_eq!(colors, [Vec3::X, Vec3::Y, Vec3::Z], "also of slots without faces");
         assert_eq!(saved(&second), saved(&first), "and the second file is the first");
     }
+}
+
+#[test]
+fn a_subdivision_surface_is_saved_as_its_cage_and_exported_as_a_surface() {
+    let mut scene = Scene::new();
+    scene.add_object("cube", primitives::cube(2.0), Material::default());
+    let mut first = NativeDocument::new(scene);
+    let (id, mesh) = only_mesh(&first.scene);
+    let (mut cube, _) = EditMesh::from_mesh(mesh);
+    cube.set_subdivision(2).expect("two are few");
+    first.edited.insert(id, cube.clone());
+    let (again, warnings) = document("cube.glb", &saved(&first));
+    assert_eq!(warnings, []);
+    assert!(*edited(&again) == cube, "cage and levels");
+    let options = ExportOptions::default();
+    let written = first.export("cube.obj", Format::Obj, &options).expect("it is small");
+    let exported = load_from_slice("cube.obj", &written.files[0].bytes, &LoadOptions::default());
+    let (_, mesh) = only_mesh(&exported.as_ref().expect("it is whole").scene);
+    assert_eq!(mesh.face_count(), 96, "6 faces become 24 and then 96");
 }
 
 #[test]

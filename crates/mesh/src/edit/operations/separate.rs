@@ -7,14 +7,15 @@ use super::copy::Elements;
 use super::region::Region;
 
 impl EditMesh {
-    /// Moves faces into a separate mesh with the same layers. Edges and vertices that other faces or edges
-    /// need are copied; the others move with the faces.
+    /// Moves faces into a separate mesh with the same layers and subdivision level. Edges and vertices that other
+    /// faces or edges need are copied; the others move with the faces.
     ///
     /// # Errors
     /// No face is given, or one does not exist.
     pub fn separate(&mut self, faces: &[FaceId]) -> Result<Self, Refusal> {
         let region = Region::new(self, faces, "separating")?;
-        let part = self.part(&Elements::with_parts(self, &[], &[], &region.faces));
+        let mut part = self.part(&Elements::with_parts(self, &[], &[], &region.faces));
+        part.subdivision = self.subdivision;
         self.delete_faces(&region.faces)?;
         Ok(part)
     }

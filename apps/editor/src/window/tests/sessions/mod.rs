@@ -5,7 +5,9 @@ mod chair;
 mod habits;
 mod light;
 mod mug;
+mod newcomer;
 mod script;
+mod tour;
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -70,6 +72,8 @@ pub(super) struct User<'a> {
     pub(super) editor: Rc<RefCell<Editor>>,
     /// What `$FOLDER` in a script is.
     folder: &'a Path,
+    /// Where the pictures of a script go, if they are wanted.
+    pictures: Option<PathBuf>,
 }
 
 /// Opens the editor with these files in a window of a size, and lets somebody work.
@@ -87,7 +91,7 @@ pub(super) fn at_the_editor(
     let editor = Rc::new(RefCell::new(editor));
     let mut handler = Watched(Rc::clone(&editor));
     let window = HeadlessWindow::open(stage, &mut handler, size);
-    work(&mut User { window, editor, folder });
+    work(&mut User { window, editor, folder, pictures: None });
 }
 
 /// Does what a script says, which ends with the document saved as `$FOLDER/saved.glb`, and opens that in another

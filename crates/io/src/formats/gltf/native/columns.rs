@@ -121,6 +121,7 @@ pub(in crate::formats::gltf) fn columns_of_mesh(
         joints_per_vertex: attributes.skin.as_ref().map(SkinWeights::per_vertex),
         targets: attributes.morph_targets.len(),
         edited: marks.is_some(),
+        subdivision: marks.map_or(0, |marks| marks.subdivision),
         empty: if mesh.face_count() == 0 { optional_columns(attributes) } else { BTreeSet::new() },
         ..Header::default()
     };
@@ -242,7 +243,7 @@ pub(in crate::formats::gltf) fn mesh_from_columns(
         loose_points: reader.words("loosePoints")?,
     };
     let attributes = read_attributes(reader, header)?;
-    let marks = header.edited.then(|| read_marks(reader)).transpose()?;
+    let marks = header.edited.then(|| read_marks(reader, header.subdivision)).transpose()?;
     let mut mesh = Mesh::from_columns(columns).map_err(|error| error.to_string())?;
     mesh.set_attributes(attributes).map_err(|error| error.to_string())?;
     Ok((mesh, marks))
@@ -302,7 +303,7 @@ fn read_target(reader: &mut ColumnReader<'_>, number: usize) -> Result<MorphTarg
     Ok(MorphTarget { name: String::new(), positions, normals, tangents })
 }
 
-fn read_marks(reader: &mut ColumnReader<'_>) -> Result<Marks, String> {
+fn read_marks(reader: &mut ColumnReader<'_>, subdivision: u32) -> Result<Marks, String> {
     let first_positions = vec3("firstPositions", reader.column("firstPositions"))?;
     let edges = reader.words("edgeMarks")?;
     let (edges, []) = edges.as_chunks::<4>() else { return Err(uneven("edgeMarks")) };
@@ -319,5 +320,6 @@ fn read_marks(reader: &mut ColumnReader<'_>) -> Result<Marks, String> {
         hidden_vertices: reader.words("hiddenVertices")?,
         hidden_faces: reader.words("hiddenFaces")?,
         sharp_corners: reader.words("sharpCorners")?,
+        subdivision,
     })
 }

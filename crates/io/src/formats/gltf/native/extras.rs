@@ -68,6 +68,13 @@ pub(in crate::formats::gltf) struct Header {
     /// Whether the mesh was being edited, and so has marks.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(in crate::formats::gltf) edited: bool,
+    /// In how many Catmull-Clark levels the mesh is shown.
+    #[serde(default, skip_serializing_if = "is_plain")]
+    pub(in crate::formats::gltf) subdivision: u32,
+}
+
+fn is_plain(levels: &u32) -> bool {
+    *levels == 0
 }
 
 fn is_zero(number: &usize) -> bool {

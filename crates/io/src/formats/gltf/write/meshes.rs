@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use serde_json::value::RawValue;
-use trigon_mesh::edit::{EditMesh, Marks};
+use trigon_mesh::edit::{EditMesh, Marks, Refusal};
 use trigon_mesh::{Mesh, RenderMesh};
 use trigon_scene::{MeshAsset, MeshId};
 
@@ -33,14 +33,7 @@ impl<'a> Shape<'a> {
         let Some(edited) = edited else { return Self { mesh: Cow::Borrowed(asset.mesh()), marks: None } };
         let (mut mesh, map) = edited.to_mesh();
         let marks = edited.marks(&map);
-        let names = &asset.mesh().attributes().morph_targets;
-        if !names.is_empty() {
-            let mut attributes = mesh.attributes().clone();
-            for (target, named) in attributes.morph_targets.iter_mut().zip(names) {
-                target.name.clone_from(&named.name);
-            }
-            mesh.set_attributes(attributes).expect("only names are others");
-        }
+        name_targets(&mut mesh, asset);
         Self { mesh: Cow::Owned(mesh), marks: Some(marks) }
     }
 
@@ -58,6 +51,28 @@ impl<'a> Shape<'a> {
         let none = Marks::default();
         let marks = kept.marks.get(&id).unwrap_or(&none);
         EditMesh::from_mesh_and_marks(was, marks).is_ok_and(|(first, _)| first == *edited)
+    }
+}
+
+/// What other programs see of a mesh that is being edited: its subdivision surface, if it is shown as one.
+///
+/// # Errors
+/// The surface is too large.
+pub(super) fn exported(asset: &MeshAsset, edited: &EditMesh) -> Result<Mesh, Refusal> {
+    let mut mesh = edited.to_subdivided_mesh(edited.subdivision())?;
+    name_targets(&mut mesh, asset);
+    Ok(mesh)
+}
+
+/// Gives morph targets the names that they have in the scene.
+fn name_targets(mesh: &mut Mesh, asset: &MeshAsset) {
+    let names = &asset.mesh().attributes().morph_targets;
+    if !names.is_empty() {
+        let mut attributes = mesh.attributes().clone();
+        for (target, named) in attributes.morph_targets.iter_mut().zip(names) {
+            target.name.clone_from(&named.name);
+        }
+        mesh.set_attributes(attributes).expect("only names are others");
     }
 }
 

@@ -10,7 +10,7 @@ use trigon_scene::{MeshId, Scene};
 
 use super::glb_file::GlbFile;
 use super::kept_file::KeptFile;
-use super::meshes::Shape;
+use super::meshes::exported;
 use super::scene::{Input, write_scene};
 use crate::error::{LoadError, Place};
 use crate::export::{Export, ExportOptions, export};
@@ -133,11 +133,12 @@ impl NativeDocument {
         Ok(NativeFile { file: written.file, losses: written.losses })
     }
 
-    /// The document for other programs; see [`export`](crate::export). Images are those of the
+    /// The document for other programs; see [`export`](crate::export). A mesh with a subdivision surface
+    /// ([`EditMesh::subdivision`]) is written as that surface, with all levels. Images are those of the
     /// loaded file, unless the options name another.
     ///
     /// # Errors
-    /// As [`export`](crate::export).
+    /// As [`export`](crate::export), or a subdivision surface is too large.
     pub fn export(
         &self,
         name: &str,
@@ -148,7 +149,9 @@ impl NativeDocument {
         let mut scene = self.scene.clone();
         for (&id, edited) in &self.edited {
             if let Some(asset) = self.scene.meshes().get(id) {
-                scene.replace_mesh(id, Shape::new(asset, Some(edited)).mesh.into_owned());
+                let mesh = exported(asset, edited);
+                let mesh = mesh.map_err(|source| WriteError::Surface { name: asset.name.clone(), source })?;
+                scene.replace_mesh(id, mesh);
             }
         }
         let pictures = options.pictures.or(self.kept.as_ref().map(|kept| &kept.source));

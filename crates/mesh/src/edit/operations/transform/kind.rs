@@ -1,6 +1,6 @@
 //! What can be done to places, and where it takes a point.
 
-use trigon_math::{DMat3, DVec3, elementary};
+use trigon_math::{DAffine3, DMat3, DVec3, elementary};
 
 use super::super::super::refusal::Refusal;
 use crate::normals::unit_or_zero;
@@ -51,6 +51,11 @@ pub enum Transform {
         direction: DVec3,
         /// How far, per metre from the plane.
         factor: f64,
+    },
+    /// By any affine map.
+    Affine {
+        /// Of the mesh into itself.
+        map: DAffine3,
     },
     /// Towards a sphere, whose radius is the mean distance of the vertices from its centre,
     /// weighted by falloff. A vertex at the centre stays.
@@ -134,6 +139,11 @@ impl Transform {
                 let change = DMat3::from_cols(along * normal.x, along * normal.y, along * normal.z);
                 Prepared::Linear { center, change, offset: DVec3::ZERO }
             }
+            Self::Affine { map } => Prepared::Linear {
+                center: DVec3::ZERO,
+                change: map.matrix3 - DMat3::IDENTITY,
+                offset: map.translation,
+            },
             Self::ToSphere { center, factor } => {
                 Prepared::ToSphere { center, radius: mean_distance(center), factor }
             }
@@ -173,6 +183,10 @@ impl Transform {
                 all("the normal", normal)?;
                 all("the direction", direction)?;
                 finite("the factor", factor)
+            }
+            Self::Affine { map } => {
+                all("the offset", map.translation)?;
+                axes("the map", map.matrix3)
             }
             Self::ToSphere { center, factor } => {
                 all("the centre", center)?;

@@ -1,0 +1,11 @@
+//! What all commands have in common.
+
+use super::outcome::Outcome;
+use crate::document::Change;
+use crate::error::EditError;
+
+/// The implementation of a command.
+pub(crate) trait Action {
+    /// Runs the command. On an error the caller undoes all changes made so far.
+    fn run(&self, change: &mut Change<'_>) -> Result<Outcome, EditError>;
+}
